@@ -21,8 +21,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let loaded = input::load(&urdf, &world, &input::Overrides::default())?;
     let scene = loaded.problem.scene();
 
-    // One slice: with joint 1 at its start value, the exact intervals of joint 2 that collide, with the colliding
-    // pairs.
+    // One slice: with joint 1 at its start value, the exact intervals of joint 2 in which shapes collide, and the pairs
+    // that collide.
     let start = loaded.problem.start();
     let mut slice = cplan::cspace::Slice::default();
     Contacts::new(scene).slice(start[0], 0.0, &mut slice);
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("  [{:8.4}, {:8.4}] {}", interval[0], interval[1], scene.arm().joints[1].unit());
     }
 
-    // The whole space: the boundary curves as polygons, here within a millimetre of workspace distance.
+    // The whole space: the boundaries of the C-obstacles as polygons, accurate to a millimetre in the workspace.
     let contours = c_obstacles(scene, 1e-3, 1e-3);
     println!(
         "{} C-obstacle contours with {} corners",

@@ -21,21 +21,21 @@ use mobile::{START, TARGETS};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-/// The controller. Its repulsion starts only within the body's radius and part of the clearance, which the plan never
-/// enters.
+/// Constants of the controller that follows waypoints. Its repulsion acts within the body's radius and part of the
+/// clearance, where the planned path never goes.
 const LAW: Tanh = Tanh { pull: 10.0, push: 1.0, range: 0.26 };
 
-/// The controller without a plan must detect obstacles sooner.
+/// Constants of the controller without a plan, which must react to obstacles earlier.
 const ALONE: Tanh = Tanh { pull: 1.0, push: 1.0, range: 1.0 };
 
-/// The controller that follows cells uses the source's gain.
+/// Constants of the controller that follows cells. The gain is that of the source.
 const ALONG_CELLS: Tracking = Tracking { gain: 1.0, speed: 0.5 };
 
-/// A robot and its world, the number of cells and their collision test, start and goal.
+/// A robot and its world, the number of cells and how they are tested for collisions, start and goal.
 type Gridded = (&'static str, &'static str, [usize; 2], GridSpace, [f64; 2], [f64; 2]);
 
-/// The rooms of the mission, whose partition is thinner than a cell, and the source's own map with its cells, start and
-/// goal.
+/// Two grids: the rooms of the mission, in which a wall is thinner than a cell, and the source's own map with its
+/// cells, start and goal.
 const GRIDS: [Gridded; 3] = [
     ("mobile_robot", "explore/hall.toml", [40, 20], GridSpace::Rows, START, TARGETS[0].1),
     ("mobile_robot", "explore/house.toml", [40, 20], GridSpace::Rows, START, TARGETS[0].1),
@@ -47,7 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for name in ["hall", "house"] {
         let floor = Floor::load(&format!("explore/{name}.toml"))?;
         println!("{name}: R. F. Goncalves da Silva, Trabalho Pratico 1, from {START:?} to {:?}", TARGETS[0].1);
-        // The remaining clearance is proven, too: the plan's clearance exceeds the greatest deviation.
+        // The plan's clearance exceeds the greatest deviation, so that what remains of the clearance is proven.
         let scene = floor.scene.clone().with_clearance(DEVIATION)?;
         let (arm, workspace) = scene.into_parts();
         let problem = Problem::new(arm, workspace, START, TARGETS[0].1)?;
@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let first = [path[1][0] - path[0][0], path[1][1] - path[0][1]];
         let heading = first[1].atan2(first[0]);
 
-        // The controlled point begins where the plan does.
+        // The controlled point begins at the start of the plan.
         let behind = [START[0] - AHEAD * heading.cos(), START[1] - AHEAD * heading.sin()];
         let mut guided = Robot::new(&floor, behind, heading);
         let marks = waypoints(&path);

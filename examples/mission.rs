@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{name}: S. F. dos Reis Alves, Trabalho 2. Targets: object 1, bin, object 2, bin");
         let (map, _) = followed(&floor, 300.0);
         let is_solid = |k: usize| fields::is_solid(&map, k);
-        // Direction in which the robot must arrive at each target: rows downwards, columns.
+        // Direction in which the robot must arrive at each target: rows (downwards) and columns.
         let directions = [[0.0, -1.0], [0.0, -1.0], [1.0, 0.0], [0.0, -1.0]];
         let missions = [
             ("forces, unknown room, as printed", by_forces(&floor, None, false)),
@@ -75,7 +75,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Drives along harmonic fields on a map, relaxed until the squares of a sweep's changes add up to less than `below`.
+/// Drives along harmonic fields on a map. They are relaxed until the sum of the squared changes of a sweep is less than
+/// `below`.
 fn harmonic(floor: &Floor, map: &Occupancy, below: f64) -> Vec<Leg> {
     let is_solid = |k: usize| fields::is_solid(map, k);
     let stopping = Stopping { below, ..alves::STOPPING };

@@ -16,11 +16,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let world = args.next().unwrap_or_else(|| "workspaces/tasks/table_mission.toml".into());
     let problem = Problem::load(urdf, world)?;
 
-    // IK solutions, grips and turns of the wrist are chosen together, for the least total time.
+    // The planner chooses IK solutions, grips and turns of the wrist together, for the least total time.
     let plan = plan(&problem, &Options::default())?;
     let (task, answer) = plan.task().ok_or("the world has no steps")?;
 
-    // If the task is infeasible, prints the steps before the one that fails.
+    // For an infeasible task, these are the steps before the one that fails.
     for leg in &answer.legs {
         let step = &leg.step;
         let (number, what) = (step.number, step.action.describe(&task.objects));
@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     match &answer.outcome {
         Outcome::Found(_) => {
-            // All motions as one trajectory, with the arm standing still where steps end.
+            // All motions as one trajectory. The arm stands still between steps.
             if let Some(trajectory) = plan.trajectory() {
                 println!("{} samples, {:.3} s in all", trajectory.time.len(), trajectory.duration());
             }

@@ -28,7 +28,7 @@ use cplan::report::{Setup, convergence};
 use silva::Kind;
 use std::error::Error;
 
-/// Sweeps after which the figures of the first source begin, and later ones.
+/// Sweeps for which the error is printed: those with which the figures of the first source begin, and later ones.
 const SHOWN: [usize; 8] = [1, 20, 40, 100, 200, 500, 1000, 1400];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     factors()
 }
 
-/// Figures 39 to 47: the error of map 1, 100 x 100 cells, sweep by sweep.
+/// Prints figures 39 to 47: the error on map 1, with 100 x 100 cells, by sweep.
 fn errors() -> Result<(), Box<dyn Error>> {
     let scene = deicu::scene(&deicu::TABLES[0])?;
     let domain = scene.domain(100);
@@ -64,7 +64,7 @@ fn errors() -> Result<(), Box<dyn Error>> {
             let run = trace(&domain, &equation, relaxation, &stopping, domain.start(), None)?;
             print!("{:<24}", format!("{} {}", ["BVP", "BVP 2"][usize::from(altered)], deicu::RELAXATIONS[of]));
             for shown in SHOWN {
-                // Samples are a hundredth apart.
+                // The scan has a point every hundredth.
                 let sample = run.samples.iter().find(|s| s.sweep >= shown);
                 print!("{:>9}", sample.map_or_else(|| "-".into(), |sample| format!("{:.1e}", sample.squares)));
             }
@@ -76,7 +76,7 @@ fn errors() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Figures 6.1 to 6.4: sweeps against the factor of SOR, and against epsilon.
+/// Prints figures 6.1 to 6.4: sweeps against the factor of SOR, and against epsilon.
 fn factors() -> Result<(), Box<dyn Error>> {
     let domain = silva::state(0.0);
     let kinds = [

@@ -50,7 +50,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     Ok(if claims.broken == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// Tables 17 to 19.
+/// Prints Tables 17 to 19.
 fn deicu_tables(claims: &mut Claims) -> Result<(), Box<dyn Error>> {
     let small = std::env::args().nth(1).is_some_and(|scale| scale == "100");
     let scales: &[usize] = if small { &[0] } else { &[0, 1] };
@@ -75,7 +75,7 @@ fn print_notes(notes: &[&str]) {
     println!();
 }
 
-/// Number of counts by claim.
+/// For each claim, the number of counts.
 #[derive(Default)]
 struct Claims {
     matching: usize,

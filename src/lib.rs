@@ -1,6 +1,6 @@
-//! cplan plans motions of planar two-joint arms in configuration space. Its answer is one of three: a path whose whole
+//! cplan plans motions of planar two-joint arms in configuration space. There are three answers: a path whose whole
 //! continuous motion is *certified* free of collision; a *proof* that there is no path; or "unknown" at the resolution
-//! tried. It never answers from samples alone.
+//! that was tried. No answer rests on samples alone.
 //!
 //! # The pipeline
 //!
@@ -27,13 +27,13 @@
 //!        [cli]
 //! ```
 //!
-//! Below all of it lie [`geometry`] (exact predicates, convex shapes, Minkowski differences) and [`space`]
-//! (configurations, and the only code that wraps them on circles).
+//! All of these use [`geometry`] (exact predicates, convex shapes, Minkowski differences) and [`space`]
+//! (configurations, and the only code that wraps configurations on circles).
 //!
-//! Long loops everywhere can be stopped from outside: [`interrupt`].
+//! Long loops can be stopped from outside, see [`interrupt`].
 //!
-//! Modules import downwards only; [`check`] imports geometry, space and model alone, so that it judges planners
-//! and searches independently. A test holds this table.
+//! Modules import downwards only; [`check`] imports geometry, space and model alone, so that it judges planners and
+//! searches independently. A test checks this.
 //!
 //! # Conventions
 //!
@@ -71,7 +71,7 @@ pub use nalgebra;
 pub use output::PlanOutput;
 pub use space::Configuration;
 
-/// The arm, its workspace and the two together; tasks and the robot's other joints; masses and torques; a sensor.
+/// The arm, its workspace, and the scene of both; tasks, the robot's other joints, masses and torques, and a sensor.
 pub mod model {
     pub use cplan_core::model::*;
     pub use cplan_dynamics::{Torques, TorquesAt, keep_efforts};
@@ -85,7 +85,7 @@ pub mod model {
     pub use cplan_world::{Mount, Sensor};
 }
 
-/// Configurations, motions, and the topology of the space they live in.
+/// Configurations and motions, and the topology of the configuration space.
 pub mod space {
     pub use cplan_core::space::*;
     pub use cplan_handling::{
@@ -94,14 +94,14 @@ pub mod space {
     pub use cplan_motion::{BLEND_TOLERANCE, Blend, BlendedPath, Stretch};
 }
 
-/// The judge of paths, proofs, bounds and recorded motions.
+/// The judge: it certifies paths, and checks proofs, bounds and recorded motions.
 pub mod check {
     pub use cplan_core::check::*;
     pub use cplan_motion::recorded::*;
     pub use cplan_motion::{CertifiedCurve, Place, Rounding, Span, blend};
 }
 
-/// From files to problems: robots, worlds, maps and recordings, and errors with file, line and hint.
+/// Input: reads robots, worlds, maps and recordings, and returns problems, or errors with file, line and help.
 pub mod input {
     pub use cplan_robot::{
         AngleOrLength, BodyEntry, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry,
@@ -112,7 +112,7 @@ pub mod input {
     pub use cplan_world::*;
 }
 
-/// From a problem to a plan; the solver of one motion, motions among moving obstacles, tasks, and explanations.
+/// Plans problems: the solver of a single motion, motions among moving obstacles, tasks, and explanations.
 pub mod engine {
     pub use cplan_engine::*;
     pub use cplan_explain as explain;
@@ -120,21 +120,21 @@ pub mod engine {
     pub use cplan_movers::{Timing, Wait};
     pub use cplan_solver::*;
 
-    /// From a task to a sequence of certified motions.
+    /// Plans tasks as sequences of certified motions.
     pub mod task {
         pub use cplan_engine::MessageError;
         pub use cplan_tasks::*;
     }
 }
 
-/// Planners: pure functions from a space and a query to a run.
+/// Planners: pure functions that propose a path through a space for a query.
 pub mod planner {
     pub use cplan_core::planner::*;
     pub use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner, RELATIVE_TOLERANCE, field_domain};
     pub use cplan_roadmaps::{Prm, PrmMap, Triangles, TrianglesMap, Voronoi, VoronoiMap};
 }
 
-/// Waves over the cells of a grid, and potential fields on it.
+/// Waves over the cells of a grid, and potential fields on a grid.
 pub mod field {
     pub use cplan_core::waves::{FreeCells, Move, Neighborhood, StepLabels, search};
     pub use cplan_fields::*;

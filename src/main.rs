@@ -10,13 +10,13 @@ use std::process::ExitCode;
 #[global_allocator]
 static ALLOCATOR: PeakMemAlloc<System> = PeakMemAlloc::system();
 
-/// Size of a block that is allocated and freed at the start, so that the GNU C library keeps more freed memory. It
-/// keeps twice the size of the largest block returned to the system, at most twice 32 MiB. It returns the rest at once,
-/// page by page, and getting it again costs a fifth of a decision of `explore`.
+/// Size of a block that is allocated and freed at the start, in bytes. After it, the GNU C library keeps up to twice as
+/// much freed memory, instead of returning it to the system page by page. For each decision of `explore`, getting the
+/// memory again would take a fifth of the time. A block of more than 32 MiB has no such effect.
 const KEPT_MEMORY_BYTES: usize = 31 << 20;
 
 fn main() -> ExitCode {
-    // The block is never touched, so it takes no memory.
+    // Nothing is written to the block, so it takes no memory.
     drop(black_box(Vec::<u8>::with_capacity(KEPT_MEMORY_BYTES)));
     cplan::cli::run(Some(MemoryMeter {
         peak: || ALLOCATOR.get_peak_memory(),

@@ -1,4 +1,4 @@
-//! The floor of a room, with obstacles for a robot's rays and its body.
+//! The floor of a room, whose obstacles stop a robot's rays and its body.
 
 use cplan::cspace::c_obstacles;
 use cplan::draw::{Picture, View, svg};
@@ -9,9 +9,9 @@ use cplan::space::Path;
 use cplan::{Configuration, Point};
 use std::path::Path as File;
 
-/// A cplan world, and the sides of its obstacles.
+/// A world of cplan, with the sides of its obstacles.
 pub struct Floor {
-    /// A gantry (`robots/mobile_robot.urdf`) among the obstacles: its configurations are the places of the robot.
+    /// The obstacles, and a gantry (`robots/mobile_robot.urdf`) whose configurations are the positions of the robot.
     pub scene: Scene,
     sides: Vec<[Point; 2]>,
     discs: Vec<(Point, f64)>,
@@ -50,13 +50,14 @@ impl Floor {
         Self { scene, sides, discs }
     }
 
-    /// Returns the length of a ray up to the first obstacle, metres, or `most`.
+    /// Returns the length of a ray up to the first obstacle, in metres, or `most` if that is less.
     pub fn range(&self, from: Point, angle: f64, most: f64) -> f64 {
         let ray = Vector2::new(angle.cos(), angle.sin());
         let side = |[a, b]: &[Point; 2]| {
             let (along, to) = (b - a, a - from);
             let turn = ray.perp(&along);
-            // Where ray and side meet, as shares of both; a ray along the side meets the sides at its ends.
+            // The place where ray and side intersect, as fractions of the length of each. A ray along a side intersects
+            // the adjacent sides.
             let (t, s) = (to.perp(&along) / turn, to.perp(&ray) / turn);
             (t >= 0.0 && (0.0..=1.0).contains(&s)).then_some(t)
         };
@@ -70,7 +71,7 @@ impl Floor {
         hits.fold(most, f64::min)
     }
 
-    /// Returns the distance from the robot's body to the nearest obstacle, metres; negative if they overlap.
+    /// Returns the distance between the robot's body and the nearest obstacle, in metres; negative if they overlap.
     pub fn gap(&self, at: Point) -> f64 {
         self.scene.clearance(Configuration::new(at.x, at.y))
     }

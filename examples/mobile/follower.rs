@@ -37,7 +37,7 @@ pub fn sonar(robot: &Robot, k: usize) -> f64 {
     robot.floor.range(from, heading + degrees.to_radians(), RANGE)
 }
 
-/// Follows the wall to its right for this many seconds, and fills the map.
+/// Follows the wall to the robot's right for this many seconds, and fills the map.
 pub fn follow(robot: &mut Robot, map: &mut Occupancy, seconds: f64) {
     let (speed, gain, most) = (0.5, 10.0, 10_f64.to_radians());
     let front = |robot: &Robot| sonar(robot, 3).min(sonar(robot, 4));
@@ -47,7 +47,7 @@ pub fn follow(robot: &mut Robot, map: &mut Occupancy, seconds: f64) {
         map.scan(robot.floor, robot.pose);
         let mut turn = -gain * along(robot);
         if front(robot) < 4.0 {
-            // A wall ahead: turns on the spot until one lies alongside, or there is room ahead.
+            // There is a wall ahead. The robot turns on the spot until the wall is beside it, or there is room ahead.
             turn = most;
             while along(robot).abs() > 0.1 && front(robot) < 3.0 && robot.time < end {
                 robot.drive(0.0, turn, CYCLE);

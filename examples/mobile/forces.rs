@@ -6,34 +6,34 @@ use cplan::Point;
 use cplan::field::{Attraction, Repulsion};
 use cplan::nalgebra::Vector2;
 
-/// Seconds between two commands. The source has as many commands as its drawing allows, at most ten per second
-/// (Player).
+/// Time between two commands, in seconds. In the source, this depends on how fast the program draws: at most ten
+/// commands per second (Player).
 pub const CYCLE: f64 = 0.1;
 
-/// Greatest speed, metres per second. The source states no limit, and forces have none near obstacles.
+/// Greatest speed, in metres per second. The source states no limit, and forces are unbounded near obstacles.
 pub const TOP_SPEED: f64 = 1.0;
 
-/// Seconds without progress after which a leg counts as trapped.
+/// Time without progress after which a robot counts as trapped, in seconds.
 const PATIENCE: f64 = 60.0;
 
-/// Least decrease of the distance that counts as progress, metres.
+/// Least decrease of the distance to the target that counts as progress, in metres.
 const NEARER: f64 = 0.01;
 
-/// The ending of a leg.
+/// How a leg ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ending {
     /// The robot is at the target.
     Reached,
-    /// No progress towards the target for a minute; the least distance to it, metres.
+    /// The robot made no progress towards the target for a minute. Contains the least distance to it, in metres.
     Trapped(f64),
     /// The robot is in an obstacle cell, which has no force. The source's program ends with an error.
     OnObstacle,
 }
 
-/// The method as printed in the source, or as described by its text.
+/// A version of the method: as printed in the source, or as its text describes it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Manner {
-    /// True to fill the map on the way (algorithm 11), false for a fixed map (algorithm 9).
+    /// True to fill the map while driving (algorithm 11), false for a fixed map (algorithm 9).
     pub maps: bool,
     /// True to follow the text instead of the program. By the text, the robot stands still while it faces more than 10
     /// degrees away from the force; the program tests whether the error is less than `degrees(10)`, which is 573,
@@ -42,19 +42,19 @@ pub struct Manner {
     pub mended: bool,
 }
 
-/// Watches whether a robot still makes progress.
+/// Checks whether a robot still makes progress.
 pub struct Patience {
     best: f64,
     since: f64,
 }
 
 impl Patience {
-    /// Begins now.
+    /// Begins at the robot's current time.
     pub fn new(robot: &Robot) -> Self {
         Self { best: f64::INFINITY, since: robot.time }
     }
 
-    /// Returns the least distance to the target, if there was no progress for too long.
+    /// Returns the least distance to the target if the robot has made no progress for too long, otherwise `None`.
     pub fn lost(&mut self, robot: &Robot, distance: f64) -> Option<f64> {
         if distance < self.best - NEARER {
             *self = Self { best: distance, since: robot.time };
@@ -76,7 +76,7 @@ pub fn force(map: &Occupancy, target: Point, at: Point) -> Option<Vector2<f64>> 
     let d = to_target.norm();
     let mut force = if d > 0.0 { to_target * (attraction.force(d) / d) } else { Vector2::zeros() };
     for [i, j] in map.occupied() {
-        // From the corner of the cell that its indices name, as printed.
+        // The distance is measured from the corner of the cell that its indices denote, as printed.
         let away = Vector2::new(column - j as f64, row - i as f64);
         let d = away.norm();
         force += away * (repulsion.force(d) / d);
@@ -109,7 +109,7 @@ pub fn approach(
     }
 }
 
-/// Drives to a target, to within 1 cm.
+/// Drives until the robot is within 1 cm of a target.
 pub fn drive(robot: &mut Robot, map: &mut Occupancy, target: Point, manner: Manner) -> Ending {
     let (speed_gain, turn_gain, stop, slow) = (0.5, 1.2, 0.01, 1.0);
     approach(robot, target, stop, |robot, distance| {

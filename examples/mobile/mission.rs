@@ -1,4 +1,4 @@
-//! The mission of Alves by each of his controllers, and by cplan's explorer.
+//! The mission of Alves, with each of his controllers and with cplan's explorer.
 
 use super::floor::Floor;
 use super::follower;
@@ -22,9 +22,9 @@ use std::f64::consts::TAU;
 pub struct Leg {
     /// The ending.
     pub ending: Ending,
-    /// Length of the way, metres.
+    /// Length of the path, in metres.
     pub length: f64,
-    /// Seconds.
+    /// Duration, in seconds.
     pub time: f64,
     /// Number of steps that were refused because the body would have hit an obstacle.
     pub refused: usize,
@@ -55,7 +55,7 @@ fn legs(floor: &Floor, mut drive: impl FnMut(&mut Robot, usize) -> Ending) -> Ve
     (0..TARGETS.len()).map(leg).collect()
 }
 
-/// Drives by forces, in an unknown room or by a map; as printed or corrected ([`Manner`]).
+/// Drives by forces, in an unknown room or with a known map. `mended` is as in [`Manner`].
 pub fn by_forces(floor: &Floor, known: Option<&Occupancy>, mended: bool) -> Vec<Leg> {
     let mut map = known.cloned().unwrap_or_else(Occupancy::unknown);
     let manner = Manner { maps: known.is_none(), mended };
@@ -78,7 +78,7 @@ pub fn by_fields(floor: &Floor, field: &dyn Fn(usize) -> Option<Vec<f64>>) -> Ve
     })
 }
 
-/// Returns the map that the wall follower draws within a time, and its path; the source's program gives it 300 s.
+/// Returns the map that the wall follower draws within this time, and its path. In the source, the time is 300 s.
 pub fn followed(floor: &Floor, seconds: f64) -> (Occupancy, Vec<Point>) {
     let (mut robot, mut map) = (Robot::new(floor, START, 0.0), Occupancy::unknown());
     follower::follow(&mut robot, &mut map, seconds);
@@ -86,7 +86,7 @@ pub fn followed(floor: &Floor, seconds: f64) -> (Occupancy, Vec<Point>) {
     (map, way)
 }
 
-/// Cells of 0.5 m.
+/// Number of cells of the coarse grid, with sides of 0.5 m.
 const COARSE: CellCounts = CellCounts([80, 40]);
 
 /// Returns the planners with which cplan explores towards a target, by name.
@@ -96,7 +96,7 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
         let field = FieldPlanner { field: choice, limits: Limits::High, escape: None, path: PathKind::Own };
         named.with(Setting::Field, |settings| settings.field = Some(field))
     };
-    // As in the source: constant attraction, and 1/d^2 from every occupied cell.
+    // As in the source, attraction is constant, and every occupied cell repels with 1/d^2.
     let khatib = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(1.0), saturated: false };
     let direction = Direction::of([0.0, 1.0]).expect("a direction");
     let oriented = FieldChoice::Relaxed {
@@ -116,8 +116,8 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
     ]
 }
 
-/// Returns the sensor of cplan's robot. The robot is a gantry without a heading. The source's robot turns its scanner
-/// of 180 degrees, so this one looks all around. The cells are the source's.
+/// The sensor of cplan's robot. That robot is a gantry without a heading. The source's robot turns its scanner of 180
+/// degrees, so this sensor sees in all directions. The cells are those of the source.
 pub const SENSOR: Sensor = Sensor {
     mount: Mount::Tip,
     turn: 0.0,
@@ -130,7 +130,7 @@ pub const SENSOR: Sensor = Sensor {
     cell: 0.5,
 };
 
-/// Runs the mission by cplan: to each target in turn, through a room that is initially unknown.
+/// Runs the mission with cplan: to each target in turn, through a room that is initially unknown.
 ///
 /// # Errors
 /// Invalid settings.
@@ -145,7 +145,7 @@ pub fn explored(floor: &Floor, planner: Planner) -> Result<Vec<(Scene, Explorati
         }
         let scene = Scene::new(floor.scene.arm().clone(), workspace)?;
         let usual = Settings::default();
-        // Fields use one grid per decision, because finer ones would show no more.
+        // Fields use a single grid for each decision, because finer grids would show nothing new.
         let levels = if planner.method() == Method::Harmonic { 1 } else { usual.options.levels };
         let options = Options { planner, levels, ..usual.options };
         let settings = Settings { cells: [160, 80], decisions: 2_000, options, ..usual };
@@ -157,7 +157,7 @@ pub fn explored(floor: &Floor, planner: Planner) -> Result<Vec<(Scene, Explorati
     Ok(legs)
 }
 
-/// Returns the path of an exploration, from corner to corner.
+/// Returns the path of an exploration by its corners.
 pub fn way(exploration: &Exploration) -> Vec<Point> {
     let corners = |leg: &explore::Leg| leg.curve.curve().path().waypoints().to_vec();
     exploration.legs.iter().flat_map(corners).collect()

@@ -1,5 +1,5 @@
-//! Simulated mobile robots of the literature, shared by the examples `mission`, `wall_follower` and
-//! `differential_drive`, and by their tests.
+//! Simulated mobile robots from the literature. The examples `mission`, `wall_follower` and `differential_drive` and
+//! their tests use them.
 #![allow(dead_code, reason = "every example uses some of it")]
 
 pub mod fields;
@@ -17,11 +17,11 @@ use cplan::Point;
 /// Start of the mission of Alves.
 pub const START: [f64; 2] = [-19.0, -8.0];
 
-/// The targets of the mission, in its order: object 1, the bin, object 2, the bin.
+/// The targets of the mission, in order: object 1, the bin, object 2, the bin.
 pub const TARGETS: [(&str, [f64; 2]); 4] =
     [("object 1", [2.0, 4.0]), ("bin", [-19.0, 2.0]), ("object 2", [9.0, -7.0]), ("bin", [-19.0, 2.0])];
 
-/// Returns the targets that are obstacles during the leg to the target of this number: later targets, and the bin.
+/// Returns the targets that are obstacles on the leg with this number: those of later legs, and the bin.
 pub fn in_the_way(leg: usize) -> Vec<(&'static str, Point)> {
     let (bin, second) = (TARGETS[1], TARGETS[2]);
     let marked: &[_] = match leg {

@@ -4,7 +4,7 @@ use super::floor::Floor;
 use super::robot::Pose;
 use cplan::Point;
 
-/// Rows of the grid, from the north, and columns, from the west.
+/// Numbers of rows, counted from the north, and of columns, counted from the west.
 pub const CELLS: [usize; 2] = [40, 80];
 
 /// Side of a cell, metres.
@@ -19,7 +19,7 @@ pub struct Occupancy {
     cells: Vec<f64>,
 }
 
-/// Returns a place in fractional rows and columns (algorithm 2).
+/// Converts a place to rows and columns, with fractions (algorithm 2).
 pub fn place(at: Point) -> [f64; 2] {
     let [rows, columns] = CELLS.map(|n| n as f64);
     let within = |k: f64, n: f64| match k {
@@ -36,7 +36,7 @@ pub fn cell(at: Point) -> [usize; 2] {
 }
 
 impl Occupancy {
-    /// Returns an unknown grid.
+    /// Returns a grid whose cells are all unknown.
     pub fn unknown() -> Self {
         Self { cells: vec![0.5; CELLS[0] * CELLS[1]] }
     }
@@ -79,7 +79,7 @@ impl Occupancy {
     /// omitted).
     fn clear_line(&mut self, from: [usize; 2], to: [usize; 2]) {
         let is_steep = to[0].abs_diff(from[0]) > to[1].abs_diff(from[1]);
-        // The longer direction is counted by the second index.
+        // The second index counts along the longer direction.
         let turned = |[row, column]: [usize; 2]| if is_steep { [column, row] } else { [row, column] };
         let (mut from, mut to) = (turned(from), turned(to));
         if from[1] > to[1] {

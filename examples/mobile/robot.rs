@@ -1,4 +1,4 @@
-//! A robot with two driven wheels: a disc that moves ahead and turns.
+//! A robot with two driven wheels: a disc that moves forwards and turns.
 
 use super::floor::Floor;
 use cplan::Point;
@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 pub struct Pose {
     /// Middle between the wheels, metres.
     pub at: Point,
-    /// Radians.
+    /// Heading, in radians.
     pub heading: f64,
 }
 
@@ -37,14 +37,14 @@ pub fn wrapped(angle: f64) -> f64 {
     turned - PI
 }
 
-/// Longest piece of a motion between two checks, seconds.
+/// Longest part of a motion between two checks for obstacles, in seconds.
 const STEP: f64 = 0.02;
 
-/// Distance that the body keeps from obstacles, metres: far above rounding, far below visibility.
+/// Distance that the body keeps from obstacles, in metres. It is far above rounding, and too small to be seen.
 const TOUCHING: f64 = 1e-6;
 
-/// A robot that drives over a floor. Its body never enters an obstacle. A motion that would lead into one is refused,
-/// as by bumpers, and only turns the robot.
+/// A robot that drives over a floor. Its body never enters an obstacle: a motion that would do so only turns the robot,
+/// as if its bumpers had stopped it.
 pub struct Robot<'a> {
     /// The floor.
     pub floor: &'a Floor,
@@ -52,7 +52,7 @@ pub struct Robot<'a> {
     pub pose: Pose,
     /// Poses after each step of its motion.
     pub track: Vec<Pose>,
-    /// Length of its way, metres.
+    /// Length of the robot's path, in metres.
     pub length: f64,
     /// Time that has passed, seconds.
     pub time: f64,
@@ -85,7 +85,7 @@ impl<'a> Robot<'a> {
         }
     }
 
-    /// Returns its positions, for pictures.
+    /// Returns the robot's positions, for pictures.
     pub fn way(&self) -> Vec<Point> {
         self.track.iter().map(|pose| pose.at).collect()
     }

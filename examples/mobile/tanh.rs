@@ -1,5 +1,5 @@
 //! The controller of a differential drive of R. F. Gonçalves da Silva, *Trabalho Prático 1*, equations 1 to 4, and a
-//! plan for it to follow.
+//! plan that it follows.
 
 use super::robot::{Pose, Robot};
 use cplan::Point;
@@ -10,14 +10,14 @@ use std::f64::consts::TAU;
 /// Distance of the controlled point ahead of the wheels' middle, metres (the source's `d`).
 pub const AHEAD: f64 = 0.1;
 
-/// Seconds between two commands.
+/// Time between two commands, in seconds.
 pub const CYCLE: f64 = 0.01;
 
-/// Range of the scanner, metres, and its number of rays. The source states neither.
+/// Range of the scanner in metres (`RANGE`), and its number of rays. The source states neither.
 const RANGE: f64 = 8.0;
 const RAYS: u32 = 360;
 
-/// Gains, and the distance within which obstacles count. The source states no values for them.
+/// Constants of the controller. The source states no values for them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tanh {
     /// Gain of the attraction, 1/m (`zeta`).
@@ -28,12 +28,12 @@ pub struct Tanh {
     pub range: f64,
 }
 
-/// The nearest reading: its distance and its direction in the plane.
+/// The nearest obstacle that the scanner measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
     /// Distance from the middle between the wheels, metres.
     pub distance: f64,
-    /// Counter-clockwise from x, radians.
+    /// Direction, in radians counter-clockwise from x.
     pub angle: f64,
 }
 
@@ -70,7 +70,7 @@ pub fn speeds(velocity: Vector2<f64>, heading: f64) -> [f64; 2] {
 /// Greatest distance between consecutive waypoints, metres.
 pub const SPACING: f64 = 0.2;
 
-/// Distance at which the controlled point has passed a waypoint, metres.
+/// A waypoint is passed when the controlled point is at most this far from it, in metres.
 pub const PASSED: f64 = 0.01;
 
 /// Greatest distance of the robot's middle from the line that it follows, metres, without repulsion.

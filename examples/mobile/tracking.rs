@@ -26,13 +26,13 @@ impl Tracking {
 /// Position and velocity of the desired point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Desired {
-    /// Metres.
+    /// Position, in metres.
     pub at: Point,
-    /// Metres a second.
+    /// Velocity, in metres per second.
     pub velocity: Vector2<f64>,
 }
 
-/// Returns the point that moves along a line of at least one corner, and rests at its end.
+/// Returns the desired point at a time. It moves along a line of at least one corner, and rests at the end.
 pub fn desired(corners: &[[f64; 2]], speed: f64, time: f64) -> Desired {
     let mut left = speed * time;
     for pair in corners.windows(2) {

@@ -1,4 +1,4 @@
-//! The pictures of the documentation. `tests/program/pictures.rs` draws them, too.
+//! The pictures of the documentation. `tests/program/pictures.rs` also draws them.
 
 use cplan::PlanOutput as _;
 use cplan::engine::{Method, Planner, Setting};
@@ -10,11 +10,11 @@ use std::path::Path;
 
 /// A picture of the documentation.
 pub enum Subject {
-    /// A planner's answer to a workspace: robot, workspace, planner.
+    /// A planner's answer in a workspace: robot, workspace, planner.
     Answer(&'static str, &'static str, Method),
-    /// Attraction of constant size, and repulsion by all obstacle cells: robot, workspace, charge of a cell.
+    /// The field of a constant attraction and of repulsion by all obstacle cells: robot, workspace, charge of a cell.
     Forces(&'static str, &'static str, f64),
-    /// The result of a task: robot, workspace in `tasks`.
+    /// The result of a task: robot, and workspace in the folder `tasks`.
     Task(&'static str, &'static str),
 }
 
@@ -39,7 +39,7 @@ pub const PICTURES: [(&str, Subject); 17] = [
     ("board_and_gate", Subject::Task("gantry", "board_and_gate")),
 ];
 
-/// The animated picture, which is the README's first one: the name of its file, and the still picture of the same
+/// The animated picture at the top of the README: the name of its file, and that of the still picture of the same
 /// scene.
 pub const MOVING: (&str, &str) = ("thinking", "shortest");
 

@@ -5,18 +5,18 @@ use cplan::field::{Cell, Domain};
 use std::f64::consts::PI;
 use std::fmt;
 
-/// Treatment of values above 1, which over-relaxation produces and the source does not mention.
+/// What happens to values above 1. Over-relaxation produces such values, and the source does not mention them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Beyond {
-    /// It stays.
+    /// The value stays.
     Kept,
-    /// It becomes 1, and one below 0 becomes 0.
+    /// The value becomes 1. A value below 0 becomes 0.
     Clamped,
-    /// Reset to this value below 1, possibly so that free cells are not taken for obstacles.
+    /// The value becomes this number below 1, possibly so that free cells are not taken for obstacles.
     Reset(f64),
 }
 
-/// The quantity that must fall below the tolerance. `change` is that of a cell in a sweep.
+/// The quantity that must fall below the tolerance. `change` is the change of a cell in a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rule {
     /// The sum of `|change|`.
@@ -34,13 +34,13 @@ pub enum Rule {
 /// An interpretation of the source.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Choice {
-    /// True if values are stored as `float`s.
+    /// True if values are stored as `f32`.
     pub single: bool,
-    /// Values above 1.
+    /// What happens to values above 1.
     pub beyond: Beyond,
-    /// When it ends.
+    /// The rule by which the relaxation ends.
     pub rule: Rule,
-    /// Bound on the rule's measure.
+    /// The relaxation ends when the rule's quantity is below this.
     pub tolerance: f64,
 }
 
@@ -62,7 +62,7 @@ impl fmt::Display for Choice {
     }
 }
 
-/// A field under way, on `n x n` cells whose outermost ones are walls.
+/// A field while it is relaxed, on `n x n` cells, of which the outermost ones are walls.
 #[derive(Clone)]
 pub struct Plain<'a> {
     n: usize,
@@ -70,11 +70,11 @@ pub struct Plain<'a> {
     values: Vec<f64>,
 }
 
-/// Number of sweeps after which a relaxation is given up.
+/// Numbers of sweeps after which a relaxation is given up: for each stage.
 const MOST: [usize; 2] = [30_000, 1_500];
 
 impl<'a> Plain<'a> {
-    /// Obstacles 1, goals and free cells 0.
+    /// Creates the initial field: obstacles are 1, goals and free cells 0.
     pub fn new(domain: &'a Domain) -> Self {
         let values = domain.kinds().iter().map(|&kind| if kind == Cell::Obstacle { 1.0 } else { 0.0 });
         Self { n: domain.cells()[0], domain, values: values.collect() }
@@ -151,7 +151,7 @@ impl<'a> Plain<'a> {
     }
 }
 
-/// Returns the text's formula, with as many rows and columns as cells.
+/// Returns the factor by the formula of the source's text, for as many rows and columns as cells.
 fn best_factor(n: usize) -> f64 {
     let c = 2.0 * (PI / n as f64).cos();
     4.0 / (2.0 + (4.0 - c * c).sqrt())

@@ -6,7 +6,7 @@ use super::plain::{Beyond, Choice, Plain, Rule};
 use std::error::Error;
 use std::fmt;
 
-/// Published counts and those of a choice.
+/// Pairs of a published count and the count of a choice. The latter is `None` if the relaxation does not converge.
 #[derive(Debug, Clone, Default)]
 pub struct Tally(pub Vec<(usize, Option<usize>)>);
 
@@ -30,7 +30,7 @@ impl Tally {
         self.count(|printed, found| (found / printed - 1.0).abs() <= 0.05)
     }
 
-    /// Ranks exact matches first, then close ones.
+    /// Returns the rank of a tally: more exact matches come first, then more close ones.
     fn rank(&self) -> [usize; 3] {
         [self.exact(), self.within_2(), self.within_5_per_cent()]
     }
@@ -43,7 +43,7 @@ impl Tally {
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [exact, near, close] = self.rank();
-        write!(f, "{exact:>2} exact, {near:>2} within 2, {close:>2} within 5 % of {:>2}", self.0.len())
+        write!(f, "of {:>2} cases: {exact:>2} exact, {near:>2} within 2, {close:>2} within 5 %", self.0.len())
     }
 }
 
@@ -97,7 +97,8 @@ impl Maps {
     }
 }
 
-/// Gauss-Seidel: values never leave 0..1, so only the rule and the precision are open.
+/// Returns the interpretations of Gauss-Seidel. Its values never leave 0..1, so only the rule and the precision are
+/// open.
 pub fn gauss_seidel() -> Vec<Choice> {
     let mut choices = Vec::new();
     for single in [true, false] {
@@ -122,7 +123,8 @@ pub fn gauss_seidel() -> Vec<Choice> {
     choices
 }
 
-/// Returns the interpretations of over-relaxation, with the rule determined by Gauss-Seidel, and its two neighbours.
+/// Returns the interpretations of over-relaxation. Their rule is the one that Gauss-Seidel determined, or one of the
+/// two nearest to it.
 pub fn over_relaxation() -> Vec<Choice> {
     let mut choices = Vec::new();
     for single in [true, false] {
@@ -151,7 +153,7 @@ pub fn together(tallies: Vec<Tally>) -> Tally {
     })
 }
 
-/// Returns the interpretation that explains most counts, the first of several.
+/// Returns the interpretation that explains most counts. Of several such ones, it is the first.
 pub fn best(tried: &[(Choice, Tally)]) -> Option<&Choice> {
     let mut best: Option<&(Choice, Tally)> = None;
     for candidate in tried {

@@ -7,7 +7,7 @@ use cplan::field::{
     Scan, Stopping, relax,
 };
 
-/// Rows and columns: 20 m / 0.5 m, 40 m / 0.5 m; row 0 is the north wall.
+/// Numbers of rows and columns: 20 m / 0.5 m and 40 m / 0.5 m. Row 0 is the north wall.
 const CELLS: [usize; 2] = [40, 80];
 
 /// Bound on the sum of squared changes in a sweep, and the greatest number of sweeps to reach it.
@@ -18,7 +18,7 @@ struct Goal {
     name: &'static str,
     /// Position in metres from the middle of the room; the second coordinate points upwards.
     at: [f64; 2],
-    /// `v`, along rows (downwards) and columns.
+    /// The vector `v`, along rows (downwards) and columns.
     direction: [f64; 2],
     harmonic: usize,
     oriented: usize,
@@ -31,8 +31,8 @@ const GOALS: [Goal; 3] = [
     Goal { name: "object 2 (9, -7)", at: [9.0, -7.0], direction: [1.0, 0.0], harmonic: 111, oriented: 323 },
 ];
 
-/// Returns the room with a goal: outer walls are solid, and the given cells, counted row by row. Row and column of a
-/// place follow the source's rule.
+/// Returns the room with a goal. Outer walls are solid, and so are the cells, counted row by row, for which `is_solid`
+/// is true. The source's rule gives the row and column of a place.
 fn room(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Domain {
     let [rows, columns] = CELLS;
     let row = (rows as f64 / 2.0 - at[1] / 0.5) as usize;
@@ -67,10 +67,10 @@ pub fn rows() -> Vec<(String, Count)> {
     rows_among(&|_| false)
 }
 
-/// Does the same in a room with these solid cells.
+/// Returns the same numbers in a room with these solid cells.
 pub fn rows_among(is_solid: &dyn Fn(usize) -> bool) -> Vec<(String, Count)> {
     let count = |published: usize, field: Option<RelaxedField>| {
-        // The source prints the index of the last sweep, which counts from 0.
+        // The source prints the index of the last sweep, counted from 0.
         Count::of_sweeps(published, field.map(|field| field.sweeps() - 1), Claim::Unmatched)
     };
     let harmonic = GOALS
@@ -82,7 +82,7 @@ pub fn rows_among(is_solid: &dyn Fn(usize) -> bool) -> Vec<(String, Count)> {
     harmonic.chain(oriented).collect()
 }
 
-/// Notes on reproducible and irreproducible results.
+/// Notes on which results are reproducible.
 pub const NOTES: &[&str] = &[
     "Known: cells, goals, factor 1.8, epsilon 0.5, v, order and stopping rule (the source prints its program). Unknown: the",
     "furniture, which is only in a picture. Without it harmonic fields take 2.15 to 2.23 times, oriented ones 1.22 to 1.23 times",

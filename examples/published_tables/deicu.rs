@@ -7,13 +7,13 @@ use Claim::{Close, Match, Unmatched};
 use cplan::field::{Difference, Equation, Factor, Lines, Measure, Order, Precision, Relaxation, Scan, Stopping, relax};
 use std::error::Error;
 
-/// The scales of the tables: cells along each axis.
+/// The scales of the tables: numbers of cells along each axis.
 pub const SCALES: [usize; 2] = [100, 250];
 
-/// The counts of one map. In arrays of four the relaxations are those of [`RELAXATIONS`], in arrays of two the scales
-/// are those of [`SCALES`].
+/// The counts of one map. Arrays of four have an entry for each of [`RELAXATIONS`], and arrays of two for each of
+/// [`SCALES`].
 pub struct Table {
-    /// Number in the source, and the part of the map that was used.
+    /// Number of the table in the source, and the part of the map that was used.
     pub title: &'static str,
     /// The world of the map, in `workspaces/maps`.
     world: &'static str,
@@ -26,7 +26,7 @@ pub struct Table {
     pub notes: &'static [&'static str],
 }
 
-/// The names of the relaxations, the source's "simples" and "simultâneo".
+/// The names of the relaxations. The source calls them "simples" and "simultâneo".
 pub const RELAXATIONS: [&str; 4] = ["GS simple", "GS simultaneous", "SOR simple", "SOR simultaneous"];
 
 /// Returns the settings of a relaxation. Lines have increasing `x`. Gauss-Seidel's values are kept as `float`s: in
@@ -47,7 +47,7 @@ fn stopping(of: usize) -> Stopping {
     Stopping { measure: Measure::SumOfChange, below: 0.01, max_sweeps: if of < 2 { 30_000 } else { 3_000 } }
 }
 
-/// Sweeps of the harmonic stage and of both; `None` if one does not converge.
+/// Numbers of sweeps of the harmonic stage and of both stages. `None` if a stage does not converge.
 pub type Sweeps = [Option<usize>; 2];
 
 /// Relaxes the fields behind one line of a table; `of` is one of [`RELAXATIONS`].
@@ -87,7 +87,8 @@ pub fn scene(table: &Table) -> Result<Scene, Box<dyn Error>> {
     Scene::read(table.world, table.without)
 }
 
-/// A line of a table: the algorithm, the scale, the counts before preferences and in total (if there are preferences).
+/// A line of a table: the algorithm, the scale, the counts before preferences, and the total counts if there are
+/// preferences.
 pub struct Line {
     algorithm: String,
     cells: usize,
@@ -109,9 +110,9 @@ impl std::fmt::Display for Line {
     }
 }
 
-/// Returns all lines of a table at these scales (0 and 1 for those of [`SCALES`]).
+/// Returns all lines of a table at these scales, which are indices into [`SCALES`].
 pub fn lines(table: &Table, scene: &Scene, scales: &[usize]) -> Vec<Line> {
-    // Every algorithm is a separate task. Its harmonic stage is also that of the preferences that follow it.
+    // Each algorithm is a task of its own. Its harmonic stage also belongs to the preferences that follow.
     let tasks = scales.iter().flat_map(|&scale| (0..8).map(move |task| (scale, task % 4, task / 4)));
     let results: Vec<_> = std::thread::scope(|scope| {
         let threads: Vec<_> = tasks

@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-/// The claim about a measured number. The example fails if a claim does not hold.
+/// The claim about a measured number. The example fails if the claim is wrong.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Claim {
-    /// It is the published one.
+    /// The measured number equals the published one.
     Match,
-    /// It differs by at most this many per cent.
+    /// The measured number differs from the published one by at most this many per cent.
     Close(f64),
-    /// It differs, or equality is not expected. The reason is below the table.
+    /// The measured number differs, or need not be equal. A note below the table states the reason.
     Unmatched,
 }
 
@@ -30,7 +30,7 @@ impl Count {
         Self { published: published as f64, measured: measured.map(|sweeps| sweeps as f64), claim }
     }
 
-    /// Returns the relative deviation of the measured number in per cent; infinity if there is no measured number.
+    /// Returns the relative deviation of the measured number in per cent. Infinite if there is no measured number.
     fn deviation(&self) -> f64 {
         self.measured.map_or(f64::INFINITY, |measured| 100.0 * (measured / self.published - 1.0))
     }

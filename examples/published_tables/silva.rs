@@ -13,24 +13,25 @@ use cplan::field::{
 };
 use std::f64::consts::TAU;
 
-/// Cells along the field, over which the source's outer loop runs, and across it.
+/// Number of cells along the field, over which the source's outer loop runs, and across it.
 const CELLS: [usize; 2] = [85, 65];
-/// Cells that a goal is deep.
+/// Depth of a goal, in cells.
 const DEPTH: usize = 5;
-/// Width of a goal in cells (40 cm).
+/// Cells of a goal's mouth across the field (40 cm).
 const MOUTH: std::ops::Range<usize> = 22..42;
-/// States of play in a second.
+/// Number of states of play per second.
 const RATE: f64 = 30.0;
 /// Number of measured states, after one that starts from the initial field.
 const STATES: usize = 300;
-/// Strength of the drift, and the radius of its influence in cells if it is local.
+/// Strength of the drift (`EPSILON`), and the radius of its influence in cells if it is local.
 const EPSILON: f64 = 0.5;
 const RADIUS: f64 = 10.0;
 
 /// The sum of squared changes in a sweep must fall below this.
 pub const STOPPING: Stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-6, max_sweeps: 5000 };
 
-/// Middle, reach and periods in seconds of the curves: three robots of ours, three of theirs, the ball.
+/// The curves of three robots of our team, three of the other team, and the ball: middle, amplitude, and periods in
+/// seconds.
 const CURVES: [([f64; 2], [f64; 2], [f64; 2]); 7] = [
     ([15.0, 32.0], [4.0, 8.0], [7.0, 5.0]),
     ([35.0, 20.0], [14.0, 10.0], [9.0, 6.0]),
@@ -41,14 +42,15 @@ const CURVES: [([f64; 2], [f64; 2], [f64; 2]); 7] = [
     ([42.0, 32.0], [30.0, 24.0], [8.0, 5.0]),
 ];
 
-/// Returns the position of the `k`-th of [`CURVES`], in cells.
+/// Returns the position on curve `k` of [`CURVES`], in cells.
 fn place(k: usize, seconds: f64) -> [f64; 2] {
     let (middle, reach, periods) = CURVES[k];
     // Each curve has its own phase, so that not all are in the middle at once.
     [0, 1].map(|axis| middle[axis] + reach[axis] * (TAU * (seconds / periods[axis] + 0.3 * k as f64)).sin())
 }
 
-/// Returns the domain of the planning robot: the other five robots are obstacles of 8 cm, the ball is the goal.
+/// Returns the domain of the robot that plans. The other five robots are obstacles with a radius of 8 cm, and the ball
+/// is the goal.
 pub fn state(seconds: f64) -> Domain {
     let [length, width] = CELLS;
     let mut kinds = vec![Cell::Free; length * width];
@@ -96,7 +98,7 @@ impl Kind {
     }
 }
 
-/// Returns the mean number of sweeps per state, or `None` if a state diverges.
+/// Returns the mean number of sweeps per state. `None` if a state diverges.
 fn mean_sweeps(kind: Kind, relaxation: &Relaxation) -> Option<f64> {
     let mut values = state(0.0).start();
     let mut total = 0;
@@ -114,12 +116,13 @@ fn mean_sweeps(kind: Kind, relaxation: &Relaxation) -> Option<f64> {
     Some(total as f64 / STATES as f64)
 }
 
-/// A table of sweeps: `published` are JR and WJR in parallel, GS and SOR in sequence, GS and SOR in parallel.
+/// A table of numbers of sweeps. `published` has those of JR and WJR in parallel, GS and SOR in sequence, and GS and
+/// SOR in parallel.
 pub struct Table {
-    /// Number and field.
+    /// Number of the table, and its field.
     pub title: &'static str,
     kind: Kind,
-    /// Factors of SOR in sequence and in parallel.
+    /// Factors of SOR, in sequence and in parallel.
     factors: [f64; 2],
     published: [f64; 6],
 }
@@ -131,7 +134,7 @@ const WEIGHT: f64 = 1.8;
 pub fn rows(table: &Table) -> Vec<(String, Count)> {
     let rows = Order::Lines(Scan::ROWS);
     let [sequential, parallel] = table.factors.map(Factor::Given);
-    // Red-black stands for the source's parallel sweeps.
+    // The order red-black stands for the source's parallel sweeps.
     let relaxations = [
         Relaxation::JACOBI,
         Relaxation::weighted_jacobi(WEIGHT),
@@ -147,7 +150,7 @@ pub fn rows(table: &Table) -> Vec<(String, Count)> {
     relaxations.iter().zip(&table.published).map(count).collect()
 }
 
-/// Notes on comparable and incomparable results.
+/// Notes on which results can be compared.
 pub const NOTES: &[&str] = &[
     "Unmatched throughout: the play is ours, and the faster it is the more sweeps a state takes. What the source says of its own",
     "holds here as well: Jacobi takes most sweeps; red-black takes as many as row by row; SOR with the source's factor takes",

@@ -1,5 +1,5 @@
-//! Costs of the fields of a match, beside those in the source (M. Oliveira da Silva 2011, tables 6.3 to 6.17; a CPU of
-//! 2009).
+//! The cost of computing the fields of a match, compared with the source (M. Oliveira da Silva 2011, tables 6.3 to
+//! 6.17; a CPU of 2009).
 
 use super::play::{CELLS, Frame, MOST, RATE, walls};
 use cplan::field::{
@@ -9,24 +9,24 @@ use cplan::field::{
 use std::fmt;
 use std::time::Instant;
 
-/// The source's rule: sum of squared changes of a sweep.
+/// Tolerance of the source: the sum of squared changes in a sweep must fall below this.
 pub const PUBLISHED_BELOW: f64 = 1e-6;
-/// Interval between frames that are also solved from the initial field.
+/// Of this many frames, one is also solved from the initial field.
 const STANDING: usize = 30;
 
 /// The kinds of fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Laplace's equation, of the blue seeker.
+    /// Laplace's equation, for the seeker of the blue team.
     Harmonic,
-    /// The blue seeker's own.
+    /// The oriented field of the seeker of the blue team.
     Oriented,
     /// The field that the red robots share.
     LocallyOriented,
 }
 
 impl Kind {
-    /// Returns its input in a frame.
+    /// Returns the input of the field in a frame.
     pub fn moment(self, frame: &Frame) -> Moment {
         match self {
             Self::Harmonic => Moment { robots: Vec::new(), ..frame.moments[frame.seekers[0]].clone() },
@@ -36,12 +36,12 @@ impl Kind {
     }
 }
 
-/// A table's line.
+/// A line of the table: a field and how it is solved.
 pub struct Case {
     pub kind: Kind,
     pub difference: Difference,
     pub solver: Solver,
-    /// Mean sweeps and milliseconds of the source.
+    /// Mean number of sweeps, and mean milliseconds, in the source.
     pub published: Option<[f64; 2]>,
 }
 
@@ -67,12 +67,12 @@ pub fn cases() -> Vec<Case> {
     cases
 }
 
-/// Returns SOR row by row; with factor 1 Gauss-Seidel.
+/// Returns SOR row by row. With factor 1, it is Gauss-Seidel.
 pub fn sor(factor: f64) -> Solver {
     Solver::Relaxation(Relaxation::sor(Factor::Given(factor), Order::Lines(Scan::ROWS)))
 }
 
-/// Returns a field before the first frame.
+/// Returns the initial field, before the first frame.
 pub fn standing(difference: Difference) -> Result<MovingField, RelaxError> {
     MovingField::new(CELLS, walls(), [Boundary::High; 2], difference)
 }
@@ -100,7 +100,7 @@ impl Clock {
     }
 }
 
-/// Fields one after the other.
+/// Figures of the fields of all frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Run {
     pub fields: usize,
@@ -193,8 +193,8 @@ impl fmt::Display for Row {
     }
 }
 
-/// Runs the fields of the red robots when the strategy asks several times per frame, while the camera sees a change
-/// only once.
+/// Solves the fields of the red robots if the strategy needs them `times` times per frame, although the camera sees a
+/// change only once.
 pub fn asked(frames: &[Frame], times: usize, case: &Case) -> Result<Run, RelaxError> {
     let moments: Vec<&Moment> = frames.iter().flat_map(|frame| std::iter::repeat_n(&frame.moments[3], times)).collect();
     run(moments.into_iter(), case, PUBLISHED_BELOW, false)
@@ -213,19 +213,20 @@ pub fn three_and_one(frames: &[Frame]) -> Result<[f64; 2], RelaxError> {
     Ok([three, run(shared, &case(Kind::LocallyOriented), PUBLISHED_BELOW, false)?.milliseconds])
 }
 
-/// A direction by elimination: the number of its frame, and the position of the blue seeker.
+/// A direction that is computed by elimination: the number of its frame, and the position of the seeker of the blue
+/// team.
 pub struct Exact {
     frame: usize,
     at: [f64; 2],
     direction: [f64; 2],
 }
 
-/// Interval between frames that are also solved by elimination.
+/// Of this many frames, one is also solved by elimination.
 const ELIMINATED: usize = 20;
-/// Difference from the obstacles' value below which a field counts as level: its goal is unreachable.
+/// A field counts as level if it differs from the obstacles' value by less than this. Its goal is then unreachable.
 const LEVEL: f64 = 1e-12;
 
-/// Returns the directions in the blue seeker's field, if the goal can be reached.
+/// Returns the directions in the field of the seeker of the blue team, for frames in which the goal can be reached.
 pub fn exact(frames: &[Frame]) -> Result<Vec<Exact>, RelaxError> {
     let mut found = Vec::new();
     for (k, frame) in frames.iter().enumerate().step_by(ELIMINATED) {
@@ -245,8 +246,8 @@ pub fn exact(frames: &[Frame]) -> Result<Vec<Exact>, RelaxError> {
     Ok(found)
 }
 
-/// Returns the ascending angles, in degrees, between the directions of the blue seeker in its relaxed and in its exact
-/// field.
+/// Returns the angles between the directions of the seeker of the blue team in its relaxed and in its exact field, in
+/// degrees, in ascending order.
 pub fn astray(frames: &[Frame], exact: &[Exact], solver: &Solver, below: f64) -> Result<Vec<f64>, RelaxError> {
     let mut field = standing(Difference::Upwind)?;
     let mut angles = Vec::new();
@@ -254,7 +255,7 @@ pub fn astray(frames: &[Frame], exact: &[Exact], solver: &Solver, below: f64) ->
     for (k, frame) in frames.iter().enumerate() {
         field.next(&Kind::Oriented.moment(frame), solver, below, MOST)?;
         if let Some(Exact { at, direction: b, .. }) = sought.next_if(|exact| exact.frame == k) {
-            // No direction counts as the greatest error.
+            // If there is no direction, the error counts as the greatest one.
             let angle = |a: [f64; 2]| (a[0] * b[0] + a[1] * b[1]).clamp(-1.0, 1.0).acos().to_degrees();
             angles.push(field.direction(*at).map_or(180.0, angle));
         }
@@ -263,7 +264,7 @@ pub fn astray(frames: &[Frame], exact: &[Exact], solver: &Solver, below: f64) ->
     Ok(angles)
 }
 
-/// Prints all of it.
+/// Prints all measurements.
 pub fn report(frames: &[Frame]) -> Result<(), RelaxError> {
     directions(frames)?;
     let seconds = frames.len() as f64 / RATE;
@@ -286,13 +287,13 @@ pub fn report(frames: &[Frame]) -> Result<(), RelaxError> {
         println!("{row}");
     }
     let [relaxed, multigrid] = fastest.map(|milliseconds| 1e3 / milliseconds);
-    println!("\nfields a second: {relaxed:.0} by relaxation, {multigrid:.0} by multigrid (wanted: 1000 and 5000)");
+    println!("\nfields per second: {relaxed:.0} by relaxation, {multigrid:.0} by multigrid (required: 1000 and 5000)");
     println!(
-        "\nCPLO, asked so often, while the camera sees something new 60 times a second: how many fields take one sweep"
+        "\nCPLO at several query rates, while the camera takes 60 frames per second: share of fields that need one"
     );
-    println!("(published: more than 80 %), mean sweeps, fields a second");
+    println!("sweep (published: over 80 %), mean sweeps, fields per second");
     for times in [1, 2, 5, 6, 10, 17] {
-        print!("  {:>4} times a second", (times as f64 * RATE).round());
+        print!("  {:>4} queries per second", (times as f64 * RATE).round());
         for (name, factor) in [("GS", 1.0), ("SOR 1.8", 1.8)] {
             let (kind, difference) = (Kind::LocallyOriented, Difference::Central);
             let run = asked(frames, times, &Case { kind, difference, solver: sor(factor), published: None })?;
@@ -306,7 +307,7 @@ pub fn report(frames: &[Frame]) -> Result<(), RelaxError> {
     Ok(())
 }
 
-/// Prints how far directions are astray.
+/// Prints by how much directions of relaxed fields deviate from exact ones.
 fn directions(frames: &[Frame]) -> Result<(), RelaxError> {
     let exact = exact(frames)?;
     println!(

@@ -1,18 +1,18 @@
-//! The page that replays a match: one file, which loads nothing.
+//! The page that replays a match. It is one file that loads nothing.
 
 use super::play::{BALL, BODY, CELLS, DEPTH, Frame, INFLUENCE, MOUTH, PER_CM, RATE};
 use cplan::field::{Cell, MovingField};
 use serde_json::{Value, json};
 
-/// Frames from one picture of the fields to the next, and cells from one arrow to the next.
+/// Number of frames from one picture of the fields to the next (`EVERY`), and of cells from one arrow to the next.
 const EVERY: usize = 4;
 const APART: usize = 3;
-/// Number of points of a curve omitted between two that are shown.
+/// Of a curve, one point is shown, and then this many are left out.
 const SPARSE: usize = 6;
-/// Directions of arrows are stored in this many steps of a turn, as letters; a dot means none.
+/// Letters for the directions of arrows, as equal steps of a turn. A dot stands for no direction.
 const TURN: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-";
-/// Number of steps per power of ten in which values of a field, from 0 to 1, are stored, by the logarithm of their
-/// distance from 1.
+/// Number of letters per power of ten for the values of a field, which are from 0 to 1. A letter stands for the
+/// logarithm of a value's distance from 1.
 const A_POWER: f64 = 4.0;
 
 /// A recorded match.
@@ -23,7 +23,7 @@ pub struct Film {
 }
 
 impl Film {
-    /// Adds a frame. `fields` are those that lead the robots in it, `score` is the one after it.
+    /// Adds a frame. `fields` are those that guide the robots in it, and `score` is the score after it.
     pub fn see(&mut self, frame: &Frame, fields: &[MovingField], score: [usize; 2]) {
         let places = frame.robots.iter().chain([&frame.ball]).flatten().map(|&x| rounded(x));
         self.frames.push(json!([places.collect::<Vec<_>>(), frame.seekers, score]));
@@ -46,7 +46,7 @@ impl Film {
     }
 }
 
-/// Encodes directions as letters and values as letters, row by row of every third cell.
+/// Encodes directions and values as letters, for every third cell, row by row.
 fn picture(field: &MovingField) -> Value {
     let (mut arrows, mut values) = (String::new(), String::new());
     let shown = |n: usize| (1..n).step_by(APART);

@@ -12,56 +12,58 @@ use cplan::field::{
 
 /// Cells along the field, with the goals, and across it.
 pub const CELLS: [usize; 2] = [85, 65];
-/// Cells that a goal is deep.
+/// Depth of a goal, in cells.
 pub const DEPTH: f64 = 5.0;
 /// Range of a goal's mouth across the field: 40 cm.
 pub const MOUTH: [f64; 2] = [22.0, 42.0];
-/// Cells in a centimetre.
+/// Number of cells per centimetre.
 pub const PER_CM: f64 = 0.5;
-/// Radius of the disc around a robot of 7.5 cm x 7.5 cm in any orientation: half a diagonal.
+/// Radius of a disc that contains a robot of 7.5 cm x 7.5 cm in every orientation, in cells: half a diagonal.
 pub const BODY: f64 = 7.5 * std::f64::consts::FRAC_1_SQRT_2 * PER_CM;
-/// Radius of a golf ball.
+/// Radius of a golf ball, in cells.
 pub const BALL: f64 = 2.135 * PER_CM;
-/// Frames in a second.
+/// Number of frames per second.
 pub const RATE: f64 = 60.0;
-/// Number of curve steps that a robot moves per frame: 0.96 m/s.
+/// Number of steps along its curve that a robot moves per frame. The speed is then 0.96 m/s.
 const STEPS: usize = 4;
-/// Greatest distance that a robot moves in a frame.
+/// Greatest distance that a robot moves in a frame, in cells.
 pub const REACH: f64 = STEPS as f64 * STEP_LENGTH;
-/// Distance at which a robot pushes the ball, and the radius of the seeker's goal around the ball.
+/// Distance at which a robot pushes the ball, and radius of the seeker's goal around the ball, in cells.
 const CONTACT: f64 = BODY + BALL + 0.6;
 const SOUGHT: f64 = CONTACT - 0.3;
-/// Speed of a pushed ball, and the factors by which it decreases per frame and per bounce.
+/// Speed of a pushed ball in cells per frame (`PUSHED`), and the factors by which it decreases per frame and per
+/// bounce.
 const PUSHED: f64 = 1.6;
 const ROLLS: f64 = 0.985;
 const BOUNCES: f64 = 0.6;
-/// Strength of drifts, per cell, and their radius of influence if they are local: 20 cm.
+/// Strength of drifts per cell (`EPSILON`), and the radius of their influence if they are local: 20 cm.
 pub const EPSILON: f64 = 0.5;
 pub const INFLUENCE: f64 = 10.0;
-/// Lead in distance at which a robot takes over as the seeker.
+/// A robot becomes the seeker if it is nearer to the ball than the current seeker by this, in cells.
 const TAKES_OVER: f64 = 6.0;
-/// Distance that red robots keep from the ball unless they seek it.
+/// Distance from the ball that red robots keep unless they seek it, in cells.
 const KEEPS_OFF: f64 = 14.0;
-/// Tolerance of the fields of the match, by SOR with the source's factor: a sum of squared changes at which directions
-/// are correct.
+/// Tolerance of the fields of the match, which SOR solves with the source's factor. With this sum of squared changes,
+/// directions are correct.
 const BELOW: f64 = 1e-12;
 const FACTOR: f64 = 1.7;
-/// Sweeps that this may take.
+/// Largest number of sweeps for a field of the match.
 pub const MOST: usize = 2000;
-/// A ball that stays within this many cells for this many frames is moved to a mark of the field.
+/// A ball that stays within a distance (the second number, in cells) for a number of frames (the first) is moved to a
+/// mark of the field.
 const STALE: (usize, f64) = (120, 12.0);
-/// The marks, as in the league: four, 37.5 cm from the middle and 40 cm from its line.
+/// The marks of the field, as in the league: four, each 37.5 cm from the middle and 40 cm from the middle line.
 const MARKS: [[f64; 2]; 4] = [[23.25, 12.0], [23.25, 52.0], [60.75, 12.0], [60.75, 52.0]];
 
 /// The state at the beginning of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// Three blue ones, three red ones.
+    /// Positions of three blue robots, then of three red ones.
     pub robots: [[f64; 2]; 6],
     pub ball: [f64; 2],
-    /// The robot of each team that seeks the ball.
+    /// For each team, the index of the robot that seeks the ball.
     pub seekers: [usize; 2],
-    /// The input of each blue robot's field, and of the shared red one.
+    /// The input of the field of each blue robot, and of the field that the red ones share.
     pub moments: [Moment; 4],
 }
 
@@ -70,11 +72,11 @@ pub struct Match {
     state: State,
     fields: Vec<MovingField>,
     noise: u64,
-    /// Goals of blue and red.
+    /// Goals of the blue team and of the red team.
     pub score: [usize; 2],
-    /// Number of moves of blue and red robots that another robot cut short.
+    /// For each team, the number of moves that another robot cut short.
     pub refused: [usize; 2],
-    /// Robots of blue and red that had no direction, frame by frame.
+    /// For each team, the number of times that a robot had no direction in a frame.
     pub lost: [usize; 2],
 }
 
@@ -82,19 +84,19 @@ struct State {
     robots: [[f64; 2]; 6],
     ball: [f64; 2],
     rolls: [f64; 2],
-    /// Position and time at which the ball last left its surroundings.
+    /// A position of the ball, and the frame since which it has stayed near that.
     left: ([f64; 2], usize),
     seekers: [usize; 2],
     frame: usize,
 }
 
-/// Cells that the centre of a robot keeps out of: all except a rectangle.
+/// Returns, for each cell, true if the centre of a robot must not be there. Only a rectangle of cells is free.
 pub fn walls() -> Vec<bool> {
     let [rows, columns] = CELLS;
     (0..rows * columns).map(|cell| !is_open([(cell / columns) as f64, (cell % columns) as f64])).collect()
 }
 
-/// Returns true if a robot anywhere in this cell is on the field.
+/// Returns true if a robot whose centre is anywhere in this cell is on the field.
 fn is_open([row, column]: [f64; 2]) -> bool {
     let [rows, columns] = CELLS.map(|n| n as f64);
     let within = |at: f64, low: f64, high: f64| at - 0.5 >= low + BODY && at + 0.5 <= high - BODY;
@@ -127,7 +129,7 @@ impl Match {
             field.next(moment, &solver, BELOW, MOST)?;
         }
         let State { robots, ball, seekers, .. } = self.state;
-        // Nobody always goes first.
+        // The first robot to move changes from frame to frame.
         for turn in 0..6 {
             self.go((turn + self.state.frame) % 6);
         }
@@ -152,7 +154,7 @@ impl Match {
                 self.lost[team] += usize::from(field.direction(at).is_none());
                 field.advance(at, STEPS)
             }
-            // Another robot has come so near that this cell is blocked: half a step back.
+            // Another robot has come so near that this cell is blocked. The robot moves back by half a step.
             _ => {
                 let nearest = others.iter().min_by(|a, b| far(**a, at).total_cmp(&far(**b, at)));
                 let away = nearest.and_then(|nearest| Direction::of([0, 1].map(|k| at[k] - nearest[k])));
@@ -160,8 +162,8 @@ impl Match {
                 [0, 1].map(|k| at[k] + 0.5 * REACH * away[k])
             }
         };
-        // The field has the positions of the others at the beginning of the frame, but not those of team mates that
-        // share it.
+        // The field contains the positions of the other robots at the beginning of the frame, except those of team
+        // mates that share it. So a step is shortened if it would lead too near to another robot.
         let shorter = [1.0, 0.5, 0.25].map(|part| [0, 1].map(|k| at[k] + part * (to[k] - at[k])));
         let fits = |to: &[f64; 2]| {
             let apart = others.iter().all(|&other| far(*to, other) >= (2.0 * BODY + CLOSE).min(far(at, other)));
@@ -192,7 +194,7 @@ impl Match {
         self.state.rolls = push.map(|x| PUSHED * x);
     }
 
-    /// Rolls the ball, which may bounce, or enter a goal.
+    /// Rolls the ball, which may bounce or enter a goal.
     fn roll(&mut self) {
         let [rows, columns] = CELLS.map(|n| n as f64);
         let State { ball, rolls, .. } = &mut self.state;
@@ -250,14 +252,14 @@ impl State {
         }
     }
 
-    /// Returns discs that the centre of a robot keeps out of, wherever the others move within the frame.
+    /// Returns discs that the centre of a robot must avoid, wherever the other robots move within the frame.
     fn obstacles(&self, robots: impl Iterator<Item = usize>) -> Vec<Disc> {
         robots.map(|k| Disc { center: self.robots[k], radius: BODY + REACH + CLOSE }.grown_for(BODY)).collect()
     }
 
-    /// Returns a blue robot's own field: the others are obstacles, and its drift applies everywhere. The seeker
-    /// approaches the ball in the direction of the intended push; another robot stands halfway between ball and goal,
-    /// and the first keeps the goal.
+    /// Returns the input of a blue robot's own field. The other robots are obstacles, and the drift applies everywhere.
+    /// The seeker approaches the ball in the direction of the intended push. Another robot stands halfway between ball
+    /// and goal, and the first one guards the goal.
     fn of_one(&self, robot: usize) -> Moment {
         let keeps = [10.0, self.ball[1].clamp(MOUTH[0], MOUTH[1])];
         let (goal, heading) = match robot {
@@ -277,8 +279,9 @@ impl State {
         }
     }
 
-    /// Returns the field that red robots share: blue ones are obstacles, the ball is the goal, and each red one has a
-    /// drift around it. The seeker approaches in the direction of the intended push, the others are drawn back.
+    /// Returns the input of the field that red robots share. Blue robots are obstacles, the ball is the goal, and each
+    /// red robot has a drift around it. The seeker approaches in the direction of the intended push; the others are
+    /// pulled back.
     fn of_red(&self) -> Moment {
         let robots = (3..6).filter_map(|robot| {
             let heading = match robot == self.seekers[1] {

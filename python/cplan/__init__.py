@@ -1,7 +1,7 @@
 """Plans motions of planar two-joint arms in configuration space.
 
-Three answers: a path whose whole continuous motion is certified free of collision (`Found`), a proof that there is none (`Infeasible`), or
-`Unknown` at the resolution that was tried.
+There are three answers: a path whose whole continuous motion is certified free of collision (`Found`), a proof that
+there is none (`Infeasible`), or `Unknown` at the resolution that was tried.
 
 >>> import cplan
 >>> arm = cplan.Arm.rr([1.0, 0.8], width=0.06)

@@ -56,10 +56,10 @@ fn time(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x >= 0.0, "of seconds, finite and not negative")
 }
 
-/// Checks and reports.
+/// Checks a configuration and prints the report.
 ///
 /// # Errors
-/// Bad input and I/O. A configuration that is not free is no error, because reporting it is the job.
+/// Bad input and I/O. A configuration that is not free is no error, because the report states it.
 pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.keeping(args.clearance)?;

@@ -1,11 +1,12 @@
-//! Converts a list of subcommands to a grammar, a dispatch, and groups for the help.
+//! Macro that converts a list of subcommands to a grammar, a dispatch, and groups for the help.
 
 use clap::Command;
 use std::fmt::Write as _;
 
-/// Defines `Command`, clap's enum of the subcommands, from lines `Name(file::Args)` in groups, and `Command::run`, which
-/// calls the file's `run`. A line `Name(file::Args, program)` is for a `run` that also takes the
-/// [`Program`](super::program::Program). `GROUPS` lists the names in each group.
+/// Defines `Command`, clap's enum of the subcommands, and `Command::run`, which calls the `run` of a subcommand's file.
+/// The input consists of groups of lines `Name(file::Args)`. If `run` also takes the
+/// [`Program`](super::program::Program), the line is `Name(file::Args, program)`. `GROUPS` lists the names in each
+/// group.
 macro_rules! commands {
     ($program:ident: $($group:literal {
         $($(#[$cfg:meta])? $name:ident($file:ident::$args:ident $(, $context:ident)?),)+
@@ -32,7 +33,8 @@ macro_rules! commands {
 
 pub(super) use commands;
 
-/// Returns a help template that lists subcommands by groups. clap has one list only; it must be hidden.
+/// Returns a help template that lists the subcommands in groups. It replaces clap's own list, which has no groups and
+/// must be hidden.
 pub fn help_template(grammar: &Command, groups: &[(&str, &[&str])]) -> String {
     let header = grammar.get_styles().get_header();
     let literal = grammar.get_styles().get_literal();

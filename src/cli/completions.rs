@@ -1,4 +1,4 @@
-//! `cplan completions`: scripts with which a shell completes commands, options and their values.
+//! `cplan completions`: scripts with which a shell completes commands, options and the values of options.
 
 use super::exit::DONE;
 use super::failure::Failure;
@@ -35,15 +35,15 @@ pub fn run(args: &CompletionsArgs, program: &Program) -> Result<u8, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut (program.grammar)(), "cplan", &mut script);
     let script = String::from_utf8_lossy(&script);
-    // The generator builds the grammar with a `help` of its own.
+    // The generator would add a subcommand `help` of its own.
     let script = if args.shell == Shell::Fish { for_fish(&script, &(program.grammar)()) } else { script.into_owned() };
     sinks::print(&script)?;
     Ok(DONE)
 }
 
-/// Returns a corrected script for fish. The generated script takes the first file for a subcommand, so the main job
-/// would have options only before its files. It offers nothing after an option without its value, nor after `help`,
-/// which it takes for a subcommand of itself. It also lacks the values of arguments without a name.
+/// Returns a corrected script for fish. The generated one has three defects. It takes the first file for a subcommand,
+/// so options after the files of `cplan URDF WORLD` would not be completed. It offers nothing after an option without
+/// its value, nor after `help`, whose subcommands it does not know. It lacks the values of positional arguments.
 fn for_fish(script: &str, grammar: &Command) -> String {
     let rules = script.find("complete -c").map_or("", |at| &script[at..]);
     let is_known = |line: &&str| !line.contains("__fish_cplan_using_subcommand help");
@@ -67,7 +67,7 @@ fn values_rule(command: &str, value: &str) -> String {
     format!("complete -c cplan -n \"__fish_cplan_using_subcommand {command}\" -f -a \"{value}\"\n")
 }
 
-/// The subcommand is the first word, if there is one.
+/// Rule for fish: the first word is the subcommand, if there is one.
 const FISH_RULE: &str = "\
 function __fish_cplan_needs_command
     test (count (commandline -opc)) -eq 1

@@ -1,11 +1,11 @@
-//! Work that a job still does when Ctrl-C ends it.
+//! Work that a command still does when Ctrl-C ends it.
 
 use std::process::exit;
 
 /// The exit code of a process that Ctrl-C ends, as in shells.
 const EXIT_STOPPED: i32 = 130;
 
-/// Runs `last` before Ctrl-C ends the process. On systems without a handler for it, Ctrl-C ends the process as usual.
+/// Runs `last` before Ctrl-C ends the process. On systems that cannot handle Ctrl-C, it ends the process as usual.
 pub fn before_it_ends(last: impl FnOnce() + Send + 'static) {
     let mut last = Some(last);
     let _ = ctrlc::set_handler(move || {

@@ -15,7 +15,7 @@ pub const DEMO_ROBOT: &str = include_str!("../../robots/scara.urdf");
 /// The world of the demonstration: the SCARA cell.
 pub const DEMO_WORLD: &str = include_str!("../../workspaces/scara_cell.toml");
 
-/// Names of the files that are written.
+/// Names of the files that `cplan demo` writes.
 const RESULT_FILE: &str = "plan.json";
 const PICTURE_FILE: &str = "plan.html";
 
@@ -44,11 +44,11 @@ pub struct DemoArgs {
     pub plan: PlanArgs,
 }
 
-/// Plans the built-in cell like any other in the main job, and prints the next commands. The exit code is the main
-/// job's.
+/// Plans in the built-in cell as `cplan plan` does, and prints further commands to try. The exit code is that of `cplan
+/// plan`.
 ///
 /// # Errors
-/// Existing files, I/O, and options that do not fit the cell.
+/// Existing files, I/O, and options that do not suit the cell.
 pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
     let [result, picture] = [RESULT_FILE, PICTURE_FILE].map(|name| in_folder(&args.dir, name));
     spare(&[result.clone(), picture.clone()], args.force, "--dir DIR writes elsewhere")?;
@@ -67,7 +67,7 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
     Ok(code)
 }
 
-/// Returns the file in the folder, as people would write it.
+/// Returns the path of a file in the folder, as people would write it.
 pub fn in_folder(folder: &Path, name: &str) -> PathBuf {
     if folder == Path::new(".") { name.into() } else { folder.join(name) }
 }

@@ -4,13 +4,14 @@ use super::failure::Failure;
 use crate::input::{Diagnostic, DiagnosticKind};
 use serde::Serialize;
 
-/// An error as an object. `file` to `help` are those of the first diagnostic; `diagnostics` has all.
+/// An error as a JSON object. Its fields from `file` to `help` are those of the first diagnostic; `diagnostics` has all
+/// diagnostics.
 #[derive(Debug, Serialize)]
 pub struct ErrorJson {
-    /// Always `error`, by which scripts distinguish it from a result.
+    /// Always `error`, which no result has as its status.
     status: &'static str,
-    /// `usage` for a wrong command line, `start` or `goal` for one that is missing, out of range or not free, otherwise
-    /// `input`.
+    /// The kind of error: `usage` for a wrong command line; `start` or `goal` for one that is missing, out of range or
+    /// not free; otherwise `input`.
     kind: &'static str,
     #[serde(flatten)]
     first: DiagnosticJson,
@@ -19,10 +20,10 @@ pub struct ErrorJson {
     diagnostics: Vec<DiagnosticJson>,
 }
 
-/// One defect.
+/// One defect of the input.
 #[derive(Debug, Serialize)]
 struct DiagnosticJson {
-    /// `None` for a defect of an option.
+    /// The file with the defect. `None` for a defect of an option.
     file: Option<String>,
     line: Option<usize>,
     column: Option<usize>,
@@ -55,7 +56,7 @@ impl From<&Diagnostic> for DiagnosticJson {
 }
 
 impl ErrorJson {
-    /// Describes the failure that ended a job.
+    /// Describes the failure that ended a command.
     pub fn of_failure(failure: &Failure) -> Self {
         let diagnostics = match failure {
             Failure::Input(error) | Failure::Blocked(error, _) => error.diagnostics(),
@@ -74,7 +75,7 @@ impl ErrorJson {
         Self { status: "error", kind, first, diagnostics }
     }
 
-    /// Returns a command line that cannot be read.
+    /// Describes a command line that cannot be parsed.
     pub fn of_usage(error: &clap::Error) -> Self {
         let text = error.to_string();
         let line_after =
@@ -85,7 +86,7 @@ impl ErrorJson {
         Self { status: "error", kind: "usage", first: DiagnosticJson::plain(message, help), diagnostics: Vec::new() }
     }
 
-    /// Returns a JSON document and a line feed.
+    /// Returns the error as a JSON document that ends in a newline.
     pub fn text(&self) -> String {
         serde_json::to_string_pretty(self).map_or_else(|error| error.to_string(), |json| json + "\n")
     }

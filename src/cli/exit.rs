@@ -1,14 +1,14 @@
 //! Exit codes.
 
-/// Exit code: a path was found, and it is certified; or the job is done.
+/// Exit code: a certified path was found, or another command is done.
 pub const DONE: u8 = 0;
 /// Exit code: bad input or I/O.
 pub const BAD_INPUT: u8 = 1;
 /// Exit code: wrong command line, the same as clap's.
 pub const USAGE: u8 = 2;
-/// Exit code: there is no path, proven.
+/// Exit code: it is proven that there is no path.
 pub const INFEASIBLE: u8 = 3;
 /// Exit code of `verify`: a proven collision, a violated limit, or a task that differs from the requested one.
 pub const REFUTED: u8 = 3;
-/// Exit code: neither found nor proven infeasible.
+/// Exit code: neither a path nor a proof was found.
 pub const UNKNOWN: u8 = 4;

@@ -1,5 +1,5 @@
-//! `cplan explain`: the reasons why there is no motion, and the changes that open a path; for a motion, the obstacles
-//! that make it longer.
+//! `cplan explain`: the reasons why there is no motion, and changes that open a path. If there is a motion, the
+//! obstacles that make it longer.
 
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
@@ -70,10 +70,10 @@ pub struct ExplainArgs {
     pub print: PrintArgs,
 }
 
-/// Explains.
+/// Explains a query, and prints the explanation.
 ///
 /// # Errors
-/// Bad input and I/O. A missing motion is no error, because explaining it is the job.
+/// Bad input and I/O. A missing motion is no error, because the command explains it.
 pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
@@ -93,7 +93,7 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     Ok(code)
 }
 
-/// Returns the command that explains a query; `None` if it cannot be explained.
+/// Returns the command that explains a query. `None` if the query cannot be explained.
 pub fn hint(files: &Files, query: &QueryArgs) -> Option<String> {
     let loaded = input::load_scene(files.robot(), &files.world).ok()?;
     let overrides = query.overrides();
@@ -106,21 +106,21 @@ pub fn hint(files: &Files, query: &QueryArgs) -> Option<String> {
     (has_ends && loaded.courses.is_empty()).then_some(command)
 }
 
-/// An explanation of a world's motion or task.
+/// The explanation of a world's motion or task.
 #[derive(Debug)]
 pub enum ExplanationResult {
-    /// Explains the motion, or that of the failed step, with notes about its input, line by line.
+    /// The explanation of the motion, or of the motion of a failed step, and notes about the input.
     Motion(Box<Explanation>, Vec<String>),
     /// All steps can be done, so there is nothing to explain.
     Done(Box<Plan>),
 }
 
 impl ExplanationResult {
-    /// Explains the world's motion or task, or `overrides` instead, within a time limit
-    /// ([`MotionQuestion::with_time_limit`]).
+    /// Explains the world's motion or task. `overrides` replace start, goal and clearance of the world. `limit` is the
+    /// time limit ([`MotionQuestion::with_time_limit`]).
     ///
     /// # Errors
-    /// Overrides that do not fit the world; an invalid task.
+    /// Overrides that do not suit the world, and an invalid task.
     pub fn of(loaded: LoadedScene, overrides: &Overrides, limit: Duration) -> Result<Self, Failure> {
         loaded.require_static_obstacles("explanations are for worlds without moving obstacles")?;
         let (question, notes) = if loaded.has_steps() {
@@ -149,7 +149,7 @@ impl ExplanationResult {
         Ok(Self::Motion(Box::new(explain(&question, &Options::default())), notes))
     }
 
-    /// Returns true if there is a motion.
+    /// Returns the status of the motion or task.
     #[must_use]
     pub fn status(&self) -> Status {
         match self {
@@ -186,8 +186,8 @@ impl ExplanationResult {
     }
 }
 
-/// Returns the motion of the failed step, with the objects and the payload at that time, and the description of the
-/// step.
+/// Returns the motion of the failed step, with objects and payload as they are then, and the description of the step.
+/// `None` if no step fails.
 fn failed_step(plan: &Plan) -> Option<(MotionQuestion, String)> {
     let (task, answer) = plan.task()?;
     let FailedStep { step, scene, from, ik_solutions, .. } = answer.failed()?;

@@ -184,7 +184,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
 }
 
 impl ExploreArgs {
-    /// Returns the reason why there is no exploration, with a hint.
+    /// Describes the reason why no exploration is possible, with a hint.
     fn refused(&self, error: &ExploreError) -> Failure {
         let (file, cure) = match error {
             ExploreError::Map(_) => (&self.files.world, "give its [sensor] a larger cell, or joint 1 narrower limits"),
@@ -216,12 +216,12 @@ impl ExploreArgs {
     }
 }
 
-/// Returns true if the format can hold an exploration.
+/// Returns true if a format can represent an exploration.
 fn is_known(sink: &Sink) -> bool {
     matches!(sink, Sink::Result(Format::Json | Format::Csv | Format::Yaml, _) | Sink::Picture(..))
 }
 
-/// Returns the description and the picture of a map.
+/// Returns the paths of the description and of the picture of a map.
 fn map_files(description: &Path) -> Result<[PathBuf; 2], Failure> {
     if !matches!(description.extension().and_then(|e| e.to_str()), Some("yaml" | "yml")) {
         return Err(Failure::Usage(format!("{}: a map's name must end in .yaml", description.display())));
@@ -231,7 +231,7 @@ fn map_files(description: &Path) -> Result<[PathBuf; 2], Failure> {
     Ok(files)
 }
 
-/// Returns the whole route, all legs one after the other.
+/// Returns the path of all legs together.
 fn explored_path(done: &Exploration, start: Configuration) -> JointPath {
     let legs = done.legs.iter().flat_map(|leg| leg.curve.curve().path().waypoints().iter().copied());
     JointPath::new(std::iter::once(start).chain(legs).collect())
@@ -261,7 +261,7 @@ fn view(world: &Explorable, done: &Exploration) -> View {
     })
 }
 
-/// Returns the facts, by name.
+/// Returns names and descriptions of the facts about an exploration.
 fn facts(done: &Exploration) -> Vec<Line> {
     let map = done.survey.map();
     let [free, occupied, unknown] = done.survey.counts();

@@ -1,4 +1,4 @@
-//! Failures that end a job before its result: exit code 1, or 2 for a wrong command line.
+//! Failures that end a command before its result. Their exit code is 1, or 2 for a wrong command line.
 
 use super::exit::{BAD_INPUT, USAGE};
 use crate::draw::DrawError;
@@ -8,35 +8,35 @@ use crate::motion::{FormatError, TimingError, WriteError};
 use crate::output::PictureFormatError;
 use thiserror::Error;
 
-/// Bad input or I/O, in the user's words.
+/// A failure, described for the user.
 #[derive(Debug, Error)]
 pub enum Failure {
-    /// A defect in one of the input files or an override.
+    /// A defect of an input file or an override.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A blocked start or goal, with a hint.
+    /// A blocked start or goal, with a hint how to explain it.
     #[error("{0}\n  hint: {1}")]
     Blocked(InputError, String),
-    /// The options make no plan.
+    /// Planning with the options is refused.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// The options make no trajectory.
+    /// The trajectory cannot be made with the options.
     #[error(transparent)]
     Trajectory(#[from] TimingError),
     /// An output file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// Rows of a study cannot be stored.
+    /// The rows of a study cannot be stored.
     #[cfg(feature = "study")]
     #[error(transparent)]
     Journal(#[from] crate::study::JournalError),
-    /// A picture could not be drawn.
+    /// A picture cannot be drawn.
     #[error(transparent)]
     Draw(#[from] DrawError),
-    /// The effect of an option is impossible.
+    /// An option cannot take effect.
     #[error("{0}")]
     Option(String),
-    /// Bad input that a report in JSON contains already.
+    /// A defect of the input that is part of a JSON report on stdout.
     #[error(transparent)]
     Reported(InputError),
     /// A wrong command line.
@@ -45,12 +45,12 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Returns true if the failure is already on stdout.
+    /// Returns true if stdout already has the failure.
     pub fn is_reported(&self) -> bool {
         matches!(self, Self::Reported(_))
     }
 
-    /// Returns the process's exit code.
+    /// Returns the exit code of the process.
     pub fn exit_code(&self) -> u8 {
         if matches!(self, Self::Usage(_) | Self::Plan(PlanError::Options(_))) { USAGE } else { BAD_INPUT }
     }

@@ -1,4 +1,4 @@
-//! The input files of most subcommands.
+//! The input files that most subcommands have.
 
 use crate::input::RobotFile;
 use clap::{Args, ValueHint};
@@ -20,12 +20,12 @@ pub struct Files {
 }
 
 impl Files {
-    /// Returns the arm's file with its arguments.
+    /// Returns the robot's file, with its arguments.
     pub fn robot(&self) -> RobotFile {
         RobotFile { path: self.urdf.clone(), xacro_args: self.xacro_args.clone() }
     }
 
-    /// Returns the files and the arguments as words of a command line.
+    /// Returns files and arguments as words of a command line.
     pub fn words(&self) -> Vec<String> {
         let files = [&self.urdf, &self.world].map(|path| path.display().to_string());
         let xacro = self.xacro_args.iter().map(|(name, value)| format!("--xacro-arg={name}={value}"));
@@ -42,13 +42,13 @@ pub struct XacroArgs {
 }
 
 impl XacroArgs {
-    /// Returns a robot's file with the arguments.
+    /// Returns a robot's file with these arguments.
     pub fn robot(&self, path: &Path) -> RobotFile {
         RobotFile { path: path.to_owned(), xacro_args: self.xacro_args.clone() }
     }
 }
 
-/// Parses `NAME=VALUE`, or ROS's `NAME:=VALUE`.
+/// Parses `NAME=VALUE`, or `NAME:=VALUE` as ROS writes it.
 fn xacro_argument(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').ok_or("an argument of xacro is written NAME=VALUE")?;
     Ok((name.strip_suffix(':').unwrap_or(name).to_owned(), value.to_owned()))

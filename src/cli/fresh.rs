@@ -1,13 +1,13 @@
-//! Files with default names, which must not replace any file of the user by accident.
+//! Files with default names, which must not replace files of the user by accident.
 
 use super::failure::Failure;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Creates a folder and its parents, unless it exists.
+/// Creates a folder, with the folders above it. Does nothing if it exists.
 ///
 /// # Errors
-/// If the system refuses.
+/// I/O errors.
 pub fn folder(path: &Path) -> Result<(), Failure> {
     if path.as_os_str().is_empty() || path.is_dir() {
         return Ok(());
@@ -18,12 +18,12 @@ pub fn folder(path: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Refuses to replace existing files, unless `force` is set. `elsewhere` is the alternative for the message.
+/// Checks that files do not exist, unless `force` is set. `elsewhere` is the alternative that the message suggests.
 ///
 /// # Errors
-/// If a file exists; the message names all of them.
+/// An existing file; the message names all existing ones.
 pub fn spare(files: &[PathBuf], force: bool, elsewhere: &str) -> Result<(), Failure> {
-    // A symbolic link without a target counts as an existing file, too.
+    // A symbolic link without a target counts as an existing file.
     let there: Vec<String> =
         files.iter().filter(|f| f.symlink_metadata().is_ok()).map(|f| f.display().to_string()).collect();
     if force || there.is_empty() {
@@ -36,14 +36,14 @@ pub fn spare(files: &[PathBuf], force: bool, elsewhere: &str) -> Result<(), Fail
     )))
 }
 
-/// Returns a path as a word for the shell, in quotes if it needs them.
+/// Returns a path as a word for a shell, in quotes if it needs them.
 pub fn word(path: &Path) -> String {
     let text = path.display().to_string();
     let plain = |c: char| c.is_alphanumeric() || "._-/\\:+~".contains(c);
     if !text.is_empty() && text.chars().all(plain) { text } else { format!("\"{text}\"") }
 }
 
-/// Returns a word quoted for a shell, if it needs quotes.
+/// Returns a word for a shell, in quotes if it needs them.
 pub fn for_a_shell(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "-_=,./:+%@".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {

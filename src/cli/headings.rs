@@ -1,8 +1,8 @@
 //! Headings of option groups in the help, the same in all commands.
 
-/// Options that replace the query of the world file.
+/// Options that replace start, goal and clearance of the world file.
 pub const QUERY: &str = "Query";
-/// Options for files and printed text.
+/// Options for output files and printed text.
 pub const OUTPUT: &str = "Output";
 /// Options for planners.
 pub const PLANNER: &str = "Planner";

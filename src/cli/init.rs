@@ -1,4 +1,4 @@
-//! `cplan init`: a robot and a world as a start, with every key explained.
+//! `cplan init`: writes a robot and a world to begin with, in which every key is explained.
 
 use super::demo::{self, in_folder};
 use super::exit::DONE;
@@ -10,12 +10,12 @@ use crate::output::laid_out;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 
-/// Names of the files that are written.
+/// Names of the files that `cplan init` writes.
 const ROBOT_FILE: &str = "arm.urdf";
 const WORLD_FILE: &str = "world.toml";
 const SCHEMA_FILE: &str = "world.schema.json";
 
-/// The world, with `{{marks}}` where the kinds of arms differ.
+/// Text of the world, with `{{marks}}` where worlds of different arms differ.
 const WORLD_TEMPLATE: &str = include_str!("starter/world.toml");
 
 /// Write a robot and a world with comments, as a start.
@@ -55,23 +55,23 @@ pub enum Kind {
     Scara,
 }
 
-/// Values for the marks of the template.
+/// Texts that replace the marks of the template.
 struct TemplateMarks {
     name: &'static str,
     joints: [&'static str; 2],
     units: [&'static str; 2],
-    /// A narrower range of the second joint.
+    /// A range of the second joint that is narrower than the URDF's.
     limits: &'static str,
     start: &'static str,
     goal: &'static str,
     tip: &'static str,
     /// Name and corners of the polygon.
     polygon: [&'static str; 2],
-    /// Name, and centre and radius of the disc.
+    /// Name of the disc, and its centre and radius.
     disc: [&'static str; 2],
     wall: &'static str,
     region: &'static str,
-    /// True if objects on the table need heights, because a part of the arm is above all of them.
+    /// True if objects on the table need heights, because a part of the arm moves above all of them.
     is_above: bool,
 }
 
@@ -136,7 +136,7 @@ const PP_MARKS: TemplateMarks = TemplateMarks {
 };
 
 impl TemplateMarks {
-    /// Returns the world of this arm.
+    /// Returns the text of the world.
     fn world(&self) -> String {
         let [joint1, joint2] = self.joints;
         let [unit1, unit2] = self.units;
@@ -171,7 +171,7 @@ impl TemplateMarks {
 }
 
 impl Kind {
-    /// Returns the robot's file.
+    /// Returns the text of the robot's file.
     fn robot(self) -> &'static str {
         match self {
             Kind::Rr => include_str!("starter/rr.urdf"),
@@ -182,7 +182,7 @@ impl Kind {
         }
     }
 
-    /// Returns the world's file.
+    /// Returns the text of the world file.
     fn world(self) -> String {
         match self {
             Kind::Rr => RR_MARKS.world(),
@@ -190,7 +190,7 @@ impl Kind {
             Kind::Pr => PR_MARKS.world(),
             Kind::Pp => PP_MARKS.world(),
             Kind::Scara => {
-                // Lines for the tests of the shipped worlds are of no use here.
+                // Lines that only the tests of the shipped worlds need are removed.
                 let lines =
                     demo::DEMO_WORLD.lines().filter(|l| !l.starts_with("# robot:") && !l.starts_with("# expect:"));
                 lines.fold(format!("#:schema ./{SCHEMA_FILE}\n"), |text, line| text + line + "\n")
@@ -199,10 +199,10 @@ impl Kind {
     }
 }
 
-/// Writes the files and prints the next commands.
+/// Writes the files, and prints further commands to try.
 ///
 /// # Errors
-/// Existing files, and I/O; nothing is written then.
+/// Existing files, and I/O. Then no file is written.
 pub fn run(args: &InitArgs) -> Result<u8, Failure> {
     let [robot, world, schema_file] = [ROBOT_FILE, WORLD_FILE, SCHEMA_FILE].map(|name| in_folder(&args.dir, name));
     spare(&[robot.clone(), world.clone(), schema_file.clone()], args.force, "`cplan init DIR` writes elsewhere")?;

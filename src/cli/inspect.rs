@@ -1,4 +1,4 @@
-//! `cplan inspect`: the planner's model of a robot, and the defects that prevent planning.
+//! `cplan inspect`: how the planner interprets a robot, and which defects prevent planning.
 
 use super::exit::{DONE, REFUTED};
 use super::failure::Failure;
@@ -17,11 +17,11 @@ use std::path::{Path, PathBuf};
 /// The report as JSON.
 #[derive(Serialize)]
 struct Json<'a> {
-    /// True if planning with the robot is possible without changes.
+    /// True if the robot can be planned for as it is.
     plannable: bool,
     #[serde(flatten)]
     inspection: &'a Inspection,
-    /// All that prevents planning.
+    /// All defects that prevent planning.
     #[serde(rename = "defects")]
     diagnostics: Vec<DiagnosticEntry<'a>>,
 }
@@ -71,10 +71,10 @@ pub struct InspectArgs {
     pub json: bool,
 }
 
-/// Reports on stdout.
+/// Prints the report.
 ///
 /// # Errors
-/// I/O; and, after the report, the first diagnostic of a robot that cannot be planned.
+/// I/O, and, after the report, the first defect of a robot that cannot be planned for.
 pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let robot = args.xacro.robot(&args.urdf);
@@ -107,7 +107,7 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     }
 }
 
-/// Writes the URDF of a robot in xacro, and warns of meshes whose paths do not work from there.
+/// Writes the URDF to which a xacro robot expands. Warns about meshes that would not be found from there.
 fn write_expanded(robot: &RobotFile, path: &Path) -> Result<(), Failure> {
     let source = robot.read()?;
     if !source.is_expanded() {
@@ -132,7 +132,7 @@ fn entry(diagnostic: &Diagnostic) -> DiagnosticEntry<'_> {
     }
 }
 
-/// Returns the arm at zero, if there is one.
+/// Returns the view of the arm at its zero configuration. `None` if there is no arm.
 fn view(inspection: &Inspection) -> Option<View> {
     let scene = inspection.scene.as_ref()?;
     let arm = scene.arm();

@@ -6,7 +6,7 @@ use crate::input::{
 };
 use crate::text::{Columns, counted};
 
-/// Greatest number of pairs of joints that are named with the reason why they form no arm: the others are similar.
+/// Largest number of pairs of joints for which the report states why they form no arm. Further reasons are similar.
 const MAX_SHOWN_REFUSALS: usize = 12;
 
 /// Returns the whole report.
@@ -62,7 +62,7 @@ pub fn text(report: &Inspection) -> String {
     lines.into_text()
 }
 
-/// Returns a link and everything below it, indented by depth.
+/// Adds a link and all links below it, indented by depth.
 fn tree(lines: &mut Columns, report: &Inspection, link: &str, depth: usize) {
     if depth == 0 {
         lines.add("tree", &described(report, link));
@@ -79,7 +79,7 @@ fn branch(report: &Inspection, joint: &JointEntry) -> String {
     format!("{above}{name} ({kind}, line {line}) - {}", described(report, child))
 }
 
-/// Returns a link with its shapes.
+/// Describes a link and its shapes.
 fn described(report: &Inspection, name: &str) -> String {
     let Some(LinkEntry { collision, visual, .. }) = report.links.iter().find(|l| l.name == name) else {
         return format!("\"{name}\" (not declared)");
@@ -165,7 +165,7 @@ fn pairs(lines: &mut Columns, report: &Inspection) {
         lines.add("pairs", &format!("and {} more that do not form a planar arm", refused.len() - MAX_SHOWN_REFUSALS));
     }
     if pairs.is_empty() {
-        // Directions in the root frame are known only where the tree is.
+        // Directions in the root frame are known only if the links form a tree.
         let tried = report.joints.iter().all(|j| j.axis.is_none() || j.direction.is_some());
         let none = "no two independently moving joints follow one another";
         lines.add("pairs", if tried { none } else { "not tried: the joints and their tree have defects" });

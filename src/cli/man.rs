@@ -1,4 +1,4 @@
-//! `cplan man`: manual pages, from the texts of the help.
+//! `cplan man`: manual pages, made from the texts of the help.
 
 use super::exit::DONE;
 use super::failure::Failure;
@@ -71,12 +71,12 @@ fn page(command: &Command) -> io::Result<Vec<u8>> {
     Ok(page)
 }
 
-/// Returns the texts below the options of a help text, in roff: examples, exit codes, and notes for the rest.
+/// Returns the texts that the help has below the options as sections in roff: examples, exit codes, and notes.
 fn sections(text: &str) -> String {
     let mut found: [(&str, &str, Vec<&str>); 3] =
         [("", "NOTES", Vec::new()), ("Exit codes:", "EXIT STATUS", Vec::new()), ("Examples:", "EXAMPLES", Vec::new())];
     for paragraph in text.split("\n\n").filter(|paragraph| !paragraph.is_empty()) {
-        // Every text begins with the empty heading of the notes.
+        // The empty heading, which every text begins with, is that of the notes.
         if let Some((heading, _, paragraphs)) = found.iter_mut().rev().find(|f| paragraph.starts_with(f.0)) {
             paragraphs.push(&paragraph[heading.len()..]);
         }
@@ -84,7 +84,7 @@ fn sections(text: &str) -> String {
     found.iter().filter(|f| !f.2.is_empty()).map(|(_, title, paragraphs)| section(title, paragraphs)).collect()
 }
 
-/// Returns a section. Indented lines stay separate lines, as examples need.
+/// Formats a section. Indented lines stay separate lines, which examples need.
 fn section(title: &str, paragraphs: &[&str]) -> String {
     let mut roff = format!(".SH \"{title}\"\n");
     for (i, paragraph) in paragraphs.iter().enumerate() {
@@ -107,7 +107,7 @@ fn section(title: &str, paragraphs: &[&str]) -> String {
     roff
 }
 
-/// Returns text for roff: no escapes, no requests, hyphens that can be copied.
+/// Escapes text for roff: it contains no escapes and no requests, and its hyphens can be copied.
 fn escaped(line: &str) -> String {
     let text = line.replace('\\', "\\e").replace('-', "\\-").replace('\'', "\\(aq");
     if text.starts_with('.') { format!("\\&{text}") } else { text }

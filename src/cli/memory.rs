@@ -1,18 +1,18 @@
-//! Measures the memory of a piece of work, if the program can.
+//! Measures how much memory a piece of work takes.
 
-/// A counter of the bytes that the process has allocated. It is part of the program's allocator, which a library cannot
-/// choose.
+/// A counter of the bytes that the process has allocated. The program's allocator provides it; a library cannot choose
+/// an allocator.
 #[derive(Debug, Clone, Copy)]
 pub struct MemoryMeter {
-    /// Returns the peak of allocated bytes since the last restart, minus the bytes allocated then.
+    /// Returns by how many bytes the largest allocation since the last restart exceeded the allocation at that restart.
     pub peak: fn() -> usize,
-    /// Restarts the count at the present allocation.
+    /// Restarts the count, beginning with the present allocation.
     pub restart: fn(),
 }
 
 impl MemoryMeter {
-    /// Does the work, and returns its peak of additional allocated bytes. Allocations of other threads during that time
-    /// count, too.
+    /// Runs `work`, and returns the largest number of bytes that were allocated in addition. Includes allocations of
+    /// other threads during that time.
     pub fn measure<T>(&self, work: impl FnOnce() -> T) -> (T, u64) {
         (self.restart)();
         let result = work();

@@ -1,4 +1,4 @@
-//! The command line: from arguments to library calls, and from results to files, summaries and exit codes.
+//! The command line: it converts arguments to library calls, and results to files, summaries and exit codes.
 
 mod batch;
 mod check;
@@ -144,7 +144,8 @@ struct Cli {
 }
 
 impl Cli {
-    /// Returns the grammar for parsing and help: subcommands in groups, and planners' options only in `cplan planners`.
+    /// Returns the grammar for parsing and help. Subcommands are in groups. Only `cplan planners` shows the options of
+    /// planners.
     fn to_read() -> clap::Command {
         let grammar = Self::command();
         let template = commands::help_template(&grammar, GROUPS);
@@ -158,7 +159,7 @@ impl Cli {
     }
 }
 
-/// Hides the planners' options from the help of a command, and refers to `cplan planners` instead.
+/// Hides the planners' options in the help of a command, which refers to `cplan planners` instead.
 fn without_planner_options(command: clap::Command) -> clap::Command {
     let planners: BTreeSet<String> =
         PlannerWords::command().get_opts().map(|option| option.get_id().to_string()).collect();
@@ -174,15 +175,14 @@ fn without_planner_options(command: clap::Command) -> clap::Command {
     })
 }
 
-/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. With `--json` an error
-/// is printed as a JSON object on stdout, in addition to the text on stderr. `meter` counts the process's memory, if
-/// available.
+/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. With `--json`, an
+/// error is also printed on stdout, as a JSON object. `meter` counts the process's memory, if that is possible.
 #[must_use]
 pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
     run_with(std::env::args_os().collect(), meter).into()
 }
 
-/// Runs the program with these arguments, the program's name first, and returns its exit code.
+/// Runs the program with these arguments, of which the first is the program's name. Returns the exit code.
 #[must_use]
 pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     let in_json = arguments.iter().any(|argument| argument == "--json");
@@ -213,8 +213,8 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     })
 }
 
-/// Returns an error if the first word is neither a command nor a file. With more than two words, the third would be
-/// parsed as the command, in conflict with two files.
+/// Returns an error if the first word is neither a subcommand nor a file. Otherwise, clap would take the third of
+/// several words for a subcommand, and report a conflict with two files.
 fn misspelled(first: OsString) -> Option<clap::Error> {
     let word = first.to_string_lossy();
     let is_meant = Path::new(&first).extension().is_none() && !word.starts_with('-');
@@ -223,7 +223,7 @@ fn misspelled(first: OsString) -> Option<clap::Error> {
     (is_meant && !is_known).then(|| Cli::command().error(ErrorKind::InvalidSubcommand, message()))
 }
 
-/// Reports a wrong command line, or prints the requested help or version.
+/// Reports a wrong command line, or prints help or version if they are requested. Returns the exit code.
 fn unread(error: &clap::Error, in_json: bool) -> u8 {
     if error.use_stderr() {
         if in_json {
@@ -231,7 +231,7 @@ fn unread(error: &clap::Error, in_json: bool) -> u8 {
         }
         sinks::print_status(error.to_string().trim_end());
     } else {
-        // Like clap's `exit`, this ignores a closed stream.
+        // A closed stream is ignored, as in clap's `exit`.
         let _ = error.print();
     }
     u8::try_from(error.exit_code()).unwrap_or(USAGE)
@@ -241,7 +241,7 @@ fn unread(error: &clap::Error, in_json: bool) -> u8 {
 mod tests {
     use super::*;
 
-    /// Checks that all examples in the help are command lines; `tests/program/cli/help.rs` runs the short ones.
+    /// Checks that all examples in the help are valid command lines. `tests/program/cli/help.rs` runs the short ones.
     #[test]
     fn examples_are_command_lines() {
         let mut command = Cli::command();
@@ -252,7 +252,7 @@ mod tests {
         let examples: Vec<&str> = text.lines().map(str::trim).filter(|line| line.starts_with("cplan ")).collect();
         assert!(examples.len() > 30, "{examples:?}");
         for example in examples {
-            // Words in quotes are one; text after `>` is for the shell.
+            // Words in quotes count as one. Text after `>` is for the shell.
             let quoted = example.split('"').enumerate();
             let parts = quoted.flat_map(|(i, part)| match i % 2 {
                 1 => vec![part],

@@ -1,4 +1,4 @@
-//! `cplan plan`, the main job: from two files to a certified motion, a proof, or neither.
+//! `cplan plan`, the main command: from two files to a certified motion, a proof, or neither.
 
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use super::explain;
@@ -127,7 +127,7 @@ pub fn run(PlanCommand { files, plan }: &PlanCommand) -> Result<u8, Failure> {
     answer(plan, Some(files), || input::load_scene(files.robot(), &files.world))
 }
 
-/// Plans for a scene from any source, possibly without files. Nothing is loaded if the command line is wrong.
+/// Plans in a scene that `load` returns, which may come from files or not. Calls it only if the command line is valid.
 ///
 /// # Errors
 /// Bad input and I/O.
@@ -153,7 +153,7 @@ pub fn answer(
     }
     let asked = args.query.overrides();
     let stated_ends = loaded.resolved_ends();
-    // The warnings may explain why start or goal is refused.
+    // Warnings come first, because they may explain why start or goal is refused.
     let ignored = args.options.ignored(args.planner);
     loaded.robot.warnings.iter().chain(&ignored).for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let explanation = || given.and_then(|files| explain::hint(files, &args.query));
@@ -165,7 +165,8 @@ pub fn answer(
     let files = ResultFiles::new(&sinks, &inputs, args.per_step, steps)?;
     let plan = plan_with(&problem, &options, &mut |text| args.print.print_status(text))?;
     let begun = Instant::now();
-    // If ends come from a place of the tip, or were moved to a limit, the certificate states them.
+    // If start or goal was given by a place of the tip, or was moved to a limit, the certificate states its joint
+    // values.
     let start = problem.motion().map(MotionProblem::start).or(problem.task().map(|task| task.start));
     let goal = problem.motion().filter(|_| stated_ends[1].is_some()).map(|motion| motion.goals().pieces()[0].ends()[0]);
     let asked = with_ends(asked, stated_ends, [start, goal]);
@@ -185,7 +186,7 @@ pub fn answer(
     Ok(code)
 }
 
-/// Adds a hint to an error, if it is about a blocked start or goal that can be explained.
+/// Adds a hint to an error about a blocked start or goal that `cplan explain` can explain.
 fn blocked(error: InputError, hint: impl FnOnce() -> Option<String>) -> Failure {
     let is_end = |kind| matches!(kind, DiagnosticKind::Start | DiagnosticKind::Goal);
     let hint = if error.diagnostics().iter().all(|found| is_end(found.kind)) { hint() } else { None };
@@ -195,7 +196,7 @@ fn blocked(error: InputError, hint: impl FnOnce() -> Option<String>) -> Failure 
     }
 }
 
-/// Returns the overrides, with the start and the goal that were found if the files do not state them as joint values.
+/// Returns the overrides. If the files do not state start and goal as joint values, adds those that were found.
 pub fn with_ends(
     asked: Overrides,
     stated_ends: [Option<Configuration>; 2],
@@ -209,7 +210,7 @@ pub fn with_ends(
     }
 }
 
-/// Refuses a matrix of a grid's values if the planner has no grid.
+/// Refuses a CSV file of a grid's values if the planner has no grid.
 fn require_grid(sinks: &[Sink], planner: &Planner) -> Result<(), Failure> {
     let matrix = sinks.iter().find(|sink| matches!(sink, Sink::CSpace(CSpaceFormat::Csv, _)));
     match matrix {
@@ -221,8 +222,8 @@ fn require_grid(sinks: &[Sink], planner: &Planner) -> Result<(), Failure> {
     }
 }
 
-/// Writes results, then configuration spaces, pictures and the certificate. Returns the names of the written files, for
-/// display.
+/// Writes results, configuration spaces, pictures and the certificate, in this order. Returns the names of the written
+/// files.
 ///
 /// # Errors
 /// I/O, or a picture that cannot be rendered.
@@ -272,7 +273,7 @@ fn written(
     Ok(written)
 }
 
-/// Returns the description of the output for a certificate: a file, or a part of one.
+/// Describes where a certificate is written: a file, or a member of one.
 fn shown(path: &Path, sinks: &[Sink]) -> String {
     let is_file = sinks.iter().any(|sink| matches!(sink, Sink::Certificate(own) if own == path));
     if is_file { path.display().to_string() } else { format!("the certificate in {}", path.display()) }

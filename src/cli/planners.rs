@@ -34,13 +34,13 @@ pub struct PlannersArgs {
     pub options: PlannerArgs,
 }
 
-/// Prints the options. The rest of the command line is only checked.
+/// Prints the options. Other arguments are only checked.
 ///
 /// # Errors
 /// I/O.
 pub fn run(_: &PlannersArgs, program: &Program) -> Result<u8, Failure> {
     let mut grammar = (program.grammar)();
-    // This gives subcommands their full names and the width of the help.
+    // Subcommands get their full names, and the width of the help.
     grammar.build();
     let help = grammar.find_subcommand_mut("planners").map(|command| command.render_long_help().to_string());
     sinks::print(&help.unwrap_or_default())?;

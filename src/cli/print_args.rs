@@ -25,10 +25,11 @@ impl PrintArgs {
         }
     }
 
-    /// Prints the result on stdout: as JSON, as text, or not at all. The verdict has the colour of the exit code.
+    /// Prints the result on stdout as JSON or as text, or prints nothing. The exit code determines the colour of the
+    /// verdict.
     ///
     /// # Errors
-    /// I/O, and results that `json` cannot represent.
+    /// I/O, and results that JSON cannot represent.
     pub fn report(
         &self,
         code: u8,

@@ -1,13 +1,13 @@
-//! Information about the program for its subcommands.
+//! Data about the program, which subcommands use.
 
 use super::memory::MemoryMeter;
 use clap::Command;
 
-/// Information about the program for subcommands.
+/// Data about the program, which subcommands use.
 #[derive(Debug)]
 pub struct Program {
-    /// Builds the grammar of the whole command line, from which other files are generated.
+    /// Builds the grammar of the whole command line, from which help and scripts are generated.
     pub grammar: fn() -> Command,
-    /// Counts the process's memory, if available.
+    /// Counter of the process's memory. `None` if the program cannot count it.
     pub meter: Option<MemoryMeter>,
 }

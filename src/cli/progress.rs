@@ -1,4 +1,4 @@
-//! Progress of many runs, or layouts, on stderr.
+//! Shows the progress of many runs or layouts on stderr.
 
 use super::print_args::PrintArgs;
 use super::sinks;
@@ -7,24 +7,24 @@ use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Time between lines where stderr is no terminal.
+/// Time between lines if stderr is not a terminal.
 const LINE_INTERVAL: Duration = Duration::from_secs(10);
 
-/// Time between two drawings of the bar.
+/// Least time between two drawings of the bar.
 const REDRAW_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Characters of the bar.
+/// Width of the bar, in characters.
 const BAR_WIDTH: usize = 16;
 
-/// Characters of a line: narrower than any terminal, since a wrapped line cannot be redrawn.
+/// Width of a line, in characters. It is less than the width of any terminal, because a wrapped line cannot be redrawn.
 const LINE_WIDTH: usize = 78;
 
-/// The display of progress.
+/// The form in which progress is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ProgressMode {
     /// Prints nothing.
     Silent,
-    /// Prints events line by line, for one problem.
+    /// Prints each event on a line, for a single problem.
     Reported,
     /// Redraws a bar.
     Bar,
@@ -36,7 +36,7 @@ enum ProgressMode {
 #[derive(Debug)]
 pub struct Progress {
     manner: ProgressMode,
-    /// Name of the counted items: runs, or layouts.
+    /// Plural name of the counted items: runs or layouts.
     things: &'static str,
     total: usize,
     started: Instant,
@@ -47,14 +47,14 @@ pub struct Progress {
 struct State {
     done: usize,
     now: String,
-    /// Time of the last display.
+    /// Time at which the display was last changed.
     shown: Instant,
 }
 
 impl Progress {
-    /// Creates a display for `total` runs, or other `things`. For a single problem it prints line by line, with all
-    /// messages of the planners. For several problems it shows a bar on a terminal, and elsewhere a line every ten
-    /// seconds.
+    /// Creates a display for `total` runs, or other items named `things`. For a `single` problem, it prints each event
+    /// and each message of the planners on a line. For several problems, it shows a bar on a terminal, and otherwise
+    /// prints a line every ten seconds.
     pub fn new(total: usize, things: &'static str, single: bool, quiet: bool) -> Self {
         let manner = match (quiet, single) {
             (true, _) => ProgressMode::Silent,
@@ -100,7 +100,7 @@ impl Progress {
         let mut state = self.state();
         state.done += 1;
         match self.manner {
-            // The next run draws the bar.
+            // The bar is drawn when the next run begins.
             ProgressMode::Silent | ProgressMode::Reported | ProgressMode::Bar => {}
             ProgressMode::Lines if state.shown.elapsed() >= LINE_INTERVAL => {
                 state.shown = Instant::now();
@@ -116,7 +116,7 @@ impl Progress {
             ProgressMode::Silent | ProgressMode::Reported => {}
             ProgressMode::Bar => put(&format!("\r{:LINE_WIDTH$}\r", "")),
             ProgressMode::Lines => {
-                // A search may end before all runs that were possible.
+                // A search may end before it has made all the runs that were allowed.
                 let done = self.state().done;
                 sinks::print_status(&line(done, done, self.things, self.started.elapsed()));
             }
@@ -132,19 +132,19 @@ impl Progress {
     }
 }
 
-/// Prints on stderr. A closed stream stops no job.
+/// Prints on stderr. Ignores a closed stream.
 fn put(text: &str) {
     let mut stderr = std::io::stderr().lock();
     let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
 
-/// Returns the number of runs per second, and the remaining time at that rate, if known.
+/// Returns the number of runs per second, and the remaining time at this rate. `None` if that is not known.
 fn rate(done: usize, total: usize, elapsed: Duration) -> (f64, Option<String>) {
     let rate = done as f64 / elapsed.as_secs_f64().max(1e-3);
     (rate, (done > 0 && done < total).then(|| time((total - done) as f64 / rate)))
 }
 
-/// Returns whole seconds in their two largest units: `45 s`, `3 min 20 s`, `2 h 5 min`.
+/// Formats whole seconds in their two largest units: `45 s`, `3 min 20 s`, `2 h 5 min`.
 fn time(seconds: f64) -> String {
     let seconds = seconds.ceil() as u64;
     let (minutes, hours) = (seconds / 60, seconds / 3600);
@@ -162,7 +162,8 @@ fn line(done: usize, total: usize, things: &str, elapsed: Duration) -> String {
     format!("{done} of {total} {things}, {rate:.1} a second{left}")
 }
 
-/// Returns a bar, the same numbers in short, and the present run, if there is room; always of the same width.
+/// Returns a bar with the same numbers, and with the name of the current run if there is room. It always has the same
+/// width.
 fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
     let full = (BAR_WIDTH * done).checked_div(total).unwrap_or(BAR_WIDTH).min(BAR_WIDTH);
     let (rate, left) = rate(done, total, elapsed);
@@ -173,7 +174,8 @@ fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
     format!("{cut:LINE_WIDTH$}")
 }
 
-/// Returns a function that reports at intervals how many frames of an animation are done, if that takes long.
+/// Returns a function that reports how many frames of an animation are done. It reports at intervals, and only if the
+/// animation takes long.
 pub fn pictures_done(path: &Path, print: &PrintArgs) -> impl FnMut(usize, usize) {
     const PICTURE_INTERVAL: Duration = Duration::from_secs(5);
     let begun = Instant::now();

@@ -24,7 +24,7 @@ pub struct QueryArgs {
 }
 
 impl QueryArgs {
-    /// Returns the given options as words of a command line.
+    /// Returns the stated options as words of a command line.
     #[must_use]
     pub fn words(&self) -> Vec<String> {
         let Self { start, goal, goal_tip, clearance } = self;
@@ -37,7 +37,7 @@ impl QueryArgs {
         words.into_iter().flatten().collect()
     }
 
-    /// Returns the options in the form of the input layer.
+    /// Converts the options to overrides of the world file.
     #[must_use]
     pub fn overrides(&self) -> Overrides {
         Overrides { start: self.start, goal: self.goal, goal_tip: self.goal_tip, clearance: self.clearance }

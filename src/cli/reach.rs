@@ -18,7 +18,7 @@ use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Default number of cells across the arm's reach.
+/// Default number of cells per length of the arm's reach.
 const DEFAULT_CELLS: f64 = 60.0;
 
 /// Report where the tip can go, and with which IK solutions.
@@ -60,7 +60,7 @@ pub struct ReachArgs {
     pub print: PrintArgs,
 }
 
-/// Reports the places that the tip can reach.
+/// Computes the places that the tip can reach, and prints and writes them.
 ///
 /// # Errors
 /// Bad input and I/O.
@@ -112,7 +112,7 @@ fn object(world: &Explorable, reach: &Reach) -> Value {
     json!({ "joints": names(world), "cells": tally, "reachable_area": area_reachable, "reach": reach })
 }
 
-/// Returns one line per solution: the cell's centre, joint values, and the kind of access.
+/// Returns CSV with one line per solution: centre of the cell, joint values, and reachability.
 fn csv(world: &Explorable, reach: &Reach) -> String {
     let [a, b] = names(world).map(crate::report::quoted);
     let mut text = format!("x,y,{a},{b},access\n");
@@ -132,7 +132,7 @@ fn csv(world: &Explorable, reach: &Reach) -> String {
     text
 }
 
-/// Returns the facts, by name.
+/// Returns names and descriptions of the facts about the places.
 fn facts(world: &Explorable, reach: &Reach) -> Vec<(&'static str, String)> {
     let [joints, units] = [names(world), world.scene.arm().joints.each_ref().map(|joint| joint.unit())];
     let several = reach.best().filter(|(_, access, count)| *access == Access::Reachable && *count > 1).count();

@@ -18,10 +18,10 @@ use serde::de::IgnoredAny;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-/// Share of a bound that its evidence may miss, because the evidence is computed again and finds walls at finitely many
+/// Fraction of a bound that may be lost when its evidence is computed again, because walls are found at finitely many
 /// points.
 const EVIDENCE_LOSS: f64 = 1e-3;
-/// Share of a bound that is lost to rounding, too little to report.
+/// If at most this fraction of a bound is lost, the loss is rounding and is not reported.
 const UNREPORTED_LOSS: f64 = 1e-6;
 
 /// Check a proof, a bound or a certificate independently.
@@ -50,8 +50,7 @@ pub struct RecheckArgs {
     pub query: QueryArgs,
 }
 
-/// Checks the claims of a result file against the two input files. It does not assume that the result was made from
-/// these files.
+/// Checks the claims of a result file against the two input files. The result may have been made from other files.
 ///
 /// # Errors
 /// Bad input, a file without claims, and claims that do not hold.
@@ -61,7 +60,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     let source = Source::read(&args.proof)?;
     let asked = args.query.overrides();
     let evidence = Evidence::of(source.text());
-    // A certificate contains its query.
+    // A certificate states start and goal itself.
     let stated_ends = if asked == Overrides::default() && evidence.certificate {
         format!("the certificate holds: {}", judged(args, "certificate", source.text())?)
     } else {
@@ -70,7 +69,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
         match read_proof(source.text()) {
             Ok(claim) => proof_holds(args, &problem, claim.collision_boxes(), &asked)?,
             Err(missing @ ProofFormatError::Missing) => {
-                // A file without a proof and a bound may be no recording.
+                // A file with neither a proof nor a bound need not be a result.
                 let stated = if evidence.bound { stated(args, &scene)? } else { None };
                 let none = || failed(args, format!("{missing}, and it has no bound in \"optimum\""));
                 bound_holds(args, &problem, &stated.ok_or_else(none)?, &asked)?
@@ -82,22 +81,22 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// Returns a failure about the file with the evidence.
+/// Creates a failure about the file with the evidence.
 fn failed(args: &RecheckArgs, why: impl Display) -> Failure {
     Failure::Option(format!("{}: {why}", args.proof.display()))
 }
 
-/// The kinds of evidence that a file may have.
+/// For each kind of evidence, whether a file has it.
 #[derive(Default)]
 struct Evidence {
-    /// It is a certificate, or a result with one.
+    /// True for a certificate, and for a result that contains one.
     certificate: bool,
-    /// It is a result with a bound on the optimum.
+    /// True for a result with a bound on the optimum.
     bound: bool,
 }
 
 impl Evidence {
-    /// Looks for the members of a JSON object. Any other text has no evidence.
+    /// Reads the names of the members of a JSON object. Any other text has no evidence.
     fn of(text: &str) -> Self {
         #[derive(Deserialize)]
         struct Members {
@@ -115,7 +114,7 @@ impl Evidence {
     }
 }
 
-/// Returns the checker's statement of a certificate's claim. `what` names the evidence in messages.
+/// Checks a certificate, and returns the checker's statement about it. `what` names the evidence in messages.
 ///
 /// # Errors
 /// Evidence that does not hold, and files that the checker does not understand.
@@ -136,14 +135,14 @@ fn judged(args: &RecheckArgs, what: &str, certificate: &str) -> Result<String, F
     })
 }
 
-/// Returns the overrides, with the ends that the world does not state as joint values.
+/// Returns the overrides, completed by start and goal if the world does not state them as joint values.
 fn in_full(problem: &MotionProblem, scene: &LoadedScene, asked: Overrides) -> Overrides {
     let stated_ends = scene.resolved_ends();
     let goal = stated_ends[1].map(|_| problem.goals().pieces()[0].ends()[0]);
     with_ends(asked, stated_ends, [Some(problem.start()), goal])
 }
 
-/// Returns the bound in the result file.
+/// Reads the bound of a result file. `None` if it has none.
 fn stated(args: &RecheckArgs, scene: &LoadedScene) -> Result<Option<Bound>, Failure> {
     let claims = input::load_recording(&args.proof, scene)?.claims.unwrap_or_default();
     let speeds = scene.scene.arm().joints.each_ref().map(|joint| joint.velocity);
@@ -153,7 +152,10 @@ fn stated(args: &RecheckArgs, scene: &LoadedScene) -> Result<Option<Bound>, Fail
     }))
 }
 
-/// Checks that boxes prove that there is no path, and returns this in words.
+/// Checks that boxes prove that there is no path, and returns a statement about it.
+///
+/// # Errors
+/// Boxes that prove nothing.
 fn proof_holds(
     args: &RecheckArgs,
     problem: &MotionProblem,
@@ -167,7 +169,10 @@ fn proof_holds(
     Ok(format!("the proof holds: collisions separate the start from every goal ({count})"))
 }
 
-/// Checks that a bound holds, and returns this in words.
+/// Checks that a bound holds, and returns a statement about it.
+///
+/// # Errors
+/// A bound that does not hold.
 fn bound_holds(
     args: &RecheckArgs,
     problem: &MotionProblem,

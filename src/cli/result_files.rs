@@ -1,4 +1,4 @@
-//! Files of results.
+//! Writes the files of a result.
 
 use super::failure::Failure;
 use super::sinks::{self, Sink};
@@ -9,23 +9,23 @@ use crate::output::PlanOutput as _;
 use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 
-/// Least number of digits of a step's number in file names, so that names sort in the order of the steps.
+/// Least number of digits of a step's number in a file name. With it, names sort in the order of the steps.
 const MIN_STEP_DIGITS: usize = 3;
 
-/// The result files to write.
+/// The result files that are requested.
 pub struct ResultFiles {
     results: Vec<(Format, PathBuf)>,
-    /// True if each step gets a file of its own.
+    /// True if each step is written to a file of its own.
     per_step: bool,
     /// Number of steps of the task; 1 for a single motion.
     steps: usize,
 }
 
 impl ResultFiles {
-    /// Creates the list of requested files, for this many steps. `inputs` are the files that were read.
+    /// Creates the list of requested files. `steps` is the number of steps, and `inputs` are the files that were read.
     ///
     /// # Errors
-    /// Files per step without a suitable format, or files that cannot be written.
+    /// Files per step without a suitable format, and files that cannot be written.
     pub fn new(sinks: &[Sink], inputs: &[PathBuf], per_step: bool, steps: usize) -> Result<Self, Failure> {
         let results = sinks.iter().filter_map(|sink| match sink {
             Sink::Result(format, path) => Some((*format, path.clone())),
@@ -47,9 +47,9 @@ impl ResultFiles {
         Ok(files)
     }
 
-    /// Writes all files, or none if a problem is foreseeable. Reports on stderr the formats that cannot hold a result
-    /// without a trajectory. Puts the certificate into one of the files, if requested. Returns the names of the written
-    /// files, for display.
+    /// Writes all files, or none if a problem can be foreseen. If a format cannot represent a result without a
+    /// trajectory, says so on stderr. If a certificate is given, makes it a member of one of the files. Returns the
+    /// names of the written files.
     ///
     /// # Errors
     /// I/O.
@@ -80,12 +80,12 @@ impl ResultFiles {
         Ok(names)
     }
 
-    /// Returns true if each step gets a file of its own in that format.
+    /// Returns true if each step is written to a file of its own in this format.
     fn parts(&self, format: Format) -> bool {
         self.per_step && matches!(format, Format::Csv | Format::Yaml)
     }
 
-    /// Returns the file of one step, from 1: `plan-001.yaml` for `plan.yaml`.
+    /// Returns the path for a step, numbered from 1: `plan-001.yaml` for `plan.yaml`.
     fn part(&self, path: &Path, number: usize) -> PathBuf {
         let digits = self.steps.to_string().len().max(MIN_STEP_DIGITS);
         let mut name = path.file_stem().unwrap_or_default().to_os_string();
@@ -97,13 +97,13 @@ impl ResultFiles {
         path.with_file_name(name)
     }
 
-    /// Returns the files of all steps, for display.
+    /// Describes the files of all steps: the first and the last.
     fn span(&self, path: &Path) -> String {
         let first = self.part(path, 1).display().to_string();
         if self.steps == 1 { first } else { format!("{first} to {}", self.part(path, self.steps).display()) }
     }
 
-    /// Warns about further files from a longer task, which could be mistaken for files of this one.
+    /// Warns about files with higher numbers, from a longer task, which could be mistaken for files of this one.
     fn warn_of_more(&self, path: &Path) {
         let next = self.part(path, self.steps + 1);
         if next.exists() {

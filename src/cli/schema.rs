@@ -1,4 +1,4 @@
-//! `cplan schema`: JSON schemas of the files.
+//! `cplan schema`: JSON schemas of cplan's files.
 
 use super::exit::DONE;
 use super::failure::Failure;
@@ -54,7 +54,7 @@ pub fn run(args: &SchemaArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// Returns the schema of worlds as a file has it.
+/// Returns the schema of worlds as the text of a file.
 pub fn text() -> String {
     format!("{:#}\n", world_schema())
 }

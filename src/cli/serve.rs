@@ -66,10 +66,10 @@ fn time_limit(text: &str) -> Result<Duration, String> {
     Ok(Duration::from_secs_f64(seconds))
 }
 
-/// Serves until it is stopped.
+/// Serves the page until the process is stopped, or writes it to a file.
 ///
 /// # Errors
-/// Bad input, and an unavailable address.
+/// Bad input, and an address that is not available.
 pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     Options::parse(&args.with).map_err(|error| Failure::Usage(format!("--with: {error}")))?;
     let (urdf, world) = match (&args.urdf, &args.world) {
@@ -107,7 +107,7 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// First bytes of a file packed by gzip.
+/// The first bytes of a file packed by gzip.
 const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
 
 /// Writes the page with the program inside it.

@@ -33,18 +33,18 @@ impl Sink {
     }
 }
 
-/// Returns the outputs for the file names, checked before any work is done.
+/// Returns the outputs for these file names, which are checked before any work is done.
 ///
 /// # Errors
-/// Extensions that are unknown or not supported by this program, and files that cannot be written.
+/// Extensions that are unknown or that this program does not support, and files that cannot be written.
 pub fn sinks(results: &[PathBuf], pictures: &[PathBuf]) -> Result<Vec<Sink>, Failure> {
     sinks_with(results, pictures, None)
 }
 
-/// Returns the outputs together with a certificate.
+/// Returns the outputs for these file names, and for a certificate.
 ///
 /// # Errors
-/// Same as for [`sinks`].
+/// The errors of [`sinks`].
 pub fn sinks_with(results: &[PathBuf], pictures: &[PathBuf], certificate: Option<&Path>) -> Result<Vec<Sink>, Failure> {
     let mut sinks: Vec<Sink> = certificate.map(|path| Sink::Certificate(path.to_owned())).into_iter().collect();
     for path in results {
@@ -61,8 +61,8 @@ pub fn sinks_with(results: &[PathBuf], pictures: &[PathBuf], certificate: Option
     Ok(sinks)
 }
 
-/// Returns the content of each file by its extension, checked before any work is done. `expected` is the message that
-/// lists the known extensions.
+/// Returns the content of each file, which its extension determines. Names are checked before any work is done. `ends`
+/// has the known extensions with their contents, and `expected` is the message that lists them.
 ///
 /// # Errors
 /// Unknown extensions, and files that cannot be written.
@@ -79,17 +79,17 @@ pub fn outputs<T: Copy>(paths: &[PathBuf], ends: &[(&str, T)], expected: &str) -
     Ok(outputs)
 }
 
-/// Returns true if the file is also a JSON result, which then contains the certificate.
+/// Returns true if the file is also a JSON result. The result then contains the certificate.
 #[must_use]
 pub fn is_json_among(path: &Path, results: &[PathBuf]) -> bool {
     let is_json = CSpaceFormat::from_path(path).is_none() && matches!(Format::from_path(path), Ok(Format::Json));
     is_json && results.iter().any(|result| result == path)
 }
 
-/// Refuses two outputs with the same file, in any spelling.
+/// Checks that no two outputs are the same file, even with different spellings.
 ///
 /// # Errors
-/// If two outputs are the same file; the message names both.
+/// Two outputs that are the same file; the message names both.
 pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failure> {
     let mut known: Vec<(&Path, FileIdentity)> = Vec::new();
     for path in outputs {
@@ -104,10 +104,10 @@ pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failu
     Ok(())
 }
 
-/// Refuses to overwrite the files that were read, also through links.
+/// Checks that no output would overwrite a file that was read, even through links.
 ///
 /// # Errors
-/// When an output is an input; both are named.
+/// An output that is an input; the message names both.
 pub fn spare_inputs<'a>(mut outputs: impl Iterator<Item = &'a Path>, inputs: &[PathBuf]) -> Result<(), Failure> {
     let inputs: Vec<_> = inputs.iter().filter_map(|path| Some((path, FileIdentity::of(path)?))).collect();
     let onto = outputs.find_map(|path| {
@@ -121,7 +121,7 @@ pub fn spare_inputs<'a>(mut outputs: impl Iterator<Item = &'a Path>, inputs: &[P
     })
 }
 
-/// Reports on stderr that a format cannot hold a result without its content: a trajectory, or a grid.
+/// Says on stderr that nothing is written to a file, because the result has no `content`: no trajectory, or no grid.
 pub fn warn_unwritten(path: &Path, content: &str) {
     let is_old = if path.exists() { "; the existing file is from an earlier run" } else { "" };
     print_status(&format!("warning: {} is not written: the result has no {content}{is_old}", path.display()));
@@ -135,12 +135,12 @@ pub fn save_picture(format: PictureFormat, path: &Path, view: &View) -> Result<(
     Ok(write_whole(path, &format.bytes(view)?)?)
 }
 
-/// Prints a line on stderr: progress, warnings and errors. A closed stream stops no job.
+/// Prints progress, warnings or errors on stderr. Ignores a closed stream.
 pub fn print_status(text: &str) {
     let _ = writeln!(anstream::stderr(), "{}", terminal::message(&plain(text)));
 }
 
-/// Prints text on stdout like [`print`], but shows control characters in names instead of sending them to the terminal.
+/// Prints text on stdout. Shows control characters in names instead of sending them to the terminal.
 ///
 /// # Errors
 /// I/O.
@@ -148,7 +148,8 @@ pub fn report(text: &str) -> Result<(), Failure> {
     print(&plain(text))
 }
 
-/// Prints a summary. Its verdict has the colour of the exit code, and its lines are at most as wide as the terminal.
+/// Prints a summary on stdout. The exit code determines the colour of its verdict. Lines are at most as wide as the
+/// terminal.
 ///
 /// # Errors
 /// I/O.
@@ -156,16 +157,16 @@ pub fn sum_up(text: &str, code: u8) -> Result<(), Failure> {
     printed(anstream::stdout().lock(), &terminal::summary(&plain(text), code))
 }
 
-/// Returns indented JSON with a line feed at its end.
+/// Returns indented JSON that ends in a newline.
 ///
 /// # Errors
-/// A value without a form in JSON.
+/// A value that JSON cannot represent.
 pub fn pretty(value: &impl Serialize) -> Result<String, Failure> {
     let json = serde_json::to_string_pretty(value).map_err(|error| Failure::Option(error.to_string()))?;
     Ok(json + "\n")
 }
 
-/// Prints JSON on stdout, also without control characters from names.
+/// Prints JSON on stdout. Control characters in names are escaped.
 ///
 /// # Errors
 /// I/O.
@@ -173,7 +174,7 @@ pub fn print_json(json: &str) -> Result<(), Failure> {
     print(&plain_json(json))
 }
 
-/// Prints on stdout. It is no error if the reader closes the stream early (`cplan ... | head`).
+/// Prints on stdout. If the reader closes the stream early (`cplan ... | head`), that is no error.
 ///
 /// # Errors
 /// I/O.

@@ -1,4 +1,4 @@
-//! `cplan study`: many layouts, one row each.
+//! `cplan study`: plans in many layouts, with one row per layout.
 
 use super::ctrl_c;
 use super::exit::DONE;
@@ -87,7 +87,7 @@ enum Content {
     Robot,
 }
 
-/// Plans in all layouts.
+/// Plans in all layouts, and prints and writes the results.
 ///
 /// # Errors
 /// Bad input and I/O.
@@ -157,7 +157,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// Returns the contents for the outputs' names, checked before any work is done.
+/// Returns the content of each output, which its name determines. Names are checked before any work is done.
 fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Vec<(PathBuf, Content)>, Failure> {
     let layout = [("toml", Content::World), ("urdf", Content::Robot)];
     let whole = [
@@ -180,7 +180,7 @@ fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Vec<(PathBuf, Conten
     Ok(contents)
 }
 
-/// Refuses names of Parquet files if this program cannot write them.
+/// Refuses names of Parquet files if this build of the program cannot write them.
 #[cfg(not(feature = "parquet"))]
 fn refuse_parquet(outputs: &[PathBuf]) -> Result<(), Failure> {
     let is_parquet = |path: &&PathBuf| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("parquet"));
@@ -190,7 +190,7 @@ fn refuse_parquet(outputs: &[PathBuf]) -> Result<(), Failure> {
     })
 }
 
-/// Returns the file for rows while a study runs.
+/// Returns the path of the journal of an output file.
 fn part(path: &Path) -> PathBuf {
     let mut name = OsString::from(path);
     name.push(".part");
@@ -215,7 +215,7 @@ fn write_layout(study: &Study, layout: usize, files: &[(PathBuf, Content)]) -> R
     Ok(DONE)
 }
 
-/// Prints a note if only the world of a layout is written, but its robot differs, too.
+/// Prints a note if only the world of a layout is written although its robot differs from the study's, too.
 fn note_robot(study: &Study, files: &[(PathBuf, Content)]) {
     let of = |wanted: Content| files.iter().find(|(_, content)| *content == wanted);
     if let (Some((world, _)), None, true) = (of(Content::World), of(Content::Robot), study.varies_robots()) {
@@ -227,7 +227,7 @@ fn note_robot(study: &Study, files: &[(PathBuf, Content)]) {
     }
 }
 
-/// Returns the content of a file; `None` for a best layout that does not exist.
+/// Returns the content of a file. `None` for the best layout if there is none.
 fn bytes(
     study: &Study,
     rows: &[Row],
@@ -250,7 +250,7 @@ fn bytes(
     })
 }
 
-/// Returns world and robot of a layout. The world begins with the command that plans in it.
+/// Returns world and robot of a layout. The world begins with a comment: the command that plans in it.
 fn texts(study: &Study, layout: usize, values: &[f64], files: &[(PathBuf, Content)]) -> [String; 2] {
     let [world, urdf] = study.layout(values);
     let command = command(study, files).unwrap_or_else(|| command_of(study, "world.toml", files));
@@ -260,7 +260,7 @@ fn texts(study: &Study, layout: usize, values: &[f64], files: &[(PathBuf, Conten
     [head + world.text(), urdf.text().to_owned()]
 }
 
-/// Returns the command that plans in the layout whose world is written; `None` if no world is written.
+/// Returns the command that plans in a layout whose world is written. `None` if no world is written.
 fn command(study: &Study, files: &[(PathBuf, Content)]) -> Option<String> {
     let (world, _) = files.iter().find(|(_, content)| *content == Content::World)?;
     Some(command_of(study, &world.to_string_lossy(), files))
@@ -271,7 +271,7 @@ fn command_of(study: &Study, world: &str, files: &[(PathBuf, Content)]) -> Strin
     let written = files.iter().find(|(_, content)| *content == Content::Robot).map(|(path, _)| path.to_string_lossy());
     let robot = match written {
         Some(written) => written.into_owned(),
-        // The study's own robot would be a different one.
+        // The study's robot file would be that of another layout.
         None if study.varies_robots() => Path::new(world).with_extension("urdf").to_string_lossy().into_owned(),
         None => short(&urdf.name()),
     };
@@ -279,7 +279,7 @@ fn command_of(study: &Study, world: &str, files: &[(PathBuf, Content)]) -> Strin
     words.map(for_a_shell).collect::<Vec<_>>().join(" ")
 }
 
-/// Returns a path without steps into a folder and out again, if it still leads to the same file.
+/// Shortens a path that goes into a folder and out again, if the short path leads to the same file.
 fn short(name: &str) -> String {
     let mut short = PathBuf::new();
     for part in Path::new(name).components() {
@@ -294,7 +294,7 @@ fn short(name: &str) -> String {
     if same[0].is_some() && same[0] == same[1] { short.to_string_lossy().into_owned() } else { name.to_owned() }
 }
 
-/// Rows of a running study, which the handler of Ctrl-C needs, too.
+/// Rows of a running study. The handler of Ctrl-C uses them, too.
 #[derive(Debug, Clone)]
 struct SharedRows(Arc<Mutex<Rows>>);
 
@@ -315,12 +315,12 @@ impl SharedRows {
         rows.journal.as_mut().map_or(Ok(()), |journal| journal.add(row))
     }
 
-    /// Removes the journal: all rows are in their output files, so there is nothing to continue.
+    /// Removes the journal. All rows are in the output files, so there is nothing to continue.
     fn remove(&self) -> Result<(), JournalError> {
         self.rows().journal.take().map_or(Ok(()), Journal::remove)
     }
 
-    /// Writes all rows to disk, and returns a message with their number out of `total`.
+    /// Writes all rows to disk, and returns a message with their number and that of all layouts, `total`.
     fn stopped(&self, total: usize) -> String {
         let mut rows = self.rows();
         let count = rows.count;

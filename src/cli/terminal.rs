@@ -1,4 +1,4 @@
-//! Formats text for a terminal: within its width, and with colours. Other outputs get the text unchanged, for scripts.
+//! Formats text for a terminal: lines within its width, and colours. Other outputs get unchanged text, for scripts.
 
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use crate::text::{SECOND_COLUMN, wrapped};
@@ -7,13 +7,13 @@ use std::io::IsTerminal;
 
 use terminal_size::{Height, Width, terminal_size_of};
 
-/// Least width: a narrower terminal would show one word per line.
+/// Least width of wrapped lines, in characters. Narrower lines would have a single word each.
 const MIN_WIDTH: usize = 40;
 
-/// Greatest width of messages and help: longer lines are hard to read.
+/// Greatest width of messages and help, in characters. Longer lines are hard to read.
 pub const WIDEST: usize = 80;
 
-/// Returns the number of characters per line of a terminal, from `COLUMNS` or its size; `None` for other outputs.
+/// Returns the number of characters per line of a terminal: `COLUMNS`, or its size. `None` for other outputs.
 fn width(is_terminal: bool, size: Option<(Width, Height)>) -> Option<usize> {
     let stated = || std::env::var("COLUMNS").ok()?.parse().ok();
     let seen = || size.map(|(Width(width), _)| usize::from(width));
@@ -21,8 +21,8 @@ fn width(is_terminal: bool, size: Option<(Width, Height)>) -> Option<usize> {
     width.map(|width| width.max(MIN_WIDTH))
 }
 
-/// Returns a summary within the terminal's width, with its verdict in the colour of the exit code. Colours are escape
-/// sequences, which [`anstream`] removes for other outputs.
+/// Returns a summary wrapped to the terminal's width. The exit code determines the colour of its verdict. Colours are
+/// escape sequences, which [`anstream`] removes for other outputs.
 pub fn summary(text: &str, code: u8) -> String {
     let stdout = std::io::stdout();
     let width = width(stdout.is_terminal(), terminal_size_of(&stdout));
@@ -30,7 +30,7 @@ pub fn summary(text: &str, code: u8) -> String {
     painted(&text, code)
 }
 
-/// Returns a message for stderr, with its label in colour. For a terminal, its lines are wrapped.
+/// Returns a message for stderr with a coloured label. On a terminal, its lines are wrapped.
 pub fn message(text: &str) -> String {
     let stderr = std::io::stderr();
     let width = width(stderr.is_terminal(), terminal_size_of(&stderr));
@@ -43,10 +43,10 @@ pub fn message(text: &str) -> String {
     text
 }
 
-/// Start of a command, which stays on one line, so that it can be copied.
+/// Beginning of a command. A line with a command is not wrapped, so that it can be copied.
 const COMMAND: &str = "cplan ";
 
-/// Wraps the lines of a message, except commands and quoted source lines, whose carets point at a column.
+/// Wraps the lines of a message. Leaves out commands, and quoted lines of files, below which carets point at a column.
 fn folded(text: &str, width: usize) -> String {
     let folded = |line: &str| {
         let blanks = line.chars().take_while(|c| *c == ' ').count();
@@ -56,7 +56,7 @@ fn folded(text: &str, width: usize) -> String {
     text.split('\n').map(folded).collect::<Vec<_>>().join("\n")
 }
 
-/// Wraps lines of a summary to the width, except commands. Continuation lines are indented to the second column.
+/// Wraps the lines of a summary, except commands. Continuation lines begin at the second column.
 fn narrowed(text: &str, width: usize) -> String {
     let narrowed = |line: &str| {
         let blanks = line.chars().take_while(|c| *c == ' ').count();
@@ -69,7 +69,7 @@ fn narrowed(text: &str, width: usize) -> String {
     text.lines().map(narrowed).collect()
 }
 
-/// Returns the text with its verdict, up to the first full stop, in the colour for the exit code.
+/// Colours the verdict, which ends at the first full stop, by the exit code.
 fn painted(text: &str, code: u8) -> String {
     let color = match code {
         DONE => AnsiColor::Green,

@@ -2,15 +2,15 @@
 
 use crate::grammar::number_in;
 
-/// The longest time limit of a job, seconds: some thirty years.
+/// Longest time limit that a command accepts, in seconds: some thirty years.
 const MAX_JOB_SECONDS: f64 = 1e9;
 
-/// Parses a least distance from obstacles, metres.
+/// Parses a least distance from obstacles, in metres.
 pub fn clearance(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x >= 0.0, "of metres, finite and not negative")
 }
 
-/// Parses a time limit, seconds.
+/// Parses a time limit, in seconds.
 pub fn time_limit(text: &str) -> Result<f64, String> {
     number_in(
         text,

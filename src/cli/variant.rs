@@ -1,10 +1,10 @@
-//! A planner with its own options, as one word of `compare`'s command line.
+//! A planner with its own options, as one argument of `cplan compare`.
 
 use crate::engine::Planner;
 use crate::grammar::{EffortArgs, PlannerArgs, PlannerWords};
 use clap::Parser;
 
-/// A planner with options, in the grammar of the main job.
+/// A planner with options, in the grammar of `cplan plan`.
 #[derive(Debug, Clone)]
 pub struct Variant {
     /// The user's text, with single blanks between the words.
@@ -25,7 +25,7 @@ impl Variant {
         }
         let PlannerWords { planner, options } = PlannerWords::try_parse_from(&words).map_err(|error| {
             let text = error.to_string();
-            // The first line states the defect; the next one may list the valid values.
+            // The first line states the defect. The next line may list the valid values.
             let mut lines = text.lines();
             let first = lines.next().unwrap_or_default();
             let values = lines.next().map(str::trim).filter(|line| line.starts_with('['));
@@ -35,7 +35,7 @@ impl Variant {
         Ok(Self { label: words.join(" "), planner: options.planner(planner)?, options })
     }
 
-    /// Returns the planner and its number of attempts; settings that it leaves open come from `base`.
+    /// Returns the planner and its number of attempts. Settings that the variant leaves open are those of `base`.
     pub fn or_from(&self, base: &EffortArgs) -> (Planner, usize) {
         let effort = self.options.effort.or_from(base);
         let planner = effort.apply_to(self.planner);
@@ -47,7 +47,7 @@ impl Variant {
         self.options.ignored(self.planner.method())
     }
 
-    /// Returns the reason if the device for its field is unavailable, with a hint.
+    /// Returns the reason, with a hint, if the device for the field is not available.
     pub fn missing(&self) -> Option<String> {
         self.options.missing()
     }

@@ -1,4 +1,4 @@
-//! Options of `cplan plan`, for callers from a library.
+//! Parses options of `cplan plan` for callers from a library.
 
 use super::failure::Failure;
 use super::files::Files;
@@ -11,7 +11,7 @@ use crate::input::Overrides;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, Command, Parser};
 
-/// Options for planning and overrides, as words of the command line of `cplan plan`.
+/// Options for planning and overrides, in the grammar of `cplan plan`.
 #[derive(Debug, Parser)]
 #[command(no_binary_name = true, disable_help_flag = true)]
 struct Words {
@@ -27,14 +27,14 @@ struct Words {
     options: PlannerArgs,
 }
 
-/// Settings from words.
+/// The settings that the words state.
 #[derive(Debug, Clone)]
 pub(super) struct ParsedWords {
     pub options: Options,
     pub overrides: Overrides,
 }
 
-/// Reads words such as `--planner=harmonic` and `--cells=80`.
+/// Parses words such as `--planner=harmonic` and `--cells=80`.
 ///
 /// # Errors
 /// The defect, in a line or two.
@@ -42,7 +42,7 @@ pub fn read_words(words: &[String]) -> Result<(Options, Overrides), String> {
     asked(words).map(|asked| (asked.options, asked.overrides)).map_err(|failure| failure.to_string())
 }
 
-/// Reads words, and returns all settings.
+/// Parses words, and returns all settings.
 ///
 /// # Errors
 /// The defect, in a line or two.
@@ -54,7 +54,7 @@ pub(super) fn asked(words: &[String]) -> Result<ParsedWords, Failure> {
     Ok(ParsedWords { options, overrides: query.overrides() })
 }
 
-/// Returns a message for options of `cplan plan` that are about files and printing, not about planning.
+/// Returns a message for options that concern files and printing instead of planning. `None` for other errors.
 fn misplaced(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else { return None };
     let main_job = PlanArgs::augment_args(Files::augment_args(Command::new("cplan")));
@@ -63,7 +63,7 @@ fn misplaced(error: &clap::Error) -> Option<String> {
     is_known.then(|| format!("{option} is about files or printed output and does not apply here"))
 }
 
-/// Returns the error in words, without the usage of a program.
+/// Returns the text of an error, without the program's usage.
 pub(super) fn message(error: &clap::Error) -> String {
     let text = error.to_string();
     let message = text.split("\n\nUsage").next().unwrap_or_default();

@@ -35,7 +35,7 @@ struct Build {
 }
 
 impl Build {
-    /// Asks Cargo, for the system of the tables.
+    /// Runs `cargo tree` for the system to which the tables in `deny.toml` refer.
     fn of_cargo() -> Self {
         let arguments =
             "tree --locked --package cplan --edges normal,build --prefix depth --target x86_64-unknown-linux-gnu";
@@ -44,7 +44,7 @@ impl Build {
         assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
         let (mut uses, mut above) = (BTreeMap::<String, BTreeSet<String>>::new(), Vec::new());
         for line in String::from_utf8(done.stdout).unwrap().lines() {
-            // As in "2serde v1.0.229 (*)".
+            // A line such as "2serde v1.0.229 (*)".
             let start = line.find(|c: char| !c.is_ascii_digit()).expect("a name");
             let (depth, name) = (line[..start].parse::<usize>().unwrap(), &line[start..]);
             let package = name.split(' ').take(2).collect::<Vec<_>>().join(" ");
@@ -68,7 +68,8 @@ impl Build {
         package.split(' ').next().unwrap_or_default()
     }
 
-    /// Forgets the packages that the crate `features` names. Others bring these; it only asks for features of them.
+    /// Removes the packages that the crate `features` names. Other crates use these packages; `features` only turns on
+    /// features of them.
     fn forget_features(&mut self) {
         let features = self.uses.iter_mut().find(|(package, _)| Self::name(package) == "cplan-features");
         features.expect("the crate").1.clear();
@@ -81,7 +82,7 @@ impl Build {
         used.map(|package| Self::name(package)).collect()
     }
 
-    /// Returns the packages that remain if no crate of ours uses these.
+    /// Returns the packages that remain if no crate of ours uses those in `names`.
     fn without(&self, names: &[&str]) -> BTreeSet<&str> {
         let root = self.uses.keys().find(|package| Self::name(package) == "cplan").expect("the program");
         let (mut left, mut next) = (BTreeSet::from([root.as_str()]), vec![root]);

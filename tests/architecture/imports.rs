@@ -1,4 +1,4 @@
-//! Checks that the checker of certificates shares no code with the planner. Cargo guards all other boundaries: a crate
+//! Checks that the checker of certificates shares no code with the planner. Cargo checks all other boundaries: a crate
 //! can use only the dependencies in its manifest.
 
 use std::path::Path;

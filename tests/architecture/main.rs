@@ -1,5 +1,5 @@
-//! Tests of the source text itself: imports between crates, external dependencies, reproducible random tests, no test
-//! left out, and plain English.
+//! Tests of the source text: imports between crates, external dependencies, reproducible random tests, tests that
+//! nobody runs, and plain English.
 
 mod dependencies;
 mod imports;

@@ -4,18 +4,19 @@
 use crate::rust_files;
 use std::path::{Path, PathBuf};
 
-/// The crate that makes seeds and numbers of cases, and this file.
+/// Files that may choose seeds and numbers of cases: the crate that does so, and this file.
 const HERE: [&str; 2] = ["crates/cases/src/lib.rs", "tests/architecture/seeds.rs"];
 
 /// Folders with tests.
 const FOLDERS: [&str; 3] = ["crates", "src", "tests"];
 
-/// Code that chooses a seed of its own, or leaves the seed to chance.
+/// Code that chooses its own seed, or a random one.
 const ELSEWHERE: [&str; 7] =
     ["ProptestConfig", "with_cases", "test_runner::Config", "TestRunner::", "RngSeed", "from_entropy", "rand::"];
 
-/// Environment variables of long campaigns, which are separate runs (`tests/planning/random_worlds`), of published
-/// data, and of a folder for pictures. All other tests use the two variables of `cplan_cases`.
+/// Environment variables that tests may read besides the two variables of `cplan_cases`. They are those of long
+/// campaigns, which are separate runs (`tests/planning/random_worlds`), of published data, and of a folder for
+/// pictures.
 const VARIABLES: [&str; 8] = [
     "CPLAN_WORLDS",
     "CPLAN_FIRST",
@@ -31,7 +32,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Returns the numbers of lines of code that leave the choice of random cases to chance.
+/// Returns the numbers of lines in which random cases differ from run to run.
 fn left_to_chance(text: &str) -> Vec<usize> {
     let code: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
     let wrong = |at: usize| {
@@ -71,7 +72,7 @@ fn numbers_of_cases_have_no_variables_of_their_own() {
         |name: &str| ["CPLAN_SEED", "CPLAN_TIMES", "CPLAN_REFERENCE"].iter().chain(&VARIABLES).any(|v| *v == name);
     let mut wrong = Vec::new();
     let files = ["crates", "tests"].iter().flat_map(|folder| rust_files(&root().join(folder)));
-    // Benchmarks ask how long they may take.
+    // Benchmarks read how long they may take.
     for file in files.filter(|file| !file.components().any(|part| part.as_os_str() == "benches")) {
         let text = std::fs::read_to_string(&file).unwrap();
         for (at, _) in text.match_indices("\"CPLAN_").filter(|_| !file.ends_with("tests/architecture/seeds.rs")) {

@@ -24,7 +24,7 @@ pub fn q(a: f64, b: f64) -> Configuration {
     Configuration::new(a, b)
 }
 
-/// Returns the judge's verdict on the claim that these boxes separate the start from all goals.
+/// Returns the judge's verdict on boxes that are claimed to separate the start from all goals.
 pub fn recheck(
     stuck: &[CollisionBox],
     scene: &Scene,
@@ -74,7 +74,7 @@ pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> 
     }
 }
 
-/// Returns bars of 1.0 and 0.8 m, 0.1 m wide, both joints on circles unless limits are given.
+/// Returns an arm with bars of 1.0 and 0.8 m that are 0.1 m wide. Its joints have these ranges.
 pub fn rr(axes: [JointRange; 2]) -> Arm {
     let turn = JointType::Revolute { sign: 1.0 };
     arm(
@@ -85,7 +85,7 @@ pub fn rr(axes: [JointRange; 2]) -> Arm {
     )
 }
 
-/// Returns one arm of every kind, some axes reversed or oblique, with outlines off the joints.
+/// Returns one arm of every kind. Some axes are reversed or oblique, and outlines are beside the joints.
 pub fn all_kinds() -> Vec<Arm> {
     let turn = |sign| JointType::Revolute { sign };
     let slide = |x: f64, y: f64| JointType::Prismatic { direction: Vector::new(x, y).normalize() };
@@ -107,7 +107,7 @@ pub fn all_kinds() -> Vec<Arm> {
     ]
 }
 
-/// Returns a polygon, a triangle, a disc and a thin wall within reach of all arms here.
+/// Returns a polygon, a triangle, a disc and a thin wall, within reach of all arms of [`all_kinds`].
 pub fn clutter() -> Vec<Convex> {
     vec![
         rectangle(0.7, 0.9, 0.4, 0.8),
@@ -141,16 +141,16 @@ pub fn scene(arm: Arm, pieces: Vec<Convex>) -> Scene {
     placed(arm, Workspace { name: "test".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
-/// The benchmark problems with published truths: a 2R arm on the torus among four polygons.
+/// The benchmark problems whose answers are published: a 2R arm on the torus among four polygons.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Benchmark {
-    /// Passage of 0.070 rad; optimum 6.4229.
+    /// A passage that is 0.070 rad wide; the optimum is 6.4229.
     A,
-    /// Passage of 0.022 rad; optimum 6.4281.
+    /// A passage that is 0.022 rad wide; the optimum is 6.4281.
     B,
     /// Start and goal are proven to be disconnected.
     Inf,
-    /// No path: two walls of link 1, 0.0066 rad wide.
+    /// There is no path: two walls of link 1 are 0.0066 rad wide.
     T,
 }
 

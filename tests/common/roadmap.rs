@@ -1,4 +1,4 @@
-//! Scenes for roadmap planners, and judges of their answers that share no code with them.
+//! Scenes for planners with roadmaps, and checks of their answers that share no code with them.
 
 use super::dice::Dice;
 use cplan::cspace::{Polygon, Proves, Regions};
@@ -20,7 +20,8 @@ pub fn rectangle(x: (f64, f64), y: (f64, f64)) -> Vec<Point> {
     points(&[(x.0, y.0), (x.1, y.0), (x.1, y.1), (x.0, y.1)])
 }
 
-/// Returns a rectangular window with holes (given counter-clockwise) that lie within it, apart from each other.
+/// Returns a rectangular window with holes, which are given counter-clockwise, lie within the window and do not touch
+/// each other.
 pub fn window_with_holes(x: (f64, f64), y: (f64, f64), holes: Vec<Vec<Point>>) -> Regions {
     let reversed = holes.into_iter().map(|hole| hole.into_iter().rev().collect()).collect();
     regions([x, y], vec![Polygon { outer: rectangle(x, y), holes: reversed }])
@@ -33,7 +34,7 @@ pub fn convex_crowd(random: &mut Dice, side: usize, corners: usize) -> Vec<Vec<P
         for j in 0..side {
             let radius = random.within(0.15, 0.35);
             let [x, y] = [i, j].map(|k| k as f64 + 0.5 + random.within(-0.1, 0.1));
-            // One corner in each equal part of the circle, so that every polygon contains its middle.
+            // One corner in each equal part of the circle, so that every polygon contains its centre.
             let part = std::f64::consts::TAU / corners as f64;
             let angles = (0..corners).map(|k| part * (k as f64 + random.within(0.05, 0.95)));
             crowd.push(angles.map(|a| Point::new(x + radius * a.cos(), y + radius * a.sin())).collect());
@@ -61,13 +62,13 @@ pub fn star_crowd(random: &mut Dice, count: usize) -> Regions {
     window_with_holes((-0.25, columns as f64 + 0.25), (-0.25, rows as f64 + 0.25), stars)
 }
 
-/// Returns the crowd as holes in a window a little larger than it.
+/// Returns free space: a window slightly larger than the crowd, with the crowd as holes.
 pub fn crowd_regions(side: usize, crowd: &[Vec<Point>]) -> Regions {
     let window = (-0.25, side as f64 + 0.25);
     window_with_holes(window, window, crowd.to_vec())
 }
 
-/// Free unit squares of a board: regions full of collinear sides, equal abscissae and corners that touch.
+/// Free unit squares of a board. As regions, they have many collinear sides, equal abscissae and corners that touch.
 pub struct Board {
     pub size: usize,
     pub free: Vec<bool>,
@@ -110,7 +111,7 @@ impl Board {
         let n = self.size as i32;
         let component = self.components();
         let of = |x: i32, y: i32| if self.is_free(x, y) { component[(x * n + y) as usize] } else { None };
-        // Unit steps with the free square to the left.
+        // Unit steps that have the free square on their left.
         let left_square = |(x, y): (i32, i32), (dx, dy): (i32, i32)| (x + (dx - dy - 1) / 2, y + (dx + dy - 1) / 2);
         let right_square = |(x, y): (i32, i32), (dx, dy): (i32, i32)| (x + (dx + dy - 1) / 2, y + (dy - dx - 1) / 2);
         let is_side = |p: (i32, i32), d: (i32, i32)| {
@@ -196,7 +197,7 @@ pub fn bitangents(regions: &Regions) -> Vec<[Configuration; 2]> {
     let sides = sides(regions);
     let neighbours = |c: &Vec<Point>, k: usize| (c[(k + c.len() - 1) % c.len()], c[k], c[(k + 1) % c.len()]);
     let corners: Vec<_> = contours(regions).flat_map(|c| (0..c.len()).map(|k| neighbours(c, k))).collect();
-    // Free space is to the left, so a convex corner of an obstacle is a right turn.
+    // Free space is to the left of a contour, so a convex corner of an obstacle is a right turn.
     let convex: Vec<_> = corners.into_iter().filter(|&(a, b, c)| turn(a, b, c) < 0.0).collect();
     let tangent =
         |(a, b, c): (Point, Point, Point), p: Point| p == a || p == c || (turn(p, b, a) > 0.0) == (turn(p, b, c) > 0.0);
@@ -218,7 +219,8 @@ pub fn bitangents(regions: &Regions) -> Vec<[Configuration; 2]> {
     arcs
 }
 
-/// Returns true if `p` is in free space or within 1e-9 of it: by winding angles and distances, all in plain floats.
+/// Returns true if `p` is in free space or within 1e-9 of it. Computes with winding angles and distances in plain
+/// floats.
 pub fn is_nearly_free(sides: &[(Point, Point)], p: Point) -> bool {
     let winding: f64 = sides
         .iter()
@@ -259,7 +261,7 @@ pub fn brute_force_length(obstacles: &[Vec<Point>], window: (f64, f64), start: P
     brute_force(obstacles, window, start, goal, Metric::Euclidean)
 }
 
-/// Returns this length in any metric.
+/// Returns the length of the shortest path in any metric, by the same brute force.
 pub fn brute_force(
     obstacles: &[Vec<Point>],
     window: (f64, f64),

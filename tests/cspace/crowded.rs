@@ -1,5 +1,5 @@
-//! Regions among obstacles with more pieces than are traced one by one: noisy walls, walks and spikes. Free places are
-//! compared with distances that brute force finds between the arm's rectangles and every single piece.
+//! Regions among obstacles that have more pieces than are traced one by one: noisy walls, walks and spikes. Free places
+//! are compared with distances between the arm's rectangles and every single piece, which brute force finds.
 
 use crate::common::{placed, q, rr, wall};
 use cplan::cspace::{Regions, regions, traced_pairs};
@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 /// Largest number of pieces of an obstacle that are traced one by one; others are covered by larger shapes.
 const PLAIN: usize = 512;
 
-/// Returns a number in `[0, 1)`, the `k`-th of a choice (SplitMix64).
+/// Returns the `k`-th random number of the seed `choice`, in `[0, 1)` (SplitMix64).
 fn dice(choice: u64, k: usize) -> f64 {
     let z = choice.wrapping_add((k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -29,7 +29,7 @@ fn polyline(choice: u64, count: usize, walks: bool) -> Obstacle {
     let points: Vec<Point> = (0..count)
         .map(|k| {
             if walks {
-                // Within a square, in which it crosses itself many times.
+                // The walk stays within a square, so that it crosses itself many times.
                 at += step(k) * 0.03;
                 at = at.sup(&(CENTER - Vector::repeat(0.2))).inf(&(CENTER + Vector::repeat(0.2)));
                 at
@@ -43,7 +43,7 @@ fn polyline(choice: u64, count: usize, walks: bool) -> Obstacle {
     Obstacle { name: "wall".into(), shape: Shape::Polyline(points), pieces, heights: Heights::ALL }
 }
 
-/// Returns a polygon with corners in `count` directions, each at a different distance.
+/// Returns a polygon with a corner in each of `count` directions, at different distances.
 fn spiky(choice: u64, count: usize) -> Obstacle {
     let corner = |k: usize| {
         let (sin, cos) = (k as f64 / count as f64 * TAU).sin_cos();
@@ -81,7 +81,7 @@ fn sides(ring: &[Point]) -> impl Iterator<Item = [Point; 2]> + Clone + '_ {
     (0..ring.len()).map(move |i| [ring[i], ring[(i + 1) % ring.len()]])
 }
 
-/// Returns the distance of two convex outlines, 0 if they meet, by their corners and sides.
+/// Returns the distance between two convex outlines from their corners and sides; 0 if they meet.
 fn apart(a: &[Point], b: &[Point]) -> f64 {
     let holds = |ring: &[Point], p: Point| ring.len() > 2 && sides(ring).all(|[u, v]| cross(v - u, p - u) >= 0.0);
     // Sides that touch or overlap have an end at distance 0 from the other.
@@ -117,7 +117,7 @@ fn is_free(regions: &Regions, at: Configuration) -> bool {
 proptest! {
     #![proptest_config(cplan_cases::cases(4))]
 
-    /// Free places keep a quarter of the margin, and places that keep three margins are free.
+    /// Checks that free places keep a quarter of the margin, and that places which keep three margins are free.
     #[test]
     fn displayed_free_space_is_tight(
         kind in 0..3_usize, choice in any::<u64>(), margin in prop_oneof![Just(2e-3), 2e-3..0.05f64],
@@ -127,7 +127,7 @@ proptest! {
         let shown = regions(&scene, margin, q(0.0, 0.0), 1);
         let (mut free, mut blocked) = (0, 0);
         for k in 0..160 {
-            // Half of the configurations reach for the obstacle.
+            // Half of the configurations reach towards the obstacle.
             let range = if k % 2 == 0 { 2.8 } else { 0.9 };
             let at = q((dice(choice, 7919 + 2 * k) * 2.0 - 1.0) * range, (dice(choice, 7920 + 2 * k) * 2.0 - 1.0) * range);
             let distance = clearance(&scene, at);
@@ -143,8 +143,8 @@ proptest! {
     }
 }
 
-/// The number of traced shapes depends on the margin and the room, not on the number of corners. In a filled room, more
-/// corners leave fewer gaps between them.
+/// Checks that the number of traced shapes depends on the margin and the room, but not on the number of corners. In a
+/// filled room, more corners leave fewer gaps between them.
 #[test]
 fn ten_times_the_corners_in_the_same_room_are_no_more_to_trace() {
     for kind in 0..3 {
@@ -154,7 +154,7 @@ fn ten_times_the_corners_in_the_same_room_are_no_more_to_trace() {
     }
 }
 
-/// Pieces that the arm cannot come near to are not traced at all.
+/// Checks that pieces which the arm cannot come near to are not traced at all.
 #[test]
 fn obstacles_out_of_reach_are_not_traced() {
     let mut far = polyline(3, 5_000, true);

@@ -1,5 +1,5 @@
-//! Configuration spaces as data, against distances by parry2d: free is free, and blocked is near, by the guarantee that
-//! each states.
+//! Configuration spaces as data, compared with distances by parry2d: free places are free, and blocked places are near
+//! obstacles, as far as the stated guarantee says.
 
 use crate::common::dice;
 use crate::common::random::times;
@@ -22,14 +22,14 @@ fn planned(robot: &str, world: &str, planner: &str) -> (Problem, CSpaces) {
     (problem, spaces)
 }
 
-/// Returns the distance of the arm from an obstacle, or of its links further along the chain from its own link. Those
-/// links are numbered after the obstacles.
+/// Returns the distance between the arm and obstacle `number`. The numbers after those of the obstacles are links of
+/// the robot, which links further along the chain can hit.
 fn distance(scene: &Scene, q: Values, number: usize) -> f64 {
     let arm = scene.arm();
     let own = number.checked_sub(scene.workspace().obstacles.len()).map(|link| &arm.self_obstacles[link]);
     let obstacle = own.map_or_else(|| &scene.workspace().obstacles[number], |own| &own.obstacle);
     let is_carried = own.is_some_and(|own| own.carrier == Carrier::FirstJoint);
-    // Joint 1 moves both.
+    // If joint 1 carries the link, only joint 2 moves the one relative to the other.
     let poses = arm.poses(Configuration::from(if is_carried { [0.0, q[1]] } else { q }));
     let mut least = f64::INFINITY;
     for (link, pose) in arm.links.iter().zip(&poses).skip(usize::from(is_carried)) {
@@ -53,7 +53,7 @@ fn free(scene: &Scene, q: Values) -> f64 {
     (0..scene.workspace().obstacles.len()).map(|o| distance(scene, q, o)).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns true if a point lies within rings, by the parity of crossings.
+/// Returns true if a point is within the polygons: an odd number of sides crosses a ray from it.
 fn within(polygons: &Polygons, [x, y]: Values) -> bool {
     let sides = polygons.iter().flatten().flat_map(|ring| ring.windows(2));
     sides
@@ -159,7 +159,7 @@ fn cells_of_planners_are_free() {
                     assert!(!grid.values[cell].is_finite(), "{planner}: a value at a blocked cell");
                 }
             }
-            // Steps to the goal decrease by one per cell from the start.
+            // From the start on, each cell has one step less to the goal.
             if grid.quantity == "steps" {
                 let at = |q: Values| {
                     let [i, j] = [0, 1].map(|k| ((q[k] - grid.lower[k]) / grid.size[k]) as usize);

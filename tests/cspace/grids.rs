@@ -1,4 +1,5 @@
-//! Slices and grids from slices against clearances and parry2d's verdicts, for all four kinds of arm.
+//! Slices, and grids made from slices, compared with clearances and with parry2d's verdicts, for all four kinds of
+//! arms.
 
 use crate::common::{self, Benchmark, convex, disc};
 use cplan::cspace::{Bitmap, Grid, Proves, Slice, bitmap, grid_from_slices, outer_grid, sampled_grid};
@@ -8,7 +9,7 @@ use cplan::space::{Configuration, JointRange};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// A centre within this distance of contact may have either verdict, in metres: parry2d's tolerance is some 1e-10.
+/// A centre within this distance of contact may have either verdict, in metres. The tolerance of parry2d is some 1e-10.
 const BOUNDARY: f64 = 1e-7;
 
 fn revolute() -> impl Strategy<Value = (JointType, JointRange)> {
@@ -68,7 +69,7 @@ fn any_scene() -> impl Strategy<Value = Scene> {
         })
 }
 
-/// Returns the least distance of the pairs of one link.
+/// Returns the least distance of all pairs of shapes with this link.
 fn link_clearance(scene: &Scene, link: usize, q: Configuration) -> f64 {
     let distances = scene.separations(q).filter(|c| c.pair.link == link).map(|c| c.separation.distance);
     distances.fold(f64::INFINITY, f64::min)
@@ -78,15 +79,17 @@ fn at(range: JointRange, t: f64) -> f64 {
     range.domain().0 + t * range.extent()
 }
 
-/// Returns the turn at which a value of joint 1 is in a reach range, if it is in one. Ranges begin within half a turn
-/// of zero and are up to a turn long, but limits are anywhere. So a value may be two turns off.
+/// Returns by how many turns a value of joint 1 must be shifted to lie in a range of reach. `None` if no shift does so.
+/// Ranges begin within half a turn of zero and are up to a turn long, but limits can be anywhere. So a value may be two
+/// turns away.
 fn turn_within(scene: &Scene, ranges: &[[f64; 2]], value: f64) -> Option<i32> {
     let turns = if scene.arm().joints[0].joint_type.is_revolute() { -2..=2 } else { 0..=0 };
     let is_within = |r: &[f64; 2], value: f64| r[0] <= value && value <= r[1];
     turns.into_iter().find(|turn| ranges.iter().any(|r| is_within(r, value + TAU * f64::from(*turn))))
 }
 
-/// Checks this for 400 configurations, and returns the largest number of turns between a configuration and its range.
+/// Checks, for 400 configurations, that a pair keeps its distance outside its ranges of reach. Returns the largest
+/// number of turns between a configuration and its range.
 fn outside_reach_ranges_pairs_keep_their_distance(scene: &Scene, grow: f64) -> Result<i32, TestCaseError> {
     let slices = Contacts::new(scene);
     let [first, second] = scene.arm().topology().ranges;
@@ -113,8 +116,9 @@ fn outside_reach_ranges_pairs_keep_their_distance(scene: &Scene, grow: f64) -> R
     Ok(most)
 }
 
-/// Limits of -4 and 4.5, and obstacles that the second link reaches from nearly all angles of the first. One range
-/// begins before half a turn and ends after a turn and a third, so that the lower limit is two turns below it.
+/// Checks an arm with limits of -4 and 4.5, and obstacles that the second link reaches at nearly all angles of the
+/// first. One range begins before half a turn and ends after a turn and a third, so that the lower limit is two turns
+/// below it.
 #[test]
 fn a_limit_may_be_two_turns_below_a_reach_range() {
     let axis = JointRange::Interval { lower: -4.0, upper: 4.5 };

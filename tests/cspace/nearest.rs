@@ -1,4 +1,5 @@
-//! The nearest free configuration, against a lattice of configurations with their distances to the obstacles.
+//! The nearest free configuration, compared with a lattice of configurations whose distances to the obstacles are
+//! computed.
 
 use crate::common::{all_kinds, arm, disc, joint, link, obstacle, placed, q, rectangle, rr, scene, wall};
 use cplan::cspace::nearest_free;
@@ -6,7 +7,7 @@ use cplan::geometry::{Point, Vector};
 use cplan::model::{JointType, Scene, Workspace};
 use cplan::space::{Configuration, JointRange};
 
-/// Returns true if a configuration is free by the definition, without slices.
+/// Returns true if a configuration is free, computed by the definition instead of slices.
 fn is_free(scene: &Scene, at: Configuration) -> bool {
     let clearance = scene.clearance(at);
     scene.arm().topology().contains(at) && clearance > 0.0 && clearance >= scene.workspace().clearance
@@ -65,7 +66,7 @@ fn no_configuration_of_a_lattice_is_free_and_nearer() {
                     assert_eq!(found.clearance, scene.clearance(at));
                     assert!((found.distance - (at - from).norm()).abs() < 1e-12);
                     let brute = lattice(&scene, from, N);
-                    // A minimum between two slices may be missed by their spacing.
+                    // A minimum between two slices may be missed. The error is at most their spacing.
                     assert!(found.distance <= brute + found.spacing, "kind {which}: {} > {brute}", found.distance);
                 }
             }
@@ -74,7 +75,7 @@ fn no_configuration_of_a_lattice_is_free_and_nearer() {
     assert!(blocked > 50, "only {blocked} configurations were not free");
 }
 
-/// With one bar in front of a disc, the nearest escape is a turn of joint 1 whose angle has a closed form.
+/// Checks a bar in front of a disc. The nearest free configuration is a turn of joint 1, whose angle has a closed form.
 #[test]
 fn the_nearest_free_configuration_has_the_known_angle() {
     let turn = JointType::Revolute { sign: 1.0 };
@@ -86,7 +87,7 @@ fn the_nearest_free_configuration_has_the_known_angle() {
         Point::new(0.5, 0.0),
     );
     let scene = scene(blind, vec![disc(Point::new(0.8, 0.0), 0.2)]);
-    // Tangent from the base to the disc.
+    // The tangent from the base to the disc.
     let angle = (0.2f64 / 0.8).asin();
     let found = nearest_free(&scene, q(0.1, 0.4)).unwrap();
     assert!((found.configuration - q(angle, 0.4)).norm() < 1e-7, "{}", found.configuration);
@@ -94,7 +95,7 @@ fn the_nearest_free_configuration_has_the_known_angle() {
     let found = nearest_free(&scene, q(-0.1, 0.4)).unwrap();
     assert!((found.configuration - q(-(0.3f64 / 0.8).asin(), 0.4)).norm() < 1e-7, "{}", found.configuration);
     assert!(found.clearance >= 0.1);
-    // Outside the limits, and otherwise free: the limit is nearest.
+    // A configuration that is only outside the limits: the limit is nearest.
     let found = nearest_free(&scene, q(1.0, 3.5)).unwrap();
     assert_eq!(found.configuration, q(1.0, 3.0));
 }

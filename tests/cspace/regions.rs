@@ -1,4 +1,4 @@
-//! Polygonal regions against distances of sampled configurations.
+//! Polygonal regions, compared with distances of sampled configurations.
 
 use crate::common::{convex, placed};
 use cplan::cspace::{Polygon, Proves, Regions, c_obstacles, inner_regions, regions};
@@ -143,7 +143,7 @@ fn area(contour: &[Point]) -> f64 {
     (0..n).map(|i| cross(contour[i], contour[(i + 1) % n])).sum::<f64>() / 2.0
 }
 
-/// Returns true if no two sides cross that are not neighbours.
+/// Returns true if no two sides cross, except neighbours.
 fn is_simple(contour: &[Point]) -> bool {
     let n = contour.len();
     let side = |a: Point, b: Point, c: Point| cross(b - a, c - a);
@@ -163,7 +163,8 @@ fn lattice(window: [(f64, f64); 2], n: usize) -> impl Iterator<Item = Configurat
     })
 }
 
-/// Checks that free places in the regions are free, and that places with three times the margin are free in them.
+/// Checks that places which are free in the regions are free, and that places with three times the margin are free in
+/// the regions.
 fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
     let keep = scene.workspace().clearance;
     let regions = regions(scene, margin, Configuration::new(0.3, -0.8), 1);
@@ -174,7 +175,7 @@ fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
         prop_assert!(!free || clearance > keep, "{q} is free at {clearance}");
         prop_assert!(free || clearance <= keep + 3.0 * margin, "{q} is blocked at {clearance}");
     }
-    // On the boundary, where a mistake shows first, the proven distance is kept.
+    // A mistake would show first on the boundary. There, too, the proven distance is kept.
     for (a, b) in regions.free.iter().flat_map(points) {
         for t in [0.0, 0.21, 0.5, 0.83] {
             let q = a + (b - a) * t;
@@ -184,8 +185,8 @@ fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Checks that blocked places in the regions are blocked, and that places too near by more than the margin are blocked
-/// in them.
+/// Checks that places which are blocked in the regions are blocked, and that places which are too near to an obstacle
+/// by more than the margin are blocked in the regions.
 fn loses_no_more_than_its_margin(scene: &Scene, regions: &Regions, margin: f64) -> Result<(), TestCaseError> {
     let keep = scene.workspace().clearance;
     prop_assert_eq!(regions.proves, Proves::Inner { margin });
@@ -208,7 +209,7 @@ fn loses_no_more_than_its_margin(scene: &Scene, regions: &Regions, margin: f64) 
     Ok(())
 }
 
-/// Generates two slides; the second one carries a shape.
+/// Generates gantries: two slides, of which the second carries a shape.
 fn any_gantry() -> impl Strategy<Value = Scene> {
     let slide = |name, angle: f64| {
         let direction = Vector::new(angle.cos(), angle.sin());
@@ -228,7 +229,7 @@ proptest! {
 
     #[test]
     fn gantry_polygons_lose_at_most_the_margin(scene in any_gantry(), margin in prop_oneof![Just(1e-4), 0.001..0.02f64]) {
-        // Pieces and tools thinner than the margin vanish.
+        // Pieces and tools that are thinner than the margin vanish.
         if let Some(regions) = inner_regions(&scene, margin) {
             loses_no_more_than_its_margin(&scene, &regions, margin)?;
         }
@@ -252,8 +253,8 @@ proptest! {
     }
 }
 
-/// Found by the property tests: the only shapes are a thin wall across link 2 and a point, which the wall's ends touch
-/// and leave at the same place.
+/// A case that the property tests found: the only shapes are a thin wall across link 2 and a point. The wall's ends
+/// begin and end to touch the point at the same place.
 #[test]
 fn a_wall_that_meets_a_point_keeps_its_margin() {
     let turning = |name| joint(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle);
@@ -285,7 +286,7 @@ fn free_area_converges_from_below() {
         .map(|&margin| regions(&scene, margin, Configuration::zeros(), 1).free.iter().map(Polygon::area).sum())
         .collect();
     let gains: Vec<f64> = areas.windows(2).map(|w| w[1] - w[0]).collect();
-    // The error is linear in the margin: halving it roughly halves the gain.
+    // The error is linear in the margin. So half the margin gives roughly half the gain.
     assert!(gains.iter().all(|&g| g > 0.0), "{areas:?}");
     assert!(gains.windows(2).all(|w| w[1] < 0.75 * w[0]), "{areas:?}");
 }

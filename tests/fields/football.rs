@@ -1,4 +1,4 @@
-//! The match of `examples/robot_football`: no robot hits another, and the reported facts about its fields hold.
+//! The match of `examples/robot_football`: no robot hits another, and the printed facts about its fields are true.
 
 #[path = "../../examples/robot_football/measure.rs"]
 #[allow(dead_code, reason = "the report is the example's")]
@@ -18,7 +18,7 @@ fn played(seed: u64, frames: usize) -> (Match, Vec<Frame>) {
     (game, frames)
 }
 
-/// Discs about robots of 7.5 cm x 7.5 cm, in cells of 2 cm.
+/// Diameter of the disc around a robot of 7.5 cm x 7.5 cm, in centimetres.
 const TOGETHER: f64 = 7.5 * std::f64::consts::SQRT_2 / 2.0;
 
 #[test]
@@ -72,7 +72,7 @@ fn the_last_frame_is_a_better_start_than_nothing() {
         let standing = run(moments.iter().skip(12).step_by(4), &case, 1e-6, true).unwrap();
         assert!(standing.fields == 3 && warm.fields == 12, "{standing:?}");
         let [warm, standing] = [warm, standing].map(|run: Run| run.mean_sweeps());
-        // Multigrid solves a harmonic field in one step, from any initial values.
+        // Multigrid solves a harmonic field in one step, whatever the initial values.
         let is_direct = (case.kind, case.solver) == (Kind::Harmonic, Solver::Multigrid);
         assert!(
             0.0 < warm && (warm < standing || is_direct),
@@ -109,7 +109,7 @@ fn the_page_has_every_frame_and_loads_nothing() {
     assert_eq!((data["frames"].as_array().unwrap().len(), data["fields"].as_array().unwrap().len()), (6, 2));
     let robots = data["frames"][5][0].as_array().unwrap();
     assert_eq!(robots.len(), 14);
-    // One letter for each arrow: rows 1, 4, .. 82, columns 1, 4, .. 64.
+    // One letter per arrow, for rows 1, 4, .. 82 and columns 1, 4, .. 64.
     assert_eq!(data["fields"][1][0][2][0].as_str().unwrap().len(), 28 * 22);
     assert!(["http:", "https:", "src=", "href=", "@import", "url("].iter().all(|word| !page.contains(word)));
 }

@@ -11,7 +11,7 @@ use cplan::field::{
 const BOUNDARIES: [Boundary; 3] = [Boundary::High, Boundary::Reflecting, Boundary::Periodic];
 
 fn point(dice: &mut Dice, [rows, columns]: [usize; 2]) -> [f64; 2] {
-    // Some are whole and half numbers, so that distances can be equal.
+    // Some coordinates are whole or half numbers, so that distances can be equal.
     let at = [dice.within(-1.0, rows as f64), dice.within(-1.0, columns as f64)];
     if dice.chance(0.5) { at.map(|x| (2.0 * x).round() / 2.0) } else { at }
 }
@@ -56,7 +56,8 @@ fn kinds(walls: &[bool], columns: usize, moment: &Moment) -> Vec<Cell> {
     kinds
 }
 
-/// Returns the drift of each cell: that of the nearest robot, the first of equals, within its disc.
+/// Returns the drift of each cell. It is that of the nearest robot whose disc contains the cell; of equally near ones,
+/// that of the first.
 fn drift(cells: usize, columns: usize, robots: &[Influence]) -> Vec<[f64; 2]> {
     let of = |cell: usize| {
         let mut best: Option<&Influence> = None;
@@ -82,7 +83,7 @@ fn each_moment_equals_a_fresh_solution() {
         let mut dice = Dice::new(seed);
         let cells = [dice.below(9_usize) + 3, dice.below(9_usize) + 3];
         let mut walls: Vec<bool> = (0..cells[0] * cells[1]).map(|_| dice.chance(0.1)).collect();
-        // A wall makes the values determined for any limits.
+        // With a wall, the values are determined for all limits.
         walls[0] = true;
         let boundaries = [BOUNDARIES[dice.below(3_usize)], BOUNDARIES[dice.below(3_usize)]];
         let difference = if dice.chance(0.5) { Difference::Central } else { Difference::Upwind };
@@ -126,7 +127,7 @@ fn directions_are_those_of_the_published_formula_at_centres() {
             }
             let down = [value(i.wrapping_sub(1), j) - value(i + 1, j), value(i, j.wrapping_sub(1)) - value(i, j + 1)];
             let length = down[0].hypot(down[1]);
-            // Differences of values that come only from rounding show nothing.
+            // Differences that are due to rounding show nothing.
             if length > 1e-9 {
                 let found = found.unwrap_or_else(|| panic!("a direction at {i}, {j}"));
                 assert!((0..2).all(|k| (found[k] - down[k] / length).abs() < 1e-6), "{i}, {j}: {found:?}, {down:?}");
@@ -197,7 +198,7 @@ fn multigrid_agrees_with_elimination_for_strong_drifts() {
             assert!(found.converged() && found.sweeps() < 150, "{difference:?} {strength}: {:?}", found.stages);
             let error = greatest_difference(&found.values, &eliminated(&domain, &equation).expect("a solution"));
             assert!(error < 1e-8, "{difference:?} {strength}: {error:e} off");
-            // The solution itself needs no step.
+            // Beginning with the solution, no step is needed.
             let again = by_multigrid(&domain, &equation, &stopping, found.values.clone()).unwrap();
             assert_eq!((again.sweeps(), again.values), (0, found.values));
         }

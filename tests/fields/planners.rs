@@ -1,4 +1,5 @@
-//! The field planners against independent methods: direct solves, Floyd-Warshall, dense sampling, published tables.
+//! The field planners, compared with independent methods: direct solutions, Floyd-Warshall, dense sampling and
+//! published tables.
 
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Component, Field, Lattice, UNREACHED, harmonic};
@@ -6,7 +7,7 @@ use cplan::planner::{Harmonic, PathKind, Planner, Proposal, Query, Run, Size, Tr
 use cplan::space::{Configuration, GoalSet, JointRange, Path, Topology};
 use proptest::prelude::*;
 
-/// Creates a grid with steps of 1 along intervals; circles are scaled to their length.
+/// Creates a grid with cells of side 1 along intervals. Along a circle, cells are scaled to its length.
 fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     let axis = |k: usize| match circles[k] {
         true => JointRange::Circle,
@@ -15,14 +16,14 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     Grid { topology: Topology { ranges: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
 }
 
-/// Parses a grid without circles drawn in text: `#` blocked; rows of text are rows of the grid.
+/// Parses a grid without circles: `#` is a blocked cell, and rows of text are rows of the grid.
 fn drawn(text: &str) -> Grid {
     let rows: Vec<&str> = text.split_whitespace().collect();
     let blocked = rows.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect();
     grid([rows.len(), rows[0].len()], [false; 2], blocked)
 }
 
-/// Returns a corridor one cell wide that winds inwards on `n x n` cells, and its two ends.
+/// Returns a corridor one cell wide that winds inwards on `n x n` cells, and the cells at its two ends.
 fn spiral(n: i64) -> (Grid, usize, usize) {
     let mut free = vec![false; (n * n) as usize];
     let (mut i, mut j) = (0, 0);
@@ -32,7 +33,7 @@ fn spiral(n: i64) -> (Grid, usize, usize) {
         let is_free =
             |i: i64, j: i64, free: &[bool]| (0..n).contains(&i) && (0..n).contains(&j) && free[(i * n + j) as usize];
         let before = (i, j);
-        // Continues as long as the corridor does not come next to itself.
+        // The corridor continues until it would touch itself.
         while (0..n).contains(&(i + di)) && (0..n).contains(&(j + dj)) && !is_free(i + 2 * di, j + 2 * dj, &free) {
             (i, j) = (i + di, j + dj);
             free[(i * n + j) as usize] = true;
@@ -88,7 +89,8 @@ fn all_steps(grid: &Grid) -> Vec<Vec<u32>> {
     steps
 }
 
-/// Returns the harmonic potential by Gaussian elimination: 1 at the goal, 0 in cells that it does not reach.
+/// Returns the harmonic potential by Gaussian elimination. It is 1 at the goal, and 0 in cells that are not connected
+/// with the goal.
 fn direct(grid: &Grid, goal: usize) -> Vec<f64> {
     let steps = &all_steps(grid)[goal];
     let n = grid.blocked.len();
@@ -114,7 +116,7 @@ fn found(run: &Run) -> Path {
     }
 }
 
-/// Returns the goal's component and its potential.
+/// Returns the cells that are connected with the goal, and their potential.
 fn field(grid: &Grid, goal: usize) -> (Component, Field) {
     let lattice = Lattice::from(grid);
     let component = Component::new(&lattice, lattice.wave(&[goal]));
@@ -122,7 +124,7 @@ fn field(grid: &Grid, goal: usize) -> (Component, Field) {
     (component, field)
 }
 
-/// Both planners: true for the wavefront.
+/// Both planners: true stands for the wavefront, false for the harmonic field.
 const BOTH: [bool; 2] = [true, false];
 
 fn run(is_wavefront: bool, grid: &Grid, query: &Query, path: PathKind) -> Run {
@@ -196,7 +198,7 @@ proptest! {
         for (i, cell) in (0..component.len()).map(|i| (i, component.cell(i))) {
             let (ln, expected) = (field.potential.ln(i), expected[cell]);
             prop_assert!((ln.exp() - expected).abs() <= 1e-9 * expected, "{} is not {expected}", ln.exp());
-            // The maximum principle: no value above the goal's.
+            // The maximum principle: no value is above that of the goal.
             prop_assert!(ln <= 0.0);
         }
     }
@@ -213,7 +215,7 @@ proptest! {
         offsets in any::<[(u8, u8); 2]>(),
     ) {
         prop_assume!(!grid.blocked[start] && !grid.blocked[goal]);
-        // Anywhere inside the two cells.
+        // The ends are anywhere within the two cells.
         let [from, to] = [(start, offsets[0]), (goal, offsets[1])].map(|(cell, (a, b))| {
             let part = [a, b].map(|x| f64::from(x) / 256.0 - 0.498);
             grid.center(cell) + Configuration::new(part[0] * grid.step()[0], part[1] * grid.step()[1])
@@ -248,13 +250,13 @@ fn a_long_spiral_is_no_flat_field() {
     let run = run(false, &grid, &query(&grid, outer, inner), PathKind::Own);
     assert!(found(&run).length() > 0.7 * free as f64);
     let (_, potential) = run.trace.logarithms().expect("a field's");
-    // A corridor one cell wide: each cell has 2 - sqrt 3 times the value of the one before, except the few at its
-    // closed end.
+    // In a corridor one cell wide, each cell has 2 - sqrt 3 times the value of the one before. The few cells at its
+    // closed end are an exception.
     let expected = (free - 1) as f64 * (2.0 - 3.0_f64.sqrt()).ln();
     assert!((potential[outer] - expected).abs() < 0.1, "{} instead of {expected}", potential[outer]);
 }
 
-/// Found by the property tests: on a ring of three cells, the goal is one step away in both directions.
+/// Checks a case that the property tests found: on a ring of three cells, the goal is one step away in both directions.
 #[test]
 fn paths_on_a_ring_of_three_cells_go_the_short_way() {
     let grid = grid([3, 8], [true, false], vec![false; 24]);
@@ -262,7 +264,8 @@ fn paths_on_a_ring_of_three_cells_go_the_short_way() {
     goes_from_cell_to_cell(&grid, 0, 16).unwrap_or_else(|e| panic!("{e}"));
 }
 
-/// Without walls, the harmonic function is constant. Only the loss per step of walks makes it fall.
+/// Checks a torus without walls. The harmonic function is constant there; only the loss at each step of a walk makes
+/// the field fall.
 #[test]
 fn a_torus_without_walls_navigates() {
     for cells in [[2, 10], [1, 7], [64, 48], [300, 300]] {
@@ -313,7 +316,7 @@ fn circles_are_crossed_at_the_seam_and_paths_stay_continuous() {
         assert_eq!(path.start(), query.start);
         assert!((path.goal() - end).norm() < 1e-14, "{}", path.goal());
         assert!((path.length() - (end - query.start).norm()).abs() < 1e-12);
-        // A start beyond a turn stays there.
+        // A start that is a turn away remains there.
         let turned = Query { start: query.start + Configuration::new(tau, 0.0), ..query.clone() };
         let path = found(&run(planner, &open, &turned, PathKind::Taut));
         assert_eq!(path.start(), turned.start);

@@ -1,4 +1,4 @@
-//! The harmonic planner's path between the cells, sampled densely.
+//! The harmonic planner's path between centres of cells, sampled densely.
 
 use cplan::cspace::{Grid, Proves};
 use cplan::planner::{Harmonic, PathKind, Planner, Proposal, Query};
@@ -25,7 +25,7 @@ fn random_grid() -> impl Strategy<Value = (Grid, usize)> {
 proptest! {
     #![proptest_config(cplan_cases::cases(300))]
 
-    /// The path between the cells stays in free cells and ends at the goal.
+    /// Checks that the path stays in free cells and ends at the goal.
     #[test]
     fn streamlines_stay_in_free_cells_and_come_to_the_goal(
         (grid, goal) in random_grid(),
@@ -49,7 +49,7 @@ proptest! {
         for (a, b) in path.segments() {
             for k in 0..=50 {
                 let q = a + (b - a) * (f64::from(k) / 50.0);
-                // On a side between two cells either may be the free one.
+                // On a side between two cells, either cell may be the free one.
                 let beside = |d: [f64; 2]| {
                     let p = q + Configuration::new(d[0] * 1e-7 * step[0], d[1] * 1e-7 * step[1]);
                     grid.topology.contains(p) && !grid.blocked[grid.locate(p)]

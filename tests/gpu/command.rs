@@ -1,4 +1,4 @@
-//! `--on gpu`, from outside.
+//! The option `--on gpu` of the program.
 
 use serde_json::Value;
 use std::process::Command;
@@ -30,7 +30,7 @@ fn fields_of_a_gpu_are_followed_and_certified() {
     assert!(gpu["field"]["on"].as_str().is_some_and(|name| !name.is_empty()), "{}", gpu["field"]);
     assert_eq!((gpu["field"]["order"].as_str(), &cpu["field"]["on"]), (Some("red-black"), &Value::Null));
     assert_eq!(gpu["field"]["converged"], true);
-    // The same field up to rounding: the curve along it is as long.
+    // Both fields are the same up to rounding, so the curves along them have the same length.
     let [a, b] = [&gpu, &cpu].map(|result| result["length"].as_f64().unwrap());
     assert!((a - b).abs() < 1e-2 * b, "{a} {b}");
     assert_eq!(run("--on gpu")["path"], gpu["path"], "the same each time");

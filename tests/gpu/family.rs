@@ -1,4 +1,4 @@
-//! The whole family of equations and relaxations on both devices.
+//! All equations and relaxations of the family on both devices.
 
 use cplan::field::{
     Boundary, Cell, Device, Difference, Direction, Domain, Equation, Factor, Levels, Measure, Order, RelaxError,
@@ -6,11 +6,11 @@ use cplan::field::{
 };
 use proptest::prelude::*;
 
-/// Sweeps before fields are compared, per stage; no stopping rule is met before.
+/// Number of sweeps per stage before fields are compared. They satisfy no stopping rule earlier.
 const SWEEPS: usize = 25;
 
-/// Tolerance in single precision: each update of a sweep is off by some units in the last place of the greatest value,
-/// 1. The direction of a drift that follows a field is less exact where that field is nearly level.
+/// Tolerance for single precision. Each update of a sweep is off by some units in the last place of the greatest value,
+/// which is 1. The direction of a drift that follows a field is less accurate if that field is nearly level.
 const ROUNDING: f64 = 4.0 / (1 << 24) as f64;
 
 fn domain() -> impl Strategy<Value = Domain> {
@@ -84,8 +84,8 @@ proptest! {
         };
         let stopping = Stopping { measure: Measure::GreatestChange, below: 1e-7, max_sweeps: 10_000 };
         let relaxation = Relaxation::gauss_seidel(Order::RedBlack);
-        // Where the harmonic field is nearly level, rounding decides its direction. The values hardly depend on it
-        // there.
+        // If the harmonic field is nearly level, rounding decides its direction. The values hardly depend on that
+        // direction.
         let off = apart(&domain, &equation, &relaxation, &stopping);
         prop_assert!(off <= 5e-3, "off by {off:e}");
     }

@@ -1,5 +1,5 @@
-//! Loaded arms against full kinematics in space, outlines against projected samples, inverse against forward
-//! kinematics.
+//! Loaded arms, compared with full kinematics in space. Outlines are compared with projected samples, and inverse with
+//! forward kinematics.
 
 use crate::common::{convex, disc};
 use cplan::geometry::{Point, separation};
@@ -73,7 +73,8 @@ fn urdf(joints: [TestJoint; 2]) -> String {
     )
 }
 
-/// Generates arms of all kinds in planes of all directions; the second joint's frame is only turned about the normal.
+/// Generates arms of all kinds in planes of all directions. The frame of the second joint is only turned about the
+/// normal.
 fn arms() -> impl Strategy<Value = [TestJoint; 2]> {
     let number = -1.0..1.0f64;
     let triple = || [number.clone(), number.clone(), number.clone()];
@@ -88,7 +89,7 @@ fn arms() -> impl Strategy<Value = [TestJoint; 2]> {
         .prop_map(|(mount, xyz1, xyz2, yaw, revolute, flip, heading)| {
             let axis = |i: usize| {
                 let turn = [0.0, 0.0, if flip[i] { -1.2 } else { 1.0 }];
-                // Slides lie in the frame's (x, y) plane and are never parallel: their headings differ.
+                // The slides are in the frame's (x, y) plane. Their headings differ, so that they are never parallel.
                 let angle = heading[0] + if i == 1 { heading[1] - yaw } else { 0.0 };
                 if revolute[i] { turn } else { [angle.cos(), angle.sin(), 0.0] }
             };
@@ -127,7 +128,7 @@ proptest! {
         for branch in &solved.branches {
             prop_assert!((arm.tip_at(*branch) - target).norm() < 1e-9);
         }
-        // The IK solution of the target's configuration is among them, up to whole turns.
+        // The solutions include the configuration from which the target was computed, up to whole turns.
         let turns = |i: usize| if arm.joints[i].joint_type.is_revolute() { JointRange::Circle } else { JointRange::Interval { lower: -9.0, upper: 9.0 } };
         let near = |b: &Configuration| (0..2).all(|i| turns(i).displacement(q[i], b[i]).abs() < 1e-4);
         prop_assert!(solved.branches.iter().any(near), "{q:?} not in {:?}", solved.branches);
@@ -137,7 +138,7 @@ proptest! {
     fn outlines_hold_the_projected_solid_and_little_more(
         shape in 0..4usize, r in [-3.0..3.0f64, -3.0..3.0, -3.0..3.0], right in any::<bool>(), seed in any::<u64>()
     ) {
-        // Right angles as well as other ones.
+        // Some angles are right angles.
         let r = if right { r.map(|a| a.round() * std::f64::consts::FRAC_PI_2) } else { r };
         let (xml, points) = solid(shape, seed);
         let urdf = urdf_with(&format!("<origin xyz=\"0.1 0.2 0.3\" rpy=\"{} {} {}\"/><geometry>{xml}</geometry>", r[0], r[1], r[2]));
@@ -149,14 +150,14 @@ proptest! {
             prop_assert!(inside < 2e-9, "{inside} outside");
             prop_assert!(part.heights.lower - 1e-9 <= p.z && p.z <= part.heights.upper + 1e-9);
         }
-        // The outline's support exceeds that of the sampled solid at most by the sampling and the stated bound.
+        // The outline may exceed the sampled solid by the error of sampling and by the stated bound.
         for i in 0..64 {
             let a = f64::from(i) * std::f64::consts::TAU / 64.0;
             let d = nalgebra::Vector2::new(a.cos(), a.sin());
             let outline = part.shape.core().iter().map(|p| p.dot(&d)).fold(f64::MIN, f64::max) + part.shape.radius();
             let sampled = placed.iter().map(|p| p.xy().dot(&d)).fold(f64::MIN, f64::max);
             prop_assert!(outline - sampled < 0.005 * RADIUS + SAMPLING, "excess {}", outline - sampled);
-            // The inner outline of proofs is within the solid, and only slightly smaller.
+            // The inner outline, which proofs use, is within the solid and only slightly smaller.
             let inner = part.inner.as_ref().unwrap_or(&part.shape);
             let support = inner.core().iter().map(|p| p.dot(&d)).fold(f64::MIN, f64::max) + inner.radius();
             if shape == CYLINDER {
@@ -173,7 +174,8 @@ proptest! {
 }
 
 const RADIUS: f64 = 0.2;
-/// Sagitta of 96 samples round a circle of radius 0.2, and 48 down to the pole, with room for both at once.
+/// Largest error of the samples, in metres: the sagitta of 96 samples round a circle of radius 0.2, and of 48 down to
+/// the pole, with room for both together.
 const SAMPLING: f64 = 6e-4;
 
 const CYLINDER: usize = 1;
@@ -236,7 +238,7 @@ fn stl_meshes_count_by_their_convex_hull_in_text_and_binary() {
         "solid t\nfacet normal 0 0 1\nouter loop\n{}endloop\nendfacet\nendsolid t\n",
         vertices.iter().map(vertex).collect::<String>()
     );
-    // A binary file whose header begins like a text file's, as exporters write them.
+    // A binary file whose header begins like that of a text file, as some exporters write them.
     let mut binary = b"solid exported".to_vec();
     binary.resize(80, b' ');
     binary.extend(1u32.to_le_bytes());
@@ -265,7 +267,8 @@ fn stl_meshes_count_by_their_convex_hull_in_text_and_binary() {
     assert!(load_scene(&path, &world).unwrap_err().to_string().contains("does not fit its number of triangles"));
 }
 
-/// A triangle in a node that is turned and moved within another one, in centimetres: (x, y, z) -> (1 - y, x, z) metres.
+/// A triangle in centimetres, in a node that is turned and moved within another node: (x, y, z) -> (1 - y, x, z)
+/// metres.
 const COLLADA: &str = r##"<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
   <asset><unit name="centimeter" meter="0.01"/><up_axis>Z_UP</up_axis></asset>
@@ -321,8 +324,8 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
     }
 }
 
-/// Exporters omit some elements and write others first. Without a scene that shows anything, geometries stay where they
-/// are, in centimetres.
+/// Checks files of exporters that omit some elements and write others first. Without a scene that shows anything,
+/// geometries keep their coordinates, in centimetres.
 #[test]
 fn collada_without_a_scene_and_with_a_comment_first() {
     let folder = tempfile::tempdir().unwrap();
@@ -376,7 +379,7 @@ fn meshes_are_held_to_a_range_as_they_are_scaled() {
         assert!(error.contains(&place) && error.contains(mesh), "{error}");
         assert!(error.contains(message) && error.contains("hint: give the scale"), "{message}: {error}");
     }
-    // Its scale brings a distant shape near.
+    // The scale brings a distant shape near.
     assert!(load("t.obj", &far.replace("1e300", "2e9"), "1e-9 1 1").is_ok());
 }
 
@@ -449,7 +452,7 @@ fn limits_come_from_the_world_then_the_soft_ones_then_the_hard_ones() {
     assert_eq!(load_arm(&turning, "limits = { a = [-1, 1] }").scene.arm().joints[0].range, limit(-1.0, 1.0));
 }
 
-/// Loads an RR arm in the (x, y) plane with both links 1 m long, which can fold onto its base.
+/// Loads an RR arm in the (x, y) plane. Both links are 1 m long, so that the tip can reach the base.
 fn folding() -> LoadedScene {
     let joint = |x: f64| TestJoint { revolute: true, xyz: [x, 0.0, 0.0], rpy: [0.0; 3], axis: [0.0, 0.0, 1.0] };
     let text = urdf([joint(0.0), joint(1.0)]).replace("0.3 -0.2 0.5", "1 0 0");

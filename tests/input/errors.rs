@@ -1,4 +1,4 @@
-//! Invalid input of every kind: refused with the file, the line, the defect, and a hint.
+//! Invalid input of every kind. It is refused with the file, the line, the defect, and a hint.
 
 use cplan::input::{InputError, LoadedProblem, Overrides, load};
 use cplan::model::Region;
@@ -155,7 +155,7 @@ fn files_that_are_no_urdf() {
     refused(run("arm.urdf", WORLD), &["not well-formed XML"]);
     refused(run("arm.urdf", ""), &["arm.urdf", "not well-formed XML"]);
     refused(run("arm.urdf", "<html/>"), &["root element is <html>"]);
-    // A namespace declaration alone does not make a file xacro.
+    // A file is no xacro just because it declares the namespace.
     let declared = ARM.replace("<robot", "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\"");
     assert_eq!(arm("arm.urdf", &declared), plain);
     let folder = tempfile::tempdir().unwrap();
@@ -357,7 +357,7 @@ polygon = [[0, 0], [0, 1], [1, 1]]
     assert!(matches!(&second.region, Region::Tip(polygon) if polygon.area() == 0.5));
 }
 
-/// Numbers that are too large by a kilometre: the message states the bound.
+/// Checks that the message about a number that is too large states the bound.
 #[test]
 fn numbers_that_are_too_large_say_the_bound() {
     bad_arm("xyz=\"0.5 0 0\"", "xyz=\"1000500 0 0\"", &["line 9", "at most 1e6", "from -1e6 to 1e6"]);

@@ -1,4 +1,4 @@
-//! Applied hints: following a hint never leads to another error.
+//! Checks that following a hint never leads to another error.
 
 use super::errors::{ARM, WORLD, load_files};
 use cplan::input::Overrides;
@@ -14,7 +14,7 @@ fn robot(table: &str) -> String {
     with(WORLD, "[start]", &format!("[robot]\n{table}\n[start]"))
 }
 
-/// Checks that files are refused with a hint, and that they load with the hint applied to either of them.
+/// Checks that files are refused with a hint, and that they load after each change that the hint suggests.
 fn holds([urdf, world]: [&str; 2], hint: &str, mended: &[[&str; 2]]) {
     let refused = load_files("arm.urdf", urdf, world, &Overrides::default()).expect_err(hint).to_string();
     let hints = refused.split("hint: ").skip(1).collect::<Vec<_>>().join("\n");
@@ -75,7 +75,7 @@ fn hints_about_limits_of_the_robot() {
     let soft = "<safety_controller soft_lower_limit=\"4\" soft_upper_limit=\"5\" k_velocity=\"1\"/></joint>";
     let urdf = with(ARM, "</joint>", soft);
     holds([&urdf, WORLD], "limits = { j1 = [-3, 3] }", &[[&urdf, &robot("limits = { j1 = [-3, 3] }")]]);
-    // In degrees, or correct as written.
+    // The limits in degrees, or correct as they are written.
     let urdf = with(ARM, limits, "lower=\"-150\" upper=\"132.5\"");
     let [degrees, radians] = ["[\"-150deg\", \"132.5deg\"]", "[-150, 132.5]"];
     let mended = [degrees, radians].map(|range| robot(&format!("limits = {{ j1 = {range} }}")));
@@ -220,12 +220,12 @@ fn hints_about_start_and_goal() {
     let folded = with(WORLD, goal, "tip = [0, 0.1]");
     holds([ARM, &folded], points, &[[ARM, &with(WORLD, goal, "tip = [0, 1.5]")], [ARM, &override_limits(&folded)]]);
     of_world(goal, "tip = [-1.5, 0.1]", "move it away from the obstacle", &["tip = [-1.0, 0.9]"]);
-    // Some IK solutions are past limits, the others in contact. A point farther away is free.
+    // Some IK solutions are past limits, and the others are in contact. A point farther away is free.
     let one_sided = with(ARM, "lower=\"-2\" upper=\"2\"", "lower=\"0\" upper=\"2\"");
     let both = with(WORLD, goal, "tip = [-1.5, 0.1]");
     let mended = with(WORLD, goal, "tip = [-1.0, 0.9]");
     holds([&one_sided, &both], &format!("{away}, or {points}"), &[[&one_sided, &mended]]);
-    // A point that the arm cannot fold back to is not reachable from nearer by.
+    // A point near the base is out of reach, because the arm cannot fold that far.
     let long = with(ARM, "<origin xyz=\"1 0 0\"/></joint>", "<origin xyz=\"0.4 0 0\"/></joint>");
     let near = with(WORLD, goal, "tip = [0.1, 0.0]");
     holds([&long, &near], "choose a point farther from joint 1", &[[&long, &with(WORLD, goal, "tip = [1.2, 0.0]")]]);

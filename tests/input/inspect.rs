@@ -1,4 +1,4 @@
-//! The command `inspect`: its reports on broken robots, on every shipped one, and on published robots.
+//! The command `inspect`: its reports on defective robots, on all shipped robots, and on published robots.
 
 use crate::common::reference::published;
 use cplan::input::{Inspection, LimitSource, RateSource, Role, inspect, load_scene};
@@ -109,7 +109,7 @@ fn single_diagnostics_leave_the_rest_of_the_report() {
             assert!(messages(&found).contains(part), "no {part} in {}", messages(&found));
         }
         assert_eq!(found.links.len(), 4, "{to}");
-        // One mistake gives one diagnostic; its consequences give none.
+        // A mistake gives one diagnostic, and its consequences give none.
         assert_eq!(found.errors.iter().map(|e| e.diagnostics().len()).sum::<usize>(), 1, "{}", messages(&found));
         assert_eq!(found.pairs.is_empty(), !to.starts_with("size"), "{to}");
         assert!(found.joints.iter().any(|j| j.name == "j2" && j.kind == "continuous" && j.line == 13), "{to}");
@@ -141,7 +141,7 @@ fn links_that_form_no_tree_are_listed_all_the_same() {
     assert!(messages(&no_world).contains("cannot be read") && no_world.outlines.len() == 2);
 }
 
-/// Checks that the suggested help works: with it as the world's table, the robot loads.
+/// Checks that the suggested table works: the robot loads if the world has it.
 fn help_works(urdf: &Path, found: &Inspection) {
     let Some(help) = &found.help else { return };
     let folder = tempfile::tempdir().unwrap();
@@ -169,7 +169,8 @@ fn shipped_robots_can_be_planned_with_or_have_help() {
     assert!(checked >= 8);
 }
 
-/// File; true if planning works without changes; the pair that the report is about; parts of diagnostics and pairs.
+/// Expected result: the file, true if planning works without changes, the pair that the report describes, and parts of
+/// diagnostics and pairs.
 type Expected = (&'static str, bool, Option<[&'static str; 2]>, &'static [&'static str]);
 const PUBLISHED: [Expected; 18] = [
     ("bullet_pantilt", false, Some(["pan_joint", "tilt_joint"]), &["these axes are not parallel"]),
@@ -209,10 +210,10 @@ fn published_robots_are_diagnosed() {
         for part in parts {
             assert!(all.contains(part), "{file}: no \"{part}\" in {all}");
         }
-        // If there is a planar pair, a table in the world file can solve the problem.
+        // If there is a planar pair, a table in the world file solves the problem.
         assert_eq!(!plannable && found.pairs.iter().any(|p| p.planar), found.help.is_some(), "{file}");
         help_works(&path, &found);
-        // The report and planning refuse the same files, and give the same first reason.
+        // The report and planning refuse the same files, with the same first reason.
         let empty = tempfile::NamedTempFile::new().unwrap();
         let loaded = load_scene(&path, empty.path()).err().map(|e| e.to_string());
         assert_eq!(found.errors.first().map(|e| e.to_string()), loaded, "{file}");
@@ -225,7 +226,7 @@ fn command(args: &[&str]) -> (i32, String, String) {
     (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
 
-/// Returns a SCARA whose quill turns and whose hand tilts: three pairs of neighbours are possible, in two planes.
+/// Returns a SCARA whose quill turns and whose hand tilts. It has three pairs of neighbouring joints, in two planes.
 fn turning_quill(folder: &tempfile::TempDir) -> String {
     let urdf = std::fs::read_to_string("robots/scara.urdf").unwrap();
     assert!(urdf.contains("type=\"prismatic\""));
@@ -301,8 +302,8 @@ fn the_picture_shows_the_frames() {
     assert!(stderr.contains("no planar arm to draw"), "{stderr}");
 }
 
-/// Found by fuzzing: a joint that is held because there is no pair, with limits in the wrong order or one of them
-/// missing.
+/// Checks a case that fuzzing found: a joint is held because there is no pair, and its limits are in the wrong order,
+/// or one of them is missing.
 #[test]
 fn reversed_limits_of_a_held_joint_are_reported_and_no_more() {
     let wrist = |limit: &str| {

@@ -1,5 +1,5 @@
-//! Files with a typing error, by the hundred. They are read, or refused with place and help. There is never a panic,
-//! and the result is never far larger than the file.
+//! Hundreds of files with a typing error. Each is read, or refused with position and hint. Reading never panics, and
+//! its result is never far larger than the file.
 
 use crate::common::dice;
 use crate::common::random::times;
@@ -34,10 +34,10 @@ epsilon = 0.1
 polygon = [[0.2, 0.3], [0.5, 0.3], [0.5, 0.6]]
 "#;
 
-/// Greatest number of convex pieces of obstacles with a few corners.
+/// Largest number of convex pieces that obstacles with a few corners may have.
 const MAX_PIECES: usize = 100;
 
-/// Greatest number of bytes of the plain URDF that a few macros make.
+/// Largest size of the plain URDF that a few macros may produce, in bytes.
 const LONGEST: usize = 1 << 16;
 
 fn is_helpful(error: &InputError, text: &str) {
@@ -105,7 +105,7 @@ fn slips_in_tables_are_read_or_refused() {
     assert!(read > refused / 20 && refused > read / 20, "{read} {refused}");
 }
 
-/// A robot with most features of xacro, and a file that it includes.
+/// A robot that uses most features of xacro, and a file that it includes.
 const XACRO: [(&str, &str); 2] = [
     ("arm.urdf.xacro", include_str!("../../robots/scara.urdf.xacro")),
     (

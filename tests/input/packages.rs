@@ -1,10 +1,10 @@
-//! Packages are found by the name in their `package.xml`, not by the names of their folders.
+//! Checks that packages are found by the name in their `package.xml`, not by the names of their folders.
 
 use cplan::input::load_scene;
 use std::fs;
 use std::path::Path;
 
-/// A pyramid.
+/// The mesh of a pyramid.
 const MESH: &str = "v 0 -0.05 0\nv 0 0.05 0\nv 0.5 0 0\nv 0 0 0.1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n";
 
 fn write(path: &Path, text: &str) {
@@ -24,7 +24,7 @@ fn urdf(mesh: &str) -> String {
     )
 }
 
-/// Creates a repository with a package, its sibling, and one further down. No package has the name of its folder.
+/// Creates a repository with a package, one beside it, and one in a subfolder. No package has the name of its folder.
 fn repository() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let root = folder.path();
@@ -60,7 +60,7 @@ fn meshes_are_found_by_the_name_in_package_xml() {
     assert!(error.contains("shapes-main/meshes/none.obj"), "{error}");
 }
 
-/// Packages of a neighbouring repository are not found.
+/// Checks that packages of a neighbouring repository are not found.
 #[test]
 fn the_search_ends_at_the_repository() {
     let outer = tempfile::tempdir().unwrap();

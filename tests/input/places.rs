@@ -1,4 +1,4 @@
-//! Robots and obstacles that the world places, against the same geometry written at that place.
+//! Robots and obstacles that the world file places, compared with geometry that is written at that place.
 
 use cplan::geometry::Point;
 use cplan::input::{LoadedScene, Overrides, Source, scene_from};
@@ -8,7 +8,7 @@ use cplan::{Options, Problem, plan};
 
 const ROBOTS: [&str; 5] = ["planar_2r", "slide_arm", "polar", "gantry", "l_forearm"];
 
-/// A turn and a translation with their closed forms.
+/// A translation (`AT`) and a turn. The turn has a closed form.
 const AT: [f64; 2] = [0.4, -1.3];
 const ANGLE: f64 = 0.7;
 
@@ -50,8 +50,8 @@ fn a_robot_stands_where_the_world_puts_it() {
     }
 }
 
-/// If robot and obstacles are moved together, the plan stays the same. A placed obstacle equals one with corners at
-/// that place.
+/// Checks that the plan stays the same if robot and obstacles are moved together, and that a placed obstacle equals one
+/// whose corners are written at that place.
 #[test]
 fn robots_moved_with_their_world_plan_alike() {
     let ends = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";

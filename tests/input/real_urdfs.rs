@@ -1,4 +1,4 @@
-//! Published robots: each plans in a small world, or is refused for the right reason.
+//! Published robots. Each one plans in a small world, or is refused for the right reason.
 //!
 //! The files are not part of the project, so these tests are ignored by default.
 
@@ -10,9 +10,9 @@ use cplan_check_files::check_files;
 use std::path::Path;
 
 enum Outcome {
-    /// Kind of arm, sources of the two outlines, the tip's link.
+    /// The robot loads: kind of the arm, sources of the two outlines, and the tip's link.
     Loads(&'static str, [OutlineSource; 2], &'static str),
-    /// Parts of the message.
+    /// The robot is refused: parts of the message.
     Refused(&'static [&'static str]),
 }
 use Outcome::{Loads, Refused};
@@ -20,7 +20,7 @@ use Outcome::{Loads, Refused};
 const UNSET: &str = "limits = { joint1 = [-3.0, 3.0], joint2 = [-2.5, 2.5] }
                      velocity = { joint1 = 2.0, joint2 = 2.0 }";
 
-/// Returns file, `[robot]` table and expected outcome of each case.
+/// Returns file, table `[robot]` and expected outcome of each case.
 fn table() -> Vec<(&'static str, String, Outcome)> {
     let row = |file, robot: &str, outcome| (file, robot.to_owned(), outcome);
     vec![
@@ -103,7 +103,7 @@ fn table() -> Vec<(&'static str, String, Outcome)> {
     ]
 }
 
-/// Checks that the motion planned there has a valid certificate.
+/// Checks that the motion planned for these files has a valid certificate.
 fn is_certified(urdf: &Path, world: &Path, certificate: &Path) {
     let problem = Problem::load(urdf, world).unwrap();
     let plan = cplan::plan(&problem, &Options::default()).unwrap();
@@ -120,7 +120,7 @@ fn published_robots_plan_or_are_refused_with_the_reason() {
     for (file, robot, outcome) in table() {
         let urdf = folder.join(format!("{file}.urdf"));
         let world = work.path().join("world.toml");
-        // Start and goal within every robot's limits; an obstacle that none reaches.
+        // Start and goal are within the limits of every robot, and no robot reaches the obstacle.
         std::fs::write(
             &world,
             format!("[robot]\n{robot}\n[start]\njoints = [0.3, 0.4]\n[goal]\njoints = [0.5, 0.3]\n[[obstacle]]\ncircle = {{ center = [90, 0], radius = 1 }}\n"),
@@ -150,8 +150,8 @@ fn published_robots_plan_or_are_refused_with_the_reason() {
     }
 }
 
-/// A mount offset, tilted boxes and stacked heights as in the tutorial robot. The arm's zero configuration is known by
-/// hand.
+/// Checks the tutorial robot, which has an offset mount, tilted boxes and stacked heights. Its dimensions at the zero
+/// configuration are known.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_tutorial_scara_has_the_known_dimensions() {
@@ -161,7 +161,7 @@ fn the_tutorial_scara_has_the_known_dimensions() {
     std::fs::write(&world, "[robot]\njoints = [\"joint1\", \"joint2\"]\n").unwrap();
     let arm = load_scene(folder.join("icube_scara.urdf"), &world).unwrap().scene.into_parts().0;
     assert!((arm.offset - cplan::geometry::Vector::new(0.425, 0.0)).norm() < 1e-12);
-    // The tool hangs 0.11 m along a z axis that was turned over by 3.14, not pi.
+    // The tool extends 0.11 m along a z axis that was turned by 3.14, not by pi.
     let roll: f64 = 314.0 / 100.0;
     let aside = -0.11 * roll.sin();
     assert!((arm.tip - cplan::geometry::Vector::new(0.345, aside)).norm() < 1e-12);

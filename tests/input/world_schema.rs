@@ -55,8 +55,8 @@ fn shipped_worlds_are_valid() {
     }
 }
 
-/// Worlds that together have every key. Several files are needed, because kinds of goals, and goals and steps, exclude
-/// each other.
+/// Worlds that have every key between them. Several files are needed, because some keys exclude each other: kinds of
+/// goals, and goals and steps.
 const FULL: [&str; 3] = [
     r#"
 name = "full"
@@ -257,7 +257,8 @@ fn studies() -> jsonschema::Validator {
     jsonschema::draft7::new(&cplan::study::study_schema()).unwrap()
 }
 
-/// The schema of studies accepts the shipped ones, and refuses files that the program refuses for their form.
+/// Checks that the schema of studies accepts the shipped studies, and refuses files that the program refuses for their
+/// form.
 #[cfg(feature = "study")]
 #[test]
 fn studies_are_valid_and_others_are_not() {
@@ -272,7 +273,7 @@ fn studies_are_valid_and_others_are_not() {
     }
 }
 
-/// Every key has a description for editors to show.
+/// Checks that every key has a description, which editors show.
 #[test]
 fn every_key_is_described() {
     fn check(schema: &Value, at: &str) {

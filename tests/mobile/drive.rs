@@ -1,4 +1,4 @@
-//! The controller of a differential drive: its signs, its closed form, and plans that it follows.
+//! The controller of a differential drive: the signs of its terms, its closed form, and plans that it follows.
 
 use crate::common::dice;
 use crate::common::random::{seeds, usual};
@@ -21,7 +21,7 @@ fn arm() -> Arm {
     hall().scene.arm().clone()
 }
 
-/// With zeta (x - goal) = s: sinh s falls by exp(-zeta t).
+/// Checks the closed form: with zeta (x - goal) = s, sinh s falls by exp(-zeta t).
 #[test]
 fn without_obstacles_each_component_follows_its_closed_form() {
     let scene = Scene::new(arm(), Workspace::new([])).unwrap();
@@ -33,7 +33,7 @@ fn without_obstacles_each_component_follows_its_closed_form() {
         let law = Tanh { pull: dice.within(0.3, 3.0), ..LAW };
         let first = law.pull * (robot.pose.ahead(AHEAD) - goal);
         let mut last = robot.pose.ahead(AHEAD);
-        // Commands come often here, so that the motion is nearly the continuous one.
+        // Commands are frequent here, so that the motion is nearly continuous.
         let cycle = CYCLE / 10.0;
         for step in 1..6000 {
             let point = robot.pose.ahead(AHEAD);
@@ -55,7 +55,7 @@ fn without_obstacles_each_component_follows_its_closed_form() {
     }
 }
 
-/// Equation 4 is the inverse of the motion of a point ahead of the wheels.
+/// Checks that equation 4 inverts the motion of a point ahead of the wheels.
 #[test]
 fn the_point_ahead_follows_its_command() {
     for seed in seeds(200) {
@@ -77,7 +77,7 @@ fn repulsion_pushes_away_and_its_printed_sign_does_not() {
         let law = Tanh { pull: 1.0, push: dice.within(0.01, 2.0), range: dice.within(0.5, 3.0) };
         let nearest = Nearest { distance: dice.within(0.05, law.range - 0.01), angle: dice.within(-3.1, 3.1) };
         let away = -Vector2::new(nearest.angle.cos(), nearest.angle.sin());
-        // At the target, only the obstacle counts.
+        // At the target there is no attraction, so only the obstacle has an effect.
         let velocity = law.velocity(at, at, nearest);
         assert!(velocity.dot(&away) > 0.0, "seed {seed}: {velocity}");
         assert!(velocity.iter().all(|u| u.abs() <= 1.0), "seed {seed}: {velocity}");
@@ -95,7 +95,7 @@ fn repulsion_pushes_away_and_its_printed_sign_does_not() {
     }
 }
 
-/// Returns the distance of a point to a line through corners.
+/// Returns the distance between a point and a line through corners.
 fn off_line(p: Point, corners: &[[f64; 2]]) -> f64 {
     let side = |w: &[[f64; 2]]| {
         let ([dx, dy], [px, py]) = ([w[1][0] - w[0][0], w[1][1] - w[0][1]], [p.x - w[0][0], p.y - w[0][1]]);
@@ -159,8 +159,8 @@ fn plans_in_random_worlds_are_followed() {
     assert!(plans >= 8 || !usual(), "only {plans} plans");
 }
 
-/// Without a plan, the controller passes free-standing obstacles, and is trapped in others, as the source reports of a
-/// room.
+/// Checks that the controller without a plan passes free-standing obstacles, and is trapped in others, as the source
+/// reports of a room.
 #[test]
 fn without_a_plan_the_controller_arrives_in_the_open_and_is_trapped_in_corners() {
     let law = Tanh { pull: 1.0, push: 1.0, range: 1.0 };

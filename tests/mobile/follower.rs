@@ -1,4 +1,4 @@
-//! The wall follower: it lines up with walls, keeps moving, and touches nothing.
+//! The wall follower: it aligns itself with walls, keeps moving, and touches nothing.
 
 use crate::common::dice;
 use crate::common::random::seeds;
@@ -15,8 +15,8 @@ fn floor(name: &str) -> Floor {
     Floor::load(&format!("explore/{name}.toml")).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Sonars 7 and 8 look to the right, one ahead of the other, and sonar 6 is ahead of them. Along a wall, their readings
-/// follow from angle and distance.
+/// Checks two sonars that look to the right, 7 and 8, one ahead of the other, and sonar 6 ahead of them. Along a wall,
+/// angle and distance determine their readings.
 #[test]
 fn sonars_read_what_a_straight_wall_asks_for() {
     let floor = floor("hall");
@@ -35,7 +35,7 @@ fn sonars_read_what_a_straight_wall_asks_for() {
     }
 }
 
-/// `turn = -10 (s7 - s8)` is about `-2.3 tan(angle)`: the angle to the wall decays, and the distance stays.
+/// Checks that the angle to the wall decays and the distance stays: `turn = -10 (s7 - s8)` is about `-2.3 tan(angle)`.
 #[test]
 fn it_lines_up_with_a_wall() {
     let floor = floor("hall");
@@ -53,8 +53,8 @@ fn it_lines_up_with_a_wall() {
     }
 }
 
-/// In ten minutes in either room, the robot keeps moving and comes round. In the house it keeps a metre from
-/// everything. In the hall it scrapes a corner of the cupboard that no sonar sees, because its rules guarantee no
+/// Checks ten minutes in both rooms: the robot keeps moving and returns to its beginning. In the house it keeps a metre
+/// from everything. In the hall it scrapes a corner of the cupboard that no sonar sees, because its rules guarantee no
 /// distance. After three minutes it has seen most of the room, as the source says.
 #[test]
 fn it_goes_round_both_rooms() {
@@ -71,14 +71,14 @@ fn it_goes_round_both_rooms() {
         for part in way.chunks(half_minute) {
             let length: f64 = part.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
             let whole = part.len() as f64 / half_minute as f64;
-            // At 0.5 m/s, except during turns on the spot.
+            // The robot drives at 0.5 m/s, except while it turns on the spot.
             assert!(length > 11.0 * whole && length <= 15.01 * whole, "{name}: {length} m in half a minute");
         }
         for p in &way[half_minute..] {
             let wall = gap(&floor.scene, *p) + RADIUS;
             assert!((nearest..=farthest).contains(&wall), "{name}: {wall} m from the nearest wall at {p}");
         }
-        // It has been at its final place before, in the first half, with the same heading.
+        // In the first half, it was once at its final place, with the same heading.
         let (first, last) = (&robot.track[half_minute..robot.track.len() / 2], robot.track[robot.track.len() - 1]);
         let is_same = |pose: &Pose| (pose.at - last.at).norm() < 0.3 && (pose.heading - last.heading).cos() > 0.99;
         assert!(first.iter().any(is_same), "{name}: it does not come round");

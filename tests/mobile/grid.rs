@@ -14,7 +14,8 @@ fn floors() -> [Floor; 2] {
     ["explore/hall.toml", "explore/house.toml"].map(|world| Floor::load(world).unwrap_or_else(|e| panic!("{e}")))
 }
 
-/// Compares rays with walks whose steps are the distance to the nearest obstacle, and which end when that is 0.
+/// Compares rays with walks. Each step of a walk is the distance to the nearest obstacle, and the walk ends when that
+/// is 0.
 #[test]
 fn rays_end_where_steps_of_the_free_distance_end() {
     let floors = floors();
@@ -73,20 +74,22 @@ fn a_scan_frees_what_rays_cross_and_marks_what_they_meet() {
                 assert!(free <= SIDE, "cell {at:?} is marked, {free} m from anything");
             }
         }
-        // The robot is in a passage: some cells are near obstacles, and most are free.
+        // The robot is in a passage, so that some cells are near obstacles and most are free.
         let [free, occupied, _] = map.counts();
         assert!(occupied > 5 && free > 100, "{free}, {occupied}");
     }
 }
 
-/// Forces of a single cell by hand, and the force of a long wall, whose sum is close to the integral `2 / D`.
+/// Checks forces of a single cell, computed by hand, and the force of a long wall, whose sum is close to the integral
+/// `2 / D`.
 #[test]
 fn forces_add_up() {
     let (at, target) = (Point::new(0.0, 0.0), Point::new(3.0, 4.0));
     let mut map = Occupancy::unknown();
     let alone = force(&map, target, at).unwrap();
     assert!((alone - Vector2::new(0.6, 0.8)).norm() < 1e-12, "{alone}");
-    // Three cells to the west and four to the south of the robot's place, (20, 40): 5 cells away, 1/25 towards north-east.
+    // A cell three columns west and four rows south of the robot's place, (20, 40). It is 5 cells away, so the force is
+    // 1/25 towards north-east.
     map.set([24, 37], 1.0);
     let pushed = force(&map, target, at).unwrap() - alone;
     assert!((pushed - Vector2::new(0.6, 0.8) / 25.0).norm() < 1e-12, "{pushed}");

@@ -1,4 +1,4 @@
-//! Mobile robots of the literature (`examples/mobile`), against the tests' own geometry and formulas.
+//! Mobile robots from the literature (`examples/mobile`), compared with geometry and formulas of the tests.
 
 #[path = "../../examples/published_tables/alves.rs"]
 #[allow(dead_code, reason = "notes are for readers of the tables")]

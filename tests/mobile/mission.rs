@@ -1,4 +1,4 @@
-//! The mission: no robot ever hits anything, and each leg ends as reported.
+//! The mission: no robot ever hits anything, and each leg ends as it is reported.
 
 use crate::mobile::floor::Floor;
 use crate::mobile::forces::Ending;
@@ -24,7 +24,7 @@ fn check(floor: &Floor, legs: &[Leg], stop: f64, what: &str) {
         let (last, best) = (distances[distances.len() - 1], distances.iter().copied().fold(f64::INFINITY, f64::min));
         match leg.ending {
             Ending::Reached => assert!(last <= stop, "{what}: {last} m before it"),
-            // The least distance is recorded once per cycle, and after each gain of 1 cm.
+            // The least distance is recorded once per cycle, and each time that it has fallen by 1 cm.
             Ending::Trapped(short) => {
                 assert!(best > stop * 0.9 && short - best < 0.1 && short >= best, "{what}: {short}, {best}")
             }
@@ -49,7 +49,7 @@ fn forces_arrive_in_the_hall_and_are_trapped_in_the_house() {
         assert_eq!(reached(&mended), [true; 4], "{what}");
         assert!(mended.iter().all(|leg| leg.refused == 0), "{what}: it pushes against something");
     }
-    // As printed: the bin is marked while the robot stands at it.
+    // The method as printed marks the bin as an obstacle while the robot stands at it.
     let printed = by_forces(&hall, None, false);
     check(&hall, &printed, 0.01, "unknown hall, as printed");
     assert_eq!(reached(&printed), [true, true, false, true]);
@@ -61,8 +61,8 @@ fn forces_arrive_in_the_hall_and_are_trapped_in_the_house() {
     }
 }
 
-/// The map that the follower draws is the source's: unseen cells are solid for fields. With it, the number of sweeps is
-/// close to the published one.
+/// Checks fields on the map that the follower draws, as in the source: cells that were not seen are solid. The number
+/// of sweeps is close to the published one.
 #[test]
 fn fields_on_the_followers_map_take_about_the_published_sweeps_and_lead_to_the_targets() {
     let hall = floor("hall");
@@ -78,8 +78,8 @@ fn fields_on_the_followers_map_take_about_the_published_sweeps_and_lead_to_the_t
     assert_eq!(reached(&legs), [true; 4]);
 }
 
-/// Around furniture, a field with the published tolerance leads nowhere. With a smaller tolerance it leads to the
-/// target. The controller may still circle about the target, slightly too far away to have reached it.
+/// Checks that around furniture, a field with the published tolerance leads nowhere, and a field with a smaller
+/// tolerance leads to the target. The controller may circle about the target, slightly too far away to have reached it.
 #[test]
 fn around_furniture_the_published_tolerance_is_too_coarse() {
     let house = floor("house");
@@ -98,7 +98,7 @@ fn around_furniture_the_published_tolerance_is_too_coarse() {
     }
 }
 
-/// cplan's own method with two of its planners. Each leg is checked at every centimetre.
+/// Checks cplan's own method with two of its planners. Each leg is checked every centimetre.
 #[test]
 fn the_explorer_reaches_every_target_of_both_rooms() {
     for name in ["hall", "house"] {

@@ -1,4 +1,4 @@
-//! Distances by the test's own formulas: to segments and discs, and whether a place is inside a polygon.
+//! Distances by formulas of the tests: from segments and discs, and whether a place is inside a polygon.
 
 use cplan::Point;
 use cplan::model::{Scene, Shape};
@@ -6,8 +6,8 @@ use cplan::model::{Scene, Shape};
 /// Radius of the robot's body, `robots/mobile_robot.urdf`, metres.
 pub const RADIUS: f64 = 0.25;
 
-/// Returns the distance of a point to a segment: to the foot of the perpendicular if it lies on it, otherwise to the
-/// nearer end.
+/// Returns the distance between a point and a segment: to the foot of the perpendicular if that is on the segment,
+/// otherwise to the nearer end.
 fn to_segment(p: Point, a: Point, b: Point) -> f64 {
     let ([dx, dy], [px, py]) = ([b.x - a.x, b.y - a.y], [p.x - a.x, p.y - a.y]);
     let share = ((px * dx + py * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
@@ -23,7 +23,7 @@ fn is_inside(p: Point, corners: &[Point]) -> bool {
     (0..corners.len()).filter(crosses).count() % 2 == 1
 }
 
-/// Returns the distance between a robot's body at a place and a shape of the world file; not positive if they meet.
+/// Returns the distance between the robot's body and a shape of the world file. It is not positive if they meet.
 fn to_shape(p: Point, shape: &Shape) -> f64 {
     let open = |corners: &[Point]| corners.windows(2).map(|w| to_segment(p, w[0], w[1])).fold(f64::INFINITY, f64::min);
     let distance = match shape {
@@ -41,7 +41,7 @@ pub fn gap(scene: &Scene, p: Point) -> f64 {
     scene.workspace().obstacles.iter().map(|obstacle| to_shape(p, &obstacle.shape)).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the least such distance along a path whose points are close together.
+/// Returns the least distance between the robot's body and obstacles along a path whose points are close together.
 pub fn least_gap(scene: &Scene, way: &[Point]) -> f64 {
     way.iter().map(|&p| gap(scene, p)).fold(f64::INFINITY, f64::min)
 }

@@ -15,7 +15,7 @@ use cplan::{Options, Point, Problem, plan};
 
 const LAW: Tracking = Tracking { gain: 1.0, speed: 0.5 };
 
-/// The error follows `e' = -k e`, however the desired point moves.
+/// Checks that the error follows `e' = -k e`, for any motion of the desired point.
 #[test]
 fn the_distance_to_the_desired_point_falls_exponentially() {
     let hall = Floor::load("explore/hall.toml").unwrap_or_else(|e| panic!("{e}"));
@@ -26,7 +26,7 @@ fn the_distance_to_the_desired_point_falls_exponentially() {
         let law = Tracking { gain: dice.within(0.5, 2.0), speed: dice.within(0.2, 1.0) };
         let mut robot = Robot::new(&floor, [dice.within(-4.0, 4.0), dice.within(-4.0, 4.0)], dice.within(-3.1, 3.1));
         let first = desired(&corners, law.speed, 0.0).at - robot.pose.ahead(AHEAD);
-        // Commands come often here, so that the motion is nearly the continuous one.
+        // Commands are frequent here, so that the motion is nearly continuous.
         let cycle = CYCLE / 20.0;
         for step in 0..8000 {
             let time = f64::from(step) * cycle;
@@ -59,7 +59,7 @@ fn off_line(p: Point, corners: &[[f64; 2]]) -> f64 {
     corners.windows(2).map(side).fold(f64::INFINITY, f64::min)
 }
 
-/// The rooms of the mission, and the source's own map, cells, start and goal.
+/// Checks the rooms of the mission, and the source's own map, cells, start and goal.
 #[test]
 fn cells_of_the_wave_and_of_a_star_are_followed() {
     for (robot, world, cells, space, start, goal) in [
@@ -83,7 +83,7 @@ fn cells_of_the_wave_and_of_a_star_are_followed() {
             assert!(tracked.arrived && driven.refused.is_empty(), "{what}: {tracked:?}");
             assert!((driven.pose.ahead(AHEAD) - Point::from(goal)).norm() <= PASSED, "{what}: {}", driven.pose.at);
             assert!(least_gap(&floor.scene, &driven.way()) > 0.0, "{what}: it touches something");
-            // It begins where the desired point does, and commands last a hundredth of a second.
+            // The robot begins at the desired point, and a command lasts a hundredth of a second.
             assert!(tracked.farthest < 3.0 * LAW.speed * CYCLE, "{what}: {tracked:?}");
             let off = driven.way().into_iter().map(|p| off_line(p, &path)).fold(0.0, f64::max);
             assert!(off < AHEAD + 3.0 * LAW.speed * CYCLE, "{what}: {off} m off the cells");

@@ -1,4 +1,4 @@
-//! Blends against dense sampling.
+//! Blends, compared with dense samples.
 
 use crate::common::{all_kinds, clutter, disc, q, scene};
 use crate::curve;
@@ -50,7 +50,7 @@ proptest! {
         let small = blend(&scene, &path, 0.01, asked);
         prop_assert!(small.curve().radii().iter().all(|radius| *radius <= 0.01));
 
-        // The motion as other readers interpolate it: the cubic through positions and velocities.
+        // The motion as other programs interpolate it: the cubic through positions and velocities.
         let trajectory = time(curve.clone(), &Limits::from(&scene.arm().joints), 0.02).unwrap().trajectory;
         let rows = |rows: &[[f64; 2]]| rows.iter().map(|row| q(row[0], row[1])).collect();
         let recording =
@@ -63,24 +63,24 @@ proptest! {
     }
 }
 
-/// Around a post that the straight path clears by little, the blend is as large as the room allows, and not larger.
+/// Checks a post that the straight path passes closely: the blend is as large as the room allows, and no larger.
 #[test]
 fn the_clearance_bounds_the_radius() {
-    // A tool of radius 0.1 at (x, y), a post inside the right angle of its path.
+    // A tool of radius 0.1 at (x, y), and a post inside the right angle of its path.
     let (mut gantry, _) = crate::empty([1.0, 1.0], [4.0, 4.0]).into_parts();
     gantry.links[1] = crate::common::link("tool", vec![disc(cplan::geometry::Point::zeros(), 0.1)]);
     let post = disc(cplan::geometry::Point::new(0.8, 0.2), 0.05);
     let scene = scene(gantry, vec![post]);
     let path = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.0, 0.0), q(1.0, 1.0)]), 0.0).unwrap();
-    // The legs pass the post at 0.2 - 0.15 = 0.05; a blend of radius r passes its middle at
-    // (0.2 - r / 4) sqrt 2 - 0.15 along the diagonal.
+    // The segments pass the post at 0.2 - 0.15 = 0.05. The middle of a blend of radius r passes it at (0.2 - r / 4)
+    // sqrt 2 - 0.15, along the diagonal.
     let curve = blend(&scene, &path, f64::INFINITY, 0.0);
     let radius = curve.curve().radii()[1];
     let middle = |r: f64| (0.2 - r / 4.0) * 2f64.sqrt() - 0.15;
     assert!(curve.clearance() >= 0.5 * path.clearance() && curve.clearance() <= middle(radius));
     assert!(radius > 0.25 && radius < 0.9, "{radius}");
     assert!(middle(1.3 * radius) < 0.5 * path.clearance() / 0.9, "{radius} could be larger");
-    // A clearance that leaves no room keeps the corner sharp.
+    // With a clearance that leaves no room, the corner stays sharp.
     let tight = blend(&scene, &path, f64::INFINITY, path.clearance());
     assert_eq!(tight.curve().radii(), [0.0; 3]);
 }

@@ -1,5 +1,5 @@
-//! Motions with limits on jerks, through corners, against the least time along their curve. An interior-point method on
-//! a fine grid computes it, which shares nothing with the library's.
+//! Motions through corners with limits on jerks, compared with the least time along their curve. An interior-point
+//! method on a fine grid computes that time. It shares nothing with the library's method.
 //!
 //! Let `q(s)` be the curve, with `s` the time of the motion. A second motion along the same curve is at `s(t)` after
 //! `t` seconds. Let `z` be the square of the rate of `s`, and take derivatives by `s`. Then velocities are `q'
@@ -47,7 +47,8 @@ fn derivatives(motion: &Trajectory, steps: usize) -> Vec<[Configuration; 3]> {
     (0..=steps).map(at).collect()
 }
 
-/// A condition `1 - root(z_i) (w . (z_(i-1), z_i, z_(i+1))) > 0`, or the same without the root.
+/// A condition on three neighbouring nodes: `1 - root(z_i) (w . (z_(i-1), z_i, z_(i+1))) > 0`, or the same without the
+/// root.
 struct Condition {
     at: usize,
     weights: [f64; 3],
@@ -55,7 +56,7 @@ struct Condition {
 }
 
 impl Condition {
-    /// Returns the slack, its gradient and its second derivatives.
+    /// Returns the slack of the condition, its gradient, and its second derivatives.
     fn slack(&self, z: &[f64]) -> (f64, [f64; 3], [[f64; 3]; 3]) {
         let i = self.at;
         let around = [z[i.saturating_sub(1)], z[i], z[(i + 1).min(z.len() - 1)]];
@@ -81,8 +82,8 @@ impl Condition {
 /// checked.
 const NEAR_ENDS: usize = 8;
 
-/// Returns the conditions of the joints' limits on `z` at each node. Nodes at both ends have no neighbours, and need
-/// none: the arm is at rest.
+/// Returns the conditions that the joints' limits impose on `z` at each node. The nodes at both ends have only one
+/// neighbour, and need no conditions, because the arm is at rest there.
 fn conditions(nodes: &[[Configuration; 3]], step: f64, [v, a, j]: Most) -> Vec<Condition> {
     let mut all = Vec::new();
     for (at, [first, second, third]) in nodes.iter().enumerate() {
@@ -96,7 +97,7 @@ fn conditions(nodes: &[[Configuration; 3]], step: f64, [v, a, j]: Most) -> Vec<C
             for sign in [-1.0, 1.0] {
                 all.push(Condition { at, weights: pull.map(|w| sign * w / a[k]), has_root: false });
                 all.push(Condition { at, weights: jerk.map(|w| sign * w / j[k]), has_root: true });
-                // The whole acceleration has to build up since the beginning, and vanish before the end.
+                // The acceleration must build up after the beginning, and vanish before the end.
                 let steps = at.min(nodes.len() - 1 - at);
                 if (1..=NEAR_ENDS).contains(&steps) {
                     let most = j[k] * steps as f64 * step;
@@ -108,13 +109,13 @@ fn conditions(nodes: &[[Configuration; 3]], step: f64, [v, a, j]: Most) -> Vec<C
     all
 }
 
-/// Solves `A x = b` for a symmetric `A` of five diagonals: the middle one, and those one and two beside it. Returns
-/// `None` unless it is positive definite.
+/// Solves `A x = b` for a symmetric matrix `A` with five diagonals. `beside` are those one and two places beside the
+/// middle one. Returns `None` unless `A` is positive definite.
 fn solved(middle: &[f64], beside: [&[f64]; 2], b: &[f64]) -> Option<Vec<f64>> {
     let n = middle.len();
     let (mut d, mut l, mut x) = (vec![0.0; n], [vec![0.0; n], vec![0.0; n]], b.to_vec());
     for i in 0..n {
-        // `l[k][i]` is the entry of the unit triangle in row `i`, `k + 1` columns before it.
+        // `l[k][i]` is the entry of the unit lower triangle in row `i`, `k + 1` columns to the left of the diagonal.
         if i >= 2 {
             l[1][i] = beside[1][i - 2] / d[i - 2];
         }
@@ -146,7 +147,7 @@ fn time(z: &[f64], step: f64) -> f64 {
     z.iter().enumerate().map(|(i, z)| half(i) * step / z.sqrt()).sum()
 }
 
-/// Returns the time with a barrier of this height before the limits; infinite beyond them.
+/// Returns the time plus a barrier of this height before the limits. Infinite if a limit is violated.
 fn merit(z: &[f64], step: f64, conditions: &[Condition], height: f64) -> f64 {
     if z.iter().any(|&z| z.is_nan() || z <= 0.0) {
         return f64::INFINITY;
@@ -158,7 +159,7 @@ fn merit(z: &[f64], step: f64, conditions: &[Condition], height: f64) -> f64 {
     time(z, step) + height * barrier.sum::<f64>()
 }
 
-/// Returns a step of Newton's method, made positive definite by the smallest sufficient change.
+/// Returns a step of Newton's method. Its matrix is made positive definite by the smallest change that suffices.
 fn newton(z: &[f64], step: f64, conditions: &[Condition], height: f64) -> (Vec<f64>, f64) {
     let n = z.len();
     let (mut gradient, mut middle, mut one, mut two) = (vec![0.0; n], vec![0.0; n], vec![0.0; n], vec![0.0; n]);
@@ -190,7 +191,8 @@ fn newton(z: &[f64], step: f64, conditions: &[Condition], height: f64) -> (Vec<f
     }
 }
 
-/// Returns the least time along the curve of a motion, in this many steps, starting from this fraction of its speed.
+/// Returns the least time along the curve of a motion. `steps` is the number of steps, and `from` the fraction of the
+/// motion's speed with which the search begins.
 fn optimum(motion: &Trajectory, most: Most, steps: usize, from: f64) -> f64 {
     let step = motion.duration() / steps as f64;
     let conditions = conditions(&derivatives(motion, steps), step, most);
@@ -216,13 +218,14 @@ fn optimum(motion: &Trajectory, most: Most, steps: usize, from: f64) -> f64 {
     time(&z, step)
 }
 
-/// Waypoints and limits.
+/// Waypoints, and limits of the joints.
 type Case = (&'static [[f64; 2]], Most);
 
-/// Largest fraction by which a motion takes longer than the least time along its curve.
+/// Largest fraction by which a motion may take longer than the least time along its curve.
 const LONGER: f64 = 0.01;
 
-/// Right angles, gentle turns, hairpins, short legs between long ones, one joint far slower than the other.
+/// Paths with right angles, gentle turns, hairpins, and short segments between long ones. In some, one joint is far
+/// slower than the other.
 const PATHS: [Case; 12] = [
     (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[2.0, 3.0], [8.0, 12.0], [200.0, 300.0]]),
     (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[2.0, 3.0], [8.0, 12.0], [80.0, 60.0]]),
@@ -247,8 +250,8 @@ const PATHS: [Case; 12] = [
     ),
 ];
 
-/// Limits hold at the steps, and may be exceeded in between. The steps are halved until the difference is below this
-/// fraction.
+/// Largest relative difference between results with one number of steps and with twice that number. Limits hold at the
+/// steps and may be exceeded in between, so the steps are halved until the difference is below this.
 const OFF: f64 = 5e-3;
 
 /// Largest number of steps.
@@ -273,7 +276,8 @@ fn near_the_least_time_along_the_same_curve() {
     }
 }
 
-/// The limits on jerks do not make a convex problem, but the result is the same from another beginning.
+/// Checks that the result does not depend on where the search begins, although limits on jerks do not make a convex
+/// problem.
 #[test]
 fn the_least_time_is_the_same_from_anywhere() {
     for &(waypoints, most) in [PATHS[1], PATHS[4], PATHS[7]].iter() {
@@ -283,8 +287,8 @@ fn the_least_time_is_the_same_from_anywhere() {
     }
 }
 
-/// Closed form for a long segment at top speed between complete ramps: `L / v + v / a + a / j`. The motions of the test
-/// are gentler.
+/// Checks the closed form for a long segment: `L / v + v / a + a / j`, with top speed between complete ramps. The
+/// motions of the library are gentler.
 #[test]
 fn along_straight_lines_the_least_time_is_known() {
     let motion = driven(&[[0.0, 0.0], [1.0, 0.5]], [[0.7, 0.7], [3.0, 3.0], [20.0, 20.0]]);

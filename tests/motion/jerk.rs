@@ -1,4 +1,4 @@
-//! Motions with a limit on the jerk: against closed forms, by integration, and as `verify` judges them.
+//! Motions with a limit on the jerk, compared with closed forms, integrated, and judged by `verify`.
 
 use crate::common::{placed, q};
 use crate::sampled::{as_vector, between, recording};
@@ -33,7 +33,7 @@ fn closed_form(length: f64, v: f64, a: f64, j: f64) -> (f64, f64) {
     (whole, whole / 4.0)
 }
 
-/// Returns the shortest duration of a motion that stops at each corner, and the time by which the least interval
+/// Returns the shortest duration of a motion that stops at each corner. Also returns by how much the least interval
 /// between samples may lengthen it.
 fn shortest(points: &[Configuration], joints: &[Joint; 2]) -> (f64, f64) {
     let (mut sum, mut floor) = (0.0, 0.0);
@@ -44,17 +44,17 @@ fn shortest(points: &[Configuration], joints: &[Joint; 2]) -> (f64, f64) {
         };
         let (v, a) = (least(&|joint| joint.velocity), least(&|joint| joint.acceleration));
         let j = least(&|joint| joint.jerk.unwrap_or(f64::INFINITY));
-        // The formulas also hold without a limit on the jerk.
+        // The formulas also hold if there is no limit on the jerk.
         let (whole, phase) = closed_form(leg.norm(), v, a, j);
         sum += whole;
-        // Seven phases of whole nanoseconds.
+        // The seven phases last whole nanoseconds.
         floor += if phase >= MIN_INTERVAL { 7e-9 } else { 12.0 * MIN_INTERVAL };
     }
     (sum, floor)
 }
 
-/// Integrates only the jerk, from rest at the start. The integrals must be the accelerations, velocities and positions
-/// of all samples, and the last sample must be at rest. Checks the limits, also between samples.
+/// Integrates the jerk alone, from rest at the start. The integrals must equal the accelerations, velocities and
+/// positions of all samples, and the last sample must be at rest. Also checks the limits, between samples as well.
 fn check(joints: &[Joint; 2], timed: &TimedMotion) {
     let trajectory = &timed.trajectory;
     let path = timed.curve.curve().path();
@@ -64,7 +64,7 @@ fn check(joints: &[Joint; 2], timed: &TimedMotion) {
     let ends = [trajectory.velocity[0], trajectory.velocity[n - 1], trajectory.acceleration[n - 1]];
     assert_eq!(ends, [[0.0; 2]; 3]);
     let size = path.waypoints().iter().map(|q| q.amax()).fold(1.0, f64::max);
-    // Rounding of a position, and its effect on derivatives over an interval.
+    // The rounding of a position, and its effect on derivatives over an interval.
     let rounding = 32.0 * f64::EPSILON * size;
     for (k, joint) in joints.iter().enumerate() {
         let Some(jerk) = joint.jerk else { continue };
@@ -85,7 +85,8 @@ fn check(joints: &[Joint; 2], timed: &TimedMotion) {
             position += h * (velocity + h * (acceleration / 2.0 + h * rate / 6.0));
             velocity += h * (acceleration + h * rate / 2.0);
             acceleration += h * rate;
-            // Times are rounded to half a unit in the last place of the duration at each sample, and so drift.
+            // At each sample, the time is rounded to half a unit in the last place of the duration, so that errors
+            // accumulate.
             let drift = f64::EPSILON * trajectory.duration() * (i + 1) as f64;
             let speed = joint.velocity.min(top * trajectory.duration());
             assert!((acceleration - next).abs() <= 1e-9 * top + jerk * drift, "acceleration {k} at {i}");
@@ -111,7 +112,7 @@ fn seven_phases_on_each_leg_of_a_right_angle() {
     let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
     let timed = time(curve(&scene, &points, 0.3), &Limits::from(&scene.arm().joints), 1.0).unwrap();
     check(&scene.arm().joints, &timed);
-    // L / v + v / a + a / j, twice. Samples lie only at the ends of the phases, and at 1 s because of the period.
+    // Twice L / v + v / a + a / j. Samples lie at the ends of the phases, and at 1 s because of the period.
     let trajectory = &timed.trajectory;
     assert!((trajectory.duration() - (1.0 + 0.25 + 0.1) - (1.0 + 0.25 + 0.2)).abs() < 1e-8);
     let expected = [0.0, 0.1, 0.25, 0.35, 1.0, 1.1, 1.25, 1.35, 1.55, 1.6, 1.8, 2.0, 2.35, 2.55, 2.6, 2.8];
@@ -129,7 +130,7 @@ fn a_joint_without_a_limit_may_jump_where_it_moves_alone() {
     };
     let alone = along(&[[0.0, 0.0], [1.0, 0.0]]);
     assert_eq!((alone.acceleration[0], alone.duration()), ([4.0, 0.0], 1.25));
-    // In step with the other joint, the acceleration grows as gently as that joint's.
+    // Both joints move together, so the acceleration grows as slowly as that of the joint with a limit.
     let both = along(&[[0.0, 0.0], [1.0, 1.0]]);
     assert!((both.duration() - 1.45).abs() < 1e-8 && both.acceleration[0] == [0.0; 2]);
 }
@@ -146,7 +147,7 @@ fn less_speed_takes_that_much_longer() {
 
 #[test]
 fn a_jump_of_the_acceleration_is_a_broken_limit() {
-    // Timed without the limit, verified with it.
+    // The motion is timed without the limit, and verified with it.
     let scene = room([1.0, 1.0], [4.0, 4.0], [None, None]);
     let timed = time(curve(&scene, &[[0.0, 0.0], [1.0, 0.5]], 0.3), &Limits::from(&scene.arm().joints), 0.01).unwrap();
     let smooth = room([1.0, 1.0], [4.0, 4.0], [None, Some(1000.0)]);
@@ -171,7 +172,7 @@ fn the_tip_satisfies_its_speed_limit() {
     let limits = Limits { tip: Some(TipSpeed { arm: scene.arm(), speed: 0.5 }), ..Limits::from(&scene.arm().joints) };
     let timed = time(curve(&scene, &[[0.0, 0.0], [0.3, 0.4], [1.0, 0.4]], 0.3), &limits, 0.01).unwrap();
     check(&scene.arm().joints, &timed);
-    // On a gantry, the tip is at the joint values.
+    // The tip of a gantry is at the joint values.
     let top = timed.trajectory.velocity.iter().map(|v| as_vector(*v).norm()).fold(0.0, f64::max);
     assert!((0.499..=0.5 + 1e-12).contains(&top), "{top}");
 }
@@ -204,7 +205,7 @@ proptest! {
 proptest! {
     #![proptest_config(cplan_cases::cases(2000))]
 
-    /// One joint, from the values of an arm to far beyond them.
+    /// Checks one joint, with limits from those of an arm to far beyond.
     #[test]
     fn as_fast_as_in_closed_form(
         length in -12.0..2.0_f64, speed in -3.0..4.0_f64, acceleration in -3.0..6.0_f64, jerk in -3.0..9.0_f64,

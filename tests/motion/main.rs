@@ -1,4 +1,4 @@
-//! Motions on blended paths: their curves, their limits and clearances, and their distance from the optimum.
+//! Motions on paths with blends: their curves, limits and clearances, and how near they come to the optimum.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,13 +1,13 @@
 //! Recordings, read back by the MCAP crate's reader and a decoder of CDR that shares no code with the writer. The
-//! decoder derives the place of each value only from the rule of the standard. `tests/python/read_mcap.py` reads the
-//! same files with independent libraries.
+//! decoder computes the place of each value by the standard alone. `tests/python/read_mcap.py` reads the same files
+//! with independent libraries.
 
 use cplan::motion::{JointMotion, mcap};
 use mcap_reader::read::{LinearReader, MessageStream, Summary};
 use mcap_reader::records::Record;
 use proptest::prelude::*;
 
-/// The crate, under a name that differs from the function's.
+/// The crate needs another name than the function.
 use ::mcap as mcap_reader;
 
 /// A reader that takes values off the front of a message.
@@ -77,11 +77,11 @@ pub struct Motion {
     pub log: u64,
     pub joints: Vec<String>,
     pub since: Vec<u64>,
-    /// Positions, velocities and accelerations.
+    /// Positions, velocities and accelerations of each point.
     pub points: Vec<[Vec<f64>; 3]>,
 }
 
-/// Reads everything in a file, after checks of the common structure.
+/// Reads everything in a file, and checks the structure that all files have.
 pub fn read(file: &[u8]) -> (Vec<State>, Vec<Motion>) {
     let (mut states, mut motions) = (Vec::new(), Vec::new());
     for message in MessageStream::new(file).unwrap() {
@@ -92,7 +92,7 @@ pub fn read(file: &[u8]) -> (Vec<State>, Vec<Motion>) {
         assert_eq!(message.publish_time, message.log_time);
         let log = message.log_time;
         if !channel.topic.starts_with("/joint_") {
-            // `recorded_scene` tests the pictures of the motion.
+            // `recorded_scene` tests these topics, which display the motion.
             continue;
         }
         let mut from = Decoder::new(&message.data);
@@ -122,7 +122,7 @@ pub fn read(file: &[u8]) -> (Vec<State>, Vec<Motion>) {
     (states, motions)
 }
 
-/// Returns a trajectory with samples at these steps and with these values, with accelerations.
+/// Returns a trajectory with accelerations. `steps` are the times between samples, and `values` those of the samples.
 fn trajectory(joints: &[String], steps: &[f64], values: &[[f64; 6]]) -> JointMotion {
     let time = steps.iter().scan(-steps[0], |t, step| {
         *t += step;

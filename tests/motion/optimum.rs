@@ -1,4 +1,4 @@
-//! Durations against an optimum on a fine grid, by code that shares nothing with the library's.
+//! Durations of motions, compared with an optimum on a fine grid. Its code shares nothing with the library's.
 
 use crate::common::q;
 use crate::{certified, curve, empty, limits, waypoints};
@@ -8,14 +8,14 @@ use cplan::motion::{Limits, TipSpeed, time};
 use cplan::space::Configuration;
 use proptest::prelude::*;
 
-/// The path and its first and second derivative by a parameter, at steps of that parameter.
+/// A path with its first and second derivative by a parameter, at equal steps of that parameter.
 struct Grid {
     step: f64,
     nodes: Vec<[Configuration; 3]>,
 }
 
-/// Returns grids along a curve from its waypoints and radii, with `per_unit` steps per unit of length. There are
-/// several grids if the motion has to stop.
+/// Returns grids along a curve, computed from its waypoints and radii, with `per_unit` steps per unit of length. If the
+/// motion has to stop, there are several grids.
 fn grids(curve: &CertifiedCurve, per_unit: f64) -> Vec<Vec<Grid>> {
     let (points, radii) = (curve.curve().path().waypoints(), curve.curve().radii());
     let mut runs = vec![vec![]];
@@ -47,8 +47,8 @@ fn grids(curve: &CertifiedCurve, per_unit: f64) -> Vec<Vec<Grid>> {
     runs
 }
 
-/// Returns the range of accelerations of the parameter at a node with a squared speed; `None` if the joints cannot
-/// follow the path.
+/// Returns the range of accelerations of the parameter at a node, for a squared speed `z`. `None` if the joints cannot
+/// follow the path at that speed.
 fn allowed([at, first, second]: [Configuration; 3], z: f64, limits: &Limits) -> Option<[f64; 2]> {
     let mut range = [f64::NEG_INFINITY, f64::INFINITY];
     if let Some(tip) = limits.tip {
@@ -76,7 +76,7 @@ fn allowed([at, first, second]: [Configuration; 3], z: f64, limits: &Limits) -> 
     (range[0] <= range[1]).then_some(range)
 }
 
-/// Returns the greatest good value by bisection; values are good up to some limit.
+/// Returns by bisection the greatest value for which `good` is true. It must be true up to some limit.
 fn bisected(good: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, 1e6);
     for _ in 0..80 {
@@ -86,7 +86,8 @@ fn bisected(good: impl Fn(f64) -> bool) -> f64 {
     low
 }
 
-/// Returns the least time along the curve: controllable squared speeds backwards, and the greatest of them forwards.
+/// Returns the least time along the curve. Computes the controllable squared speeds backwards, and then the greatest of
+/// them forwards.
 fn optimum(curve: &CertifiedCurve, limits: &Limits, per_unit: f64) -> f64 {
     let mut total = 0.0;
     for run in grids(curve, per_unit) {
@@ -118,14 +119,14 @@ fn duration(scene: &Scene, curve: impl Into<CertifiedCurve>) -> f64 {
     time(curve, &Limits::from(&scene.arm().joints), 0.01).unwrap().trajectory.duration()
 }
 
-/// Largest ratio of the time of a random motion to the least time: 1.019 in the worst of 20 480.
+/// Largest ratio of the time of a random motion to the least time. The worst of 20 480 motions has 1.019.
 const MOST: f64 = 1.03;
 
-/// Waypoints, limits of velocity and of acceleration, radius.
+/// Waypoints, limits of velocity and of acceleration, and radius of blends.
 type Case = (&'static [[f64; 2]], [f64; 2], [f64; 2], f64);
 
-/// Returns paths with the joints' limits: right angles, gentle turns, hairpins, short legs between long ones, one joint
-/// far slower than the other.
+/// Paths with right angles, gentle turns, hairpins, and short segments between long ones. In some, one joint is far
+/// slower than the other.
 const PATHS: [Case; 12] = [
     (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [2.0, 3.0], [8.0, 12.0], 0.3),
     (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [2.0, 3.0], [8.0, 12.0], 0.01),
@@ -162,16 +163,17 @@ fn within_a_hundredth_of_the_optimum() {
 
 #[test]
 fn straight_motions_are_bang_bang() {
-    // 1 m at 2 m/s2 and 0.5 m/s: 0.25 s to top speed, 0.0625 m.
+    // A distance of 1 m at 2 m/s2 and 0.5 m/s: top speed is reached after 0.25 s and 0.0625 m.
     let scene = empty([0.5, 0.5], [2.0, 2.0]);
     assert!((duration(&scene, curve(&scene, &[[0.0, 0.0], [1.0, 0.0]], 1.0)) - 2.25).abs() < 1e-12);
-    // A corner without a turn costs almost nothing.
+    // A waypoint at which the path does not turn costs almost nothing.
     let split = duration(&scene, curve(&scene, &[[0.0, 0.0], [0.4, 0.0], [1.0, 0.0]], 1.0));
     assert!((2.25..2.25 * 1.01).contains(&split), "{split}");
     assert!(duration(&scene, certified(&scene, &[[0.0, 0.0], [0.4, 0.0], [1.0, 0.0]])) > 2.49);
 }
 
-/// The tip's speed is bounded separately for each part of the curve, which loses a little on straight pieces.
+/// Checks a limit on the tip's speed. It bounds each part of the curve separately, which loses a little on straight
+/// pieces.
 #[test]
 fn a_slow_tip_is_as_fast_as_it_may() {
     for (kind, arm) in crate::common::all_kinds().into_iter().enumerate() {
@@ -218,7 +220,7 @@ proptest! {
         let least = |per_unit| optimum(&timed.curve, &Limits::from(&scene.arm().joints), per_unit);
         let took = timed.trajectory.duration();
         let close = |least: f64| took <= least * MOST && took >= least * 0.995;
-        // With coarse steps, the oracle is exact to a hundredth if limits differ strongly.
+        // If limits differ strongly, coarse steps make the comparison exact only to a hundredth.
         prop_assert!(close(least(300.0)) || close(least(3000.0)), "{took} {} {:?}", least(3000.0), timed.curve.curve().radii());
     }
 }

@@ -1,5 +1,5 @@
-//! Pictures in recordings, decoded by the rule of the standard. Frames are at the places of the states, by
-//! trigonometry. Surfaces are closed, and have the right volume.
+//! Recordings whose topics display the scene, decoded by the standard alone. Frames are where trigonometry puts them
+//! for the recorded states. Surfaces are closed, and have the right volume.
 
 use crate::mcap::Decoder;
 use ::mcap::read::MessageStream;
@@ -23,10 +23,10 @@ struct Marker {
 /// The content of a file.
 #[derive(Default)]
 struct Shown {
-    /// Place and orientation (x, y, z, w), by time and frame.
+    /// Position and orientation (x, y, z, w) of each frame, by time and name.
     frames: BTreeMap<(u64, String), (Place, [f64; 4])>,
     markers: Vec<Marker>,
-    /// Points by frame.
+    /// Points of the surfaces in each frame.
     points: BTreeMap<String, Vec<Place>>,
 }
 
@@ -104,8 +104,8 @@ fn shown(file: &[u8]) -> Shown {
     shown
 }
 
-/// Returns the volume within triangles. Panics unless each side belongs to two of them, which traverse it in opposite
-/// directions.
+/// Returns the volume that triangles enclose. Panics unless each side belongs to two triangles that traverse it in
+/// opposite directions.
 fn volume(corners: &[Place]) -> f64 {
     let mut sides = BTreeMap::new();
     let key = |p: Place| p.map(f64::to_bits);
@@ -156,8 +156,8 @@ fn frames_follow_the_states_and_surfaces_are_closed() {
     );
     let volumes: Vec<f64> = shown.markers.iter().map(|marker| volume(&marker.corners)).collect();
     assert!((volumes[0] - 0.5 * 0.5 * 0.3 * 0.3).abs() < 1e-12, "{volumes:?}");
-    // Shapes of unlimited height are as high as those with a height. Chords of round ends lie inside, by less than 4 %
-    // of the area.
+    // Shapes of unlimited height are as high as those with a height. The chords of round ends lie inside them, and lose
+    // less than 4 % of the area.
     let round =
         [std::f64::consts::PI * 0.01, 0.06 + std::f64::consts::PI * 0.0009, 0.048 + std::f64::consts::PI * 0.0009];
     for (found, area) in volumes[1..].iter().zip(round) {
@@ -182,7 +182,7 @@ fn frames_follow_the_states_and_surfaces_are_closed() {
     assert!(shown.points["workspace"].len() > 100 && shown.points["workspace"].iter().all(on_rim));
 }
 
-/// A cart arrives and stops. Its frame follows the straight line between its stops.
+/// Checks a cart that arrives and stops. Its frame moves on the straight line between its stops.
 #[test]
 fn moving_obstacles_have_moving_frames() {
     let stop = |time: f64, x: f64| Stop { time, at: Point::new(x, 0.2), angle: time / 2.0 };

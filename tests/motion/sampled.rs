@@ -1,4 +1,5 @@
-//! Samples against the curve, the limits and each other, read by the interpolation that the result states.
+//! Samples, compared with the curve, with the limits, and with each other. They are joined by the interpolation that
+//! the result states.
 
 use crate::common::q;
 use crate::{curve, empty, limits, waypoints};
@@ -8,14 +9,14 @@ use cplan::motion::{Limits, MIN_INTERVAL, TimedMotion, Trajectory, time};
 use cplan::space::{BLEND_TOLERANCE, Configuration, Recording};
 use proptest::prelude::*;
 
-/// Samples lie at whole nanoseconds, at most this far from the beginnings of phases. In seconds.
+/// Largest distance of a sample from the beginning of its phase, in seconds, because samples lie at whole nanoseconds.
 const HALF_A_NANOSECOND: f64 = 0.5e-9;
 
 pub fn as_vector(row: [f64; 2]) -> Configuration {
     q(row[0], row[1])
 }
 
-/// Returns the polynomial of an interval as `INTERPOLATION` states it: position, velocity and acceleration at `t`.
+/// Returns position, velocity and acceleration at `t` in interval `k`, by the polynomial that `INTERPOLATION` states.
 pub fn between(trajectory: &Trajectory, k: usize, t: f64) -> [Configuration; 3] {
     let [p, v, a] =
         [&trajectory.position, &trajectory.velocity, &trajectory.acceleration].map(|rows| as_vector(rows[k]));
@@ -30,14 +31,15 @@ pub fn between(trajectory: &Trajectory, k: usize, t: f64) -> [Configuration; 3] 
     ]
 }
 
-/// Returns the samples as any reader sees them.
+/// Returns the samples as a recording, which any program could have written.
 pub fn recording(trajectory: &Trajectory) -> Recording {
     let rows = |rows: &[[f64; 2]]| rows.iter().copied().map(as_vector).collect::<Vec<_>>();
     let velocity = rows(&trajectory.velocity);
     Recording::new(rows(&trajectory.position), Some(trajectory.time.clone()), Some(velocity)).unwrap()
 }
 
-/// Returns the distance from a curve in one joint space unit, by Newton's method on every leg and blend.
+/// Returns the distance between a configuration and a curve, in units of joint space, by Newton's method on every
+/// segment and blend.
 fn off(curve: &CertifiedCurve, at: Configuration) -> f64 {
     let (points, radii) = (curve.curve().path().waypoints(), curve.curve().radii());
     let mut least = (at - points[0]).norm();
@@ -65,7 +67,7 @@ fn off(curve: &CertifiedCurve, at: Configuration) -> f64 {
     least
 }
 
-/// Checks everything that holds for every motion.
+/// Checks all properties that every motion must have.
 fn check(joints: &[Joint; 2], timed: &TimedMotion, period: f64) {
     let TimedMotion { curve, trajectory } = timed;
     let n = trajectory.time.len();
@@ -77,10 +79,10 @@ fn check(joints: &[Joint; 2], timed: &TimedMotion, period: f64) {
     let mut step = 0;
     for k in 0..n - 1 {
         let h = trajectory.time[k + 1] - trajectory.time[k];
-        // Multiples of the period near another sample are skipped.
+        // A multiple of the period that is near another sample is skipped.
         assert!((0.998 * MIN_INTERVAL..=period + 2e-4).contains(&h), "sample {k} lasts {h} s");
-        // The stated acceleration alone, from rest at the start: Gauss's rule with three points, exact for the fifth
-        // degree.
+        // Integrates only the stated acceleration, from rest at the start. Gauss's rule with three points is exact up
+        // to the fifth degree.
         let nodes = [0.5 - 0.15f64.sqrt(), 0.5, 0.5 + 0.15f64.sqrt()];
         let weights = [5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0];
         position += velocity * h;
@@ -90,7 +92,8 @@ fn check(joints: &[Joint; 2], timed: &TimedMotion, period: f64) {
             position += acceleration * (weight * h * h * (1.0 - node));
         }
         for i in 0..2 {
-            // Times are rounded to half a unit in the last place of the duration at each sample, and so drift.
+            // At each sample, the time is rounded to half a unit in the last place of the duration, so that errors
+            // accumulate.
             let drift = joints[i].acceleration * f64::EPSILON * trajectory.duration() * (k + 1) as f64;
             let speed = joints[i].velocity.min(joints[i].acceleration * trajectory.duration());
             let fast = (velocity[i] - trajectory.velocity[k + 1][i]).abs();
@@ -98,10 +101,10 @@ fn check(joints: &[Joint; 2], timed: &TimedMotion, period: f64) {
             let far = (position[i] - trajectory.position[k + 1][i]).abs();
             assert!(far <= 1e-9 * size + drift * trajectory.duration(), "position {i} at {k}: {far}");
         }
-        // On the curve and within the limits, between samples too. In the shortest intervals, rounding of positions
-        // hides the accelerations.
+        // The motion is on the curve and within the limits, between samples as well. In the shortest intervals, the
+        // rounding of positions hides the accelerations.
         step += 1;
-        // At a sample, the acceleration is that of the interval which begins within half a nanosecond.
+        // The acceleration at a sample is that of the interval that begins within half a nanosecond.
         let late = HALF_A_NANOSECOND * joints[0].acceleration.max(joints[1].acceleration) * h;
         for share in [0.0, 0.3, 0.7, 1.0] {
             let [at, speed, pull] = between(trajectory, k, share * h);
@@ -116,7 +119,8 @@ fn check(joints: &[Joint; 2], timed: &TimedMotion, period: f64) {
             }
         }
     }
-    // The cubic through positions and velocities does so, too, and its distance is never above the tolerance.
+    // The cubic through positions and velocities is also on the curve and within the limits, and its distance from the
+    // curve is within the tolerance.
     let recording = recording(trajectory);
     assert_eq!(limit_violations(joints, &recording), []);
     let largest = curve.curve().radii().iter().copied().fold(0.0, f64::max);
@@ -136,12 +140,13 @@ fn a_right_angle() {
     let limits = Limits::from(&scene.arm().joints);
     let timed = time(curve(&scene, &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], 0.3), &limits, 0.01).unwrap();
     check(&scene.arm().joints, &timed, 0.01);
-    // It never rests in between.
+    // The motion is never at rest between its ends.
     let moving = |k: usize| as_vector(timed.trajectory.velocity[k]).norm() > 0.1;
     let n = timed.trajectory.time.len();
     assert!((n / 10..n * 9 / 10).all(moving));
     assert!(n < 200, "{n} samples");
-    // At a fraction of the speed, the motion takes longer by that factor, and keeps the limits of that fraction.
+    // At a fraction of the speed, the motion takes longer by that factor, and keeps limits that are scaled by that
+    // fraction.
     let slow = limits.scaled(0.5);
     let half = time(timed.curve.clone(), &slow, 0.01).unwrap().trajectory;
     assert!((half.duration() - 2.0 * timed.trajectory.duration()).abs() < 1e-4);

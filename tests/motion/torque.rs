@@ -1,5 +1,5 @@
-//! Torques: against bodies moved in small steps, closed forms, and the fastest motion by brute force, and as motions
-//! are played.
+//! Torques, compared with bodies that are moved in small steps, with closed forms, with the fastest motion by brute
+//! force, and with the motions that controllers execute.
 
 use super::certified;
 use super::common::dice::Dice;
@@ -13,7 +13,7 @@ use cplan::model::{
 use cplan::motion::{Drive, Objective, TimingError, Trajectory};
 use cplan::space::{Configuration, JointRange, Path};
 
-/// Returns centre and orientation of a body: by complex numbers, without the arm's own kinematics.
+/// Returns centre and orientation of a body. Computes them with complex numbers, without the arm's own kinematics.
 fn placed(arm: &Arm, link: usize, center: Point, q: [f64; 2]) -> ([f64; 2], f64) {
     let (mut at, mut angle) = ([arm.base.x, arm.base.y], 0.0_f64);
     let mut go = |by: [f64; 2], angle: f64| {
@@ -33,7 +33,8 @@ fn placed(arm: &Arm, link: usize, center: Point, q: [f64; 2]) -> ([f64; 2], f64)
     (at, angle)
 }
 
-/// Returns the torques that move the bodies, by the principle of virtual work, with differences instead of derivatives.
+/// Returns the torques that move the bodies, by the principle of virtual work. It uses differences instead of
+/// derivatives.
 fn by_steps(arm: &Arm, dynamics: &Dynamics, q: [f64; 2], v: [f64; 2], a: [f64; 2]) -> [f64; 2] {
     let (h, small) = (1e-4, 1e-5);
     let moved = |t: f64| [0, 1].map(|k| q[k] + v[k] * t + a[k] * t * t / 2.0);
@@ -57,7 +58,7 @@ fn by_steps(arm: &Arm, dynamics: &Dynamics, q: [f64; 2], v: [f64; 2], a: [f64; 2
     torque
 }
 
-/// Draws bodies of up to some kilograms, and efforts that hold them.
+/// Draws bodies of up to some kilograms, and efforts that can hold them.
 fn drawn(dice: &mut Dice, mut arm: Arm, strength: f64) -> Arm {
     let body = |dice: &mut Dice| Body {
         mass: dice.within(0.5, 4.0),
@@ -67,7 +68,7 @@ fn drawn(dice: &mut Dice, mut arm: Arm, strength: f64) -> Arm {
     let bodies = [body(dice), body(dice)];
     let gravity = Vector::new(dice.within(-10.0, 10.0), dice.within(-10.0, 10.0));
     let mut dynamics = Dynamics { bodies, gravity, effort: [1.0; 2], assumed: [true; 2], limits: true };
-    // In every pose, the torque to hold the arm is a fraction of this effort.
+    // In every configuration, the torque that holds the arm is a fraction of this effort.
     let weight = bodies.map(|body| body.mass * gravity.norm());
     let holding = |k: usize| {
         let turns = arm.joints[k].joint_type.is_revolute();
@@ -112,15 +113,16 @@ fn torques_move_the_bodies() {
     assert_eq!(seen, 50 * all_kinds().len());
 }
 
-/// Returns position, velocity and acceleration at a fraction of the interval from a sample to the next: by the cubic
-/// through positions and velocities, and by the polynomial of the fourth degree that also has the acceleration.
+/// Returns position, velocity and acceleration at a fraction `u` of the interval after sample `i`. The first result is
+/// by the cubic through positions and velocities. The second is by the polynomial of the fourth degree that also has
+/// the acceleration.
 fn between(trajectory: &Trajectory, i: usize, u: f64) -> [[[f64; 2]; 3]; 2] {
     let h = trajectory.time[i + 1] - trajectory.time[i];
     let of = |k: usize, is_quartic: bool| {
         let ends = |rows: &[[f64; 2]]| [rows[i][k], rows[i + 1][k]];
         let ([a, b], [va, vb]) = (ends(&trajectory.position), ends(&trajectory.velocity));
         let c2 = if is_quartic { trajectory.acceleration[i][k] / 2.0 } else { (3.0 * (b - a) / h - 2.0 * va - vb) / h };
-        // a + va h + c2 h2 + c3 h3 + c4 h4 = b, and the derivative there vb.
+        // Solves a + va h + c2 h2 + c3 h3 + c4 h4 = b, with the derivative vb at the end.
         let (rest, slope) = (b - a - va * h - c2 * h * h, vb - va - 2.0 * c2 * h);
         let c4 = (slope * h - 3.0 * rest) / h.powi(4);
         let c3 = (rest - c4 * h.powi(4)) / h.powi(3);
@@ -137,8 +139,8 @@ fn between(trajectory: &Trajectory, i: usize, u: f64) -> [[[f64; 2]; 3]; 2] {
     })
 }
 
-/// Checks the torques of both interpolations of the samples along the whole motion. Returns the greatest fraction of an
-/// effort.
+/// Checks the torques along the whole motion, for both interpolations of the samples. Returns the greatest torque as a
+/// fraction of the effort.
 fn kept(arm: &Arm, dynamics: &Dynamics, trajectory: &Trajectory, what: &str) -> f64 {
     let mut greatest = 0.0_f64;
     for i in 0..trajectory.time.len() - 1 {
@@ -265,10 +267,10 @@ fn driven(scene: &Scene, waypoints: &[[f64; 2]]) -> Result<f64, TimingError> {
 
 #[test]
 fn a_slide_as_in_the_book() {
-    // 6 kg by 24 N over 4 m, half of it accelerated with 4 m/s2.
+    // A mass of 6 kg is moved over 4 m by 24 N, which accelerates it with 4 m/s2 over half the distance.
     let along_x = driven(&scene(gantry([24.0, 5.0], [4.0, 2.0], Vector::zeros()), vec![]), &[[0.0, 0.0], [4.0, 0.0]]);
     assert!((along_x.expect("a motion") / 2.0 - 1.0).abs() < 5e-3);
-    // 2 kg upwards against gravity by 30 N: up with 5 m/s2, braked with 25.
+    // A mass of 2 kg is lifted by 30 N against gravity: it is accelerated with 5 m/s2 and braked with 25.
     let lift =
         driven(&scene(gantry([24.0, 30.0], [4.0, 2.0], Vector::new(0.0, -10.0)), vec![]), &[[0.0, 0.0], [0.0, 3.0]]);
     let expected = (2.0 * 3.0 * (1.0 / 5.0 + 1.0 / 25.0_f64)).sqrt();
@@ -308,9 +310,10 @@ fn payload_mass_counts() {
         task.scene(&[None], &[], Some(&Payload { object: 0, grip, supports: vec![] }), [])
     };
     let time = driven(&carrying(&bare, rigid), &[[0.0, 0.0], [4.0, 0.0]]).expect("a motion");
-    // 12 kg instead of 6.
+    // The mass is 12 kg instead of 6.
     assert!((time / (2.0 * 2f64.sqrt()) - 1.0).abs() < 5e-3, "{time}");
-    // A block about its centre: m (a2 + b2) / 12; held off the joint, by Steiner's theorem.
+    // The inertia of a block about its centre is m (a2 + b2) / 12. It is held beside its centre, so Steiner's theorem
+    // applies.
     let mut turning = all_kinds().swap_remove(0);
     turning.dynamics = Some(Dynamics { bodies: [Body { mass: 1.0, ..Body::NONE }; 2], ..bare.dynamics.expect("its") });
     let body = |grip| Torques::limited(&carrying(&turning, grip)).expect("limits").dynamics.bodies[1];
@@ -320,7 +323,7 @@ fn payload_mass_counts() {
         (held.mass - 7.0).abs() < 1e-12 && (about_joint - (6.0 * 5.0 / 12.0 + 6.0 * 0.25)).abs() < 1e-9,
         "{held:?}"
     );
-    // A level payload does not turn: its whole mass counts at the tip.
+    // A level payload does not turn, so its whole mass counts at the tip.
     let level = Grip::Level { angle: 0.3, point: Point::new(0.2, 0.1) };
     let held = body(level);
     let about_joint = held.inertia + held.mass * held.center.norm_squared();

@@ -15,8 +15,8 @@ use serde_json::Value;
 
 const NAMES: [&str; 2] = ["shoulder, \"left\"", "no: 1"];
 
-/// Returns a revolute joint that carries nothing, and a prismatic one that carries a disc; with a distant obstacle on
-/// request.
+/// Returns a revolute joint that carries nothing, followed by a prismatic one that carries a disc. With `obstacle`,
+/// there is a distant obstacle.
 fn scene(obstacle: bool) -> Scene {
     let joint = |name: &str, motion| Joint {
         name: name.into(),
@@ -84,7 +84,7 @@ fn planned(obstacle: bool) -> Plan {
 
 const WAYPOINTS: [[f64; 2]; 3] = [[-0.9, 0.4], [0.1, 1.7 + 1e-8], [1.55, 1.0 / 3.0]];
 
-/// The reader, not the writer, may miss the nearest double by one, because it prefers speed.
+/// The reader prefers speed, so it may miss the nearest double by one unit in the last place. The writer does not.
 fn assert_close(json: &Value, rows: &[[f64; 2]]) {
     let json = json.as_array().expect("a list");
     assert_eq!(json.len(), rows.len());
@@ -124,7 +124,7 @@ fn json_holds_the_contract() {
     assert_eq!(json["duration"].as_f64(), Some(trajectory.duration()));
     let length = (goal[0] - start[0]).hypot(goal[1] - start[1]);
     assert!((json["length"].as_f64().expect("a number") - length).abs() < 1e-12);
-    // Layout: one line per field, in the order of the list.
+    // There is one line per field, in the order of the list.
     let keys: Vec<_> = text.lines().filter_map(|l| l.strip_prefix("  \"")?.split('"').next()).collect();
     let order = "status name planner joints units path_kind path length optimum certified clearance closest size timings \
                  blends duration interpolation trajectory";
@@ -153,7 +153,7 @@ fn without_a_path_there_is_a_reason() {
     let ends = [-1.0, 1.0].map(|q1| Configuration::new(q1, 2.5));
     let closed = Problem::new(arm, Workspace::new([post]), ends[0], ends[1]).expect("both are free");
     let infeasible = plan(&closed, &Method::Subdivision.into()).expect("an ordinary problem");
-    // A slot that a coarse grid does not show.
+    // A slot that does not appear on a coarse grid.
     let (_, slot) = shipped_feasible().into_iter().find(|(name, _)| name == "narrow_slot").expect("a shipped world");
     let coarse = Planner::named(Method::Wavefront).with_space(GridSpace::Sampled).with_cells(16);
     let unknown = plan(&slot.into(), &Options { levels: 1, ..coarse.into() }).expect("an ordinary problem");
@@ -201,7 +201,7 @@ fn csv_reads_back() {
 
 #[test]
 fn ros_message_reads_back() {
-    // A piece of a nanometre gives samples a few microseconds apart.
+    // A piece of a nanometre makes samples that are a few microseconds apart.
     for waypoints in [&WAYPOINTS[..], &[[0.0, 0.0], [1e-9, 0.0], [1e-9, 1e-9], [0.3, 0.1]], &[[0.2, 0.1]]] {
         let trajectory = driven(waypoints).trajectory;
         let robot = RobotJoints::planned(&NAMES.map(str::to_owned));

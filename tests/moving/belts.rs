@@ -1,5 +1,5 @@
-//! Random tasks among moving obstacles, with objects that are picked while they move, replayed by the tests' own
-//! computations.
+//! Random tasks among moving obstacles, in which objects are picked while they move. The tests replay them with
+//! computations of their own.
 
 use crate::common::dice::Dice;
 use crate::common::{disc, placed, rectangle};
@@ -14,7 +14,7 @@ use cplan::model::{
 };
 use cplan::space::Configuration;
 
-/// Returns a task for a kind of arm and a seed; `None` if the draw makes no task.
+/// Returns a task for a kind of arm and a seed. `None` if this seed gives no task.
 pub fn drawn(kind: &str, seed: u64) -> Option<Task> {
     let standing = world(kind, seed)?;
     let mut dice = Dice::new(seed.wrapping_mul(0x51_7cc1_b727).wrapping_add(u64::from(kind.as_bytes()[1])));
@@ -51,7 +51,7 @@ pub fn drawn(kind: &str, seed: u64) -> Option<Task> {
     task.check().ok().map(|_| task)
 }
 
-/// Returns a place that the tip can reach, in most cases with the arm free of static obstacles.
+/// Returns a place that the tip can reach. In most cases, the arm is free of static obstacles there.
 fn somewhere(dice: &mut Dice, still: &Scene) -> Point {
     let axes = still.arm().topology().ranges.map(|range| range.domain());
     let mut draw = || {
@@ -75,7 +75,7 @@ fn object(dice: &mut Dice, still: &Scene, number: usize, level: bool) -> Object 
     let course = match dice.below(4_usize) {
         0 => None,
         1 if !level => {
-            // It comes, stops, turns and leaves.
+            // The object comes, stops, turns and leaves.
             let stops = vec![stop(1.0, from, angle), stop(4.0, place, angle + 0.5), stop(5.5, place, angle + 0.5)];
             Some(ObstacleTrajectory::new(stops, speed).expect("a course"))
         }
@@ -126,7 +126,7 @@ pub fn on_course(object: &Object, time: f64) -> Frame {
         let angle = object.at.rotation.angle();
         return ([angle.cos(), angle.sin()], [object.at.translation.x, object.at.translation.y]);
     };
-    // A point of it and another one beside it, which give its pose.
+    // The object's pose follows from two of its points.
     let pieces = vec![disc(Point::zeros(), 0.1), disc(Point::new(1.0, 0.0), 0.1)];
     let points = Obstacle { name: String::new(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
     let placed = at(&MovingObstacle { obstacle: points, course }, time).pieces;
@@ -139,14 +139,15 @@ pub struct Replayed<'a> {
     task: &'a Task,
     lies: Vec<Option<Frame>>,
     moving: Vec<bool>,
-    /// The object, and its frame relative to that of link 2, or of the tip.
+    /// The carried object, the index of the body with which it moves (link 2 or the tip), and its frame relative to
+    /// that.
     held: Option<(usize, usize, Frame)>,
     released: Option<usize>,
 }
 
-/// Returns the least distance that anything keeps from shapes that it must not touch, minus the clearance, and a
-/// description of that moment. It covers all motions of an answer, and the times when the arm waits between them. If
-/// the arm cannot continue, it may touch the object that it has just released.
+/// Returns the least distance between the arm with its payload and shapes that these must not touch, minus the
+/// clearance. Also describes the moment at which it occurs. All motions of an answer are covered, and the times when
+/// the arm waits between them. If the arm cannot continue, it may touch the object that it has just released.
 ///
 /// # Errors
 /// The difference from the requested task, in words.
@@ -193,8 +194,8 @@ pub fn replayed(task: &Task, answer: &TaskAnswer, looks: usize) -> Result<(f64, 
 }
 
 impl Replayed<'_> {
-    /// Returns the distance at a time to shapes that must not be touched, minus the clearance; link 2 may touch some
-    /// objects.
+    /// Returns the distance to shapes that must not be touched at a time, minus the clearance. Link 2 may touch the
+    /// objects in `touched`.
     fn room(&self, q: V, time: f64, touched: [Option<usize>; 2]) -> (f64, String) {
         let Task { arm, workspace: TimedWorkspace { obstacles, movers, clearance, .. }, objects, .. } = self.task;
         let frames = frames(arm, q);

@@ -1,4 +1,4 @@
-//! Random worlds with moving obstacles, and the poses of these by the tests' own computations.
+//! Random worlds with moving obstacles, whose poses the tests compute themselves.
 
 use crate::common::dice::Dice;
 use crate::common::{disc, rectangle};
@@ -22,8 +22,8 @@ pub struct Moving {
 }
 
 impl Moving {
-    /// Returns a world for a kind of arm and a seed; `None` if the draw has no free start. `movers` is the number of
-    /// moving obstacles, otherwise random.
+    /// Returns a world for a kind of arm and a seed. `None` if this seed gives no free start. `movers` is the number of
+    /// moving obstacles; `None` for a random number.
     pub fn drawn(kind: &str, seed: u64, movers: Option<u64>) -> Option<Self> {
         let standing = world(kind, seed)?;
         let mut dice = Dice::new(seed.wrapping_mul(0x9e37_79b9).wrapping_add(u64::from(kind.as_bytes()[1])));
@@ -32,7 +32,7 @@ impl Moving {
         let mut workspace = TimedWorkspace::from(workspace);
         workspace.obstacles.truncate(5);
         let reach = arm.reach();
-        // Halfway along the motion, obstacles block most.
+        // Obstacles are most likely to block the motion halfway.
         let halfway = arm.tip_at((start + goals.pieces()[0].ends()[0]) / 2.0);
         let count = movers.unwrap_or_else(|| 2 + dice.below(4));
         workspace.movers = (0..count).map(|_| mover(&mut dice, arm.base, reach, halfway)).collect();
@@ -58,12 +58,12 @@ impl Moving {
         self.among(TimedWorkspace { movers: Vec::new(), ..self.workspace.clone() }).expect("a problem")
     }
 
-    /// Returns the distance to all obstacles at a time, minus the clearance to keep.
+    /// Returns the distance to the nearest obstacle at a time, minus the clearance.
     pub fn room(&self, q: Configuration, time: f64) -> f64 {
         self.frozen(&self.workspace.obstacles, time).room(q)
     }
 
-    /// Returns only the moving obstacles, at a time.
+    /// Returns the moving obstacles at a time, without the static ones.
     pub fn movers_at(&self, time: f64) -> Oracle {
         self.frozen(&[], time)
     }
@@ -75,7 +75,7 @@ impl Moving {
         Oracle::new(&Scene::new(self.arm.clone(), workspace).expect("a scene"))
     }
 
-    /// Returns the world with moving obstacles that are faster between stops by this factor.
+    /// Returns the world in which obstacles move faster between their stops, by this factor.
     pub fn hurried(mut self, times: f64) -> Self {
         for mover in &mut self.workspace.movers {
             let first = mover.course.stops()[0].time;
@@ -104,7 +104,7 @@ impl Moving {
         self.workspace.movers.iter().flat_map(of).collect()
     }
 
-    /// Returns the time after which nothing moves any more, or no moving obstacle is near.
+    /// Returns the time after which nothing moves, or no moving obstacle is near.
     pub fn horizon(&self) -> f64 {
         self.workspace.movers.iter().flat_map(|m| m.course.stops()).map(|stop| stop.time).fold(0.0, f64::max) + 8.0
     }
@@ -171,15 +171,16 @@ pub fn at(mover: &MovingObstacle, time: f64) -> Obstacle {
     Obstacle { pieces: pieces.collect(), ..mover.obstacle.clone() }
 }
 
-/// Returns the configuration of a trajectory between its samples, as its JSON states: the polynomial of the fourth
-/// degree.
+/// Returns time and configuration at a fraction `share` of the interval after a sample, by the polynomial of the fourth
+/// degree that the JSON states.
 pub fn position(trajectory: &Trajectory, sample: usize, share: f64) -> (f64, Configuration) {
     let (a, b) = (sample, sample + 1);
     let h = trajectory.time[b] - trajectory.time[a];
     let t = share * h;
     let along = |k: usize| {
         let (p, v, w) = (trajectory.position[a][k], trajectory.velocity[a][k], trajectory.acceleration[a][k] / 2.0);
-        // The terms of the fourth and third degree must supply these differences at the end: of position and velocity.
+        // At the end of the interval, the terms of the fourth and third degree supply these differences of position and
+        // velocity.
         let gap = trajectory.position[b][k] - (p + v * h + w * h * h);
         let rate = trajectory.velocity[b][k] - (v + 2.0 * w * h);
         let (c3, c4) = ((4.0 * gap - rate * h) / h.powi(3), (rate * h - 3.0 * gap) / h.powi(4));

@@ -1,16 +1,16 @@
-//! Motions found are free at all times, and as early as brute force finds.
+//! Motions that are found are free at all times, and end as early as those that brute force finds.
 
 use crate::common::random::{seeds, usual};
 use crate::drawn::{Moving, position};
 use cplan::{Options, Outcome, plan};
 
-/// Number of checked moments between two samples.
+/// Number of moments between two samples that are checked.
 const BETWEEN: usize = 3;
 
-/// Step of the waiting times at the start, in seconds.
+/// Step between the waiting times at the start that brute force tries, in seconds.
 const STEP: f64 = 0.02;
 
-/// Distance that brute force keeps from moving obstacles: nearly the largest movement in a step.
+/// Distance that brute force keeps from moving obstacles, in metres. It is nearly the largest movement in a step.
 const APART: f64 = 2e-2;
 
 #[test]
@@ -54,15 +54,15 @@ fn motions_are_free_at_all_times_and_early() {
     assert!(!usual() || (found > 10 && waited > 1), "{found} found, {waited} with waits");
 }
 
-/// Returns the earliest end of the motion among static obstacles, if it begins as soon as possible and the arm can stay
-/// at the goal. Returns `None` if the arm cannot wait at the start, or if there is no motion.
+/// Returns the earliest end of a motion that begins as soon as the path is free and stays at the goal. Returns `None`
+/// if the arm cannot wait at the start, or if there is no motion.
 fn waiting_at_the_start(world: &Moving) -> Option<f64> {
     let standing = plan(&world.standing(), &Options { bounded: false, ..Options::default() }).expect("a plan");
     let trajectory = standing.trajectory()?;
     let last = trajectory.time.len() - 1;
     let steps: Vec<_> = (0..last).map(|sample| position(trajectory, sample, 0.0)).collect();
     let (start, goal) = (trajectory.position[0].into(), trajectory.position[last].into());
-    // The moving obstacles at every step.
+    // The moving obstacles at each step of time.
     let horizon = world.horizon() + trajectory.duration();
     let movers: Vec<_> = (0..(horizon / STEP) as usize).map(|k| world.movers_at(k as f64 * STEP)).collect();
     let is_clear =

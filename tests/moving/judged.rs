@@ -15,7 +15,7 @@ fn motions_planned_without_moving_obstacles_are_judged() {
         let standing = plan(&world.standing(), &Options { bounded: false, ..Options::default() }).expect("a plan");
         let Some(trajectory) = standing.trajectory() else { continue };
         let rows = |values: &[[f64; 2]]| values.iter().map(|&row| Configuration::from(row)).collect::<Vec<_>>();
-        // On a clock that does not begin at 0. The trajectories of obstacles begin with the recording.
+        // The times do not begin at 0. The trajectories of obstacles begin with the recording.
         let time = trajectory.time.iter().map(|time| 100.0 + time).collect();
         let recording = Recording::new(rows(&trajectory.position), Some(time), Some(rows(&trajectory.velocity)));
         let recording = recording.expect("a recording");

@@ -1,4 +1,4 @@
-//! Motions among moving obstacles, against the tests' own methods: kinematics, distances and trajectories by brute
+//! Motions among moving obstacles, compared with methods of the tests: kinematics, distances and trajectories by brute
 //! force.
 
 mod belts;

@@ -1,4 +1,4 @@
-//! A path that is proven impossible at any timing is also impossible for brute force.
+//! If it is proven that no timing along a path avoids the obstacles, brute force finds none either.
 
 use crate::common::random::{seeds, usual};
 use crate::common::{obstacle, placed, q, rectangle, rr};
@@ -9,8 +9,8 @@ use cplan::model::{MovingObstacle, ObstacleTrajectory, Stop, TimedWorkspace, Wor
 use cplan::space::{Configuration, JointRange, Path};
 use cplan::{Options, Outcome, Problem, plan};
 
-/// Number of places on the path; longest time between two checks, in seconds (`STEP`); largest movement between them,
-/// in metres (`GOES`).
+/// Number of places on the path (`PLACES`), longest time between two checks in seconds (`STEP`), and largest movement
+/// between them in metres (`GOES`).
 const PLACES: usize = 100;
 const STEP: f64 = 0.02;
 const GOES: f64 = 0.05;
@@ -22,7 +22,8 @@ fn where_no_timing_helps_a_flood_in_place_and_time_does_not_get_through() {
     assert!(!usual() || refuted > 0, "nothing was refuted");
 }
 
-/// Some obstacles cross the workspace in hundredths of a second. Checks at regular intervals miss them.
+/// Checks worlds in which some obstacles cross the workspace in hundredths of a second. Checks at regular intervals
+/// would miss these obstacles.
 #[test]
 fn refuted_timings_agree_with_a_flood_fill() {
     let (refuted, unknown) = flooded(Moving::all(seeds(8)).map(|world| world.hurried(100.0)));
@@ -30,8 +31,8 @@ fn refuted_timings_agree_with_a_flood_fill() {
     assert!(!usual() || refuted > 0, "nothing was refuted");
 }
 
-/// Compares proofs that a path is impossible at any timing with a flood. Returns the numbers of refuted and of
-/// undecided worlds.
+/// Compares proofs that no timing is possible with a flood fill. Returns the numbers of refuted and of undecided
+/// worlds.
 fn flooded(worlds: impl Iterator<Item = Moving>) -> (usize, usize) {
     let (mut refuted, mut unknown) = (0, 0);
     for world in worlds {
@@ -56,9 +57,9 @@ fn flooded(worlds: impl Iterator<Item = Moving>) -> (usize, usize) {
     (refuted, unknown)
 }
 
-/// A bar blocks every configuration of the path for a thousandth of a second, and moves at thousands of metres per
-/// second. The proof that no timing helps is right, although a search that checks every hundredth of a second does not
-/// see the bar.
+/// Checks a bar that blocks every configuration of the path for a thousandth of a second, and moves at thousands of
+/// metres per second. The proof that no timing is possible is right, although a search that checks every hundredth of a
+/// second would not see the bar.
 #[test]
 fn a_momentary_block_refutes_every_timing() {
     let at = |time: f64, x: f64| Stop { time, at: Point::new(x, 0.0), angle: 0.0 };
@@ -77,7 +78,7 @@ fn a_momentary_block_refutes_every_timing() {
     let there = |time: f64| Oracle::new(&placed(arm.clone(), Workspace::new([moved(&mover, time)])));
     for place in 0..=100 {
         let posture = start + (goal - start) * (f64::from(place) / 100.0);
-        // Deeper than the arm moves from one of these places to the next.
+        // The overlap is deeper than the arm moves from one of these places to the next.
         assert!(there(0.1046).room(posture) < -0.02, "{posture}");
         for look in (0..=100).map(|look| f64::from(look) * 0.01) {
             assert!(there(look).room(posture) > 0.1, "{posture} at {look}");
@@ -85,7 +86,7 @@ fn a_momentary_block_refutes_every_timing() {
     }
 }
 
-/// Returns the times of the checks: at regular intervals, and more often while an obstacle is fast.
+/// Returns the times of the checks. They are at regular intervals, and more frequent while an obstacle is fast.
 fn looks(world: &Moving) -> Vec<f64> {
     let count = (world.horizon() / STEP) as usize;
     let mut looks: Vec<f64> = (0..=count).map(|look| look as f64 * STEP).collect();
@@ -98,7 +99,8 @@ fn looks(world: &Moving) -> Vec<f64> {
     looks
 }
 
-/// Returns true if steps between places and between checks lead along the path, within the joints' speeds.
+/// Returns true if the end of the path can be reached by steps between places and between checks, within the joints'
+/// speeds.
 fn gets_through(world: &Moving, path: &Path) -> bool {
     let at = |k: usize| -> Configuration { path.part(path.length() * k as f64 / PLACES as f64, f64::MAX).start() };
     let speeds = world.arm.joints.each_ref().map(|joint| joint.velocity);
@@ -113,7 +115,7 @@ fn gets_through(world: &Moving, path: &Path) -> bool {
         })
         .collect();
     let (courses, arm) = (world.speeds(), world.movers_at(0.0).speed(speeds.into()));
-    // The largest movement between two moments.
+    // The largest movement of an obstacle between two times.
     let goes = |[from, to]: [f64; 2]| {
         let met = courses.iter().filter(|[begins, ends, _]| *begins < to && from < *ends);
         (to - from) * (arm + met.map(|[.., speed]| *speed).fold(0.0, f64::max))
@@ -123,8 +125,8 @@ fn gets_through(world: &Moving, path: &Path) -> bool {
     there[0] = true;
     for k in 1..looks.len() {
         let after = looks.get(k + 1).map_or(0.0, |next| goes([looks[k], *next]));
-        // The clearance with which nothing can happen between two checks: the largest movement in half of the time to
-        // the previous and to the next check.
+        // A clearance with which no contact can occur between two checks: the largest movement in half of the time to
+        // the previous check and to the next one.
         let apart = goes([looks[k - 1], looks[k]]).max(after) / 2.0;
         let mut next = vec![false; PLACES + 1];
         for from in (0..=PLACES).filter(|&from| there[from]) {

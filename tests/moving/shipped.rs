@@ -1,4 +1,4 @@
-//! The shipped worlds with moving obstacles, each with the outcome that it states.
+//! The shipped worlds with moving obstacles, each with the outcome that its file states.
 
 use cplan::motion::{Drive, Objective};
 use cplan::{Options, Outcome, Problem, plan};
@@ -30,7 +30,7 @@ fn shipped_worlds_have_the_stated_outcome() {
     assert!(files.len() >= 5);
 }
 
-/// If the motion is optimised for time, the duration printed beside its bound includes the waits.
+/// Checks that the printed duration includes the waits if the motion is optimised for time.
 #[test]
 fn the_duration_beside_its_bound_is_that_of_the_motion() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

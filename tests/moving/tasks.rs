@@ -1,5 +1,5 @@
-//! Tasks among moving obstacles: the answers are free at all times, pick objects where they are, and are hardly later
-//! than brute force.
+//! Tasks among moving obstacles. Answers are free at all times, pick objects where they are at that time, and end
+//! hardly later than those of brute force.
 
 use crate::belts::{drawn, frames, on_course, replayed};
 use crate::common::dice::Dice;
@@ -16,7 +16,7 @@ use cplan::space::Configuration;
 use cplan::{Options, Status};
 use std::f64::consts::{PI, TAU};
 
-/// Number of checked moments between two samples.
+/// Number of moments between two samples that are checked.
 const BETWEEN: usize = 2;
 
 #[test]
@@ -56,10 +56,10 @@ fn task_motions_are_free_and_pick_present_objects() {
     assert!(!usual() || (found > 8 && waited > 3), "{found} found, {waited} with waits");
 }
 
-/// Step of departures and moments that brute force tries, in seconds.
+/// Step between the departures and moments that brute force tries, in seconds.
 const STEP: f64 = 0.02;
 
-/// Distance that brute force keeps from all obstacles: more than the tip moves in half a step.
+/// Distance that brute force keeps from all obstacles, in metres. It is more than the tip moves in half a step.
 const APART: f64 = 3e-2;
 
 /// Returns a task with a single pick from a belt by an arm of two bars, with some posts nearby.
@@ -117,8 +117,8 @@ fn a_pick_is_hardly_later_than_brute_force_finds() {
     assert!(!usual() || compared > 1, "{compared} compared");
 }
 
-/// Returns the earliest pick by a straight motion that begins after some time and waits for the object; `None` if no
-/// such pick exists within ten seconds.
+/// Returns the earliest pick after a straight motion that begins at some time, and a wait for the object. `None` if
+/// there is no such pick within ten seconds.
 fn soonest(task: &Task) -> Option<f64> {
     (1..500).map(|k| f64::from(k) * STEP).find(|&moment| {
         let place = on_course(&task.objects[0], moment).1;
@@ -130,7 +130,7 @@ fn soonest(task: &Task) -> Option<f64> {
     })
 }
 
-/// Returns both IK solutions of a place, by the shorter turn from the start, from the law of cosines.
+/// Returns both IK solutions of a place, by the law of cosines. Joint 1 takes the shorter direction from the start.
 fn postures(task: &Task, [x, y]: V) -> Vec<V> {
     let (a, b) = (task.arm.offset.norm(), task.arm.tip.norm());
     let cosine = (x * x + y * y - a * a - b * b) / (2.0 * a * b);
@@ -147,7 +147,7 @@ fn postures(task: &Task, [x, y]: V) -> Vec<V> {
         .into()
 }
 
-/// Returns the duration of the straight motion to a configuration: both joints together, each within its limits.
+/// Returns the duration of the straight motion to a configuration. Both joints move together, each within its limits.
 fn straight(task: &Task, to: V) -> f64 {
     let (velocity, acceleration) = limits(task, to);
     if acceleration <= velocity * velocity {
@@ -157,7 +157,8 @@ fn straight(task: &Task, to: V) -> f64 {
     }
 }
 
-/// Returns the greatest speed and acceleration of the fraction of the motion.
+/// Returns the greatest speed and acceleration of a straight motion, as fractions of its length per second and per
+/// second squared.
 fn limits(task: &Task, to: V) -> (f64, f64) {
     let share = |k: usize, limit: f64| limit / (to[k] - task.start[k]).abs();
     let least = |of: &dyn Fn(usize) -> f64| of(0).min(of(1));
@@ -165,7 +166,7 @@ fn limits(task: &Task, to: V) -> (f64, f64) {
     (least(&|k| share(k, joint(k).velocity)), least(&|k| share(k, joint(k).acceleration)))
 }
 
-/// Returns true if the arm touches nothing until it picks: at the start, during the motion, and while it waits.
+/// Returns true if the arm touches nothing until the pick: at the start, during the motion, and while it waits.
 fn is_free(task: &Task, to: V, [departs, lasts, moment]: [f64; 3]) -> bool {
     let (velocity, acceleration) = limits(task, to);
     let ramp = (velocity / acceleration).min(lasts / 2.0);
@@ -197,7 +198,7 @@ fn is_free(task: &Task, to: V, [departs, lasts, moment]: [f64; 3]) -> bool {
     })
 }
 
-/// An object that never comes within reach, and a task that is infeasible even without moving obstacles.
+/// Checks an object that never comes within reach, and a task that is infeasible even without moving obstacles.
 #[test]
 fn proofs_for_tasks_among_moving_obstacles() {
     let mut task = single_pick(0);
@@ -207,7 +208,7 @@ fn proofs_for_tasks_among_moving_obstacles() {
     let answer = plan(&task, &Options::default(), &mut |_| ());
     let Outcome::Infeasible(why) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert!(why.reasons[0].contains("\"bottle\" is never within the arm's reach"), "{:?}", why.reasons);
-    // It passes within reach, but not at that time.
+    // The object passes within reach, but not at that time.
     task.objects[0].course = Some(ObstacleTrajectory::conveyor([1.0, -3.0], [0.0, 0.5]).expect("a course"));
     let found = plan(&task, &Options::default(), &mut |_| ());
     assert_eq!(found.failed(), None);

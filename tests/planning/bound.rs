@@ -1,4 +1,4 @@
-//! Bounds on the optimum, against closed forms, published figures and the paths of every other planner.
+//! Bounds on the optimum, compared with closed forms, with published figures, and with the paths of all other planners.
 
 use crate::common::{self, Benchmark, asked, disc, obstacle, q, rr, scene, shipped_feasible};
 use cplan::Outcome;
@@ -47,7 +47,7 @@ fn a_gap_of_a_thousandth_is_reached_on_every_feasible_workspace() {
     }
 }
 
-/// The gap is below the default in every metric, and a hundred times smaller on request.
+/// Checks that the gap is below the default in every metric, and a hundred times smaller on request.
 #[test]
 fn the_shortest_path_is_within_a_ten_thousandth_on_every_feasible_workspace() {
     for (name, problem) in shipped_feasible() {
@@ -65,7 +65,7 @@ fn the_shortest_path_is_within_a_ten_thousandth_on_every_feasible_workspace() {
     }
 }
 
-/// A lower bound above the length of a certified path would be false.
+/// Checks that no bound exceeds the length of a certified path, because such a bound would be false.
 #[test]
 fn no_planner_finds_a_path_below_the_bound() {
     for (name, problem) in shipped_feasible() {
@@ -88,7 +88,7 @@ fn published_optima_lie_within_the_bounds() {
         for planner in PLANNERS {
             let bound = bounded(&answer_by(planner, &common::problem(which), Criterion::Euclidean, Some(1e-4)));
             assert!(bound.gap() <= 1e-4, "{which:?}: {bound:?}");
-            // Published with four digits.
+            // The published figures have four decimals.
             assert!(bound.lower <= optimum + 5e-5 && optimum - 5e-5 <= bound.upper, "{which:?}: {bound:?}");
         }
     }
@@ -123,7 +123,7 @@ fn the_bound_covers_all_goals() {
     assert!((found.lower - 1.0).abs() < 1e-8, "{found:?}");
 }
 
-/// A gantry's tool passes a block: around its corner on two straight pieces of known length.
+/// Checks a gantry whose tool passes a block, around its corner, on two straight pieces of known length.
 #[test]
 fn around_a_block_the_bound_is_the_shortest_path() {
     let tool = disc(Point::zeros(), 0.0);
@@ -139,8 +139,8 @@ fn around_a_block_the_bound_is_the_shortest_path() {
     assert!(found.lower <= string && string <= found.upper && found.gap() <= 1e-5, "{found:?} {string}");
 }
 
-/// The path leads to the middle of a square spiral of walls. It is proven within the default gap, and its bound is not
-/// above that of the strips.
+/// Checks a path to the middle of a square spiral of walls. It is proven within the default gap, and its bound does not
+/// exceed that of the strips.
 #[test]
 fn gantries_find_paths_into_spirals() {
     let slide = |angle: f64| cplan::model::JointType::Prismatic { direction: Point::new(angle.cos(), angle.sin()) };
@@ -151,7 +151,7 @@ fn gantries_find_paths_into_spirals() {
         let joints = [common::joint("x", slide(0.0), axis), common::joint("y", slide(TAU / 4.0), axis)];
         let links = [common::link("beam", Vec::new()), common::link("tool", vec![disc(Point::zeros(), radius)])];
         let arm = common::arm(joints, links, Point::zeros(), Point::zeros());
-        // From the middle outwards: two sides of each length.
+        // From the middle outwards. Each length occurs on two sides.
         let mut corners = vec![Point::zeros()];
         for side in 0..4 * turns {
             let (sin, cos) = (TAU / 4.0 * f64::from(side)).sin_cos();
@@ -164,7 +164,7 @@ fn gantries_find_paths_into_spirals() {
         let answer = answer_by(Method::Shortest, &problem, Criterion::Euclidean, None);
         let found = bounded(&answer);
         assert!(found.gap() <= 1e-4 && matches!(answer.space, Space::Regions(_)), "{turns}: {found:?}");
-        // The strips share no code with the bound. They confirm it as far as they reach.
+        // The strips share no code with the bound, and confirm it up to their own gap.
         let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
         let motions = MotionQuery { scene, start, goals, clearance: 0.0, metric: Metric::Euclidean };
         let strips = least_length(&motions, found.upper, 1e-3, &[]);
@@ -172,7 +172,7 @@ fn gantries_find_paths_into_spirals() {
     }
 }
 
-/// The bound is about the given path, whichever planner found it.
+/// Checks that the bound refers to the given path, whichever planner found it.
 #[test]
 fn a_detour_has_a_gap() {
     let problem = common::problem(Benchmark::A);

@@ -1,4 +1,4 @@
-//! The judge against dense sampling and problems whose answers are known.
+//! The judge, compared with dense samples and with problems whose answers are known.
 
 use crate::common::{
     Benchmark, all_kinds, arm, benchmark, clutter, disc, joint, link, q, recheck, rectangle, rr, scene, wall,
@@ -75,7 +75,7 @@ proptest! {
             for &(u, v) in &deviations {
                 let there = |d: Configuration| scene.separations(middle + d).nth(i).unwrap().separation.distance;
                 let distance = there(q(u * half.0, v * half.1));
-                // While the shapes overlap, the directional bounds cover the distance along one direction only.
+                // While the shapes overlap, a directional bound covers the distance in one direction only.
                 prop_assert!(distance.max(0.0) >= least);
                 prop_assert!(distance <= greatest);
                 prop_assert!(there(along * u).max(0.0) >= least_along);
@@ -103,7 +103,7 @@ proptest! {
 
 #[test]
 fn a_touching_motion_is_refused() {
-    // The outstretched arm's upper corner passes exactly through the wall's end.
+    // The upper corner of the outstretched arm passes exactly through the wall's end.
     let arm = rr([JointRange::Circle, JointRange::Circle]);
     let tip = Point::new(1.8, 0.05);
     let scene = scene(arm, vec![wall(tip, Point::new(3.0, 0.05))]);
@@ -113,7 +113,7 @@ fn a_touching_motion_is_refused() {
 
 #[test]
 fn thin_walls_between_samples_are_found() {
-    // A wall so thin that only the motion meets it: both ends of the segment are far from it.
+    // A wall that only the motion meets, because it is very thin and far from both ends of the segment.
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![disc(Point::new(1.2, 1.2), 1e-9)]);
     let verdict = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.5, 0.0)]), 0.0);
     assert!(matches!(verdict, Err(Rejection::TooClose(_))), "{verdict:?}");
@@ -173,11 +173,11 @@ fn limits_and_clearance_can_make_a_problem_infeasible() {
     assert!(matches!(decide([half, narrow], 0.0), Connectivity::Disconnected(_)));
     let folding = JointRange::Interval { lower: -3.0, upper: 3.0 };
     assert!(matches!(decide([half, folding], 0.0), Connectivity::Connected(_)));
-    // Folded, the forearm still comes within 0.4 m of the pole as the elbow passes under it.
+    // The folded forearm comes within 0.4 m of the pole when the elbow passes under it.
     assert!(matches!(decide([half, folding], 0.4), Connectivity::Disconnected(_)));
 }
 
-/// Returns the stuck boxes of a problem without a path.
+/// Returns the collision boxes that prove that a problem has no path.
 fn proof(scene: &Scene, start: Configuration, goal: Configuration, clearance: f64) -> Vec<CollisionBox> {
     match connectivity(scene, start, &goal.into(), clearance, 200_000) {
         Connectivity::Disconnected(proof) => proof.collision_boxes().to_vec(),
@@ -210,7 +210,7 @@ fn false_proofs_are_refused() {
     assert_eq!(judge(&[]), Err(ProofError::NotSeparated(0)));
     assert_eq!(recheck(&boxes, &scene, start, &start.into(), 0.0), Err(ProofError::NotSeparated(0)));
 
-    // Removing boxes one after another must open a path, and further removals must not close it.
+    // If boxes are removed one after another, a path opens at some point. Further removals do not close it.
     let fewer: Vec<bool> = (0..=20).map(|k| judge(&boxes[boxes.len() * k / 20..]).is_ok()).collect();
     assert!(fewer[0] && !fewer[20]);
     assert!(fewer.windows(2).all(|w| w[0] || !w[1]));
@@ -278,7 +278,7 @@ fn separation_agrees_with_flood_fill() {
     }
 }
 
-/// Returns the arm of [`rr`] as two segments without thickness.
+/// Returns the same arm as [`rr`], with segments without thickness as its links.
 fn skeleton(axes: [JointRange; 2]) -> cplan::model::Arm {
     let mut arm = rr(axes);
     arm.links[0].parts[0].shape = wall(Point::zeros(), Point::new(1.0, 0.0));
@@ -292,7 +292,7 @@ fn thin_links_are_stopped_by_thin_walls() {
     let front = wall(Point::new(0.5, -0.2), Point::new(0.7, 0.3));
     let back = wall(Point::new(-0.6, -0.3), Point::new(-0.7, 0.1));
     let (start, goal) = (q(-1.2, 0.4), q(1.3, -0.4));
-    // Slanted walls block the upper arm; without one of them, the other direction is free.
+    // Slanted walls block the upper arm. Without one of them, it can pass in the other direction.
     let one_wall = scene(skeleton(circles), vec![front.clone()]);
     assert!(matches!(connectivity(&one_wall, start, &goal.into(), 0.0, 100_000), Connectivity::Connected(_)));
     let closed = scene(skeleton(circles), vec![front, back]);
@@ -346,8 +346,8 @@ fn the_boxes_cover_the_domain_with_true_states() {
     }
 }
 
-/// The bridge of a gantry slides along a wall that it touches all along. No column is known to be free or stuck, and
-/// halving the columns to the limit would fill the memory.
+/// Checks a gantry whose bridge slides along a wall that it touches everywhere. No column is known to be free or
+/// colliding, and halving all columns down to the limit would fill the memory.
 #[test]
 fn link_1_sliding_along_a_wall_leaves_few_boxes() {
     let slide = |x: f64, y: f64| JointType::Prismatic { direction: Vector::new(x, y) };

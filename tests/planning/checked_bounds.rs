@@ -1,5 +1,4 @@
-//! Lower bounds and their evidence, which is computed again: evidence confirms true bounds, and none confirms a false
-//! one.
+//! Lower bounds, and evidence for them that is computed again. It confirms true bounds, and never a false one.
 
 use crate::common::random::{seeds, usual};
 use crate::common::shipped_feasible;
@@ -9,8 +8,8 @@ use cplan::engine::{Bound, BoundCertificate, Criterion, Method, Planner, certifi
 use cplan::input::Overrides;
 use cplan::model::MotionProblem;
 
-/// Share of a bound that its evidence may miss, because walls are found at finitely many points: that of `cplan
-/// recheck`.
+/// Fraction of a bound that may be lost when its evidence is computed again, because walls are found at finitely many
+/// points. It is that of `cplan recheck`.
 const MISSED: f64 = 1e-3;
 
 /// Returns the bound that accompanies a path close to the shortest.
@@ -20,12 +19,12 @@ fn stated(problem: &MotionProblem, criterion: Criterion) -> Option<Bound> {
     answer.bound().filter(|_| matches!(answer.outcome, Outcome::Found(_)))
 }
 
-/// Returns the certificate of a bound.
+/// Returns the certificate of a bound. `None` if it has none.
 fn seen(problem: &MotionProblem, stated: &Bound) -> Option<BoundCertificate> {
     certificate_of_bound(problem, stated, &Overrides::default())
 }
 
-/// Returns the number of bounds, and a description of each bound for which the evidence shows less.
+/// Returns the number of bounds, and a description of each bound that its evidence does not confirm.
 fn unseen(problems: impl IntoIterator<Item = (String, MotionProblem, Criterion)>) -> (usize, Vec<String>) {
     let (mut count, mut unseen) = (0, Vec::new());
     for (name, problem, criterion) in problems {
@@ -48,7 +47,7 @@ fn bounds_of_all_shipped_workspaces_are_seen_to_hold() {
     assert!(count >= 15 && unseen.is_empty(), "{count}, but {unseen:#?}");
 }
 
-/// Random problems, each with its name and a criterion.
+/// Iterates over random problems, each with its name and a criterion.
 fn random_problems(count: u64) -> impl Iterator<Item = (String, MotionProblem, Criterion)> {
     seeds(count).filter_map(|seed| {
         let kind = world::KINDS[(seed % 4) as usize];
@@ -61,14 +60,14 @@ fn random_problems(count: u64) -> impl Iterator<Item = (String, MotionProblem, C
 #[test]
 fn bounds_in_random_worlds_are_seen_to_hold() {
     let (count, unseen) = unseen(random_problems(24));
-    // Walls between shapes that come apart slowly are not found to their ends.
+    // Where shapes separate slowly, the walls between them are not found to their ends.
     assert!(!usual() || count >= 10 && 10 * unseen.len() <= count, "{count}, but {unseen:#?}");
 }
 
 #[test]
 fn evidence_for_a_false_bound_shows_no_more_than_is_true() {
     let mut count = 0;
-    // Few by default: evidence among thousands of walls takes half a minute.
+    // Few problems by default, because evidence with thousands of walls takes half a minute.
     for (name, problem, criterion) in random_problems(2) {
         let Some(stated) = stated(&problem, criterion) else { continue };
         let boast = Bound { lower: 1.01 * stated.upper, upper: 1.01 * stated.upper, ..stated };

@@ -1,4 +1,4 @@
-//! Decisions whether there is a path at all, among thousands of pieces and in cases that no box decides.
+//! Decisions whether there is a path at all: among thousands of pieces, and in cases that boxes cannot decide.
 
 use crate::common::{asked, placed, q, recheck, rr, wall};
 use cplan::Options;
@@ -13,11 +13,11 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 /// Returns a problem with `count` short walls on a circle. The outstretched arm reaches through the circle in two
-/// places, and must go from one to the other. It can do so if it can fold.
+/// places, and must move from one to the other. It can do so only if it can fold.
 fn ring(count: usize, folding: f64) -> MotionProblem {
     let at = |k: usize| {
         let angle = TAU * k as f64 / count as f64;
-        // Some noise, so that neighbours are not in a row.
+        // Some noise, so that neighbouring walls are not in line.
         let radius = 1.5 + 0.01 * (k as f64 * 0.618_033_988_749).fract();
         Point::new(radius * angle.cos(), radius * angle.sin())
     };
@@ -60,8 +60,8 @@ fn infeasibility_among_20_000_pieces_is_proven_with_original_pairs() {
     }
 }
 
-/// A slot just narrower than the arm takes tens of thousands of boxes to prove closed. Slabs show that it is closed, so
-/// the search examines these boxes even beyond the budget for unclear cases.
+/// Checks a slot that is slightly narrower than the arm. A proof that it is closed takes tens of thousands of boxes.
+/// Slabs show that it is closed, so the search continues beyond the budget for unclear cases.
 #[test]
 fn infeasibility_found_by_slabs_is_proven() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -75,7 +75,8 @@ fn infeasibility_found_by_slabs_is_proven() {
     }
 }
 
-/// Only contact closes a slot exactly as wide as the arm, and no box proves that. The search ends with its budget.
+/// Checks a slot that is exactly as wide as the arm. Only contact closes it, which no box can prove, so the search ends
+/// with its budget.
 #[test]
 fn exceeded_budgets_leave_the_answer_unknown() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -87,7 +88,7 @@ fn exceeded_budgets_leave_the_answer_unknown() {
     for allowed in [5_000, 20_000] {
         let Outcome::Unknown(reason) = decide(&problem, allowed) else { panic!("{allowed} boxes do not tell") };
         let boxes: usize = reason.split(' ').next().and_then(|word| word.parse().ok()).expect(&reason);
-        // The last boxes are all halved at once.
+        // All boxes are halved together, so the number may exceed the budget by the last round.
         assert!(boxes <= 2 * allowed + 100, "{reason}");
     }
 }

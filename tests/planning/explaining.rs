@@ -20,16 +20,16 @@ use cplan::{Options, Status, engine};
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
-/// Boxes for decisions.
+/// Number of boxes for each decision.
 const BOXES: usize = 20_000;
 
-/// Boxes for cases that `explain` would otherwise leave unknown.
+/// Number of boxes for the cases that `explain` would otherwise leave unknown.
 const BOXES_AT_LAST: usize = 1_000_000;
 
-/// Range that exceeds the needs of all slides in the random worlds.
+/// A range of values that exceeds the needs of all slides in the random worlds, in metres.
 const FAR: f64 = 20.0;
 
-/// Returns the problem with only some of the blocking elements, made from scratch.
+/// Returns the problem with only some of the blocking elements, built by the test.
 fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
     let (mut arm, mut workspace) = problem.scene().clone().into_parts();
     let mut number = 0;
@@ -40,7 +40,7 @@ fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
     if !there.contains(&Element::Clearance) {
         workspace.clearance = 0.0;
     }
-    // Two nearly parallel slides need long motions to get anywhere; two slides on one line never leave it.
+    // Two nearly parallel slides need long motions to pass an obstacle. Two slides on one line never leave it.
     let between = match arm.joints.each_ref().map(|joint| joint.joint_type) {
         [JointType::Prismatic { direction: a }, JointType::Prismatic { direction: b }] => a.angle(&b).sin(),
         _ => 1.0,
@@ -57,7 +57,8 @@ fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
             }
         }
     }
-    // Requires a clearance of a micrometre (for small arms, a millionth of the reach), unless an end has less.
+    // Requires a clearance of a micrometre, or a millionth of the reach for small arms. If start or goal has less,
+    // requires none.
     let asked = |clearance: f64| {
         let workspace = Workspace { clearance: workspace.clearance.max(clearance), ..workspace.clone() };
         let scene = Scene::new(arm.clone(), workspace).expect("less of what is valid");
@@ -66,7 +67,7 @@ fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
     asked(1e-6 * problem.scene().arm().reach().min(1.0)).unwrap_or_else(|_| asked(0.0).expect("ends stay free"))
 }
 
-/// Returns the faults of a set.
+/// Returns descriptions of what is wrong with a blocking set.
 fn faults(problem: &MotionProblem, set: &BlockingSet) -> Vec<String> {
     let mut faults = Vec::new();
     let elements = set.elements();
@@ -127,8 +128,8 @@ fn blocking_sets_are_irreducible() {
     assert!(unknown.len() * 20 <= count, "of {count} are not shown to be irreducible: {unknown:#?}");
 }
 
-/// The slides are nearly parallel, or walls and points have no area. With zero clearance, such a wall neither lets the
-/// arm pass nor proves that it cannot.
+/// Checks nearly parallel slides, and walls and points without area. Without any clearance, such a wall neither lets
+/// the arm pass nor proves that it cannot pass.
 #[test]
 fn blocking_sets_of_degenerate_worlds() {
     let long_ways = [722, 931, 1095, 1154, 1393, 1580].map(|seed| ("PP", seed));
@@ -142,10 +143,11 @@ fn blocking_sets_of_degenerate_worlds() {
     }
 }
 
-/// Half the side of the block that the gantry carries.
+/// Half the side of the block that the gantry carries, in metres.
 const HALF: f64 = 0.1;
 
-/// Returns a square block that slides within 1 m of the origin along x and y, from the left to the right.
+/// Returns a question about a square block that slides along x and y, within 1 m of the origin, from the left to the
+/// right.
 fn gantry(obstacles: Vec<Obstacle>, clearance: f64) -> MotionQuestion {
     let slide = |name, direction| Joint::sliding(name, direction, -1.0, 1.0);
     let square = cplan::geometry::Convex::new(
@@ -171,13 +173,13 @@ fn bar(name: &str, lower: f64, upper: f64) -> Obstacle {
     Obstacle::polygon(name, [[-0.05, lower], [0.05, lower], [0.05, upper], [-0.05, upper]]).expect("a rectangle")
 }
 
-/// Returns a wall with a gap that is `gap` wide. The slides do not reach beyond its ends.
+/// Returns a wall with a gap of this width. The slides do not reach beyond the ends of the wall.
 fn wall(gap: f64) -> Vec<Obstacle> {
     vec![bar("above", gap / 2.0, 3.0), bar("below", -3.0, -gap / 2.0)]
 }
 
-/// The changes have closed forms if a gap is too narrow by 0.03 m: one half is moved or made smaller by 0.03 m, or both
-/// by half of it.
+/// Checks changes with closed forms. A gap is too narrow by 0.03 m. Either half of the wall is moved or made smaller by
+/// 0.03 m, or both by half of that.
 #[test]
 fn the_missing_width_of_a_gap_is_reported() {
     let lacking = 0.03;
@@ -201,7 +203,7 @@ fn the_missing_width_of_a_gap_is_reported() {
     assert!(stuck.at[1].abs() < lacking && stuck.at[0].abs() < HALF + 0.06, "{stuck:?}");
 }
 
-/// The gap is wide enough except for the clearance of 0.05 m on either side.
+/// Checks a gap that is too narrow only because of the clearance of 0.05 m on either side.
 #[test]
 fn clearance_is_lowered_to_half_the_gap() {
     let explanation = explain(&gantry(wall(2.0 * HALF + 0.06), 0.05), &Options::default());
@@ -214,7 +216,7 @@ fn clearance_is_lowered_to_half_the_gap() {
     assert!(lowered.by.opens - lowered.by.closed <= 1e-3, "{lowered:?}");
 }
 
-/// A wall leaves room only at its upper end, where the slide stops a hundredth too early.
+/// Checks a wall that leaves room only at its upper end, where the slide stops a hundredth of a metre too early.
 #[test]
 fn a_limit_is_widened_by_the_missing_range() {
     let end = 1.0 - HALF + 0.01;
@@ -226,7 +228,8 @@ fn a_limit_is_widened_by_the_missing_range() {
     assert!(widened.by.closed <= 0.01 && 0.01 < widened.by.opens && widened.by.opens < 0.0111, "{widened:?}");
 }
 
-/// Each of two walls closes the space by itself. No single change opens a path through both, and the result lists both.
+/// Checks two walls, each of which closes the space. No single change opens a path through both, and the result lists
+/// both.
 #[test]
 fn walls_behind_one_another_are_sets_of_their_own() {
     let behind = |obstacle: Obstacle, name: &str| {
@@ -243,21 +246,21 @@ fn walls_behind_one_another_are_sets_of_their_own() {
     }
 }
 
-/// A start in an obstacle is explained by that obstacle alone.
+/// Checks that a start in an obstacle is explained by that obstacle alone.
 #[test]
 fn a_blocked_start_names_the_obstacle_to_change() {
     let block = Obstacle::polygon("block", [[-0.75, -0.3], [-0.6, -0.3], [-0.6, 0.3], [-0.75, 0.3]]).expect("a block");
     let explanation = explain(&gantry(vec![bar("post", 0.5, 0.6), block], 0.0), &Options::default());
     let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
     assert_eq!(closed.blocking(explanation.question.scene()), ["block"]);
-    // The block's left side is at -0.75, the arm's right one at -0.7: 0.05 are missing.
+    // The block's left side is at -0.75, and the arm's right side at -0.7, so 0.05 are missing.
     for change in closed.changes() {
         assert!(change.by.closed <= 0.05 && 0.05 < change.by.opens && change.by.opens < 0.0511, "{change:?}");
     }
     assert_eq!(closed.changes().count(), 2);
 }
 
-/// Without the only bar the path is straight.
+/// Checks a world with one bar, without which the path is straight.
 #[test]
 fn obstacles_that_lengthen_the_path_are_reported_with_their_cost() {
     let (across, corner) = (0.15, [0.15_f64, 0.3]);
@@ -272,8 +275,8 @@ fn obstacles_that_lengthen_the_path_are_reported_with_their_cost() {
     assert!(saving.at_most - saving.at_least < 1e-2 * truth, "{saving:?}");
 }
 
-/// Returns the same arm and world in another unit of length, with the start some turns of the continuous joints away,
-/// or the goals by that many.
+/// Returns the same arm and world in another unit of length. The start and the goals are shifted by whole turns of
+/// continuous joints.
 fn rescaled(problem: &MotionProblem, scale: f64, turns: [f64; 2]) -> MotionProblem {
     let (mut arm, mut workspace) = problem.scene().clone().into_parts();
     let point = |p: Point| p * scale;
@@ -306,8 +309,8 @@ fn rescaled(problem: &MotionProblem, scale: f64, turns: [f64; 2]) -> MotionProbl
     MotionProblem::new(Scene::new(arm, workspace).expect("a scene"), start, goals).expect("as free as before")
 }
 
-/// Arms of metres, millimetres and hundreds of metres start up to twenty turns away. The reported lengths without an
-/// element hold for paths of another planner, in a world built from scratch without that element.
+/// Checks arms of metres, millimetres and hundreds of metres, with starts up to twenty turns away. The reported lengths
+/// without an element are those of another planner's paths in a world that the test builds without the element.
 #[test]
 fn reported_lengths_hold_for_another_planner() {
     let (by_graph, mut seen) = (Options { planner: Planner::named(Method::Visibility), ..Options::default() }, 0);
@@ -337,7 +340,7 @@ fn reported_lengths_hold_for_another_planner() {
                 let gone = |element: &Element| *element != saving.element;
                 let there: Vec<Element> = Element::all(problem.scene()).into_iter().filter(gone).collect();
                 let (mut arm, mut workspace) = among(&problem, &there).into_scene().into_parts();
-                // The omitted limits reach farther the smaller the arm is. No clearance is added here.
+                // The smaller the arm, the farther an omitted limit extends. No clearance is added here.
                 if scale != 1.0 && matches!(saving.element, Element::Limit { .. }) {
                     continue;
                 }
@@ -357,8 +360,8 @@ fn reported_lengths_hold_for_another_planner() {
     assert!(!usual() || seen > 2, "{seen}");
 }
 
-/// For an arm of a millimetre, a micrometre is large: a bound for paths with that clearance does not hold for paths
-/// without it.
+/// Checks an arm of a millimetre, for which a micrometre is large. A bound for paths with that clearance does not hold
+/// for paths without it.
 #[test]
 fn lengths_without_an_obstacle_are_those_at_the_worlds_own_clearance() {
     let small = |obstacle: Obstacle| {
@@ -386,7 +389,7 @@ fn lengths_without_an_obstacle_are_those_at_the_worlds_own_clearance() {
     assert!(saving.at_most - saving.at_least < 1e-2 * truth, "{saving:?}");
 }
 
-/// When the time is up, the explanation has the known part: the problem is infeasible, with possible blockers.
+/// Checks that an explanation whose time is up has its known part: the problem is infeasible, with possible blockers.
 #[test]
 fn a_stopped_explanation_claims_no_irreducible_set() {
     let question = gantry(wall(2.0 * HALF - 0.03), 0.0).with_time_limit(Duration::from_nanos(1));

@@ -15,10 +15,10 @@ use cplan::motion::{BlendReport, Drive, Objective, Trajectory};
 use cplan::space::{Configuration, Path};
 use cplan::{Options, Plan, Planner, Problem, plan};
 
-/// Tolerance between two computations of a distance, metres.
+/// Tolerance between two computations of one distance, in metres.
 const ROUNDING: f64 = 1e-9;
 
-/// Number of parts of each interval between samples in which a motion is checked.
+/// Number of parts of each interval between samples at which a motion is checked.
 const PARTS: u32 = 8;
 
 /// Returns position, velocity, acceleration and jerk of both joints between two samples: the cubic through positions
@@ -60,7 +60,7 @@ fn judge(problem: &Problem, plan: &Plan, jerk: [Option<f64>; 2], what: &str) {
         for part in 0..=PARTS {
             let u = f64::from(part) / f64::from(PARTS);
             let [place, speed, pull, rate] = between(trajectory, i, u);
-            // Errors of derivatives over the interval, caused by rounding of positions.
+            // The effect of rounding of positions on derivatives over the interval.
             let noise = 64.0 * f64::EPSILON * (1.0 + place[0].abs().max(place[1].abs()));
             for (k, joint) in joints.iter().enumerate() {
                 assert!(speed[k].abs() <= joint.velocity * (1.0 + 1e-6) + noise / h, "{what}: speed {speed:?} at {i}");
@@ -100,7 +100,7 @@ fn motions_of_random_worlds() {
         let kind = KINDS[(seed % 4) as usize];
         let Some(problem) = world(kind, 7000 + seed).map(Problem::from) else { continue };
         let plain = plan(&problem, &Options { planner: Planner::named(Method::First), ..Options::default() }).unwrap();
-        // Straight paths are already as fast as possible.
+        // A straight path is already the fastest one.
         if plain.status() != Status::Found || plain.waypoints().is_some_and(|path| path.len() < 3) {
             continue;
         }

@@ -1,4 +1,5 @@
-//! Groups in free order with some infeasible orders: objects that are placed, or not yet picked, block others.
+//! Groups in free order for which some orders are infeasible, because objects that are placed, or not picked yet, block
+//! others.
 
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
@@ -16,7 +17,7 @@ use serde_json::Value;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Arm, start and seven posts. All have the same height, so each object blocks the arm.
+/// The arm, its start, and seven posts. All heights are equal, so each object blocks the arm.
 const CELL: &str = r#"name = "tray"
 [robot]
 payload = "level"
@@ -67,8 +68,8 @@ fn world(order: &str, parts: &[[[f64; 2]; 2]]) -> String {
     sized_world(order, 0.028, parts)
 }
 
-/// Returns a world with parts to move from a store to its mirror image, in a feasible order. The innermost and nearest
-/// parts are picked first, the outermost and farthest places are filled first.
+/// Returns the places and targets of parts that move from a store to its mirror image, in a feasible order. The
+/// innermost and nearest parts are picked first, and the outermost and farthest places are filled first.
 fn tray(count: usize) -> Vec<[[f64; 2]; 2]> {
     let mut picks: Vec<usize> = (0..count).collect();
     picks.sort_by_key(|index| (index % ROWS, index / ROWS));
@@ -134,7 +135,7 @@ fn a_free_order_is_found_where_that_of_the_file_cannot_be_done() {
 
 #[test]
 fn infeasibility_in_any_order_is_proven_for_large_groups() {
-    // Two parts change places without room to put one aside.
+    // Two parts exchange places, and there is no room to put one aside.
     let mut swapped = tray(14);
     let [first, second] = [swapped[0][0], swapped[4][0]];
     (swapped[0][1], swapped[4][1]) = (second, first);
@@ -165,15 +166,15 @@ fn planned(task: &Task) -> TaskAnswer {
 /// All orders of three things.
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
-/// Returns the task with nine more pairs in its group. Their objects collide with nothing, and lie at the initial
-/// position of the tip. The new task is feasible if and only if the task is, and is too large to try all orders.
+/// Returns the task with nine more pairs in its group. Their objects collide with nothing, and lie at the tip's initial
+/// position. The new task is feasible exactly if the old one is, but is too large to try all orders.
 fn among_many(task: &Task, pairs: &[[Step; 2]]) -> Task {
     let mut many = task.clone();
     let mut group = pairs.to_vec();
     let at = task.arm.tip_at(task.start);
     for number in 0_u32..9 {
         let object = many.objects.len();
-        // Neither the arm nor each other.
+        // These heights are below those of the arm and of each other object.
         let below = Heights { lower: -10.0 - f64::from(number), upper: -9.5 - f64::from(number) };
         let lies = Pose::new(at, 0.0);
         many.objects.push(Object { name: format!("{number}"), heights: below, at: lies, ..task.objects[0].clone() });
@@ -187,7 +188,7 @@ fn among_many(task: &Task, pairs: &[[Step; 2]]) -> Task {
     many
 }
 
-/// Compares three parts that block each other, alone and among many, with a trial of all orders.
+/// Checks three parts that block each other, alone and among many others, against a trial of all orders.
 #[test]
 fn free_orders_agree_with_trying_all() {
     let (mut some, mut file_fails, mut none, mut proven) = (0, 0, 0, 0);
@@ -241,6 +242,6 @@ fn free_orders_agree_with_trying_all() {
     println!(
         "{some} with orders that fail, {file_fails} with the file's; {none} without any, {proven} of these proven"
     );
-    // There are orders that fail, and tasks without any feasible order, some of them proven.
+    // Some orders fail, and some tasks have no feasible order, which is proven for part of them.
     assert!(!usual() || some >= 3 && file_fails >= 2 && none >= 3 && 2 * proven >= none);
 }

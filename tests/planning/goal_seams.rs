@@ -1,5 +1,5 @@
 //! Sets of goals that end at the seam of a circle, lie on it or cross it. The seam has no meaning, so the same set in
-//! another notation has the same result, for every planner.
+//! another notation gives the same result, with every planner.
 
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
@@ -11,10 +11,10 @@ use cplan::model::{MotionProblem, Scene};
 use cplan::space::{Configuration, GoalSet, JointRange, Path, Segment};
 use std::f64::consts::PI;
 
-/// Number of goals of a set that are planned one by one.
+/// Number of goals of a set for which the test plans one by one.
 const TRIED: u32 = 12;
 
-/// A representation may miss goals with less room than this, metres.
+/// Goals with less room than this, in metres, may be missing in a planner's space.
 const ROOMY: f64 = 0.01;
 
 /// Draws a value at a seam, beside it, or anywhere.
@@ -47,7 +47,7 @@ fn segment(dice: &mut Dice, scene: &Scene) -> Segment {
     if dice.below(2) == 0 { Segment::new(from, to) } else { Segment::new(to, from) }
 }
 
-/// Returns the same set written differently: reversed, some turns away, and in pieces that end at each seam.
+/// Returns the same set in other notations: reversed, some turns away, and in pieces that end at each seam.
 fn in_other_words(problem: &MotionProblem, goals: Segment) -> Vec<GoalSet> {
     let axes = problem.scene().arm().topology().ranges;
     let [from, to] = goals.ends();
@@ -121,9 +121,9 @@ fn a_seam_makes_no_difference_to_any_planner() {
                 })
                 .collect();
             let least = lengths.iter().flatten().copied().fold(f64::INFINITY, f64::min);
-            // Only visibility looks for the shortest path. Rounding decides which cells or boxes hold an end or a goal
-            // on their sides. It thus decides which of several equally near goals is chosen: the farthest is less than
-            // half as far again.
+            // Only visibility looks for the shortest path. For other planners, rounding decides which cells or boxes
+            // contain a start or goal on their sides, and so which of several almost equally near goals is chosen. The
+            // farthest is less than half as far again.
             let same = if method == Method::Visibility { 1e-6 } else { 0.5 };
             let alike = |length: &Option<f64>| length.map_or(least.is_infinite(), |l| l <= least * (1.0 + same) + same);
             assert!(lengths.iter().all(alike), "seed {seed}, {method}: {lengths:?} of {sets:?} from {start}");

@@ -1,4 +1,4 @@
-//! Goals of the tip that leave a joint free, against explicit goals at many values of that joint.
+//! Goals of the tip that leave a joint free, compared with goals at many values of that joint.
 
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
@@ -12,10 +12,11 @@ use cplan::search::{Connectivity, MotionQuery, connectivity, least_length, slab_
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Segment};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Values of the free joint that are tried one by one.
+/// Number of values of the free joint for which the test plans one by one.
 const TRIED: usize = 13;
 
-/// Greatest number of levels of an answer whose path must be within 5 % of the shortest. Later levels may miss that.
+/// If an answer took at most this many levels, its path must be within 5 % of the shortest. At later levels it may be
+/// longer.
 const LOOKED_AT: usize = 2;
 
 /// Draws an arm whose tip goal leaves a joint free, and the target of the tip.
@@ -62,7 +63,7 @@ fn drawn(dice: &mut Dice) -> (Arm, Point) {
     }
 }
 
-/// Returns a random world with a free start and the tip's goals; `None` if no start is free, or all goals are blocked.
+/// Returns a random world with a free start and the tip's goals. `None` if no start is free, or all goals are blocked.
 fn world(seed: u64) -> Option<MotionProblem> {
     let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D));
     let (arm, tip) = drawn(&mut dice);
@@ -169,8 +170,8 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
                     let motions = MotionQuery { scene, start, goals: problem.goals(), clearance: 0.0, metric };
                     let least = least_length(&motions, length, 1e-3, &[]);
                     assert!(least <= length, "seed {seed}");
-                    // The planner looks for a shorter path that only the finest levels show in two cases: there is no
-                    // other path, or a gap is requested.
+                    // The planner looks for a shorter path that only the finest levels show in two cases: it has found
+                    // no other path, or a gap is requested.
                     let most = if other.history.len() <= LOOKED_AT { 1.05 * length } else { f64::INFINITY };
                     assert!(bound.upper <= most, "seed {seed}: {} beside {length} to {goal}", bound.upper);
                 }
@@ -182,9 +183,9 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
     assert!(!usual() || worlds >= 20 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
 }
 
-/// The tip must return to the base, and the arm is folded back. The path to the left passes an obstacle at a
-/// millimetre. The first level's polygons close it, so only a path of length 5.89 all around is left. The bound (0.89)
-/// shows that a shorter path may exist, so the planner tries a finer level.
+/// Checks a folded arm whose tip must return to the base. The path to the left passes an obstacle at a distance of a
+/// millimetre. The polygons of the first level close it, so that only a path all around remains, of length 5.89. The
+/// bound (0.89) shows that a shorter path may exist, so the planner tries a finer level.
 #[test]
 fn a_short_narrow_passage_is_preferred_to_a_long_detour() {
     let problem = world(9_083_322_546_425_692_186).expect("a world");
@@ -192,13 +193,13 @@ fn a_short_narrow_passage_is_preferred_to_a_long_detour() {
     let bound = answer.bound().expect("visibility bounds what it finds");
     assert!(bound.gap() < 0.05, "{bound:?}");
     assert!(0.85 < bound.lower && bound.upper < 0.95, "{bound:?}");
-    // The first level alone has only the long path, and its bound shows that.
+    // With the first level alone there is only the long path. Its bound shows that.
     let hasty = solve(&problem, &Options { levels: 1, ..Method::Visibility.into() }, &mut |_| {});
     let bound = hasty.bound().expect("visibility bounds what it finds");
     assert!(bound.lower < 0.95 && bound.upper > 5.0, "{bound:?}");
 }
 
-/// No planner reports a problem as infeasible if there is a path.
+/// Checks that no planner reports a problem as infeasible that has a path.
 #[test]
 fn planners_agree_about_sets_of_goals() {
     for seed in seeds(15).map(|seed| seed + 1_000) {
@@ -218,8 +219,8 @@ fn planners_agree_about_sets_of_goals() {
     }
 }
 
-/// A tip on the common axis of both joints, and one beside it. In the first case every configuration is a goal, in the
-/// second all pairs of angles with the same sum.
+/// Checks a tip on the common axis of both joints, and one beside it. In the first case every configuration is a goal;
+/// in the second, every pair of angles with a certain sum.
 #[test]
 fn joints_about_one_axis_share_the_angle() {
     let turning = |lower, upper| joint("t", JointType::Revolute { sign: 1.0 }, JointRange::Interval { lower, upper });
@@ -241,10 +242,10 @@ fn joints_about_one_axis_share_the_angle() {
         }
         asked(scene.clone(), start, goals)
     };
-    // A sum of 1.5; 1.5 - tau is beyond both limits, and the obstacle is in between.
+    // The sum is 1.5. The sum 1.5 - tau is beyond both limits, and the obstacle is in between.
     let barred = problem(1.5);
     assert_eq!(barred.goals().pieces().len(), 1, "{:?}", barred.goals());
-    // Of 1.9 and 1.9 - tau one can be reached the other way round.
+    // Of the sums 1.9 and 1.9 - tau, one can be reached in the other direction.
     let open = problem(1.9);
     assert_eq!(open.goals().pieces().len(), 2, "{:?}", open.goals());
     for method in Method::ALL {

@@ -1,4 +1,4 @@
-//! Plans that are stopped: the only result is the interruption, and no state remains.
+//! Plans that are stopped. They return nothing but the interruption, and leave no state behind.
 
 use cplan::Outcome;
 use cplan::engine::task::plan;
@@ -42,8 +42,8 @@ fn every_planner_comes_by_a_checkpoint() {
     }
 }
 
-/// At each checkpoint a stopped plan either reports the stop or equals the full plan, and the next plan is not
-/// disturbed.
+/// Checks each checkpoint: a plan that is stopped there reports the stop, or is complete. The next plan is not
+/// affected.
 #[test]
 fn a_stopped_plan_prints_and_writes_nothing() {
     for world in ["shelf.toml", "crowd.toml", "singular_closed.toml"] {
@@ -68,7 +68,7 @@ fn a_stopped_plan_prints_and_writes_nothing() {
     }
 }
 
-/// A search for a proof that would take minutes ends when another thread stops it.
+/// Checks that another thread can stop a search for a proof that would take minutes.
 #[test]
 fn proofs_and_tasks_stop_too() {
     let problem = problem("thin_wall_closed.toml");

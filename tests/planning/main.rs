@@ -1,4 +1,4 @@
-//! Paths, proofs, bounds and tasks, against brute force, closed forms and published figures.
+//! Paths, proofs, bounds and tasks, compared with brute force, closed forms and published figures.
 
 mod bound;
 mod certificates;

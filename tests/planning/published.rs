@@ -52,14 +52,15 @@ fn the_tally_of_the_published_counts_holds() {
     };
     assert_eq!(counts([0, 1], &OF_GAUSS_SEIDEL), [[3, 4, 6], [4, 4, 4], [0, 1, 2]]);
     assert_eq!(counts([2, 3], &OF_SOR), [[2, 2, 3], [4, 4, 4], [0, 0, 4]]);
-    // The value 0.999999 is special: its neighbours explain less.
+    // The value 0.999999 is special: values near it explain fewer counts.
     for beyond in [Beyond::Kept, Beyond::Clamped, Beyond::Reset(0.999_998), Beyond::Reset(0.999_999_9)] {
         let other = search::together(maps.harmonic([2, 3], &Choice { beyond, ..OF_SOR }, 0));
         assert!(other.exact() <= 1, "{beyond:?}: {other}");
     }
 }
 
-/// The search's own relaxation and the library's share no code, and report the same counts.
+/// Checks that two relaxations without common code, that of the example and that of the library, report the same
+/// counts.
 #[test]
 fn the_plain_relaxation_counts_what_the_library_counts() {
     use cplan::field::{

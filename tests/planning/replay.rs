@@ -1,4 +1,4 @@
-//! Traces of planners: the account of how a planner came to its answer is true.
+//! Replays of planners: they show truly how a planner found its answer.
 
 use crate::common::shipped_feasible;
 use cplan::engine::{Method, Phase, Replay, Setting, Shows, SlabBoxes};
@@ -24,7 +24,7 @@ fn replayed(plan: &Plan) -> Vec<Phase> {
     phases
 }
 
-/// Returns the number of things that the trace has for a phase to show.
+/// Returns how many items of the trace a phase shows. `None` if the trace has none for it.
 fn there(shows: &Shows, trace: &Trace) -> Option<usize> {
     Some(match (shows, trace) {
         (Shows::Nodes | Shows::Edges, Trace::Roadmap { edges, .. } | Trace::Roads { edges, .. }) => edges.len(),
@@ -76,7 +76,7 @@ fn replays_follow_the_order_of_the_search() {
         assert_eq!(expanded.is_empty(), search == GridSearch::Wave);
         let [first, .., last] = &expanded[..] else { continue };
         assert_eq!(labels[*first as usize], 0, "{search} begins at the goal");
-        // The start's cell, by the limits of the arm.
+        // The cell of the start, computed from the arm's limits.
         let arm = plan.problem().scene().arm();
         let at = |k: usize| {
             let (lower, upper) = arm.topology().ranges[k].domain();

@@ -1,4 +1,4 @@
-//! Visibility graph and trapezoidal decomposition against brute force, flood fill and closed forms.
+//! Visibility graph and trapezoidal decomposition, compared with brute force, flood fill and closed forms.
 
 use crate::common::dice::Dice;
 use crate::common::roadmap::*;
@@ -43,7 +43,8 @@ fn checked_path<P: Planner<Space = Regions>>(planner: &P, regions: &Regions, que
     }
 }
 
-/// Returns the lengths by visibility, taut trapezoids and untaut ones, after checks of their order.
+/// Returns the lengths of the paths by visibility, through trapezoids pulled taut, and through trapezoids as they are.
+/// Checks their order.
 fn lengths(regions: &Regions, query: &Query) -> Option<[f64; 3]> {
     let shortest = checked_path(&VISIBILITY, regions, query);
     let taut = checked_path(&TAUT, regions, query);
@@ -55,8 +56,8 @@ fn lengths(regions: &Regions, query: &Query) -> Option<[f64; 3]> {
     Some(lengths)
 }
 
-/// Checks the paths of other searches and roadmaps against the shortest one. Each finds a path if there is one, and all
-/// of it is free. No path is shorter, and searches for shortest paths find one as short.
+/// Checks the paths of other searches and roadmaps. Each finds a free path if there is one, and none is shorter than
+/// the shortest path. Searches for shortest paths find one of that length.
 fn assert_searched(regions: &Regions, query: &Query, shortest: Option<f64>) {
     let ways = SearchOrder::ALL.into_iter().flat_map(|order| [false, true].map(|backward| (order, backward)));
     for search in ways.map(|(order, backward)| RoadmapSearch { order, backward }) {
@@ -71,7 +72,7 @@ fn assert_searched(regions: &Regions, query: &Query, shortest: Option<f64>) {
             assert!(length < shortest + 1e-9, "{search}: {length} {shortest}");
         }
         let [own, taut] = PathKind::ALL.map(|path| same(checked_path(&Triangles { path, search }, regions, query)));
-        // If a search makes detours within its channel, the taut path may turn where it need not.
+        // If a search makes detours, the taut path within its channel may be longer than necessary.
         assert!(!search.order.is_optimal() || taut <= own.map(|own| own + 1e-9), "{search}: {taut:?} {own:?}");
         same(checked_path(&Trapezoid { path: PathKind::Taut, search }, regions, query));
         for path in PathKind::ALL {
@@ -98,8 +99,8 @@ fn cells(regions: &Regions) -> (Vec<Vec<Point>>, usize) {
     (cells.to_vec(), edges)
 }
 
-/// Cells are convex, cover free space without overlap (their areas add up and their middles are free), and are joined
-/// wherever two of them share a piece of vertical.
+/// Checks that cells are convex, and cover free space without overlap: their areas add up, and their middles are free.
+/// Two cells are joined exactly if they share a piece of a vertical.
 fn assert_decomposed(regions: &Regions) {
     let (cells, portals) = cells(regions);
     let sides = sides(regions);
@@ -138,7 +139,7 @@ proptest! {
         let mut random = Dice::new(seed);
         let crowd = convex_crowd(&mut random, side, corners);
         let regions = crowd_regions(side, &crowd);
-        // The places are between the crowd's cells, where no polygon reaches.
+        // The places are outside the cells of the crowd, where there are no polygons.
         let ends = [0, 1].map(|_| (random.within(-0.2, -0.01), random.within(-0.2, side as f64 + 0.2)));
         let (start, goal) = (ends[0], (side as f64 - ends[1].0, ends[1].1));
         let window = (-0.25, side as f64 + 0.25);
@@ -166,8 +167,9 @@ proptest! {
         }
     }
 
-    /// The squares of one and two units touch along sides and in corners. They are in place or mirrored exactly, or
-    /// turned. Then rounding puts corners slightly to either side of the sides that they lie on, and leaves tiny gaps.
+    /// Checks squares of one and two units that touch along sides and in corners. They are in place, mirrored exactly,
+    /// or turned. If they are turned, rounding moves corners slightly to either side of the sides that they lie on, and
+    /// leaves tiny gaps.
     #[test]
     fn touching_obstacles_equal_brute_force(
         seed: u64, size in 2usize..6, density in 0.1..0.5, turn in prop_oneof![Just(None), (0.0..1.6_f64).prop_map(Some)],
@@ -234,7 +236,7 @@ proptest! {
         let map = MAPS[(random.bits() % 5) as usize];
         let regions = board.regions(map, || random.bits().is_multiple_of(2));
         assert_decomposed(&regions);
-        // The squares are grown a little, so that gaps between touching corners are closed.
+        // The squares are slightly grown, so that gaps between touching corners are closed.
         let growth = 1e-5;
         let blocked = (0..board.free.len()).filter(|&k| !board.free[k]).map(|k| {
             let range = |k: usize| (k as f64 - growth, (k + 1) as f64 + growth);
@@ -261,7 +263,7 @@ proptest! {
         let map = MAPS[(random.bits() % 5) as usize];
         let regions = board.regions(map, || random.bits().is_multiple_of(2));
         let component = board.components();
-        // Components of the free squares around a point of the half-integer lattice.
+        // The components of the free squares around a point of the half-integer lattice.
         let around = |x: i32, y: i32| {
             let squares = |v: i32| if v % 2 == 0 { vec![v / 2 - 1, v / 2] } else { vec![v / 2] };
             let all = squares(x).into_iter().flat_map(|i| squares(y).into_iter().map(move |j| (i, j)));
@@ -395,7 +397,7 @@ mod contract {
 fn around_a_square_the_length_is_known() {
     let regions = window_with_holes((0.0, 4.0), (0.0, 4.0), vec![rectangle((1.0, 3.0), (1.0, 3.0))]);
     let found = lengths(&regions, &query((0.5, 1.5), (3.5, 1.5))).unwrap();
-    // To the corner (1, 1), along the lower side, and up again.
+    // The path leads to the corner (1, 1), along the lower side, and up again.
     let expected = 2.0 * 0.5_f64.hypot(0.5) + 2.0;
     assert!((found[0] - expected).abs() < 1e-12);
     assert!((found[1] - expected).abs() < 1e-12);
@@ -405,7 +407,7 @@ fn around_a_square_the_length_is_known() {
 
 #[test]
 fn a_funnel_path_along_a_slanted_side_has_no_corners_between() {
-    // Teeth above the slanted side send verticals down to its middle.
+    // From teeth above the slanted side, verticals lead down to its middle.
     let tooth = |x: f64| points(&[(x, 1.5 + x / 3.0), (x + 0.2, 2.9), (x - 0.2, 2.9)]);
     let floor = Polygon {
         outer: points(&[(0.0, 0.0), (0.1, 0.1), (3.1, 1.1), (3.2, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)]),
@@ -434,14 +436,14 @@ fn no_path_leads_between_squares_that_touch_in_a_corner() {
     let touching = vec![rectangle((1.0, 2.0), (1.0, 2.0)), rectangle((2.0, 3.0), (2.0, 3.0))];
     let regions = window_with_holes((0.0, 4.0), (0.0, 4.0), touching);
     let found = lengths(&regions, &query((1.5, 2.5), (2.5, 1.5))).unwrap();
-    // Not straight over (2, 2), but over the corner (2, 3) and along two sides.
+    // The path does not lead straight over (2, 2), but over the corner (2, 3) and along two sides.
     assert!((found[0] - (2.0 + 2.0_f64.sqrt())).abs() < 1e-12, "{found:?}");
     assert_decomposed(&regions);
 }
 
 #[test]
 fn of_motions_that_take_equally_long_the_shortest_is_taken() {
-    // The first joint takes 4 s on either side of the obstacle; the path below is shorter.
+    // On either side of the obstacle, the first joint needs 4 s. The path below is shorter.
     let regions = window_with_holes((0.0, 4.0), (-2.0, 2.0), vec![rectangle((1.5, 2.5), (-0.5, 0.6))]);
     let planner = Visibility { metric: Metric::Time { speeds: [1.0, 1.0] }, ..VISIBILITY };
     let path = checked_path(&planner, &regions, &query((0.0, 0.0), (4.0, 0.0))).unwrap();

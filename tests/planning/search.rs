@@ -1,4 +1,5 @@
-//! Waves and searches over grids against textbook code that shares nothing with them, petgraph, and published tables.
+//! Waves and searches over grids, compared with textbook code that shares nothing with them, with petgraph, and with
+//! published tables.
 
 use crate::common::reference::published;
 use cplan::cspace::{Grid, Proves};
@@ -18,7 +19,7 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     Grid { topology: Topology { ranges: axes }, proves: Proves::Sampled, cells, blocked }
 }
 
-/// Returns the cell `by` away from `cell`, if there is one, by coordinates.
+/// Returns the cell at the offset `by` from `cell`, computed by coordinates. `None` if there is none.
 fn beside(grid: &Grid, cell: usize, by: [i64; 2]) -> Option<usize> {
     let at = [cell / grid.cells[1], cell % grid.cells[1]];
     let to = [0, 1].map(|k| {
@@ -72,8 +73,7 @@ fn random_grid(
     })
 }
 
-/// Returns a strategy for long runs of free cells between walls with few openings. `walls` are rows or columns; `doors`
-/// opens them somewhere.
+/// Returns a strategy for grids with long runs of free cells between walls with few openings.
 fn random_rooms() -> impl Strategy<Value = Grid> {
     let wall = (any::<bool>(), any::<u16>(), proptest::collection::vec(any::<u16>(), 0..4));
     let size = (1..40_usize, 64..300_usize, any::<[bool; 2]>());
@@ -96,7 +96,7 @@ fn with_cells(grids: impl Strategy<Value = Grid>) -> impl Strategy<Value = (Grid
     })
 }
 
-/// Labels and the way down them.
+/// Checks the labels, and that they lead down to a source.
 fn check_labels(grid: &Grid, sources: &[usize], start: usize) -> Result<(), TestCaseError> {
     let free = FreeCells::new(grid);
     for neighborhood in BOTH {
@@ -242,7 +242,8 @@ proptest! {
         check_searches(&grid, &sources, target)?;
     }
 
-    /// The distance from one cell to the nearest of several equals that from the several to the one.
+    /// Checks that the distance from one cell to the nearest of several equals the distance from the several to the
+    /// one.
     #[test]
     fn a_search_to_any_target_finds_the_nearest((grid, targets, start) in with_cells(random_grid(1..14, 1..14, 0.4))) {
         let free = FreeCells::new(&grid);
@@ -262,7 +263,7 @@ proptest! {
         }
     }
 
-    /// A* expands no more cells than Dijkstra, up to those that are as far as the target.
+    /// Checks that A* expands no more cells than Dijkstra's algorithm, except for cells that are as far as the target.
     #[test]
     fn a_good_estimate_saves_work((grid, sources, target) in with_cells(random_grid(1..14, 1..14, 0.4))) {
         let free = FreeCells::new(&grid);
@@ -280,7 +281,7 @@ proptest! {
     }
 }
 
-/// In the open, A* that prefers the farthest cell goes straight: it expands only the cells of the path.
+/// Checks that in open space, A* that prefers the farthest cell moves straight: it expands only the cells of the path.
 #[test]
 fn a_star_goes_straight_in_the_open() {
     let open = FreeCells::new(&grid([50, 70], [false; 2], vec![false; 3500]));

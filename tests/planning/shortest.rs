@@ -1,4 +1,5 @@
-//! The shortest path among random obstacles: never below proven bounds, rarely far above them, and smooth to drive.
+//! The shortest path among random obstacles. It is never below proven bounds, rarely far above them, and smooth to
+//! drive.
 
 use crate::common::random::{seeds, usual};
 use crate::random_worlds::world;
@@ -8,11 +9,12 @@ use cplan::engine::{Method, solve};
 use cplan::search::{MotionQuery, least_length};
 use cplan::space::Metric;
 
-/// Worlds of each kind of arm.
+/// Number of worlds of each kind of arm.
 const WORLDS: u64 = 12;
 
-/// A path is within 1e-4 of two proven bounds: its own, and that of an independent run for another planner's path. It
-/// is never longer than another planner's path by more than that. All planners agree on whether there is a path.
+/// Checks that a path is within 1e-4 of two proven bounds: its own, and that of an independent run for another
+/// planner's path. It is never longer than another planner's path by more than that. All planners agree on whether
+/// there is a path.
 #[test]
 fn it_is_within_a_ten_thousandth_of_the_optimum_in_random_worlds() {
     let (mut found, mut wide) = (0, 0);
@@ -49,6 +51,6 @@ fn it_is_within_a_ten_thousandth_of_the_optimum_in_random_worlds() {
     }
     println!("{found} found, {wide} of them not within 1e-4");
     assert!(!usual() || found >= 20, "{found}");
-    // One in twenty may lead through a passage that is too narrow for that planner.
+    // In one world of twenty, the path may lead through a passage that is too narrow for that planner.
     assert!(wide * 20 <= found + 20, "{wide} of {found}");
 }

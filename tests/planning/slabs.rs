@@ -1,5 +1,5 @@
-//! Slabs of joint 1 against collision tests of sampled configurations, the subdivision into boxes, and the independent
-//! check.
+//! Slabs of joint 1, compared with collision tests of sampled configurations, with the subdivision into boxes, and with
+//! the independent check.
 
 use crate::common::{
     Benchmark, all_kinds, arm, benchmark, clutter, convex, disc, inside, joint, link, problem, q, recheck, rectangle,
@@ -18,11 +18,11 @@ use std::path::Path;
 
 const SLABS: usize = 20_000;
 
-/// Boxes that decide where slabs do not.
+/// Number of boxes for cases that slabs do not decide.
 const BOXES: usize = 200_000;
 
-/// Checks an answer by code that shares nothing with the slabs: paths by the judge of motions, proofs by the check of
-/// boxes, both with sampled configurations. Returns which answer it was.
+/// Checks an answer by code that shares nothing with the slabs. The judge checks paths, the check of boxes checks
+/// proofs, and samples check both. Returns true for a path, false for a proof, and `None` for neither.
 fn check(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: f64) -> Option<bool> {
     match slab_connectivity(scene, start, goals, clearance, SLABS, BOXES) {
         Connectivity::Connected(channel) => {
@@ -111,8 +111,8 @@ fn agrees_with_the_boxes(scene: &Scene, start: Configuration, goal: Configuratio
     }
 }
 
-/// Found by `random_scenes_are_answered_as_the_boxes_answer_them`: stuck intervals across the seam of joint 2 belong to
-/// the proof.
+/// Checks a case that `random_scenes_are_answered_as_the_boxes_answer_them` found: collision intervals across the seam
+/// of joint 2 belong to the proof.
 #[test]
 fn a_proof_across_the_seam() {
     let disc = disc(Point::new(-0.2574244886139003, -0.7541749868020048), 0.03);
@@ -124,8 +124,8 @@ fn a_proof_across_the_seam() {
     agrees_with_the_boxes(&scene, start, goal, 0.0);
 }
 
-/// Two segments without thickness leave nothing to erode. So only a path can be found, or joint 1 alone closes the
-/// space.
+/// Checks two segments without thickness, from which nothing can be eroded. So the only answers are a path, and a proof
+/// that joint 1 alone closes the space.
 #[test]
 fn thin_links_among_thin_walls() {
     let turn = JointType::Revolute { sign: 1.0 };
@@ -159,7 +159,7 @@ fn a_base_inside_an_obstacle_is_never_connected() {
     assert_ne!(check(&scene, q(0.0, 0.0), &q(1.0, 0.0).into(), 0.0), Some(true));
 }
 
-/// Links that do not contain their pivots, and an elbow whose circle passes through an obstacle or touches it.
+/// Checks links that do not contain their pivots, and an elbow whose circle passes through an obstacle or touches it.
 #[test]
 fn odd_links_and_elbows_on_obstacles() {
     let turn = JointType::Revolute { sign: -1.0 };
@@ -169,7 +169,8 @@ fn odd_links_and_elbows_on_obstacles() {
         Vector::new(0.0, 1.0),
         Point::new(0.8, 0.0),
     );
-    // On the elbow's circle (radius 1), touching it from inside and from outside, and a corner upon it.
+    // Obstacles on the elbow's circle (radius 1): one across it, one that touches it from inside, one from outside, and
+    // one with a corner on it.
     let around = [
         disc(Point::new(0.6, 0.8), 0.2),
         disc(Point::new(0.8, 0.0), 0.2),
@@ -193,8 +194,8 @@ fn odd_links_and_elbows_on_obstacles() {
     assert!(decided == answers.len(), "{decided} of {}", answers.len());
 }
 
-/// If limits are longer than a turn, poses repeat but configurations do not. The path between two of them can be
-/// closed.
+/// Checks limits that are longer than a turn. Poses of the arm repeat, but configurations do not, and the path between
+/// two of them can be closed.
 #[test]
 fn limits_longer_than_a_turn() {
     let long = JointRange::Interval { lower: -5.0, upper: 5.0 };
@@ -205,7 +206,7 @@ fn limits_longer_than_a_turn() {
     assert_eq!(check(&closed, q(-4.0, 0.1), &q(turn - 4.0, 0.1).into(), 0.0), Some(false));
     let open = scene(rr([long, narrow]), vec![]);
     assert_eq!(check(&open, q(-4.0, 0.1), &q(turn - 4.0, 0.1).into(), 0.0), Some(true));
-    // The point is within reach of the forearm for any position of the elbow.
+    // For every position of the elbow, the forearm reaches the point.
     let second = scene(rr([narrow, long]), vec![disc(Point::new(1.2, 0.3), 0.15)]);
     assert_eq!(check(&second, q(0.0, -4.0), &q(0.0, turn - 4.0).into(), 0.0), Some(false));
 }
@@ -227,7 +228,7 @@ fn joints_that_cannot_move_are_left_to_others() {
     assert_eq!(check(&scene, q(0.5, 0.0), &q(0.5, 0.1).into(), 0.0), None);
 }
 
-/// Tries all shipped workspaces, among them the six closed twins and the six open ones.
+/// Checks all shipped workspaces, among them the six closed twins and the six open ones.
 #[test]
 fn shipped_workspaces_have_the_stated_answers() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -10,7 +10,7 @@ fn answer(which: Benchmark, method: Method) -> Answer {
     solve(&problem(which), &method.into(), &mut |_| {})
 }
 
-/// Returns the length of the path, which must be found.
+/// Returns the length of the path. Panics if none is found.
 fn length(which: Benchmark, method: Method) -> f64 {
     let answer = answer(which, method);
     let Outcome::Found(certified) = &answer.outcome else {
@@ -57,8 +57,8 @@ fn narrow_passages_are_found_by_subdivision() {
     }
 }
 
-/// Grids by collision checks only make proposals: paths found through them are certified, and the grids prove no
-/// infeasibility.
+/// Checks that grids with collision checks only make proposals. Paths found through them are certified, and they prove
+/// no infeasibility.
 #[test]
 fn sampled_grids_lead_to_the_verdicts_of_exact_rows() {
     for method in [Method::Wavefront, Method::Harmonic] {
@@ -80,8 +80,8 @@ fn sampled_grids_lead_to_the_verdicts_of_exact_rows() {
     }
 }
 
-/// A cell that is free at its centre proves nothing. With one pass over coarse cells, no world is reported infeasible,
-/// and each found path is one that the judge accepts.
+/// Checks coarse cells, which may contain obstacles although their centres are free. With one pass, no world is
+/// reported infeasible, and the judge accepts each path.
 #[test]
 fn coarse_samples_are_never_the_last_word() {
     let planner = Planner::named(Method::Wavefront).with_space(GridSpace::Sampled).with_cells(16);
@@ -111,7 +111,7 @@ fn infeasible_problems_are_proven_infeasible() {
     }
 }
 
-/// The outstretched arm points at a wall a micrometre away, far less than the margin of the grown polygons.
+/// Checks an outstretched arm that points at a wall a micrometre away, far less than the margin of the grown polygons.
 #[test]
 fn ends_with_little_room_are_answered_at_the_first_level() {
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(1.8 + 1e-6, 2.0, -0.5, 0.5)]);
@@ -130,7 +130,7 @@ fn ends_with_little_room_are_answered_at_the_first_level() {
     }
 }
 
-/// The start keeps exactly the clearance.
+/// Checks a start whose distance from obstacles is exactly the clearance.
 #[test]
 fn a_start_without_room_to_spare_is_answered() {
     let (scene, start, goal) = benchmark(Benchmark::A);
@@ -138,7 +138,7 @@ fn a_start_without_room_to_spare_is_answered() {
     let problem = asked(scene.with_clearance(clearance).unwrap(), start, goal);
     for method in [Method::Visibility, Method::Trapezoid] {
         let answer = solve(&problem, &Options { levels: 1, boxes: 1000, ..method.into() }, &mut |_| {});
-        // With exactly the requested clearance, the answer can only be undecided.
+        // With exactly the clearance, no answer can be certified.
         assert!(!matches!(answer.outcome, Outcome::Found(_)), "{method}");
     }
 }

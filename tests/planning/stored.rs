@@ -1,4 +1,5 @@
-//! Problems and plans as data: files round-trip, and the reader refuses problems that nobody could plan.
+//! Stored problems and plans. They are the same after writing and reading, and the reader refuses problems that nobody
+//! could plan.
 
 use cplan::geometry::{Convex, Pose};
 use cplan::input::RobotReport;
@@ -58,7 +59,7 @@ fn every_shipped_problem_is_read_as_it_was_written() {
 #[test]
 fn every_shipped_plan_is_read_as_it_was_written() {
     for (name, problem) in shipped() {
-        // The timings are present, but differ from run to run, so they are not compared.
+        // The times differ from run to run, so they are not compared.
         let made = plan(&problem, &Options { timings: true, ..Options::default() }).unwrap();
         let text = serde_json::to_string(&made).unwrap();
         let read: Plan = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -116,7 +117,7 @@ fn changed_results_are_refused_with_their_place() {
     assert!(refused.contains("result.trajectory.velocity[3][1]"), "{refused}");
     let refused = refusal(&valid, "/result/clearance", json!(0.5));
     assert!(refused.contains("result.clearance is 0.5"), "{refused}");
-    // A faster joint would have a different motion.
+    // With a faster joint, the motion would differ.
     let refused = refusal(&valid, "/problem/asked/motion/scene/arm/joints/0/velocity", json!(50.0));
     assert!(refused.contains("result."), "{refused}");
     let refused = refusal(&valid, "/options/drive/period", json!(0.02));

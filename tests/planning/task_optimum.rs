@@ -1,4 +1,4 @@
-//! The choice of IK solutions and order against trying all of them.
+//! The choice of IK solutions and order, compared with a trial of all choices.
 
 use crate::common::{arm, disc, joint, link, obstacle, q, rectangle};
 use cplan::engine::task::{TaskAnswer, plan, rest_to_rest};
@@ -85,7 +85,8 @@ fn ik_solutions(arm: &Arm, at: Point) -> Vec<Configuration> {
     all
 }
 
-/// Returns the seconds of the fastest sequence through layers of IK solutions, with each order of the pairs in turn.
+/// Returns the duration of the fastest sequence through layers of IK solutions, in seconds. Tries all orders of the
+/// pairs.
 fn least(
     start: Configuration,
     layers: &[[Vec<Configuration>; 2]],
@@ -136,7 +137,7 @@ fn spots(seed: u32, count: usize, arm: &Arm) -> Vec<[Point; 2]> {
     (0..count).map(|_| [next(), next()]).collect()
 }
 
-/// Returns true if the task is done, and no other choice is faster.
+/// Returns true if the task is done, and it is proven that no other choice is faster.
 fn is_exact(answer: &TaskAnswer) -> bool {
     answer.outcome.found().is_some_and(|motion| motion.exact)
 }
@@ -200,7 +201,8 @@ fn the_fastest_of_all_ik_solutions_and_orders_is_found() {
     assert!(compared >= 20 && free_differs >= 5, "{compared} compared, in {free_differs} the order matters");
 }
 
-/// For more than ten pairs, a local search finds the order. It beats many random orders, and its bound holds.
+/// Checks a group of more than ten pairs, whose order a local search finds. It is better than many random orders, and
+/// its bound holds.
 #[test]
 fn a_large_group_gets_a_good_order() {
     let limits = [[-2.9, 2.9], [-2.6, 2.6]];

@@ -1,4 +1,4 @@
-//! Every shipped task gives its stated outcome, and its plan can be executed.
+//! Checks that every shipped task has the outcome that its file states, and that its plan can be executed.
 //!
 //! The first comment of a task's world names its robot (`# robot: scara`) and the outcome (`# expect: done` or `#
 //! expect: infeasible`).
@@ -67,7 +67,7 @@ fn every_task_gives_its_stated_outcome() {
     }
 }
 
-/// The level and the rigid payload have the same world, except for the key that distinguishes them.
+/// Checks a level and a rigid payload in the same world, which differ only in the key for that.
 #[test]
 fn holding_level_or_rigid_makes_the_difference() {
     let [level, rigid] = ["slot_level", "slot_rigid"].map(shipped);
@@ -83,7 +83,7 @@ fn holding_level_or_rigid_makes_the_difference() {
     assert!(matches!(planned(&rigid).outcome, Outcome::Infeasible(_)));
 }
 
-/// The empty-handed arm passes where it cannot pass with the board.
+/// Checks a passage through which the arm can move empty-handed, but not with the board.
 #[test]
 fn carrying_closes_a_passage() {
     let task = shipped("board_and_gate");
@@ -91,7 +91,7 @@ fn carrying_closes_a_passage() {
     let Outcome::Infeasible(impossible) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert_eq!(impossible.step.number, 3, "the board is what does not pass");
     assert_eq!(answer.legs.len(), 2, "the way there and back is done before");
-    // The reported data of the failed motion must hold: a gantry has one IK solution for a place, its coordinates.
+    // The report about the failed motion must be true. A gantry has one IK solution for a place: its coordinates.
     let [to] = &impossible.ik_solutions[..] else { panic!("{:?}", impossible.ik_solutions) };
     assert_eq!((impossible.from, to.ik_solution), (Configuration::new(0.4, 1.1), Configuration::new(1.6, 0.9)));
     assert!(impossible.reasons[0].starts_with("to joints (1.6, 0.9) m: there is no path"), "{:?}", impossible.reasons);
@@ -101,7 +101,7 @@ fn carrying_closes_a_passage() {
     assert!(!stuck.is_empty());
 }
 
-/// The rail can be taken in two ways, and each leaves two IK solutions to reach the slot.
+/// Checks a rail that can be picked with two grips, each of which leaves two IK solutions to reach the slot.
 #[test]
 fn reasons_name_the_motions_that_were_tried() {
     let task = shipped("slot_rigid");
@@ -133,14 +133,14 @@ fn ik_solutions(task: &Task, step: &Step) -> Vec<Configuration> {
     branches.iter().flat_map(copies).collect()
 }
 
-/// A greedy choice of the IK solution nearest in time, step by step, is at least a fifth slower.
+/// Checks that always choosing the IK solution that is nearest in time makes the task at least a fifth slower.
 #[test]
 fn the_greedy_choice_of_ik_solutions_is_slower() {
     let task = shipped("elbow_choice");
     let mut taken: Vec<Item> = Vec::new();
     let mut greedy = 0.0;
     for step in task.steps() {
-        // A first move to an IK solution, with the step done there, forces that IK solution. Objects lie below the arm.
+        // A move to an IK solution, with the step done there, forces that IK solution. Objects lie below the arm.
         let forced = |q: &Configuration| {
             let there = Step { action: Action::Move(Goal::Joints(*q)), dwell: 0.0, ..step.clone() };
             let items = taken.iter().cloned().chain([Item::Step(there), Item::Step(step.clone())]).collect();
@@ -158,7 +158,8 @@ fn the_greedy_choice_of_ik_solutions_is_slower() {
     assert!(greedy >= 1.2 * ours, "greedy {greedy} s, ours {ours} s");
 }
 
-/// Cycles that end with the same world are planned once, also if a rigid payload's orientation depends on the arm's.
+/// Checks that cycles which end with the same world are planned once, even if the orientation of a rigid payload
+/// depends on that of the arm.
 #[test]
 fn identical_cycles_are_planned_once() {
     let once = planned(&shipped("feeder"));

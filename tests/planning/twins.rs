@@ -1,5 +1,5 @@
-//! Workspaces without a path and their feasible twins: stored proofs pass the independent check, and found paths pass a
-//! sweep by parry2d.
+//! Workspaces without a path, and twins of them with a path. Stored proofs pass the independent check, and found paths
+//! pass a sweep by parry2d.
 
 use crate::common::recheck;
 use cplan::Outcome;
@@ -14,7 +14,7 @@ use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::intersection_test;
 use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
 
-/// Obstruction of each twin, and the robot.
+/// What closes each workspace, and the robot.
 const TWINS: [(&str, &str); 6] = [
     ("limits", "planar_2r"),
     ("annulus", "gantry"),
@@ -24,7 +24,7 @@ const TWINS: [(&str, &str); 6] = [
     ("singular", "planar_2r"),
 ];
 
-/// Boxes that decide each of them.
+/// Number of boxes that decides each workspace.
 const BOXES: usize = 200_000;
 
 /// Greatest change of a joint between two samples.
@@ -51,7 +51,7 @@ fn infeasible_twins_are_proven_and_proofs_can_be_read_back() {
         let claim = read.collision_boxes();
         assert_eq!(claim, proof.collision_boxes(), "{what}");
         assert_eq!(recheck(claim, scene, start, goals, 0.0), Ok(()), "{what}");
-        // The proof does not apply to the twin, which has a path: some box must be false there.
+        // The twin has a path, so the proof must not hold there: some box is false.
         let twin = load(&format!("{what}_open"), robot);
         let refused = recheck(claim, twin.scene(), twin.start(), twin.goals(), 0.0);
         let is_false = matches!(
@@ -82,7 +82,7 @@ fn place(convex: &Convex) -> Pose {
     }
 }
 
-/// Returns the first sample of the path, in steps of at most [`STEP`], at which parry2d finds a contact.
+/// Returns the first configuration of the path at which parry2d finds a contact, in steps of at most [`STEP`].
 fn first_contact(scene: &Scene, path: &Path) -> Option<Configuration> {
     let pairs: Vec<_> = scene.pairs().iter().map(|&p| (p.link, scene.part(p), scene.piece(p))).collect();
     let shapes: Vec<_> = pairs.iter().map(|(link, a, b)| (*link, shape(a), place(a), shape(b), place(b))).collect();

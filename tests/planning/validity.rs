@@ -1,6 +1,6 @@
-//! Accepted data cannot be made invalid: each constructor refuses input that would lead to a false answer, and names
-//! it. Before that, a clockwise square had wrong penetrations, and a problem without goals or with a start out of range
-//! was "infeasible".
+//! Checks that accepted data is valid: each constructor refuses input that would lead to a false answer, and names it.
+//! Before these checks existed, penetrations of a clockwise square were wrong, and problems without goals, or with a
+//! start out of range, were reported as infeasible.
 
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
@@ -226,7 +226,7 @@ fn problems_without_a_true_answer_are_refused() {
     assert_eq!(refused(free, two), MotionProblemError::GoalOutside { goal: 1, joint, value });
     let hit = refused(free, blocked.into()).to_string();
     assert!(hit.starts_with("goal 1 is not free: link \"fore\" hits obstacle \"post\""), "{hit}");
-    // Of a segment some may be blocked.
+    // Part of a segment of goals may be blocked.
     let through = GoalSet::from(Segment::new(free, q(PI / 4.0, 0.3)));
     let problem = MotionProblem::new(scene(), free, through).expect("some of it is free");
     assert!(matches!(solve(&problem, &Method::Visibility.into(), &mut |_| {}).outcome, Outcome::Found(_)));
@@ -267,8 +267,9 @@ fn valid_input_is_accepted() {
     assert!(taken > 10 && refused > 10, "{taken} {refused}");
 }
 
-/// Decides convexity by brute force. Every corner lies to the left of every side, or on it between its ends, and no two
-/// corners are equal. The corners follow in the order of the angle about their mean, once round.
+/// Decides by brute force whether corners form a convex polygon. Every corner must be to the left of every side, or on
+/// it between its ends, and no two corners may be equal. Corners must be in the order of the angle about their mean,
+/// once round.
 fn is_convex(corners: &[(i64, i64)]) -> bool {
     let n = corners.len() as i64;
     let (x, y) = corners.iter().fold((0, 0), |(x, y), c| (x + c.0, y + c.1));
@@ -293,7 +294,8 @@ fn is_convex(corners: &[(i64, i64)]) -> bool {
     distinct && left && has_area && turns && (total - 2.0 * PI).abs() < 1e-6
 }
 
-/// The library accepts scenes and problems of random worlds, and taking them apart changes nothing.
+/// Checks that the library accepts scenes and problems of random worlds, and that taking them apart and building them
+/// again changes nothing.
 #[test]
 fn random_problems_are_taken() {
     let mut made = 0;
@@ -310,7 +312,7 @@ fn random_problems_are_taken() {
     assert!(!usual() || made > 250, "{made}");
 }
 
-/// The corners differ from a straight wall by the last bit, and are judged exactly.
+/// Checks corners that differ from a straight wall by the last bit. They are judged exactly.
 #[test]
 fn rounding_decides_at_the_limit() {
     let tip = 1.0 / 3.0;

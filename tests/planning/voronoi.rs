@@ -1,5 +1,5 @@
-//! Voronoi diagrams and the paths of greatest clearance along them, against distances from all sides, floods over grids
-//! and closed forms.
+//! Voronoi diagrams, and the paths of greatest clearance along them, compared with distances from all sides, with
+//! floods over grids, and with closed forms.
 
 use crate::common::dice::Dice;
 use crate::common::roadmap::*;
@@ -56,8 +56,8 @@ fn least_clearance(sides: &[(Point, Point)], path: &Path) -> f64 {
     path.segments().flat_map(along).map(|p| clearance(sides, p)).fold(f64::INFINITY, f64::min)
 }
 
-/// Checks that each end of an arc or chord has two nearest points on different sides. In between, the two distances are
-/// almost equal. The diagram is connected.
+/// Checks that at each end of an arc or chord, two nearest points are on different sides of free space. In between,
+/// both distances are almost equal. The diagram must be connected.
 fn assert_is_diagram(regions: &Regions, run: &Run, ends: &[Point]) {
     let sides = obstacles(regions);
     let Trace::Roads { edges, .. } = &run.trace else { panic!("{:?}", run.trace) };
@@ -66,7 +66,7 @@ fn assert_is_diagram(regions: &Regions, run: &Run, ends: &[Point]) {
         (0..2).any(|k| [regions.window[k].0, regions.window[k].1].iter().any(|bound| (p[k] - bound).abs() < 1e-9))
     };
     let is_leg = |edge: &[Point; 2]| ends.iter().any(|end| edge.iter().any(|p| (p - end).norm() < 1e-9));
-    // An arc ends where others begin, or in a corner of free space.
+    // An arc ends where others begin, or at a corner of free space.
     let mut meeting = std::collections::BTreeMap::new();
     for p in edges.iter().flatten() {
         *meeting.entry((p[0].to_bits(), p[1].to_bits())).or_insert(0) += 1;
@@ -186,7 +186,7 @@ proptest! {
     fn paths_lead_across_seams(seed: u64, side in 1usize..4, corners in 3usize..7, first: bool, second: bool) {
         let mut random = Dice::new(seed);
         let regions = repeated_crowd(&convex_crowd(&mut random, side, corners), side, [first, second]);
-        // Where the window is not felt.
+        // The inner part, which the sides of the window do not affect.
         let inner = [0, 1].map(|k| if [first, second][k] { (-PI, PI) } else { regions.window[k] });
         let place = |random: &mut Dice| free_place(random, &regions, inner).expect("most of it is free");
         let (start, goal) = (place(&mut random), place(&mut random));
@@ -205,8 +205,8 @@ proptest! {
         prop_assert!(width >= 0.98 * expected - cell, "{width} {expected} {cell}");
     }
 
-    /// The boards have collinear sides, equal distances everywhere, and corners that touch. The planner finds a path
-    /// wherever a flood finds one.
+    /// Checks boards, which have collinear sides, equal distances everywhere, and corners that touch. The planner finds
+    /// a path exactly if a flood fill does.
     #[test]
     fn boards_have_paths_where_flood_fill_finds_them(seed: u64, size in 2usize..7, density in 0.1..0.6) {
         let mut random = Dice::new(seed);
@@ -256,12 +256,12 @@ fn a_square_room_has_its_diagonals() {
     let diagonals = edges.iter().filter(|edge| edge.iter().any(|q| q.amin() < 1e-9 || q.amax() > 2.0 - 1e-9));
     let total: f64 = diagonals.map(|[a, b]| (b - a).norm()).sum();
     assert!((total - 32.0_f64.sqrt()).abs() < 1e-9, "{edges:?}");
-    // Pulled taut, the path is straight, however near the obstacles are.
+    // The taut path is straight, however near it passes obstacles.
     let taut = planner.query(&regions, &planner.build(&regions), &query);
     assert_eq!(path(&taut).expect("a way").waypoints().len(), 2);
 }
 
-/// The planner takes the wider of two openings, though it is farther away.
+/// Checks two openings: the planner takes the wider one, although it is farther away.
 #[test]
 fn the_wider_gap_is_taken() {
     let walls = [((0.0, 0.9), 0.0), ((1.1, 3.0), 0.0), ((3.5, 5.0), 0.0)];
@@ -277,7 +277,7 @@ fn the_wider_gap_is_taken() {
     assert!((least_clearance(&obstacles(&regions), path(&run).unwrap()) - 0.25).abs() < 1e-9);
 }
 
-/// Without obstacles to keep away from, the path is straight.
+/// Checks that the path is straight if there is no obstacle to keep away from.
 #[test]
 fn without_obstacles_on_a_torus_the_path_is_straight() {
     let regions = repeated_crowd(&[], 1, [true, true]);
@@ -285,7 +285,7 @@ fn without_obstacles_on_a_torus_the_path_is_straight() {
     assert_eq!(path(&run).expect("a way").waypoints().len(), 2);
 }
 
-/// The nearest goal of a set is computed, and rounding may move it away from the start.
+/// Checks a start at a goal of a set. The nearest goal is computed, so rounding may move it away from the start.
 #[test]
 fn a_start_at_a_goal_up_to_rounding_stays() {
     let regions = window_with_holes((0.0, 4.0), (0.0, 4.0), vec![rectangle((2.0, 2.5), (2.0, 2.5))]);
@@ -303,7 +303,8 @@ fn a_start_at_a_goal_up_to_rounding_stays() {
     assert!(rounded > 5, "{rounded} of 40");
 }
 
-/// No path leads between a side and a corner that nearly touches it, so the diagram needs few arcs there.
+/// Checks corners that nearly touch a side. No path leads between them and the side, so the diagram needs few arcs
+/// there.
 #[test]
 fn corners_that_all_but_touch_a_side_make_few_arcs() {
     for gap in [1e-12, 1e-11, 1e-10, 1e-9, 2e-9, 4e-9, 7e-9, 1e-8, 1e-7, 1e-6] {

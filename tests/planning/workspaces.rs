@@ -1,4 +1,4 @@
-//! Every shipped workspace gives its stated outcome with every planner.
+//! Checks that every shipped workspace has the outcome that its file states, with every planner.
 //!
 //! The first comment of a workspace names its robot (`# robot: planar_2r`) and the outcome (`# expect: found` or `#
 //! expect: infeasible`). A line `# unknown: wavefront harmonic` names planners whose finest resolution may not suffice:

@@ -45,7 +45,7 @@ fn the_program_writes_what_the_library_gives() {
         assert_eq!(made.svg(), place.read("a.svg"), "{world}");
         assert_eq!(made.html(), place.read("a.html"), "{world}");
         let output = place.run(&[&robot, &world], "").stdout;
-        // Times differ, and only the program knows the files for its hint.
+        // The times differ, and only the program knows the names of the files for its hint.
         let is_shared = |line: &&str| !line.starts_with("time ") && !line.starts_with("hint ");
         let lines = |text: &str| text.lines().filter(is_shared).map(str::to_owned).collect::<Vec<_>>();
         assert_eq!(lines(&made.summary()), lines(&output), "{world}");
@@ -89,7 +89,7 @@ fn an_outcome_is_one_of_three() {
     let closed = plan(&load("workspaces/singular_closed.toml"), &Options::default()).unwrap();
     let Outcome::Infeasible(Refutation::Motion(proof)) = closed.outcome() else { panic!("it is closed") };
     assert!(!proof.collision_boxes().is_empty() && closed.trajectory().is_none());
-    // One attempt at eight cells finds nothing, and a wave proves nothing.
+    // A single attempt with eight cells finds nothing, and a wave proves nothing.
     let coarse = Options { planner: Planner::named(Method::Wavefront).with_cells(8), levels: 1, ..Options::default() };
     let unknown = plan(&load("workspaces/shelf.toml"), &coarse).unwrap();
     assert!(matches!(unknown.outcome(), Outcome::Unknown(why) if !why.is_empty()), "{:?}", unknown.status());
@@ -137,7 +137,7 @@ fn files_that_cannot_be_written_are_refused() {
     }
 }
 
-/// The arm has two bars with continuous joints, and only the stretched arm reaches the wall.
+/// Checks an arm with two bars and continuous joints. Only the stretched arm reaches the wall.
 #[test]
 fn an_arm_and_a_world_in_code() {
     let arm = || Arm::rr([1.0, 0.5], 0.1).unwrap();
@@ -163,7 +163,7 @@ fn an_arm_and_a_world_in_code() {
     assert_eq!(Problem::new(arm(), Workspace::new([]), round, round).unwrap().motion().unwrap().start(), round);
 }
 
-/// Squares: contact, depth and difference, in closed form.
+/// Checks contact, depth and difference of squares, which have closed forms.
 #[test]
 fn predicates_and_differences_in_code() {
     let square = |x: f64, y: f64, half: f64| {

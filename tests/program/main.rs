@@ -1,4 +1,4 @@
-//! The program from outside: its commands, pictures, pages and server.
+//! The program as its users see it: commands, pictures, pages and the server.
 
 mod cli;
 #[path = "../common/mod.rs"]

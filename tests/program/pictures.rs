@@ -1,4 +1,4 @@
-//! The pictures of the documentation equal those that the program draws today.
+//! Checks that the pictures of the documentation equal those that the program draws.
 
 #[path = "../../examples/pictures/drawn.rs"]
 mod drawn;
@@ -20,7 +20,8 @@ fn pictures_are_up_to_date() {
     assert!(drawn::PICTURES.iter().any(|(name, _)| *name == drawn::MOVING.1), "what moves has a still picture");
 }
 
-/// The animated picture ends with the still one. Drawing it takes seconds, so its other frames are not compared.
+/// Checks that the animated picture ends with the still one. Drawing it takes seconds, so its other frames are not
+/// compared.
 #[cfg(feature = "png")]
 #[test]
 fn the_picture_that_moves_is_up_to_date() {

@@ -44,7 +44,7 @@ fn every_roadmap_is_searched_in_every_order_both_ways() {
                     assert_eq!(found["search"]["backward"], backward, "{planner}");
                 }
                 let (least, other) = (length(&usual), length(&found));
-                // Costs of a trapezoid's search are those of its own path, except for the cells at the ends.
+                // The cost of a trapezoid's search is that of its own path, except for the cells at the ends.
                 let is_shortest = ["dijkstra", "astar"].contains(&search);
                 assert!(
                     if is_shortest { (other - least).abs() < 1e-6 } else { other > least - 1e-6 },
@@ -60,7 +60,7 @@ fn samples_follow_from_the_seed() {
     let of = |options: &str| json(&format!("--planner prm --path own {options}"));
     assert_eq!(of(""), of("--seed 1 --samples 500 --nearest 12"));
     assert_ne!(of(""), of("--seed 2"));
-    // More samples that begin with the same ones give no longer path, if each sample is joined to all.
+    // More samples, which begin with the same ones, never give a longer path if each sample is joined to all.
     let [few, more] =
         [100, 400].map(|n| length(&json(&format!("--planner prm --path own --nearest 1000 --samples {n}"))));
     assert!(more <= few, "{few} {more}");
@@ -99,7 +99,7 @@ fn grids_may_have_other_numbers_of_cells_along_each_joint() {
         assert_eq!(of("96"), of("96x96"), "{planner}");
         assert_ne!(of("96x160")["path"], of("160x96")["path"], "{planner}");
     }
-    // Along the joint with few cells, the staircase has few steps.
+    // The path has few steps along the joint with few cells.
     let result = json("--planner wavefront --path own --cells 32x512");
     let path = result["path"].as_array().expect("a path");
     let at = |k: usize| (1..path.len() - 1).map(move |i| path[i][k].as_f64().expect("a number"));

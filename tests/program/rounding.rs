@@ -1,7 +1,7 @@
-//! Compares texts up to the last digit of each number. It may round otherwise on a machine whose sine differs in its
-//! last bit.
+//! Compares texts up to the last digit of each number, which may differ on a machine whose sine differs in the last
+//! bit.
 
-/// Splits a text into numbers and the text between them; `true` for numbers.
+/// Splits a text into numbers and the text between them. Numbers are marked by `true`.
 fn parts(text: &str) -> Vec<(bool, &str)> {
     let in_number = |c: char| c.is_ascii_digit() || c == '.' || c == '-';
     let mut parts = Vec::new();
@@ -16,7 +16,7 @@ fn parts(text: &str) -> Vec<(bool, &str)> {
     parts
 }
 
-/// Digits behind the point.
+/// Returns the number of digits behind the point.
 fn decimals(number: &str) -> i32 {
     number.split_once('.').map_or(0, |(_, digits)| i32::try_from(digits.len()).expect("a short number"))
 }

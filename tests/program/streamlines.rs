@@ -1,4 +1,5 @@
-//! The paths of fields follow the fields: through the program, against an equation solved here on separate cells.
+//! The paths of fields follow the fields. The program's paths are compared with an equation that the test solves on
+//! cells of its own.
 
 use cplan::input::{Overrides, load};
 use cplan::model::Scene;
@@ -53,12 +54,12 @@ struct Oracle<'a> {
     scene: &'a Scene,
     cells: [usize; 2],
     step: [f64; 2],
-    /// 0 where blocked.
+    /// Values of the cells; 0 in blocked cells.
     values: Vec<f64>,
 }
 
 impl<'a> Oracle<'a> {
-    /// Solves with about `n x n` cells.
+    /// Solves the equation with about `n x n` cells.
     fn new(scene: &'a Scene, goal: Configuration, n: f64) -> Self {
         let extents = scene.arm().topology().ranges.map(|axis| axis.extent());
         let side = (extents[0] * extents[1]).sqrt() / n;
@@ -77,8 +78,8 @@ impl<'a> Oracle<'a> {
         };
         let source = *free.iter().min_by(nearest).unwrap();
         oracle.values[source] = 1.0;
-        // Over-relaxation row by row and back, until no value changes by more than a millionth. Values far below those
-        // along a path need not converge.
+        // Over-relaxes row by row, forwards and backwards, until no value changes by more than a millionth. Values far
+        // below those along a path need not converge.
         let neighbors: Vec<[Option<usize>; 4]> = (0..oracle.values.len()).map(|cell| oracle.around(cell)).collect();
         for sweep in 0..20_000 {
             let mut change = 0.0_f64;
@@ -204,12 +205,13 @@ fn in_an_empty_room_a_drift_decides_from_where_the_goal_is_reached() {
     for k in 0..8 {
         let angle_of = f64::from(k) * std::f64::consts::FRAC_PI_4;
         let (sin, cos) = angle_of.sin_cos();
-        // The start is to the side: the straight direction to the goal is 80 degrees off.
+        // The start is to the side of the goal, so that the straight direction to the goal is off by 80 degrees.
         let (aside, ahead) = (angle_of + 100_f64.to_radians()).sin_cos();
         let world = room(&place, [goal[0] + 0.5 * ahead, goal[1] + 0.5 * aside], goal, "");
         let options = format!("--cells 96 --field oriented --epsilon 1 --direction {cos},{sin}");
         let path = waypoints(&planned(GANTRY, &world, &options));
-        // Checks the last piece, and the direct line to the goal from the last place outside two cells.
+        // Checks the last piece, and the straight line to the goal from the last place that is more than two cells
+        // away.
         let far = |q: &[f64; 2]| (q[0] - goal[0]).hypot(q[1] - goal[1]) > 2.0 * 0.018;
         let within = along(&path, 1e-3).into_iter().rev().find(|(q, _)| far(q)).unwrap().0;
         for from in [path[path.len() - 2], within] {
@@ -219,7 +221,7 @@ fn in_an_empty_room_a_drift_decides_from_where_the_goal_is_reached() {
     }
 }
 
-/// Compares with figure 3.7 of the sources.
+/// Compares the bending of paths with figure 3.7 of the sources.
 #[test]
 fn the_path_bends_the_more_the_greater_epsilon_is() {
     let place = tempfile::tempdir().unwrap();
@@ -258,7 +260,7 @@ fn the_share_of_a_path_in_a_region_falls_with_its_preference() {
     }
 }
 
-/// A curve of many pieces is driven like a curve: the arm does not stop at its corners.
+/// Checks that a curve of many pieces is driven like a curve: the arm does not stop at its corners.
 #[test]
 fn the_motion_along_a_streamline_takes_no_many_times_that_along_a_string() {
     for (robot, world) in WORLDS {

@@ -1,8 +1,9 @@
-//! A study as a benchmark log of OMPL's, which its `ompl_benchmark_statistics.py` turns into a database for Planner Arena.
+//! A study as a benchmark log in OMPL's format, which its `ompl_benchmark_statistics.py` turns into a database for
+//! Planner Arena.
 //!
-//! Mark Moll, Ioan Sucan, Lydia Kavraki, *Benchmarking motion planning algorithms* (2015); the grammar stands in OMPL's
-//! documentation ("How to benchmark planners"). A log holds one experiment; ours is the study, and its runs are the
-//! problems, whose names stand in the experiment's setup.
+//! Mark Moll, Ioan Sucan, Lydia Kavraki, *Benchmarking motion planning algorithms* (2015). OMPL's documentation has the
+//! grammar ("How to benchmark planners"). A log holds one experiment. Here the experiment is the study, and its runs
+//! are the problems; its setup lists their names.
 
 use super::row::Row;
 use super::study::Study;
@@ -23,11 +24,11 @@ const OMPL_STATUS_WORDS: [&str; 10] = [
     "Infeasible",
 ];
 
-/// A column of the database, from a run (its number from 1, its problem and its row).
+/// Computes the value of a column from a run: its number from 1, its problem and its row.
 type Value = fn(usize, &Comparison, &Row) -> Option<String>;
 
-/// The properties of each run: those that OMPL's own planners have under its names and in its units (seconds, megabytes of
-/// a million bytes), then ours.
+/// The properties of each run. First come those that OMPL's planners also have, with OMPL's names and units (seconds,
+/// megabytes of a million bytes), then those of cplan.
 const RUN_PROPERTIES: [(&str, Value); 18] = [
     ("time REAL", |_, _, row| real(row.total)),
     ("memory REAL", |_, _, row| real(row.memory.map(|bytes| bytes as f64 / 1e6))),
@@ -66,8 +67,8 @@ fn status(outcome: Status) -> usize {
 }
 
 impl Study {
-    /// Writes the log. `started` is a date and a time for people, `seconds` the total duration. Planners had no limits
-    /// on time and memory, which the log states as 0. The machine is not named.
+    /// Writes the log. `started` is date and time for people, `seconds` the total duration. The log states limits of 0
+    /// for time and memory, because planners had none, and does not name the machine.
     #[must_use]
     pub fn to_arena_log(&self, started: &str, seconds: f64) -> String {
         let mut log = format!("cplan version {}\n", env!("CARGO_PKG_VERSION"));
@@ -107,14 +108,14 @@ impl Study {
     }
 }
 
-/// Returns the text on one line that does not look like a mark of the format.
+/// Returns the text on one line, changed so that it cannot be taken for a mark of the format.
 fn line(text: &str) -> String {
     let clean: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let clean = clean.trim();
     if clean.starts_with(['<', '|', '.']) { format!("'{clean}'") } else { clean.to_owned() }
 }
 
-/// Returns the text as one word, for names of experiments.
+/// Converts the text to a single word, for the name of an experiment.
 fn word(text: &str) -> String {
     let word = text.split(|c: char| c.is_whitespace() || c.is_control()).filter(|part| !part.is_empty());
     let word = word.collect::<Vec<_>>().join("_");
@@ -135,13 +136,13 @@ mod tests {
 
     struct Planner {
         name: String,
-        /// Names and types.
+        /// Names and types of the properties.
         properties: Vec<(String, String)>,
-        /// Values, in the order of the properties.
+        /// Values of each run, in the order of the properties.
         runs: Vec<Vec<Option<f64>>>,
     }
 
-    /// A reader of the grammar in OMPL's documentation, strict where `ompl_benchmark_statistics.py` is.
+    /// A reader of the grammar in OMPL's documentation. It refuses whatever `ompl_benchmark_statistics.py` refuses.
     struct Reader<'a>(std::str::Lines<'a>);
 
     impl<'a> Reader<'a> {
@@ -149,7 +150,7 @@ mod tests {
             self.0.next().expect("the log ends too early")
         }
 
-        /// Returns the part of a line before its known end.
+        /// Reads a line that ends in `end`, and returns the part before that.
         fn before(&mut self, end: &str) -> &'a str {
             let line = self.line();
             line.strip_suffix(end).unwrap_or_else(|| panic!("{line:?} does not end in {end:?}"))

@@ -16,7 +16,7 @@ pub struct Comparison {
     pub problem: String,
     /// Unit of the lengths: `rad`, `m`, or both for an arm with a joint of each kind.
     pub length_unit: String,
-    /// Start and goal, where they are not the world's.
+    /// Start and goal, if they differ from the world's.
     pub query: Option<[Configuration; 2]>,
     /// Proven lower bound on the length of every motion from start to goal, in the unit of lengths; `None` if unknown.
     pub bound: Option<f64>,
@@ -25,20 +25,21 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Returns the least length, if a path was found.
+    /// Returns the least length of all paths. `None` if no planner found a path.
     #[must_use]
     pub fn best(&self) -> Option<f64> {
         self.rows.iter().filter_map(|r| r.length).filter(|l| l.is_finite()).min_by(f64::total_cmp)
     }
 
-    /// Returns the ratio of this row's length to the shortest one; 1 for the best. If a path has length zero (the goal
-    /// is the start), other such paths have ratio 1, and longer ones none.
+    /// Returns the ratio of this row's length to the least length; 1 for the shortest path. If the least length is zero
+    /// (the goal is the start), returns 1 for other paths of length zero, and `None` for longer ones.
     #[must_use]
     pub fn ratio(&self, row: &Row) -> Option<f64> {
         quotient(row.length?, self.best()?)
     }
 
-    /// Returns the ratio of this row's length to the proven bound. The path exceeds the optimum by at most this factor.
+    /// Returns the ratio of this row's length to the proven lower bound. The path is longer than the optimum by at most
+    /// this factor.
     #[must_use]
     pub fn over_optimum(&self, row: &Row) -> Option<f64> {
         quotient(row.length?, self.bound?)
@@ -66,7 +67,7 @@ impl Comparison {
         }
     }
 
-    /// Describes the contradiction, if there is one.
+    /// Describes the contradiction between two planners. `None` if there is none.
     #[must_use]
     pub fn alarm(&self) -> Option<String> {
         let named = |outcome| {
@@ -84,15 +85,15 @@ impl Comparison {
         })
     }
 
-    /// Returns an aligned table of the most important columns, 80 characters wide; units are in the header, and `-`
-    /// marks missing values. Planners' notes follow, one per line. Ends in a newline.
+    /// Returns an aligned table of the most important columns, 80 characters wide. Headers contain the units, and `-`
+    /// stands for a missing value. The planners' notes follow, one per line. The text ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
         let remarks = self.remarks().map(|line| wrapped(&line, MAX_TABLE_WIDTH, 2) + "\n");
         self.table().of_columns(&LEADING_COLUMNS).to_text_within(MAX_TABLE_WIDTH) + &remarks.collect::<String>()
     }
 
-    /// Returns the table with all columns, at any width.
+    /// Returns the table with all columns, however wide.
     #[must_use]
     pub fn to_wide_text(&self) -> String {
         self.table().to_text() + &self.remarks().map(|line| line + "\n").collect::<String>()
@@ -182,7 +183,7 @@ impl Comparison {
         columns.extend(right.map(|name| Column::new(name, Align::Right)));
         columns.push(Column::new("size", Align::Left));
         columns.extend(costs.map(|name| Column::new(name, Align::Right)));
-        // Both paths of each planner, if there are planners with both.
+        // If any planner has paths of both kinds, each kind gets columns.
         let has_both = self.rows.iter().any(|row| row.other_path.is_some());
         let kinds = if has_both { &PathKind::ALL[..] } else { &[] };
         for kind in kinds {
@@ -217,10 +218,11 @@ impl Comparison {
     }
 }
 
-/// Columns of the table that come first: planner, outcome, length and how near that is to the optimum, clearance, motion, time, memory.
+/// Indices of the table's columns in 80 characters: planner, outcome, length, length over the optimum, clearance,
+/// motion, time, memory.
 const LEADING_COLUMNS: [usize; 8] = [0, 1, 2, 4, 5, 6, 11, 12];
 
-/// Returns length and clearance of both paths.
+/// Returns length and clearance of each kind of path.
 fn paths(row: &Row) -> Value {
     let figures =
         |kind| row.of_kind(kind).map(|(length, clearance)| json!({ "length": length, "clearance": clearance }));
@@ -231,7 +233,7 @@ fn paths(row: &Row) -> Value {
 pub(super) const CSV_HEADER: &str = "planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,expanded,\
                                      build_s,query_s,certify_s,note,lower_bound,over_optimum,prove_s,total_s,memory_bytes,reason";
 
-/// Returns `a / b`, with 1 for equal numbers, or `None` if the quotient is not a number.
+/// Returns `a / b`, or 1 if the numbers are equal. `None` if the quotient is not finite.
 fn quotient(a: f64, b: f64) -> Option<f64> {
     if a == b { Some(1.0) } else { Some(a / b).filter(|r| r.is_finite()) }
 }

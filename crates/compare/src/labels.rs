@@ -1,7 +1,7 @@
-//! Names of planners for charts and legends, which have no room for all of their options.
+//! Short names of planners, for charts and legends that have no room for all options.
 
-/// Shortens names so that they still tell rows apart: leaves out the options that all rows of a planner with options share. A name
-/// stays whole if its short form would be that of another row.
+/// Shortens names without making any two equal. Leaves out an option that occurs in all rows of a planner that have
+/// options. A name stays as it is if its short form equals that of another row.
 #[must_use]
 pub fn labels(names: &[&str]) -> Vec<String> {
     let parts: Vec<(&str, Vec<String>)> = names.iter().map(|name| options(name)).collect();
@@ -54,7 +54,7 @@ mod tests {
 
     #[test]
     fn no_two_rows_get_one_name() {
-        // Without what both have the first would be called as the planner itself.
+        // Without the options that both other rows have, the second row would have the name of the first.
         let names = ["prm", "prm --seed 1", "prm --seed 1 --nearest 4"];
         assert_eq!(labels(&names), ["prm", "prm --seed 1", "prm --nearest 4"]);
         assert_eq!(labels(&["prm --seed 1", "prm --seed 1"]), ["prm --seed 1"; 2]);

@@ -1,5 +1,5 @@
-//! Comparisons of planners, on one problem or on many, and of relaxations ([`Convergence`]): for people, for
-//! spreadsheets, for programs.
+//! Comparisons of planners on one problem or on many, and of relaxations ([`Convergence`]): as text for people, as
+//! tables for spreadsheets, and as JSON for programs.
 //!
 //! ```text
 //! Row (a planner on a problem) -> Comparison (planners on a problem) -> Study (planners on problems)

@@ -3,14 +3,14 @@
 use super::comparison::Comparison;
 use super::row::Row;
 
-/// A number that runs are compared by.
+/// A quantity by which runs are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Measure {
-    /// Length of the path over the proven bound on all.
+    /// Length of the path, divided by the proven lower bound on all paths.
     OverOptimum,
-    /// Proven least distance from the obstacles.
+    /// Proven lower bound on the distance from obstacles.
     Clearance,
-    /// Time that the motion takes.
+    /// Duration of the motion.
     Duration,
     /// Computing time to prepare the space.
     Build,
@@ -18,9 +18,9 @@ pub enum Measure {
     Query,
     /// Computing time of the certificate.
     Certify,
-    /// Computing time to the verdict.
+    /// Computing time from the problem to the verdict.
     Total,
-    /// Memory at the most.
+    /// Greatest memory in use.
     Memory,
 }
 
@@ -37,7 +37,7 @@ impl Measure {
         Measure::Memory,
     ];
 
-    /// Returns its heading, with the unit used in tables.
+    /// Returns the measure's heading, with the unit of the tables.
     #[must_use]
     pub fn heading(self) -> &'static str {
         match self {
@@ -52,7 +52,7 @@ impl Measure {
         }
     }
 
-    /// Returns its key in JSON, which uses SI units and bytes.
+    /// Returns the measure's key in JSON. Values in JSON are in SI units and bytes.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
@@ -88,7 +88,7 @@ impl Measure {
         }
     }
 
-    /// Returns a run's value, in SI units and bytes, if it has one.
+    /// Returns the value of this measure for a run, in SI units and bytes. `None` if the run has none.
     #[must_use]
     pub fn of(self, comparison: &Comparison, row: &Row) -> Option<f64> {
         match self {

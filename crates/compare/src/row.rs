@@ -4,7 +4,7 @@ use cplan_core::model::Status;
 use cplan_core::planner::{Note, PathKind, Size};
 use cplan_solver::Family;
 
-/// Figures of a planner's path of the other kind than the row is about.
+/// Length and clearance of a planner's second path, which is of the other kind than the row's own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OtherPath {
     /// Length, in the unit of [`Row::length`].
@@ -13,26 +13,27 @@ pub struct OtherPath {
     pub clearance: Option<f64>,
 }
 
-/// The result of one planner. Missing values were not reached.
+/// The result of one planner. A value is `None` if the planner did not get that far.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Name on the command line.
+    /// Name of the planner with its options, as on the command line.
     pub planner: String,
-    /// Family of the planner.
+    /// Family that the planner belongs to.
     pub family: Family,
     /// Kind of the path.
     pub path_kind: PathKind,
-    /// Status at the end.
+    /// Status of the result.
     pub outcome: Status,
     /// Euclidean length in joint space (mixing rad and m).
     pub length: Option<f64>,
-    /// The planner's path of the other kind, if it has one.
+    /// Length and clearance of the planner's path of the other kind, if it has one.
     pub other_path: Option<OtherPath>,
-    /// Straight pieces of the path.
+    /// Number of straight pieces of the path.
     pub pieces: Option<usize>,
-    /// Proven least distance between arm and obstacles along the path, metres; `None` if no obstacle is within reach.
+    /// Proven lower bound on the distance between arm and obstacles along the path, in metres. `None` if no obstacle is
+    /// within reach.
     pub clearance: Option<f64>,
-    /// Time that the motion takes, seconds.
+    /// Duration of the motion, in seconds.
     pub duration: Option<f64>,
     /// Size of the data structures.
     pub size: Option<Size>,
@@ -44,7 +45,8 @@ pub struct Row {
     pub certify: Option<f64>,
     /// Computing time spent looking for a proof that there is no path, seconds.
     pub prove: Option<f64>,
-    /// Computing time from the problem to the verdict, seconds: the stages above, and everything between them.
+    /// Computing time from the problem to the verdict, in seconds. It includes the times above and everything between
+    /// them.
     pub total: Option<f64>,
     /// Greatest number of bytes allocated at the same time before the verdict.
     pub memory: Option<u64>,
@@ -91,7 +93,8 @@ impl Row {
         }
     }
 
-    /// Nodes, edges, cells, sweeps, expanded cells: each where it has a meaning.
+    /// Returns the numbers of nodes, edges, cells, sweeps and expanded cells, each `None` if the planner has no such
+    /// number.
     #[must_use]
     pub fn counts(&self) -> [Option<usize>; 5] {
         let figures = self.size.map_or_else(Vec::new, Size::figures);
@@ -99,7 +102,7 @@ impl Row {
         [of("nodes"), of("edges"), of("cells"), of("sweeps"), of("expanded")]
     }
 
-    /// Iterates over the lines below a table.
+    /// Iterates over the remarks of this row, which are printed below a table.
     pub(super) fn remarks(&self) -> impl Iterator<Item = String> + '_ {
         let note = self.note.map(|note| format!("{}: {note}", self.planner));
         let reason = self.reason.as_ref().map(|reason| format!("{}: unknown: {reason}", self.planner));

@@ -1,12 +1,12 @@
-//! The sign test: whether one side wins more often than chance lets it.
+//! The sign test: whether one side wins more often than is likely by chance.
 
-/// Returns the probability that a fair coin falls at least as unevenly as `wins` to `losses`: the exact two-sided sign
-/// test. Returns 1 without throws. `O(n)`.
+/// Returns the two-sided p-value of the sign test: the probability that as many throws of a fair coin fall at least as
+/// unevenly as `wins` to `losses`. Returns 1 without throws. `O(n)` for `n` throws.
 #[must_use]
 pub fn sign_test(wins: usize, losses: usize) -> f64 {
     let n = wins + losses;
     let fewer = wins.min(losses);
-    // Binomial coefficients over 2^n, by logarithms, as 2^-n leaves the doubles beyond a thousand.
+    // Binomial coefficients times 2^-n, by their logarithms: beyond a thousand throws, 2^-n is too small for a double.
     let mut log_term = -(n as f64) * std::f64::consts::LN_2;
     let mut tail = 0.0;
     for k in 0..=fewer {
@@ -20,7 +20,7 @@ pub fn sign_test(wins: usize, losses: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// Computes it by enumerating all throws.
+    /// Computes the same probability by enumerating all throws.
     fn enumerated(wins: usize, losses: usize) -> f64 {
         let n = wins + losses;
         let fewer = wins.min(losses) as u32;

@@ -7,11 +7,11 @@ pub struct Spread {
     pub n: usize,
     /// The least of the values.
     pub min: f64,
-    /// A quarter of the values are no greater.
+    /// Lower quartile: a quarter of the values are at most this.
     pub lower_quartile: f64,
-    /// Half of them are no greater.
+    /// Half of the values are at most this.
     pub median: f64,
-    /// Three quarters are no greater.
+    /// Three quarters of the values are at most this.
     pub upper_quartile: f64,
     /// The greatest of the values.
     pub max: f64,
@@ -33,7 +33,7 @@ impl Spread {
         Some(Self { n, min, lower_quartile, median, upper_quartile, max, mean })
     }
 
-    /// Returns least, lower quartile, median, upper quartile, greatest and mean: the order of the tables.
+    /// Returns least value, lower quartile, median, upper quartile, greatest value and mean, as the tables list them.
     #[must_use]
     pub fn numbers(&self) -> [f64; 6] {
         [self.min, self.lower_quartile, self.median, self.upper_quartile, self.max, self.mean]
@@ -46,7 +46,7 @@ fn quantile(sorted: &[f64], share: f64) -> f64 {
     let at = share * (sorted.len() - 1) as f64;
     let below = at.floor() as usize;
     let above = (below + 1).min(sorted.len() - 1);
-    // Not the difference times the share: it overflows where the weighted sum does not.
+    // A weighted sum: the difference of the two values could overflow.
     let part = at - below as f64;
     (sorted[below] * (1.0 - part) + sorted[above] * part).clamp(sorted[below], sorted[above])
 }
@@ -75,8 +75,7 @@ mod tests {
         assert_eq!(Spread::of([f64::NAN, 2.0, f64::NEG_INFINITY]).unwrap().n, 1);
     }
 
-    /// Returns the quantile by its definition as an inverse: the broken line through the points `(i / (n - 1),
-    /// sorted[i])`.
+    /// Computes the quantile as a broken line through the points `(i / (n - 1), sorted[i])`.
     fn along_the_line(sorted: &[f64], share: f64) -> f64 {
         let knots: Vec<f64> = (0..sorted.len()).map(|i| i as f64 / (sorted.len().max(2) - 1) as f64).collect();
         for i in 1..sorted.len() {
@@ -94,7 +93,7 @@ mod tests {
         #[test]
         fn quartiles_lie_on_the_broken_line(values in prop::collection::vec(-1e6..1e6_f64, 1..60)) {
             let spread = Spread::of(values.iter().copied()).unwrap();
-            // Sorted by insertion: nothing is shared with the code above.
+            // Sorts by insertion, to share no code with the implementation.
             let mut sorted: Vec<f64> = Vec::new();
             for value in &values {
                 let at = sorted.iter().position(|s| s > value).unwrap_or(sorted.len());

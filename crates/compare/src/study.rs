@@ -6,12 +6,12 @@ use super::row::Row;
 use super::spread::Spread;
 use cplan_core::model::Status;
 
-/// Random start-goal pairs instead of the worlds' own.
+/// Start-goal pairs that are drawn at random, instead of those of the world files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sampling {
-    /// Pairs a world.
+    /// Number of pairs per world.
     pub queries: usize,
-    /// Their seed.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
@@ -20,11 +20,11 @@ pub struct Sampling {
 pub struct Study {
     /// Title.
     pub title: String,
-    /// The sampling, if start and goal were drawn at random.
+    /// How start and goal were drawn. `None` if they are those of the world files.
     pub sampling: Option<Sampling>,
     /// One comparison per problem, each with the same planners in the same order.
     pub comparisons: Vec<Comparison>,
-    /// Omitted worlds with reasons, one per line.
+    /// Worlds that were left out, each with the reason on the same line.
     pub left_out: Vec<String>,
     /// Problems that could not be run.
     pub refused: Vec<Refusal>,
@@ -65,8 +65,8 @@ impl Study {
         Spread::of(self.runs(planner).filter_map(|(comparison, row)| measure.of(comparison, row)))
     }
 
-    /// Returns the number of problems by the joint knowledge of all planners, in the order of [`Status::ALL`]: with a
-    /// path, proven infeasible, and unsettled. Contradictory ones count as solved.
+    /// Counts problems by what all planners together found out, in the order of [`Status::ALL`]: a path, a proof that
+    /// there is none, neither. A contradictory problem counts as one with a path.
     #[must_use]
     pub fn settled(&self) -> [usize; 3] {
         let mut counts = [0; 3];

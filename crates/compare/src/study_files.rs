@@ -10,21 +10,21 @@ use cplan_core::model::Status;
 use cplan_text::{plain_line, wrapped};
 use serde_json::{Value, json};
 
-/// More problems than this are not listed one by one in tables; CSV, JSON and the page have them all.
+/// Tables list the problems one by one up to this number. CSV, JSON and the page list all of them.
 const MAX_LISTED_PROBLEMS: usize = 60;
 
-/// Remarks of planners that are shown below the tables.
+/// Largest number of planners' remarks below the tables.
 const MAX_REMARKS: usize = 12;
 
 impl Study {
-    /// Tables for a terminal: outcomes, the distribution of each measure, and problem by problem where they differ in
-    /// more than start and goal; then the summary in words. Ends in a newline.
+    /// Returns tables for a terminal: outcomes, the distribution of each measure, each problem if they differ in more
+    /// than start and goal, and the summary in words. The text ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
         self.text(|table| table.to_text_within(MAX_TABLE_WIDTH))
     }
 
-    /// Does the same with tables of any width.
+    /// Returns the same as [`Study::to_text`], with tables of any width.
     #[must_use]
     pub fn to_wide_text(&self) -> String {
         self.text(Table::to_text)
@@ -40,7 +40,7 @@ impl Study {
         text + &self.footnotes().map(|line| wrapped(&line, MAX_TABLE_WIDTH, 2) + "\n").collect::<String>()
     }
 
-    /// Returns the same in Markdown.
+    /// Returns the same content in Markdown.
     #[must_use]
     pub fn to_markdown(&self) -> String {
         let mut text = format!("# {}\n", escaped(&self.title));
@@ -54,8 +54,8 @@ impl Study {
         if notes.is_empty() { text } else { format!("{text}\n{notes}") }
     }
 
-    /// Returns one line per run, in SI units with full precision: the problem, start and goal if they were drawn, then
-    /// the columns of [`Comparison::to_csv`].
+    /// Returns one line per run in CSV, in SI units with full precision: the problem, start and goal if they were
+    /// drawn, and the columns of [`Comparison::to_csv`].
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut text = format!("problem,start_1,start_2,goal_1,goal_2,{CSV_HEADER}\n");
@@ -70,14 +70,14 @@ impl Study {
         }
         let columns = CSV_HEADER.matches(',').count();
         for Refusal { problem, reason, .. } in &self.refused {
-            // Neither ends nor planner, the outcome, and the reason in the last column.
+            // The columns of start, goal and planner are empty; the last column has the reason.
             let empty = ",".repeat(columns - 1);
             text += &format!("{},,,,,,refused{empty}{}\n", quoted(problem), quoted(reason));
         }
         text
     }
 
-    /// Returns a JSON object in SI units: every run of every problem, each planner's tally and distributions, and the
+    /// Returns a JSON object in SI units: all runs of all problems, each planner's outcomes and distributions, and the
     /// conclusions.
     #[must_use]
     pub fn to_json(&self) -> Value {
@@ -168,7 +168,8 @@ impl Study {
         Table { columns, rows: self.comparisons.iter().map(row).collect() }
     }
 
-    /// Iterates over planners' notes, omissions, and last the contradictions, which nobody may overlook.
+    /// Iterates over the notes of planners and the omissions, then the contradictions, which come last because nobody
+    /// may overlook them.
     pub(super) fn footnotes(&self) -> impl Iterator<Item = String> + '_ {
         let of = |c: &'_ Comparison| -> Vec<String> {
             c.rows.iter().flat_map(Row::remarks).map(|remark| format!("{}: {remark}", c.problem)).collect()

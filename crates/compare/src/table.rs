@@ -2,10 +2,10 @@
 
 use cplan_text::plain_line;
 
-/// Largest width of tables, characters, unless the full width is requested.
+/// Width of tables in characters, unless the full width is requested.
 pub const MAX_TABLE_WIDTH: usize = 80;
 
-/// Side to which a column's cells are moved.
+/// Side at which the text of a column's cells begins or ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Align {
     /// Left-aligned, for words.
@@ -27,13 +27,13 @@ impl Column {
         Self { name: name.to_owned(), align }
     }
 
-    /// Returns its name.
+    /// Returns the name of the column.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Returns its alignment.
+    /// Returns the alignment of the column.
     #[must_use]
     pub fn align(&self) -> Align {
         self.align
@@ -50,14 +50,14 @@ pub struct Table {
 }
 
 impl Table {
-    /// Columns two spaces apart, a rule under the header, no trailing spaces.
+    /// Returns the table with columns two spaces apart, a rule under the header, and no trailing spaces.
     pub fn to_text(&self) -> String {
         let table = self.with_cells(|cell| plain_line(cell).into_owned());
         table.text_under(&[table.header()])
     }
 
-    /// Returns the table in lines of limited width: if necessary with headers on two lines, and in parts below each
-    /// other, each starting with the first column.
+    /// Returns the table in lines of at most `width` characters. If it is too wide, splits headers into two lines. If
+    /// that does not suffice, splits the table into parts below each other, each with the first column.
     pub fn to_text_within(&self, width: usize) -> String {
         let text = self.to_text();
         if self.columns.len() < 2 || text.lines().all(|line| line.chars().count() <= width) {
@@ -90,7 +90,7 @@ impl Table {
         parts.into_iter().map(part).collect::<Vec<_>>().join("\n")
     }
 
-    /// Returns a table with some of its columns.
+    /// Returns a table with the columns of these indices only.
     pub(super) fn of_columns(&self, columns: &[usize]) -> Self {
         let row = |row: &Vec<Option<String>>| columns.iter().map(|&k| row[k].clone()).collect();
         Self {
@@ -110,13 +110,13 @@ impl Table {
         text
     }
 
-    /// Returns a table with changed cells.
+    /// Returns the table with each cell replaced by the result of `change`.
     fn with_cells(&self, change: impl Fn(&str) -> String) -> Self {
         let row = |row: &Vec<Option<String>>| row.iter().map(|cell| cell.as_deref().map(&change)).collect();
         Self { columns: self.columns.clone(), rows: self.rows.iter().map(row).collect() }
     }
 
-    /// Returns a table in GitHub's Markdown, also aligned in the source.
+    /// Returns a table in GitHub's Markdown, whose columns are aligned in the source as well.
     pub fn to_markdown(&self) -> String {
         let escaped = self.with_cells(|cell| plain_line(&cell.replace('|', "\\|").replace('<', "&lt;")).into_owned());
         // A rule needs three characters.

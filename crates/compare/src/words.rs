@@ -1,4 +1,4 @@
-//! Conclusions of a study in words, as far as its figures support them.
+//! Conclusions of a study in words, stated only if the figures support them.
 
 use super::Family;
 use super::measure::Measure;
@@ -9,17 +9,18 @@ use cplan_core::model::Status;
 use cplan_core::planner::PathKind;
 use cplan_text::{counted, percent};
 
-/// Largest probability with which a fair coin would favour a side as clearly, for calling it better.
+/// A side is called better only if the sign test's p-value is at most this.
 const SIGNIFICANCE_LEVEL: f64 = 0.05;
 
-/// Values that differ by no more than this share of them are as good as each other.
+/// Two values count as equal if they differ by at most this fraction of them.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
-/// Fewer problems than this cannot bear out anything: even if one side wins all of five, p is 1/16.
+/// Least number of problems for a conclusion. With five problems even five wins have a p-value of 1/16, which is not
+/// significant.
 const MIN_PROBLEMS: usize = 6;
 
-/// The measures of comparison: the verb for the better side, with a place for "er" or "est", and whether more is
-/// better.
+/// The compared measures: the measure, the phrases for the better of two and the best of several sides, the measure in
+/// words, and true if a greater value is better.
 const COMPARED_MEASURES: [(Measure, [&str; 2], &str, bool); 5] = [
     (
         Measure::OverOptimum,
@@ -38,7 +39,7 @@ const COMPARED_MEASURES: [(Measure, [&str; 2], &str, bool); 5] = [
     (Measure::Memory, ["needed less memory", "needed the least memory"], "memory in MiB", false),
 ];
 
-/// Planners that are taken together.
+/// One or several planners that are compared as a group.
 struct Side {
     name: String,
     planners: Vec<usize>,
@@ -48,8 +49,8 @@ struct Side {
 /// for each pair of families the lengths, clearances, times and sizes.
 ///
 /// Each planner represents its family by its usual path; the effect of pulling paths taut is reported separately. With
-/// a single family, planners are compared instead. A side is called better only if the sign test over all problems with
-/// values for all sides supports it at 5 %.
+/// a single family, planners are compared instead. A side is called better only if the sign test supports it at 5 %.
+/// The test counts the problems in which all sides have values.
 #[must_use]
 pub fn words(study: &Study) -> Vec<String> {
     let mut words = vec![outcomes(study)];
@@ -85,7 +86,7 @@ fn outcomes(study: &Study) -> String {
     text
 }
 
-/// Describes how tight the bound is, by the best path of all planners.
+/// Describes how near the best paths of all planners come to the proven lower bound.
 fn optimum(study: &Study) -> Option<String> {
     let excess = |c: &super::Comparison| Some(c.best()? / c.bound? - 1.0);
     let spread = Spread::of(study.comparisons.iter().filter_map(excess))?;
@@ -97,7 +98,7 @@ fn optimum(study: &Study) -> Option<String> {
     ))
 }
 
-/// Describes the effect of pulling each planner's own path taut, where both paths exist.
+/// Describes the effect of pulling each planner's own path taut, for problems with both paths.
 fn pulled_taut(study: &Study) -> Option<String> {
     let sentences = study.planners().into_iter().enumerate().filter_map(|(i, name)| {
         let pairs =
@@ -138,7 +139,8 @@ fn aspect(
 ) -> Option<String> {
     let best =
         |values: &mut dyn Iterator<Item = f64>| if more { values.reduce(f64::max) } else { values.reduce(f64::min) };
-    // One entry a problem: each side's best value. Problems that a side left open are nobody's win.
+    // The best value of each side, for each problem in which every side has one. A run that found neither path nor
+    // proof has no value.
     let values: Vec<Vec<f64>> = study
         .comparisons
         .iter()

@@ -1,10 +1,10 @@
-//! Time per stage.
+//! Measures the time of each stage of planning.
 
 use cplan_interrupt::Instant;
 use cplan_solver::Stages;
 use std::time::Duration;
 
-/// Stages in the order in which they ended, each with the time since the previous one.
+/// Stages in the order in which they ended. Each has the time from the end of the stage before.
 #[derive(Debug, Clone)]
 pub struct Clock {
     last: Instant,
@@ -12,19 +12,19 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// Starts the clock after these completed stages.
+    /// Starts the clock. `stages` have ended before.
     #[must_use]
     pub fn after(stages: Vec<(&'static str, Duration)>) -> Self {
         Self { last: Instant::now(), stages }
     }
 
-    /// Ends a stage: adds the time since the last stage ended.
+    /// Ends a stage, whose time is that since the end of the stage before.
     pub fn stage(&mut self, name: &'static str) {
         self.stages.push((name, self.last.elapsed()));
         self.last = Instant::now();
     }
 
-    /// Adds the solver's own stages.
+    /// Adds the stages that the solver measured.
     pub fn solved(&mut self, stages: &Stages) {
         let Stages { build, query, certify, prove, bound } = *stages;
         for (name, time) in

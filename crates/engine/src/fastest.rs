@@ -5,11 +5,11 @@ use cplan_core::space::Metric;
 use cplan_motion::{DurationOptimality, Limits, TimedMotion, TimingError, least_duration};
 use cplan_solver::{BoundedPath, Criterion, Options, bound, solve};
 
-/// Tolerance of the lower bound on path length that bounds the least time, as a share.
+/// Gap of the lower bound on path length from which a lower bound on the time is derived, as a fraction.
 const LENGTH_BOUND_GAP: f64 = 1e-3;
 
-/// Returns the fastest motion found, and a lower bound on the duration of every motion. Tries the planner's path, and,
-/// if the planner takes a criterion, the shortest paths by length and by time at top speed.
+/// Returns the fastest motion that was found, and a lower bound on the duration of every motion. Tries the planner's
+/// path and, if the planner minimises a length, the shortest paths by Euclidean length and by time at top speed.
 pub(super) fn fastest(
     problem: &MotionProblem,
     path: &BoundedPath,

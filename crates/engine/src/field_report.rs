@@ -1,4 +1,4 @@
-//! A field's settings in the result.
+//! The settings of a field, as in the result.
 
 use cplan_core::planner::{Note, Size};
 use cplan_fields::{Difference, Factor, Khatib, Limits, Measure, Relaxation, Scheme};

@@ -1,11 +1,12 @@
-//! From files or a model to the result that is printed and written: one call, [`plan()`].
+//! Plans: one call, [`plan()`], leads from files or a model to the result that is printed and written.
 //!
-//! - [`Problem`]: what is asked for, a motion or a task, read from files or made in code.
+//! - [`Problem`]: the requested motion or task, read from files or made in code.
 //! - [`Plan`]: the answer. `motion` drives along the path that the solver found, `fastest` compares several,
 //!   [`Refutation`] is a proof.
-//! - `result`: the figures of a plan, its JSON, and the formats of files. `stored`: problems and plans as data.
-//! - `certificate`: evidence that a checker can judge alone, such as [`Plan::certificate`].
-//! - [`findings`]: the verdict on configurations and recordings that others chose.
+//! - `result`: the figures of a plan, its JSON, and the formats of files. `stored`: problems and plans in serialised
+//!   form.
+//! - `certificate`: evidence that a checker can judge without this program, such as [`Plan::certificate`].
+//! - [`findings`]: verdicts on given configurations and recorded motions.
 //!
 //! The search itself is in the crates below: `solver` for one motion, `movers` for moving obstacles, `tasks` for
 //! sequences.

@@ -10,13 +10,13 @@ use cplan_solver::{Answer, BoundedPath, Options};
 /// A motion that is certified free of collision.
 #[derive(Debug, Clone)]
 pub struct Motion {
-    /// The path that it follows, without blends.
+    /// The path of the motion, before its corners are rounded.
     pub path: BoundedPath,
-    /// The path with its blends, and its timing.
+    /// The path with rounded corners, and its timing.
     pub timed: TimedMotion,
-    /// The bound on its distance from the fastest motion, if that was requested.
+    /// The fastest possible duration, as far as it is proven. `None` if it was not requested.
     pub fastest: Option<DurationOptimality>,
-    /// How it passes moving obstacles, if there are any.
+    /// How the motion passes moving obstacles. `None` if there are none.
     pub timing: Option<Timing>,
 }
 
@@ -27,7 +27,7 @@ impl AsRef<BoundedPath> for Motion {
 }
 
 impl Motion {
-    /// Times the motion along a path. With moving obstacles there may be no timing; then returns the reason, in words.
+    /// Times the motion along a path. If no timing avoids moving obstacles, returns the reason in words.
     fn along(
         problem: &MotionProblem,
         courses: &[ObstacleTrajectory],
@@ -40,12 +40,12 @@ impl Motion {
         };
         let mut timing = None;
         if !courses.is_empty() {
-            // The fastest motion may take another path than the shortest, to another goal.
+            // The fastest motion may follow another path than the shortest one, to another goal.
             let taken = timed.curve.straight().clone();
             match in_time(problem, courses, &taken, timed, options, &TimingRequirements::UNCONSTRAINED)? {
                 Ok(found) => {
                     let TimedPath { timed: waiting, figures } = found;
-                    // The bound is unchanged, but the duration now includes the waits.
+                    // The bound is the same as before, but the duration now includes waits.
                     let duration = waiting.trajectory.duration();
                     fastest = fastest.map(|fastest| DurationOptimality::new(duration, fastest.lower_bound));
                     (timed, timing) = (waiting, Some(figures));
@@ -59,10 +59,10 @@ impl Motion {
     }
 }
 
-/// Times the motion along the path of an answer, if it has one.
+/// Times the motion along the path of an answer. Without a path, the answer stays as it is.
 ///
 /// # Errors
-/// Fails if the motion lasts too long, or has too many samples.
+/// A motion that lasts too long, or has too many samples.
 pub(super) fn driven(
     problem: &MotionProblem,
     courses: &[ObstacleTrajectory],

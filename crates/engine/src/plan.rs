@@ -15,19 +15,19 @@ use cplan_text::percent;
 use std::borrow::Cow;
 use thiserror::Error;
 
-/// Reason why there is no plan, not even one with the status "unknown".
+/// Reason why planning is refused. A plan with the status "unknown" is no error.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlanError {
     /// Options that are invalid, or unsuitable for this problem.
     #[error("{0}")]
     Options(String),
-    /// Options that need properties of the robot that its file lacks.
+    /// Options that need properties of the robot that its file does not state.
     #[error("{0}")]
     Robot(String),
     /// The trajectory cannot be made as requested.
     #[error(transparent)]
     Timing(#[from] TimingError),
-    /// Joints that messages cannot name as requested, or accelerations that would mislead their readers.
+    /// Joints that messages cannot name as requested, or accelerations that would mislead programs that read them.
     #[error(transparent)]
     Joints(#[from] MessageError),
 }
@@ -37,7 +37,7 @@ pub enum PlanError {
 pub enum Refutation<'a> {
     /// For a motion: boxes of colliding configurations separate the start from the goals.
     Motion(&'a CheckedProof),
-    /// For a task: a step that cannot be done, nor can the task by any other choice.
+    /// For a task: a step that cannot be done. The same holds for every other choice in the task.
     Step(&'a FailedStep),
 }
 
@@ -76,7 +76,7 @@ pub struct Plan {
     clock: Clock,
 }
 
-/// The planned problem, with the overridden limits, and its answer.
+/// The planned problem and its answer. Limits that options override are those of the options.
 #[derive(Debug, Clone)]
 #[expect(clippy::large_enum_variant, reason = "a plan has one, in a box")]
 pub enum Detail {
@@ -97,19 +97,18 @@ pub enum Detail {
 }
 
 /// Plans a problem. The result is a certified motion, a proof that no motion exists, or neither within the options'
-/// effort. Usually takes milliseconds.
+/// effort. It usually takes milliseconds.
 ///
 /// # Errors
-/// Fails if options are invalid, if a motion lasts too long for its samples, or if accelerations are requested and
-/// jump.
+/// Invalid options, a motion that lasts too long for its samples, and requested accelerations that jump.
 pub fn plan(problem: &Problem, options: &Options) -> Result<Plan, PlanError> {
     plan_with(problem, options, &mut |_| ())
 }
 
-/// Plans like [`plan`]. Long computations, and surprising results, are reported to `progress` in lines of text.
+/// Plans like [`plan`]. Reports long computations and surprising results to `progress`, as lines of text.
 ///
 /// # Errors
-/// As [`plan`].
+/// The errors of [`plan`].
 pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Plan, PlanError> {
     if let Some(error) = options.error(problem.task().is_some()) {
         return Err(PlanError::Options(error));
@@ -128,7 +127,7 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
     Ok(Plan { problem: problem.clone(), options: *options, detail: Box::new(detail), clock })
 }
 
-/// Returns the reason why the options do not fit the robot, if they do not.
+/// Returns the reason why the options do not suit the robot. `None` if they do.
 fn lack(options: &Options, problem: &Problem) -> Option<String> {
     if options.planner.is_exact() && !has_exact_polygons(problem.scene()) {
         let kind = problem.scene().arm().kind();
@@ -175,7 +174,7 @@ fn plan_motion(
     Ok(Detail::Motion { problem, answer })
 }
 
-/// Plans the steps of a task. Checks that messages can name the robot's joints.
+/// Plans the steps of a task. Checks that ROS messages can name the robot's joints.
 fn plan_task(
     task: &Task,
     robot: &RobotJoints,
@@ -198,7 +197,7 @@ fn plan_task(
     Ok(Detail::Task { task, answer })
 }
 
-/// Returns the joints that messages name.
+/// Returns the joints that ROS messages name.
 pub(super) fn named<'a>(problem: &'a Problem, options: &Options) -> Cow<'a, RobotJoints> {
     match options.joints {
         NamedJoints::All => Cow::Borrowed(&problem.robot().joints),
@@ -255,46 +254,46 @@ impl Plan {
         &self.options
     }
 
-    /// Returns the time of each stage, in the order in which they ended.
+    /// Returns the stages with their times, in the order in which they ended.
     #[must_use]
     pub fn timings(&self) -> &[(&'static str, std::time::Duration)] {
         self.clock.stages()
     }
 
-    /// Returns a single motion and its answer.
+    /// Returns the problem of a single motion, and its answer. `None` for a task.
     #[must_use]
     pub fn motion(&self) -> Option<(&MotionProblem, &Answer<Motion>)> {
         if let Detail::Motion { problem, answer } = &*self.detail { Some((problem, answer)) } else { None }
     }
 
-    /// Returns a task and its answer.
+    /// Returns the task, and its answer. `None` for a single motion.
     #[must_use]
     pub fn task(&self) -> Option<(&Task, &TaskAnswer)> {
         if let Detail::Task { task, answer } = &*self.detail { Some((task, answer)) } else { None }
     }
 
-    /// Returns the motion or the task, and its answer.
+    /// Returns the problem of the motion or the task, and its answer.
     #[must_use]
     pub fn detail(&self) -> &Detail {
         &self.detail
     }
 
-    /// Returns the replay of how the planner came to its answer. `None` for tasks. Some of the data is computed only
-    /// for the replay.
+    /// Returns the replay of how the planner found its answer. `None` for tasks. Some data is computed only for the
+    /// replay.
     #[must_use]
     pub fn replay(&self) -> Option<Replay> {
         self.motion().map(|(problem, answer)| Replay::new(problem, &self.options, answer))
     }
 
-    /// Returns the replay of how the planner came to the motions of a task, which are planned again for it. `None` with
-    /// moving obstacles, where paths are tried in time.
+    /// Returns the replay of how the planner found the motions of a task. They are planned again for it. `None` for
+    /// single motions and with moving obstacles.
     #[must_use]
     pub fn task_replay(&self) -> Option<TaskReplay> {
         let standing = self.task().filter(|(task, _)| !task.has_moving_obstacles());
         standing.map(|(task, answer)| TaskReplay::new(task, &self.options, answer))
     }
 
-    /// Returns the arm, with the overridden limits.
+    /// Returns the arm. Limits that options override are those of the options.
     #[must_use]
     pub fn arm(&self) -> &Arm {
         match &*self.detail {

@@ -11,9 +11,9 @@ use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
 
-/// A robot, its world, and its task there: a motion from a start to a goal, or a sequence of steps. It is checked, and
-/// cheap to clone. With serde it is stored as its model. Deserialized problems are checked like those made in code, and
-/// numbers keep all their bits.
+/// A robot, its world, and its task: a motion from a start to a goal, or a sequence of steps. A problem has been
+/// checked, and is cheap to clone. Serde stores it as its model. A deserialised problem is checked like one that was
+/// made in code, and its numbers keep all bits.
 #[derive(Debug, Clone)]
 pub struct Problem {
     content: Arc<MotionOrTask>,
@@ -21,7 +21,7 @@ pub struct Problem {
     courses: Arc<[ObstacleTrajectory]>,
     robot: Arc<RobotReport>,
     notes: Arc<[String]>,
-    /// Time that reading took.
+    /// Time that reading the files took. `None` if the problem was made in code.
     read_in: Option<Duration>,
 }
 
@@ -36,7 +36,8 @@ pub enum ProblemError {
     Ends(#[from] MotionProblemError),
 }
 
-/// A motion, or a task with the arm, empty-handed, among obstacles and objects where they lie initially.
+/// The problem of a single motion, or a task. A task comes with the scene in which the arm is empty-handed and objects
+/// are at their initial places.
 #[derive(Debug)]
 #[expect(clippy::large_enum_variant, reason = "a problem shares one")]
 pub(super) enum MotionOrTask {
@@ -48,16 +49,15 @@ impl Problem {
     /// Reads a robot (URDF) and a world (TOML).
     ///
     /// # Errors
-    /// Reports all errors in the files, with line, column and hint. Also fails if the start or a goal is out of reach
-    /// or not free.
+    /// All defects of the files, with line, column and hint; a start or goal that is out of reach or not free.
     pub fn load(robot: impl Into<RobotFile>, world: impl AsRef<Path>) -> Result<Self, InputError> {
         Self::load_with(robot, world, &Overrides::default())
     }
 
-    /// Reads the same, with start, goal and clearance replaced by the overrides.
+    /// Reads a robot and a world. Start, goal and clearance of `overrides` replace those of the world.
     ///
     /// # Errors
-    /// As [`Problem::load`].
+    /// The errors of [`Problem::load`].
     pub fn load_with(
         robot: impl Into<RobotFile>,
         world: impl AsRef<Path>,
@@ -71,16 +71,16 @@ impl Problem {
     /// Returns the problem of a scene that has been read.
     ///
     /// # Errors
-    /// Fails if the start or goal is missing, out of reach or not free, or if no arm like this one can do a step.
+    /// A start or goal that is missing, out of reach or not free, and a step that an arm like this one cannot do.
     pub fn of_scene(loaded: LoadedScene, overrides: &Overrides) -> Result<Self, InputError> {
         Ok(if loaded.has_steps() { loaded.task(overrides)?.into() } else { loaded.problem(overrides)?.into() })
     }
 
-    /// Creates the problem of moving an arm in a workspace, both made in code, from `start` to any of `goals`.
+    /// Creates the problem of moving an arm in a workspace from `start` to any of `goals`. Moving obstacles are at
+    /// their places at time 0.
     ///
     /// # Errors
-    /// Fails if numbers of the arm or the workspace are invalid, or if the start or a goal is outside the limits or not
-    /// free. Moving obstacles are at their places at time 0.
+    /// Invalid numbers of the arm or the workspace, and a start or goal that is outside the limits or not free.
     pub fn new(
         arm: Arm,
         workspace: impl Into<TimedWorkspace>,
@@ -93,7 +93,7 @@ impl Problem {
         Ok(Self { courses: courses.into(), ..problem.into() })
     }
 
-    /// Returns the same problem, with the time since `begun` as the time of reading.
+    /// Returns the problem, with the time since `begun` as the time of reading.
     #[must_use]
     pub fn read_since(self, begun: Instant) -> Self {
         Self { read_in: Some(begun.elapsed()), ..self }
@@ -104,12 +104,12 @@ impl Problem {
         &self.content
     }
 
-    /// Returns the time that reading the files took, if the problem was read from files.
+    /// Returns the time that reading the files took. `None` if the problem was made in code.
     pub(crate) fn read_in(&self) -> Option<Duration> {
         self.read_in
     }
 
-    /// Returns the arm among its obstacles. For a task, objects are at their initial poses.
+    /// Returns the arm among its obstacles. For a task, objects are at their initial places.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         match &*self.content {
@@ -118,25 +118,25 @@ impl Problem {
         }
     }
 
-    /// Returns the motion, if the problem is a single motion.
+    /// Returns the problem of a single motion. `None` for a task.
     #[must_use]
     pub fn motion(&self) -> Option<&MotionProblem> {
         if let MotionOrTask::Motion(motion) = &*self.content { Some(motion) } else { None }
     }
 
-    /// Returns the task, if the problem is one.
+    /// Returns the task. `None` for a single motion.
     #[must_use]
     pub fn task(&self) -> Option<&Task> {
         if let MotionOrTask::Task(task, _) = &*self.content { Some(task) } else { None }
     }
 
-    /// Returns how the robot was read.
+    /// Returns the report on how the robot was read.
     #[must_use]
     pub fn robot(&self) -> &RobotReport {
         &self.robot
     }
 
-    /// Returns notes for the user on how the world was read: defaults, and goal branches that are blocked.
+    /// Returns notes for the user on how the world was read: defaults, and IK solutions of the goal that are blocked.
     #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.notes
@@ -159,10 +159,10 @@ impl Problem {
     }
 }
 
-/// Creates a motion problem. At time 0, no moving obstacle may be at the start.
+/// Creates a motion problem among moving obstacles.
 ///
 /// # Errors
-/// Same as for [`MotionProblem::new`].
+/// The errors of [`MotionProblem::new`], and a moving obstacle at the start at time 0.
 pub(super) fn motion_among(
     scene: Scene,
     courses: &[ObstacleTrajectory],
@@ -191,7 +191,7 @@ impl From<LoadedTask> for Problem {
 }
 
 impl From<MotionProblem> for Problem {
-    /// Creates the problem for an arm that has no moving joints other than its two. Loose obstacles are ignored.
+    /// Creates the problem of a robot that has no movable joints besides its two. Loose obstacles are ignored.
     fn from(motion: MotionProblem) -> Self {
         let names = motion.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
         let robot = RobotReport { joints: RobotJoints::planned(&names), ..RobotReport::default() };

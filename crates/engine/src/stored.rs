@@ -1,12 +1,13 @@
 //! Serialization of problems and plans by serde: in JSON and other self-describing formats that can represent missing
 //! values.
 //!
-//! A problem is stored as its model: arm, obstacles and target; the source files do not matter. Reading uses the
-//! checking constructors, so stored problems are as valid as loaded ones. Numbers are restored bit for bit.
+//! A problem is stored as its model (arm, obstacles and target), without its source files. Reading uses the
+//! constructors that check their arguments, so a stored problem is as valid as a loaded one. Numbers are restored bit
+//! for bit.
 //!
-//! A plan is stored as a problem, options and the result. Only `check` certifies, so the stated result is never
-//! trusted: reading plans again and compares. The same input gives the same output, so a difference means that the file
-//! was changed, or written by another version.
+//! A plan is stored as a problem, options and the result. The stored result is never trusted: reading a plan means
+//! planning again, and comparing the results. The same input gives the same output. So a difference shows that the file
+//! was changed, or written by another version of cplan.
 
 use super::plan::{Plan, plan};
 use super::problem::{MotionOrTask, Problem, ProblemError, motion_among};
@@ -72,7 +73,7 @@ impl MotionRecord {
         Self { scene, start: motion.start(), goals: motion.goals().clone() }
     }
 
-    /// Returns the motion, and the trajectories of its loose obstacles.
+    /// Returns the problem of a motion, and the trajectories of its loose obstacles.
     fn motion(self) -> Result<(MotionProblem, Vec<ObstacleTrajectory>), ProblemError> {
         let Self { scene: SceneRecord { arm, mut workspace, attachment, allowed_contacts }, start, goals } = self;
         workspace.restrict_shapes();
@@ -121,7 +122,7 @@ impl<'de> Deserialize<'de> for Problem {
     }
 }
 
-/// Returns true if messages can have values for all of a robot's joints.
+/// Returns true if ROS messages can have values for all of a robot's joints.
 fn are_joints(robot: &RobotJoints) -> bool {
     let is_driven = |driver: Driver| match driver {
         Driver::Planned(joint) => joint < 2,
@@ -160,7 +161,7 @@ impl<'de> Deserialize<'de> for Plan {
     }
 }
 
-/// Returns the result without the measured times, which differ from run to run.
+/// Returns the result of a plan without measured times, which differ from run to run.
 fn result(plan: &Plan) -> serde_json::Result<Value> {
     let mut result = serde_json::to_value(plan.result(&[]))?;
     if let Value::Object(fields) = &mut result {
@@ -169,7 +170,8 @@ fn result(plan: &Plan) -> serde_json::Result<Value> {
     Ok(result)
 }
 
-/// Returns the first difference, in the order of names, between a stated result and the planned one.
+/// Returns the first difference between a stored result and the planned one, in the order of names. `None` if they are
+/// equal.
 fn difference(at: &str, stated: &Value, planned: &Value) -> Option<String> {
     match (stated, planned) {
         (Value::Object(theirs), Value::Object(ours)) => {
@@ -195,7 +197,7 @@ fn difference(at: &str, stated: &Value, planned: &Value) -> Option<String> {
     }
 }
 
-/// Largest number of characters of a value in a message.
+/// Largest number of characters of a value that a message shows.
 const MAX_SHOWN_CHARACTERS: usize = 60;
 
 fn shown(value: &Value) -> String {

@@ -1,4 +1,4 @@
-//! Irreducible sets of elements that block all motions.
+//! Irreducible sets of elements: sets that block all motions, and of which no element can be left out.
 
 use super::change::Change;
 use super::element::Element;
@@ -7,7 +7,7 @@ use cplan_core::check::{CertifiedPath, CheckedProof, CollisionBox, Disconnection
 use cplan_core::model::{Outcome, Scene, Status};
 use cplan_interrupt::checkpoint;
 
-/// Largest number of sets sought, one after the other.
+/// Largest number of blocking sets. Each is computed after removing the obstacles of the sets before it.
 const MAX_SETS: usize = 8;
 
 /// An element that blocks the motion and cannot be left out of its set.
@@ -17,18 +17,19 @@ pub struct Blocker {
     pub element: Element,
     /// A certified motion past the other elements of the set. `None` if it is not known whether there is one.
     pub without: Option<CertifiedPath>,
-    /// The smallest changes of the element that open a path, once they have been computed.
+    /// The smallest changes of the element that open a path. Empty until they have been computed.
     pub changes: Vec<Change>,
 }
 
-/// A set of elements that, with nothing else in the world, leaves no motion. Without any one of them there is a motion,
-/// or it is not known whether there is.
+/// A set of elements that block all motions even if the world contains nothing else. Without any one of them, there is
+/// a motion, or it is not known whether there is one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockingSet {
     /// Limits, then the clearance, then obstacles in the order of the file. Empty if no change can open a path, as for
     /// a tip goal out of reach.
     pub blockers: Vec<Blocker>,
-    /// Proof that these elements alone leave no motion. `None` if the start, or every goal, is not free among them.
+    /// Proof that these elements alone block all motions. `None` if the start or every goal is blocked by them, which
+    /// needs no proof.
     pub proof: Option<CheckedProof>,
 }
 
@@ -52,13 +53,13 @@ impl BlockingSet {
         }
     }
 
-    /// Returns true if every element was shown to be needed.
+    /// Returns true if each element of the set is known to be needed.
     #[must_use]
     pub fn is_irreducible(&self) -> bool {
         self.blockers.iter().all(|blocker| blocker.without.is_some())
     }
 
-    /// Returns found if a motion is certified past the other elements when `element` is removed, otherwise unknown.
+    /// Returns [`Status::Found`] if a motion past the other elements is certified, otherwise [`Status::Unknown`].
     #[must_use]
     pub fn without(&self, element: Element) -> Status {
         let blocker = self.blockers.iter().find(|blocker| blocker.element == element);
@@ -84,7 +85,7 @@ pub fn blocking_set(question: &MotionQuestion, proof: Option<CheckedProof>, boxe
     filter.refine(proof);
     let (limits, others): (Vec<_>, Vec<_>) =
         filter.set.clone().into_iter().partition(|element| matches!(element, Element::Limit { .. }));
-    // Usually either no limit is needed, or limits of both joints are.
+    // Usually either no limit is needed, or limits of both joints are needed.
     let mut waiting = vec![];
     if limits.len() < 2 || filter.try_without(&limits).is_err() {
         waiting = limits;
@@ -99,7 +100,7 @@ pub fn blocking_set(question: &MotionQuestion, proof: Option<CheckedProof>, boxe
             kept.push(Blocker { element, without, changes: Vec::new() });
         }
     }
-    // A question left undecided among many elements may be decided among few.
+    // A decision that was not reached among many elements may be reached among few.
     filter.boxes = boxes[1];
     let count = kept.len();
     for k in (0..count).rev() {
@@ -135,25 +136,26 @@ pub fn blocking_sets(question: &MotionQuestion, proof: Option<CheckedProof>, box
     sets
 }
 
-/// A world from which elements are removed while it still has no motion.
+/// A set of elements that blocks all motions, and that shrinks as needless elements are removed from it.
 struct Filter<'a> {
     question: &'a MotionQuestion,
     boxes: usize,
     all: Vec<Element>,
     /// The elements that remain.
     set: Vec<Element>,
-    /// Proof that there is no motion. `None` if start or goals are not free.
+    /// Proof that the set blocks all motions. `None` if it blocks the start or all goals.
     proof: Option<CheckedProof>,
 }
 
 impl Filter<'_> {
-    /// Returns the question with only these elements.
+    /// Returns the question in a world with only these elements.
     fn among(&self, set: &[Element]) -> MotionQuestion {
         let gone: Vec<Element> = self.all.iter().filter(|element| !set.contains(element)).copied().collect();
         self.question.without(&gone)
     }
 
-    /// Removes some elements if there is still no motion without them. Otherwise returns the motion found, if any.
+    /// Removes some elements from the set if the others still block all motions. Otherwise returns the motion that was
+    /// found, if any.
     fn try_without(&mut self, some: &[Element]) -> Result<(), Option<CertifiedPath>> {
         let set: Vec<Element> = self.set.iter().filter(|element| !some.contains(element)).copied().collect();
         match self.among(&set).answer(self.boxes) {
@@ -167,7 +169,7 @@ impl Filter<'_> {
         }
     }
 
-    /// Removes at once the obstacles that a proof does not need.
+    /// Removes all obstacles that a proof does not need.
     fn refine(&mut self, proof: Option<CheckedProof>) {
         self.proof = proof;
         let Some(mut slim) = self.proof.clone() else { return };
@@ -190,7 +192,7 @@ impl Filter<'_> {
     }
 }
 
-/// Returns the proof with these boxes, if it is shown to hold before the time is up.
+/// Returns the proof that consists of these boxes, if it is shown to be valid before the time is up.
 fn held(question: &MotionQuestion, stuck: Vec<CollisionBox>) -> Option<CheckedProof> {
     let scene = question.scene();
     let clearance = scene.workspace().clearance;

@@ -1,5 +1,5 @@
-//! The bottleneck of an infeasible motion: the narrowest place of the path that opens first when everything shrinks
-//! equally.
+//! The bottleneck of an infeasible motion. All obstacles shrink equally until the first path opens; the bottleneck is
+//! the narrowest place of that path.
 
 use super::change::{fineness, middle, shrunk};
 use super::question::MotionQuestion;
@@ -8,30 +8,32 @@ use cplan_core::model::{Contact, Obstruction};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, separation};
 
-/// The narrowest place of the path that opens first when the clearance, and then all obstacles at once, shrink.
+/// The narrowest place of the path that opens first. First the clearance is reduced, and then all obstacles shrink by
+/// one distance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bottleneck {
-    /// Amount of shrinking, metres: first the clearance becomes less, then the obstacles smaller.
+    /// Reduction of the clearance plus the distance by which obstacles shrink, in metres, at which the path opens.
     pub by: Threshold,
     /// The configuration at which the path that opens comes nearest to the shrunk obstacles.
     pub at: Configuration,
     /// The same place in the plane, where the arm is deepest in an obstacle.
     pub point: Point,
-    /// Collisions of the arm there: the worst pair for each link and obstacle.
+    /// Collisions of the arm at that configuration: for each link and obstacle, the deepest pair of shapes.
     pub hits: Vec<Obstruction>,
 }
 
-/// Tolerance of the amount of shrinking, as a share of it.
+/// Tolerance of the amount of shrinking, as a fraction of that amount.
 const RELATIVE_TOLERANCE: f64 = 1e-2;
 
-/// Smallest such tolerance, as a share of the tolerance of changes. Decisions nearer to the threshold take long.
+/// Least tolerance of the amount of shrinking, as a fraction of the tolerance of changes. Nearer to the threshold,
+/// decisions take long.
 const MIN_TOLERANCE_SHARE: f64 = 1.0 / 16.0;
 
-/// Number of places along the path at which the missing distance is measured.
+/// Number of configurations along the path at which the missing distance is measured.
 const PATH_SAMPLES: usize = 1024;
 
 impl Bottleneck {
-    /// Returns by how much the place is too narrow, metres: the total distance that is missing on all sides, clearance
+    /// Returns the distance that is missing at the narrowest place, in metres: the sum over all sides, clearance
     /// included.
     #[must_use]
     pub fn missing_distance(&self, clearance: f64) -> f64 {
@@ -39,7 +41,7 @@ impl Bottleneck {
     }
 }
 
-/// Returns the sum, over all obstacles that are hit, of the largest missing distance.
+/// Returns the sum, over all obstacles that the arm hits, of the largest missing distance to each.
 fn missing_distance(hits: &[Obstruction], clearance: f64) -> f64 {
     let mut worst: Vec<(usize, f64)> = Vec::new();
     for hit in hits {
@@ -52,7 +54,8 @@ fn missing_distance(hits: &[Obstruction], clearance: f64) -> f64 {
     worst.iter().map(|(_, lack)| lack).sum()
 }
 
-/// Finds the bottleneck of an infeasible question. `None` if obstacles and clearance are not what blocks it.
+/// Finds the bottleneck of an infeasible question. `None` if something other than obstacles and clearance blocks the
+/// motion.
 #[must_use]
 pub fn bottleneck(question: &MotionQuestion, boxes: usize) -> Option<Bottleneck> {
     let scene = question.scene();
@@ -79,7 +82,7 @@ pub fn bottleneck(question: &MotionQuestion, boxes: usize) -> Option<Bottleneck>
     Some(Bottleneck { by, at, point, hits })
 }
 
-/// Returns the configuration on the opened path at which the arm lacks most distance in the true scene, and the
+/// Returns the configuration on the opened path at which the largest distance is missing in the true scene, and the
 /// collisions there.
 fn narrowest(question: &MotionQuestion, by: &Threshold) -> Option<(Configuration, Vec<Obstruction>)> {
     let (scene, path) = (question.scene(), by.path.path());
@@ -92,7 +95,8 @@ fn narrowest(question: &MotionQuestion, by: &Threshold) -> Option<(Configuration
     hits.max_by(|a, b| missing_distance(&a.1, clearance).total_cmp(&missing_distance(&b.1, clearance)))
 }
 
-/// Returns the question with clearance, and then obstacles, reduced by this distance.
+/// Returns the question with the clearance reduced by this distance. If the distance exceeds the clearance, the
+/// obstacles shrink by the rest.
 fn giving_way(question: &MotionQuestion, by: f64) -> MotionQuestion {
     question.rebuilt(|_, workspace| {
         let beyond = by - workspace.clearance;
@@ -105,7 +109,7 @@ fn giving_way(question: &MotionQuestion, by: f64) -> MotionQuestion {
     })
 }
 
-/// Returns the corner of either shape that is deepest in the other one.
+/// Returns the corner of either shape that lies deepest in the other shape.
 fn place(question: &MotionQuestion, at: Configuration, Contact { pair, .. }: Contact) -> Point {
     let scene = question.scene();
     let (part, piece) = (scene.part(pair).at(&scene.arm().pose(pair.link, at)), scene.piece(pair));

@@ -8,16 +8,18 @@ use cplan_geometry::{Convex, Point, Pose, Vector};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Tolerance of changes, metres and radians. For arms that reach less than a metre, this share of their reach.
+/// Tolerance of changes, in metres or radians. For arms that reach less than a metre, lengths have this fraction of the
+/// reach as their tolerance.
 const CHANGE_TOLERANCE: f64 = 1e-3;
 
-/// Largest tolerance, as a share of the largest possible change.
+/// Largest tolerance, as a fraction of the largest possible change.
 const MAX_TOLERANCE_SHARE: f64 = 1e-2;
 
-/// Number of directions in which obstacles are moved, ...
+/// Number of directions in which an obstacle is moved.
 const MOVE_DIRECTIONS: usize = 16;
 
-/// ... and number of times that the directions beside the best one are tried, each time at half the angle.
+/// Number of refinements of the best direction. Each tries the two directions beside it, at half the angle of the
+/// refinement before.
 const DIRECTION_REFINEMENTS: u32 = 3;
 
 /// The kind of change made to a blocker.
@@ -34,7 +36,7 @@ pub enum ChangeKind {
     /// The obstacle is scaled about the middle of its bounding box. The amount of the change is the motion of its
     /// farthest point.
     Scaled {
-        /// The share of its size that is left.
+        /// The fraction of its size that remains.
         to: f64,
     },
     /// The joint's range is extended.
@@ -43,13 +45,13 @@ pub enum ChangeKind {
     Lowered,
 }
 
-/// The elements among which a change was tried.
+/// The elements that are in the world when a change is tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ChangeContext {
     /// All elements of the world.
     World,
-    /// Only the other blockers of its set, because in the world another set blocks all paths as well.
+    /// Only the other blockers of the set. It is used if another set blocks all paths as well.
     Set,
 }
 
@@ -60,15 +62,15 @@ pub struct Change {
     pub element: Element,
     /// The kind of change.
     pub cure: ChangeKind,
-    /// The elements among which the change was tried.
+    /// The elements that were in the world when the change was tried.
     pub among: ChangeContext,
-    /// The amount of the change, metres or radians.
+    /// The amount of the change that opens a path, in metres or radians.
     pub by: Threshold,
 }
 
-/// Returns the smallest changes of a blocker, one for each kind that applies to it, for an infeasible `question`. For
-/// moves this is an upper bound on the least one: of 16 directions and some between them, the stated direction needed
-/// the smallest step found.
+/// Returns the smallest changes of a blocker for an infeasible `question`: one for each kind of change that applies to
+/// it. The amount of a move is an upper bound on the least one, because only 16 directions and some between them are
+/// tried.
 #[must_use]
 pub fn changes(question: &MotionQuestion, element: Element, among: ChangeContext, boxes: usize) -> Vec<Change> {
     let scene = question.scene();
@@ -98,7 +100,7 @@ pub fn changes(question: &MotionQuestion, element: Element, among: ChangeContext
     }
 }
 
-/// Returns the tolerance for lengths.
+/// Returns the tolerance of changes that are lengths, in metres.
 pub(super) fn fineness(question: &MotionQuestion) -> f64 {
     CHANGE_TOLERANCE * question.scene().arm().reach().min(1.0)
 }
@@ -115,22 +117,22 @@ fn shrinking(
     let ask = |by: f64| question.with_pieces(number, shrunk(obstacle, by)).answer(boxes);
     let by = threshold(0.0, most, fine.min(MAX_TOLERANCE_SHARE * most), ask)?;
     if by.opens >= most {
-        // The obstacle has vanished. It is already known that its removal opens a path.
+        // The obstacle has vanished. That its removal opens a path was known before.
         return None;
     }
     let cure = if is_eroded(obstacle) { ChangeKind::Eroded } else { ChangeKind::Scaled { to: 1.0 - by.opens / most } };
     Some((cure, by))
 }
 
-/// Returns true if all sides of an obstacle can move inwards. Pieces of non-convex obstacles would come apart, and
-/// walls have no inside.
+/// Returns true if all sides of an obstacle can move inwards. Pieces of a non-convex obstacle would come apart, and a
+/// wall has no inside.
 fn is_eroded(obstacle: &Obstacle) -> bool {
     matches!(&obstacle.pieces[..], [only] if only.depth() > 0.0)
 }
 
-/// Returns an obstacle's pieces after no point of it has moved inwards by more than `by`. A convex obstacle has all its
-/// sides moved inwards; others are scaled about the middle of their bounding box. Returns no pieces if the obstacle is
-/// too thin.
+/// Returns the pieces of an obstacle that has shrunk so that no point of it has moved by more than `by`. All sides of a
+/// convex obstacle move inwards; others are scaled about the middle of their bounding box. Returns no pieces if the
+/// obstacle is too thin.
 pub(super) fn shrunk(obstacle: &Obstacle, by: f64) -> Vec<Convex> {
     if is_eroded(obstacle) {
         return obstacle.pieces[0].eroded(by).into_iter().collect();
@@ -141,8 +143,8 @@ pub(super) fn shrunk(obstacle: &Obstacle, by: f64) -> Vec<Convex> {
     obstacle.pieces.iter().map(scaled).collect()
 }
 
-/// Returns the middle of an obstacle's bounding box, and the largest distance of the obstacle from there. `None` if it
-/// has no pieces.
+/// Returns the middle of an obstacle's bounding box, and the distance from there to the farthest point of the obstacle.
+/// `None` if it has no pieces.
 pub(super) fn middle(obstacle: &Obstacle) -> Option<(Point, f64)> {
     let [lower, upper] = obstacle
         .pieces
@@ -153,8 +155,8 @@ pub(super) fn middle(obstacle: &Obstacle) -> Option<(Point, f64)> {
     Some((middle, obstacle.pieces.iter().map(|piece| piece.reach_from(middle)).fold(0.0, f64::max)))
 }
 
-/// Finds the least move of an obstacle that opens a path. Tries all directions with a step that doubles each time,
-/// bisects the step in the directions that open a path, and then tries the directions beside the best one.
+/// Finds the smallest move of an obstacle that opens a path. Doubles the step until some direction opens one. Then
+/// bisects the step in those directions, and tries directions beside the best one.
 fn moving(
     question: &MotionQuestion,
     obstacle: &Obstacle,
@@ -189,7 +191,7 @@ fn moving(
         if most <= 0.0 || !matches!(ask(share, most), Outcome::Found(_)) {
             return;
         }
-        // In this direction a smaller step may be proven not to open a path.
+        // A smaller step in this direction may be proven to open no path.
         let from = if below < most && matches!(ask(share, below), Outcome::Infeasible(_)) { below } else { 0.0 };
         if let Some(found) = threshold(from, most, fine, |by| ask(share, by)) {
             *best = Some((share, found));

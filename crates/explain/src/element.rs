@@ -5,7 +5,7 @@ use cplan_core::space::JointRange;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// An end of a joint's range.
+/// An end of a joint's range: the least or the greatest value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
@@ -24,13 +24,13 @@ pub enum Element {
         /// Index into the workspace's obstacles.
         number: usize,
     },
-    /// A link of the robot that stands still.
+    /// A static link of the robot.
     Link {
         /// Index of its first layer, as in [`cplan_core::model::Pair::obstacle`].
         number: usize,
     },
-    /// One end of a joint's range. Removing it does not identify whole turns: a goal that is a whole turn away remains
-    /// a different goal.
+    /// One end of a joint's range. Without its limits, a revolute joint still does not count whole turns as equal: a
+    /// goal that is a whole turn away remains a different goal.
     Limit {
         /// Index of the joint, 0 or 1.
         joint: usize,
@@ -42,8 +42,8 @@ pub enum Element {
 }
 
 impl Element {
-    /// Returns all elements of a scene: finite limits, a clearance above 0, and obstacles and links that the arm can
-    /// meet, in the order of the files.
+    /// Returns all elements of a scene: finite limits, a clearance above 0, and those obstacles and links that the arm
+    /// can hit. Obstacles and links are in the order of the files.
     #[must_use]
     pub fn all(scene: &Scene) -> Vec<Self> {
         let limits = (0..2).filter(|&joint| !scene.arm().joints[joint].range.is_circle());
@@ -57,7 +57,7 @@ impl Element {
         all
     }
 
-    /// Returns the index of the obstacle or link, if the element is one.
+    /// Returns the index of the obstacle or link. `None` for a limit and for the clearance.
     #[must_use]
     pub fn obstacle(self) -> Option<usize> {
         match self {
@@ -66,7 +66,7 @@ impl Element {
         }
     }
 
-    /// Describes the element: `obstacle "shelf"`.
+    /// Describes the element, for example as `obstacle "shelf"`.
     #[must_use]
     pub fn describe(self, scene: &Scene) -> String {
         match self {

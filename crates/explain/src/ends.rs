@@ -1,4 +1,4 @@
-//! Starts and goals that are not free or out of reach, and the nearest free configurations.
+//! Starts and goals that are blocked or out of reach, and the nearest free configurations.
 
 use super::question::{MotionQuestion, Target};
 use cplan_core::cspace::{NearestFree, nearest_free};
@@ -7,10 +7,10 @@ use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
 use serde::Serialize;
 
-/// Number of values of each joint from which the search for the nearest place of the tip begins.
+/// Number of values of each joint from which the search for the tip's nearest place starts.
 const SAMPLES_PER_JOINT: usize = 128;
 
-/// Smallest step of that search, as a share of a joint's range.
+/// Smallest step of the search for the tip's nearest place, as a fraction of a joint's range.
 const MIN_STEP: f64 = 1e-12;
 
 /// One of the two ends of a motion.
@@ -23,23 +23,23 @@ pub enum End {
     Goal,
 }
 
-/// A start or goal that is outside the limits or not free.
+/// A start or goal that is outside the limits, or at which the arm hits or comes too near to an obstacle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockedEnd {
     /// The end that is blocked.
     pub end: End,
     /// The configuration. For a tip goal, an IK solution.
     pub at: Configuration,
-    /// Distance of each joint beyond its limits.
+    /// Distance of each joint's value from its range, in radians or metres; 0 inside the range.
     pub beyond: [f64; 2],
-    /// Obstacles that the arm hits there, or comes too near to.
+    /// Obstacles that the arm hits there, or that it comes too near to.
     pub hits: Vec<Obstruction>,
     /// The nearest free configuration. `None` if no configuration is free.
     pub nearest: Option<NearestFree>,
 }
 
 impl BlockedEnd {
-    /// Returns the distance that the tip moves to the nearest free configuration, metres.
+    /// Returns the distance of the tip at the blocked configuration from the tip at the nearest free one, in metres.
     #[must_use]
     pub fn tip_moves(&self, arm: &Arm) -> Option<f64> {
         self.nearest.map(|nearest| (arm.tip_at(nearest.configuration) - arm.tip_at(self.at)).norm())
@@ -51,14 +51,14 @@ impl BlockedEnd {
 pub struct OutOfReach {
     /// The goal.
     pub tip: Point,
-    /// The nearest place that the tip can reach, ignoring obstacles. Its distance is an upper bound on the goal's
-    /// distance from the reachable places.
+    /// The nearest place found that the tip can reach if there are no obstacles. Its distance from the goal is an upper
+    /// bound on that of the nearest place.
     pub nearest: Point,
     /// The joint values at that place.
     pub at: Configuration,
 }
 
-/// Finds the problems with the ends of a question: with the start, and, if every goal is blocked, with all goals. The
+/// Finds the problems with start and goals of a question. Goals are reported only if all of them are blocked; then the
 /// goal nearest to a free configuration comes first.
 #[must_use]
 pub fn blocked_ends(question: &MotionQuestion) -> (Vec<BlockedEnd>, Option<OutOfReach>) {
@@ -99,8 +99,8 @@ fn of(question: &MotionQuestion, end: End, at: Configuration) -> BlockedEnd {
     BlockedEnd { end, at, beyond, hits: scene.obstructions(at), nearest: nearest_free(scene, at) }
 }
 
-/// Finds the place nearest to a goal that the tip reaches within the limits: the best of a lattice of configurations,
-/// improved by steps that are halved.
+/// Finds the place nearest to a goal that the tip reaches within the limits. Starts with the best of a lattice of
+/// configurations, and improves it by steps that are halved.
 fn nearest_tip(arm: &Arm, tip: Point) -> OutOfReach {
     let ranges = arm.topology().ranges;
     let at = |share: [f64; 2]| {

@@ -10,10 +10,10 @@ use cplan_core::check::CheckedProof;
 use cplan_core::model::{Outcome, Status};
 use cplan_solver::{Answer, Options, Unknown, solve};
 
-/// Number of boxes for each of the many decisions.
+/// Largest number of boxes for each decision about a blocker or a change, of which there are many.
 const BOXES_PER_DECISION: usize = 20_000;
 
-/// Number of boxes for the few remaining blockers whose result would otherwise be unknown.
+/// Largest number of boxes for each of the few blockers that are undecided with [`BOXES_PER_DECISION`].
 const BOXES_FOR_LAST_DECISIONS: usize = 1_000_000;
 
 /// The reasons why there is no motion, or why the motion that exists is not shorter.
@@ -21,9 +21,10 @@ const BOXES_FOR_LAST_DECISIONS: usize = 1_000_000;
 pub struct Explanation {
     /// The question.
     pub question: MotionQuestion,
-    /// The explanation: why the path is not shorter, or why there is no path.
+    /// For a motion that exists, what makes it longer. Otherwise, the reasons why there is none.
     pub outcome: Outcome<FoundExplanation, InfeasibleExplanation>,
-    /// True if the time limit was reached. Then sets may not be irreducible, and changes and savings may be missing.
+    /// True if the time limit was reached. Then sets may contain needless elements, and changes and savings may be
+    /// missing.
     pub is_stopped: bool,
 }
 
@@ -32,27 +33,27 @@ pub struct Explanation {
 pub struct FoundExplanation {
     /// The shortest path, and how it was found.
     pub answer: Box<Answer>,
-    /// What it would be shorter without, the greatest savings first.
+    /// The elements that make the path longer, the one with the greatest saving first.
     pub savings: Vec<Saving>,
 }
 
 /// Reasons why there is no motion.
 #[derive(Debug, Clone)]
 pub struct InfeasibleExplanation {
-    /// Proof that the whole world has no motion. `None` if start or goals are not free.
+    /// Proof that the whole world has no motion. `None` if the start or all goals are blocked, which needs no proof.
     pub proof: Option<CheckedProof>,
     /// Problems with start and goals, if the arm cannot be there.
     pub ends: Vec<BlockedEnd>,
-    /// The nearest place that the tip can reach, if its goal is out of reach.
+    /// The nearest place that the tip can reach, if the goal is out of reach.
     pub out_of_reach: Option<OutOfReach>,
-    /// Sets of blocking elements. Each set alone blocks all motions, and no two have an obstacle in common.
+    /// Blocking sets: each alone blocks all motions, and no two have an obstacle in common.
     pub sets: Vec<BlockingSet>,
-    /// The place where the motion gets stuck.
+    /// The narrowest place of the path that opens first when all obstacles shrink. `None` if none was found.
     pub bottleneck: Option<Bottleneck>,
 }
 
 impl Explanation {
-    /// Returns found, infeasible or unknown, as in the result of planning.
+    /// Returns found, infeasible or unknown, with the same meaning as for a plan.
     #[must_use]
     pub fn status(&self) -> Status {
         self.outcome.status()
@@ -62,8 +63,7 @@ impl Explanation {
 /// Explains a question. For a motion that is found, reports the elements that make it longer. Otherwise reports the
 /// blocking elements, the smallest change of each that opens a path, and where the motion gets stuck.
 ///
-/// Usually takes tenths of a second. The question's time limit applies from the moment when it is known whether there
-/// is a motion.
+/// It usually takes tenths of a second. The question's time limit starts when it is known whether there is a motion.
 #[must_use]
 pub fn explain(question: &MotionQuestion, options: &Options) -> Explanation {
     let answer = question.problem().map(|problem| solve(&problem, options, &mut |_| ()));

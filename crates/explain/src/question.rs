@@ -1,4 +1,4 @@
-//! Motion queries whose start or goal may be blocked, and variants of a query with fewer blocking elements.
+//! Motion queries whose start or goal may be blocked, and the same queries with fewer elements in the world.
 
 use super::element::{Element, Side, widened};
 use cplan_core::check::{CertifiedPath, CheckedProof};
@@ -10,14 +10,14 @@ use cplan_solver::decide;
 use std::f64::consts::TAU;
 use std::time::Duration;
 
-/// Smallest clearance in a world without some of its elements, metres. It applies if the world requires less, or if the
+/// Least clearance in a world without some of its elements, in metres. It applies if the world requires less, or if the
 /// clearance itself is removed. A path through a narrower gap would exist by luck only. Without any clearance, boxes
-/// could neither prove nor refute a path that passes nothing but obstacles as thin as a line. For arms that reach less
-/// than a metre, this share of their reach.
+/// could neither prove nor refute a path that passes an obstacle as thin as a line. For arms that reach less than a
+/// metre, it is this fraction of their reach.
 pub const MIN_CLEARANCE: f64 = 1e-6;
 
-/// Default time for an explanation, from the moment when it is known whether there is a motion. Most explanations take
-/// tenths of a second.
+/// Default time limit of an explanation, from the moment when it is known whether there is a motion. Most explanations
+/// take tenths of a second.
 pub const TIME_LIMIT: Duration = Duration::from_secs(5);
 
 /// The target of a motion.
@@ -25,12 +25,12 @@ pub const TIME_LIMIT: Duration = Duration::from_secs(5);
 pub enum Target {
     /// Any of these configurations.
     Goals(GoalSet),
-    /// Any configuration that puts the tip here. With fewer blocking elements there may be more of them.
+    /// Any configuration that puts the tip at this place. In a world with fewer elements, there may be more of them.
     Tip(Point),
 }
 
 impl Target {
-    /// Returns the target that consists of all these goals of an arm.
+    /// Converts the goals of an arm to one target.
     fn of_goals(goals: &[Goal], arm: &Arm, start: Configuration) -> Self {
         let goals: Vec<Goal> = goals.iter().map(|goal| goal.of_arm(arm)).collect();
         if let [Goal::Tip(tip)] = goals[..] {
@@ -45,20 +45,22 @@ impl Target {
     }
 }
 
-/// A query for a motion. Unlike those of a [`MotionProblem`], its start and goals may be blocked, outside the limits,
-/// or out of reach.
+/// A query for a motion. Unlike those of a [`MotionProblem`], its start and goals may be blocked, outside the limits or
+/// out of reach.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionQuestion {
     scene: Scene,
     start: Configuration,
     target: Target,
-    /// How far the joints may go beyond a removed limit. This does not depend on the other removed elements.
+    /// Distance that each joint may go beyond a removed limit, in radians or metres. It does not depend on which other
+    /// elements are removed.
     beyond: [f64; 2],
-    /// Least clearance when an element is removed: [`MIN_CLEARANCE`], if start and goals keep that distance.
+    /// Least clearance when an element is removed: [`MIN_CLEARANCE`], or 0 if start and goals are nearer to obstacles
+    /// than that.
     least_clearance: f64,
-    /// Time for all decisions together. `None` for no limit.
+    /// Time limit for all decisions together. `None` for no limit.
     time_limit: Option<Duration>,
-    /// The end of that time. `None` until its clock is started.
+    /// Time at which the limit is reached. `None` until the clock is started.
     deadline: Option<Instant>,
 }
 
@@ -76,7 +78,7 @@ impl From<GoalSet> for Target {
 }
 
 impl MotionQuestion {
-    /// Creates a query for a motion from a start to a target. Neither needs to be free.
+    /// Creates a query for a motion from a start to a target. Both may be blocked.
     #[must_use]
     pub fn new(scene: Scene, start: Configuration, target: impl Into<Target>) -> Self {
         let target = target.into();
@@ -88,33 +90,33 @@ impl MotionQuestion {
         Self { least_clearance: if keeps { hardly_any } else { 0.0 }, ..asked }
     }
 
-    /// Creates a query for a motion from a start to any of some goals. They need not be free.
+    /// Creates a query for a motion from a start to any of some goals. The goals may be blocked.
     #[must_use]
     pub fn of_goals(scene: Scene, start: Configuration, goals: &[Goal]) -> Self {
         let target = Target::of_goals(goals, scene.arm(), start);
         Self::new(scene, start, target)
     }
 
-    /// Returns the same question with a time limit for the explanation. The clock starts when it is known whether there
-    /// is a motion. Questions that are undecided by then stay unknown, so the explanation may depend on the machine.
+    /// Returns the question with a time limit for its explanation. The clock starts when it is known whether there is a
+    /// motion. A decision that is not reached in time stays unknown, so the explanation may depend on the machine.
     #[must_use]
     pub fn with_time_limit(self, limit: Duration) -> Self {
         Self { time_limit: Some(limit), ..self }
     }
 
-    /// Returns the time for an explanation. `None` if it is unlimited.
+    /// Returns the time limit of an explanation. `None` if there is none.
     #[must_use]
     pub fn time_limit(&self) -> Option<Duration> {
         self.time_limit
     }
 
-    /// Returns the same question with the clock of its time limit started.
+    /// Returns the question with its clock started.
     pub(super) fn started(&self) -> Self {
         let deadline = self.time_limit.map(|limit| Instant::now() + limit);
         Self { deadline, ..self.clone() }
     }
 
-    /// Does `work`. Returns `None` if the time is up before it is done.
+    /// Returns the result of `work`. `None` if the time is up before the result is known.
     pub(super) fn in_time<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
         match self.deadline {
             Some(deadline) => Interrupt::new().by(deadline).run(work).ok(),
@@ -151,7 +153,7 @@ impl MotionQuestion {
         self.scene.arm().topology().contains(q) && self.scene.obstructions(q).is_empty()
     }
 
-    /// Returns all configurations of the target within the limits, free or not.
+    /// Returns all configurations of the target that are within the limits, whether they are blocked or not.
     #[must_use]
     pub fn ends(&self) -> Vec<Segment> {
         let topology = self.scene.arm().topology();
@@ -174,7 +176,7 @@ impl MotionQuestion {
         self.ends().into_iter().filter(open).collect()
     }
 
-    /// Returns the motion problem, if the start and some goal are free.
+    /// Returns the motion problem. `None` unless the start and some goal are free.
     #[must_use]
     pub fn problem(&self) -> Option<MotionProblem> {
         let goals = self.goals();
@@ -194,16 +196,16 @@ impl MotionQuestion {
         }
     }
 
-    /// Returns how far a joint may go beyond a removed limit, radians or metres: at least a whole turn, or past all
-    /// obstacles, and far enough for start and goals.
+    /// Returns how far a joint may go beyond a removed limit, in radians or metres: at least a whole turn for a
+    /// revolute joint; past all obstacles for a prismatic one; and far enough for start and goals.
     #[must_use]
     pub fn beyond(&self, joint: usize) -> f64 {
         self.beyond[joint]
     }
 
-    /// Returns the question without some of its elements. Removed limits are replaced as in [`MotionQuestion::beyond`]. A
-    /// clearance of at least [`MIN_CLEARANCE`] is kept, if start and goals keep it. All other elements keep their indices,
-    /// so that a proof which does not name a removed one holds in both questions.
+    /// Returns the question without some of its elements. A removed limit is replaced by a wider one, see
+    /// [`MotionQuestion::beyond`]. The clearance stays at least [`MIN_CLEARANCE`], if start and goals keep that. The
+    /// other elements keep their indices, so a proof that names no removed element is valid for both questions.
     #[must_use]
     pub fn without(&self, elements: &[Element]) -> Self {
         self.without_at_clearance(elements).rebuilt(|_, workspace| {
@@ -211,9 +213,9 @@ impl MotionQuestion {
         })
     }
 
-    /// Returns the same as [`MotionQuestion::without`], but keeps the world's clearance, however small. Statements about
-    /// lengths refer to this question: a slightly larger clearance makes paths longer, so a lower bound for that
-    /// question does not hold for this one.
+    /// Returns the same as [`MotionQuestion::without`], but with the world's own clearance, however small. Use it for
+    /// statements about lengths: a larger clearance makes paths longer, so a lower bound for a question with a larger
+    /// clearance would not be valid for this one.
     #[must_use]
     pub fn without_at_clearance(&self, elements: &[Element]) -> Self {
         self.rebuilt(|arm, workspace| {
@@ -234,12 +236,12 @@ impl MotionQuestion {
         })
     }
 
-    /// Returns the question with other pieces for an obstacle.
+    /// Returns the question with the pieces of one obstacle replaced.
     pub(super) fn with_pieces(&self, number: usize, pieces: Vec<Convex>) -> Self {
         self.rebuilt(|_, workspace| workspace.obstacles[number].pieces = pieces)
     }
 
-    /// Returns the question with a wider range of a joint.
+    /// Returns the question with one end of a joint's range moved outwards.
     pub(super) fn with_wider(&self, joint: usize, side: Side, by: f64) -> Self {
         self.rebuilt(|arm, _| arm.joints[joint].range = widened(arm.joints[joint].range, side, by))
     }
@@ -272,12 +274,12 @@ fn beyond(scene: &Scene, start: Configuration, target: &Target) -> [f64; 2] {
     })
 }
 
-/// Two sliding joints whose directions differ by less than this angle, radians, move along one line.
+/// Two prismatic joints move along one line if their directions differ by less than this angle, in radians.
 const PARALLEL_ANGLE: f64 = 1e-3;
 
-/// Returns the sine of the angle between two sliding joints. The smaller it is, the farther each joint must go to move
-/// the arm past an obstacle beside the other joint's line. 1 for other arms, and for joints that slide along one line,
-/// which move nothing sideways.
+/// Returns the sine of the angle between two prismatic joints. The smaller it is, the farther each joint must go to
+/// move the arm past an obstacle beside the other joint's line. Returns 1 for other arms, and for joints along one
+/// line, which cannot move the arm sideways.
 fn crossing(arm: &Arm) -> f64 {
     let across = match arm.joints.each_ref().map(|joint| joint.joint_type) {
         [JointType::Prismatic { direction: a }, JointType::Prismatic { direction: b }] => a.perp(&b).abs(),
@@ -286,7 +288,7 @@ fn crossing(arm: &Arm) -> f64 {
     if across < PARALLEL_ANGLE { 1.0 } else { across }
 }
 
-/// Returns a distance after which a sliding joint has left all obstacles behind, wherever it begins.
+/// Returns a distance after which a prismatic joint has passed all obstacles, from any start.
 pub(super) fn farthest(scene: &Scene) -> f64 {
     let base = scene.arm().base;
     let pieces = scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces);

@@ -10,26 +10,26 @@ use cplan_solver::decide;
 use petgraph::unionfind::UnionFind;
 use serde::{Serialize, Serializer};
 
-/// Largest number of places.
+/// Largest number of square cells whose centres are examined.
 pub const MAX_PLACES: usize = 4_000_000;
 
-/// Number of boxes for each set of configurations that small motions connect.
+/// Largest number of boxes for each set of solutions that small motions connect.
 const BOXES_PER_SET: usize = 20_000;
 
-/// Number of configurations along each joint that are sampled for the bounds of the tip.
+/// Number of values of each joint in the sample that bounds the places of the tip.
 const SAMPLES_PER_JOINT: usize = 256;
 
-/// Reachability of a configuration from home.
+/// Reachability of a configuration from the home configuration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Access {
-    /// A certified motion leads there.
+    /// A certified motion leads to the configuration.
     Reachable,
-    /// It is not known whether a motion leads there.
+    /// It is not known whether a motion leads to the configuration.
     Unknown,
-    /// It is free, and proven that no motion leads there.
+    /// The configuration is free, but it is proven that no motion leads to it.
     Unreachable,
-    /// It is not free.
+    /// The configuration is not free.
     Blocked,
 }
 
@@ -37,7 +37,7 @@ impl Access {
     /// All values.
     pub const ALL: [Self; 4] = [Self::Reachable, Self::Unknown, Self::Unreachable, Self::Blocked];
 
-    /// Returns the word for it.
+    /// Returns the word for this value in output.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -52,8 +52,8 @@ impl Access {
 /// A solution of the inverse kinematics.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Solution {
-    /// Joint values within the limits, base to tip. For a free joint, the value that a motion reaches, or else the one
-    /// nearest to home.
+    /// Joint values within the limits, base to tip. For a solution with a free joint, these are the values that a
+    /// motion reaches, or otherwise those nearest to home.
     #[serde(serialize_with = "pair")]
     pub joints: Configuration,
     /// Reachability of the solution.
@@ -76,19 +76,21 @@ pub struct Reach {
     pub corner: [f64; 2],
     /// Cells along x, and along y.
     pub size: [usize; 2],
-    /// Solutions with the tip at each cell's centre, row by row from below. Empty where the centre is out of reach.
+    /// For each cell, the solutions that put the tip at its centre, row by row from the lowest row. Empty if the centre
+    /// is out of reach.
     pub places: Vec<Vec<Solution>>,
 }
 
 impl Reach {
-    /// Returns the centre of a place.
+    /// Returns the centre of the cell with this number.
     #[must_use]
     pub fn center(&self, place: usize) -> Point {
         let at = [place % self.size[0], place / self.size[0]];
         Point::from([0, 1].map(|k| self.corner[k] + self.cell * (at[k] as f64 + 0.5)))
     }
 
-    /// Returns, for each place with any solution, the best reachability and the number of solutions that have it.
+    /// Returns, for each cell with solutions, its number, the best reachability of its solutions, and how many
+    /// solutions have that.
     pub fn best(&self) -> impl Iterator<Item = (usize, Access, usize)> {
         self.places.iter().enumerate().filter_map(|(number, solutions)| {
             let best = solutions.iter().map(|solution| solution.access).min()?;
@@ -96,26 +98,26 @@ impl Reach {
         })
     }
 
-    /// Counts places by their best reachability, in the order of [`Access::ALL`].
+    /// Counts cells by the best reachability of their solutions, in the order of [`Access::ALL`].
     #[must_use]
     pub fn tally(&self) -> [usize; 4] {
         Access::ALL.map(|access| self.best().filter(|(_, best, _)| *best == access).count())
     }
 }
 
-/// Computes the IK solutions for the centre of each square cell with this side, metres. For each solution, decides
+/// Computes the IK solutions for the centre of each square cell of side `cell`, in metres. For each solution, decides
 /// whether a motion from `home` leads to it that keeps the world's clearance.
 ///
-/// Solutions of neighbouring cells are connected if the straight motion between them is certified. For each set of
-/// connected solutions, only one is decided ([`decide`]). A certified motion to it extends to all of them, and a proof
-/// that it is unreachable holds for all. `None` if there are more than [`MAX_PLACES`] places.
+/// Solutions of neighbouring cells are connected if the straight motion between them is certified. Of each set of
+/// connected solutions, only one is decided. A certified motion to it extends to the whole set, and a proof that it is
+/// unreachable holds for the whole set. Returns `None` if there are more than [`MAX_PLACES`] cells.
 ///
-/// Takes `O(n)` short certificates for `n` solutions, and one decision for each set.
+/// Takes `O(n)` short certificates for `n` solutions, and one decision per set.
 #[must_use]
 pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
     let arm = scene.arm();
     let [lower, upper] = tip_bounds(arm)?;
-    // A whole number of cells, with one more on each side for tip places between the samples.
+    // A whole number of cells. One more on each side, because the tip may reach beyond the sample.
     let first = [0, 1].map(|k| (lower[k] / cell).floor() - 1.0);
     let count = [0, 1].map(|k| (upper[k] / cell).floor() - first[k] + 2.0);
     if !(cell > 0.0 && count[0] * count[1] <= MAX_PLACES as f64) {
@@ -123,7 +125,7 @@ pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
     }
     let mut reach =
         Reach { home, cell, corner: first.map(|n| n * cell), size: count.map(|n| n as usize), places: Vec::new() };
-    // Solutions that leave a joint free: any of their configurations suffices.
+    // A solution with a free joint stands for many configurations. One of them that can be reached suffices.
     let mut open = Vec::new();
     reach.places = (0..reach.size[0] * reach.size[1])
         .map(|place| {
@@ -148,7 +150,7 @@ pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
     Some(reach)
 }
 
-/// Returns the least and greatest coordinates of the tip. `None` for an arm whose joints have no values.
+/// Returns the least and greatest coordinates of the tip. `None` if a joint has no values.
 fn tip_bounds(arm: &Arm) -> Option<[[f64; 2]; 2]> {
     let values = arm.topology().ranges.map(|range| {
         let (lower, upper) = range.domain();
@@ -167,7 +169,7 @@ fn is_free(scene: &Scene, q: Configuration) -> bool {
 
 /// Decides for all free solutions whether they can be reached.
 fn decide_places(scene: &Scene, reach: &mut Reach) {
-    // All free solutions, with the first one of each place.
+    // All free solutions, and for each cell the index of its first one.
     let mut firsts = Vec::with_capacity(reach.places.len() + 1);
     let mut free: Vec<(usize, usize)> = Vec::new();
     for (place, solutions) in reach.places.iter().enumerate() {
@@ -183,7 +185,7 @@ fn decide_places(scene: &Scene, reach: &mut Reach) {
         let right = (place % columns + 1 < columns).then_some(place + 1);
         for beside in [right, Some(place + columns).filter(|&above| above < places)].into_iter().flatten() {
             for a in firsts[place]..firsts[place + 1] {
-                // The nearest solution: of two elbow positions, the same one.
+                // Of the two solutions with different elbows, the nearer one has the same elbow.
                 let far = |b: &usize| scene.arm().topology().distance(joints(a), joints(*b));
                 let nearest = (firsts[beside]..firsts[beside + 1]).min_by(|b, c| far(b).total_cmp(&far(c)));
                 if let Some(b) = nearest.filter(|&b| !sets.equiv(a, b))
@@ -206,13 +208,14 @@ fn decide_places(scene: &Scene, reach: &mut Reach) {
     }
 }
 
-/// Returns true if the straight motion between two configurations is free. On circles it takes the shorter direction.
+/// Returns true if the straight motion between two configurations is certified. On a circle, it takes the shorter
+/// direction.
 fn joins(scene: &Scene, from: Configuration, to: Configuration) -> bool {
     let displacement = scene.arm().topology().displacement(from, to);
     certify(scene, Path::new(vec![from, from + displacement]), scene.workspace().clearance).is_ok()
 }
 
-/// Decides whether a motion from home leads there. Also returns where it ends.
+/// Decides whether a motion from home leads to one of these goals. Also returns the goal where the motion ends.
 fn decided(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Access, Option<Configuration>) {
     let Ok(problem) = MotionProblem::new(scene.clone(), home, to) else { return (Access::Unknown, None) };
     match decide(&problem, BOXES_PER_SET) {
@@ -222,8 +225,8 @@ fn decided(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Acces
     }
 }
 
-/// Returns the result for a solution that leaves a joint free. It is blocked only if all of its configurations are, and
-/// reachable if any of them is.
+/// Returns the result for a solution with a free joint. It is blocked only if all of its configurations are blocked,
+/// and reachable if any of them is reachable.
 fn anywhere_on(scene: &Scene, home: Configuration, solution: Segment) -> Solution {
     let nearest = || solution.nearest(Measure::from(Metric::Euclidean), home);
     if scene.blocked_along(&solution).is_some() {

@@ -10,16 +10,16 @@ use cplan_solver::{Answer, Bound, Options, solve};
 pub struct Saving {
     /// The element.
     pub element: Element,
-    /// Length of the path found without it.
+    /// Length of a path that was found without the element.
     pub length: f64,
-    /// Least amount by which the shortest path without it is shorter, ...
+    /// Lower bound on the amount by which the shortest path becomes shorter without the element.
     pub at_least: f64,
-    /// ... and the largest such amount.
+    /// Upper bound on that amount.
     pub at_most: f64,
 }
 
 /// Returns the elements without which the shortest path is proven to be shorter than that of `answer`, the greatest
-/// savings first. Plans a shortest path without each element in turn, until the question's time is up.
+/// saving first. Plans a shortest path without each element in turn, until the question's time is up.
 #[must_use]
 pub fn savings(question: &MotionQuestion, answer: &Answer, options: &Options) -> Vec<Saving> {
     let Some(whole) = answer.bound() else { return Vec::new() };

@@ -1,23 +1,25 @@
-//! The amount of a change that opens a path, enclosed between a certified path and a proof.
+//! The amount of a change at which a path opens, enclosed between a certified path and a proof.
 
 use cplan_core::check::{CertifiedPath, CheckedProof};
 use cplan_core::model::Outcome;
 use cplan_interrupt::checkpoint;
 
-/// The amount of a change at which a path opens.
+/// Bounds on the amount of a change at which a path opens.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Threshold {
-    /// An amount with which there is a certified path: ...
+    /// An amount with which there is a certified path.
     pub opens: f64,
-    /// ... this one.
+    /// A certified path with the amount `opens`.
     pub path: CertifiedPath,
-    /// An amount with which there is provably no path. If the two amounts differ by more than the tolerance, nothing is
-    /// known for the amounts between them.
+    /// An amount with which it is proven that there is no path. If it differs from `opens` by more than the tolerance,
+    /// nothing is known about the amounts between them.
     pub closed: f64,
 }
 
 /// Finds the threshold between `closed` and `most`, to `tolerance`. `None` if it is not proven that `closed` leaves no
-/// path, or if no path is known with `most`. Doubles the change, then bisects: `O(log n)` questions.
+/// path, or if no path is found with `most`.
+///
+/// Doubles the step until a path is found, then bisects: `O(log((most - closed) / tolerance))` calls of `ask`.
 pub(super) fn threshold(
     closed: f64,
     most: f64,
@@ -46,7 +48,7 @@ pub(super) fn threshold(
         let by = f64::midpoint(known.below, *open);
         known.learn(by, ask(by));
     }
-    // The undecided amounts lie in between. Approaches them from below.
+    // Undecided amounts lie between those with and those without a path. Continue below them.
     let mut unknown = known.below;
     while unknown - known.closed > tolerance {
         let by = f64::midpoint(known.closed, unknown);
@@ -60,11 +62,11 @@ pub(super) fn threshold(
 
 /// Results for the amounts of a change that were tried.
 struct KnownResults {
-    /// The greatest amount with which there is provably no path.
+    /// The greatest amount with which it is proven that there is no path.
     closed: f64,
-    /// The greatest amount with which no path is known.
+    /// The greatest amount that was tried without finding a path.
     below: f64,
-    /// The least amount with which there is a path, and that path.
+    /// The least amount with which a path was found, and that path.
     open: Option<(f64, CertifiedPath)>,
 }
 

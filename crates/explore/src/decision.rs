@@ -1,4 +1,4 @@
-//! The decision where to go next.
+//! The decision about the next motion of an exploration.
 
 use super::explorer::Explorer;
 use super::known_space::KnownSpace;
@@ -16,19 +16,22 @@ use cplan_solver::{Options, Unknown, solve};
 use cplan_text::{counted, listed};
 use std::collections::{BTreeSet, HashSet};
 
-/// Number of places ahead on an optimistic path whose unknown cells are examined.
+/// Number of configurations of an optimistic path, counted from the first one not known to be free, whose unknown map
+/// cells are sought. An optimistic path counts unknown space as free.
 const PLACES_AHEAD: usize = 8;
 
-/// Largest number of configurations examined for a better view, which takes several milliseconds.
+/// Largest number of configurations that are examined for a better view. Examining them takes several milliseconds.
 const MAX_VIEWS: usize = 150;
 
-/// Cells along a wall that are gone past straight: as many as smooth its steps, not its corners.
+/// Largest number of cells along a wall that one straight motion passes. It is enough to smooth the steps of the grid,
+/// but too little to cut corners.
 const WALL_SMOOTHING_CELLS: usize = 4;
 
 /// The next action.
 pub enum Decision {
     Done(Ending),
-    /// Follow a certified path. If the purpose is a reading, also the cell of the grid at which it is taken.
+    /// Follow a certified path. If the arm goes there to take a reading, the second value is the cell of the grid at
+    /// which it is taken.
     Go(CertifiedPath, Option<usize>),
 }
 
@@ -42,7 +45,8 @@ impl Explorer<'_> {
         if joined.is_empty() { self.back() } else { self.exploring(&joined) }
     }
 
-    /// Returns to the start of the last leg, if no cell centre is reachable from here; not twice in a row.
+    /// Returns to the start of the last leg, because no centre of a cell is reachable from here by a straight motion.
+    /// Ends the exploration if the last leg was such a return.
     fn back(&mut self) -> Decision {
         let last = self.legs.last().filter(|_| !self.is_back).map(|leg| leg.curve.curve().path().waypoints());
         let reversed = last.map(|waypoints| Path::new(waypoints.iter().rev().copied().collect()));
@@ -51,9 +55,9 @@ impl Explorer<'_> {
         certified.map_or_else(|| Decision::Done(self.too_coarse()), |path| Decision::Go(path, None))
     }
 
-    /// Returns to the last visited place from which something new is reachable, if nothing new can be seen from the
-    /// configurations reachable here. Cells that no steps join may be joined by the path taken so far. If there is no
-    /// such place, returns the number of configurations reachable from anywhere.
+    /// Returns to the last visited place from which something new can be reached. It is called if nothing new can be
+    /// seen from the configurations reachable here: cells that no steps of the grid connect may be connected by the
+    /// path taken so far. If there is no such place, returns the number of configurations reachable from anywhere.
     fn where_it_was(&mut self, reach: &Reach) -> Result<Decision, usize> {
         let mut is_reached = vec![false; self.known.grid.blocked.len()];
         reach.cells.iter().for_each(|&cell| is_reached[cell] = true);
@@ -88,7 +92,7 @@ impl Explorer<'_> {
         Ending::Unknown(format!("no centre of {a} x {b} cells near ({}) is known to be free", shown(self.at)))
     }
 
-    /// Moves to a frontier configuration, or ends with "explored" if they are all out of reach.
+    /// Moves to a frontier configuration. Ends the exploration if none can be reached.
     fn exploring(&mut self, joined: &[usize]) -> Decision {
         loop {
             checkpoint();
@@ -115,7 +119,8 @@ impl Explorer<'_> {
         }
     }
 
-    /// Follows the harmonic potential of all frontier configurations, from the nearest joined cell.
+    /// Follows the harmonic potential of all frontier configurations, starting at the nearest cell that a straight
+    /// motion reaches.
     fn uphill(&mut self, joined: &[usize]) -> Option<Vec<usize>> {
         let mut side = Grid { blocked: vec![true; self.known.grid.blocked.len()], ..self.known.grid };
         let (from, goals) = joined.iter().find_map(|&from| {
@@ -127,7 +132,7 @@ impl Explorer<'_> {
         let route = harmonic_path(&component, component.position_of(from)?)?;
         let route: Vec<usize> = route.into_iter().map(|position| component.cell(position)).collect();
         let KnownSpace { grid, closed, .. } = &self.known;
-        // The potential knows of no steps that are closed.
+        // The potential does not take into account that steps between free cells may be closed.
         if !route.windows(2).any(|step| closed.contains(&[step[0], step[1]])) {
             return Some(route);
         }
@@ -136,8 +141,8 @@ impl Explorer<'_> {
         (reach.cells.last() == Some(&end)).then(|| reach.route(end))
     }
 
-    /// Opens the cells on this `side` of the frontier: those reachable from a cell without crossing the frontier, and
-    /// the frontier cells among them, which are returned. The region behind does not affect the potential in front.
+    /// Marks as free in `side` the cells that are reachable from a cell without crossing the frontier, and the frontier
+    /// cells among them. Returns the latter. The region behind the frontier does not affect the potential before it.
     fn up_to_frontier(&mut self, from: usize, side: &mut Grid) -> Vec<usize> {
         let is_new = std::mem::replace(&mut side.blocked[from], false);
         let (mut open, mut goals) = (if is_new { vec![from] } else { Vec::new() }, Vec::new());
@@ -156,8 +161,8 @@ impl Explorer<'_> {
         goals
     }
 
-    /// Moves to the nearest wall, and along it to the first frontier configuration. Returns `None` if the loop closes
-    /// without one.
+    /// Moves to the nearest wall, and along it to the first frontier configuration. Returns `None` if the walk returns
+    /// to its beginning without one.
     fn along_wall(&mut self, joined: &[usize]) -> Option<Vec<usize>> {
         let KnownSpace { grid, closed, .. } = &self.known;
         let mut begin = None;
@@ -190,8 +195,8 @@ impl Explorer<'_> {
         }
     }
 
-    /// Moves towards the last cell of a path, straight past at most `most` cells at a time. Returns `None` if a step is
-    /// not free, and records it.
+    /// Moves towards the last cell of a path. Each straight motion passes at most `most` cells. If a step is not free,
+    /// closes it in the grid and returns `None`.
     fn along(&mut self, route: &[usize], most: usize) -> Option<Decision> {
         let configurations = unwrapped(&self.known.grid, self.at, route);
         let clearance = self.solid.workspace().clearance;
@@ -213,7 +218,7 @@ impl Explorer<'_> {
         }
     }
 
-    /// Returns the path to the nearest frontier configuration, or the reachable cells without one.
+    /// Returns the path to the nearest frontier configuration. If there is none, returns the reachable cells.
     fn nearest(&mut self, joined: &[usize]) -> Result<Vec<usize>, Reach> {
         let Self { survey, sensor, known, frontier, .. } = self;
         let mut found = None;
@@ -224,12 +229,12 @@ impl Explorer<'_> {
         reach.route_to(found)
     }
 
-    /// Returns the path to the best view: among the configurations that show everything that the nearest frontier
-    /// configuration shows (if no unknown obstacle interferes), the one with the most [`worth`], and of several the
-    /// nearest. So little is left behind that would require a return.
+    /// Returns the path to the best view. The candidates show everything that the nearest frontier configuration shows,
+    /// if no unknown obstacle hides it, so that nothing is left behind that would require a return. Of the candidates,
+    /// the one with the greatest [`worth`] is the best view, and of several the nearest one.
     ///
-    /// The search stops at the distance beyond which nothing can be better, and after the nearest [`MAX_VIEWS`].
-    /// Farther away, fewer configurations are examined, at distances down to that of readings.
+    /// The search stops at the distance beyond which no candidate can be better, and after [`MAX_VIEWS`] candidates.
+    /// Farther away, fewer configurations are examined, but never fewer than one per distance between readings.
     fn best_view(&mut self, joined: &[usize]) -> Result<Vec<usize>, Reach> {
         let Self { survey, sensor, known, frontier, .. } = self;
         let grid = &known.grid;
@@ -261,7 +266,7 @@ impl Explorer<'_> {
         reach.route_to(best.map(|(_, cell)| cell))
     }
 
-    /// Follows the planner's path through possibly free space, as far as free space is known.
+    /// Follows the planner's path through possibly free space up to the end of the known free space.
     fn towards_goal(&mut self, goals: &GoalSet) -> Decision {
         let arm = self.scene.arm();
         let clearance = self.scene.workspace().clearance;
@@ -278,7 +283,8 @@ impl Explorer<'_> {
                 );
                 return Decision::Done(Ending::Unreachable(why));
             }
-            // Its planner may give up, as in a trap: others see farther.
+            // The goal's planner may give up, for example in a local minimum of a field. The other strategies can still
+            // continue.
             Outcome::Unknown(_) => return self.detour(goals, &BTreeSet::new()),
         };
         let places = places(optimistic.path(), self.sensor.step);
@@ -289,7 +295,8 @@ impl Explorer<'_> {
             }
             free.push(place);
         }
-        // Where nothing new was seen on the way, more of it shows nothing, either; but all of it leads to the goal.
+        // If the last leg along an optimistic path showed nothing new, a part of the next one would not, either. But a
+        // path that is free to its end leads to the goal.
         let is_worth = free.len() > places.len() || free.len() > 1 && !self.is_stalled;
         let ahead = &places[(free.len() - 1).min(places.len())..];
         match certify(&self.solid, Path::new(free), clearance) {
@@ -302,8 +309,8 @@ impl Explorer<'_> {
         }
     }
 
-    /// Moves to the nearest configuration from which one of the cells `in_the_way` is visible; else to the best view;
-    /// else to the goal within known space.
+    /// Moves to the nearest configuration from which one of the cells `in_the_way` is visible. If there is none, moves
+    /// to the best view, and if there is none, to the goal within known space.
     fn detour(&mut self, goals: &GoalSet, in_the_way: &BTreeSet<usize>) -> Decision {
         let joined = join(&self.solid, &self.known.grid, self.at);
         if joined.is_empty() {
@@ -321,7 +328,7 @@ impl Explorer<'_> {
         }
     }
 
-    /// Returns the path to the nearest configuration from which any of the given map cells is visible.
+    /// Returns the path to the nearest configuration from which one of the given map cells is visible.
     fn showing(&mut self, joined: &[usize], cells: &BTreeSet<usize>) -> Option<Vec<usize>> {
         if cells.is_empty() {
             return None;
@@ -338,7 +345,7 @@ impl Explorer<'_> {
         showing.map(|cell| reach.route(cell))
     }
 
-    /// Plans to the goal within known space, if nothing new can be seen.
+    /// Plans a path to the goal within known space. It is called if nothing new can be seen.
     fn within_known(&self, goals: &GoalSet) -> Decision {
         let problem = match problem(self.solid.clone(), self.at, goals) {
             Ok(problem) => problem,
@@ -357,8 +364,8 @@ impl Explorer<'_> {
     }
 }
 
-/// Returns the problem of moving to the goals that are free, or the ending if all may be blocked. The goals are
-/// free in the true world, so such cells are too coarse, or were not seen.
+/// Returns the problem of moving to the goals that are not known to be blocked. If all are blocked, returns the ending.
+/// The goals are free in the true world, so the blocking cells are unknown, or the map is too coarse.
 fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<MotionProblem, Ending> {
     let is_blocked = |piece: &&Segment| piece.is_point() && !scene.obstructions(piece.ends()[0]).is_empty();
     let (blocked, open): (Vec<&Segment>, Vec<&Segment>) = goals.pieces().iter().partition(is_blocked);
@@ -375,8 +382,8 @@ fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<Motion
 
 /// Returns the value of moving this far in order to see this many cells for the first time.
 ///
-/// Short distances have priority; among similar ones, the number of cells decides: twice the distance must show 64
-/// times as many (found by experiments: CPLAN_WORLDS of `planning exploring`).
+/// Short distances have priority: a configuration at twice the distance must show 64 times as many cells. Experiments
+/// led to this ratio (CPLAN_WORLDS of `planning exploring`).
 fn worth(seen: u32, length: f64, step: f64) -> f64 {
     f64::from(seen).powf(1.0 / 6.0) / (length + step / 2.0)
 }

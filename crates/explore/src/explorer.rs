@@ -1,4 +1,4 @@
-//! The explorer: decides, moves, looks, until it is done.
+//! The explorer: it decides, moves and takes readings until an ending is reached.
 
 use super::decision::Decision;
 use super::frontier::Frontier;
@@ -17,13 +17,15 @@ use cplan_solver::{Options, solve};
 use cplan_text::counted;
 use cplan_world::Sensor;
 
-/// The arm is at a goal if it is no farther from it than this: whole turns may have been added to it, and rounded.
+/// Greatest distance from a goal, in joint space, at which the arm counts as being at it. It covers the rounding of
+/// whole turns that were added to the goal.
 const GOAL_TOLERANCE: f64 = 1e-9;
 
-/// Explores the world of `scene` from `start`, knowing only the sensor's readings. Reports progress regularly.
+/// Explores the world of `scene` from `start`. The explorer knows only what the sensor's readings show. Calls
+/// `progress` regularly.
 ///
-/// Deterministic: the same input gives the same exploration, except for decision times. A decision costs a
-/// shortest-path search over the grid of configurations, and certificates; with a goal, a plan.
+/// The exploration is deterministic, except for the times of decisions. A decision costs a shortest-path search over
+/// the grid of configurations, and certificates; with a goal, also a plan.
 ///
 /// # Errors
 /// A map with too many cells, a known map of another world, or a strategy that needs a goal without one.
@@ -116,14 +118,14 @@ pub fn explore(
     })
 }
 
-/// Returns the length of the shortest motion found in the true world.
+/// Returns the length of the shortest motion that is found in the true world.
 fn length_if_known(scene: &Scene, start: Configuration, goals: &GoalSet, settings: &Settings) -> Option<f64> {
     let problem = MotionProblem::new(scene.clone(), start, goals.clone()).ok()?;
     let options = Options { bounded: false, levels: settings.options.levels, ..Options::default() };
     solve(&problem, &options, &mut |_| ()).path().map(Path::length)
 }
 
-/// The state of the arm, and its knowledge.
+/// The state of an exploration: the arm's configuration, and everything that is known.
 pub struct Explorer<'a> {
     pub sensor: &'a Sensor,
     pub settings: &'a Settings,
@@ -131,19 +133,19 @@ pub struct Explorer<'a> {
     /// The true scene. Decisions read only its arm and its clearance.
     pub scene: &'a Scene,
     pub survey: Survey,
-    /// The arm among all that is not known to be free.
+    /// The arm among all cells that are not known to be free.
     pub solid: Scene,
     pub known: KnownSpace,
     pub frontier: Frontier,
     pub at: Configuration,
-    /// True if the last leg along an optimistic path showed nothing new, so that another one would not, either.
+    /// True if the last leg along an optimistic path showed nothing new. Then a part of the next one would not, either.
     pub is_stalled: bool,
-    /// True if the last leg was a return.
+    /// True if the last leg returned to where the arm had been.
     pub is_back: bool,
     pub legs: Vec<Leg>,
     errors: SplitMix64,
     length: f64,
-    /// Cells of the map that are new since the last decision.
+    /// Cells of the map that became known since the last decision.
     fresh: Vec<usize>,
     readings: Vec<SensorReading>,
     opened: Vec<(usize, Vec<usize>)>,
@@ -151,7 +153,7 @@ pub struct Explorer<'a> {
 }
 
 impl Explorer<'_> {
-    /// Takes a reading where the arm is. Whether it shows anything new.
+    /// Takes a reading at the arm's configuration. Returns true if it shows anything new.
     fn look(&mut self) -> bool {
         let new = self.survey.look(self.sensor, self.scene.arm(), self.at, &mut self.errors);
         let is_new = !new.is_empty();
@@ -163,7 +165,7 @@ impl Explorer<'_> {
         is_new
     }
 
-    /// Updates the knowledge with everything seen since the last decision.
+    /// Updates grid, frontier and known obstacles with everything seen since the last decision.
     fn take_note(&mut self) {
         let fresh = std::mem::take(&mut self.fresh);
         let (arm, clearance) = (self.scene.arm(), self.scene.workspace().clearance);
@@ -175,7 +177,7 @@ impl Explorer<'_> {
         }
     }
 
-    /// Returns true if the arm is at its goal.
+    /// Returns true if the strategy has a goal and the arm is at one of the goals.
     fn is_at_goal(&self) -> bool {
         let topology = self.scene.arm().topology();
         let goals = self.goals.filter(|_| self.settings.strategy == Strategy::Goal);
@@ -187,8 +189,9 @@ impl Explorer<'_> {
         self.frontier.contains(&self.survey, self.sensor, cell)
     }
 
-    /// Moves along a path and takes readings on it. If the purpose is a reading at a cell, the arm stops as soon as
-    /// that reading would show nothing new.
+    /// Moves along a path and takes readings on it. If the purpose of the motion is a reading at the cell `until`, the
+    /// arm stops as soon as that reading would show nothing new. Otherwise it stops at the first reading that shows
+    /// something new.
     ///
     /// # Errors
     /// The reason why a part of the path cannot be certified or timed.
@@ -214,7 +217,7 @@ impl Explorer<'_> {
         if gone.len() == 1 {
             return Ok(());
         }
-        // Parts of a certified path are free, too.
+        // Only a part of the path may have been followed. It is free, too, but needs a certificate of its own.
         let clearance = self.solid.workspace().clearance;
         let path =
             certify(&self.solid, Path::new(gone), clearance).map_err(|rejection| format!("a leg: {rejection:?}"))?;

@@ -1,4 +1,4 @@
-//! The configurations from which something new would be seen.
+//! The frontier: the configurations from which something new would be seen.
 
 use super::sight::Edges;
 use super::survey::Survey;
@@ -7,49 +7,49 @@ use cplan_core::cspace::Grid;
 use cplan_core::model::Arm;
 use cplan_world::Sensor;
 
-/// The frontier configurations of a grid: those at whose centres a reading would show something new.
+/// The frontier configurations of a grid: those at which a reading would show something new.
 ///
-/// Knowledge only grows: a configuration leaves the frontier permanently, and the number of cells visible from it only
-/// decreases. So earlier counts are upper bounds, and all queries together cost little more than a few readings at each
-/// cell.
+/// Known cells stay known. So a configuration that leaves the frontier never returns to it, and the number of new cells
+/// that are visible from a configuration only decreases. Earlier counts are therefore upper bounds, and all queries
+/// together cost little more than a few readings per configuration.
 #[derive(Debug)]
 pub struct Frontier {
     configurations: Vec<ExpectedReading>,
-    /// Sensor pose at each configuration.
+    /// Pose of the sensor at each configuration.
     stands: Vec<SensorPose>,
-    /// The unknown cells of the map beside free ones: what rays come to first is one of them.
-    ///
-    /// None while something new has been seen since they were looked for.
+    /// The unknown cells next to free ones. A ray reaches one of these before any other unknown cell. `None` if
+    /// something new has been seen since they were computed.
     edges: Option<Edges>,
-    /// No more cells than these can be seen from anywhere.
+    /// Upper bound on the number of new cells that are visible from any configuration.
     max_gain_anywhere: u32,
-    /// When each cell of the map was counted last.
+    /// For each cell of the map, the number of the last count (`count`) that included it.
     counted: Vec<u32>,
     count: u32,
-    /// The configuration that is asked ahead next.
+    /// Index of the configuration that [`Frontier::evaluate_ahead`] examines next.
     ahead: usize,
-    /// Number of configurations that were given up although they promised new cells.
+    /// Number of configurations that promised new cells, but whose reading showed none.
     pub given_up: usize,
 }
 
-/// Configurations that are asked ahead at each decision: a fraction of a millisecond.
+/// Number of configurations that are examined in advance at each decision. This takes a fraction of a millisecond.
 const CONFIGURATIONS_AHEAD: usize = 256;
 
-/// Knowledge about a reading.
+/// Knowledge about a reading that has not been taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct ExpectedReading {
-    /// A cell of the map that it comes to as long as nothing is known of that.
+    /// A cell of the map that the reading shows if the cell is still unknown. `None` if no such cell has been computed.
     witness: Option<usize>,
-    /// It shows no more cells than these; 0 if nothing new, for ever.
+    /// Upper bound on the number of new cells that the reading shows. If it is 0, it stays 0.
     most: u32,
 }
 
 impl Frontier {
-    /// Creates the frontier over the configurations of a grid, bounded only by the range of the sensor.
+    /// Creates the frontier over the configurations of a grid. Before anything is examined, only the range of the
+    /// sensor bounds the number of visible cells.
     #[must_use]
     pub fn new(survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid) -> Self {
         let cells = survey.map().cells.len();
-        // Cells that meet a disc lie within one that is broader by their diagonal.
+        // A cell that meets the disc of the sensor's range lies within a disc that is larger by the diagonal of a cell.
         let around = sensor.range / survey.map().resolution + std::f64::consts::SQRT_2;
         let most = (std::f64::consts::PI * around.powi(2)).min(cells as f64).ceil() as u32;
         let stands: Vec<SensorPose> =
@@ -66,12 +66,12 @@ impl Frontier {
         }
     }
 
-    /// Updates it with the current map.
+    /// Updates the unknown cells next to free ones from the current map.
     pub fn update(&mut self, survey: &Survey, sensor: &Sensor) {
         self.edges = Some(Edges::new(survey, sensor.range));
     }
 
-    /// Records that something new was seen, so edges may have changed.
+    /// Records that something new was seen, so that the cells next to free ones may have changed.
     pub fn forget_edges(&mut self) {
         self.edges = None;
     }
@@ -80,7 +80,7 @@ impl Frontier {
     pub fn contains(&mut self, survey: &Survey, sensor: &Sensor, cell: usize) -> bool {
         let prospect = &mut self.configurations[cell];
         if prospect.most > 0 && !prospect.witness.is_some_and(|witness| survey.is_unknown(witness)) {
-            // Rays that come to nothing new now never will.
+            // If no ray reaches an unknown cell now, none ever will.
             prospect.witness = survey.reachable_unknown(sensor, self.stands[cell], self.edges.as_ref());
             if prospect.witness.is_none() {
                 prospect.most = 0;
@@ -89,7 +89,8 @@ impl Frontier {
         prospect.most > 0
     }
 
-    /// Asks some configurations whose answer is open, in turn, so that no decision has to ask them all: what shows nothing new never will.
+    /// Examines some of the configurations that may be on the frontier, in turn, so that no decision has to examine all
+    /// of them. The result is permanent for those at which a reading shows nothing new.
     pub fn evaluate_ahead(&mut self, survey: &Survey, sensor: &Sensor, grid: &Grid) {
         let mut asked = 0;
         for _ in 0..self.configurations.len() {
@@ -137,8 +138,8 @@ impl Frontier {
         self.configurations[cell].most
     }
 
-    /// Takes note that a reading was taken there and showed nothing: where distances are wrong by chance more may seem to be seen than
-    /// is, and the configuration is not asked again.
+    /// Records that a reading at a cell of the grid showed nothing new. Random errors of distances can cause this
+    /// although new cells were expected. The cell then leaves the frontier.
     pub fn record_nothing_new(&mut self, cell: usize) {
         if self.configurations[cell].most > 0 {
             self.configurations[cell].most = 0;

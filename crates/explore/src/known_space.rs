@@ -7,17 +7,19 @@ use cplan_core::model::{Arm, Scene};
 use cplan_core::waves::{FreeCells, Neighborhood};
 use cplan_interrupt::checkpoint;
 
-/// A grid of configurations, blocked where the arm touches a map cell that is not known to be free.
+/// A grid of configurations. A cell of the grid is blocked if the arm, at the centre of the cell, touches a map cell
+/// that is not known to be free.
 ///
-/// Each blocked configuration has such a cell as its witness, and is examined again only when that cell changes. So all
-/// updates of an exploration together cost a few examinations per configuration, plus reading the map.
+/// For each blocked configuration, one such map cell is recorded as its witness. The configuration is examined again
+/// only when its witness becomes known. So all updates of an exploration together cost a few examinations per
+/// configuration, and reading the map.
 #[derive(Debug)]
 pub struct KnownSpace {
-    /// The middles of its cells are the configurations.
+    /// The grid; the centres of its cells are the configurations.
     pub grid: Grid,
-    /// Steps between free middles that are not free themselves.
+    /// Steps between free centres of neighbouring cells that are known not to be free.
     pub closed: BlockedMoves,
-    /// The configurations for which each map cell is the witness.
+    /// For each map cell, the configurations of which it is the witness.
     waiting: Vec<Vec<u32>>,
     clearance: f64,
 }
@@ -36,7 +38,8 @@ impl KnownSpace {
 
     /// Updates the grid with newly known map cells. Returns the configurations that become free, ascending.
     pub fn update(&mut self, survey: &Survey, arm: &Arm, new: &[usize]) -> Vec<usize> {
-        // A step may become free when less is solid, and seen obstacles may be lower than assumed.
+        // A closed step may be free now: fewer cells count as solid, and obstacles that were seen may be lower than
+        // assumed.
         if !new.is_empty() {
             self.closed.clear();
         }
@@ -44,8 +47,8 @@ impl KnownSpace {
         self.look_at(survey, arm, waiting)
     }
 
-    /// Closes a step that is not free, and blocked steps around it. A passage that is too narrow for one step is too
-    /// narrow for many, and each would cost a path that ends there.
+    /// Closes a step that is not free, and the blocked steps connected to it. If a passage is too narrow for one step,
+    /// it is too narrow for many others. Without this, each of them would cost a path that ends there.
     pub fn close(&mut self, solid: &Scene, step: [usize; 2]) {
         let (free, motions) = (FreeCells::new(&self.grid), straight_motions(solid));
         let mut found = vec![step];

@@ -1,9 +1,9 @@
 //! Planning in a world that a sensor reveals step by step.
 //!
-//! The world that is given is what is really there. The explorer knows of it what its [`Sensor`](cplan_world::Sensor) has
-//! seen, as a map of cells; what it has not seen is solid. Every motion is certified within what is known to be free before it is
-//! begun, so the arm stops before it enters what it has not seen; and it is certified once more against the world itself by who
-//! plays it.
+//! The given world is the true one. The explorer knows only the cells that its [`Sensor`](cplan_world::Sensor) has
+//! seen, and treats all others as solid. Before a motion begins, it is certified within the space that is known to be
+//! free, so the arm never enters unseen space. The player of an exploration certifies each motion once more, in the
+//! true world.
 //!
 //! ```text
 //! look -> map -> known free configurations, frontier among them -> decision -> certified leg -> on the way: look ...
@@ -14,8 +14,8 @@
 //! - *Reached*: the arm is at the goal.
 //! - *Explored*: no reading at any reachable configuration of the grid would show anything new. This is decided, not
 //!   estimated: rays are as wide as the cells that they cross, so the result of a reading is known in advance up to the
-//!   first unknown cell of each ray ([`Survey::reachable_unknown`]). (With distance errors a reading may hide cells that it
-//!   promised; such configurations are counted.)
+//!   first unknown cell of each ray ([`Survey::reachable_unknown`]). With distance errors, a reading may fail to show
+//!   cells that it promised. Such configurations are counted.
 //! - *Unreachable*: proven. Either no path leads to the goal past the occupied cells, whatever the unseen cells
 //!   contain; or nothing new can be seen, and no path leads there in the known space. An occupied cell counts as solid
 //!   as a whole, so a passage narrower than cells is closed: this is a statement about the map, not about the world.

@@ -1,20 +1,20 @@
-//! The map as ROS's map server reads it, and as `image` of a world's obstacle does.
+//! The map in the format of ROS's map server. The key `image` of a world's obstacle reads the same format.
 
 use super::survey::Survey;
 use cplan_world::Occupancy;
 
-/// Shades of free, unknown and occupied cells. With the thresholds of [`map_description`] each is read back as the
-/// same.
+/// Shades of free, unknown and occupied cells. With the thresholds of [`map_description`], a reader gets back the same
+/// kinds of cells.
 const CELL_SHADES: [u8; 3] = [254, 205, 0];
 
-/// Returns the YAML description of the picture in the file `picture` beside it.
+/// Returns the YAML description of the picture in the file `picture` in the same folder.
 #[must_use]
 pub fn map_description(survey: &Survey, picture: &str) -> String {
     let map = survey.map();
     let origin = map.pose.translation;
     format!(
         "image: {}\nresolution: {}\norigin: [{}, {}, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
-        // A string of JSON is one of YAML.
+        // A JSON string is also a YAML string.
         serde_json::Value::from(picture),
         map.resolution,
         origin.x,
@@ -22,7 +22,7 @@ pub fn map_description(survey: &Survey, picture: &str) -> String {
     )
 }
 
-/// Returns the picture as PGM (P5), one pixel per cell, from the top.
+/// Returns the picture as PGM (P5), with one pixel per cell, from the top row down.
 #[must_use]
 pub fn map_picture(survey: &Survey) -> Vec<u8> {
     let map = survey.map();

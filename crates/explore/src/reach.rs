@@ -1,4 +1,4 @@
-//! Ways over a grid of configurations, and the paths that they become.
+//! Shortest paths over a grid of configurations, and the motions along them.
 
 use cplan_core::check::StraightMotions;
 use cplan_core::cspace::Grid;
@@ -8,22 +8,23 @@ use cplan_core::waves::{FreeCells, Neighborhood};
 use cplan_interrupt::checkpoint;
 use std::collections::{BTreeSet, VecDeque};
 
-/// Steps from a cell's middle to another's that are not free, though both ends are.
+/// Steps between centres of neighbouring cells that are not free, although both centres are.
 pub type BlockedMoves = BTreeSet<[usize; 2]>;
 
-/// The cells that can be reached from a configuration, and the shortest ways there, from cell to cell.
+/// The cells that can be reached from a configuration, and the shortest paths to them from cell to cell.
 #[derive(Debug)]
 pub struct Reach {
-    /// Costs; infinite where no way leads.
+    /// Length of the shortest path to each cell; infinite if the cell cannot be reached.
     costs: Vec<f64>,
     before: Vec<u32>,
-    /// Cells in the order of their costs.
+    /// Reached cells in ascending order of their costs.
     pub cells: Vec<usize>,
 }
 
-/// Open cells: a queue for each length of a step, and one for the start.
+/// Open cells, in one queue for each length of a step and one for the start.
 ///
-/// Costs are taken in ascending order, and each queue adds the same amount, so each queue is sorted without a heap.
+/// The search takes costs in ascending order, and each queue adds the same length to them. So each queue is sorted
+/// without a heap.
 #[derive(Debug, Default)]
 struct OpenQueues([VecDeque<(f64, usize)>; 4]);
 
@@ -39,11 +40,12 @@ impl OpenQueues {
     }
 }
 
-/// No cell.
+/// Stands for no cell.
 const NO_CELL: u32 = u32::MAX;
 
 impl Reach {
-    /// Searches from the cells joined to `start`. Stops at the first cell, with its path length, for which `is_enough`.
+    /// Searches from the cells `joined` to `start` by straight motions. Calls `is_enough` for each reached cell with
+    /// the length of its path, and stops when it returns true.
     pub fn new(
         grid: &Grid,
         closed: &BlockedMoves,
@@ -86,7 +88,7 @@ impl Reach {
         reach
     }
 
-    /// Returns the cells on the path to a cell, itself last.
+    /// Returns the cells of the path to a cell, which comes last.
     pub fn route(&self, cell: usize) -> Vec<usize> {
         let mut route = vec![cell];
         while let Some(&last) = route.last().filter(|&&last| self.before[last] != NO_CELL) {
@@ -96,13 +98,13 @@ impl Reach {
         route
     }
 
-    /// Returns the path to a cell, or the reach itself if there is no cell.
+    /// Returns the path to a cell. Without a cell, returns the reachable cells as the error.
     pub fn route_to(self, cell: Option<usize>) -> Result<Vec<usize>, Self> {
         cell.map(|cell| self.route(cell)).ok_or(self)
     }
 }
 
-/// Returns the configurations on a path of cells, starting with the start, unwrapped.
+/// Returns the configurations of a path, in unwrapped values: the start, then the centres of the cells.
 pub fn unwrapped(grid: &Grid, start: Configuration, route: &[usize]) -> Vec<Configuration> {
     let mut at = vec![start];
     for &cell in route {
@@ -112,7 +114,8 @@ pub fn unwrapped(grid: &Grid, start: Configuration, route: &[usize]) -> Vec<Conf
     at
 }
 
-/// Returns the cells around a configuration whose centres are reachable by a straight motion, the nearest first.
+/// Returns the cells near a configuration whose centres can be reached from it by a free straight motion, the nearest
+/// first.
 pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Vec<usize> {
     let motions = straight_motions(scene);
     let mut near = free_around(grid, q);
@@ -120,7 +123,7 @@ pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Vec<usize> {
     near
 }
 
-/// Returns the free cells around a configuration, the nearest first.
+/// Returns the free cells near a configuration, the nearest first.
 pub fn free_around(grid: &Grid, q: Configuration) -> Vec<usize> {
     let middle = grid.locate(q);
     let beside = std::iter::once(middle).chain(grid.neighbors(middle));
@@ -140,8 +143,8 @@ pub fn straight_motions(scene: &Scene) -> StraightMotions<'_> {
     StraightMotions::new(scene, scene.workspace().clearance)
 }
 
-/// Removes waypoints: each time moves straight to the farthest of the next `most` that galloping search finds free.
-/// Returns the number of the first blocked step as the error.
+/// Removes waypoints. From each kept waypoint, a galloping search among the next `most` finds a far one that a free
+/// straight motion reaches. If not even the next waypoint can be reached, returns the number of that step as the error.
 pub fn tightened(scene: &Scene, waypoints: &[Configuration], most: usize) -> Result<Path, usize> {
     let motions = straight_motions(scene);
     let mut kept = vec![waypoints[0]];
@@ -172,7 +175,7 @@ pub fn tightened(scene: &Scene, waypoints: &[Configuration], most: usize) -> Res
     Ok(Path::new(kept))
 }
 
-/// Configurations along a path, no farther apart than `step`, its corners among them; the start is not.
+/// Returns configurations along a path that are at most `step` apart. They include all corners, but not the start.
 pub fn places(path: &Path, step: f64) -> Vec<Configuration> {
     let pieces = path.segments().flat_map(|(from, to)| {
         let count = ((to - from).norm() / step).ceil().max(1.0) as usize;

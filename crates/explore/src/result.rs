@@ -7,23 +7,23 @@ use cplan_motion::CertifiedCurve;
 use cplan_motion::Trajectory;
 use std::time::Duration;
 
-/// Reasons why an exploration ended.
+/// Reasons for which an exploration ends.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ending {
     /// The arm is at a goal.
     Reached,
     /// No reading at any reachable configuration of the grid would show anything new.
     Explored {
-        /// Number of these configurations.
+        /// Number of reachable configurations of the grid.
         configurations: usize,
-        /// Number of configurations given up after a reading that showed nothing although it promised something, which
-        /// distance errors can cause; 0 without errors.
+        /// Number of configurations whose readings were expected to show something new, but showed nothing. Distance
+        /// errors can cause this; without errors it is 0.
         given_up: usize,
     },
-    /// No path leads to the goal in the known space, where occupied cells are solid as a whole: proven, with the
-    /// reason.
+    /// It is proven that no path leads to the goal in the known space, in which occupied cells are solid as a whole.
+    /// Contains the reason.
     Unreachable(String),
-    /// No other ending applies, with the reason.
+    /// No other ending applies. Contains the reason.
     Unknown(String),
 }
 
@@ -40,23 +40,23 @@ impl Ending {
     }
 }
 
-/// A look at the world.
+/// A reading of the sensor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SensorReading {
     /// Configuration of the arm.
     pub at: Configuration,
-    /// Length of the way until then, in joint space.
+    /// Length of the path until then, in joint space.
     pub length: f64,
-    /// The cells of the map that were new, in the order in which they were seen.
+    /// The cells of the map that became known, in the order in which they were seen.
     pub new: Vec<usize>,
 }
 
-/// A motion from rest to rest, certified in the space known at its start.
+/// A motion from rest to rest. It is certified in the space that was known when it began.
 #[derive(Debug, Clone)]
 pub struct Leg {
     /// The curve that the motion follows.
     pub curve: CertifiedCurve,
-    /// Number of readings at its start.
+    /// Number of readings that had been taken when the motion began.
     pub readings: usize,
 }
 
@@ -69,24 +69,24 @@ pub struct Exploration {
     pub ending: Ending,
     /// The final map.
     pub survey: Survey,
-    /// Cells known initially, without a reading: those around the arm, and those of a known map.
+    /// Cells of the map that were known initially, without a reading: cells around the arm, and cells of a known map.
     pub surroundings: Vec<usize>,
     /// All readings, in order.
     pub readings: Vec<SensorReading>,
-    /// Cells of the grid that were free for the first time at the beginning and at each decision, with the number of readings that had
-    /// been taken.
+    /// Cells of the grid that became free, at the beginning and at each decision. Each entry begins with the number of
+    /// readings that had been taken.
     pub opened: Vec<(usize, Vec<usize>)>,
     /// All motions, in order.
     pub legs: Vec<Leg>,
     /// The whole motion; `None` if the arm never moved.
     pub trajectory: Option<Trajectory>,
-    /// Length of the way, in joint space.
+    /// Length of the whole path, in joint space.
     pub length: f64,
-    /// Length in joint space of the shortest motion to the goal found in the true world: what an informed arm would
-    /// travel. `None` unless the goal was reached.
+    /// Length in joint space of the shortest path to the goal that is found in the true world. An arm that knew the
+    /// world would take it. `None` unless the goal was reached.
     pub known_length: Option<f64>,
-    /// Time of each decision.
+    /// Computing time of each decision.
     pub decisions: Vec<Duration>,
-    /// Cells of the grid along both axes.
+    /// Number of cells of the grid along each axis.
     pub cells: [usize; 2],
 }

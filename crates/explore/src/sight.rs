@@ -1,37 +1,40 @@
-//! From where unknown cells of a map may be seen, cell by cell: from elsewhere no ray need be looked along.
+//! The cells of a map from which an unknown cell may be seen. From all other cells, no ray needs to be traced.
 
 use super::survey::Survey;
 use super::views::CellsByRow;
 use cplan_world::Occupancy;
 use std::f64::consts::SQRT_2;
 
-/// The unknown cells next to free ones, which rays reach first, and the cells from which rays may reach them.
+/// The unknown cells next to free ones, and the cells from which a ray may reach one of them.
 #[derive(Debug)]
 pub struct Edges {
     pub rows: CellsByRow,
-    /// True for cells from which a ray may reach one of them, and for unknown cells.
+    /// For each cell, true if a ray from it may reach an unknown cell, and for unknown cells themselves.
     within_sight: Vec<bool>,
 }
 
-/// No way leads to an edge.
+/// Stands for a cell from which no path leads to an unknown cell.
 const NO_EDGE: u32 = u32::MAX;
 
 impl Edges {
-    /// Computes them for the current map, for rays no longer than `range`.
+    /// Computes the cells for the current map and rays no longer than `range`.
     ///
-    /// A ray moves from cell to cell across their sides, always across the same two of the four, through cells known to
-    /// be free. If for no choice of two sides such a path leads to an edge, no ray does. Linear in the number of cells.
+    /// A ray moves from cell to cell across their sides, always across the same two of the four sides, and through free
+    /// cells. If no path that crosses only two of the sides leads from a cell to an unknown one, no ray does. Linear in
+    /// the number of cells.
     #[must_use]
     pub fn new(survey: &Survey, range: f64) -> Self {
         let rows = survey.edges();
         let known = &survey.map().cells;
         let [width, height] = survey.map().size;
-        // Along each axis one more than whole cells in its share of the range; and one for rounding.
+        // Largest number of sides that a ray crosses: along each axis one more than the whole cells of the range, and
+        // one for rounding.
         let most_sides = (range / survey.map().resolution * SQRT_2 + 3.0).min(f64::from(NO_EDGE - 1)) as u32;
         let mut is_edge = vec![false; known.len()];
         rows.iter().for_each(|(row, columns)| columns.iter().for_each(|column| is_edge[row * width + column] = true));
         let mut within_sight: Vec<bool> = known.iter().map(|&cell| cell == Occupancy::Unknown).collect();
-        // Sides to the nearest edge from the cells of the row before, and then of this one.
+        // For each column, the number of sides between the nearest unknown cell and the cell in the row before; then
+        // the same for the current row.
         let mut sides = vec![NO_EDGE; width];
         for (is_down, is_right) in [(false, false), (false, true), (true, false), (true, true)] {
             sides.fill(NO_EDGE);
@@ -68,7 +71,7 @@ mod tests {
     use cplan_world::Sensor;
     use proptest::prelude::*;
 
-    /// Returns a map around an arm, with cells labelled by column and row.
+    /// Returns a map around an arm, whose cells `label` determines by column and row.
     fn survey(label: impl Fn(usize, usize) -> Occupancy) -> (Survey, Sensor) {
         let arm = Arm::rr([1.0, 0.5], 0.05).expect("a good arm");
         let sensor = Sensor { cell: 0.1, range: 0.8, rays: 90, ..Sensor::usual(&arm) };
@@ -92,7 +95,7 @@ mod tests {
         let edges = Edges::new(&survey, sensor.range);
         let [width, height] = survey.known.size;
         for (row, x) in (0..height).flat_map(|row| (0..width).map(move |x| (row, x))) {
-            // 8 cells along and 8 across at the most, were it no ray.
+            // From a distance, at most 8 cells along and 8 across, even if that is no straight ray.
             let expected = x >= 25 || x > 5 && 25 - x <= 14;
             assert_eq!(edges.may_be_seen_from(row * width + x), expected, "{x} in row {row}");
         }
@@ -114,7 +117,7 @@ mod tests {
             let sensor = Sensor { range: cells * sensor.cell, ..sensor };
             let edges = Edges::new(&survey, sensor.range);
             for _ in 0..100 {
-                // Somewhere on the map, or a little beside it.
+                // A point on the map, or slightly outside.
                 let at = Point::new(3.6 * draws.unit() - 1.8, 3.6 * draws.unit() - 1.8);
                 let sensor_pose = (at, 7.0 * draws.unit() - 3.5);
                 let found = survey.reachable_unknown(&sensor, sensor_pose, Some(&edges));

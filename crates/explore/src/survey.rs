@@ -1,4 +1,4 @@
-//! The known part of a world, cell by cell, and the true contents.
+//! The known part of a world, cell by cell, and its true contents.
 
 use super::views::{CELL_RADIUS, Crossing};
 use cplan_core::model::{Arm, Heights, JointType, Obstacle, Scene, Shape, Workspace};
@@ -6,29 +6,31 @@ use cplan_core::space::{Configuration, SplitMix64};
 use cplan_geometry::{Convex, Point, Pose, Vector, shapes_meet};
 use cplan_world::{Occupancy, OccupancyMap, Sensor};
 
-/// Cells of the largest map.
+/// Number of cells of the largest map.
 pub const MAX_CELLS: usize = 1 << 22;
 
-/// Margin of the map around the reach of the arm, in cells.
+/// Width of the margin between the arm's reach and the sides of the map, in cells.
 const MAP_MARGIN: f64 = 2.0;
 
 /// A map that a sensor fills in. A known cell never changes.
 ///
 /// The sensor's rays are as wide as the cells that they cross. A ray ends at the first occupied cell, and the cells
-/// before it are empty. So cells known to be free are entirely free, and the result of a reading is known in advance up
-/// to the first unknown cell of each ray.
+/// before it are empty. So a cell that is known to be free is free as a whole, and the result of a reading is known in
+/// advance up to the first unknown cell of each ray.
 #[derive(Debug, Clone)]
 pub struct Survey {
     pub(super) known: OccupancyMap,
-    /// Range from the lowest obstacle's floor to the highest one's top. The space above and below is known to be free.
+    /// Range from the lowest obstacle's floor to the highest obstacle's top. The space above and below is known to be
+    /// free.
     heights: Heights,
-    /// For each occupied cell, the range from the lowest floor to the highest top of its contents. It becomes known
-    /// with the cell.
+    /// For each occupied cell, the range from the lowest floor to the highest top of the obstacles in it. A reading
+    /// that shows the cell also shows this range.
     truth: Vec<Option<Heights>>,
 }
 
 impl Survey {
-    /// Creates a map of a scene without any knowledge. Returns `None` if it would have more than [`MAX_CELLS`].
+    /// Creates a map of a scene in which nothing is known. Returns `None` if it would have more than [`MAX_CELLS`]
+    /// cells.
     #[must_use]
     pub fn new(scene: &Scene, cell: f64) -> Option<Self> {
         let obstacles = &scene.workspace().obstacles;
@@ -63,7 +65,7 @@ impl Survey {
         Some(survey)
     }
 
-    /// Takes over the knowledge of an earlier exploration.
+    /// Adds the knowledge of an earlier exploration.
     ///
     /// # Errors
     /// The reason, if the map has other cells or is of another world.
@@ -99,7 +101,7 @@ impl Survey {
         Ok(())
     }
 
-    /// Returns the known map.
+    /// Returns the map of what is known.
     #[must_use]
     pub fn map(&self) -> &OccupancyMap {
         &self.known
@@ -129,15 +131,15 @@ impl Survey {
         (self.known.size[1] - 1 - y) * self.known.size[0] + x
     }
 
-    /// Iterates over the cells that a shape, grown by a margin, touches, among those that are `asked` for.
+    /// Iterates over the cells for which `asked` is true and that a shape, grown by a margin, touches.
     ///
-    /// Works row by row: beyond a side of the shape by more than a cell's radius lie all cells before a column, or
-    /// after one.
+    /// It works row by row. In a row, the cells farther beyond a side of the shape than a cell's radius are all those
+    /// before one column, or all those after one.
     fn touched(&self, shape: &Convex, margin: f64, asked: impl Fn(usize) -> bool) -> impl Iterator<Item = usize> {
         let cell = self.known.resolution;
         let grown = Convex::trusted(shape.core().to_vec(), shape.radius() + margin);
         let around = grown.radius() / cell + CELL_RADIUS;
-        // In cells, from the middle of the first.
+        // Coordinates in cells, from the centre of the first cell.
         let core: Vec<Vector> = shape.core().iter().map(|p| (p - self.origin()) / cell - Vector::repeat(0.5)).collect();
         let range = |k: usize| {
             let local = core.iter().map(|p| p[k]);
@@ -169,13 +171,13 @@ impl Survey {
             .map(|(cell, ..)| cell)
     }
 
-    /// Returns a cell as a shape, by column from the left and row from below.
+    /// Returns the square of a cell, by column from the left and row from below.
     fn square(&self, x: usize, y: usize) -> Convex {
         let at = |x: usize, y: usize| self.origin() + Vector::new(x as f64, y as f64) * self.known.resolution;
         Convex::trusted(vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)], 0.0)
     }
 
-    /// Iterates over the arm's shapes at `q` at the height of any obstacle, with their heights.
+    /// Iterates over those of the arm's shapes at `q` that are at the height of any obstacle, with their heights.
     fn parts(&self, arm: &Arm, q: Configuration) -> impl Iterator<Item = (Convex, Heights)> {
         let poses = arm.poses(q);
         let parts = (0..2).flat_map(|link| arm.links[link].parts.iter().map(move |part| (link, part)));
@@ -183,7 +185,7 @@ impl Survey {
         high.map(move |(link, part)| (part.shape.at(&poses[link]), part.heights))
     }
 
-    /// Returns the cells that the arm touches at `q`, grown by a margin, with any contents; ascending.
+    /// Returns all cells that the arm, grown by a margin, touches at `q`, in ascending order.
     fn under(&self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
         let parts = self.parts(arm, q);
         let mut cells: Vec<usize> =
@@ -193,7 +195,8 @@ impl Survey {
         cells
     }
 
-    /// Returns a cell that is not known to be free and that the arm touches at `q`, grown by a margin, or `None`.
+    /// Returns a cell that is not known to be free and that the arm, grown by a margin, touches at `q`. `None` if there
+    /// is no such cell.
     #[must_use]
     pub fn obstruction(&self, arm: &Arm, q: Configuration, margin: f64) -> Option<usize> {
         self.parts(arm, q).find_map(|(part, heights)| {
@@ -202,8 +205,8 @@ impl Survey {
         })
     }
 
-    /// Returns the heights at which a cell is not known to be free. Unknown cells are as high as anything in the world;
-    /// seen ones have known heights.
+    /// Returns the heights at which a cell counts as solid, and `None` if it is free. An unknown cell has the heights
+    /// of everything in the world; a cell that has been seen has those of its contents.
     fn solid(&self, cell: usize) -> Option<Heights> {
         match self.known.cells[cell] {
             Occupancy::Free => None,
@@ -212,7 +215,7 @@ impl Survey {
         }
     }
 
-    /// Returns the unknown cells that the arm touches at `q`, ascending.
+    /// Returns the unknown cells that the arm touches at `q`, in ascending order.
     #[must_use]
     pub fn unknown_at(&self, arm: &Arm, q: Configuration) -> Vec<usize> {
         let mut cells = self.under(arm, q, 0.0);
@@ -235,8 +238,9 @@ impl Survey {
 
     /// Records the result of a reading at `q`. Returns the new cells in the order in which they were seen.
     ///
-    /// From a distance with errors, only facts that hold for every error are recorded: cells before all possible end
-    /// cells are free, and a single possible end cell is occupied.
+    /// If distances have errors, only facts are recorded that hold for every possible error. Cells that the ray crosses
+    /// before all cells in which it may have ended are free. If it can have ended in one cell only, that cell is
+    /// occupied.
     pub fn look(&mut self, sensor: &Sensor, arm: &Arm, q: Configuration, errors: &mut SplitMix64) -> Vec<usize> {
         let (from, ahead) = sensor.pose(arm, q.into());
         let mut new = Vec::new();
@@ -245,7 +249,7 @@ impl Survey {
             let error = if sensor.noise > 0.0 { sensor.noise * (2.0 * errors.unit() - 1.0) } else { 0.0 };
             let hit = crossings.iter().position(|crossing| self.truth[crossing.cell].is_some());
             let reported = hit.map(|hit| crossings[hit].enters + error);
-            // The first cell that the ray may have ended at, and whether no other is.
+            // Index of the first cell in which the ray may have ended, and true if it can have ended in no other.
             let (first, is_sole) = match (hit, reported) {
                 (Some(hit), Some(reported)) if sensor.noise > 0.0 => {
                     let may_be =
@@ -267,8 +271,8 @@ impl Survey {
         new
     }
 
-    /// Records the contents of the cells that the arm touches at `q` and of those within `margin`: the user who places
-    /// an arm somewhere has looked at the place.
+    /// Records the contents of the cells that the arm, grown by `margin`, touches at `q`. They count as known, because
+    /// the user who placed the arm has seen the place.
     pub fn survey_around(&mut self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
         let mut new = self.under(arm, q, margin);
         new.retain(|&cell| self.is_unknown(cell));
@@ -278,8 +282,8 @@ impl Survey {
         new
     }
 
-    /// Returns the arm among everything that is not known to be free; with `unknown_is_free`, among the known
-    /// obstacles.
+    /// Returns the arm among everything that is not known to be free. With `unknown_is_free`, only the obstacles that
+    /// have been seen are solid.
     #[must_use]
     pub fn scene(&self, arm: &Arm, clearance: f64, unknown_is_free: bool) -> Scene {
         let seen = self.known.cells.iter().zip(&self.truth).filter(|(label, _)| **label == Occupancy::Occupied);
@@ -304,8 +308,8 @@ impl Survey {
     }
 }
 
-/// Returns the corners of a rectangle that contains the base, and everything that an arm can approach within the
-/// clearance at some heights.
+/// Returns the corners of a rectangle that contains the base, and everything that the arm can touch or approach within
+/// the clearance at some heights.
 fn extent(scene: &Scene, heights: Heights) -> [Point; 2] {
     let (arm, clearance) = (scene.arm(), scene.workspace().clearance);
     let discs = swept(arm, heights);
@@ -316,7 +320,8 @@ fn extent(scene: &Scene, heights: Heights) -> [Point; 2] {
     [-1.0, 1.0].map(|sign| Point::new(side(0, sign), side(1, sign)))
 }
 
-/// Discs, by their centres and radii, whose hull holds the tip and all that an arm can touch at some heights.
+/// Returns discs (centre and radius) whose convex hull contains the tip and everything that the arm can touch at some
+/// heights.
 fn swept(arm: &Arm, heights: Heights) -> Vec<(Point, f64)> {
     let [first, second] = &arm.joints;
     let (turns, ends) = match second.joint_type {

@@ -1,4 +1,4 @@
-//! Predicted readings of a sensor on a map: the cells that rays cross.
+//! Predicted readings of a sensor on a map: the cells that its rays cross.
 
 use super::sight::Edges;
 use super::survey::Survey;
@@ -7,19 +7,20 @@ use cplan_world::{Occupancy, Sensor};
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-/// Radius of a disc that holds a cell, in cells, with room for rounding.
+/// Radius of a disc that contains a cell, in cells. It is larger than half a diagonal, which leaves room for rounding.
 pub(super) const CELL_RADIUS: f64 = 0.75;
 
-/// Room for rounding of distances, in cells.
+/// Allowance for the rounding of distances, in cells.
 const DISTANCE_SLACK: f64 = 1e-6;
 
-/// Position of a sensor and its forward angle: [`Sensor::pose`].
+/// Position of a sensor, and the angle of its forward direction in radians, as from [`Sensor::pose`].
 pub type SensorPose = (Point, f64);
 
-/// Cells of a map by their rows, those that have any, from the top; of each the columns in ascending order.
+/// Cells of a map by rows, from the top. Each row has its number and its columns in ascending order; rows without cells
+/// are left out.
 pub type CellsByRow = Vec<(usize, Vec<usize>)>;
 
-/// Returns the rows that have any columns.
+/// Returns those rows that have any columns.
 fn rows(height: usize, columns: impl Fn(usize) -> Vec<usize>) -> CellsByRow {
     (0..height).map(|row| (row, columns(row))).filter(|(_, columns)| !columns.is_empty()).collect()
 }
@@ -32,16 +33,14 @@ pub(super) struct Crossing {
 }
 
 impl Survey {
-    /// Iterates over the cells that a ray crosses within the range of the sensor, as far as it crosses them completely,
-    /// in order.
-    ///
-    /// From side to side (Amanatides, Woo 1987).
+    /// Iterates, in order, over the cells that a ray crosses completely within the range of the sensor (from side to
+    /// side: Amanatides, Woo 1987).
     pub(super) fn crossings(&self, from: Point, angle: f64, range: f64) -> impl Iterator<Item = Crossing> + use<> {
         let cell = self.known.resolution;
         let (size, local) = (self.known.size, (from - self.origin()) / cell);
         let ahead = [angle.cos(), angle.sin()];
         let step = ahead.map(|d| if d > 0.0 { 1_i64 } else { -1 });
-        // Distance from one side across to the next.
+        // Distance along the ray from one side of a cell to the next, for each axis.
         let across = ahead.map(|d| cell / d.abs());
         let mut at = [local.x, local.y].map(|v| v.floor() as i64);
         let mut next = [0, 1].map(|k| {
@@ -64,8 +63,8 @@ impl Survey {
         })
     }
 
-    /// Returns an unknown cell that a reading would reach, or `None` if it would show nothing new. If `edges` are
-    /// given, traces only rays that may reach one.
+    /// Returns an unknown cell that a reading would show. `None` if it would show nothing new. With `edges`, traces
+    /// only rays that may reach an unknown cell.
     #[must_use]
     pub fn reachable_unknown(&self, sensor: &Sensor, sensor_pose: SensorPose, edges: Option<&Edges>) -> Option<usize> {
         match edges {
@@ -75,7 +74,7 @@ impl Survey {
         }
     }
 
-    /// Returns true if a reading would reach any of some unknown cells first.
+    /// Returns true if some ray of a reading has one of the `wanted` cells as its first unknown cell.
     #[must_use]
     pub fn shows_any(&self, sensor: &Sensor, sensor_pose: SensorPose, wanted: &CellsByRow) -> bool {
         let width = self.known.size[0];
@@ -86,8 +85,8 @@ impl Survey {
         self.first_towards(sensor, sensor_pose, wanted, is_wanted).is_some()
     }
 
-    /// Returns the first unknown cell of a ray of a reading for which `is_asked` holds. Traces only rays that may cross
-    /// one of some cells, unless the sensor itself is in an unknown cell.
+    /// Returns the first unknown cell of a ray for which `is_asked` is true. Traces only rays that may cross one of
+    /// some cells, unless the sensor itself is in an unknown cell.
     fn first_towards(
         &self,
         sensor: &Sensor,
@@ -126,7 +125,8 @@ impl Survey {
         sensor.rays_about(ahead, direction.y.atan2(direction.x), if sine < 1.0 { sine.asin() } else { PI })
     }
 
-    /// Iterates, for each ray of a reading, over its first cell that is not known to be free, if that is unknown.
+    /// Iterates over the first unknown cell of each ray of a reading. Skips rays that an occupied cell ends before
+    /// that.
     fn first_unknown(&self, sensor: &Sensor, sensor_pose: SensorPose) -> impl Iterator<Item = usize> {
         self.views(sensor, sensor_pose).filter_map(|mut view| {
             let first = view.find(|&cell| self.known.cells[cell] != Occupancy::Free);
@@ -143,7 +143,7 @@ impl Survey {
         cells
     }
 
-    /// Returns true if the rays of a reading cross all of some cells before known obstacles.
+    /// Returns true if, for each of some cells, a ray of a reading crosses it before any known obstacle.
     #[must_use]
     pub fn shows_all(&self, sensor: &Sensor, (from, ahead): SensorPose, cells: &[usize]) -> bool {
         cells.iter().all(|&wanted| {
@@ -154,7 +154,7 @@ impl Survey {
         })
     }
 
-    /// Iterates over the unknown cells that the rays of a reading cross before known obstacles; some cells occur more
+    /// Iterates over the unknown cells that the rays of a reading cross before known obstacles. A cell can occur more
     /// than once.
     pub fn visible_unknown(&self, sensor: &Sensor, sensor_pose: SensorPose) -> impl Iterator<Item = usize> {
         let open = |&cell: &usize| self.known.cells[cell] != Occupancy::Occupied;
@@ -188,7 +188,7 @@ impl Survey {
         rows(height, |y| (0..width).filter(|&x| is_edge(x, y)).collect())
     }
 
-    /// Iterates over the cells within a range of a point, up to rounding.
+    /// Iterates over those of some cells that lie within a range of a point, up to rounding.
     fn near<'a>(&self, cells: &'a CellsByRow, point: Point, range: f64) -> impl Iterator<Item = usize> + use<'a> {
         let local = (point - self.origin()) / self.known.resolution;
         let [width, height] = self.known.size;

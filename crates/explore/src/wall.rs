@@ -3,29 +3,29 @@
 use super::reach::BlockedMoves;
 use cplan_core::cspace::Grid;
 
-/// A heading, in eighths of a turn from `+q1` towards `+q2`. A wall follower moves along the axes, that is, by even
-/// headings.
+/// A heading, in eighths of a turn from `+q1` towards `+q2`. A wall follower moves along the axes, so its headings are
+/// even.
 pub type Heading = usize;
 
-/// A place on the way along a wall.
+/// A place on a walk along a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Place {
     /// Cell of the grid.
     pub cell: usize,
-    /// Heading on arrival.
+    /// Heading with which the walk arrives.
     pub heading: Heading,
 }
 
-/// Returns true if a free cell is next to a wall: a blocked cell, or the end of the grid, at a side or a corner.
+/// Returns true if a blocked cell or the end of the grid is next to a free cell, at a side or a corner.
 pub fn is_beside_wall(grid: &Grid, cell: usize) -> bool {
     (0..8).any(|heading| is_wall(grid, cell, heading))
 }
 
-/// Returns the next place of a follower that keeps the wall to its right: the right-hand rule of mazes, by Moore's
-/// neighbours.
+/// Returns the next place of a walk that keeps the wall to its right (the right-hand rule of mazes, with Moore's
+/// neighbours). `None` if there is no wall beside the cell, or no free neighbour.
 ///
-/// The wall is the first blocked neighbour in the order from behind on the right to behind on the left. Without a wall
-/// or a free neighbour the walk ends. Headings repeat, so the walk eventually returns.
+/// The wall is the first blocked neighbour in the order from behind on the right to behind on the left. There are
+/// finitely many places and headings, so the walk eventually repeats itself.
 pub fn next(grid: &Grid, closed: &BlockedMoves, at: Place) -> Option<Place> {
     let Place { cell, heading } = at;
     let wall = (0..8).map(|turn| (heading + 5 + turn) % 8).find(|&side| is_wall(grid, cell, side))?;
@@ -38,7 +38,7 @@ fn is_wall(grid: &Grid, cell: usize, side: Heading) -> bool {
     beside(grid, cell, side).is_none_or(|beside| grid.blocked[beside])
 }
 
-/// Returns the cell at a side or a corner of another.
+/// Returns the neighbour of a cell in the direction `side`. `None` at the end of the grid.
 fn beside(grid: &Grid, cell: usize, side: Heading) -> Option<usize> {
     match side {
         0 | 4 => grid.beside(cell, 0, side == 0),
@@ -65,7 +65,7 @@ mod tests {
         JointRange::Interval { lower: 0.0, upper: 1.0 }
     }
 
-    /// Columns and rows of the places until one comes again.
+    /// Returns columns and rows of the places of a walk, until one of them repeats.
     fn followed(grid: &Grid, closed: &BlockedMoves, from: [usize; 2], heading: Heading) -> Vec<[usize; 2]> {
         let high = grid.cells[1];
         let mut at = Place { cell: from[0] * high + from[1], heading };

@@ -1,4 +1,4 @@
-//! Time and interruption on platforms without a clock and without unwinding: WebAssembly without a system.
+//! Time and interruption on platforms that have neither a clock nor unwinding, such as WebAssembly without a system.
 
 use std::ops::{Add, Sub};
 use std::sync::OnceLock;
@@ -16,13 +16,13 @@ pub struct Host {
 static HOST: OnceLock<Host> = OnceLock::new();
 
 impl Host {
-    /// Installs the host permanently. Without a host, time stands still and interrupted work aborts.
+    /// Installs the host permanently. Without a host, time stands still, and interrupted work aborts.
     pub fn serve(self) {
         // A second call has no effect.
         let _ = HOST.set(self);
     }
 
-    /// Lets the installed host end this instance. Returns if there is no host.
+    /// Lets the installed host end this instance of the program. Returns if there is no host.
     pub(crate) fn end() {
         if let Some(host) = HOST.get() {
             (host.stop)();
@@ -30,12 +30,12 @@ impl Host {
     }
 }
 
-/// A moment of the host's clock, with the interface of [`std::time`].
+/// A time of the host's clock, with the interface of [`std::time::Instant`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Instant(Duration);
 
 impl Instant {
-    /// Returns the current moment.
+    /// Returns the current time.
     #[must_use]
     pub fn now() -> Self {
         Self(HOST.get().map_or(Duration::ZERO, |host| (host.elapsed)()))

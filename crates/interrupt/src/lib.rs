@@ -1,9 +1,9 @@
 //! Interruption of long computations by a flag or a deadline.
 //!
-//! Planning is a deep call of pure functions that may take long. Run it under an [`Interrupt`] to be able to
-//! stop it. Long loops call [`checkpoint`], which unwinds the stack back to the run once the interrupt is set. An
-//! interrupted computation returns [`Interrupted`] and nothing else, so a partial result cannot be mistaken for a
-//! complete one.
+//! Planning is a deep call of pure functions, and may take long. Call it in [`Interrupt::run`] to be able to stop it.
+//! Long loops call [`checkpoint`]. If the interrupt is set, this unwinds the stack back to the call of
+//! [`Interrupt::run`]. An interrupted computation returns [`Interrupted`] and nothing else, so a partial result cannot
+//! be mistaken for a complete one.
 //!
 //! ```
 //! use cplan_interrupt::{Interrupt, Interrupted, checkpoint};
@@ -14,12 +14,12 @@
 //! assert_eq!(interrupt.run(|| (1..=3).inspect(|_| checkpoint()).sum::<i32>()), Err(Interrupted::Set));
 //! ```
 //!
-//! A loop that may take more than a few milliseconds needs a checkpoint. Unwinding keeps interruption out of all
-//! signatures. A checkpoint costs a few nanoseconds and has no effect outside of [`Interrupt::run`], so callers that
-//! never interrupt need not know about checkpoints.
+//! A loop that may take more than a few milliseconds needs a checkpoint. Because of unwinding, no function needs to
+//! return that it was interrupted. A checkpoint costs a few nanoseconds and has no effect outside of
+//! [`Interrupt::run`], so callers that never interrupt need not know about checkpoints.
 //!
-//! WebAssembly without a system (`wasm32-unknown-unknown`) has neither a clock nor unwinding. There a `Host` supplies
-//! the time and ends the whole instance to stop work.
+//! WebAssembly without a system (`wasm32-unknown-unknown`) has neither a clock nor unwinding. There, a `Host` supplies
+//! the time, and stops work by ending the whole instance of the program.
 #![forbid(unsafe_code)]
 
 #[cfg(any(all(target_family = "wasm", target_os = "unknown"), test))]
@@ -27,7 +27,8 @@ mod clock;
 
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 pub use clock::{Host, Instant};
-/// A moment: that of the standard library, except on WebAssembly without a system, where the host supplies the time.
+/// A point in time. It is that of the standard library, except on WebAssembly without a system, where the host supplies
+/// the time.
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 pub use std::time::Instant;
 
@@ -49,7 +50,7 @@ pub enum Interrupted {
     TimeUp,
 }
 
-/// A handle to stop work, from any thread. Clones are handles to the same interrupt.
+/// A handle with which any thread can stop work. Clones are handles to the same interrupt.
 #[derive(Debug, Clone, Default)]
 pub struct Interrupt {
     flag: Arc<AtomicBool>,
@@ -60,11 +61,11 @@ pub struct Interrupt {
 /// A callback that returns true if work must stop.
 type StopCheck = Box<dyn Fn() -> bool + Send + Sync>;
 
-/// A callback with its schedule.
+/// A callback, and when it is called.
 struct StopCallback {
     every: Duration,
     begun: Instant,
-    /// Nanoseconds from the start to the next call.
+    /// Time of the next call, in nanoseconds from the start.
     next: AtomicU64,
     stops: AssertUnwindSafe<StopCheck>,
 }
@@ -76,7 +77,7 @@ impl fmt::Debug for StopCallback {
 }
 
 impl StopCallback {
-    /// Returns true if the callback is due. Only one of several threads gets true.
+    /// Returns true if the callback is due. If several threads ask, only one of them gets true.
     fn is_due(&self) -> bool {
         let (now, next) = (self.begun.elapsed().as_nanos() as u64, self.next.load(Ordering::Relaxed));
         let after = now + self.every.as_nanos() as u64;
@@ -84,15 +85,15 @@ impl StopCallback {
     }
 }
 
-/// The payload with which [`checkpoint`] unwinds: the depth of the interrupt, so that only its own [`Interrupt::run`]
-/// catches it.
+/// The payload with which [`checkpoint`] unwinds. It has the depth of the interrupt, so that only the
+/// [`Interrupt::run`] of that interrupt catches it.
 struct Unwinding {
     depth: usize,
     why: Interrupted,
 }
 
 thread_local! {
-    /// The interrupts under which this thread works, the outermost first.
+    /// The interrupts in whose [`Interrupt::run`] this thread works, the outermost first.
     static ACTIVE: RefCell<Vec<Interrupt>> = const { RefCell::new(Vec::new()) };
 }
 
@@ -103,14 +104,15 @@ impl Interrupt {
         Self::default()
     }
 
-    /// Adds a deadline to this handle. Earlier clones are not affected.
+    /// Returns this handle with a deadline. Clones that were made before have no deadline.
     #[must_use]
     pub fn by(self, deadline: Instant) -> Self {
         Self { deadline: Some(deadline), ..self }
     }
 
-    /// Adds a callback that checkpoints call at this interval, on the thread of the work, to ask whether to stop. For
-    /// hosts whose signals only that thread sees. The callback itself may run work under interrupts.
+    /// Returns this handle with a callback that returns true to stop the work. Checkpoints call it at this interval, on
+    /// the thread of the work. It is for hosts that report signals only to that thread. The callback may itself call
+    /// [`Interrupt::run`].
     #[must_use]
     pub fn with_callback(self, every: Duration, stops: impl Fn() -> bool + Send + Sync + 'static) -> Self {
         let next = AtomicU64::new(every.as_nanos() as u64);
@@ -118,12 +120,12 @@ impl Interrupt {
         Self { question: Some(Arc::new(question)), ..self }
     }
 
-    /// Stops all work under any handle to this interrupt, now and later.
+    /// Stops all work under this interrupt, through whichever handle it was started, now and later.
     pub fn set(&self) {
         self.flag.store(true, Ordering::Relaxed);
     }
 
-    /// Returns the reason to stop, if the interrupt is set or the deadline has passed.
+    /// Returns the reason to stop: the interrupt is set, or the deadline has passed. `None` if there is none.
     #[must_use]
     pub fn why(&self) -> Option<Interrupted> {
         if self.flag.load(Ordering::Relaxed) {
@@ -132,8 +134,8 @@ impl Interrupt {
         self.deadline.is_some_and(|deadline| Instant::now() >= deadline).then_some(Interrupted::TimeUp)
     }
 
-    /// Runs `work` on this thread until it finishes or the interrupt is set. Does not start if the interrupt is already
-    /// set. Runs may be nested: the outermost interrupt that is set counts.
+    /// Runs `work` on this thread until it finishes or the interrupt is set. If the interrupt is set before, `work`
+    /// does not start. Calls may be nested; of several interrupts that are set, the outermost one stops the work.
     ///
     /// Work stops at its next [`checkpoint`]; without checkpoints it finishes. Values that `work` owns are dropped. The
     /// caller must repair values that `work` borrows and changes.
@@ -161,7 +163,7 @@ impl Interrupt {
     }
 }
 
-/// Stops the thread's work if its interrupt is set, otherwise returns. Costs a few nanoseconds, or some tens with a
+/// Stops the thread's work if an interrupt is set; otherwise returns. Takes a few nanoseconds, or some tens with a
 /// deadline or a callback. Has no effect outside of [`Interrupt::run`].
 #[inline]
 pub fn checkpoint() {
@@ -181,11 +183,11 @@ pub fn checkpoint() {
     }
 }
 
-/// Unwinds to the run whose interrupt is set.
+/// Unwinds to the [`Interrupt::run`] whose interrupt is set.
 fn unwind(unwinding: Unwinding) -> ! {
     #[cfg(all(target_family = "wasm", target_os = "unknown"))]
     Host::end();
-    // This is not a panic: it prints no message and calls no hook.
+    // Unwinding without a panic prints no message and calls no hook.
     resume_unwind(Box::new(unwinding))
 }
 

@@ -1,4 +1,4 @@
-//! The answer to a page's request, within its time.
+//! Answers a page's request within its time limit.
 
 use super::blocked;
 use super::contours::Contours;
@@ -15,16 +15,16 @@ use cplan_world::{LoadedProblem, LoadedScene, Overrides};
 use serde::Deserialize;
 use std::time::Duration;
 
-/// Time for a plan while something is dragged. The display, with or without a plan, takes a little longer: the page
-/// should follow ten times a second.
+/// Time limit of a plan while the user drags something. Drawing takes a little longer in addition, and the page should
+/// follow ten times per second.
 const DRAG_TIME: Duration = Duration::from_millis(60);
 
-/// Least and greatest time for the obstacles alone, once the time for a plan is up. Between these limits it equals the
-/// time for a plan.
+/// Least and greatest time limit for showing the obstacles without a plan, once the time for a plan is up. Between
+/// these, the limit equals that of a plan.
 const SHOW_TIME: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(5)];
 
-/// The part of a request's time that is already spent. Some hosts can only end slow work by ending the whole session,
-/// with all that it remembers; then the next session does the rest of the request.
+/// The part of a request's time limit that is spent. On some hosts, slow work can be ended only by ending the whole
+/// session with everything that it remembers. The next session then continues the request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TimeSpent {
@@ -37,20 +37,20 @@ pub enum TimeSpent {
     All,
 }
 
-/// The interrupts of the parts of an answer: by its time, or by a newer request.
+/// The interrupts of the parts of an answer. Each is set when its time is up, or by a newer request.
 pub struct Deadlines {
-    /// Time for a plan.
+    /// Time limit of a plan.
     limit: Duration,
-    /// Stops a plan while something is dragged.
+    /// Stops a plan while the user drags something.
     pub drag: Interrupt,
-    /// Stops a plan.
+    /// Stops any other plan.
     pub plan: Interrupt,
-    /// Stops the display without a plan, which must not take much longer than the plan did.
+    /// Stops the drawing without a plan, which must not take much longer than a plan.
     pub show: Interrupt,
 }
 
 impl Deadlines {
-    /// Creates deadlines from now on, for a request that has spent part of its time.
+    /// Creates the deadlines of a request, counted from now. `spent` is the part of its time limit that is spent.
     pub fn new(interrupt: &Interrupt, spent: TimeSpent, limit: Duration) -> Self {
         let show = limit.clamp(SHOW_TIME[0], SHOW_TIME[1]);
         let (drag, plan, show) = match spent {
@@ -63,10 +63,10 @@ impl Deadlines {
         Self { limit, drag: by(drag), plan: by(plan), show: by(show) }
     }
 
-    /// Returns the answer when the time is up.
+    /// Returns the answer to a request whose time is up.
     ///
     /// # Errors
-    /// If there is a newer request: then there is no answer.
+    /// A newer request, to which the page expects an answer instead.
     pub fn timed_out(&self, stopped: Interrupted) -> Result<AnswerReply, Interrupted> {
         match stopped {
             Interrupted::TimeUp => Ok(AnswerReply {
@@ -79,32 +79,32 @@ impl Deadlines {
     }
 }
 
-/// Returns the message for a time that is up.
+/// Returns the message that a time limit is reached.
 pub fn time_up(limit: Duration) -> String {
     format!("not decided within {} s", limit.as_secs_f64())
 }
 
-/// Returns the answer to a request that cannot be planned, with the reason.
+/// Returns the answer to a request for which nothing can be planned, with the reason.
 pub fn refused(about: ErrorSubject, error: String) -> AnswerReply {
     AnswerReply { error: Some(error), about: Some(about), ..AnswerReply::default() }
 }
 
-/// The data that an answer needs in addition to the problem.
+/// Data for an answer, besides the problem.
 pub struct Answering<'a> {
     pub options: &'a Options,
     pub contours: &'a Contours,
     pub deadlines: &'a Deadlines,
-    /// True to show the planner's search.
+    /// True to include a replay of the planner's search.
     pub think: bool,
-    /// The world as text, for final answers.
+    /// The text of the world. `None` for answers that are not final.
     pub toml: Option<String>,
 }
 
 impl Answering<'_> {
-    /// Answers with everything about a task.
+    /// Returns the complete answer about a task.
     ///
     /// # Errors
-    /// If there is a newer request.
+    /// A newer request.
     pub fn task(self, loaded: LoadedScene) -> Result<AnswerReply, Interrupted> {
         let problem = match Problem::of_scene(loaded, &Overrides::default()) {
             Ok(problem) => problem,
@@ -118,10 +118,10 @@ impl Answering<'_> {
         }
     }
 
-    /// Answers for a world with an unusable start or goal: the reason, and the arm's configuration then.
+    /// Returns the answer for a world with an unusable start or goal: the reason, and the arm's configuration there.
     ///
     /// # Errors
-    /// If there is a newer request.
+    /// A newer request.
     pub fn blocked(
         self,
         loaded: &LoadedScene,
@@ -138,10 +138,10 @@ impl Answering<'_> {
         Ok(AnswerReply { toml: self.toml, start, view: shown.view, ..refusal })
     }
 
-    /// Answers with a path that can be found during a drag.
+    /// Returns the answer during a drag, with a path if one can be found in time.
     ///
     /// # Errors
-    /// If there is a newer request.
+    /// A newer request.
     pub fn quick_answer(self, loaded: LoadedProblem, pace: &Pace) -> Result<AnswerReply, Interrupted> {
         let (ends, problem) = (Ends::of(&loaded), Problem::from(loaded));
         let plan = || result::quick_answer(&problem, self.options, self.contours);
@@ -157,11 +157,11 @@ impl Answering<'_> {
         }
     }
 
-    /// Answers with everything about a motion. Reports the configuration space before it searches for a path, which may
-    /// take long.
+    /// Returns the complete answer about a motion. Since the search for a path may take long, sends the configuration
+    /// space before it.
     ///
     /// # Errors
-    /// If there is a newer request.
+    /// A newer request.
     pub fn full_answer(
         self,
         loaded: LoadedProblem,
@@ -185,7 +185,7 @@ impl Answering<'_> {
         }
     }
 
-    /// Answers with the configuration space without a path, if there is time for it.
+    /// Returns the answer with the configuration space but without a path, if there is time for it.
     fn without_path(
         &self,
         scene: TimedScene,
@@ -214,7 +214,7 @@ impl Ends {
         (self.start, &self.goals)
     }
 
-    /// Returns the answer with these ends.
+    /// Adds the start and the goals to an answer.
     fn insert_into(&self, answer: AnswerReply) -> AnswerReply {
         let nearest = |goal: &Segment| goal.nearest(Measure::from(Metric::Euclidean), self.start).into();
         AnswerReply { start: Some(self.start.into()), goals: self.goals.iter().map(nearest).collect(), ..answer }

@@ -1,4 +1,5 @@
-//! Blocked starts and goals, for a page: position, obstacles in contact, and a description without references to files.
+//! Answers about blocked starts and goals: position, obstacles in contact, and a description that does not refer to
+//! files.
 
 use super::protocol::{AnswerReply, BlockedReply, ErrorSubject, HitReply};
 use cplan_core::model::{Goal, Obstruction, Scene, inverse};
@@ -6,13 +7,13 @@ use cplan_core::space::{Configuration, Segment};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_world::LoadedScene;
 
-/// Greatest number of configurations that are drawn: more would hide each other.
+/// Largest number of configurations that are drawn. More would hide each other.
 const MAX_SHOWN: usize = 4;
 
-/// Depths below this, metres, are reported as touching.
+/// Shapes that overlap by less than this are reported as touching, in metres.
 const TOUCHING_DEPTH: f64 = 1e-9;
 
-/// Returns the answer to an unusable world.
+/// Returns the answer about a world whose start or goal is unusable.
 pub fn refusal(loaded: &LoadedScene, error: &InputError, near: Configuration) -> AnswerReply {
     let [start, goal] = loaded.given();
     let kinds = error.diagnostics().iter().map(|diagnostic| diagnostic.kind);
@@ -33,12 +34,12 @@ pub fn refusal(loaded: &LoadedScene, error: &InputError, near: Configuration) ->
     AnswerReply { error: Some(error), about: Some(about), blocked, ..AnswerReply::default() }
 }
 
-/// Returns the answer to a text that cannot be read, although the page wrote it.
+/// Returns the answer about a text that the page wrote but that cannot be read.
 pub fn unread(error: &InputError) -> AnswerReply {
     AnswerReply { error: Some(without_places(error)), about: Some(ErrorSubject::World), ..AnswerReply::default() }
 }
 
-/// Returns the configurations of a place with the obstacles in contact, deepest first.
+/// Returns the configurations at a start or goal, with the obstacles in contact, the deepest first.
 fn configurations(
     scene: &Scene,
     place: Goal,
@@ -66,7 +67,7 @@ fn reply(obstruction: &Obstruction) -> HitReply {
     HitReply {
         link: contact.pair.link.min(1),
         obstacle: contact.pair.obstacle,
-        // Exact predicates may find a contact that the distance does not show.
+        // The exact test may find a contact although the rounded distance is positive.
         distance: if obstruction.touches { distance.min(0.0) } else { distance },
     }
 }
@@ -103,7 +104,7 @@ fn in_words(scene: &Scene, hit: &Obstruction) -> String {
     }
 }
 
-/// Formats a length with three digits.
+/// Formats a length with three significant digits.
 fn millimetres(metres: f64) -> String {
     let length = metres * 1e3;
     let digits = if length >= 100.0 {
@@ -116,7 +117,7 @@ fn millimetres(metres: f64) -> String {
     if length < 0.01 { format!("{length:.1e} mm") } else { format!("{length:.digits$} mm") }
 }
 
-/// Formats the diagnostics without file, line and column, because the user has not seen the text.
+/// Formats the diagnostics without file, line and column, because the user does not see the text.
 fn without_places(error: &InputError) -> String {
     let sentence = |diagnostic: &Diagnostic| {
         let mut letters = diagnostic.message.chars();

@@ -1,4 +1,4 @@
-//! Contours of C-obstacles, cached between answers, because only one or two obstacles have changed.
+//! Contours of C-obstacles. They are cached between answers, because only one or two obstacles change at a time.
 
 use cplan_core::cspace::CObstacle;
 use cplan_core::model::{Arm, Heights, Obstacle, Scene, Workspace};
@@ -6,7 +6,7 @@ use cplan_geometry::Convex;
 use cplan_view::output;
 use std::cell::RefCell;
 
-/// A cache of contours. The contours of an obstacle depend only on the arm, the clearance and its pieces.
+/// A cache of contours. The contours of an obstacle depend only on the arm, the clearance and the obstacle's pieces.
 #[derive(Default)]
 pub struct Contours {
     known: RefCell<Known>,
@@ -14,11 +14,11 @@ pub struct Contours {
 
 #[derive(Default)]
 struct Known {
-    /// The arm and the clearance of all entries.
+    /// The arm and the clearance to which all entries belong.
     of: Option<(Arm, f64)>,
-    /// Entries in the order of the last scene's obstacles.
+    /// Entries in the order of the obstacles of the last scene.
     entries: Vec<Entry>,
-    /// Contours of the arm's self obstacles, each with its number.
+    /// Contours of the links that other links can hit, each with the number of its obstacle.
     own: Vec<CObstacle>,
 }
 
@@ -26,7 +26,7 @@ struct Known {
 struct Entry {
     pieces: Vec<Convex>,
     heights: Heights,
-    /// Contours of this obstacle, independent of its number.
+    /// Contours of the obstacle. They do not depend on its number.
     contours: Vec<CObstacle>,
 }
 
@@ -50,7 +50,7 @@ impl Contours {
             known.found(obstacles)
         };
         let missing: Vec<usize> = (0..obstacles.len()).filter(|&k| found[k].is_none()).collect();
-        // Nothing is borrowed during the computation, which can be interrupted at any time.
+        // The cache is not borrowed during the computation, which can be interrupted at any time.
         let mut made = traced(scene, &missing).into_iter();
         let entries: Vec<Entry> = found.into_iter().filter_map(|entry| entry.or_else(|| made.next())).collect();
         let numbered = |(number, entry): (usize, &Entry)| {
@@ -67,7 +67,8 @@ impl Contours {
 }
 
 impl Known {
-    /// Looks up each obstacle. Obstacles that appear or disappear shift the others by a place or two.
+    /// Finds the entry of each obstacle. If obstacles appear or disappear, the entries of others are one or two places
+    /// away.
     fn found(&self, obstacles: &[Obstacle]) -> Vec<Option<Entry>> {
         let mut next = 0;
         let mut one = |obstacle: &Obstacle| {
@@ -79,7 +80,7 @@ impl Known {
     }
 }
 
-/// Computes the contours of the arm's self obstacles.
+/// Computes the contours of the links that other links can hit.
 fn own(scene: &Scene) -> Vec<CObstacle> {
     if scene.arm().self_obstacles.is_empty() {
         return Vec::new();

@@ -1,10 +1,10 @@
-//! A world's text, edited as the page requests: comments, names, heights and all unknown keys stay.
+//! The text of a world, edited as the page requests. Comments, names, heights and unknown keys are preserved.
 
 use super::protocol::{Begin, End, Form, MAX_CORNERS, MAX_OBSTACLES, Pair, Piece, State};
 use std::collections::BTreeSet;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
-/// A TOML text and its contents, otherwise unchecked.
+/// A TOML text and its parsed content, which need not be a valid world.
 #[derive(Debug, Clone)]
 pub struct Document {
     text: String,
@@ -12,7 +12,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// Parses a text. Returns `None` if it is not TOML; reading it as a world reports the reason.
+    /// Parses a text. `None` if it is not TOML; whoever reads the text as a world reports the reason.
     pub fn parse(text: &str) -> Option<Self> {
         Some(Self { text: text.to_owned(), toml: text.parse().ok()? })
     }
@@ -31,7 +31,7 @@ impl Document {
         of_map.chain(images).map(str::to_owned).collect()
     }
 
-    /// Returns its `[[obstacle]]`s, or `None` if they are not tables.
+    /// Returns the tables `[[obstacle]]`. `None` if they are not tables.
     fn obstacles(&self) -> Option<ArrayOfTables> {
         match self.toml.get("obstacle") {
             None => Some(ArrayOfTables::new()),
@@ -39,12 +39,12 @@ impl Document {
         }
     }
 
-    /// Splits them into static ones, and moving ones, which the page shows but does not change.
+    /// Splits the obstacles into static and moving ones. The page shows moving obstacles but cannot change them.
     fn by_motion(&self) -> Option<(Vec<Table>, Vec<Table>)> {
         Some(self.obstacles()?.into_iter().partition(|table| !table.contains_key("motion")))
     }
 
-    /// Returns the joint values of its start.
+    /// Returns the joint values of the start. `None` if the text has none.
     pub fn start(&self) -> Option<Pair> {
         pair(self.toml.get("start")?.get("joints"))
     }
@@ -55,15 +55,15 @@ impl Document {
         pair(goal.get("joints")).map(End::Joints).or_else(|| pair(goal.get("tip")).map(End::Tip))
     }
 
-    /// Returns the shapes of the obstacles that the page can change, in order.
+    /// Returns the shapes of the static obstacles, in order. `None` for a shape that the page cannot change.
     pub fn forms(&self) -> Vec<Option<Form>> {
         self.by_motion().unwrap_or_default().0.iter().map(form).collect()
     }
 
-    /// Returns the text changed to match the state; the same text if it matches already.
+    /// Returns the text, changed to match the state. If it already matches, it stays the same.
     ///
     /// # Errors
-    /// The reason, if the state is too large or refers to obstacles that the text does not have.
+    /// The reason, if the state is too large, or refers to obstacles that the text does not have.
     pub fn changed(&self, state: &State, start: Option<Pair>) -> Result<String, String> {
         let corners: usize = state.obstacles.iter().flat_map(|piece| &piece.shape).map(Form::corners).sum();
         if state.obstacles.len() > MAX_OBSTACLES || corners > MAX_CORNERS {
@@ -93,7 +93,7 @@ impl Document {
         Ok(if touched { toml.to_string() } else { self.text.clone() })
     }
 
-    /// Returns true if anything changed.
+    /// Changes the obstacles to match those of the page. Returns true if anything changed.
     fn change_obstacles(&self, toml: &mut DocumentMut, pieces: &[Piece]) -> Result<bool, String> {
         let (before, moving) = self.by_motion().ok_or("the text's obstacles are not [[obstacle]] tables")?;
         let same = pieces.len() == before.len()
@@ -105,7 +105,7 @@ impl Document {
             return Ok(false);
         }
         let mut after = ArrayOfTables::new();
-        // Tables are written in the order of their positions. Tables without a position follow the previous one.
+        // Tables are written in the order of their positions. A table without a position follows the table before it.
         let last = before.iter().chain(&moving).filter_map(Table::position).max();
         let places: Vec<_> = before.iter().map(Table::position).collect();
         for (k, piece) in pieces.iter().enumerate() {
@@ -143,12 +143,13 @@ impl Document {
     }
 }
 
-/// Returns true if the piece has a different name from the table. An unnamed obstacle is called by its number.
+/// Returns true if the piece and the table have different names. The page calls an obstacle without a name by its
+/// number.
 fn renames(table: &Table, piece: &Piece) -> bool {
     piece.name.as_deref().is_some_and(|name| table.get("name").and_then(Item::as_str) != Some(name))
 }
 
-/// Sets a value, in the place and between the comments of the one before.
+/// Sets the value of a key. Comments around the old value are preserved.
 fn put(table: &mut Table, key: &str, item: Item) {
     match (table.get_mut(key).and_then(Item::as_value_mut), item) {
         (Some(old), Item::Value(mut new)) => {
@@ -214,9 +215,9 @@ fn written(shape: &Form) -> Value {
     }
 }
 
-/// Returns the shape of an `[[obstacle]]`, if it has exactly one that the page can change.
+/// Returns the shape of an obstacle's table. `None` unless it has exactly one shape that the page can change.
 fn form(table: &Table) -> Option<Form> {
-    // With a separate frame, its points are not world coordinates.
+    // If the obstacle has a frame of its own, its points are not world coordinates.
     if table.contains_key("at") || table.contains_key("angle") {
         return None;
     }
@@ -363,7 +364,7 @@ image = \"map.yaml\"
         assert_eq!(pair(again.toml["goal"].get("tip")), Some([1.0, 2.0]));
     }
 
-    /// The page's numbers count only static obstacles. Moving ones stay unchanged.
+    /// Checks that the numbers of the page count only static obstacles, and that moving ones stay unchanged.
     #[test]
     fn moving_obstacles_are_not_editable() {
         let cart = "[[obstacle]]\ncircle = { center = [0, 0], radius = 0.1 }\nmotion = { velocity = [0.1, 0] }\n";

@@ -8,28 +8,28 @@ use std::time::Duration;
 /// A world to open.
 #[derive(Debug, Serialize)]
 struct Choice {
-    /// Its name in the address.
+    /// Name of the world in the page's address.
     name: &'static str,
     title: &'static str,
-    /// One of [`ROBOTS`].
+    /// Name of the robot, one of [`ROBOTS`].
     robot: &'static str,
     world: &'static str,
     puzzle: Option<Puzzle>,
 }
 
-/// A puzzle in a world. The page judges it by the program's answer.
+/// A puzzle in a world. The page decides by the program's answer whether it is solved.
 #[derive(Debug, Serialize)]
 struct Puzzle {
     text: &'static str,
     verdict: &'static str,
     free: Free,
-    /// Proven lower bound on the length that a solution must reach.
+    /// A solution must have a path of this length: a proven lower bound. `None` if length does not matter.
     length: Option<f64>,
-    /// Clearance that a solution must set at least, in metres.
+    /// Least clearance that the user must set, in metres. `None` if clearance does not matter.
     clearance: Option<f64>,
 }
 
-/// The parts that the user may change.
+/// The part of the world that the user may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Free {
@@ -117,7 +117,7 @@ const CHOICES: [Choice; 14] = [
     ),
 ];
 
-/// Slightly less than the largest clearance with a path through the narrow slot, metres.
+/// A value slightly below the largest clearance with a path through the narrow slot, in metres.
 const NARROW_SLOT_CLEARANCE: f64 = 0.0341;
 
 const fn world(name: &'static str, title: &'static str, robot: &'static str, world: &'static str) -> Choice {
@@ -140,17 +140,18 @@ impl Puzzle {
     }
 }
 
-/// The gallery, for the page.
+/// The gallery, as the page reads it.
 #[derive(Debug, Serialize)]
 pub struct Gallery {
-    /// Initial files of a page with the program inside, and the time limit of a plan there, seconds.
+    /// For a page with the program inside, its initial files, and the time limit of a plan in seconds.
     alone: Option<(Files, f64)>,
     robots: BTreeMap<&'static str, &'static str>,
     choices: [Choice; 14],
 }
 
 impl Gallery {
-    /// Creates the gallery of a page with the program inside, or of one that a server serves.
+    /// Creates the gallery of a page. `alone` has files and time limit of a page with the program inside; it is `None`
+    /// for a page that a server serves.
     pub fn new(alone: Option<(Files, Duration)>) -> Self {
         let alone = alone.map(|(files, time)| (files, time.as_secs_f64()));
         Self { alone, robots: BTreeMap::from(ROBOTS), choices: CHOICES }
@@ -166,7 +167,7 @@ mod tests {
     use cplan_world::{Overrides, scene_from};
     use std::collections::BTreeSet;
 
-    /// A solution of each puzzle: a text in the world, and its replacement.
+    /// A solution of each puzzle, as replacements of parts of the world's text.
     const SOLUTIONS: [(&str, &[[&str; 2]]); 6] = [
         ("close", &[["[0.02, -0.9], [0.02, -0.12], [0.0, -0.12]", "[0.02, -0.75], [0.02, 0.03], [0.0, 0.03]"]]),
         ("round", &[["[0.7, -1.5]", "[0.7, 0.0]"]]),

@@ -2,17 +2,17 @@
 //! it.
 //!
 //! ```text
-//! page (assets) <-- messages (protocol) --> desk: text of the world -> input -> plan -> view
+//! page (assets) <-- messages (protocol) --> session: text of the world -> input -> plan -> view
 //! ```
 //!
-//! Each time, the page sends its whole state as a change of the text that it received. So any message may be dropped in
-//! favour of a newer one, and the planned world is always read from text by the same code as any file. This crate does
-//! not transport messages: `serve` does, over a socket; `StandalonePage` is for a page with the program inside.
+//! With each request, the page sends its whole state, as a change of the text that it received. So a message may be
+//! dropped if there is a newer one. The same code that reads world files reads the changed text. Messages travel over a
+//! socket (`serve`), or within a page that contains the program (`StandalonePage`).
 //!
 //! - The page handles undo. `document` changes the TOML, and keeps comments and unknown keys.
-//! - While the user drags, a desk answers without bound and motion (`result::quick_answer`), if that takes at most 60 ms,
-//!   otherwise with the C-space only (`Pace`); at the end with everything. Contours of unmoved obstacles are cached
-//!   (`contours`).
+//! - While the user drags, a session answers without bound and motion (`result::quick_answer`) if that takes at most
+//!   60 ms, and otherwise with the configuration space only (`Pace`). When the drag ends, the answer is complete.
+//!   Contours of unmoved obstacles are cached (`contours`).
 //! - Menus come from the command line's grammar (`menus`). Unchosen options are not sent, so the page has no defaults
 //!   of its own.
 //! - Errors state their subject. For a start or goal that is not free they list the IK solutions and the obstacles in

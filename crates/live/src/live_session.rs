@@ -1,4 +1,4 @@
-//! The session of one page: a text, edited by the page, and the answers to its requests.
+//! The session of one page: a text that the page edits, and the answers to the page's requests.
 
 use super::Host;
 use super::answer::{Answering, Deadlines, TimeSpent, refused, time_up};
@@ -21,16 +21,16 @@ use cplan_solver::Method;
 use cplan_world::{LoadedScene, Overrides};
 use std::sync::Arc;
 
-/// Number of bisection steps towards a place that the tip does not reach.
+/// Number of bisection steps when the tip is moved towards a place that it cannot reach.
 const REACH_BISECTIONS: usize = 24;
 
 /// A page's text, and the world that it describes.
 pub struct LiveSession {
-    /// Initial state of the program.
+    /// The program's initial state.
     own: Arc<Host>,
-    /// Initial state of the page.
+    /// The page's initial state.
     host: Arc<Host>,
-    /// Number of the text.
+    /// Number of the current text.
     base: u64,
     document: Document,
     scene: LoadedScene,
@@ -39,7 +39,7 @@ pub struct LiveSession {
 }
 
 impl LiveSession {
-    /// Creates the session of a new page, with the host's own world.
+    /// Creates the session of a new page with the host's initial world.
     #[must_use]
     pub fn new(host: Arc<Host>) -> Self {
         let (document, scene) = (host.document.clone(), host.scene.clone());
@@ -54,10 +54,10 @@ impl LiveSession {
         }
     }
 
-    /// Continues with the text that a page works on, and its number.
+    /// Continues a session with the text that a page has, and with the number of that text.
     ///
     /// # Errors
-    /// The reason, with the place.
+    /// The reason, with its position in the text.
     pub fn hold(&mut self, base: u64, text: &str) -> Result<(), String> {
         let (document, scene) = self.host.read(text)?;
         (self.base, self.document, self.scene) = (base, document, scene);
@@ -81,7 +81,8 @@ impl LiveSession {
         }
     }
 
-    /// Returns the message with the world; `begins` is true for a world that was opened, and not loaded as a text.
+    /// Returns the message with the world. `begins` is true for a world that was opened, and false for one that was
+    /// loaded as a text.
     pub fn world(&self, id: u64, begins: bool) -> Reply {
         let arm = self.scene.scene.arm();
         let names = self.scene.scene.workspace().obstacles.iter().map(|obstacle| obstacle.name.clone());
@@ -114,10 +115,10 @@ impl LiveSession {
         }))
     }
 
-    /// Starts again, with the files of the page or with the program's initial ones.
+    /// Begins again with the files that the page sent, or with the program's initial files.
     ///
     /// # Errors
-    /// The reason, with the place.
+    /// The reason, with its position in the text.
     fn open(&mut self, files: Option<&Files>, spent: TimeSpent) -> Result<(), String> {
         let own = Arc::clone(&self.own);
         let host = match files {
@@ -132,7 +133,7 @@ impl LiveSession {
         Ok(())
     }
 
-    /// Loads another text, if it is a world, and plans in it.
+    /// Replaces the world by another text, if that is a valid world, and plans in it.
     fn load(
         &mut self,
         id: u64,
@@ -141,7 +142,7 @@ impl LiveSession {
         (interrupt, spent): (&Interrupt, TimeSpent),
         send: &mut dyn FnMut(Reply),
     ) {
-        // Newer requests do not stop it, because they may refer to the text that it loads.
+        // Newer requests do not stop loading, because they may refer to the text that is loaded.
         let deadlines = Deadlines::new(&Interrupt::new(), spent, self.host.time);
         let read = deadlines.plan.run(|| self.host.read(text)).unwrap_or_else(|_| Err(time_up(self.host.time)));
         match read {
@@ -163,7 +164,7 @@ impl LiveSession {
         }
     }
 
-    /// Plans, and reports the answer; reports nothing if it was interrupted.
+    /// Plans, and sends the answer. Sends nothing if it was interrupted.
     fn plan(&self, ask: &PlanRequest, interrupt: &Interrupt, spent: TimeSpent, send: &mut dyn FnMut(Reply)) {
         let begun = Instant::now();
         let id = ask.id;
@@ -177,8 +178,8 @@ impl LiveSession {
         }
     }
 
-    /// Returns the answer, unless it was interrupted. Reports the configuration space before it searches a path, which
-    /// can take long.
+    /// Returns the answer, unless it was interrupted. Since the search for a path can take long, sends the
+    /// configuration space before it.
     fn answer(
         &self,
         ask: &PlanRequest,
@@ -221,7 +222,7 @@ impl LiveSession {
         }
     }
 
-    /// Returns the result as a file: its name and content.
+    /// Returns the result as a file: name and content.
     ///
     /// # Errors
     /// The reason, for display.
@@ -268,8 +269,8 @@ impl LiveSession {
     }
 }
 
-/// Returns the IK solution within the limits for a place of the tip that is nearest to some configuration. If the tip
-/// cannot reach the place, it moves as far as it can on the straight line from its present place.
+/// Returns an IK solution within the limits that puts the tip at a place, the one nearest to `near`. If the tip cannot
+/// reach the place, it moves towards it on a straight line from its current place, as far as it can.
 fn follow(arm: &Arm, tip: Point, near: Configuration) -> Configuration {
     let reached = |tip: Point| nearest_ik_solution(arm, tip, near);
     if let Some(q) = reached(tip) {

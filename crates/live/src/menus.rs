@@ -1,7 +1,7 @@
 //! The page's menus: the options of each planner, and their values.
 //!
-//! Names, values and defaults are those of the command line's grammar. A default is not sent, so the page cannot have
-//! other defaults than the program.
+//! Names, values and defaults come from the command line's grammar. The page does not send defaults, so they cannot
+//! differ from those of the program.
 
 use super::options::Options;
 use super::protocol::{OptionReply, PlannerReply};
@@ -12,16 +12,16 @@ use cplan_options::Named;
 use cplan_roadmaps::Prm;
 use cplan_solver::{DEFAULT_CELLS, GridSpace, Method, Planner, Setting};
 
-/// An option with its own menu. The user can type all others.
+/// An option with its own menu. The user types all other options.
 struct Choice {
     name: &'static str,
     label: &'static str,
-    /// Values and labels to choose from, for an option that takes any number. If empty, the values that the grammar
-    /// lists.
+    /// Values and labels of the menu, for an option that takes any number. If empty, the menu has the values that the
+    /// grammar lists.
     numbers: &'static [(&'static str, &'static str)],
-    /// Returns the default, if the grammar does not state it.
+    /// Returns the default of the option for a planner. `None` if the grammar states it.
     standard: fn(Method) -> Option<String>,
-    /// Returns true if the planner uses the option. A planner may accept an option and ignore it.
+    /// Returns true if the planner uses the option. A planner may accept an option that it ignores.
     is_for: fn(Method) -> bool,
 }
 
@@ -80,7 +80,7 @@ const CHOICES: [Choice; 8] = [
     },
 ];
 
-/// Returns the default of `--cells`. Cells of fields are square in joint space unless their number is given.
+/// Returns the default of `--cells`. By default, the cells of fields are square in joint space.
 fn cells(planner: Method) -> Option<String> {
     Some(match Planner::named(planner).cells() {
         Some(cells) => cells.to_string(),
@@ -92,14 +92,14 @@ fn word(value: impl Named) -> Option<String> {
     Some(value.word().to_owned())
 }
 
-/// Returns every planner with its menus.
+/// Returns all planners with their menus.
 pub fn planners() -> Vec<PlannerReply> {
     let grammar = Options::grammar();
     let menus = |planner: Method| CHOICES.iter().filter_map(|choice| menu(&grammar, planner, choice)).collect();
     Method::ALL.into_iter().map(|planner| PlannerReply { name: planner.name(), options: menus(planner) }).collect()
 }
 
-/// Returns the menu of an option with the values that the planner accepts; `None` if it accepts no value.
+/// Returns the menu of an option with the values that the planner accepts. `None` if it accepts none.
 fn menu(grammar: &Command, planner: Method, choice: &Choice) -> Option<OptionReply> {
     let argument = grammar.get_arguments().find(|argument| argument.get_long() == Some(choice.name))?;
     let name = format!("--{}", choice.name);

@@ -1,11 +1,12 @@
-//! Planner and options of the page, in the grammar of the command line.
+//! Parses planner and options of the page by the grammar of the command line.
 
 use clap::{Command, CommandFactory, Parser};
 use cplan_core::model::Scene;
 use cplan_options::{MotionArgs, PlannerArgs, word};
 use cplan_solver::Method;
 
-/// Shortest period of a trajectory that a page may request, in seconds, because it is drawn and sent to a browser.
+/// Shortest time between samples that a page may request, in seconds. The trajectory is drawn and sent to a browser, so
+/// it must not have too many samples.
 const MIN_PERIOD: f64 = 1e-3;
 
 /// A planner and its options.
@@ -38,7 +39,7 @@ impl Options {
     pub fn parse(text: &str) -> Result<Self, String> {
         let grammar = Grammar::try_parse_from(text.split_whitespace()).map_err(|error| {
             let text = error.to_string();
-            // The error without the usage, which describes a command line.
+            // The usage in the error describes a command line, so it is removed.
             let lines: Vec<&str> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
             let line = lines.join(" ");
             line.strip_prefix("error: ").unwrap_or(&line).to_owned()
@@ -61,7 +62,7 @@ impl Options {
     /// Returns the options for planning in a scene.
     ///
     /// # Errors
-    /// The field needs preferences, and the world has none.
+    /// A field that needs preferences, in a world that has none.
     pub fn within(&self, scene: &Scene) -> Result<&cplan_solver::Options, String> {
         self.options.planner.lack(&scene.workspace().preferences).map_or(Ok(&self.options), Err)
     }

@@ -1,20 +1,19 @@
-//! Decides if plans keep up with the page.
+//! Decides whether plans keep up with the page while the user drags something.
 
 use cplan_interrupt::Interrupted;
 use std::cell::Cell;
 
-/// Number of intermediate places without a plan, after a plan that was not finished in time.
+/// Number of positions without a plan after a plan that took too long.
 const SKIPPED_PLANS: u32 = 7;
 
-/// A record of whether plans keep up with the object being dragged. Plans that do not would only delay the rest of the
-/// page.
+/// Records whether plans keep up with the drag. A plan that does not would only delay the rest of the page.
 #[derive(Default)]
 pub struct Pace {
     untried: Cell<u32>,
 }
 
 impl Pace {
-    /// Plans, unless the last plan took too long.
+    /// Runs `plan`, unless a recent plan took too long. Returns `None` if it does not run it.
     pub fn tries<T>(&self, plan: impl FnOnce() -> Result<T, Interrupted>) -> Option<Result<T, Interrupted>> {
         if self.untried.get() > 0 {
             self.untried.update(|left| left - 1);

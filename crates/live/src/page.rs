@@ -1,4 +1,4 @@
-//! The page.
+//! Assembles the page from its scripts and styles.
 
 use super::Files;
 use super::gallery::Gallery;
@@ -19,18 +19,19 @@ const SCRIPTS: [&str; 9] = [
     include_str!("assets/live.js"),
 ];
 
-/// Content policy of a page with the program inside: it may run the program in a worker, and load nothing.
+/// Content security policy of a page with the program inside. The page may run the program in a worker, but load
+/// nothing.
 const CONTENT_POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; \
                       img-src blob: data:; base-uri 'none'; form-action 'none'";
 
-/// Returns the page with its scripts and styles in one document, for a browser that connects to a server.
+/// Returns the page with its scripts and styles as one document. In the browser, it connects to a server.
 #[must_use]
 pub fn page() -> String {
     live("", &data(&Gallery::new(None)))
 }
 
-/// Returns the page with the program inside as WebAssembly packed by gzip: one file, which needs no server and loads
-/// nothing. `time` limits a plan.
+/// Returns the page with the program inside, as WebAssembly packed by gzip. The page is one file that needs no server
+/// and loads nothing. `time` limits a plan.
 #[must_use]
 pub fn standalone_page(files: Files, time: Duration, program: &[u8]) -> String {
     let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{CONTENT_POLICY}\">\n");
@@ -39,7 +40,7 @@ pub fn standalone_page(files: Files, time: Duration, program: &[u8]) -> String {
     live(&policy, &(data(&Gallery::new(Some((files, time)))) + &worker + &program))
 }
 
-/// Returns the data for the page as JSON. Within a script only the less-than sign could end it.
+/// Returns the page's data as JSON. Within a script, only a less-than sign could end it, so it is escaped.
 fn data(gallery: &Gallery) -> String {
     let json = serde_json::to_string(gallery).unwrap_or_default().replace('<', "\\u003c");
     element("gallery", "application/json", &json)

@@ -3,40 +3,40 @@
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
-/// Most obstacles in the page's state.
+/// Largest number of obstacles in the page's state.
 pub const MAX_OBSTACLES: usize = 1000;
 
-/// Most corners of all obstacles in the page's state.
+/// Largest number of corners of all obstacles in the page's state.
 pub const MAX_CORNERS: usize = 20_000;
 
-/// A point of the plane, metres, or joint values.
+/// Coordinates of a point of the plane in metres, or joint values.
 pub type Pair = [f64; 2];
 
 /// A request of the page.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Request {
-    /// Load these files, or the program's initial ones. The page receives the world.
+    /// Opens these files, or the program's initial ones. The program replies with the world.
     Open {
-        /// Number of the request.
+        /// Number of the request, which its answers repeat.
         id: u64,
         /// The files; `None` for those of the program.
         files: Option<Files>,
     },
-    /// Plan in the world that the page shows.
+    /// Plans in the world that the page shows.
     Plan(PlanRequest),
-    /// Take another text for the world, and plan in it.
+    /// Replaces the world by another text, and plans in it.
     Load {
-        /// Number of the request; answers name it.
+        /// Number of the request, which its answers repeat.
         id: u64,
         /// The world file's text.
         text: String,
         /// Options, as in [`PlanRequest`].
         options: String,
     },
-    /// Plan, and send the result as a file.
+    /// Plans, and returns the result as a file.
     Download {
-        /// The plan.
+        /// The request for the plan.
         ask: PlanRequest,
         /// The file format: `toml`, `json`, `csv`, `yaml`, `svg`, ...
         format: String,
@@ -57,9 +57,9 @@ impl Request {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Files {
-    /// The arm.
+    /// The text of the URDF.
     pub urdf: String,
-    /// The world.
+    /// The text of the world file.
     pub world: String,
     /// Planner and options.
     pub options: String,
@@ -69,18 +69,18 @@ pub struct Files {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlanRequest {
-    /// Number of the request; answers name it.
+    /// Number of the request, which its answers repeat.
     pub id: u64,
-    /// The text of the world that `state` is a change of; see [`Reply::World`].
+    /// Number of the world's text that `state` changes; see [`Reply::World`].
     pub base: u64,
-    /// True if the user stops here, so that the answer must be complete; false for an intermediate position.
+    /// True for a final position, which needs a complete answer. False for a position during a drag.
     #[serde(rename = "final")]
     pub is_final: bool,
-    /// The state of the page; `None` for the unchanged text.
+    /// The state of the page. `None` if the text is unchanged.
     pub state: Option<State>,
     /// Planner and options, as on the command line: `visibility --gap 0.001`.
     pub options: String,
-    /// True if a final answer must include how the planner found it.
+    /// True if a final answer must include the replay of the planner's search.
     #[serde(default)]
     pub think: bool,
 }
@@ -89,13 +89,13 @@ pub struct PlanRequest {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
-    /// All obstacles in order. Obstacles of the text that are missing here are deleted.
+    /// All obstacles in order. Obstacles of the text that are not listed are deleted.
     pub obstacles: Vec<Piece>,
     /// Start of the arm.
     pub start: Option<Begin>,
     /// Goal of the arm.
     pub goal: Option<End>,
-    /// Least distance to keep, metres.
+    /// Least distance to keep from obstacles, in metres.
     pub clearance: f64,
 }
 
@@ -103,11 +103,11 @@ pub struct State {
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
-    /// Index of the obstacle in the text, from 0; `None` for a new one.
+    /// Index of the obstacle in the text, from 0. `None` for a new obstacle.
     pub from: Option<usize>,
-    /// Its name, if it has one.
+    /// Name of the obstacle. `None` if it has none.
     pub name: Option<String>,
-    /// Its shape; `None` for an unchanged one.
+    /// Shape of the obstacle. `None` if it is unchanged.
     #[serde(flatten)]
     pub shape: Option<Form>,
 }
@@ -116,21 +116,21 @@ pub struct Piece {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Form {
-    /// Corners in order round it.
+    /// A polygon by its corners, in order round it.
     Polygon(Vec<Pair>),
-    /// A disc, by its centre and radius.
+    /// A disc.
     Circle {
-        /// Its centre.
+        /// Centre of the disc.
         center: Pair,
-        /// Its radius, metres.
+        /// Radius of the disc, in metres.
         radius: f64,
     },
-    /// A wall without thickness.
+    /// A wall without thickness, by its points.
     Polyline(Vec<Pair>),
 }
 
 impl Form {
-    /// Returns the number of its corners; a disc counts as one.
+    /// Returns the number of corners. A disc counts as one corner.
     pub fn corners(&self) -> usize {
         match self {
             Self::Polygon(corners) | Self::Polyline(corners) => corners.len(),
@@ -145,14 +145,14 @@ impl Form {
 pub enum Begin {
     /// Joint values.
     Joints {
-        /// Base to tip.
+        /// Values of both joints, base to tip.
         joints: Pair,
     },
-    /// A tip position, with the IK solution nearest to some configuration.
+    /// A place of the tip, reached by the IK solution nearest to a configuration.
     Tip {
-        /// Place of the tip.
+        /// Coordinates of the tip.
         tip: Pair,
-        /// Joint values to be near to.
+        /// The configuration to which the solution is nearest.
         near: Pair,
     },
 }
@@ -163,7 +163,7 @@ pub enum Begin {
 pub enum End {
     /// Joint values.
     Joints(Pair),
-    /// A tip position, with any IK solution.
+    /// A place of the tip, reached by any IK solution.
     Tip(Pair),
 }
 
@@ -171,13 +171,13 @@ pub enum End {
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Reply {
-    /// The initial world, or one that was loaded: its editable parts, and their context.
+    /// A world that was opened or loaded: its editable parts, and the data that the page needs with them.
     World(Box<WorldReply>),
     /// The result of a plan.
     Answer(Box<AnswerReply>),
-    /// The request is invalid, or failed. The page keeps its state.
+    /// The request is invalid or has failed. The page keeps its state.
     Failed {
-        /// The number of the request that this answers.
+        /// Number of the request.
         id: u64,
         /// The reason, for display.
         error: String,
@@ -189,13 +189,13 @@ pub enum Reply {
 pub enum Message {
     /// A [`Reply`].
     Text(String),
-    /// A file: the length of its head, four bytes; the head; the content.
+    /// A file. The first four bytes are the length of its head, then follow the head and the content.
     Binary(Vec<u8>),
 }
 
 impl From<&Reply> for Message {
     fn from(reply: &Reply) -> Self {
-        // Replies consist of strings, numbers and lists, so JSON can represent them.
+        // Serialisation cannot fail, because replies consist of strings, numbers and lists.
         Self::Text(serde_json::to_string(reply).unwrap_or_default())
     }
 }
@@ -212,13 +212,13 @@ impl Message {
 /// A world as the page draws and edits it.
 #[derive(Debug, Serialize)]
 pub struct WorldReply {
-    /// The request that opened or loaded it.
+    /// Number of the request that opened or loaded the world.
     pub id: u64,
-    /// Number of the text: states are changes of one text.
+    /// Number of the text. A page's state is a change of the text with this number.
     pub base: u64,
     /// The title above the picture.
     pub name: String,
-    /// The robot, and the kind of its joints: `RR`.
+    /// The robot's name, and the types of its joints, such as `RR`.
     pub robot: String,
     /// Obstacles of the text, in order.
     pub obstacles: Vec<PieceReply>,
@@ -226,22 +226,22 @@ pub struct WorldReply {
     pub start: Option<Pair>,
     /// Goal of the arm.
     pub goal: Option<End>,
-    /// Least distance to keep, metres.
+    /// Least distance to keep from obstacles, in metres.
     pub clearance: f64,
-    /// True for a task, which the page shows and does not change.
+    /// True if the world has a task. The page shows the task but cannot change it.
     pub has_steps: bool,
     /// The joints, base to tip.
     pub joints: [JointReply; 2],
-    /// Length of the stretched arm, metres.
+    /// Distance of the tip from the base when the arm is stretched, in metres.
     pub reach: f64,
-    /// Planners to choose from.
+    /// Names of the planners.
     pub planners: Vec<&'static str>,
     /// The options of each planner, for the page's menus.
     pub menus: Vec<PlannerReply>,
-    /// Initial planner and options; `None` with a world that was loaded.
+    /// Initial planner and options. `None` for a world that was loaded as a text.
     pub options: Option<String>,
-    /// The arm, for a link that contains it with the world; `None` with a world that was loaded, and if either names
-    /// other files.
+    /// The text of the URDF, for links that contain arm and world. `None` for a world that was loaded as a text, and if
+    /// arm or world name other files.
     pub urdf: Option<String>,
     /// The current text of the world file.
     pub toml: String,
@@ -250,31 +250,31 @@ pub struct WorldReply {
 /// The menus of a planner.
 #[derive(Debug, Serialize)]
 pub struct PlannerReply {
-    /// Its name on the command line.
+    /// Name of the planner on the command line.
     pub name: &'static str,
-    /// Options that it takes, in the order of their menus.
+    /// Options with menus, in the order of the menus.
     pub options: Vec<OptionReply>,
 }
 
-/// An option with the values that a menu offers.
+/// An option with the values of its menu.
 #[derive(Debug, Serialize)]
 pub struct OptionReply {
-    /// Name on the command line: `--cells`.
+    /// Name of the option on the command line, such as `--cells`.
     pub name: String,
-    /// Label.
+    /// Label of the menu.
     pub label: &'static str,
     /// Description of the default.
     pub standard: String,
-    /// Values to choose from, each with its label.
+    /// Values of the menu, each with its label.
     pub values: Vec<[String; 2]>,
 }
 
-/// An obstacle of a world.
+/// An obstacle of a world, as the page reads it.
 #[derive(Debug, Serialize)]
 pub struct PieceReply {
     /// The obstacle's name in the world file.
     pub name: String,
-    /// Its shape; `None` for one that the page cannot change, such as a map.
+    /// Shape of the obstacle. `None` if the page cannot change it, as for a map.
     #[serde(flatten)]
     pub shape: Option<Form>,
 }
@@ -282,31 +282,32 @@ pub struct PieceReply {
 /// A joint with its unit and limits.
 #[derive(Debug, Serialize)]
 pub struct JointReply {
-    /// Name in the URDF.
+    /// Name of the joint in the URDF.
     pub name: String,
-    /// `rad` or `m`.
+    /// Unit of the joint's values: `rad` or `m`.
     pub unit: &'static str,
-    /// Least and greatest value; `None` for a continuous joint.
+    /// Least and greatest value. `None` for a continuous joint.
     pub limits: Option<Pair>,
 }
 
 /// The result of a plan.
 #[derive(Debug, Default, Serialize)]
 pub struct AnswerReply {
-    /// The number of the request that this answers.
+    /// Number of the request.
     pub id: u64,
     /// True if a complete answer was requested.
     #[serde(rename = "final")]
     pub is_final: bool,
     /// True if this is the last answer to the request.
     pub done: bool,
-    /// Description of the defect of the world, start or goal, without references to files; then there is no verdict.
+    /// Description of a defect of options, world, start or goal that does not refer to files. `None` if there is none;
+    /// with a defect there is no verdict.
     pub error: Option<String>,
     /// Subject of the error.
     pub about: Option<ErrorSubject>,
     /// Configurations of the start or the goal that are not free.
     pub blocked: Vec<BlockedReply>,
-    /// `found`, `infeasible` or `unknown`; `None` with an error, and if the plan is not finished.
+    /// `found`, `infeasible` or `unknown`. `None` if there is an error, or the plan is not finished.
     pub verdict: Option<&'static str>,
     /// True if the whole motion is proven free.
     pub certified: bool,
@@ -314,23 +315,23 @@ pub struct AnswerReply {
     pub reason: Option<String>,
     /// Figures of the plan.
     pub figures: Figures,
-    /// The start, whose joint values the page may not know.
+    /// The start. The page may not know its joint values.
     pub start: Option<Pair>,
-    /// Configurations that fulfil the goal.
+    /// Configurations that reach the goal.
     pub goals: Vec<Pair>,
-    /// The world as text, in final answers.
+    /// The text of the world. `None` if the answer is not final.
     pub toml: Option<String>,
-    /// The drawing; `None` without a scene.
+    /// The view of the plan as JSON. `None` if there is no scene.
     pub view: Option<Box<RawValue>>,
 }
 
-/// Subject of an error.
+/// The subject of an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ErrorSubject {
     /// Planner and options.
     Options,
-    /// Obstacles and everything else in the world.
+    /// Obstacles, or other parts of the world.
     World,
     /// The start.
     Start,
@@ -341,20 +342,20 @@ pub enum ErrorSubject {
 /// A configuration that is not free.
 #[derive(Debug, PartialEq, Serialize)]
 pub struct BlockedReply {
-    /// The joint values, in which it is not free.
+    /// Values of both joints.
     pub at: Pair,
-    /// Obstacles in contact, deepest first; empty if the configuration is outside the joint limits.
+    /// Obstacles in contact, the deepest first. Empty if the configuration is outside the joint limits.
     pub hits: Vec<HitReply>,
 }
 
-/// A link and an obstacle that meet, or are nearer than the clearance.
+/// A link and an obstacle that touch, overlap, or are nearer than the clearance.
 #[derive(Debug, PartialEq, Serialize)]
 pub struct HitReply {
-    /// The link: 0 or 1.
+    /// Index of the link: 0 or 1.
     pub link: usize,
-    /// The obstacle, as the world counts them.
+    /// Index of the obstacle in the world.
     pub obstacle: usize,
-    /// Distance, metres; negative if they overlap.
+    /// Distance in metres; negative if they overlap.
     pub distance: f64,
 }
 
@@ -365,20 +366,21 @@ pub struct Figures {
     pub length: Option<f64>,
     /// Proven lower bound on the length of every path.
     pub lower_bound: Option<f64>,
-    /// Proven distance of the motion from all obstacles, metres; `None` if no obstacle is within reach.
+    /// Proven lower bound on the distance of the motion from all obstacles, in metres. `None` if no obstacle is within
+    /// reach.
     pub clearance: Option<f64>,
-    /// The nearest obstacle.
+    /// Name of the nearest obstacle.
     pub closest: Option<String>,
     /// Duration of the motion, seconds.
     pub duration: Option<f64>,
-    /// Size of the planner's data, in words.
+    /// Size of the planner's data structures, in words.
     pub size: Option<String>,
-    /// Time that it took to answer, milliseconds.
+    /// Time that the answer took, in milliseconds.
     pub milliseconds: f64,
 }
 
 impl Figures {
-    /// Creates facts with only a size.
+    /// Creates figures with a size and nothing else.
     pub fn of_size(size: impl ToString) -> Self {
         Self { size: Some(size.to_string()), ..Self::default() }
     }

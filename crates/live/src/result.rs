@@ -1,4 +1,4 @@
-//! Plans as answers to a page.
+//! Converts plans to answers for a page.
 
 use super::contours::Contours;
 use super::protocol::{AnswerReply, Figures};
@@ -13,7 +13,7 @@ use cplan_view::output::{replayed, view_with};
 use cplan_view::{Picture, View};
 use serde_json::value::RawValue;
 
-/// Returns a scene with its configuration space but without a path, and the reason in a word or two.
+/// Returns the answer for a scene without a path: its configuration space, and the reason in a word or two.
 pub fn without_path(
     scene: TimedScene,
     ends: (Configuration, &[Segment]),
@@ -26,7 +26,7 @@ pub fn without_path(
     AnswerReply { view: drawn(&View::of_picture(&picture)), ..AnswerReply::default() }
 }
 
-/// Returns an answer for display during a drag: a certified path, without its bound and its motion.
+/// Returns an answer for display during a drag. Its path is certified, but it has neither a bound nor a motion.
 ///
 /// # Errors
 /// The reason, if the requested trajectory cannot be made.
@@ -64,13 +64,13 @@ fn picture<'a>(
     Picture { title, goals, c_obstacles, ..Picture::new(scene, start) }
 }
 
-/// Describes the arm in one line. The page keeps the same number of lines during a drag.
+/// Describes the arm in one line. During a drag, the page always has the same number of lines.
 fn arm_of(scene: &Scene) -> String {
     let [first, second] = scene.arm().joints.each_ref().map(|joint| joint.name.as_str());
     format!("{} arm, joints {first} and {second}", scene.arm().kind())
 }
 
-/// Returns the verdict in the page's words.
+/// Returns an answer with this verdict, in the words of the page.
 fn judged(status: Status) -> AnswerReply {
     AnswerReply { verdict: Some(status.name()), certified: status == Status::Found, ..AnswerReply::default() }
 }
@@ -79,7 +79,7 @@ fn drawn(view: &View) -> Option<Box<RawValue>> {
     RawValue::from_string(view.json()).ok()
 }
 
-/// Returns a complete answer, on request with how the planner found it.
+/// Returns a complete answer. On request, it includes the replay of the planner's search.
 ///
 /// # Errors
 /// The reason, if the requested trajectory cannot be made.

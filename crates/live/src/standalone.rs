@@ -1,4 +1,4 @@
-//! The live page with the program inside: no server, threads or files, and work cannot be interrupted.
+//! The live page with the program inside. It has no server, threads or files, and its work cannot be interrupted.
 
 use super::{Files, Host, LiveSession, Message, Reply, Request, TimeSpent};
 use cplan_interrupt::Interrupt;
@@ -6,21 +6,21 @@ use serde::Deserialize;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// A message from such a page.
+/// A message from a page with the program inside.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
 enum Order {
-    /// Load these files. The page receives the world.
+    /// Opens these files. The program replies with the world.
     Open {
-        /// Number of the request.
+        /// Number of the request, which its answers repeat.
         id: u64,
         files: Files,
-        /// Time that a plan may take.
+        /// Time limit of a plan, in seconds.
         seconds: f64,
-        /// The state that the page already has, in which case it receives nothing.
+        /// The text that the page already has. Then the program does not reply.
         held: Option<NumberedText>,
     },
-    /// Handle a request of the ordinary protocol.
+    /// Handles a request of the protocol.
     Take {
         request: Request,
         #[serde(default)]
@@ -28,7 +28,7 @@ enum Order {
     },
 }
 
-/// A text and its number.
+/// A text of a world, with its number.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct NumberedText {
@@ -36,7 +36,7 @@ struct NumberedText {
     text: String,
 }
 
-/// The program of one page.
+/// The program inside one page.
 #[derive(Default)]
 pub struct StandalonePage {
     desk: Option<LiveSession>,
@@ -66,7 +66,7 @@ impl StandalonePage {
     }
 }
 
-/// Creates a desk with its own world.
+/// Creates a session with its own initial world.
 ///
 /// # Errors
 /// The defects of the files.
@@ -86,7 +86,7 @@ mod tests {
     const URDF: &str = include_str!("../../../robots/planar_2r.urdf");
     const WORLD: &str = include_str!("../../../workspaces/shelf.toml");
 
-    /// Returns the messages as JSON.
+    /// Returns the messages that an order produces, as JSON.
     fn replies_to(alone: &mut StandalonePage, order: &Value) -> Vec<Value> {
         let mut replies = Vec::new();
         alone.take(&order.to_string(), &mut |message| match message {

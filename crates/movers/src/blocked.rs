@@ -10,27 +10,29 @@ use cplan_handling::{Leg, TimedScene};
 use cplan_interrupt::checkpoint;
 use std::cell::OnceCell;
 
-/// Shapes are enlarged by this share of the lengths involved: far more than rounding, but too little to matter.
+/// Shapes are enlarged by this fraction of the lengths involved. It is far more than rounding, but too little to
+/// matter.
 const SHAPE_ENLARGEMENT: f64 = 1e-9;
 
-/// Step of following obstacles that turn. In one step they move by at most this share of the lengths involved, or a
-/// quarter of the motion of the arm's part. Contact may seem to begin too early and to end too late by that much.
+/// Limit of the motion of a turning obstacle in one step of the computation, as a fraction of the lengths involved. A
+/// step may also be as long as a quarter of the motion of the arm's part. A contact may seem to begin too early, and to
+/// end too late, by one step.
 const TURN_STEP: f64 = 1e-3;
 
-/// A posture without deviation.
+/// The deviation of a posture that is a single configuration.
 pub const NO_DEVIATION: Deviation = Deviation::Box([0.0; 2]);
 
 /// The moving obstacles of a scene, prepared for computing times of contact.
 pub struct MovingObstacles<'a> {
     scene: &'a Scene,
     clearance: f64,
-    /// One entry for each mover, each of its pieces, and each of its legs.
+    /// One entry for each moving obstacle, each of its pieces, and each leg of its trajectory.
     stretches: Vec<Stretch>,
-    /// All meetings that are possible.
+    /// All pairs of a part of the arm and a piece of an obstacle that can meet.
     meetings: Vec<Meeting>,
 }
 
-/// A part of the arm, and a piece of a mover on one leg of its course, within an interval of time.
+/// A part of the arm, and a piece of a moving obstacle on one leg of its trajectory, within an interval of time.
 #[derive(Debug, Clone, Copy)]
 pub struct Meeting {
     pair: Pair,
@@ -47,23 +49,23 @@ impl Meeting {
     }
 }
 
-/// A part of the arm at a posture, and its possible deviation from there. All pairs with this part share it.
+/// A part of the arm at a posture, and how far it may deviate from there. All pairs with this part share it.
 pub struct PartDeviation<'a> {
     pair: Pair,
-    /// The part in its own frame, ...
+    /// The part in its own frame.
     part: &'a Convex,
-    /// ... the pose of that frame, ...
+    /// The pose of the part's frame.
     pose: Pose,
-    /// ... and the placed part with its size, computed when first needed.
+    /// The part at its pose, with its size. Computed when first needed.
     placed: OnceCell<(Convex, f64)>,
     /// A disc that contains the part.
     disc: (Point, f64),
-    /// Largest motion of a point of the part, metres.
+    /// Upper bound on the deviation of a point of the part, in metres.
     moves: f64,
 }
 
 impl<'a> PartDeviation<'a> {
-    /// Returns the entry for a meeting's part. Reuses the `known` one if it is for the same part.
+    /// Returns the entry for the part of a meeting. Reuses `known` if it is for the same part.
     pub fn of<'k>(
         known: &'k mut Option<Self>,
         movers: &MovingObstacles<'a>,
@@ -79,7 +81,7 @@ impl<'a> PartDeviation<'a> {
         known.as_ref().expect("just made")
     }
 
-    /// Returns the largest motion of a point of the part, metres.
+    /// Returns an upper bound on the deviation of a point of the part, in metres.
     pub fn max_motion(&self) -> f64 {
         self.moves
     }
@@ -93,20 +95,20 @@ impl<'a> PartDeviation<'a> {
     }
 }
 
-/// A piece of a mover along a leg of its course.
+/// A piece of a moving obstacle along one leg of its trajectory.
 struct Stretch {
     leg: Leg,
-    /// The piece in its own frame, with a disc around it.
+    /// The piece in its own frame, and a disc around it.
     own: Convex,
     own_disc: (Point, f64),
-    /// The piece where the leg begins, ...
+    /// The piece at the beginning of the leg.
     piece: Convex,
-    /// ... its extent, and a disc around it there.
+    /// Largest distance of a point of the piece from the origin, and the disc around it, at the beginning of the leg.
     reach: f64,
     disc: (Point, f64),
-    /// For a piece that slides without turning: its direction and speed.
+    /// Direction and speed of the piece. `None` if it turns.
     slide: Option<(Vector, f64)>,
-    /// Largest speed of a point of the piece, metres per second.
+    /// Largest speed of a point of the piece, in metres per second.
     speed: f64,
 }
 
@@ -126,7 +128,7 @@ impl Stretch {
         }
     }
 
-    /// Returns true if the piece stays farther from a disc than a distance during an interval of time.
+    /// Returns true if the piece stays farther than `distance` from a disc during an interval of time.
     fn is_beyond(&self, (point, radius): (Point, f64), distance: f64, [from, to]: Interval) -> bool {
         let far =
             |between: f64, own: f64| distance + radius + own + SHAPE_ENLARGEMENT * (distance + radius + own + between);
@@ -149,7 +151,7 @@ impl Stretch {
         }
     }
 
-    /// Returns the distance from a part of the arm at a time, or `None` if it exceeds `most`.
+    /// Returns the distance of the piece from a part of the arm at a time. `None` if it exceeds `most`.
     fn distance(&self, around: &PartDeviation, time: f64, most: f64) -> Option<f64> {
         let pose = self.leg.pose(time);
         let ((at, extent), (center, radius)) = (around.disc, self.own_disc);
@@ -159,15 +161,15 @@ impl Stretch {
         distance.filter(|distance| *distance <= most)
     }
 
-    /// Finds times at which a turning piece is, or may be, no farther from a part than `grow`. The result is a
-    /// superset, in steps in which the piece moves by at most `step`.
+    /// Finds the times at which the distance of a turning piece from a part is, or may be, at most `grow`. The result
+    /// is a superset, computed in steps in which the piece moves by at most `step`.
     fn turning(&self, around: &PartDeviation, within: Interval, [grow, step]: [f64; 2], out: &mut Vec<Interval>) {
         let mut open = vec![within];
         while let Some([from, to]) = open.pop() {
             checkpoint();
             let (middle, drifts) = (f64::midpoint(from, to), self.speed * (to - from) / 2.0);
             let Some(distance) = self.distance(around, middle, grow + drifts) else { continue };
-            // Near all the time, or the interval is too short to decide.
+            // The piece is near during the whole interval, or the interval is too short to decide.
             if distance + drifts <= grow || drifts <= step {
                 out.push([from, to]);
             } else {
@@ -176,8 +178,8 @@ impl Stretch {
         }
     }
 
-    /// Finds times at which both overlap by more than `deeper`. The result is a subset, whose ends are accurate to
-    /// `shortest` seconds.
+    /// Finds the times at which the piece overlaps a part by more than `deeper`. The result is a subset. Its ends are
+    /// accurate to `shortest` seconds.
     fn deep(&self, around: &PartDeviation, within: Interval, [deeper, shortest]: [f64; 2], out: &mut Vec<Interval>) {
         let mut open = vec![within];
         while let Some([from, to]) = open.pop() {
@@ -192,9 +194,9 @@ impl Stretch {
         }
     }
 
-    /// Finds these times for a piece that slides. The depth is a concave function of time, because the distance to a
-    /// convex set is a convex function of the place. At `ends` the depth is `round`, the sum of both radii. So where
-    /// the chord from an end to a deeper time is deep enough, the depth is as well.
+    /// Finds the same times for a piece that slides without turning. The distance to a convex set is a convex function
+    /// of the place, so the depth is a concave function of time. At both `ends`, the depth is `round`, the sum of both
+    /// radii. So if a chord from an end to a deeper time is deep enough, the depth is as well.
     fn deep_in_passing(
         &self,
         around: &PartDeviation,
@@ -221,7 +223,7 @@ impl Stretch {
 }
 
 impl<'a> MovingObstacles<'a> {
-    /// Prepares the movers of a scene, from which this clearance must be kept, metres.
+    /// Prepares the moving obstacles of a scene. `clearance` is the distance to keep from them, in metres.
     #[must_use]
     pub fn new(timed: TimedScene<'a>, clearance: f64) -> Self {
         let TimedScene { scene, courses } = timed;
@@ -255,16 +257,17 @@ impl<'a> MovingObstacles<'a> {
         self.scene
     }
 
-    /// All that can meet, at all times.
+    /// Returns all pairs that can meet, at all times.
     pub(crate) fn meetings(&self) -> &[Meeting] {
         &self.meetings
     }
 
-    /// Finds the times of a meeting at which the part, for any deviation, is or may be nearer than the clearance. The
-    /// result is a superset, in no order. Returns true if there are any.
+    /// Finds the times of a meeting at which the part, at any of its deviations, is or may be nearer to the obstacle
+    /// than the clearance. The result is a superset, in no order. Returns true if there are any such times.
     ///
-    /// A shape that slides past another one, grown by how far the arm's part moves, meets it for one interval of time, in closed form
-    /// ([`sliding`]); where it turns, time is halved.
+    /// A shape that slides past another one meets it during a single interval of time, which has a closed form
+    /// ([`sliding`]); the other shape is grown by the deviation of the arm's part. If the shape turns, the time is
+    /// halved repeatedly.
     pub(crate) fn near(&self, around: &PartDeviation, meeting: Meeting, out: &mut Vec<Interval>) -> bool {
         let (stretch, before) = (&self.stretches[meeting.stretch], out.len());
         let Stretch { leg, piece, slide, .. } = stretch;
@@ -276,7 +279,7 @@ impl<'a> MovingObstacles<'a> {
         let scale = reach + stretch.reach;
         let grow = around.moves + self.clearance + SHAPE_ENLARGEMENT * scale;
         match slide {
-            // Relative to the obstacle, the part slides backwards.
+            // Seen from the obstacle, the part slides backwards.
             Some((direction, speed)) => {
                 let met = sliding(part, -direction, piece, grow);
                 let met = met.map(|[first, last]| {
@@ -293,10 +296,10 @@ impl<'a> MovingObstacles<'a> {
         out.len() > before
     }
 
-    /// Finds times of a meeting at which the part, grown by the clearance, overlaps the obstacle for every deviation.
-    /// The result is a subset, in no order, whose ends are accurate to `shortest` seconds.
+    /// Finds the times of a meeting at which the part, grown by the clearance, overlaps the obstacle at every
+    /// deviation. The result is a subset, in no order. Its ends are accurate to `shortest` seconds.
     ///
-    /// The part is to be deeper than it moves.
+    /// The overlap must be deeper than the deviation of the part.
     pub(crate) fn met(&self, around: &PartDeviation, meeting: Meeting, shortest: f64, out: &mut Vec<Interval>) {
         let stretch = &self.stretches[meeting.stretch];
         let Stretch { leg, piece, slide, .. } = stretch;
@@ -315,7 +318,7 @@ impl<'a> MovingObstacles<'a> {
                 } else if let Some(met) = stretch.deep_in_passing(around, met, round, [deeper, shortest]) {
                     out.extend(common(met, meeting.within));
                 } else if let Some(within) = common(met, meeting.within) {
-                    // At the middle, the overlap is not deep enough.
+                    // In the middle of the interval, the overlap is not deep enough.
                     stretch.deep(around, within, [deeper, shortest], out);
                 }
             }
@@ -326,7 +329,7 @@ impl<'a> MovingObstacles<'a> {
         }
     }
 
-    /// Returns the times, in order, at which no moving obstacle is nearer to the arm at a posture than the clearance.
+    /// Returns the times, in order, at which no moving obstacle is nearer than the clearance to the arm at a posture.
     pub fn safe_intervals(&self, posture: &Posture) -> Vec<Interval> {
         let (mut near, mut known) = (Vec::new(), None);
         for &meeting in &self.meetings {
@@ -336,7 +339,7 @@ impl<'a> MovingObstacles<'a> {
         complement(&near)
     }
 
-    /// Whether nothing that moves is ever nearer to the arm at a posture than the clearance.
+    /// Returns true if no moving obstacle is ever nearer than the clearance to the arm at a posture.
     pub(crate) fn is_always_safe(&self, posture: &Posture) -> bool {
         let (mut near, mut known) = (Vec::new(), None);
         let mut meetings = self.meetings.iter();
@@ -358,7 +361,7 @@ fn disc(shape: &Convex) -> (Point, f64) {
     ((low + high) * 0.5, (high - low).norm() / 2.0)
 }
 
-/// Returns the times from 0 on that are outside the intervals. The ends of the intervals belong to them.
+/// Returns the times from 0 on that lie between the intervals. Ends of intervals belong to the intervals.
 pub fn complement(intervals: &[Interval]) -> Vec<Interval> {
     let (mut left, mut from) = (Vec::new(), 0.0);
     for &[lower, upper] in intervals {

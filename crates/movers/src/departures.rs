@@ -7,21 +7,21 @@ use cplan_handling::Piece;
 use cplan_interrupt::checkpoint;
 use cplan_motion::{Place, Span};
 
-/// Stretches of a motion are halved until no point of the arm moves farther within half a stretch than this share of
-/// the arm's reach, ...
+/// Largest motion of a point of the arm within half a stretch of a motion, as a fraction of the arm's reach. Longer
+/// stretches are halved.
 const MAX_STRETCH_MOTION: f64 = 4e-3;
 
-/// ... or until they are as short as this, seconds.
+/// Shortest duration of a stretch that is halved, in seconds.
 const MIN_STRETCH_TIME: f64 = 2e-3;
 
 /// Returns the times within a window at which a motion must not begin, because a moving obstacle would, or might, come
 /// nearer to the arm than the clearance. The result is a superset, in order and disjoint.
 ///
 /// Consider a stretch of the motion from `a` to `b` seconds after departure. If obstacles block it at times `[c, d]`
-/// ([`MovingObstacles::near`]), the motion must not begin in `[c - b, d - a]`. For long stretches that is far too much; for a
-/// single moment it is exact. So stretches are halved, the longest first. A stretch needs no further halving once the
-/// departures that are blocked at the middles of stretches cover its own. Fine stretches are therefore needed only near
-/// the ends of the blocked intervals.
+/// ([`MovingObstacles::near`]), the motion must not begin in `[c - b, d - a]`. For a long stretch this interval is much
+/// too long; for a single moment it is exact. So stretches are halved, the longest first. A stretch is not halved
+/// further if the middles of stretches already block all departures that it may block. Fine stretches are therefore
+/// needed only near the ends of the blocked intervals.
 pub fn blocked_departures(movers: &MovingObstacles, pieces: &[Piece], window: Interval) -> Vec<Interval> {
     let scene = movers.scene();
     let finest = MAX_STRETCH_MOTION * scene.arm().reach();
@@ -76,13 +76,13 @@ pub fn blocked_departures(movers: &MovingObstacles, pieces: &[Piece], window: In
     blocked
 }
 
-/// Returns the seconds since the motion began.
+/// Returns the time since the motion began, in seconds.
 fn since(pieces: &[Piece], (piece, share): Place) -> f64 {
     pieces[piece].time(share) - pieces[0].from
 }
 
-/// Returns the rest of an interval after others, in order and disjoint, remove parts at its ends. `None` if one of them
-/// contains it.
+/// Returns the part of an interval that remains after others, in order and disjoint, remove parts at its ends. `None`
+/// if one of them contains the interval.
 fn uncovered(others: &[Interval], [from, to]: Interval) -> Option<Interval> {
     let holding = |time: f64| {
         let next = others.partition_point(|[begins, _]| *begins <= time);
@@ -92,8 +92,7 @@ fn uncovered(others: &[Interval], [from, to]: Interval) -> Option<Interval> {
     (from <= to && left[0] <= left[1]).then_some(left)
 }
 
-/// Returns the first time between two times, ends included, at which a motion may begin. `None` if there is no such
-/// time.
+/// Returns the first time from `from` to `to`, both included, at which a motion may begin. `None` if there is none.
 pub fn first_departure(blocked: &[Interval], from: f64, to: f64) -> Option<f64> {
     let mut time = from;
     for &[lower, upper] in blocked {
@@ -104,11 +103,11 @@ pub fn first_departure(blocked: &[Interval], from: f64, to: f64) -> Option<f64> 
             time = after(upper);
         }
     }
-    // An infinite time is not a departure.
+    // A departure at an infinite time is none.
     (time <= to && time < f64::INFINITY).then_some(time)
 }
 
-/// Returns a time just after. Times of trajectories are whole nanoseconds.
+/// Returns the next time of a trajectory. These times are whole nanoseconds.
 fn after(time: f64) -> f64 {
     time + 2e-9
 }

@@ -29,14 +29,15 @@ use refutation::has_no_timing;
 use schedule::{Effort, ScheduledMotion, schedule};
 use serde::Serialize;
 
-/// Largest number of paths tried: the planner's path, and others around the obstacles met on earlier ones.
+/// Largest number of paths that are tried: the planner's path, and paths around the obstacles that motions along
+/// earlier ones meet.
 const MAX_PATHS: usize = 3;
 
-/// Allowed excess of other paths over the shortest, as a share, unless a gap is requested. Such paths are found in a
-/// fraction of the time. They have fewer corners, which makes most of them faster to drive.
+/// Fraction by which other paths may exceed the shortest one, unless the user requests a gap. Such paths are found in
+/// much less time. They have fewer corners, so that most of them are driven faster.
 const PATH_GAP: f64 = 0.03;
 
-/// Times that differ by no more than this, seconds, count as equal: clocks count nanoseconds.
+/// Two times that differ by at most this count as equal, in seconds. Times are whole nanoseconds.
 const TIME_ROUNDING: f64 = 1e-8;
 
 /// A motion that is certified in time.
@@ -44,7 +45,7 @@ const TIME_ROUNDING: f64 = 1e-8;
 pub struct TimedPath {
     /// The curve and the motion along it. Its clearance includes moving obstacles.
     pub timed: TimedMotion,
-    /// Figures for the result.
+    /// Figures about the motion, for the result.
     pub figures: Timing,
 }
 
@@ -63,12 +64,12 @@ pub struct Timing {
     pub free_until: Option<f64>,
 }
 
-/// Returns the earliest motion along the paths tried: first along the certified path, and then along others. The loose
-/// obstacles of the problem's scene have these trajectories. `first` is the motion along the certified path without
-/// moving obstacles, at the demand's speed. If there is no motion, returns the reason in words.
+/// Returns the earliest motion along the paths that are tried: the certified path, and then others. The loose obstacles
+/// of the problem's scene have the trajectories `courses`. `first` is the motion along the certified path without
+/// moving obstacles, at the required speed. If there is no motion, returns the reason in words.
 ///
 /// # Errors
-/// Fails if a path cannot be timed.
+/// A path that cannot be timed.
 pub fn in_time(
     problem: &MotionProblem,
     courses: &[ObstacleTrajectory],
@@ -82,20 +83,20 @@ pub fn in_time(
     let movers = MovingObstacles::new(timed, scene.workspace().clearance);
     let mut around = problem.clone();
     let mut alternative = Some((certified.clone(), first));
-    // Motions in the order in which they were found, each better than the one before.
+    // The motions in the order in which they were found. Each is better than the ones before.
     let mut found: Vec<ScheduledMotion> = Vec::new();
     let (mut refuted, mut ways) = (0, 0);
     while let Some((path, whole)) = alternative.take() {
         ways += 1;
         let best = found.last();
         let for_good = best.filter(|best| best.may_stay_forever()).map(ScheduledMotion::duration);
-        // Once the best motion ends where the arm can stay, only earlier motions count. So a path that takes longer
-        // even without a wait is skipped.
+        // If the arm can stay at the end of the best motion, only earlier motions count. So a path is skipped if it
+        // takes longer even without waits.
         let latest = demand.arrival.map_or(f64::INFINITY, |[_, ends]| ends + TIME_ROUNDING);
         let before = for_good.unwrap_or(f64::INFINITY).min(latest);
         if whole.trajectory.duration() < before {
             let along = |effort: Effort| {
-                // With limits on jerks, rounding corners takes as long as everything else together, and there are many
+                // If jerks are limited, rounding corners takes as long as everything else together, and there are many
                 // motions here.
                 let stops = effort == Effort::THOROUGH && Limits::from(&scene.arm().joints).stops_at_corners();
                 let drive = if stops { options.drive.stopping_at_corners() } else { options.drive };
@@ -112,7 +113,7 @@ pub fn in_time(
             }
             found.extend(better);
         }
-        // A motion that ends as early as allowed cannot be improved along another path.
+        // If a motion ends as early as allowed, another path cannot improve it.
         let soonest = demand.until.or(demand.arrival.map(|[begins, _]| begins)).unwrap_or(0.0);
         let is_best = |best: &ScheduledMotion| {
             best.may_stay_forever() && (best.waits.is_empty() || best.duration() <= soonest + TIME_ROUNDING)
@@ -147,11 +148,11 @@ fn reason(ways: usize, refuted: usize, movers: usize) -> String {
     format!("a path exists past the static obstacles, but {moves}; {known}")
 }
 
-/// Certifies a motion in both forms in which consumers join its samples.
+/// Certifies a motion for both interpolations with which programs join its samples.
 fn certified_in_time(timed: TimedScene, found: ScheduledMotion, ways: usize) -> Option<TimedPath> {
     let ScheduledMotion { timed: TimedMotion { curve, trajectory }, waits, free_until } = found;
     let (mut clearance, mut nearest) = (f64::INFINITY, None);
-    // Without blends, both forms are the same motion.
+    // Without rounded corners, both interpolations give the same motion.
     let is_curved = curve.radii().iter().any(|radius| *radius > 0.0);
     for recording in recordings(&trajectory)?.into_iter().take(if is_curved { 2 } else { 1 }) {
         match certify_in_time(timed, &recording, timed.scene.workspace().clearance) {
@@ -169,8 +170,8 @@ fn certified_in_time(timed: TimedScene, found: ScheduledMotion, ways: usize) -> 
     Some(TimedPath { timed: TimedMotion { curve, trajectory }, figures })
 }
 
-/// Returns the distance that the arm provably keeps from moving obstacles while it stands at `q` for some seconds, from
-/// the beginning of the scene's clock. `None` if that is not more than the clearance.
+/// Returns a proven lower bound on the distance between moving obstacles and the arm while it stands at `q` for some
+/// seconds, from time 0. `None` if the bound is not more than the clearance.
 pub fn clearance_at_rest(timed: TimedScene, q: Configuration, seconds: f64) -> Option<f64> {
     let times = if seconds > 0.0 { vec![0.0, seconds] } else { vec![0.0] };
     let (positions, velocities) = (vec![q; times.len()], vec![Configuration::zeros(); times.len()]);
@@ -181,7 +182,7 @@ pub fn clearance_at_rest(timed: TimedScene, q: Configuration, seconds: f64) -> O
     }
 }
 
-/// Returns a motion by its cubics, and by the polynomials that it states.
+/// Returns a motion in both interpolations: by cubics, and by the polynomials that it states.
 fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
     let rows = |values: &[[f64; 2]]| values.iter().map(|&row| Configuration::from(row)).collect::<Vec<_>>();
     let (position, velocity) = (rows(&trajectory.position), rows(&trajectory.velocity));
@@ -190,8 +191,8 @@ fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
     Some([cubic, quartic])
 }
 
-/// Returns the same problem, in which the first mover that the motion meets becomes a static obstacle at the place of
-/// contact. `None` if the motion meets nothing, or if the start or all goals are blocked then.
+/// Returns the problem in which the first moving obstacle that the motion meets is static, at the place where it is
+/// met. `None` if the motion meets none, or if this obstacle blocks the start or all goals.
 fn around_what_is_met(
     problem: &MotionProblem,
     courses: &[ObstacleTrajectory],

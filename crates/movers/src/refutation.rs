@@ -13,10 +13,10 @@ use std::collections::{BTreeMap, BinaryHeap};
 /// Least number of stretches into which a path is cut.
 const MIN_STRETCHES: usize = 64;
 
-/// Accuracy of times of overlap, seconds.
+/// Accuracy of the times of overlap, in seconds.
 const OVERLAP_TIME_STEP: f64 = 1e-3;
 
-/// Share by which the least duration of a stretch is lowered: far more than rounding.
+/// Fraction by which the least duration of a stretch is lowered. It is far more than rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// A stretch of a path.
@@ -24,10 +24,10 @@ struct Stretch {
     /// The middle of the stretch, and half of its extent.
     middle: Configuration,
     half: Configuration,
-    /// Least duration of a motion from one end to the other, seconds.
+    /// Lower bound on the duration of a motion from one end of the stretch to the other, in seconds.
     takes: f64,
-    /// Times at which the arm may be in the stretch, computed when first needed. At all other times every posture of
-    /// the stretch meets a moving obstacle.
+    /// Times at which the arm may be in the stretch, computed when first needed. At all other times, every posture of
+    /// the stretch overlaps a moving obstacle.
     left: OnceCell<Vec<Interval>>,
 }
 
@@ -46,21 +46,21 @@ impl Stretch {
     }
 }
 
-/// Returns true if it is proven that no motion along a path gets to its end without coming nearer to a moving obstacle
-/// than the clearance. The motion may move forwards and backwards, at any speeds that the joints allow.
+/// Returns true if it is proven that no motion along a path reaches its end with the clearance from moving obstacles.
+/// The motion may go forwards and backwards, at all speeds that the joints allow.
 ///
-/// Position on the path and time form a plane. For each stretch of the path, the times are found at which all of its
-/// postures overlap a moving obstacle, deeper than the arm moves within the stretch. From the start at time 0, the
-/// search then extends to neighbouring stretches at times that are open in both, at no more than the joints' top
-/// speeds. Only stretches and times that it reaches count.
+/// Position on the path and time form a plane. For each stretch of the path, the function finds the times at which all
+/// postures of the stretch overlap a moving obstacle, deeper than the arm moves within the stretch. A search begins at
+/// the start at time 0. It continues to neighbouring stretches at times that are open in both, at no more than the
+/// joints' top speeds. Only the stretches and times that it reaches are examined.
 pub fn has_no_timing(movers: &MovingObstacles, path: &Path) -> bool {
     let stretches = stretches(path, movers.scene().arm());
     let Some(first) = stretches.first() else { return false };
     if first.left(movers).first().is_none_or(|left| left[0] > 0.0) {
         return true;
     }
-    // Earliest times at which the first (0) or second (1) end of a stretch can be reached, within one of its open
-    // intervals.
+    // For each stretch, open interval, and end of the stretch (first or second), the earliest time at which it can be
+    // reached.
     let mut known: BTreeMap<(usize, usize, usize), f64> = BTreeMap::new();
     let mut open = BinaryHeap::from([Reverse((OrderedF64(0.0), 0, 0, 0))]);
     known.insert((0, 0, 0), 0.0);

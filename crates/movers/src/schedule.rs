@@ -12,64 +12,64 @@ use serde::Serialize;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
-/// Number of places on a path for which safe times are computed.
+/// Number of configurations on a path for which safe times are computed.
 const PLACES_PER_PATH: usize = 64;
 
-/// Effort of the search for a motion along a path.
+/// How thoroughly a motion along a path is sought.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// Largest number of places where the arm may wait, in addition to the ends. Each pair of them is a motion to be
-    /// timed.
+    /// Largest number of places where the arm may wait, besides the ends. A motion is timed for each pair of places.
     most_stops: usize,
-    /// True if remaining places are spread evenly over the path.
+    /// True to add places that are spread evenly over the path, up to the largest number.
     spread: bool,
     /// True if the arm may also move back along the path.
     backward: bool,
 }
 
 impl Effort {
-    /// Enough for most motions; takes milliseconds.
+    /// Suffices for most motions, and takes milliseconds.
     pub const QUICK: Self = Self { most_stops: 6, spread: false, backward: false };
-    /// For motions in tight intervals of time.
+    /// For motions through short intervals of time.
     pub const THOROUGH: Self = Self { most_stops: 12, spread: true, backward: true };
 }
 
-/// Requirements on a motion other than its path.
+/// Requirements on the timing of a motion along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimingRequirements {
-    /// Share of the joints' top speeds at which it moves.
+    /// Fraction of the joints' top speeds at which the arm moves.
     pub speed: f64,
-    /// Times at which the motion may arrive, seconds after it may begin. The time after arrival is not considered. If
-    /// `None`, the motion must arrive where the arm can stay for ever, if possible.
+    /// Times within which the motion must arrive, in seconds after it may begin; it is not considered what follows.
+    /// With `None`, the arm must be able to stay at the goal for ever, if that is possible.
     pub arrival: Option<Interval>,
-    /// Time until which the arm must wait at the goal if it arrives early, if requested.
+    /// Time until which the arm must be able to wait at the goal if it arrives earlier. `None` for no such time.
     pub until: Option<f64>,
 }
 
 impl TimingRequirements {
-    /// Requirements on a single motion.
+    /// The requirements on a single motion of the whole query.
     pub const UNCONSTRAINED: Self = Self { speed: 1.0, arrival: None, until: None };
 }
 
 /// A wait of the arm during a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Wait {
-    /// Begin, seconds since the start.
+    /// Beginning of the wait, in seconds since the start.
     pub from: f64,
-    /// End, seconds since the start.
+    /// End of the wait, in seconds since the start.
     pub to: f64,
-    /// Configuration of the arm.
+    /// Configuration of the arm during the wait.
     pub at: [f64; 2],
 }
 
 /// A motion along a path, with waits.
 #[derive(Debug, Clone)]
 pub struct ScheduledMotion {
-    /// The curve, with corners where the arm waits, and the whole motion.
+    /// The curve, with a corner at each place where the arm waits, and the whole motion.
     pub timed: TimedMotion,
     /// Waits in order.
     pub waits: Vec<Wait>,
-    /// Time until which no moving obstacle comes too near to the goal; infinite if none ever does.
+    /// Time until which no moving obstacle comes too near to the arm at the goal, in seconds. Infinite if none ever
+    /// does.
     pub free_until: f64,
 }
 
@@ -79,40 +79,41 @@ impl ScheduledMotion {
         self.timed.trajectory.duration()
     }
 
-    /// Returns true if the arm may stay for ever where the motion ends.
+    /// Returns true if the arm may stay at the end of the motion for ever.
     pub fn may_stay_forever(&self) -> bool {
         self.free_until == f64::INFINITY
     }
 
-    /// Returns true if this motion is better than another. Motions after which the arm can stay come first, then
-    /// earlier ones.
+    /// Returns true if this motion is better than another. A motion after which the arm can stay is better than one
+    /// after which it cannot. Otherwise, the earlier motion is better.
     pub fn is_better_than(&self, other: &Self) -> bool {
         let rank = |it: &Self| (!it.may_stay_forever(), it.duration());
         rank(self) < rank(other)
     }
 }
 
-/// Stops along a path, and the departures between them.
+/// The stops along a path, and the motions between them.
 struct Stops<'a> {
     movers: &'a MovingObstacles<'a>,
     path: &'a CertifiedPath,
     drive: &'a Drive,
     effort: Effort,
     demand: &'a TimingRequirements,
-    /// Distances along the path, ascending; the first and the last are its ends.
+    /// Distance of each stop from the beginning of the path, in ascending order. The first and the last stop are its
+    /// ends.
     at: Vec<f64>,
-    /// Seconds to each stop at the joints' top speeds.
+    /// Time to each stop at the joints' top speeds, in seconds.
     gone: Vec<f64>,
-    /// Intervals of time in which the arm may stay there.
+    /// For each stop, the intervals of time in which the arm may stay there.
     safe: Vec<Vec<Interval>>,
-    /// Motions from one stop to another.
+    /// Motions from one stop to another, by the indices of both.
     legs: BTreeMap<(usize, usize), TimedMotion>,
 }
 
-/// A stop and one of its safe intervals, by number.
+/// The index of a stop, and the index of one of its safe intervals.
 type SafeStop = (usize, usize);
 
-/// Time of arrival at a stop, with the previous stop and the departure from it.
+/// An arrival at a stop: its time, the previous stop, and the departure from that.
 #[derive(Debug, Clone, Copy)]
 struct Arrival {
     time: f64,
@@ -121,17 +122,17 @@ struct Arrival {
 
 /// A sequence of stops from the first to the last.
 struct StopSequence {
-    /// Each stop with the departure from it; for the last, with the arrival.
+    /// The index of each stop, with the time of departure from it. The last stop has the time of arrival.
     stops: Vec<(usize, f64)>,
     /// Time until which the arm may stay at the last stop.
     free_until: f64,
 }
 
-/// Earliest known arrivals, and those from which the search must continue.
+/// The earliest known arrivals, and those from which the search must still continue.
 struct EarliestArrivals {
     known: BTreeMap<SafeStop, Arrival>,
     open: BinaryHeap<Reverse<(OrderedF64, usize, usize)>>,
-    /// Time by which the goal must be reached for good. Later arrivals are useless.
+    /// Earliest known arrival at the goal after which the arm can stay for ever. Later arrivals are useless.
     earliest_permanent_arrival: f64,
 }
 
@@ -142,18 +143,18 @@ impl EarliestArrivals {
         reached
     }
 
-    /// Takes the earliest arrival from which the search has not continued yet.
+    /// Removes and returns the earliest arrival from which the search has not continued yet.
     fn next(&mut self) -> Option<(SafeStop, f64)> {
         loop {
             let Reverse((OrderedF64(time), stop, interval)) = self.open.pop()?;
-            // An entry of an older, later arrival may remain.
+            // The queue may still have an entry for a later arrival that has been improved.
             if self.known[&(stop, interval)].time >= time {
                 return Some(((stop, interval), time));
             }
         }
     }
 
-    /// Returns true if no arrival as early is known.
+    /// Returns true if the known arrival at this stop and interval is later, or if there is none.
     fn is_improved_by(&self, at: SafeStop, time: f64) -> bool {
         self.known.get(&at).is_none_or(|known| known.time > time)
     }
@@ -170,7 +171,7 @@ impl EarliestArrivals {
         self.open.push(Reverse((OrderedF64(arrival.time), at.0, at.1)));
     }
 
-    /// Returns the stops up to an arrival, each with its departure; the last with its arrival.
+    /// Returns the stops up to an arrival. Each has its departure, and the last its arrival.
     fn stops_to(&self, end: SafeStop) -> Vec<(usize, f64)> {
         let mut stops = vec![(end.0, self.known[&end].time)];
         let mut at = end;
@@ -183,15 +184,15 @@ impl EarliestArrivals {
     }
 }
 
-/// Computes the earliest motion along a path, from rest to rest between some places at which it may wait. `None` if
-/// there is no such motion, or if it cannot end for good before the time `before`. `whole` is the motion without a
-/// wait.
+/// Computes the earliest motion along a path. It goes from rest to rest between places at which it may wait. `None` if
+/// there is no such motion, or if none ends before the time `before` where the arm can stay. `whole` is the motion
+/// without a wait.
 ///
-/// Uses safe intervals (Phillips, Likhachev 2011): within one safe interval of a stop, the earliest arrival is always
-/// the best. The motion ends where the arm can stay for ever, if possible.
+/// It searches over safe intervals (Phillips, Likhachev 2011): within one safe interval of a stop, the earliest arrival
+/// is always the best. If possible, the motion ends where the arm can stay for ever.
 ///
 /// # Errors
-/// Fails if a part of the path cannot be timed.
+/// A part of the path that cannot be timed.
 pub fn schedule(
     movers: &MovingObstacles,
     path: &CertifiedPath,
@@ -230,16 +231,17 @@ impl Stops<'_> {
         Ok(&self.legs[&(from, to)])
     }
 
-    /// Returns approximately the least duration of a motion from rest to rest between two stops. It is approximate
-    /// because blends cut corners.
+    /// Estimates the least duration of a motion from rest to rest between two stops, in seconds. It is not a bound,
+    /// because rounded corners shorten the path.
     fn least(&self, from: usize, to: usize) -> f64 {
         let limits = Limits::from(&self.movers.scene().arm().joints);
         least_duration((self.gone[to] - self.gone[from]).abs(), &limits)
     }
 
-    /// Finds the earliest sequence of stops to the last one, except those that end for good after `before`.
+    /// Finds the sequence of stops that reaches the last one earliest. Does not find sequences that arrive after
+    /// `before` where the arm can stay.
     fn search(&mut self, before: f64) -> Result<Option<StopSequence>, TimingError> {
-        // At the start, only the first interval can contain time 0.
+        // Only the first interval at the start can contain time 0.
         if self.safe[0].first().is_none_or(|first| first[0] > 0.0) {
             return Ok(None);
         }
@@ -259,7 +261,7 @@ impl Stops<'_> {
                 continue;
             }
             let backward = self.effort.backward;
-            // The goal comes first: an early arrival there prunes other departures.
+            // The goal comes first, because an early arrival there makes other departures useless.
             for next in (0..=last).rev().filter(|&next| next != stop && (backward || next > stop)) {
                 self.depart(&mut reached, at, time, next)?;
             }
@@ -267,7 +269,7 @@ impl Stops<'_> {
         Ok(fallback)
     }
 
-    /// Departs for another stop: for each of its safe intervals, as early as possible.
+    /// Adds the earliest arrival at another stop for each of its safe intervals.
     fn depart(
         &mut self,
         reached: &mut EarliestArrivals,
@@ -308,14 +310,14 @@ impl Stops<'_> {
         Ok(())
     }
 
-    /// Returns the time until which the arm may stay at the goal, after arriving at `time`. Infinite if the demand
-    /// states arrival times, since what follows is not considered.
+    /// Returns the time until which the arm may stay at the goal after arriving at `time`. Infinite if the requirements
+    /// state times of arrival, since it is then not considered what follows.
     fn stays(&self, interval: usize, time: f64) -> f64 {
         let last = self.at.len() - 1;
         let until = self.safe[last][interval][1];
         match self.demand.arrival {
             None => until,
-            // On a path of no length there is no arrival: the arm must be able to stay there until the requested time.
+            // A path of length zero has no arrival: the arm must be able to stay there until the requested time.
             Some([begins, _]) if last == 0 && self.demand.until.unwrap_or(begins).max(time) > until => until,
             Some(_) => f64::INFINITY,
         }
@@ -364,8 +366,8 @@ fn posture_at<'a>(movers: &MovingObstacles<'a>, path: &Path, distance: f64) -> P
     Posture::new(movers.scene(), path.part(distance, distance).start())
 }
 
-/// Returns the places where the arm may wait: the ends of the path and the ends of its parts that no obstacle ever
-/// comes near to. With more effort, adds some more places.
+/// Returns the places where the arm may wait: the ends of the path, and the ends of its parts that no obstacle ever
+/// comes near. A thorough search adds more places.
 fn places(movers: &MovingObstacles, path: &Path, effort: Effort) -> Vec<f64> {
     let length = path.length();
     if length == 0.0 {

@@ -137,13 +137,14 @@ pub struct FieldArgs {
     pub escape: Option<Escape>,
 }
 
-/// Default of the maximum number of sweeps in each stage: more than any published count.
+/// Default of the largest number of sweeps in each stage. It exceeds all published numbers of sweeps.
 const MAX_SWEEPS: u32 = 30_000;
-/// Tolerance for sums of changes over all cells, from published sweep counts (Deicu 2012, Tables 17 to 19).
+/// Tolerance for sums of changes over all cells. It is that of published numbers of sweeps (Deicu 2012, Tables 17 to
+/// 19).
 const SUM_TOLERANCE: f64 = 0.01;
 
 impl FieldArgs {
-    /// Returns the planner that follows the field; `None` if only the default field is requested.
+    /// Returns the planner that follows the field. `None` if no option asks for another field than the default.
     ///
     /// # Errors
     /// The reason, if options contradict each other or the planner.
@@ -188,7 +189,8 @@ impl FieldArgs {
         Ok(Some(FieldPlanner { field, limits, escape: self.escape, path: PathKind::Own }))
     }
 
-    /// Returns the measure that ends the relaxation. The default for SOR is the measure of published sweep counts.
+    /// Returns the measure that ends the relaxation. The default for SOR is the measure with which published numbers of
+    /// sweeps were counted.
     fn measure(&self) -> Measure {
         let is_sor = self.relaxation == Some(RelaxationName::Sor) && self.device().is_cpu();
         self.measure.unwrap_or(if is_sor { Measure::SumOfChange } else { Measure::GreatestRelativeChange })
@@ -199,12 +201,12 @@ impl FieldArgs {
         self.on.map_or(Device::Cpu, Device::from)
     }
 
-    /// Returns the reason, with a hint, if the device is not available.
+    /// Returns the reason why the device is not available, with a hint. `None` if it is available.
     pub fn missing(&self) -> Option<String> {
         self.device().adapter().err().map(|reason| format!("--on gpu: {reason}"))
     }
 
-    /// Returns the given options, in the order of the help.
+    /// Returns the names of the stated options, in the order of the help.
     fn given(&self) -> Vec<&'static str> {
         let options = [
             ("--field", self.field.is_some()),
@@ -257,7 +259,7 @@ impl FieldArgs {
                 "--order needs --relaxation gauss-seidel or sor: Jacobi's relaxations update all cells at once".into(),
             );
         }
-        // Sweeps on a GPU have no guard.
+        // On a GPU, sweeps have no guard.
         let guarded = |relaxation: Relaxation| if self.device().is_cpu() { relaxation.guarded() } else { relaxation };
         match (name, self.factor) {
             (RelaxationName::Jacobi, None) => Ok(Relaxation::JACOBI),
@@ -280,13 +282,13 @@ impl FieldArgs {
 fn usual_tolerance(measure: Measure) -> f64 {
     match measure {
         Measure::SumOfChange | Measure::DifferenceOfSums => SUM_TOLERANCE,
-        // The squared tolerance of sums: both then agree on a grid of one cell.
+        // The squared tolerance of sums. On a grid of a single cell, both rules agree.
         Measure::SumOfSquares => SUM_TOLERANCE * SUM_TOLERANCE,
         Measure::GreatestChange | Measure::GreatestRelativeChange => RELATIVE_TOLERANCE,
     }
 }
 
-/// Returns the fields that an option applies to; `None` if it applies to all.
+/// Returns the fields to which an option applies. `None` if it applies to all.
 fn needed_field(option: &str) -> Option<&'static [FieldName]> {
     use FieldName::{Bvp, Bvp2, Harmonic, Khatib, Local, Oriented};
     match option {
@@ -306,7 +308,7 @@ fn names(fields: &[FieldName]) -> String {
     listed(&values.iter().map(PossibleValue::get_name).collect::<Vec<_>>(), " or ")
 }
 
-/// Parses numbers separated by commas; NaN for text that is not a number.
+/// Parses numbers separated by commas. A text that is not a number becomes NaN.
 fn numbers(text: &str) -> Vec<f64> {
     text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect()
 }
@@ -314,7 +316,7 @@ fn numbers(text: &str) -> Vec<f64> {
 /// Parses a direction in joint space.
 ///
 /// # Errors
-/// If the text is not two numbers, or both are 0.
+/// A text that is not two numbers, and two zeros.
 pub fn direction(text: &str) -> Result<Direction, String> {
     let vector = match numbers(text)[..] {
         [a, b] => Direction::of([a, b]),
@@ -323,7 +325,8 @@ pub fn direction(text: &str) -> Result<Direction, String> {
     vector.ok_or_else(|| "must be two numbers that are not both 0, such as 0,-1".into())
 }
 
-/// Splits a law into its name and its constants, which must be positive.
+/// Splits a law such as `ranged:0.01,0.5` into its name and its constants. `None` if it has none, or one that is
+/// not positive.
 fn law(text: &str) -> Option<(&str, Vec<f64>)> {
     let (name, constants) = text.split_once(':')?;
     let constants = numbers(constants);

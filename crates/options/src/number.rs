@@ -2,7 +2,7 @@
 
 use cplan_motion::MIN_INTERVAL;
 
-/// Parses an allowed number.
+/// Parses a number that is allowed.
 ///
 /// # Errors
 /// Any other text. `range` describes the allowed numbers in the message.

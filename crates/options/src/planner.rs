@@ -35,13 +35,14 @@ pub struct EffortArgs {
 }
 
 impl EffortArgs {
-    /// Returns the planner with those of these options that it reads.
+    /// Returns the planner with those of these options that it uses.
     pub fn apply_to(&self, planner: Planner) -> Planner {
         let planner = self.margin.map_or(planner, |share| planner.with_margin(share));
         self.cells.map_or(planner, |counts| planner.with_cell_counts(counts))
     }
 
-    /// Returns the number of attempts of a planner. Requested coarse cells are not doubled.
+    /// Returns the number of attempts of a planner. If only few cells are requested, they are not doubled, and the
+    /// number is that of the attempts with one size.
     pub fn levels(&self, planner: &Planner) -> usize {
         let is_coarse = |CellCounts(counts): CellCounts| counts.iter().all(|&n| n <= KEPT_CELLS);
         let usual = match planner.space().filter(|_| self.cells.is_some_and(is_coarse)) {
@@ -51,7 +52,7 @@ impl EffortArgs {
         self.levels.map_or(usual, usize::from)
     }
 
-    /// Returns a warning for each given option that the planner does not read.
+    /// Returns a warning for each stated option that the planner does not use.
     fn ignored(&self, planner: Method) -> Vec<String> {
         let refined = [Setting::Margin, Setting::Cells];
         let options: [(&str, bool, &[Setting]); 3] = [
@@ -67,7 +68,7 @@ impl EffortArgs {
         ignored.map(warning).collect()
     }
 
-    /// Returns these options; options that are not given come from `base`.
+    /// Returns these options, completed by those of `base`.
     pub fn or_from(&self, base: &Self) -> Self {
         Self {
             cells: self.cells.or(base.cells),
@@ -77,7 +78,8 @@ impl EffortArgs {
     }
 }
 
-/// Largest number of cells along an axis that is not doubled. Pictures show a number in each of so few cells.
+/// Largest number of cells along an axis that is not doubled by default. With so few cells, pictures show a number in
+/// each.
 const KEPT_CELLS: usize = 32;
 
 /// Measures of length.
@@ -210,7 +212,7 @@ impl PlannerArgs {
     /// Returns the planner with these options.
     ///
     /// # Errors
-    /// The reason, if the planner lacks an option or options contradict each other.
+    /// The reason, if the planner does not have an option, or options contradict each other.
     pub fn planner(&self, method: Method) -> Result<Planner, String> {
         let field = self.field.planner(method)?;
         self.optimum.check(method)?;
@@ -244,13 +246,14 @@ impl PlannerArgs {
         self.path.path.map_or(planner, |kind| planner.with_path(kind))
     }
 
-    /// Returns a warning for each given option that the planner ignores. Options that contradict it are errors of
-    /// [`PlannerArgs::planner`].
+    /// Returns a warning for each stated option that the planner ignores. Options that contradict the planner are
+    /// errors of [`PlannerArgs::planner`].
     pub fn ignored(&self, planner: Method) -> Vec<String> {
         self.effort.ignored(planner)
     }
 
-    /// Returns the reason, with a hint, if the device for the field's relaxation is not available.
+    /// Returns the reason why the device for the field's relaxation is not available, with a hint. `None` if it is
+    /// available.
     pub fn missing(&self) -> Option<String> {
         self.field.missing()
     }
@@ -265,7 +268,7 @@ impl OptimumArgs {
         }
     }
 
-    /// Refuses options that the planner does not have.
+    /// Checks that the planner has all options that are stated.
     fn check(&self, planner: Method) -> Result<(), String> {
         if self.weights.is_some() && self.metric != MetricName::Weighted {
             return Err("--weights needs --metric weighted".into());
@@ -280,7 +283,7 @@ impl OptimumArgs {
 }
 
 impl PathArgs {
-    /// Refuses options that the planner does not have.
+    /// Checks that the planner has all options that are stated.
     fn check(&self, planner: Method) -> Result<(), String> {
         if self.search.is_some() {
             let why = "searches neither a grid nor a roadmap";
@@ -309,7 +312,7 @@ impl PathArgs {
         Ok(())
     }
 
-    /// Refuses --forward if the planner does not search, or if its search must begin at the goal.
+    /// Checks that the planner searches, and that its search can begin at the start, if --forward is stated.
     fn check_forward(&self, planner: Method) -> Result<(), String> {
         if planner.reads(Setting::Search) {
             return Ok(());
@@ -350,7 +353,7 @@ fn margin(text: &str) -> Result<f64, String> {
     number_in(text, |x| (0.0..=MAX_MARGIN).contains(&x), &range)
 }
 
-/// Returns a range for the parser of whole numbers.
+/// Converts a range for the parser of whole numbers.
 pub(super) fn whole(range: &RangeInclusive<usize>) -> RangeInclusive<i64> {
     *range.start() as i64..=*range.end() as i64
 }

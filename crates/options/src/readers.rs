@@ -1,18 +1,18 @@
-//! Names of the planners that read a setting, for help and errors.
+//! Names of the planners that use a setting, for help and errors.
 
 use cplan_solver::{Method, Setting};
 
-/// Returns the planners that read one of these settings, as `visibility, trapezoid or prm`. Those of the first setting
-/// come first; `last` is the text before the last name.
+/// Lists the planners that use one of these settings: `visibility, trapezoid or prm`. Planners that use the first
+/// setting come first. `last` is the text before the last name.
 pub fn readers(settings: &[Setting], last: &str) -> String {
     let of = |&setting| Method::ALL.into_iter().filter(move |method| method.reads(setting));
     listed(&settings.iter().flat_map(of).map(Method::name).collect::<Vec<_>>(), last)
 }
 
-/// Refuses an option that the planner does not read. `why` follows the planner's name.
+/// Checks that the planner uses an option. `why` follows the planner's name in the message.
 ///
 /// # Errors
-/// If the planner reads none of these settings.
+/// A planner that uses none of these settings.
 pub fn require(option: &str, settings: &[Setting], planner: Method, why: &str) -> Result<(), String> {
     if settings.iter().any(|&setting| planner.reads(setting)) {
         return Ok(());
@@ -20,7 +20,7 @@ pub fn require(option: &str, settings: &[Setting], planner: Method, why: &str) -
     Err(format!("{option} needs --planner {}: {planner} {why}", readers(settings, " or ")))
 }
 
-/// Joins names with commas, and with `last` before the last name.
+/// Joins names by commas, with `last` before the last name.
 pub fn listed(names: &[&str], last: &str) -> String {
     match names.split_last() {
         Some((name, [])) => (*name).to_owned(),

@@ -33,10 +33,10 @@ pub struct RoadmapArgs {
 }
 
 impl RoadmapArgs {
-    /// Returns the search of a planner's roadmap; the default search if it has no roadmap.
+    /// Returns the search of a planner's roadmap, or the default search if it has no roadmap.
     ///
     /// # Errors
-    /// The reason, if the planner lacks an option.
+    /// The reason, if the planner does not have an option.
     pub fn search(&self, planner: Method, search: Option<GridSearch>) -> Result<RoadmapSearch, String> {
         let given = [
             ("--samples", self.samples.is_some()),
@@ -71,7 +71,7 @@ impl RoadmapArgs {
         Ok(RoadmapSearch { order, backward: self.backward })
     }
 
-    /// Returns the planner with those of these options that it reads.
+    /// Returns the planner with those of these options that it uses.
     pub fn apply_to(&self, planner: Planner) -> Planner {
         planner.with(Setting::Graph, |settings| settings.graph = self.graph.unwrap_or_default()).with(
             Setting::Samples,

@@ -1,4 +1,4 @@
-//! Parallel work whose results arrive in order.
+//! Runs work on several threads, and passes on its results in order.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Largest number of results per thread that wait for an earlier one.
+/// Largest number of results per thread that wait for an earlier result.
 const MAX_WAITING_PER_THREAD: usize = 64;
 
-/// Runs one piece of work and catches its panic, so that other pieces continue.
+/// Runs a piece of work. If it panics, returns the message, so that other pieces can continue.
 ///
 /// # Errors
-/// The panic message. An interruption from outside unwinds further.
+/// The message of the panic. An interruption of the whole run is passed on.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let message = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
@@ -23,11 +23,11 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     })
 }
 
-/// Runs `count` pieces of work on `jobs` threads. Passes the results to `each` on this thread, in order, as soon as
-/// possible, until `each` fails. Panics of the work are passed on.
+/// Runs `count` pieces of work on `jobs` threads. Passes the results to `each` on the calling thread, in order and as
+/// soon as possible, until `each` fails. A panic of a piece is passed on to the caller.
 ///
 /// # Errors
-/// The error of `each`. Running pieces finish, and no others start.
+/// The error of `each`. Pieces that are running finish, and no others start.
 pub fn in_order<T: Send, E>(
     count: usize,
     jobs: usize,
@@ -51,7 +51,7 @@ pub fn in_order<T: Send, E>(
                         break;
                     }
                     match catch_unwind(AssertUnwindSafe(|| work(i))) {
-                        // After an error, nobody receives results.
+                        // After an error of `each`, nobody receives results.
                         Ok(result) => drop(sender.send((i, result))),
                         Err(panic) => {
                             turns.end();
@@ -76,7 +76,7 @@ pub fn in_order<T: Send, E>(
     })
 }
 
-/// Number of the next result, and whether new work may start.
+/// Index of the next result to be passed on, and whether new work may start.
 struct TurnState {
     state: Mutex<(usize, bool)>,
     moved: Condvar,
@@ -88,7 +88,8 @@ impl TurnState {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits until few enough results wait for an earlier one. Returns false if the run is over.
+    /// Waits until piece `i` may start, that is, until few enough results wait for an earlier one. Returns false if the
+    /// run has ended.
     fn may_begin(&self, i: usize) -> bool {
         let is_early = |(due, is_over): &mut (usize, bool)| !*is_over && i >= *due + self.most;
         !self.moved.wait_while(self.state(), is_early).unwrap_or_else(PoisonError::into_inner).1
@@ -105,7 +106,7 @@ impl TurnState {
     }
 }
 
-/// Releases all waiting threads when the receiver stops, even by an error or a panic.
+/// Releases all waiting threads when it is dropped, even after an error or a panic.
 struct StopGuard<'a>(&'a TurnState);
 
 impl Drop for StopGuard<'_> {
@@ -170,7 +171,7 @@ mod tests {
         let work = |i: usize| {
             begun.fetch_add(1, Ordering::SeqCst);
             if i == 0 {
-                // As many pieces as may start, and no more, however long the first takes.
+                // As many pieces as may start have started, and no more will, however long the first one takes.
                 while begun.load(Ordering::SeqCst) < 3 * MAX_WAITING_PER_THREAD {
                     std::thread::yield_now();
                 }

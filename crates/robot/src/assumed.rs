@@ -1,31 +1,31 @@
-//! Assumed limits for missing ones, and their description.
+//! Limits that are assumed because the files state none, and their description.
 
 use cplan_core::model::DEFAULT_TIME_TO_TOP_SPEED;
 use cplan_text::short;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Default limits that replace missing ones, by joint: rad/s or m/s, rad/s2 or m/s2. Only timing depends on them; path,
-/// certificate and proof do not.
+/// Assumed limits that replace missing ones, by joint. Only the timing depends on them; path, certificate and proof do
+/// not.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct AssumedLimits {
-    /// The top speeds that were assumed, by joint.
+    /// Assumed top speeds by joint, in rad/s or m/s.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub velocity: BTreeMap<String, f64>,
-    /// The greatest accelerations that were assumed, by joint.
+    /// Assumed limits of acceleration by joint, in rad/s2 or m/s2.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub acceleration: BTreeMap<String, f64>,
 }
 
 impl AssumedLimits {
-    /// Returns true if all limits are given.
+    /// Returns true if no limit is assumed.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.velocity.is_empty() && self.acceleration.is_empty()
     }
 
-    /// Returns all of them in words, for joints with these names and units of their values.
+    /// Describes all assumed limits. `joints` has name and unit of each joint.
     #[must_use]
     pub fn notes(&self, joints: [(&str, &str); 2]) -> Vec<String> {
         let of_joint = |(name, unit): (&str, &str)| {
@@ -38,12 +38,12 @@ impl AssumedLimits {
     }
 }
 
-/// Returns the words for a missing top speed.
+/// Describes the assumed top speed of a joint.
 fn assumed_speed_note(whose: &str, value: f64, unit: &str) -> String {
     format!("{whose}: no top speed given; {} {unit}/s assumed, only for timing", short(value))
 }
 
-/// Returns the words for a missing acceleration limit.
+/// Describes the assumed acceleration limit of a joint.
 pub fn assumed_acceleration_note(whose: &str, value: f64, unit: &str) -> String {
     let value = short(value);
     format!(

@@ -1,4 +1,4 @@
-//! Errors in user input: place, message and hint.
+//! Errors in the user's input, with position, message and hint.
 
 use super::source::Position;
 use cplan_text::{plain, plain_line};
@@ -8,23 +8,23 @@ use thiserror::Error;
 /// Category of a diagnostic, for scripts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum DiagnosticKind {
-    /// A file or an option.
+    /// A defect of a file or an option.
     #[default]
     Input,
-    /// The start: missing, outside the limits, or not free.
+    /// A start that is missing, outside the limits or blocked.
     Start,
-    /// The goal: missing, outside the limits, out of reach, or not free.
+    /// A goal that is missing, outside the limits, out of reach or blocked.
     Goal,
 }
 
 /// One defect of the input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// The file, or the command-line option, that it is in.
+    /// The file or the command-line option with the defect.
     pub origin: String,
     /// Position in the file, if it is known.
     pub position: Option<Position>,
-    /// The line of the file with a caret below the place.
+    /// The line of the file, with a caret below the defect.
     pub excerpt: Option<Box<str>>,
     /// Description of the defect, with the name of the joint, link or obstacle.
     pub message: String,
@@ -78,7 +78,7 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Unusable input. Displays every diagnostic with its file, line and column, the source line, and a hint.
+/// Unusable input. Its text has every diagnostic with file, line and column, the line of the file, and a hint.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}", listed(.diagnostics))]
 pub struct InputError {
@@ -86,13 +86,13 @@ pub struct InputError {
 }
 
 impl InputError {
-    /// Returns the diagnostics, at least one, in the order of the file where possible.
+    /// Returns the diagnostics, at least one, mostly in the order of the file.
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
     }
 
-    /// Replaces the name of an option, for commands that call it differently.
+    /// Replaces the name of an option, for commands that have another name for it.
     pub fn with_option(mut self, name: &str, called: &str) -> Self {
         for Diagnostic { origin, message, help, .. } in &mut self.diagnostics {
             [Some(origin), Some(message), help.as_mut()]
@@ -135,7 +135,8 @@ impl From<Diagnostic> for InputError {
     }
 }
 
-/// Greatest number of diagnostics that are shown; the rest are counted, because the first ones usually cause them.
+/// Largest number of diagnostics that are shown. Further ones are only counted, because the first ones usually cause
+/// them.
 const MAX_SHOWN_DIAGNOSTICS: usize = 8;
 
 fn listed(diagnostics: &[Diagnostic]) -> String {
@@ -146,8 +147,8 @@ fn listed(diagnostics: &[Diagnostic]) -> String {
     lines.join("\n")
 }
 
-/// Greatest number of names in a list; the rest are counted, because nobody reads them, and each diagnostic may have
-/// its own list.
+/// Largest number of names in a list. Further ones are only counted, because nobody reads so many, and each diagnostic
+/// may have its own list.
 const MAX_LISTED_NAMES: usize = 64;
 
 /// Writes names in quotes, separated by commas, for messages.

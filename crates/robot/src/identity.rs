@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 pub struct FileIdentity {
     /// Absolute path, without links.
     path: PathBuf,
-    /// Device and number of the file, if the system has them: hard links share these.
+    /// Device and inode number, on systems that have them. Hard links to one file share them.
     number: Option<(u64, u64)>,
 }
 
 impl FileIdentity {
-    /// Returns the identity of a file, which need not exist if its folder does. Returns `None` if the path cannot be a
-    /// file.
+    /// Returns the identity of a file. The file need not exist, but its folder must. Returns `None` if the path cannot
+    /// be a file.
     #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
         if let Ok(path) = fs::canonicalize(path) {

@@ -1,4 +1,4 @@
-//! Report on a robot, usable for planning or not.
+//! The report on a robot, whether it is usable for planning or not.
 
 use super::error::InputError;
 use cplan_core::model::{OutlineSource, Scene};
@@ -23,17 +23,18 @@ pub struct Inspection {
     pub links: Vec<LinkEntry>,
     /// Joints, in the order of the file.
     pub joints: Vec<JointEntry>,
-    /// Every two joints of a chain that move on their own, and whether they form a planar arm; base first.
+    /// All pairs of independent joints in which the first carries the second, base first. Each entry states whether the
+    /// pair forms a planar arm.
     pub pairs: Vec<PairEntry>,
-    /// The two joints that the rest of the report is about, base to tip.
+    /// The two joints that the rest of the report describes, base to tip.
     pub chosen: Option<[String; 2]>,
-    /// True if the joints were not chosen: they are the first pair that forms a planar arm.
+    /// True if nothing chose these joints. They are then the first pair that forms a planar arm.
     pub assumed: bool,
     /// Link whose origin is the tip.
     pub tip: Option<String>,
     /// The plane of motion.
     pub plane: Option<PlaneEntry>,
-    /// Outlines of the two links, if they could be made.
+    /// Outlines of the two arm links. Empty if they cannot be made.
     pub outlines: Vec<OutlineEntry>,
     /// Links of the robot that its other links can hit.
     pub self_obstacles: Vec<SelfObstacleEntry>,
@@ -43,14 +44,15 @@ pub struct Inspection {
     pub ignored: Vec<String>,
     /// Warnings.
     pub warnings: Vec<String>,
-    /// A `[robot]` table for the world file with which the robot loads, if nothing else is missing. Ranges, speeds and
-    /// radii in it are placeholders.
+    /// A table `[robot]` for the world file that makes the robot usable, if nothing else is missing. Its ranges, speeds
+    /// and radii are placeholders.
     #[serde(rename = "remedy")]
     pub help: Option<String>,
-    /// Errors that prevent planning, in the order of the stages. Planning would report the first one.
+    /// Errors that prevent planning. Planning reports only the first of them.
     #[serde(skip)]
     pub errors: Vec<InputError>,
-    /// The arm among the world's obstacles, for a picture. Missing ranges and outlines are replaced by assumed ones.
+    /// The arm among the world's obstacles, for a picture. Ranges and outlines that are missing are replaced by assumed
+    /// ones.
     #[serde(skip)]
     pub scene: Option<Scene>,
     /// The trajectories of the scene's loose obstacles.
@@ -77,7 +79,7 @@ impl Inspection {
 pub struct LinkEntry {
     /// The link's name in the URDF.
     pub name: String,
-    /// The joint above it; `None` for the root.
+    /// The joint that moves the link. `None` for the root.
     pub above: Option<String>,
     /// Number of collision shapes.
     pub collision: usize,
@@ -85,21 +87,21 @@ pub struct LinkEntry {
     pub visual: usize,
 }
 
-/// Role of a joint in the arm.
+/// The role of a joint in the arm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
     /// One of the two planned joints.
     Moves,
-    /// On the chain or carried by it, and held still.
+    /// A joint on the chain or carried by it, held at a constant value.
     Held,
-    /// Carried by the arm and held where its mimic puts it.
+    /// A joint carried by the arm, held at the value that its mimic rule determines.
     Follows,
-    /// Can move, but the arm does not depend on it.
+    /// A movable joint on which the arm does not depend.
     Ignored,
     /// A fixed joint, or another type without a single value.
     Rigid,
-    /// Unknown, because no two joints could be chosen.
+    /// The role is unknown, because no two joints could be chosen.
     Undecided,
 }
 
@@ -108,40 +110,41 @@ pub enum Role {
 pub struct JointEntry {
     /// The joint's name in the URDF.
     pub name: String,
-    /// Joint type in the words of the file.
+    /// Type of the joint, as in the file.
     #[serde(rename = "type")]
     pub kind: String,
-    /// True for a prismatic joint, whose values are metres, not radians.
+    /// True for a prismatic joint, whose values are in metres. Values of other joints are in radians.
     #[serde(skip)]
     pub slides: bool,
-    /// Line of the URDF.
+    /// Number of the joint's line in the URDF.
     pub line: usize,
     /// The link that carries the joint.
     pub parent: String,
     /// The link that the joint carries.
     pub child: String,
-    /// For movable joints: axis in the joint's own frame, of unit length.
+    /// Axis in the joint's own frame, of unit length. `None` for joints that cannot move.
     pub axis: Option<[f64; 3]>,
-    /// The axis in the root frame, with the chosen joints at zero and the others at their held values.
+    /// Axis in the root frame, with the chosen joints at zero and the others at their held values. `None` for joints
+    /// that cannot move.
     pub direction: Option<[f64; 3]>,
-    /// The joint that it mimics.
+    /// The joint that this joint mimics.
     pub mimics: Option<String>,
-    /// Role in the arm.
+    /// The joint's role in the arm.
     pub role: Role,
     /// Value in the arm's zero configuration, radians or metres; `None` for rigid joints.
     pub value: Option<f64>,
-    /// For movable joints: range.
+    /// Range of the joint. `None` for joints that cannot move.
     pub limits: Option<LimitEntry>,
-    /// For movable joints: top speed, per second, if there is one.
+    /// Top speed, in rad/s or m/s. `None` for joints that cannot move or have no top speed.
     pub velocity: Option<RateEntry>,
-    /// For movable joints with a top speed: acceleration, per second squared.
+    /// Acceleration limit, in rad/s² or m/s². `None` for joints without a top speed.
     pub acceleration: Option<RateEntry>,
-    /// For movable joints with a jerk limit: jerk, per second cubed.
+    /// Jerk limit, in rad/s³ or m/s³. `None` for joints without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub jerk: Option<RateEntry>,
 }
 
-/// Source of a range.
+/// The source of a joint's range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LimitSource {
@@ -149,11 +152,11 @@ pub enum LimitSource {
     Urdf,
     /// The URDF's `<limit>`, narrowed by the soft limits of the `<safety_controller>`.
     Soft,
-    /// `[robot] limits` of the world file.
+    /// The key `limits` of `[robot]` in the world file.
     World,
-    /// A continuous joint.
+    /// The joint is continuous, so it needs no range.
     Continuous,
-    /// No range suitable for planning is given.
+    /// There is no range that is suitable for planning.
     Unset,
 }
 
@@ -162,11 +165,11 @@ pub enum LimitSource {
 pub struct LimitEntry {
     /// Source of the range.
     pub source: LimitSource,
-    /// Both ends; `None` if it is continuous or unset.
+    /// Least and greatest value. `None` for a continuous joint and a range that is not set.
     pub range: Option<[f64; 2]>,
 }
 
-/// Source of a rate.
+/// The source of a top speed, an acceleration limit or a jerk limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RateSource {
@@ -174,63 +177,63 @@ pub enum RateSource {
     Urdf,
     /// The world file.
     World,
-    /// Not given; assumed in proportion to the top speed.
+    /// Not stated; assumed in proportion to the top speed.
     Default,
 }
 
 /// A top speed, acceleration or jerk.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct RateEntry {
-    /// Per second, per second squared or cubed; radians or metres.
+    /// Value of the limit: radians or metres per second, per second squared or per second cubed.
     pub value: f64,
-    /// Source of the rate.
+    /// Source of the value.
     pub source: RateSource,
 }
 
-/// Two joints of one chain.
+/// Two joints of one chain, which may form a planar arm.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairEntry {
-    /// Base to tip.
+    /// Names of the joints, base to tip.
     pub joints: [String; 2],
     /// `RR`, `RP`, `PR` or `PP`.
     pub kind: String,
     /// True if they form a planar arm.
     pub planar: bool,
-    /// The plane if they do, otherwise the reason why not.
+    /// Description of the plane if they form a planar arm, otherwise the reason why they do not.
     pub reason: String,
 }
 
 /// The plane of motion, in the root frame.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlaneEntry {
-    /// First coordinate's direction.
+    /// Direction of the first coordinate.
     pub u: [f64; 3],
-    /// Second coordinate's direction.
+    /// Direction of the second coordinate.
     pub v: [f64; 3],
-    /// Direction of heights.
+    /// Direction in which heights increase.
     pub normal: [f64; 3],
-    /// The plane as text.
+    /// Description of the plane.
     pub words: String,
 }
 
 /// A link's outline.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OutlineEntry {
-    /// The link that the joint carries.
+    /// The URDF link that the joint carries.
     pub link: String,
-    /// `collision`, `visual`, `bar` or `none`.
+    /// Source of the shapes: `collision`, `visual`, `bar` or `none`.
     pub source: &'static str,
     /// Number of convex parts.
     pub parts: usize,
-    /// Sum of the parts' areas, square metres; areas that two parts share count twice.
+    /// Sum of the parts' areas, in square metres. An area that two parts share counts twice.
     pub area: f64,
-    /// Extent along the plane's normal, metres; `None` without parts.
+    /// Least and greatest height, in metres. `None` without parts.
     pub heights: Option<[f64; 2]>,
-    /// The URDF links that the parts belong to.
+    /// The URDF links to which the parts belong.
     pub bodies: Vec<BodyEntry>,
 }
 
-/// Contribution of a URDF link to an outline.
+/// The part of an outline that one URDF link contributes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BodyEntry {
     /// The URDF link.
@@ -241,27 +244,28 @@ pub struct BodyEntry {
     pub area: f64,
 }
 
-/// A link of the robot, or a layer of it, that links further along the chain can hit.
+/// A link of the robot, or a layer of it, that other links further along the chain can hit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SelfObstacleEntry {
     /// The URDF link.
     pub link: String,
-    /// True if joint 1 carries it; otherwise it is fixed.
+    /// True if joint 1 carries the link; false if the link is fixed.
     pub moves: bool,
-    /// Extent along the plane's normal, metres.
+    /// Least and greatest height, in metres.
     pub heights: [f64; 2],
-    /// URDF links further along the chain that are free to meet it.
+    /// URDF links further along the chain whose contact with it is ignored.
     pub ignored: Vec<String>,
 }
 
 /// Reach of the arm.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReachEntry {
-    /// The tip at the zero configuration, plane coordinates, metres.
+    /// Position of the tip at the zero configuration, in plane coordinates, in metres.
     pub tip: [f64; 2],
-    /// For two revolute joints: least and greatest distance of the tip from joint 1 without limits, metres.
+    /// Least and greatest distance of the tip from joint 1 without joint limits, in metres. `None` unless both joints
+    /// are revolute.
     pub distances: Option<[f64; 2]>,
-    /// Bound on the distance of any part of the arm from joint 1 with prismatic joints at zero, metres.
+    /// Upper bound on the distance of any part of the arm from joint 1, with prismatic joints at zero, in metres.
     pub outline: f64,
 }
 
@@ -270,9 +274,9 @@ pub struct ReachEntry {
 pub struct Frame {
     /// Name of the joint, or of the tip's link.
     pub name: String,
-    /// Origin, plane coordinates.
+    /// Origin in plane coordinates, in metres.
     pub at: Point,
-    /// Directions of x, y and z: along `u`, `v` and the normal.
+    /// Directions of the axes x, y and z, by components along `u`, `v` and the normal.
     pub axes: [Vector3<f64>; 3],
 }
 

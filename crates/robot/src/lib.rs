@@ -1,4 +1,4 @@
-//! The reader of a robot: from URDF or xacro to a planar two-joint arm, and errors with file, line and hint.
+//! Reads a robot from URDF or xacro and reduces it to a planar two-joint arm. Errors have file, line and hint.
 //!
 //! ```text
 //! arm.xacro --> RobotFile --> Source (URDF text) --+--> load -----> Arm, RobotReport

@@ -1,4 +1,4 @@
-//! Numbers, and values of joints and angles, in the forms of the world file: `0.5`, or `"30deg"`.
+//! Numbers, angles and joint values, as world files state them: `0.5` or `"30deg"`.
 
 use super::error::Diagnostic;
 use super::source::Source;
@@ -11,25 +11,25 @@ use toml::Spanned;
 /// A joint's value or an angle, in radians or metres; the file may state it in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantity {
-    /// Radians or metres.
+    /// Value in radians or metres.
     pub value: f64,
-    /// True if the file states degrees, so that it is no length.
+    /// True if the file states degrees. Such a value cannot be a length.
     pub in_degrees: bool,
 }
 
-/// A value and its place in the file.
+/// A value with its position in the file.
 pub type Written = Spanned<Quantity>;
 
-/// A number and its place in the file.
+/// A number with its position in the file.
 pub type Number = Spanned<f64>;
 
-/// Several numbers, with the places of all and of each of them.
+/// Several numbers, with the position of the list and of each number.
 pub type Numbers = Spanned<Vec<Number>>;
 
-/// Values by joint name, with the place of both.
+/// Values by joint name, with the position of both.
 pub type PerJoint<T> = BTreeMap<Spanned<String>, T>;
 
-/// Greatest length or coordinate, metres: beyond it products of coordinates lose the last micrometre, and no arm is
+/// Greatest length or coordinate, in metres. Beyond it, products of coordinates lose the last micrometre. No arm is
 /// that large.
 pub const MAX_LENGTH: f64 = 1e6;
 
@@ -65,10 +65,10 @@ impl Visitor<'_> for QuantityVisitor {
 }
 
 impl Source {
-    /// Returns the value of a number of this file; `what` names it in the message.
+    /// Returns the value of a number of this file. `what` names it in the message.
     ///
     /// # Errors
-    /// If it is not finite, or beyond [`MAX_LENGTH`].
+    /// A value that is not finite or exceeds [`MAX_LENGTH`].
     pub fn finite(&self, number: &Number, what: &str) -> Result<f64, Diagnostic> {
         let value = *number.get_ref();
         if !value.is_finite() {

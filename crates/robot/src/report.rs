@@ -1,4 +1,4 @@
-//! Report to the user on how the robot was read.
+//! The report to the user on how the robot was read.
 
 use crate::AssumedLimits;
 use cplan_core::model::Arm;
@@ -10,22 +10,22 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotReport {
-    /// The resulting geometry: plane, tip, and outline of each link.
+    /// Descriptions of the resulting geometry: plane, tip, and outline of each link.
     pub geometry: Vec<String>,
-    /// Assumptions: joints held still, defaults, outlines from other geometry, ignored elements.
+    /// Assumptions: joints that are held, default values, outlines from other geometry, ignored elements.
     pub notes: Vec<String>,
-    /// Warnings: links that cannot collide, meshes replaced by a bar.
+    /// Warnings, for example about links that cannot collide, or meshes that are replaced by a bar.
     pub warnings: Vec<String>,
-    /// Limits that are assumed because the files give none.
+    /// Limits that are assumed because the files state none.
     pub assumed: AssumedLimits,
-    /// Joints that could move but are held, and whose value matters to the arm: names and values, radians or metres.
+    /// Names and values (radians or metres) of the movable joints that are held and whose value matters to the arm.
     pub held: Vec<(String, f64)>,
-    /// These joints with the effects of their motion.
+    /// The same joints, with the effects of their motion.
     #[serde(default)]
     pub held_joints: Vec<HeldJoint>,
     /// All movable joints, for messages that name them.
     pub joints: RobotJoints,
-    /// The reason why torques are unknown, if they are.
+    /// The reason why torques are unknown. `None` if they are known.
     #[serde(default)]
     pub no_dynamics: Option<String>,
     /// Paths of the files that were read: the URDF, the files of its xacro, and its meshes.
@@ -34,15 +34,15 @@ pub struct RobotReport {
 }
 
 impl RobotReport {
-    /// Returns warnings and assumptions for programs that print no summary: lines that begin with `warning:` or
-    /// `note:`.
+    /// Returns warnings and assumptions as lines that begin with `warning:` or `note:`. They are for programs that
+    /// print no summary.
     #[must_use]
     pub fn remarks(&self, arm: &Arm) -> Vec<String> {
         let warnings = self.warnings.iter().map(|warning| format!("warning: {warning}"));
         warnings.chain(self.assumptions(arm).iter().map(|assumption| format!("note: {assumption}"))).collect()
     }
 
-    /// Returns the assumed limits of an arm, in the same words everywhere.
+    /// Describes the limits of an arm that are assumed.
     #[must_use]
     pub fn assumptions(&self, arm: &Arm) -> Vec<String> {
         self.assumed.notes(arm.joints.each_ref().map(|joint| (joint.name.as_str(), joint.unit())))

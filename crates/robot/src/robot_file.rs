@@ -1,16 +1,16 @@
-//! The file of a robot: a URDF, or xacro that is expanded to one.
+//! The file of a robot: URDF, or xacro that is expanded to URDF.
 
 use super::error::{Diagnostic, InputError};
 use super::source::{Source, read_bounded};
 use cplan_xacro::{Settings, expand, is_xacro};
 use std::path::{Path, PathBuf};
 
-/// The source of a robot.
+/// The file of a robot, with arguments for its expansion.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct RobotFile {
-    /// A URDF, or xacro.
+    /// Path of a URDF or of xacro.
     pub path: PathBuf,
-    /// Names and values of xacro arguments, which override the defaults.
+    /// Names and values of xacro arguments, which override the defaults in the file.
     pub xacro_args: Vec<(String, String)>,
 }
 
@@ -27,7 +27,8 @@ impl<P: AsRef<Path>> From<P> for RobotFile {
 }
 
 impl RobotFile {
-    /// Reads the file as a URDF. Expands xacro, recognised by name or content; messages then refer to the xacro files.
+    /// Reads the file as URDF. Expands xacro, which it recognises by the file's name or content; positions in messages
+    /// then refer to the xacro files.
     ///
     /// # Errors
     /// A file that cannot be read or expanded, and arguments for a file that is not xacro.

@@ -75,19 +75,19 @@ pub struct RobotTable {
 }
 
 impl RobotTable {
-    /// Returns the same table for a robot at the origin. The URDF is read with this table alone.
+    /// Returns the same table for a robot at the origin. The reader of URDFs gets this table.
     #[must_use]
     pub fn unplaced(&self) -> Self {
         Self { at: None, angle: None, ..self.clone() }
     }
 
-    /// Returns the joint of the wrist, if it is named.
+    /// Returns the name of the wrist's joint, if the table states it.
     #[must_use]
     pub fn wrist_joint(&self) -> Option<&Spanned<String>> {
         self.wrist.as_ref()?.joint.as_ref()
     }
 
-    /// Returns true if links of the robot are obstacles to its other links. This is the default.
+    /// Returns true if links of the robot are obstacles to its other links, which is the default.
     #[must_use]
     pub fn own_body_is_obstacle(&self) -> bool {
         self.own_body != Some(false)

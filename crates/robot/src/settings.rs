@@ -3,12 +3,12 @@
 use crate::robot_table::RobotTable;
 use crate::source::Source;
 
-/// Settings for the reader of a robot, as a world file gives them.
+/// The settings of a world file for reading a robot.
 #[derive(Debug, Clone, Copy)]
 pub struct RobotSettings<'a> {
     /// The `[robot]` table.
     pub table: &'a RobotTable,
-    /// The world file, from which messages about the table quote lines.
+    /// The world file, from which messages quote lines.
     pub source: &'a Source,
     /// True if the world has steps, during which the wrist turns.
     pub has_steps: bool,

@@ -1,4 +1,4 @@
-//! A text file and positions in it.
+//! Text files, and positions in them.
 
 use super::error::{Diagnostic, InputError};
 use cplan_xacro::Expansion;
@@ -9,25 +9,26 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
-/// A place in a text file, counted from 1; columns count characters.
+/// A position in a text file. Lines and columns count from 1, and columns count characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
     /// The number of the line.
     pub line: usize,
-    /// The number of the character in the line.
+    /// The number of the character in its line.
     pub column: usize,
 }
 
-/// The text of an input, read from a file or made by the program. As data it is the text with its name; deserialisation
-/// does not read the file again.
+/// The text of an input, read from a file or made by the program. Serialised, it is the text with its name;
+/// deserialising it does not read the file again.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Source {
     /// Path of the file, or name of a text in memory.
     path: PathBuf,
     text: String,
-    /// True if the file exists, so that other files can be relative to it.
+    /// True if the file exists. Then the text can refer to other files relative to it.
     is_file: bool,
-    /// The xacro files from which the text was expanded. Places in the text are reported as places in them.
+    /// The xacro files from which the text was expanded. Positions in the text are reported as positions in these
+    /// files.
     #[serde(skip)]
     expansion: Option<Arc<Expansion>>,
     /// Position of every [`LINE_INDEX_INTERVAL`]th byte, computed on first use.
@@ -44,7 +45,7 @@ impl PartialEq for Source {
 
 impl Eq for Source {}
 
-/// Finds positions of ascending byte offsets in one pass over the text.
+/// Finds the positions of ascending byte offsets in one pass over the text.
 #[derive(Debug)]
 pub struct Cursor<'a> {
     bytes: &'a [u8],
@@ -53,8 +54,8 @@ pub struct Cursor<'a> {
 }
 
 impl Cursor<'_> {
-    /// Returns line and column of a byte offset, or of the text's end if it is beyond. Restarts for an offset before
-    /// the last one.
+    /// Returns line and column of a byte offset. An offset beyond the text counts as its end. An offset before the
+    /// previous one restarts the pass.
     pub fn position(&mut self, offset: usize) -> Position {
         let offset = offset.min(self.bytes.len());
         if offset < self.read {
@@ -63,7 +64,7 @@ impl Cursor<'_> {
         for byte in &self.bytes[self.read..offset] {
             match byte {
                 b'\n' => self.at = Position { line: self.at.line + 1, column: 1 },
-                // Bytes that continue a character do not count as columns.
+                // Only the first byte of a character counts as a column.
                 byte if byte & 0xc0 != 0x80 => self.at.column += 1,
                 _ => {}
             }
@@ -73,11 +74,11 @@ impl Cursor<'_> {
     }
 }
 
-/// Greatest size of a file, bytes. Real files, meshes included, stay far below; this stops the reading of endless
-/// devices.
+/// Largest size of a file, in bytes. Real files, including meshes, are far smaller. The limit stops the reading of
+/// endless devices.
 const MAX_FILE_BYTES: u64 = 256 << 20;
 
-/// Reads a file, with the error of the system.
+/// Reads a file, and returns the error of the operating system.
 ///
 /// # Errors
 /// I/O errors, and a file larger than 256 MiB.
@@ -95,11 +96,11 @@ fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Greatest size of a recording, bytes: enough for hours at a thousand samples a second as written by cplan. Its values
-/// take up to three times as much memory.
+/// Largest size of a recording, in bytes. It is enough for hours at a thousand samples per second, as cplan writes
+/// them. In memory, the values take up to three times as much.
 const MAX_RECORDING_BYTES: u64 = 2 << 30;
 
-/// Number of bytes between places whose line and column are stored.
+/// Number of bytes between the offsets whose positions are stored.
 const LINE_INDEX_INTERVAL: usize = 4096;
 
 /// Reads a file.
@@ -130,12 +131,12 @@ fn unreadable(path: &Path, error: &io::Error, too_large: &str) -> Diagnostic {
     })
 }
 
-/// Number of characters on either side of the place that an excerpt of a long source line shows.
+/// Number of characters before and after the defect that an excerpt of a long line shows.
 const EXCERPT_REACH: usize = 60;
 
 impl Source {
-    /// Creates a source from a text in memory. `name` is used in messages, and as the world's name if it has none. Such
-    /// a text cannot refer to other files (meshes, maps), so no files are read for it.
+    /// Creates a source from a text in memory. Messages use `name`, and so does a world without a name. The text cannot
+    /// refer to other files such as meshes and maps.
     #[must_use]
     pub fn in_memory(name: impl Into<PathBuf>, text: impl Into<String>) -> Self {
         Self { path: name.into(), text: text.into(), is_file: false, expansion: None, milestones: OnceLock::new() }
@@ -147,8 +148,8 @@ impl Source {
         &self.path
     }
 
-    /// Returns the paths of the files that the text comes from: its own, and those that an expansion read. A text in
-    /// memory has none.
+    /// Returns the paths of the files from which the text was read: its own, and those of an expansion. Empty for a
+    /// text in memory.
     #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
         let own = self.is_file.then(|| self.path.clone());
@@ -164,13 +165,14 @@ impl Source {
         &self.text
     }
 
-    /// Replaces the text, as for an editor's unsaved changes. References are still relative to the same file.
+    /// Returns the source with another text, for example an editor's unsaved changes. References in the text are still
+    /// relative to the same file.
     #[must_use]
     pub fn with_text(&self, text: impl Into<String>) -> Self {
         Self { is_file: self.is_file, ..Self::in_memory(self.path.clone(), text) }
     }
 
-    /// Replaces the text by the URDF to which its xacro expands.
+    /// Returns the source with the URDF to which its xacro expands.
     pub(crate) fn expanded(&self, expansion: Expansion) -> Self {
         Self { expansion: Some(Arc::new(expansion.clone())), ..self.with_text(expansion.text) }
     }
@@ -181,7 +183,7 @@ impl Source {
         self.expansion.is_some()
     }
 
-    /// Returns the xacro file and the part of it from which a byte of the text comes.
+    /// Returns the xacro file from which a byte of the text comes, and the range of bytes there.
     fn origin(&self, offset: usize) -> Option<(Self, Range<usize>)> {
         let expansion = self.expansion.as_ref()?;
         let place = expansion.place(offset)?;
@@ -217,7 +219,7 @@ impl Source {
         Ok(Self { is_file: true, ..Self::in_memory(path, text) })
     }
 
-    /// Returns the path to which names of other files are relative.
+    /// Returns the path to which the names of other files are relative.
     ///
     /// # Errors
     /// The reason, for a text in memory.
@@ -239,8 +241,8 @@ impl Source {
         self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned())
     }
 
-    /// Returns line and column of a byte offset, in the original xacro file if there is one. `O(1)` after the first
-    /// call, which stores positions throughout the text.
+    /// Returns line and column of a byte offset. For expanded xacro, they are those in the original file. `O(1)` after
+    /// the first call, which stores positions throughout the text.
     #[must_use]
     pub fn position(&self, offset: usize) -> Position {
         if let Some((file, range)) = self.origin(offset) {
@@ -281,7 +283,7 @@ impl Source {
         }
     }
 
-    /// Creates a diagnostic at a line and column, both counted from 1, as reported by parsers; 0 means unknown.
+    /// Creates a diagnostic at a line and column as parsers report them: counted from 1, with 0 for unknown.
     pub fn diagnostic_at_position(&self, line: usize, column: usize, message: impl Into<String>) -> Diagnostic {
         if line == 0 {
             return self.diagnostic(message);
@@ -293,7 +295,7 @@ impl Source {
         self.diagnostic_at(before + at..before + at + 1, message)
     }
 
-    /// Returns the part of the line near a place, with carets below the place.
+    /// Returns the part of the line around a position, with carets below the range.
     fn excerpt(&self, position: Position, range: Range<usize>) -> String {
         let start = (0..=range.start.min(self.text.len())).rev().find(|&i| self.text.is_char_boundary(i)).unwrap_or(0);
         let (before, after) = self.text.split_at(start);

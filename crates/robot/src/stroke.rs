@@ -1,4 +1,4 @@
-//! The stroke in the world file's `[robot]`.
+//! The table `stroke` of `[robot]` in the world file.
 
 use super::quantity::Number;
 use super::schema::Positive;

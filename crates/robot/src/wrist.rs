@@ -1,4 +1,4 @@
-//! The wrist in the world file's `[robot]`.
+//! The table `wrist` of `[robot]` in the world file.
 
 use super::assumed::assumed_acceleration_note;
 use super::error::Diagnostic;
@@ -28,17 +28,17 @@ pub struct WristTable {
 }
 
 impl WristTable {
-    /// Reads the wrist's limits. `source` is the file that the table is from.
+    /// Reads the wrist's limits. `source` is the file with the table.
     ///
     /// # Errors
-    /// If a limit is not positive or not finite.
+    /// A limit that is not positive or not finite.
     pub fn read(&self, source: &Source) -> Result<Wrist, Diagnostic> {
         let velocity = positive(source, &self.velocity, "velocity")?;
         let acceleration = self.acceleration.as_ref().map(|a| positive(source, a, "acceleration")).transpose()?;
         Ok(Wrist { velocity, acceleration: acceleration.unwrap_or(assumed_acceleration(velocity)) })
     }
 
-    /// Returns a note on the acceleration, if it is assumed.
+    /// Returns a note about the acceleration limit. `None` if the file states the limit.
     #[must_use]
     pub fn note(&self, wrist: &Wrist) -> Option<String> {
         self.acceleration.is_none().then(|| assumed_acceleration_note("wrist", wrist.acceleration, "rad"))

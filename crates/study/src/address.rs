@@ -1,4 +1,4 @@
-//! Places of numbers in world files and URDFs: `world.obstacle.post.at[0]`, `urdf.joint.elbow.origin.xyz[0]`.
+//! Addresses of numbers in world files and URDFs: `world.obstacle.post.at[0]`, `urdf.joint.elbow.origin.xyz[0]`.
 
 use std::fmt;
 use std::ops::Range;
@@ -8,9 +8,9 @@ use toml::de::{DeArray, DeTable, DeValue};
 /// One step of an address.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Step {
-    /// A key, an element's tag or attribute, or a name.
+    /// The name of a key, element or attribute, or of a named table or element.
     Name(String),
-    /// The number of an entry, from 0.
+    /// The index of an entry, from 0.
     Number(usize),
 }
 
@@ -54,20 +54,20 @@ pub(super) fn steps(text: &str) -> Result<Vec<Step>, String> {
     }
 }
 
-/// A number in a text.
+/// A number in the text of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FoundNumber {
-    /// Position in the text.
+    /// Position of the number, in bytes.
     pub at: Range<usize>,
-    /// True if it is written without a fraction, as counts must be.
+    /// True if the number is written without a fraction, as counts must be.
     pub is_whole: bool,
 }
 
-/// Keys that a robot or an obstacle has by default, with their default values.
+/// Keys of a robot or an obstacle that a world file may leave out, with their default values.
 const DEFAULT_KEYS: [(&str, &str); 2] = [("at", "[0.0, 0.0]"), ("angle", "0.0")];
 
-/// Returns the text of a world with this number written out, if it is a default of robots and obstacles; otherwise the
-/// same text.
+/// Returns the text of a world in which this number is written out. If the number is not a default of a robot or an
+/// obstacle, returns the same text.
 pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
     let (table, key) = match steps {
         [Step::Name(robot), Step::Name(key), ..] if robot == "robot" => (&steps[..1], key),
@@ -75,14 +75,14 @@ pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
         _ => return text.to_owned(),
     };
     let Some((_, silent)) = DEFAULT_KEYS.iter().find(|(silent, _)| silent == key) else { return text.to_owned() };
-    // Tables are written in several ways: what puts the number where it belongs is right.
+    // Tables can be written in several forms. The first insertion that puts the number at its address is right.
     let candidates =
         [inside(text, table, key, silent), below(text, table, key, silent), above(text, table, key, silent)];
     let written = candidates.into_iter().flatten().find(|text| in_world(text, steps).is_ok());
     written.filter(|_| in_world(text, steps).is_err()).unwrap_or_else(|| text.to_owned())
 }
 
-/// Inserts the key at the beginning of its table, which has a header or is inline.
+/// Inserts the key at the beginning of its table, if the table has a header or is inline.
 fn inside(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
     let document = DeTable::parse(text).ok()?;
     let (_, at) = descend(document.get_ref(), document.span(), table).ok()?;
@@ -97,12 +97,12 @@ fn inside(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String>
     Some(format!("{before}{break_before}{written}{after}"))
 }
 
-/// Inserts the key in a new table, for a robot without keys, or with keys only in subtables.
+/// Appends a table `[robot]` with the key, for a robot without keys, or with keys in subtables only.
 fn below(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
     (table.len() == 1).then(|| format!("{}\n\n[robot]\n{key} = {silent}\n", text.trim_end()))
 }
 
-/// Inserts the key beside others of a robot with dotted keys.
+/// Inserts a dotted key `robot.KEY`, for a robot whose other keys are dotted.
 fn above(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
     (table.len() == 1).then(|| format!("robot.{key} = {silent}\n{text}"))
 }
@@ -123,7 +123,7 @@ fn seen<'a>(value: &'a Spanned<DeValue<'a>>) -> (DeRef<'a>, Range<usize>) {
     (seen, value.span())
 }
 
-/// Follows the steps. A name leads from a list of tables to the table with that `name`.
+/// Returns the value to which the steps lead. In a list of tables, a name leads to the table whose `name` it is.
 fn descend<'a>(root: &'a DeTable<'a>, at: Range<usize>, steps: &[Step]) -> Result<(DeRef<'a>, Range<usize>), String> {
     let mut here = (DeRef::Table(root), at);
     for step in steps {
@@ -162,7 +162,7 @@ fn missing(here: &DeRef, step: &Step) -> String {
             let numbered = format!("[0] to [{}]", array.len().saturating_sub(1));
             if names.is_empty() { numbered } else { format!("{}, or {numbered}", names.join(", ")) }
         }
-        DeRef::Value(_) => return format!("there is no {step} in a single value"),
+        DeRef::Value(_) => return format!("there is no {step}: this is a single value, not a table or list"),
     };
     format!("there is no {step}; there is {there}")
 }
@@ -186,13 +186,13 @@ pub(super) fn in_world(text: &str, steps: &[Step]) -> Result<FoundNumber, String
     }
 }
 
-/// Returns the position in a TOML document of the value at an address, if it exists.
+/// Returns the position of the value at an address of a TOML document. `None` if there is no such value.
 pub(super) fn entry_in(text: &str, steps: &[Step]) -> Option<Range<usize>> {
     let document = DeTable::parse(text).ok()?;
     descend(document.get_ref(), document.span(), steps).ok().map(|(_, at)| at)
 }
 
-/// Returns true if an address is that of an angle or of a joint's value.
+/// Returns true if the value at an address may be an angle, that is, an angle or a value of a joint.
 pub(super) fn is_angle(address: &str) -> bool {
     const ANGLE_KEYS: [&str; 7] = ["angle", "joints", "fixed", "limits", "rpy", "lower", "upper"];
     let steps = steps(address).unwrap_or_default();
@@ -200,11 +200,12 @@ pub(super) fn is_angle(address: &str) -> bool {
         Step::Name(name) => Some(name.as_str()),
         Step::Number(_) => None,
     });
-    // The name of a joint may be the last.
+    // The last part of the address may be the name of a joint.
     names.by_ref().take(2).any(|name| ANGLE_KEYS.contains(&name))
 }
 
-/// Addresses of all numbers of a world file, and of those that it leaves unsaid; without `world.`.
+/// Returns the addresses of all numbers of a world file, without `world.`, including those of defaults that it does not
+/// state.
 pub(super) fn all_in_world(text: &str) -> Vec<String> {
     let mut found = vec!["robot.at[0]".to_owned(), "robot.at[1]".to_owned(), "robot.angle".to_owned()];
     if let Ok(document) = DeTable::parse(text) {
@@ -247,7 +248,7 @@ fn quoted(name: &str) -> String {
     if name.contains([' ', '.', '[']) { format!("\"{name}\"") } else { name.to_owned() }
 }
 
-/// Addresses of all numbers of a URDF, without `urdf.`.
+/// Returns the addresses of all numbers of a URDF, without `urdf.`.
 pub(super) fn all_in_urdf(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     if let Ok(document) = roxmltree::Document::parse(text) {
@@ -275,10 +276,10 @@ fn numbers_of_element(element: roxmltree::Node, path: &str, found: &mut Vec<Stri
     }
 }
 
-/// Addresses that are compared with a wrong one, at most: maps and drawings have very many.
+/// Largest number of addresses that are compared with a wrong one for a hint. Maps and drawings have very many.
 const MAX_COMPARED_ADDRESSES: usize = 10_000;
 
-/// Returns the known address closest to this one.
+/// Returns the known address that is closest to a wrong one.
 pub(super) fn nearest(address: &str, known: Vec<String>) -> Option<String> {
     known.into_iter().take(MAX_COMPARED_ADDRESSES).min_by_key(|known| edits(address, known))
 }
@@ -298,8 +299,8 @@ fn edits(a: &str, b: &str) -> usize {
     row[b.len()]
 }
 
-/// Returns the number of a URDF at an address: elements by tag, `joint` and `link` by name, then an attribute, and the
-/// number of the entry in it.
+/// Returns the number of a URDF at an address. Steps are tags of elements, with `joint` and `link` followed by a name;
+/// then an attribute, and the index of the number in it.
 ///
 /// # Errors
 /// The reason, if there is no number.
@@ -352,7 +353,7 @@ pub(super) fn in_urdf(text: &str, steps: &[Step]) -> Result<FoundNumber, String>
     Err("it is an element: name an attribute".into())
 }
 
-/// Returns the positions of the words of a text.
+/// Returns the positions of the words of a text, in bytes.
 fn entries(text: &str) -> Vec<Range<usize>> {
     let start = |word: &str| word.as_ptr() as usize - text.as_ptr() as usize;
     text.split_whitespace().map(|word| start(word)..start(word) + word.len()).collect()

@@ -1,4 +1,4 @@
-//! Reading a study file.
+//! Reads study files.
 
 use super::Study;
 use super::address::{Step, entry_in, is_angle};
@@ -13,16 +13,16 @@ use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 
-/// Layouts of a study at the most.
+/// Largest number of layouts of a study.
 const MAX_LAYOUTS: usize = 20_000_000;
 
-/// How words such as `--planner=first` are read; they are those of the main job.
+/// Parses planning options such as `--planner=first`, which are the same as those of the main command.
 pub type ReadOptions<'a> = &'a dyn Fn(&[String]) -> Result<(Options, Overrides), String>;
 
-/// How a file that a study names is had.
+/// Reads a file that a study names. The second argument is its name, if the study states one.
 type OpenFile<'a> = &'a dyn Fn(NamedFile, Option<&str>) -> Result<Source, InputError>;
 
-/// Knows the file for messages.
+/// A reader that knows the study file, for messages.
 struct Reader<'a> {
     source: &'a Source,
 }
@@ -30,7 +30,7 @@ struct Reader<'a> {
 /// Reads a study and the two files that it names.
 ///
 /// # Errors
-/// Everything that is wrong with them, with line, column and cure.
+/// All defects of the files, with line, column and hint.
 pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, InputError> {
     let study = Source::read(path)?;
     let beside = |which: NamedFile, name: Option<&str>| {
@@ -57,7 +57,7 @@ pub(super) enum NamedFile {
 }
 
 impl NamedFile {
-    /// The key that names it, and an example.
+    /// Returns the key that names the file, and an example of its value.
     fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::Robot => ("robot", "arm.urdf"),
@@ -66,7 +66,7 @@ impl NamedFile {
     }
 }
 
-/// Reads a study from its text, and what it names through `open`.
+/// Reads a study from its text. Reads the files that it names with `open`.
 pub(super) fn read(source: &Source, read_options: ReadOptions, open: OpenFile) -> Result<Study, InputError> {
     let reader = Reader { source };
     let file = reader.parse()?;
@@ -108,15 +108,16 @@ pub(super) fn read(source: &Source, read_options: ReadOptions, open: OpenFile) -
     })
 }
 
-/// What a study measures and looks for.
+/// Measures, conditions and objective of a study.
 struct Goals {
-    /// Measures of the file, then those that conditions and the objective need besides.
+    /// The measures of the file, followed by those that only conditions or the objective need.
     measures: Vec<Measure>,
     conditions: Vec<Condition>,
     objective: Option<Objective>,
 }
 
-/// Returns the objective of a study that names none: the first of duration and length that is measured, or else the first measure.
+/// Returns the objective of a study that states none: duration if it is measured, otherwise length, otherwise the first
+/// measure.
 fn usual_objective(measures: &[Measure]) -> Option<Objective> {
     let preferred = [Measure::Duration, Measure::Length].into_iter().find(|measure| measures.contains(measure));
     let measure = preferred.or(measures.first().copied())?;
@@ -152,7 +153,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Reads measures, conditions and the objective. Worlds with steps have no bounds.
+    /// Reads measures, conditions and the objective. Worlds with steps have no lower bounds.
     fn goals(&self, file: &StudyFile, has_steps: bool) -> Result<Goals, Diagnostic> {
         let named: Vec<Measure> = match &file.measure {
             None => Measure::ALL.to_vec(),
@@ -184,14 +185,14 @@ impl Reader<'_> {
         self.source.diagnostic_at(at, message).help(help)
     }
 
-    /// What is wrong with the options, on a line.
+    /// Returns the diagnostic of invalid options, on one line.
     fn options(&self, words: &Spanned<Vec<String>>, why: &str) -> Diagnostic {
         let reasons: Vec<&str> = why.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
         let help = "`options` are planning options (`cplan help plan`); give files to `cplan study` itself";
         self.wrong(words.span(), format!("options: {}", reasons.join("; ")), help)
     }
 
-    /// A file that the study names.
+    /// Reads a file that the study names.
     fn named(&self, which: NamedFile, name: Option<&Text>, open: OpenFile) -> Result<Source, InputError> {
         let named = name.map(|name| name.get_ref().as_str());
         open(which, named).map_err(|error| match (name, error.diagnostics()) {
@@ -203,7 +204,7 @@ impl Reader<'_> {
         })
     }
 
-    /// What a word stands for.
+    /// Parses a word of the study file with `read`.
     fn word<T>(&self, text: &Text, read: fn(&str) -> Result<T, String>) -> Result<T, Diagnostic> {
         let help = "write conditions as in \"clearance >= 0.01\", and objectives as in \"least duration\"";
         read(text.get_ref()).map_err(|why| self.wrong(text.span(), why, help))
@@ -295,7 +296,7 @@ impl Reader<'_> {
         Ok(Parameter { name, unit, values })
     }
 
-    /// Refuses two parameters of one name, and names of other columns.
+    /// Checks that parameters have different names, and none has the name of another column.
     fn distinct(&self, tables: &[Spanned<ParameterTable>]) -> Result<(), Diagnostic> {
         let names = || tables.iter().map(|table| &table.get_ref().name);
         for (number, name) in names().enumerate() {
@@ -332,7 +333,7 @@ impl Reader<'_> {
         }
     }
 
-    /// World and robot with the places that the parameters set.
+    /// Returns templates of world and robot, with the places that the parameters set.
     fn templates(
         &self,
         tables: &[Spanned<ParameterTable>],
@@ -372,7 +373,7 @@ impl Reader<'_> {
         Ok([template(world, Place::World)?, template(urdf, Place::Urdf)?])
     }
 
-    /// Where one of the addresses that a parameter sets stands.
+    /// Returns the position of one of the addresses that a parameter sets.
     fn target(&self, tables: &[Spanned<ParameterTable>], parameter: usize, number: usize) -> Range<usize> {
         let sets = &tables[parameter].get_ref().sets;
         let entry =

@@ -1,4 +1,4 @@
-//! The journal: rows on disk while a study runs, so that an interrupted study can be continued.
+//! The journal: it keeps rows on disk while a study runs, so that an interrupted study can be continued.
 
 use super::Study;
 use super::row::Row;
@@ -9,35 +9,35 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// Rows are on disk after this time.
+/// Longest time after which appended rows are written to disk.
 const MAX_WRITE_DELAY: Duration = Duration::from_millis(200);
 
-/// Why rows cannot be kept.
+/// The reason why a journal cannot be used.
 #[derive(Debug, Error)]
 pub enum JournalError {
-    /// They are rows of something else.
+    /// The file has the rows of another study, or is no journal.
     #[error("{} has rows of another study, of other files, or of another version of cplan: remove it, or begin again with --fresh", path.display())]
     Other {
-        /// The journal.
+        /// Path of the journal.
         path: PathBuf,
     },
-    /// Another run keeps its rows there.
+    /// Another run is writing to the journal.
     #[error("{}: another process is running this study: wait for it, or give this one another first output", path.display())]
     Busy {
-        /// The journal.
+        /// Path of the journal.
         path: PathBuf,
     },
-    /// The system refused.
+    /// The operating system reported an error.
     #[error("{}: {source}", path.display())]
     System {
-        /// The journal.
+        /// Path of the journal.
         path: PathBuf,
-        /// Why.
+        /// The error.
         source: io::Error,
     },
 }
 
-/// The inputs that determine the rows.
+/// The inputs on which the rows depend. A journal begins with them.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct JournalHeader {
     cplan: String,
@@ -46,7 +46,7 @@ struct JournalHeader {
     urdf: String,
 }
 
-/// Rows of a study, a line each, in order.
+/// The journal of a study: one line per row, in order.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -55,18 +55,19 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal of a study, and reads its rows: those of the first layouts, without a gap. Drops an incomplete
-    /// line, which is left if the program is killed while writing.
+    /// Opens the journal of a study, and reads its rows, which are those of the first layouts without a gap. Drops an
+    /// incomplete last line, which remains if the program is killed while it writes.
     ///
-    /// With `fresh`, drops its rows, even those of another study; a file that is not a journal is not changed.
+    /// With `fresh`, drops all rows, even those of another study. A file that is no journal is never changed.
     ///
     /// # Errors
-    /// A journal of another study, another file, a journal in use by another run, and errors of the system.
+    /// A journal of another study, a file that is no journal, a journal in use by another run, and errors of the
+    /// operating system.
     pub fn open(path: &Path, study: &Study, fresh: bool) -> Result<(Self, Vec<Row>), JournalError> {
         let system = |source| JournalError::System { path: path.to_owned(), source };
         let mut file =
             OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path).map_err(system)?;
-        // Where files cannot be locked nobody is kept out.
+        // On systems that cannot lock files, other runs are not kept out.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(JournalError::Busy { path: path.to_owned() });
         }
@@ -93,7 +94,7 @@ impl Journal {
             }
             length += read as u64;
         }
-        // Something else that has no line of its own is nobody's journal.
+        // A file without any complete line is a journal only if it begins like this one.
         if length == 0
             && line.last() != Some(&b'\n')
             && !line.is_empty()
@@ -109,7 +110,7 @@ impl Journal {
         Ok((journal, rows))
     }
 
-    /// Returns the path.
+    /// Returns the path of the journal.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -118,7 +119,7 @@ impl Journal {
     /// Appends the next row.
     ///
     /// # Errors
-    /// Errors of the system.
+    /// Errors of the operating system.
     pub fn add(&mut self, row: &Row) -> Result<(), JournalError> {
         let mut written = serde_json::to_writer(&mut self.file, row).map_err(io::Error::from);
         written = written.and_then(|()| self.file.write_all(b"\n"));
@@ -132,15 +133,15 @@ impl Journal {
     /// Writes appended rows to disk.
     ///
     /// # Errors
-    /// Errors of the system.
+    /// Errors of the operating system.
     pub fn flush(&mut self) -> Result<(), JournalError> {
         self.file.flush().map_err(|source| JournalError::System { path: self.path.clone(), source })
     }
 
-    /// Removes the journal after the table is written.
+    /// Removes the journal, once the table is written.
     ///
     /// # Errors
-    /// Errors of the system.
+    /// Errors of the operating system.
     pub fn remove(self) -> Result<(), JournalError> {
         std::fs::remove_file(&self.path).map_err(|source| JournalError::System { path: self.path.clone(), source })
     }

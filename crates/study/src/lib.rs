@@ -1,9 +1,9 @@
 //! Studies: one task in many layouts.
 //!
-//! A [`Study`] is a robot in a world, parameters that set numbers in their files, and measures. A layout is the same
-//! two files with other numbers. So any number in the files can be varied, and each layout can be written to files and
-//! planned separately ([`Study::layout`]). A layout's row depends only on its number and the files: rows are the same
-//! for any number of threads, machines and interruptions.
+//! A [`Study`] consists of a robot in a world, of parameters that set numbers in the files of both, and of measures. A
+//! layout is the same two files with other numbers. So any number in the files can be varied, and each layout can be
+//! written to files and planned separately ([`Study::layout`]). A layout's row depends only on its number and the
+//! files: rows are the same for any number of threads, machines and interruptions.
 //!
 //! ```text
 //! study.toml -> Study -> Row, Row, ... -> Table -> CSV; Parquet with the feature `parquet`
@@ -63,59 +63,58 @@ pub struct Study {
     pub conditions: Vec<Condition>,
     /// The objective that ranks layouts.
     pub objective: Option<Objective>,
-    /// Layouts that may be tried to find a better one.
+    /// Largest number of layouts that the search for a better one may try.
     pub searched: usize,
-    /// Seed of draws and search.
+    /// Seed of the random numbers of draws and search.
     seed: u64,
     /// The study file.
     source: Source,
     design: Design,
     world: Template,
     urdf: Template,
-    /// Robot and world as the files have them.
+    /// Robot and world as in the files, before parameters set any numbers.
     base: LoadedScene,
     options: Options,
-    /// The same options as text.
+    /// The planning options as text.
     words: Vec<String>,
-    /// True if obstacles may overlap.
+    /// True if obstacles may overlap in a layout that do not overlap in the world file.
     may_overlap: bool,
     overrides: Overrides,
 }
 
 impl Study {
-    /// Returns warnings and assumptions about the robot: [`cplan_robot::RobotReport::remarks`].
+    /// Returns warnings and assumptions about the robot, as in [`cplan_robot::RobotReport::remarks`].
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         self.base.robot.remarks(self.base.scene.arm())
     }
 
-    /// Returns the paths of all files that were read, the study's own first.
+    /// Returns the paths of all files that were read, beginning with the study file.
     #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
         self.source.files().into_iter().chain(self.base.files()).collect()
     }
 
-    /// Reads a study file, and robot and world that it names.
+    /// Reads a study file, and the robot and the world that it names.
     ///
     /// # Errors
-    /// Everything that is wrong with them, with line, column and cure.
+    /// All defects of the files, with line, column and hint.
     pub fn load(path: impl AsRef<Path>, read_options: ReadOptions) -> Result<Self, InputError> {
         file::load(path.as_ref(), read_options)
     }
 
-    /// Does the same with texts: the study, and the robot and the world that it names.
+    /// Reads a study from the texts of the study file, of the robot and of the world.
     ///
     /// # Errors
-    /// Every defect, with line, column and hint.
+    /// All defects of the texts, with line, column and hint.
     pub fn from_sources([study, urdf, world]: [Source; 3], read_options: ReadOptions) -> Result<Self, InputError> {
         file::read(&study, read_options, &|which, _| {
             Ok(if which == NamedFile::Robot { urdf.clone() } else { world.clone() })
         })
     }
 
-    /// Returns the texts of study, robot and world, with defaults of the world written out, as input for
-    /// [`Study::from_sources`].
-    /// [`Study::from_sources`].
+    /// Returns the texts of study, robot and world, from which [`Study::from_sources`] makes the same study. Defaults
+    /// of the world that parameters set are written out.
     #[must_use]
     pub fn sources(&self) -> [&Source; 3] {
         [&self.source, self.urdf.source(), self.world.source()]
@@ -127,13 +126,13 @@ impl Study {
         &self.words
     }
 
-    /// Returns true if robots differ between layouts.
+    /// Returns true if parameters set numbers of the robot.
     #[must_use]
     pub fn varies_robots(&self) -> bool {
         !self.urdf.is_fixed()
     }
 
-    /// Returns the number of listed and drawn layouts.
+    /// Returns the number of layouts that are listed and drawn.
     #[must_use]
     pub fn count(&self) -> usize {
         self.design.count()
@@ -150,13 +149,13 @@ impl Study {
         self.measures.iter().position(|m| *m == measure)
     }
 
-    /// Returns world and robot with these values.
+    /// Returns the texts of world and robot with these values of the parameters.
     #[must_use]
     pub fn layout(&self, values: &[f64]) -> [Source; 2] {
         [self.world.filled(values), self.urdf.filled(values)]
     }
 
-    /// Returns the problem with these values.
+    /// Returns the problem with these values of the parameters.
     ///
     /// # Errors
     /// Invalid values; overlapping obstacles; a start or goal that is out of reach or not free.
@@ -175,24 +174,23 @@ impl Study {
         Problem::of_scene(scene, &self.overrides)
     }
 
-    /// Plans with these values.
+    /// Plans with these values of the parameters.
     ///
     /// # Errors
-    /// Same as [`Study::problem`], and reasons for which planning is refused.
+    /// The errors of [`Study::problem`], and reasons for which planning is refused.
     pub fn plan(&self, values: &[f64]) -> Result<Plan, String> {
         let problem = self.problem(values).map_err(|error| describe_error(&error))?;
         plan(&problem, &self.options).map_err(|error| error.to_string())
     }
 
-    /// Computes a layout's row.
+    /// Plans a layout and returns its row.
     #[must_use]
     pub fn row(&self, layout: usize) -> Row {
         self.row_of(layout, self.values(layout))
     }
 
     fn row_of(&self, layout: usize, values: Vec<f64>) -> Row {
-        // A failure in one layout becomes its row. An interruption of the whole study also unwinds, and continues to do
-        // so.
+        // An error inside one layout becomes its row. An interruption of the whole study also unwinds; it is passed on.
         let judged = caught(|| self.judged(&values)).unwrap_or_else(Err);
         let (ending, reason, measured) = match judged {
             Ok(judged) => judged,
@@ -211,7 +209,7 @@ impl Study {
             return Err(lack);
         }
         if let (Some(motion), true) = (problem.motion(), self.measures.iter().all(|measure| measure.is_of_the_path())) {
-            // The path is known before it is driven along.
+            // Measures of the path alone need no motion along it.
             let answer = solve(motion, &self.options, &mut |_| ());
             let (length, bound) = (answer.path().map(|path| path.length()), answer.bound());
             let measured = self.measures.iter().map(|measure| measure.of_path(length, bound)).collect();
@@ -222,7 +220,8 @@ impl Study {
         Ok((plan.status().into(), plan.reason(), measured))
     }
 
-    /// Computes the rows of these layouts on several threads. Passes each to `each` in order, as soon as possible.
+    /// Computes the rows of these layouts on `jobs` threads. Passes each row to `each`, in order, as soon as all rows
+    /// before it have been passed.
     ///
     /// # Errors
     /// The error of `each`.
@@ -234,7 +233,8 @@ impl Study {
 /// The ending of planning, the reason if there is no motion, and the measured values.
 type LayoutResult = (Ending, Option<String>, Vec<Option<f64>>);
 
-/// Formats the first defect on one line, without its place in files that exist only for one layout.
+/// Returns the first defect on one line, without its position in a file, because the files of a layout exist in memory
+/// only.
 fn describe_error(error: &InputError) -> String {
     error.diagnostics().first().map_or_else(|| error.to_string(), |first| first.message.clone())
 }

@@ -4,18 +4,18 @@ use cplan_engine::Plan;
 use cplan_solver::Bound;
 use std::fmt;
 
-/// A number that a plan has.
+/// A quantity that is measured for each plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Measure {
-    /// Length of the path in joint space; of a task that of all its motions.
+    /// Length of the path in joint space. For a task, the total length of all motions.
     Length,
-    /// The length divided by the proven bound.
+    /// The length divided by the proven lower bound.
     OverBound,
-    /// No path is shorter than this: proven.
+    /// Proven lower bound on the length of all paths.
     LowerBound,
-    /// Proven distance from obstacles along the whole motion, metres.
+    /// Proven lower bound on the distance from obstacles along the whole motion, in metres.
     Clearance,
-    /// Time of the motion, or of a whole cycle of a task, seconds.
+    /// Duration of the motion, or of a whole cycle of a task, in seconds.
     Duration,
 }
 
@@ -23,7 +23,7 @@ impl Measure {
     /// All measures, in the order of the columns.
     pub const ALL: [Self; 5] = [Self::Length, Self::OverBound, Self::LowerBound, Self::Clearance, Self::Duration];
 
-    /// Returns its name, a column of the table.
+    /// Returns the name of the measure, which is also that of its column.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -55,7 +55,7 @@ impl Measure {
         found.ok_or_else(|| format!("\"{name}\" is not a measure; measures are {}", names()))
     }
 
-    /// What a plan has of it.
+    /// Returns the value of this measure for a plan. `None` if the plan has none.
     pub(super) fn of(self, plan: &Plan) -> Option<f64> {
         match self {
             Self::Clearance => plan.clearance(),
@@ -71,11 +71,11 @@ impl Measure {
         matches!(self, Self::Length | Self::OverBound | Self::LowerBound)
     }
 
-    /// What a path of this length, with this bound, has of it.
+    /// Returns the value of this measure for a path with this length and bound. `None` if there is none.
     pub(super) fn of_path(self, length: Option<f64>, bound: Option<Bound>) -> Option<f64> {
         match self {
             Self::Length => length,
-            // In the metric that was asked for, which may not be that of lengths.
+            // The ratio is in the metric that was requested, which may differ from that of lengths.
             Self::OverBound => bound.and_then(|bound| over(bound.upper, bound.lower)),
             Self::LowerBound => bound.map(|bound| bound.lower),
             Self::Clearance | Self::Duration => None,
@@ -87,10 +87,10 @@ fn over(length: f64, bound: f64) -> Option<f64> {
     Some(length / bound).filter(|ratio| ratio.is_finite())
 }
 
-/// A condition on a layout, in addition to having a motion.
+/// A condition that a layout must satisfy, in addition to having a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Condition {
-    /// The compared measure.
+    /// The measure that is compared with the bound.
     pub measure: Measure,
     /// True for a lower bound, false for an upper bound.
     pub at_least: bool,
@@ -114,8 +114,8 @@ impl Condition {
         Ok(Self { measure: Measure::named(measure.trim())?, at_least, bound })
     }
 
-    /// Returns true if a value satisfies it. A missing value does not, except a clearance without obstacles within
-    /// reach.
+    /// Returns true if a value satisfies the condition. A missing value does not, except that a missing clearance (no
+    /// obstacle within reach) satisfies every lower bound.
     pub(super) fn holds(&self, value: Option<f64>) -> bool {
         let unbounded = (self.measure == Measure::Clearance).then_some(f64::INFINITY);
         value.or(unbounded).is_some_and(|value| if self.at_least { value >= self.bound } else { value <= self.bound })
@@ -155,7 +155,7 @@ impl Objective {
         }
     }
 
-    /// Converts a value to a cost, of which less is better. It is its own inverse.
+    /// Converts a value to a cost, where less is better. The same conversion turns a cost back to the value.
     pub(super) fn cost(&self, value: f64) -> f64 {
         if self.most { -value } else { value }
     }

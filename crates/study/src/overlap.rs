@@ -1,17 +1,18 @@
-//! Obstacles that stand in each other, as no two things can.
+//! Finds obstacles that overlap in a layout.
 
 use cplan_core::model::Obstacle;
 use cplan_geometry::{Bounds, BoxTree, Convex, separation};
 
-/// Depths up to this, metres, are touching: what numbers in files and moving shapes round.
+/// Obstacles that overlap by at most this, in metres, only touch. It covers the rounding of numbers in files and of
+/// moved shapes.
 const TOUCHING_DEPTH: f64 = 1e-9;
 
-/// Describes two obstacles that overlap `now`, in a layout, but not `before`, in the files. Examines only pairs in which at least one
-/// differs from the files.
+/// Describes two obstacles that overlap in the layout (`now`), but not in the files (`before`). `None` if there are
+/// none. Examines only pairs in which at least one obstacle differs from the files.
 pub(super) fn overlap(before: &[Obstacle], now: &[Obstacle]) -> Option<String> {
     let differs = |k: usize| before.get(k) != Some(&now[k]);
     let moved: Vec<usize> = (0..now.len()).filter(|&k| differs(k)).collect();
-    // A study may move nothing but the robot.
+    // Often a study moves only the robot, so that no obstacle has moved.
     let around: Vec<Bounds> = if moved.is_empty() { Vec::new() } else { now.iter().map(bounds).collect() };
     for (done, &moved_one) in moved.iter().enumerate() {
         for other in (0..now.len()).filter(|k| !moved[..=done].contains(k)) {
@@ -30,7 +31,7 @@ fn are_in_each_other(a: &Obstacle, b: &Obstacle) -> bool {
     if !(a.heights.object_definitely_meets(b.heights) && b.heights.object_definitely_meets(a.heights)) {
         return false;
     }
-    // Maps have many pieces.
+    // A tree of boxes, because maps have many pieces.
     let tree = BoxTree::new(b.pieces.iter().map(Convex::bounds).collect());
     let mut near = Vec::new();
     a.pieces.iter().any(|piece| {
@@ -62,7 +63,8 @@ mod tests {
         Obstacle::polygon(name, corners.map(|[x, y]| [at[0] + x, at[1] + y])).unwrap()
     }
 
-    /// Squares of side 1 overlap where their middles are nearer than that along both axes, discs by the distance of their centres.
+    /// Compares with the distance of the centres: squares of side 1 overlap if it is less than 1 along both axes, and
+    /// discs if it is less than the sum of the radii.
     #[test]
     fn overlaps_agree_with_centres() {
         let mut numbers = SplitMix64::nth(5, 0);
@@ -71,7 +73,7 @@ mod tests {
         let discs = [round("a", [9.0, 0.0]), round("b", [0.0, 0.0])];
         let mut overlapping = [0; 2];
         for k in 0..400 {
-            // Some of them touch, or are a hair apart.
+            // Some of the pairs touch, or nearly touch.
             let [x, y] = [0, 1].map(|_| match k % 3 {
                 0 => (numbers.unit() * 5.0).floor() * 0.5 - 1.0,
                 _ => numbers.unit() * 3.0 - 1.5,
@@ -91,21 +93,21 @@ mod tests {
         let [a, b, c] = [square("a", [0.0, 0.0]), square("b", [0.5, 0.0]), square("c", [5.0, 0.0])];
         let files = [a.clone(), b.clone(), c.clone()];
         assert_eq!(overlap(&files, &files), None);
-        // The first two stand in each other from the beginning.
+        // The first two overlap in the files already.
         let moved = [square("a", [0.1, 0.0]), b.clone(), c.clone()];
         assert_eq!(overlap(&files, &moved), None);
         let into = [a.clone(), b.clone(), square("c", [1.2, 0.0])];
         assert_eq!(overlap(&files, &into).as_deref(), Some("\"c\" overlaps \"b\""));
         let touching = [a.clone(), b.clone(), square("c", [1.5, 0.0])];
         assert_eq!(overlap(&files, &touching), None);
-        // Above it there is room.
+        // An obstacle may be above another one.
         let mut above = into.clone();
         above[2].heights = Heights { lower: 1.0, upper: 2.0 };
         (0..2).for_each(|k| above[k].heights = Heights { lower: 0.0, upper: 1.0 });
         assert_eq!(overlap(&files, &above), None);
         above[2].heights.lower = 0.9;
         assert_eq!(overlap(&files, &above).as_deref(), Some("\"b\" overlaps \"c\""));
-        // A wall has no inside, and goes through nothing all the same.
+        // A wall has no area, but still overlaps what it passes through.
         let wall = |y: f64| Obstacle::polyline("wall", [[-2.0, y], [2.0, y]]).unwrap();
         let files = [wall(3.0), a.clone()];
         assert_eq!(overlap(&files, &[wall(0.5), a.clone()]), None);

@@ -1,4 +1,5 @@
-//! A study as one page of HTML: heat maps, the front of two measures, the best and the worst layouts, why others fail.
+//! A study as one page of HTML: heat maps, the Pareto fronts of two measures, the best and worst layouts, and the
+//! reasons why others fail.
 
 use super::Study;
 use super::measure::{Measure, Objective};
@@ -9,13 +10,14 @@ use cplan_compare::page::{Axis, Frame, folded, foot, frame, head, image_source, 
 use cplan_compare::{Align, Column, Picture, Table};
 use cplan_text::{counted, markup};
 
-/// Number of parameters whose pairs have maps.
+/// Largest number of parameters for which each pair has a map.
 const MAX_MAPPED_PARAMETERS: usize = 4;
-/// Cells of a map along an axis of values that are drawn, or of more than [`MAX_LISTED_CELLS`].
+/// Number of cells of a map along the axis of a parameter that is drawn, or that has more than [`MAX_LISTED_CELLS`]
+/// values.
 const CELLS_PER_AXIS: usize = 24;
-/// Listed values that have cells of their own.
+/// Largest number of listed values for which each value has its own cell.
 const MAX_LISTED_CELLS: usize = 48;
-/// Points of a chart at the most.
+/// Largest number of points in a chart.
 const MAX_CHART_POINTS: usize = 4000;
 
 impl Study {
@@ -50,11 +52,12 @@ impl Study {
         for (ending, reason, count) in summary.reasons().into_iter().take(MAX_REASONS) {
             rows.push(vec![Some(format!("\u{2026} {}", ending.name())), Some(count.to_string()), Some(reason)]);
         }
-        // Causes are sentences, which are wrapped.
+        // The reasons are sentences, so the table may wrap them.
         table(&Table { columns: columns.collect(), rows }).replacen("<table", "<table class=\"words\"", 1)
     }
 
-    /// Draws a map for each pair of parameters: where a motion exists, and the best value of the objective.
+    /// Draws a map for each pair of parameters. It shows where a motion exists, and the best value of the objective in
+    /// each cell.
     fn maps(&self, summary: &Summary, rows: &[Row]) -> String {
         let mapped = self.parameters.len().min(MAX_MAPPED_PARAMETERS);
         let pairs = (0..mapped).flat_map(|a| (a + 1..mapped).map(move |b| [a, b]));
@@ -116,7 +119,7 @@ impl Study {
         figure(&title, &(svg + "</svg>\n" + &scale))
     }
 
-    /// Draws the objective against each other measure, with the layouts on the Pareto front.
+    /// Draws a chart of the objective against each other measure, with the layouts on the Pareto front.
     fn fronts(&self, summary: &Summary, rows: &[Row]) -> String {
         let Some(objective) = self.objective else { return String::new() };
         let others = self.measures.iter().filter(|measure| **measure != objective.measure);
@@ -125,7 +128,7 @@ impl Study {
             measure.unit().map_or_else(|| measure.name().to_owned(), |unit| format!("{}, {unit}", measure.name()))
         };
         let mut charts = String::new();
-        // Where the dots of earlier charts are: of two with the same ones the second says nothing.
+        // Dots of the charts so far. A chart with the same dots as an earlier one would show nothing new.
         let mut drawn: Vec<Vec<[f64; 2]>> = Vec::new();
         for other in others {
             let pair = [objective.measure, *other];
@@ -164,11 +167,11 @@ impl Study {
     }
 }
 
-/// Cells whose layouts are all proven to have no motion.
+/// Colour of a cell in which all layouts are proven infeasible.
 const INFEASIBLE_COLOR: &str = "#c25100";
-/// Cells in which some have a motion, but none meets the conditions.
+/// Colour of a cell in which some layouts have a motion, but none satisfies the conditions.
 const UNFIT_COLOR: &str = "#f2b8cf";
-/// Cells in which none has one, for whatever reason.
+/// Colour of a cell in which no layout has a motion, for various reasons.
 const NO_MOTION_COLOR: &str = "#9aa1a9";
 
 /// Meaning of the colours of a map, other than those of the objective.
@@ -178,7 +181,7 @@ const MAP_LEGEND: [(&str, &str); 3] = [
     (NO_MOTION_COLOR, "nothing to plan, or unknown"),
 ];
 
-/// Distance below which dots of two charts look equal, as a fraction of the chart.
+/// Largest distance at which dots of two charts count as equal, as a fraction of the chart.
 const DOT_DISTANCE: f64 = 0.01;
 
 fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
@@ -186,12 +189,12 @@ fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
 
-/// Left end and width of a scale of colours, pixels: those of the map above it.
+/// Left end and width of the scale of colours, in pixels. They are those of the map above it.
 const SCALE_EXTENT: [f64; 2] = [78.0, 368.0];
-/// Colours that it has.
+/// Number of colours of the scale.
 const SCALE_SHADES: usize = 64;
 
-/// Describes the colours from the least to the greatest cost; `None` if the costs are equal.
+/// Draws the scale of colours from the least to the greatest cost. Returns an empty text if all costs are equal.
 fn scale(objective: Objective, least: f64, greatest: f64) -> String {
     if greatest <= least || !(greatest - least).is_finite() {
         return String::new();
@@ -206,13 +209,13 @@ fn scale(objective: Objective, least: f64, greatest: f64) -> String {
         svg += &format!(
             "<rect x=\"{}\" y=\"2\" width=\"{}\" height=\"12\" fill=\"{}\"/>",
             number(left + shade_width * k as f64),
-            // Without seams.
+            // Rectangles overlap slightly, so that no seams are visible.
             number(shade_width + 0.3),
             shade((k as f64 + 0.5) / SCALE_SHADES as f64)
         );
     }
     for (value, text) in axis.ticks() {
-        // The best is on the left, be it the least or the greatest.
+        // The best value is on the left, whether it is the least or the greatest.
         let share = if objective.most { 1.0 - axis.place(value) } else { axis.place(value) };
         svg += &format!("<text class=\"tick\" x=\"{}\" y=\"29\">{text}</text>\n", number(left + width * share));
     }
@@ -226,7 +229,7 @@ fn scale(objective: Objective, least: f64, greatest: f64) -> String {
 
 const OUTCOME_HEADINGS: [&str; 3] = ["outcome", "layouts", "why"];
 
-/// Reasons that are listed.
+/// Largest number of reasons that are listed.
 const MAX_REASONS: usize = 12;
 
 const METHOD_NOTE: &str = "Every layout was planned in as by itself. <em>Found</em>: the whole continuous motion is certified free of collision. \
@@ -237,7 +240,7 @@ fn figure(title: &str, svg: &str) -> String {
     format!("<figure class=\"card\"><figcaption>{}</figcaption>\n{svg}</figure>\n", markup(title))
 }
 
-/// Pictures of layouts, the first of them open.
+/// Returns the section with pictures of layouts, of which the first is unfolded.
 fn pictured(pictures: &[Picture]) -> String {
     let picture = |(number, Picture { title, svg }): (usize, &Picture)| {
         let title = markup(title);
@@ -251,7 +254,7 @@ fn pictured(pictures: &[Picture]) -> String {
     if all.is_empty() { all } else { section("Pictures", &all) }
 }
 
-/// Cells along an axis.
+/// Division of a parameter's values into the cells along an axis.
 struct Bins {
     from: f64,
     to: f64,
@@ -262,7 +265,7 @@ impl Bins {
     fn of(parameter: &Parameter) -> Self {
         let [from, to] = parameter.values.range();
         match &parameter.values {
-            // Each value in the middle of its cell.
+            // Each value is in the middle of its cell.
             Values::Stepped { count, .. } if *count <= MAX_LISTED_CELLS && to > from => {
                 let half = (to - from) / (count - 1) as f64 / 2.0;
                 Self { from: from - half, to: to + half, count: *count }
@@ -301,7 +304,7 @@ impl Cell {
         }
     }
 
-    /// Returns its colour and description; `None` for a cell without layouts.
+    /// Returns the colour and the description of a cell. `None` for a cell without layouts.
     fn look(&self, least: f64, greatest: f64) -> Option<(String, String)> {
         if self.layouts == 0 {
             return None;
@@ -326,8 +329,8 @@ impl Cell {
     }
 }
 
-/// Returns a colour from dark blue at 0 to yellow at 1, with increasing lightness: readable with colour blindness and
-/// in grey.
+/// Returns a colour from dark blue at 0 to yellow at 1. Its lightness increases, so that colour-blind readers and grey
+/// prints can tell the values apart.
 fn shade(share: f64) -> String {
     const COLOR_STOPS: [[f64; 3]; 5] =
         [[68.0, 1.0, 84.0], [59.0, 82.0, 139.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [253.0, 231.0, 37.0]];

@@ -5,7 +5,7 @@ use cplan_core::space::SplitMix64;
 /// A number that differs from layout to layout.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
-    /// Its name, a column of the table.
+    /// Name of the parameter, and of its column in the table.
     pub name: String,
     /// The unit of its values, for tables and pictures.
     pub unit: Option<String>,
@@ -14,7 +14,7 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// Returns its name with its unit.
+    /// Returns the name, with the unit if there is one.
     #[must_use]
     pub fn titled(&self) -> String {
         self.unit.as_ref().map_or_else(|| self.name.clone(), |unit| format!("{}, {unit}", self.name))
@@ -24,9 +24,9 @@ impl Parameter {
 /// The values of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
-    /// A list of values, each combined with all values of every other parameter.
+    /// Listed values. Each is combined with all values of every other parameter.
     Listed(Vec<f64>),
-    /// The same in equal steps.
+    /// Values in equal steps, combined in the same way as listed ones.
     Stepped {
         /// The first and least value.
         from: f64,
@@ -41,8 +41,7 @@ pub enum Values {
         from: f64,
         /// The greatest value.
         to: f64,
-        /// True for a Latin hypercube: one draw in each of as many equal intervals as there are draws. Otherwise draws
-        /// are independent.
+        /// True for a Latin hypercube: for `n` draws, one in each of `n` equal intervals. False for independent draws.
         latin: bool,
     },
 }
@@ -60,14 +59,14 @@ impl Values {
         }
     }
 
-    /// Returns the values in order, unless they are drawn.
+    /// Returns the values in order. `None` if they are drawn.
     #[must_use]
     pub fn listed(&self) -> Option<Vec<f64>> {
         match self {
             Self::Listed(values) => Some(values.clone()),
             Self::Stepped { from, to, count } => {
                 let last = (count - 1).max(1);
-                // Both ends exactly.
+                // The ends are not rounded.
                 let value = |i: usize| if i == last { *to } else { from + (to - from) * i as f64 / last as f64 };
                 Some((0..*count).map(value).collect())
             }
@@ -75,7 +74,7 @@ impl Values {
         }
     }
 
-    /// Returns the search range: the interval of numbers that [`Values::at`] takes.
+    /// Returns the least and greatest argument of [`Values::at`], between which the search moves.
     pub(super) fn room(&self) -> [f64; 2] {
         match self {
             Self::Listed(values) => [0.0, values.len() as f64],
@@ -83,7 +82,8 @@ impl Values {
         }
     }
 
-    /// Returns the value at a place in the range: a listed one, or else the place itself.
+    /// Returns the value at a place of the search range. For listed values, the integer part of the place is the index;
+    /// otherwise the place is the value itself.
     pub(super) fn at(&self, place: f64) -> f64 {
         match self {
             Self::Listed(values) => values[(place.max(0.0) as usize).min(values.len() - 1)],
@@ -91,7 +91,7 @@ impl Values {
         }
     }
 
-    /// Returns a place with this value.
+    /// Returns a place of the search range with this value.
     pub(super) fn place(&self, value: f64) -> f64 {
         match self {
             Self::Listed(values) => values.iter().position(|v| *v == value).map_or(0.0, |i| i as f64 + 0.5),
@@ -100,29 +100,27 @@ impl Values {
     }
 }
 
-/// All layouts of a study: each combination of the listed values with each of the draws.
+/// All layouts of a study: each combination of listed values, with each of the draws.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Design {
-    /// The columns of the parameters, in order.
+    /// The columns in the order of the parameters.
     columns: Vec<Column>,
-    /// Layouts for each combination of listed values.
+    /// Number of layouts for each combination of listed values.
     draws: usize,
     count: usize,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 enum Column {
-    /// Each value stays for so many layouts.
+    /// Listed values. Each one applies to `stays` consecutive layouts before the next follows.
     Listed { values: Vec<f64>, stays: usize },
-    /// The values of the draws.
+    /// A value for each draw.
     Drawn(Vec<f64>),
 }
 
 impl Design {
-    /// Creates the design. The values of the last parameter change fastest, those of draws before them.
-    ///
-    /// # Errors
-    /// More layouts than can be counted.
+    /// Creates the design. From one layout to the next, draws change fastest, then the listed values of the last
+    /// parameter. Returns `None` if there are more layouts than can be counted.
     pub fn new(parameters: &[Parameter], draws: usize, seed: u64) -> Option<Self> {
         let mut stays = draws;
         let mut columns = Vec::new();
@@ -134,7 +132,8 @@ impl Design {
                     Column::Listed { values, stays: std::mem::replace(&mut stays, next) }
                 }
                 Values::Drawn { from, to, latin } => {
-                    // A sequence of its own for each parameter, so that another one beside it changes no draws.
+                    // Each parameter has its own sequence of random numbers, so that adding a parameter does not change
+                    // the draws of others.
                     let mut numbers = SplitMix64::nth(seed, number as u64);
                     let shares = if *latin {
                         stratified(draws, &mut numbers)
@@ -169,7 +168,7 @@ impl Design {
 /// Returns one number in each of `count` equal parts of `[0, 1)`, in random order.
 fn stratified(count: usize, numbers: &mut SplitMix64) -> Vec<f64> {
     let mut shares: Vec<f64> = (0..count).map(|part| (part as f64 + numbers.unit()) / count as f64).collect();
-    // Fisher and Yates.
+    // The shuffle of Fisher and Yates.
     for i in (1..count).rev() {
         shares.swap(i, ((numbers.unit() * (i + 1) as f64) as usize).min(i));
     }

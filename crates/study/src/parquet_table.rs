@@ -1,4 +1,4 @@
-//! The rows of a study as a Parquet file: the feature `parquet`.
+//! The rows of a study as a Parquet file. The feature `parquet` enables it.
 
 use super::Study;
 use super::row::Row;
@@ -10,7 +10,7 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 use std::sync::Arc;
 
-/// Rows per row group, the unit that readers load at once.
+/// Number of rows per row group, the unit that readers load at once.
 const ROWS_PER_GROUP: usize = 1 << 16;
 
 /// A column of the table.
@@ -33,8 +33,8 @@ impl Cells {
 }
 
 impl Study {
-    /// Writes the table as a Parquet file, with the columns of [`Study::csv`]: counts, flags, doubles and text. Missing
-    /// values are null.
+    /// Returns the table as a Parquet file, with the columns of [`Study::csv`] as counts, flags, doubles and text.
+    /// Missing values are null.
     ///
     /// # Errors
     /// Rows that the format cannot hold.
@@ -87,7 +87,7 @@ impl Study {
     }
 }
 
-/// Splits optional values into the present ones and flags of presence.
+/// Splits optional values into the present ones, and a 1 or 0 for each that states whether it is present.
 fn present<T>(values: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
     let (mut there, mut levels) = (Vec::new(), Vec::new());
     for value in values {

@@ -12,9 +12,9 @@ pub struct Row {
     pub values: Vec<f64>,
     /// Ending of planning.
     pub ending: Ending,
-    /// The reason if there is no motion: its beginning, on one line.
+    /// The beginning of the reason why there is no motion, on one line. `None` if there is a motion.
     pub reason: Option<String>,
-    /// Measured values, in the order of the study's measures; `None` for missing ones.
+    /// Measured values, in the order of the study's measures. `None` for a missing value.
     pub measured: Vec<Option<f64>>,
     /// True if there is a motion and all conditions hold.
     pub fits: bool,
@@ -28,9 +28,9 @@ pub enum Ending {
     Found,
     /// It is proven that no motion exists.
     Infeasible,
-    /// Neither is known.
+    /// It is not known whether a motion exists.
     Unknown,
-    /// There is nothing to plan: start or goal is not free or out of reach, or a value makes no sense.
+    /// There is nothing to plan: start or goal is blocked or out of reach, or a value is invalid.
     Refused,
 }
 
@@ -38,7 +38,7 @@ impl Ending {
     /// All endings.
     pub const ALL: [Self; 4] = [Self::Found, Self::Infeasible, Self::Unknown, Self::Refused];
 
-    /// Returns its word in tables.
+    /// Returns the word for the ending in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

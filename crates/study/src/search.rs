@@ -1,4 +1,4 @@
-//! A search for a better layout: a particle swarm that begins with the best layouts known.
+//! The search for a better layout: a particle swarm that begins with the best known layouts.
 
 use super::Study;
 use super::measure::Objective;
@@ -9,24 +9,24 @@ use cplan_parallel::in_order;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-/// Layouts of a generation, if the search may try ten times as many.
+/// Number of layouts in a generation. A search of fewer than ten generations of this size has smaller ones.
 const GENERATION_SIZE: usize = 40;
 
-/// Cost of a layout that does not count.
+/// Cost of a layout that has no motion or violates a condition.
 const EXCLUDED_COST: f64 = f64::INFINITY;
 
 impl Study {
-    /// Returns the cost of a row for the search, of which less is better; infinite for a layout without a motion or
-    /// with a violated condition.
+    /// Returns the cost of a row for the search, where less is better. It is infinite for a layout that has no motion
+    /// or violates a condition.
     #[must_use]
     pub fn cost(&self, row: &Row) -> f64 {
         let value = |objective: Objective| Some(objective.cost(row.measured[self.column(objective.measure)?]?));
         self.objective.filter(|_| row.fits).and_then(value).unwrap_or(EXCLUDED_COST)
     }
 
-    /// Continues the search from `known` rows, those of all layouts of the study, on several threads. Passes each row
-    /// to `each`, in order. Rows in `done`, of an earlier interrupted search, are not planned again, and no layout gets
-    /// two rows. The rows are the same for any number of threads.
+    /// Searches for a better layout on several threads. `known` are the rows of all layouts of the study, and `done`
+    /// are the rows of an earlier search that was interrupted. Passes each new layout's row to `each`, in order. Plans
+    /// no layout again, and passes no two rows for one layout. The rows are the same for any number of threads.
     ///
     /// # Errors
     /// The error of `each`.
@@ -48,7 +48,7 @@ impl Study {
         let mut numbers = SplitMix64::nth(self.seed, u64::MAX);
         let mut places = self.best_places(known, swarm);
         if places.len() < swarm {
-            // Drawn places fill the swarm, which takes a generation.
+            // Random places fill the first generation.
             let mut drawn = || rooms.iter().map(|[lower, upper]| lower + (upper - lower) * numbers.unit()).collect();
             let drawn: Vec<Vec<f64>> = (places.len()..swarm).map(|_| drawn()).collect();
             let costs = landscape.costs(&drawn)?;
@@ -58,7 +58,7 @@ impl Study {
         minimize(&rooms, places, generations, &mut numbers, |places| landscape.costs(places))
     }
 
-    /// Places and costs of the best rows, best first, at most so many.
+    /// Returns the places and costs of the best rows, the best first, at most `most` of them.
     fn best_places(&self, known: &[Row], most: usize) -> Vec<(Vec<f64>, f64)> {
         let mut order: Vec<(&Row, f64)> = known.iter().map(|row| (row, self.cost(row))).collect();
         order.sort_by(|(a, a_cost), (b, b_cost)| a_cost.total_cmp(b_cost).then(a.layout.cmp(&b.layout)));
@@ -70,22 +70,22 @@ impl Study {
     }
 }
 
-/// Costs of layouts, by their places in the ranges of the parameters.
+/// Computes the costs of layouts at places of the search range, and passes on new rows.
 struct Landscape<'a, F> {
     study: &'a Study,
-    /// Rows of an earlier search, in order.
+    /// The rows of an earlier search, in order.
     done: &'a [Row],
     jobs: usize,
-    /// The number of the first layout that is tried.
+    /// The number of the first layout that the search tries.
     first: usize,
     each: F,
-    /// Costs of all layouts that have a row, by their values.
+    /// The cost of every layout that has a row, by the bits of its values.
     costs: HashMap<Vec<u64>, f64>,
     tried: usize,
 }
 
 impl<F> Landscape<'_, F> {
-    /// Returns the costs of layouts, and hands on the rows of those that are new.
+    /// Returns the cost for each place, and passes the rows of new layouts to `each`.
     fn costs<E>(&mut self, places: &[Vec<f64>]) -> Result<Vec<f64>, E>
     where
         F: FnMut(Row) -> Result<(), E>,
@@ -97,7 +97,8 @@ impl<F> Landscape<'_, F> {
         let layouts: Vec<Vec<f64>> = places.iter().map(values).collect();
         let mut new: Vec<&Vec<f64>> = Vec::new();
         for values in &layouts {
-            // Places of listed values are often the same, and so are those at the ends of ranges.
+            // Different places often have the same values: those of listed values, and those beyond the ends of a
+            // range.
             if let Entry::Vacant(entry) = costs.entry(key(values)) {
                 entry.insert(EXCLUDED_COST);
                 new.push(values);
@@ -117,7 +118,7 @@ impl<F> Landscape<'_, F> {
     }
 }
 
-/// Values as a key: those of zero are the same.
+/// Returns values as a key of a map. Zeros of both signs have the same key.
 fn key(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| (value + 0.0).to_bits()).collect()
 }

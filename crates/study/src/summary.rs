@@ -10,31 +10,31 @@ use serde_json::{Value, json};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// Reasons that are listed.
+/// Largest number of reasons that are listed.
 const MAX_REASONS: usize = 6;
 
-/// Fraction of a range that counts as its end.
+/// A value counts as at the end of its range if it is within this fraction of the range.
 const RANGE_END_SHARE: f64 = 0.05;
 
 /// Indentation of tables.
 const INDENT: &str = "  ";
 
-/// Layouts that are listed as the best, and as the worst.
+/// Largest number of layouts that are listed as the best, and also as the worst.
 const LISTED_LAYOUTS: usize = 5;
 
-/// Figures of all rows.
+/// The summary of all rows of a study.
 #[derive(Debug, Clone)]
 pub struct Summary<'a> {
     study: &'a Study,
     rows: &'a [Row],
-    /// Rows of the study itself; those behind were found by the search.
+    /// Number of rows of the study itself. The rows after them come from the search.
     designed: usize,
-    /// Layouts that count, the best first.
+    /// Indices of the rows that have a motion and satisfy the conditions, the best first.
     ranked: Vec<usize>,
 }
 
 impl<'a> Summary<'a> {
-    /// Summarises these rows. The rows of the study's own layouts come first.
+    /// Summarises these rows. The rows of the search must follow those of the study's own layouts.
     #[must_use]
     pub fn new(study: &'a Study, rows: &'a [Row]) -> Self {
         let mut ranked: Vec<usize> = (0..rows.len()).filter(|&i| study.cost(&rows[i]).is_finite()).collect();
@@ -42,38 +42,38 @@ impl<'a> Summary<'a> {
         Self { study, rows, designed: study.count().min(rows.len()), ranked }
     }
 
-    /// Rows that ended in each way, in the order of [`Ending::ALL`].
+    /// Returns the number of rows with each ending, in the order of [`Ending::ALL`].
     #[must_use]
     pub fn tally(&self) -> [usize; 4] {
         tally(self.rows)
     }
 
-    /// Returns the same counts for the search alone.
+    /// Returns the number of rows of the search with each ending, in the same order.
     #[must_use]
     pub fn searched(&self) -> [usize; 4] {
         tally(&self.rows[self.designed..])
     }
 
-    /// Returns the best layout that counts.
+    /// Returns the best layout. `None` if none has a motion that satisfies the conditions.
     #[must_use]
     pub fn best(&self) -> Option<&'a Row> {
         self.ranked.first().map(|&i| &self.rows[i])
     }
 
-    /// Returns the worst layout that counts.
+    /// Returns the worst layout that has a motion and satisfies the conditions.
     #[must_use]
     pub fn worst(&self) -> Option<&'a Row> {
         self.ranked.last().map(|&i| &self.rows[i])
     }
 
-    /// Returns the best layout among those of the study itself.
+    /// Returns the best layout of the study itself, without the search.
     #[must_use]
     pub fn best_designed(&self) -> Option<&'a Row> {
         self.ranked.iter().find(|&&i| i < self.designed).map(|&i| &self.rows[i])
     }
 
-    /// Returns the reasons why layouts have no motion: the first cause without numbers, and the number of layouts, most
-    /// frequent first.
+    /// Returns the reasons why layouts have no motion, the most frequent first: the ending, the first cause with
+    /// numbers replaced, and the number of layouts.
     #[must_use]
     pub fn reasons(&self) -> Vec<(Ending, String, usize)> {
         let mut counts: BTreeMap<(Ending, String), usize> = BTreeMap::new();
@@ -87,8 +87,9 @@ impl<'a> Summary<'a> {
         reasons
     }
 
-    /// Returns the Pareto front of two measures, sorted by the first one: for no layout another is better in both.
-    /// Equal costs count as not better; less is better except for clearances.
+    /// Returns the Pareto front of two measures, sorted by the first one: layouts to which no other is better in both
+    /// measures. Of layouts that are equal in one measure, only the best in the other is included. Less is better,
+    /// except for the clearance.
     #[must_use]
     pub fn pareto(&self, measures: [Measure; 2]) -> Vec<&'a Row> {
         let cost = |row: &Row, k: usize| {
@@ -111,7 +112,8 @@ impl<'a> Summary<'a> {
         costs.into_iter().filter(is_front).map(|(_, row)| row).collect()
     }
 
-    /// Returns one line for each range at whose end the best layout lies, so that a better one may be beyond.
+    /// Returns one line for each parameter for which the best layout lies at an end of the range. A better layout may
+    /// lie beyond.
     #[must_use]
     pub fn edges(&self) -> Vec<String> {
         let Some(best) = self.best() else { return Vec::new() };
@@ -127,14 +129,14 @@ impl<'a> Summary<'a> {
                 value if value - from <= near => format!("of at least {from}"),
                 _ => return None,
             };
-            // The digits of tables, without zeros.
+            // The digits of tables, without trailing zeros.
             let value = shown(*value).parse().unwrap_or(*value);
             Some(format!("{} = {value} {which}: a wider range may give a better layout", parameter.name))
         };
         self.study.parameters.iter().zip(&best.values).filter_map(edge).collect()
     }
 
-    /// Returns the text for a terminal, with full tables or 80 characters wide. Ends in a newline.
+    /// Returns the summary for a terminal, 80 characters wide, or with full tables if `wide`. Ends in a newline.
     #[must_use]
     pub fn to_text(&self, wide: bool) -> String {
         let study = self.study;
@@ -188,7 +190,7 @@ impl<'a> Summary<'a> {
         text
     }
 
-    /// Returns a JSON object.
+    /// Returns the summary as a JSON object.
     #[must_use]
     pub fn to_json(&self) -> Value {
         let counts = |tally: [usize; 4]| -> Value {
@@ -221,7 +223,7 @@ impl<'a> Summary<'a> {
         json!({ "layout": row.layout, "parameters": Value::from_iter(values), "measured": Value::from_iter(measured) })
     }
 
-    /// Returns the best rows, up to the number that is listed.
+    /// Returns the table of the best layouts.
     pub(super) fn best_table(&self) -> Table {
         self.table(self.ranked.iter().take(2 * LISTED_LAYOUTS))
     }
@@ -266,8 +268,8 @@ fn indented(text: &str) -> String {
     text.lines().map(|line| format!("{INDENT}{line}").trim_end().to_owned() + "\n").collect()
 }
 
-/// Replaces each number in a reason by `#`, so that layouts with the same failure are counted together. Numbers in
-/// names stay.
+/// Replaces each number in a reason by `#`, so that layouts that fail for the same reason are counted together. Numbers
+/// in names remain.
 fn without_numbers(reason: &str) -> String {
     let word = |word: &str| {
         let bare = word.trim_matches(|c: char| "()[],;:.%".contains(c));
@@ -276,7 +278,7 @@ fn without_numbers(reason: &str) -> String {
     reason.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// Returns the first cause in a reason, without numbers, values of joints, and further causes.
+/// Returns the first cause in a reason, without numbers and joint values.
 fn cause(reason: &str) -> String {
     let text = without_numbers(reason);
     let (mut cause, mut depth, mut is_quoted) = (String::new(), 0, false);
@@ -303,7 +305,8 @@ fn cause(reason: &str) -> String {
     cause
 }
 
-/// Returns the end of the joint values at the beginning of a text: `(shoulder # rad, elbow # rad)`.
+/// Returns the position after the joint values with which a text begins: `(shoulder # rad, elbow # rad)`. `None` if it
+/// does not begin so.
 fn values_end(text: &str) -> Option<usize> {
     let end = text.find(')')? + 1;
     let inside = &text[..end];

@@ -1,18 +1,18 @@
-//! Particle swarm optimisation (Kennedy and Eberhart 1995), with the weights of Clerc's standard swarm (2006).
+//! Particle swarm optimisation (Kennedy and Eberhart 1995), with the coefficients of Clerc's standard swarm (2006).
 
 use cplan_core::space::SplitMix64;
 use std::f64::consts::LN_2;
 
-/// Share of its speed that a particle keeps from one generation to the next; Clerc's value.
+/// Fraction of its speed that a particle keeps from one generation to the next: Clerc's value.
 const SPEED_SHARE: f64 = 0.5 / LN_2;
 
-/// Strongest pull towards a best place, as a multiple of the distance to it; Clerc's value.
+/// Greatest pull towards a best place, as a multiple of the distance to it: Clerc's value.
 const MAX_PULL: f64 = 0.5 + LN_2;
 
-/// Greatest speed at the beginning, as a share of the room.
+/// Greatest initial speed, as a fraction of the range of a coordinate.
 const MAX_FIRST_SPEED: f64 = 0.2;
 
-/// A place that moves, and the best one that it has been at.
+/// A particle of the swarm: its place, and the best place at which it has been.
 struct Particle {
     place: Vec<f64>,
     speed: Vec<f64>,
@@ -26,7 +26,8 @@ impl Particle {
         Self { speed: rooms.iter().map(speed).collect(), best: place.clone(), place, least: cost }
     }
 
-    /// Moves on with some of its speed, pulled to its own best place and to that of all, and stops at the ends of the rooms.
+    /// Moves the particle by a part of its speed, and by random pulls to its own best place and to the best place of
+    /// all. It stops at the ends of the ranges `rooms`.
     fn move_on(&mut self, best_of_all: &[f64], rooms: &[[f64; 2]], numbers: &mut SplitMix64) {
         for (k, [lower, upper]) in rooms.iter().enumerate() {
             let place = self.place[k];
@@ -34,14 +35,14 @@ impl Particle {
             self.speed[k] = SPEED_SHARE * self.speed[k] + pull(self.best[k]) + pull(best_of_all[k]);
             let next = place + self.speed[k];
             self.place[k] = next.clamp(*lower, *upper);
-            // Clerc's rule: a particle that pushed on would stay at the end for generations.
+            // Clerc's rule: without it, a particle would stay at the end for generations.
             if self.place[k] != next {
                 self.speed[k] = 0.0;
             }
         }
     }
 
-    /// Keeps its place if that costs less than any before.
+    /// Records the particle's place as its best one if its cost is less than any before.
     fn learn(&mut self, cost: f64) {
         if cost < self.least {
             self.least = cost;
@@ -50,12 +51,10 @@ impl Particle {
     }
 }
 
-/// Minimises the cost within the ranges of the coordinates. Starts with places of known costs, each of which becomes a
-/// particle. `costs` evaluates all places of a generation at once, and stores the best if needed. Costs may be
-/// infinite.
+/// Minimises the cost within the ranges of the coordinates. Begins with places of known costs, each of which becomes a
+/// particle. `costs` evaluates all places of a generation at once. Costs may be infinite.
 ///
 /// # Errors
-/// The error of `costs`.
 /// The error of `costs`.
 pub(super) fn minimize<E>(
     rooms: &[[f64; 2]],
@@ -83,7 +82,7 @@ mod tests {
 
     const ROOMS: [[f64; 2]; 3] = [[-2.0, 1.0], [0.0, 5.0], [-1.0, 1.0]];
 
-    /// Returns all places that a swarm of twenty tries, in order, and their least cost.
+    /// Returns all places that a swarm of twenty particles tries, in order, and the least cost.
     fn tried(seed: u64, cost: impl Fn(&[f64]) -> f64) -> (Vec<Vec<f64>>, f64) {
         let mut numbers = SplitMix64::new(seed);
         let known: Vec<(Vec<f64>, f64)> = (0..20)
@@ -118,7 +117,7 @@ mod tests {
             let is_within =
                 |place: &Vec<f64>| ROOMS.iter().zip(place).all(|([lower, upper], x)| (*lower..=*upper).contains(x));
             assert!(all.len() == 1200 && all.iter().all(is_within));
-            // The nearest place in the rooms is (1, 4, -0.5).
+            // The place in the ranges that is nearest to the target is (1, 4, -0.5).
             let (_, least) = tried(seed, squared_distance([3.0, 4.0, -0.5]));
             assert!((least - 4.0).abs() < 1e-6, "seed {seed}: {least}");
         }
@@ -126,7 +125,7 @@ mod tests {
 
     #[test]
     fn the_swarm_leaves_excluded_regions() {
-        // Of half the rooms nothing is known but that they are bad.
+        // Half of the range has infinite costs.
         let cost =
             |place: &[f64]| if place[0] < -0.5 { f64::INFINITY } else { squared_distance([-0.5, 1.0, 0.0])(place) };
         for seed in 0..20 {

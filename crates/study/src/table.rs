@@ -4,10 +4,10 @@ use super::Study;
 use super::row::Row;
 use cplan_compare::quoted;
 
-/// The contents of a row, in the order of the columns.
+/// The table of rows, as CSV.
 impl Study {
-    /// Returns the names of the columns: the layout's number, each parameter, the outcome, the reason, the measures,
-    /// whether it fits.
+    /// Returns the names of the columns: the number of the layout, the parameters, the ending, the reason, the
+    /// measures, and whether the layout fits.
     #[must_use]
     pub fn columns(&self) -> Vec<String> {
         let parameters = self.parameters.iter().map(|parameter| parameter.name.clone());
@@ -22,7 +22,7 @@ impl Study {
             .collect()
     }
 
-    /// Writes the table as CSV, one line per row, numbers with all their digits.
+    /// Returns the table as CSV: one line per row, with all digits of each number.
     #[must_use]
     pub fn csv(&self, rows: &[Row]) -> String {
         let mut text = self.columns().iter().map(|name| quoted(name)).collect::<Vec<_>>().join(",") + "\n";

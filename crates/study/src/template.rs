@@ -5,15 +5,15 @@ use cplan_robot::Source;
 use std::fmt::Write;
 use std::ops::Range;
 
-/// A file, and the places in it that parameters set.
+/// A file with the places of the numbers that parameters set.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Template {
     source: Source,
-    /// The numbers to fill in, in the order of the text.
+    /// The numbers that parameters set, in the order of the text.
     holes: Vec<Placeholder>,
 }
 
-/// A number that follows from a parameter's value.
+/// The place of a number, and the parameter from which it is computed.
 #[derive(Debug, Clone, PartialEq)]
 struct Placeholder {
     at: Range<usize>,
@@ -29,7 +29,7 @@ pub(super) struct Setting {
     pub offset: f64,
 }
 
-/// The file that an address is in.
+/// The file to which an address refers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
     World,
@@ -37,7 +37,7 @@ pub(super) enum Place {
 }
 
 impl Place {
-    /// Returns the address of a number of this text that is closest to this one.
+    /// Returns the address of a number in this text that is closest to a wrong address.
     pub fn nearest(self, text: &str, address: &str) -> Option<String> {
         let (name, known) = match self {
             Self::World => ("world.", all_in_world(text)),
@@ -47,7 +47,7 @@ impl Place {
     }
 }
 
-/// Parses an address with its file: `world...` or `urdf...`.
+/// Parses an address, which begins with `world.` or `urdf.`.
 ///
 /// # Errors
 /// The syntax error.
@@ -61,10 +61,10 @@ pub(super) fn place(address: &str) -> Result<(Place, Vec<Step>), String> {
 }
 
 impl Template {
-    /// Creates a template of a file with the numbers at these addresses.
+    /// Creates the template of a file in which `settings` set numbers.
     ///
     /// # Errors
-    /// The index of the first setting that leads to no number, or to one that another sets, with the reason.
+    /// The index of the first setting whose address leads to no number, or to one that another sets, with the reason.
     pub fn new(source: Source, file: Place, settings: &[(Vec<Step>, Setting)]) -> Result<Self, (usize, String)> {
         let mut text = source.text().to_owned();
         if file == Place::World {
@@ -87,17 +87,17 @@ impl Template {
         Ok(Self { source, holes })
     }
 
-    /// Returns true if no parameter sets a number in it.
+    /// Returns true if no parameter sets a number in the file.
     pub fn is_fixed(&self) -> bool {
         self.holes.is_empty()
     }
 
-    /// Returns the file as it is read, with its defaults written out.
+    /// Returns the file, with the defaults that parameters set written out.
     pub fn source(&self) -> &Source {
         &self.source
     }
 
-    /// Returns the file with these values.
+    /// Returns the file with numbers computed from these values of the parameters.
     pub fn filled(&self, values: &[f64]) -> Source {
         let text = self.source.text();
         let mut filled = String::with_capacity(text.len() + 16 * self.holes.len());

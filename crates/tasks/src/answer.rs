@@ -12,7 +12,7 @@ use cplan_motion::recorded::WristTurn;
 use cplan_movers::Timing;
 use std::sync::Arc;
 
-/// An event at the end of a step's motion.
+/// An event at the end of a step's motion, while the tool is lowered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
     /// The gripper grasps an object.
@@ -39,8 +39,8 @@ impl Event {
     }
 }
 
-/// The arm's actions for one step: a motion from rest to rest, possibly a turn of the wrist, possibly an event, and a
-/// rest.
+/// The arm's actions for one step: a motion from rest to rest, a turn of the wrist or an event if the step needs them,
+/// and a rest.
 ///
 /// - Pick: motion, stroke down, grasp, dwell, stroke up, turn.
 /// - Place: motion, turn, stroke down, release, dwell, stroke up.
@@ -51,54 +51,54 @@ pub struct Leg {
     pub step: Step,
     /// The world during the motion, with the payload.
     pub scene: Arc<Scene>,
-    /// The objects that still move ([`cplan_handling::Task::courses`]).
+    /// The objects that still move by themselves ([`cplan_handling::Task::courses`]).
     pub moving: Arc<[usize]>,
-    /// The object that is carried during the motion.
+    /// The object that is carried during the motion. `None` if the gripper is empty.
     pub carried: Option<usize>,
-    /// The motion, on a clock of its own.
+    /// The motion. Its times count from its own beginning.
     pub timed: Arc<TimedMotion>,
-    /// Turn of the wrist, and the seconds that it takes.
+    /// Turn of the wrist, and its duration in seconds.
     pub turn: Option<(WristTurn, f64)>,
-    /// Lowering and raising of the tool, if the world has a stroke.
+    /// Lowering and raising of the tool. `None` if the world has no stroke, or the step has no event.
     pub stroke: Option<ToolStroke>,
     /// The event while the tool is lowered.
     pub event: Option<Event>,
-    /// Seconds from the beginning of the task to that of the motion.
+    /// Time from the beginning of the task to that of the motion, in seconds.
     pub begin: f64,
 }
 
 impl Leg {
-    /// Returns the path of the motion, without blends.
+    /// Returns the path of the motion, before its corners are rounded.
     #[must_use]
     pub fn path(&self) -> &Path {
         self.timed.curve.curve().path()
     }
 
-    /// Returns the seconds from the beginning of the task to the end of the motion.
+    /// Returns the time from the beginning of the task to the end of the motion, in seconds.
     #[must_use]
     pub fn arrival(&self) -> f64 {
         self.begin + self.timed.trajectory.duration()
     }
 
-    /// Returns the seconds that the arm stands still after the motion.
+    /// Returns how long the arm stands still after the motion, in seconds.
     #[must_use]
     pub fn rest(&self) -> f64 {
         self.step.dwell + self.turning() + 2.0 * self.lowering()
     }
 
-    /// Returns the seconds that the wrist turns.
+    /// Returns how long the wrist turns, in seconds.
     #[must_use]
     pub fn turning(&self) -> f64 {
         self.turn.map_or(0.0, |(_, seconds)| seconds)
     }
 
-    /// Returns the seconds that the tool takes to go down, which equal those to go up.
+    /// Returns how long the tool takes to go down, in seconds. It takes as long to go up.
     #[must_use]
     pub fn lowering(&self) -> f64 {
         self.stroke.map_or(0.0, |stroke| stroke.seconds)
     }
 
-    /// Returns the seconds from the end of the motion to the grasp or release, if there is one.
+    /// Returns the time from the end of the motion to the grasp or release, in seconds. `None` if there is neither.
     #[must_use]
     pub fn event_after(&self) -> Option<f64> {
         match self.event? {
@@ -107,19 +107,19 @@ impl Leg {
         }
     }
 
-    /// Returns the seconds from the beginning of the task to the grasp or release, if there is one.
+    /// Returns the time from the beginning of the task to the grasp or release, in seconds. `None` if there is neither.
     #[must_use]
     pub fn event_time(&self) -> Option<f64> {
         self.event_after().map(|after| self.arrival() + after)
     }
 
-    /// Returns the seconds from the beginning of the task to the end of the step.
+    /// Returns the time from the beginning of the task to the end of the step, in seconds.
     #[must_use]
     pub fn end(&self) -> f64 {
         self.arrival() + self.rest()
     }
 
-    /// Returns a proven lower bound on the distance to obstacles during the motion, the turn and the stroke, metres.
+    /// Returns a proven lower bound on the distance to obstacles during the motion, the turn and the stroke, in metres.
     /// Infinite if no obstacle is within reach.
     #[must_use]
     pub fn clearance(&self) -> f64 {
@@ -129,44 +129,44 @@ impl Leg {
     }
 }
 
-/// All steps of a task, done one after the other.
+/// The motion that performs all steps of a task in sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TaskMotion {
     /// The motions of all steps, joined into one.
     pub sequence: Sequence,
-    /// True if no other choice of IK solutions, turns and order is faster with the motions that this planner finds.
+    /// True if no other choice of IK solutions, turns and order is faster, given the motions that this planner finds.
     pub exact: bool,
-    /// How the arm passes moving obstacles, if there are any, on the clock of the task.
+    /// How the arm passes moving obstacles, with times from the beginning of the task. `None` if there are none.
     pub timing: Option<Timing>,
 }
 
 impl TaskMotion {
-    /// Returns the duration.
+    /// Returns the duration, in seconds.
     #[must_use]
     pub fn seconds(&self) -> f64 {
         self.sequence.trajectory.duration()
     }
 }
 
-/// The outcome of a task, and how the search came to it.
+/// The outcome of a task, with figures about the search.
 #[derive(Debug, Clone)]
 pub struct TaskAnswer {
-    /// The motion that does all steps, or the step that fails for all IK solutions and orders. Failure is either
-    /// proven, or means that no solution was found within the effort.
+    /// The motion that performs all steps, or the step that fails for all IK solutions and orders. Failure is either
+    /// proven (infeasible), or no solution was found within the effort (unknown).
     pub outcome: Outcome<TaskMotion, FailedStep, FailedStep>,
-    /// The steps in the order in which they are done: all, or those before the one that fails.
+    /// The steps in the order of execution: all of them, or those before the step that fails.
     pub legs: Vec<Leg>,
-    /// Proven lower bound on the duration of any sequence of motions that does the whole task, from rest to rest at
-    /// each step, seconds.
+    /// Proven lower bound, in seconds, on the duration of all motions that perform the whole task from rest to rest at
+    /// each step.
     pub lower_bound: f64,
     /// Number of motions that were planned, including those that the answer does not use.
     pub motions: usize,
-    /// Nodes of the search that were expanded.
+    /// Number of nodes that the search expanded.
     pub expanded: usize,
 }
 
 impl TaskAnswer {
-    /// Returns the step that fails, if one does.
+    /// Returns the step that fails. `None` if all steps are done.
     #[must_use]
     pub fn failed(&self) -> Option<&FailedStep> {
         match &self.outcome {
@@ -175,15 +175,16 @@ impl TaskAnswer {
         }
     }
 
-    /// Returns the lower bound on the duration of the task, limited to its actual duration.
+    /// Returns the lower bound on the duration of the task, in seconds. It never exceeds the actual duration.
     #[must_use]
     pub fn least_seconds(&self) -> f64 {
-        // Without blocking obstacles, both are sums of the same times in different order.
+        // Without blocking obstacles, both are sums of the same times in different orders, so rounding may make the
+        // bound larger.
         self.outcome.found().map_or(self.lower_bound, |motion| motion.seconds().min(self.lower_bound))
     }
 
-    /// Returns the largest share by which the task may take longer than the fastest: `duration / lower_bound - 1`.
-    /// `None` if not all steps are done, or if the bound is 0 and the duration is not.
+    /// Returns the largest fraction by which the task may take longer than the fastest solution: `duration /
+    /// lower_bound - 1`. `None` if not all steps are done, or if only the bound is 0.
     #[must_use]
     pub fn gap(&self) -> Option<f64> {
         let (seconds, least) = (self.outcome.found()?.seconds(), self.least_seconds());
@@ -191,13 +192,13 @@ impl TaskAnswer {
         gap.is_finite().then_some(gap)
     }
 
-    /// Returns the seconds from the beginning to the end of the last step.
+    /// Returns the time from the beginning to the end of the last step, in seconds.
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.legs.last().map_or(0.0, Leg::end)
     }
 
-    /// Returns a proven lower bound on the distance to obstacles at all times, metres. Infinite if no obstacle is
+    /// Returns a proven lower bound on the distance to obstacles at all times, in metres. Infinite if no obstacle is
     /// within reach.
     #[must_use]
     pub fn clearance(&self) -> f64 {

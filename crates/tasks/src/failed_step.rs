@@ -8,10 +8,10 @@ use cplan_core::space::Configuration;
 use cplan_handling::Step;
 use std::sync::Arc;
 
-/// Largest number of start configurations that are named for one reason.
+/// Largest number of start configurations that a reason names.
 const MAX_NAMED_STARTS: usize = 4;
 
-/// Number of decimals of joint values in words.
+/// Number of decimals of joint values in messages.
 const DECIMALS: i32 = 4;
 
 /// An IK solution at the target of a step that the arm cannot reach, or is not known to reach.
@@ -21,21 +21,23 @@ pub struct RefusedIkSolution {
     pub ik_solution: Configuration,
     /// The reason, in words.
     pub reason: String,
-    /// Proof that boxes of colliding configurations separate it from the arm's configuration, if that is the reason.
+    /// Proof that boxes of colliding configurations separate the solution from the arm's configuration. `None` if the
+    /// reason is another one.
     pub proof: Option<CheckedProof>,
 }
 
-/// A step that cannot be done, or is not known to be possible. The same holds for the task in any other order.
+/// A step that cannot be done, or that is not known to be possible. The same then holds for the task in every other
+/// order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FailedStep {
-    /// The first step that cannot be done, after as many earlier steps as possible.
+    /// The first step that cannot be done, when as many steps as possible have been done before it.
     pub step: Step,
-    /// Reasons in words, with the motions that were tried. They include motions from other IK solutions, or with other
-    /// grips, than those at the end of the earlier steps in the answer.
+    /// Reasons in words, with the motions that were tried. These include motions that begin with other IK solutions or
+    /// other grips than those with which the answer's steps end.
     pub reasons: Vec<String>,
-    /// The world after the earlier steps, as for the motion that fails, with the payload.
+    /// The world after the earlier steps, with the payload of the motion that fails.
     pub scene: Arc<Scene>,
-    /// The objects that still move then.
+    /// The objects that still move by themselves at that time.
     pub moving: Arc<[usize]>,
     /// Configuration of the arm after the earlier steps.
     pub from: Configuration,
@@ -43,11 +45,11 @@ pub struct FailedStep {
     pub ik_solutions: Vec<RefusedIkSolution>,
 }
 
-/// A step that could not be done.
+/// A step that could not be done from some node of the search.
 pub(super) struct RefusedStep<'a> {
-    /// Number of steps done before it.
+    /// Number of steps that were done before it.
     pub depth: usize,
-    /// The node of the search from which it was tried.
+    /// The node of the search at which the step was tried.
     pub node: usize,
     pub step: &'a Step,
     /// The IK solution that was tried. `None` if the target has none.
@@ -56,7 +58,7 @@ pub(super) struct RefusedStep<'a> {
 }
 
 impl RefusedStep<'_> {
-    /// Returns the IK solution that cannot be reached, if there is one.
+    /// Returns the IK solution that cannot be reached. `None` if the target has none.
     pub fn unreached(&self) -> Option<RefusedIkSolution> {
         let Refusal { reason, proof, .. } = &self.refusal;
         self.ik_solution.map(|ik_solution| RefusedIkSolution {
@@ -67,8 +69,8 @@ impl RefusedStep<'_> {
     }
 }
 
-/// Explains why the search got no farther. Among the refused steps, those after the most steps count, and among these
-/// the one that was reached first. Also returns the node from which it was tried.
+/// Explains why the search got no farther. Of the refused steps, it considers those with the most steps before them,
+/// and of these the node that was reached first. Also returns that node.
 pub(super) fn farthest<'s>(
     arm: &Arm,
     refused: &[RefusedStep],
@@ -98,7 +100,7 @@ pub(super) fn farthest<'s>(
     (FailedStep { step: step.clone(), reasons, scene, moving, from: from.q, ik_solutions }, node)
 }
 
-/// A motion that was tried, and why it is refused.
+/// A motion that was tried, and the reason why it was refused.
 struct TriedMotion<'a> {
     from: Configuration,
     /// The IK solution. `None` if the target has none.
@@ -106,8 +108,8 @@ struct TriedMotion<'a> {
     reason: &'a str,
 }
 
-/// Returns each reason once, with the motions that it holds for: `to joints (0.3, 1.2) rad and (1.5, -1.2) rad: ...`.
-/// Names the start configurations if the motions have several.
+/// Returns each reason once, with the motions for which it holds: `to joints (0.3, 1.2) rad and (1.5, -1.2) rad: ...`.
+/// Names the start configurations if there are several.
 fn reasons(arm: &Arm, tried: &[TriedMotion]) -> Vec<String> {
     let several = tried.iter().any(|motion| motion.from != tried[0].from);
     let mut reasons: Vec<&str> = Vec::new();
@@ -145,7 +147,7 @@ fn reasons(arm: &Arm, tried: &[TriedMotion]) -> Vec<String> {
 /// Formats joint values: `(0.3, 1.2) rad`, `(0.3 m, 1.2 rad)`.
 fn joints(arm: &Arm, q: Configuration) -> String {
     let grains = 10_f64.powi(DECIMALS);
-    // In words, zero has no sign.
+    // Without -0, which rounding may produce.
     let [a, b] = [0, 1].map(|k| (q[k] * grains).round() / grains + 0.0);
     match arm.joints.each_ref().map(Joint::unit) {
         [first, second] if first == second => format!("({a}, {b}) {first}"),

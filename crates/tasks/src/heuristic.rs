@@ -10,23 +10,23 @@ use cplan_geometry::{Point, Pose};
 use cplan_handling::{Action, Holding, Item, Object, Step, Task};
 use nalgebra::Rotation2;
 
-/// A target of a step, where the arm stops.
+/// The target of a step, at which the arm stops.
 #[derive(Debug, Clone)]
 pub(super) struct Stop {
-    /// All IK solutions at the target. `None` if there are infinitely many, or if they depend on earlier steps.
+    /// All IK solutions at the target. `None` if there are infinitely many, or if earlier steps determine them.
     ik_solutions: Option<Vec<Configuration>>,
     speed: f64,
-    /// Least time that the arm stands still there, seconds.
+    /// Least time that the arm stands still at the stop, in seconds.
     dwell: f64,
 }
 
 impl Stop {
-    /// Returns the number of configurations at the stop: one if they are unknown.
+    /// Returns the number of configurations at the stop, or 1 if they are unknown.
     fn count(&self) -> usize {
         self.ik_solutions.as_ref().map_or(1, Vec::len)
     }
 
-    /// Returns a configuration of the stop by index, if it is known.
+    /// Returns the configuration of the stop with this index. `None` if the configurations are unknown.
     fn at(&self, place: usize) -> Option<Configuration> {
         self.ik_solutions.as_ref().map(|ik_solutions| ik_solutions[place])
     }
@@ -36,19 +36,19 @@ impl Stop {
         self.ik_solutions.as_deref()
     }
 
-    /// Returns the share of top speeds of the motion to the stop.
+    /// Returns the fraction of the top speeds for the motion to the stop.
     pub fn speed(&self) -> f64 {
         self.speed
     }
 
-    /// Returns the least seconds of the motion to a configuration of the stop and of its dwell.
+    /// Returns a lower bound on the duration of the motion to a configuration of the stop, plus its dwell, in seconds.
     fn seconds(&self, arm: &Arm, from: Option<Configuration>, place: usize) -> f64 {
         let travel = from.zip(self.at(place)).map_or(0.0, |(from, to)| least_time(arm, from, to, self.speed));
         travel + self.dwell
     }
 }
 
-/// The stops of an item.
+/// The stops of an item of the task.
 #[derive(Debug, Clone)]
 pub(super) enum Stops {
     /// The stop of a step.
@@ -59,32 +59,33 @@ pub(super) enum Stops {
     Nothing,
 }
 
-/// Least seconds to the end of a task after each item.
+/// Lower bound on the time from an item to the end of the task, in seconds.
 #[derive(Debug, Clone)]
 enum RemainingSeconds {
-    /// For a step: by the configuration at its stop.
+    /// After a step, for each configuration at its stop.
     One(Vec<f64>),
-    /// For a group in any order.
+    /// Within a group in any order.
     Pairs(Table),
-    /// For a group that is too large for a table: from its beginning, wherever the arm is.
+    /// From the beginning of a group that is too large for a table, for any configuration of the arm.
     Many(f64),
     Nothing,
 }
 
-/// Largest number of pairs of a group for which all subsets are tabulated: some hundred thousand numbers.
+/// Largest number of pairs of a group for which all subsets are tabulated. The table then has some hundred thousand
+/// numbers.
 const MAX_TABULATED_PAIRS: usize = 12;
 
-/// Least seconds from within a group to the end of the task. Indexed by the set of pairs done (a bit each), the last of
-/// them, and the configuration at its stop.
+/// Lower bounds on the time from within a group to the end of the task, in seconds. The indices are the set of pairs
+/// that are done (one bit each), the last of them, and the configuration at its stop.
 #[derive(Debug, Clone)]
 struct Table {
-    /// From the pick of a pair, which counts as done.
+    /// Bounds after the pick of a pair, which then counts as done.
     picked: Vec<Vec<Vec<f64>>>,
-    /// From the place of the last pair done.
+    /// Bounds after the place of the last pair that is done.
     placed: Vec<Vec<Vec<f64>>>,
 }
 
-/// Least times from any state to the end of a task, over all IK solutions and orders.
+/// Lower bounds on the time from any state to the end of a task, over all IK solutions and orders.
 pub(super) struct Heuristic<'a> {
     arm: &'a Arm,
     stops: Vec<Stops>,
@@ -92,9 +93,10 @@ pub(super) struct Heuristic<'a> {
 }
 
 impl<'a> Heuristic<'a> {
-    /// Computes the heuristic in `O(n b^2)` for `n` steps with `b` IK solutions each, and `O(2^k k^2 b^2)` for a group
-    /// of `k` pairs up to [`MAX_TABULATED_PAIRS`], whose best order is found. For larger groups it is a weaker bound: each pick
-    /// is reached from the nearest place, and the longest of these motions is omitted, as the first pick needs none.
+    /// Computes the bounds. Takes `O(n b^2)` for `n` steps with `b` IK solutions each. Takes `O(2^k k^2 b^2)` for a
+    /// group of `k` pairs up to [`MAX_TABULATED_PAIRS`], of which it finds the best order. For a larger group, the
+    /// bound is weaker: each pick is reached from the nearest place, and the longest of these motions is omitted,
+    /// because the first pick needs none.
     pub fn new(task: &'a Task) -> Self {
         let stops = stops(task);
         let mut heuristic = Self { arm: &task.arm, after: vec![RemainingSeconds::Nothing; stops.len()], stops };
@@ -113,7 +115,8 @@ impl<'a> Heuristic<'a> {
         heuristic
     }
 
-    /// Returns the least seconds from a configuration to the end of the task. Infinite if a target is out of reach.
+    /// Returns a lower bound on the time from a configuration to the end of the task, in seconds. Infinite if a target
+    /// is out of reach.
     pub fn remaining(&self, q: Configuration, progress: Progress) -> f64 {
         let Progress { item, done, half } = progress;
         match (self.stops.get(item), self.after.get(item), half) {
@@ -128,7 +131,7 @@ impl<'a> Heuristic<'a> {
         }
     }
 
-    /// Returns the least seconds from the beginning of an item to the end of the task.
+    /// Returns a lower bound on the time from the beginning of an item to the end of the task, in seconds.
     fn from(&self, q: Option<Configuration>, item: usize) -> f64 {
         match (self.stops.get(item), self.after.get(item)) {
             (Some(Stops::One(stop)), Some(RemainingSeconds::One(after))) => self.over(stop, q, after),
@@ -139,20 +142,20 @@ impl<'a> Heuristic<'a> {
         }
     }
 
-    /// Returns the least time over all configurations of a stop.
+    /// Returns the least bound over all configurations of a stop. `after` has the bounds from these configurations on.
     fn over(&self, stop: &Stop, q: Option<Configuration>, after: &[f64]) -> f64 {
         let by = |(place, after): (usize, &f64)| stop.seconds(self.arm, q, place) + after;
         after.iter().enumerate().map(by).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the least time over all pairs that are not done.
+    /// Returns the least bound over all pairs that are not done yet.
     fn next_pair(&self, pairs: &[[Stop; 2]], table: &Table, q: Option<Configuration>, done: usize) -> f64 {
         let open = (0..pairs.len()).filter(|pair| done & (1 << pair) == 0);
         let by = |pair: usize| self.over(&pairs[pair][0], q, &table.picked[done | 1 << pair][pair]);
         open.map(by).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns a lower bound for a group in any order and the items after it.
+    /// Returns a lower bound for a group in any order and all items after it, in seconds.
     fn at_least(&self, pairs: &[[Stop; 2]], item: usize) -> f64 {
         let least = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::INFINITY, f64::min);
         let travel = |from: &Stop, to: &Stop| {
@@ -195,7 +198,7 @@ impl<'a> Heuristic<'a> {
     }
 }
 
-/// Pose of an object as far as it does not depend on IK solutions: its origin, and its orientation if known.
+/// Pose of an object, as far as it does not depend on IK solutions.
 #[derive(Clone, Copy)]
 struct KnownPose {
     at: Point,
@@ -247,7 +250,7 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
     task.items.iter().map(of).collect()
 }
 
-/// Returns all IK solutions of a step, if they are known, and updates the pose of its object.
+/// Returns all IK solutions of a step, and updates the pose of its object. `None` if they are unknown.
 fn targets(
     task: &Task,
     step: &Step,
@@ -274,7 +277,7 @@ fn targets(
                 Holding::Level => angle.or(lies[object]?.angle),
                 Holding::Rigid => None,
             };
-            // This must be the same expression as in the state, so that the values are equal.
+            // The same expression as in the state, so that both values are equal bit for bit.
             let exact = turned.map(|angle| Pose::new(*at, angle).point(grasp));
             let placed = KnownPose { at: *at, angle: turned };
             lies[object] = Some(placed);
@@ -319,7 +322,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(64))]
 
-        /// The bound for large groups is at most the best time over all orders.
+        /// Checks that the bound for large groups is at most the least time over all orders.
         #[test]
         fn the_bound_of_a_large_group_is_a_bound(
             spots in prop::collection::vec(((0.4..1.6f64, -3.0..3.0f64), (0.4..1.6f64, -3.0..3.0f64)), 2..7),

@@ -4,17 +4,17 @@ use cplan_core::model::{Arm, Goal, inverse, within};
 use cplan_core::space::Configuration;
 use cplan_geometry::Point;
 
-/// Configurations for a target.
+/// Configurations that reach a target.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct IkSolutions {
     /// Configurations within the joint limits. Empty if the target is out of reach.
     pub configurations: Vec<Configuration>,
-    /// True if there are no others, up to whole turns of a joint without limits.
+    /// True if these are all configurations, except that a joint without limits may make whole turns.
     pub all: bool,
 }
 
 /// Returns all configurations within the limits that put the tip, or another point of link 2, at `target`. If there are
-/// infinitely many, returns those with the `preferred` value of the free joint.
+/// infinitely many, returns those in which the free joint has its `preferred` value.
 pub(super) fn ik_solutions(arm: &Arm, point: Point, target: Point, preferred: Configuration) -> IkSolutions {
     let solved = if point == arm.tip {
         inverse(arm, target, preferred)
@@ -31,13 +31,13 @@ pub(super) fn ik_solutions(arm: &Arm, point: Point, target: Point, preferred: Co
     IkSolutions { configurations, all: solved.free.is_none() }
 }
 
-/// Returns the same for the goal of a move.
+/// Returns the configurations within the limits that reach the goal of a move.
 pub(super) fn goal_ik_solutions(arm: &Arm, goal: &Goal, preferred: Configuration) -> IkSolutions {
     match goal {
         Goal::Joints(q) => IkSolutions { configurations: vec![*q], all: true },
         Goal::Tip(tip) => ik_solutions(arm, arm.tip, *tip, preferred),
         Goal::Area([low, high]) => {
-            // A task that has been checked contains no areas.
+            // Tasks that have been checked contain no areas.
             let middle = ik_solutions(arm, arm.tip, (low + high) * 0.5, preferred);
             IkSolutions { all: false, ..middle }
         }

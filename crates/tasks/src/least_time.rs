@@ -3,8 +3,8 @@
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 
-/// Returns the seconds that one joint takes for a distance from rest to rest, with constant acceleration, and constant
-/// speed once its top speed is reached.
+/// Returns the time that a joint takes for a distance from rest to rest, in seconds. It accelerates constantly until it
+/// reaches its top speed.
 #[must_use]
 pub fn rest_to_rest(distance: f64, velocity: f64, acceleration: f64) -> f64 {
     if distance * acceleration <= velocity * velocity {
@@ -14,11 +14,12 @@ pub fn rest_to_rest(distance: f64, velocity: f64, acceleration: f64) -> f64 {
     }
 }
 
-/// Share by which such a time is lowered, so that it stays below that of the straight motion despite rounding.
+/// Fraction by which such a time is lowered, so that rounding cannot make it exceed the time of the straight motion.
 const ROUNDING: f64 = 1e-9;
 
-/// Returns a lower bound on the seconds of any motion between two configurations from rest to rest, at a share of the
-/// joints' top speeds. Each joint takes at least its own time; on a circle it takes the shorter direction.
+/// Returns a lower bound on the duration of all motions between two configurations from rest to rest, at a fraction of
+/// the joints' top speeds, in seconds. Each joint takes at least its own time. On a circle, it takes the shorter
+/// direction.
 #[must_use]
 pub(super) fn least_time(arm: &Arm, from: Configuration, to: Configuration, speed: f64) -> f64 {
     let displacement = arm.topology().displacement(from, to);

@@ -5,20 +5,21 @@
 //! Link 2 may touch the object that a motion leads to, and the one just released, because the gripper must reach into
 //! them. For link 1 and for payloads, both are obstacles.
 //!
-//! [`plan`] searches a layered graph by A* over times. A node states the steps done, the poses of arm and
-//! objects, and the payload. Motions are planned only when they matter. Until then, an edge counts as the
-//! time that the joints would take without obstacles, which is a lower bound for every motion. The sum of these times
-//! to the end, over all IK solutions and orders (by a table of subsets), is the heuristic. At the start it is a lower
+//! [`plan`] searches a layered graph by A* over times. A node consists of the steps that are done, the poses of arm and
+//! objects, and the payload. Motions are planned only when the search reaches them. Until then, an edge costs the time
+//! that the joints would take without obstacles, which is a lower bound for every motion. The heuristic is the least
+//! sum of such times to the end, over all IK solutions and orders (by a table of subsets). At the start it is a lower
 //! bound for the whole task.
 //!
 //! # Scenes
 //!
 //! - A rigid payload is a union of parts of link 2.
-//! - A level payload only translates with the tip. So its part is the tip, a point, and its obstacles are the Minkowski
-//!   differences of the obstacles' pieces and the payload's pieces. Planners, C-obstacles, certificates and proofs
-//!   therefore need no third link.
-//! - Against its supports, each corner of a payload's outline is moved inwards by the allowed penetration (`inset_union`).
-//!   No clearance is required there, so supports count as farther away by it in every distance (`Convex::receding`).
+//! - A level payload only translates with the tip. So the tip, a single point, stands for it, and its obstacles are the
+//!   Minkowski differences of the obstacles' pieces and the payload's pieces. Planners, C-obstacles, certificates and
+//!   proofs therefore need no third link.
+//! - Against its supports, each corner of a payload's outline is moved inwards by the allowed penetration
+//!   (`inset_union`). No clearance is required from supports. So every distance to a support is increased by the
+//!   clearance (`Convex::receding`).
 //! - Motions are shared (`legs`) among worlds that differ only in objects which cannot be hit because of their heights.
 //!
 //! # Orders
@@ -27,7 +28,8 @@
 //! covers all orders.
 //!
 //! - A local search (`tour`) proposes an order by times without obstacles.
-//! - `walk` goes through it with checks that cost a tenth of a motion: is the path straight, do slabs rule it out?
+//! - `walk` checks each step of the order at a tenth of the cost of planning its motion: is the straight path free, do
+//!   slabs prove that there is no path?
 //! - The first pair that cannot be done gives a `condition`: the object that was hit, or blocked the path, must be
 //!   moved earlier or later. The ends of all motions give such conditions in advance (`ends`).
 //! - If no order satisfies all conditions, one is built pair by pair.
@@ -42,8 +44,8 @@
 //! # Verdicts
 //!
 //! If the search has tried everything and every motion was refused with a proof, the task is infeasible. If a choice
-//! was left out (a turn of the wrist during a motion, orders not tried), the answer is unknown. That no order can be
-//! done is proven by a `part` of the group: one or two pairs that cannot be done even without all other objects.
+//! was left out (a turn of the wrist during a motion, or an order), the answer is unknown. A `part` of a group can
+//! prove that no order is possible: one or two pairs that cannot be done even without all other objects.
 
 mod among_movers;
 mod answer;

@@ -21,22 +21,22 @@ use std::sync::Arc;
 pub(super) struct Refusal {
     /// The reason, in words for the summary.
     pub reason: String,
-    /// True if proven; false if the search merely found nothing.
+    /// True if it is proven that the motion is impossible; false if none was found.
     pub proven: bool,
-    /// The proof that there is no path, if that is the reason.
+    /// The proof that there is no path. `None` if the reason is another one.
     pub proof: Option<CheckedProof>,
     /// The objects that block the motion.
     pub blockers: Blockers,
 }
 
-/// Obstacles that make a motion fail, by their number in [`Task::obstacles`], ascending.
+/// Obstacles that prevent a motion, by their numbers in [`Task::obstacles`], in ascending order.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Blockers {
-    /// The arm or its payload hits all of these at the end of the motion.
+    /// At the end of the motion, the arm or its payload hits all of these.
     AtEnd(Vec<usize>),
-    /// These obstacles together block the path.
+    /// Together, these block the path.
     OnTheWay(Vec<usize>),
-    /// They are not known.
+    /// The blocking obstacles are not known.
     Unknown,
 }
 
@@ -46,7 +46,7 @@ impl Refusal {
         Self { reason: reason.into(), proven, proof: None, blockers: Blockers::Unknown }
     }
 
-    /// Creates a refusal by a proof that there is no path.
+    /// Creates a refusal with a proof that there is no path.
     fn barred(proof: CheckedProof) -> Self {
         let stuck = proof.collision_boxes();
         let reason = format!(
@@ -62,7 +62,7 @@ fn distinct(numbers: impl Iterator<Item = usize>) -> Vec<usize> {
     numbers.collect::<BTreeSet<_>>().into_iter().collect()
 }
 
-/// A motion with the turn and the stroke that follow it.
+/// A motion, with the turn and the stroke that follow it.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
     pub timed: Arc<TimedMotion>,
@@ -71,7 +71,8 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// Returns the seconds that the arm moves, and stands still after it in addition to the step's dwell.
+    /// Returns the duration of the motion and of the turn and the stroke after it, without the step's dwell, in
+    /// seconds.
     pub fn seconds(&self) -> f64 {
         let turn = self.turn.map_or(0.0, |(_, seconds)| seconds);
         self.timed.trajectory.duration() + turn + self.stroke.map_or(0.0, |stroke| 2.0 * stroke.seconds)
@@ -82,13 +83,14 @@ impl Motion {
 enum PathStatus {
     /// The certified straight path. No path is shorter in any metric.
     Straight(CertifiedPath),
-    /// Not straight; other paths are not ruled out.
+    /// The straight path is not free, but other paths are not ruled out.
     Undecided,
     /// There is no path.
     Infeasible(Refusal),
 }
 
-/// Number of slabs after which the planner has to decide whether there is a path: some milliseconds.
+/// Number of slabs that an inexpensive check may use to prove that there is no path. It takes some milliseconds. Beyond
+/// it, the planner must decide.
 const DECISION_SLABS: usize = 2_000;
 
 /// Number of attempts with a subset of the objects before all of them are included.
@@ -100,24 +102,24 @@ const SAMPLES_PER_SEGMENT: u32 = 16;
 /// The data that determines a scene, as bits.
 type SceneKey = Vec<u64>;
 
-/// Share by which paths may be longer than the shortest.
+/// Fraction by which a path may be longer than the shortest one.
 const PATH_GAP: f64 = 0.01;
 
-/// A scene by number, with start and end of the path.
+/// Number of a scene, with the bits of start and end of the path.
 type PathKey = (usize, [u64; 4]);
 
-/// Plans motions and caches them: a motion is planned once among the same relevant obstacles. Tasks that differ only in
-/// their items can share a cache.
+/// Plans motions and caches them. A motion among the same relevant obstacles is planned only once. Tasks that differ
+/// only in their items can share a cache.
 pub(super) struct MotionCache {
     options: Options,
-    /// Numbers of scenes, as far as they matter for the motion.
+    /// The number of each scene. Scenes that differ only in objects that cannot matter share a number.
     numbers: BTreeMap<SceneKey, usize>,
     path_statuses: BTreeMap<PathKey, PathStatus>,
-    /// Paths among the workspace's own obstacles and some of the objects.
+    /// Paths among the static obstacles and some of the objects.
     fewer: BTreeMap<(SceneKey, [u64; 4]), Result<CertifiedPath, Refusal>>,
     /// Motions by path and speed.
     motions: BTreeMap<(PathKey, u64), Result<Arc<TimedMotion>, Refusal>>,
-    /// Complete scenes, for answers.
+    /// Scenes with all objects, for answers.
     scenes: BTreeMap<SceneKey, Arc<Scene>>,
 }
 
@@ -181,9 +183,9 @@ impl MotionCache {
         timed.map(Arc::new).map_err(|error| Refusal::new(error.to_string(), false))
     }
 
-    /// Returns the planner's path among all objects. If a path among fewer objects is free among all, it is the answer,
-    /// as no path is shorter. Otherwise the objects that it hits are added, and the path is planned again. Paths among
-    /// few objects serve many motions.
+    /// Returns the planner's path among all objects. It first plans among few objects, because such a path serves many
+    /// motions. If the path is free among all objects, it is the answer, as no path is shorter. Otherwise the objects
+    /// that it hits are added, and the path is planned again.
     fn shortest(
         &mut self,
         task: &Task,
@@ -206,8 +208,8 @@ impl MotionCache {
         found.unwrap_or_else(|| path(scene, q, to, &self.options))
     }
 
-    /// Checks that nothing known rules out the motion to a candidate's target, or the turn there. This finds most
-    /// reasons, in a small part of the time that planning the motion takes.
+    /// Refuses a candidate if an inexpensive check rules out the motion to its target, or the turn there. These checks
+    /// find most reasons in a small part of the time for planning the motion.
     pub fn promising(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<(), Refusal> {
         let key = self.path_key(task, from, candidate)?;
         if let Some(Err(refusal)) = self.motions.get(&(key, candidate.step.speed.to_bits())) {
@@ -217,7 +219,7 @@ impl MotionCache {
         candidate.turn.map_or(Ok(()), |turn| self.turn(task, from, candidate, turn).map(|_| ()))
     }
 
-    /// Examines the path to a candidate's target, and refuses it if it is ruled out.
+    /// Examines the path to a candidate's target. Refuses the candidate if there is provably no path.
     fn path_key(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<PathKey, Refusal> {
         let left = from.after_step(task, candidate, candidate.to);
         if left.is_done(task) {
@@ -254,7 +256,7 @@ impl MotionCache {
         turn: [f64; 2],
     ) -> Result<(WristTurn, f64), Refusal> {
         let unproven = |reason: &str| Refusal::new(reason, false);
-        // The object is no obstacle to itself: it has no pose before its release, or after its grasp.
+        // While it is carried, the object has no pose, so it is no obstacle to itself.
         let left = from.after_step(task, candidate, candidate.to);
         let with = if left.held.is_some() { &left } else { from };
         let Some(held @ Payload { grip: Grip::Level { point, .. }, .. }) = &with.held else {
@@ -269,7 +271,7 @@ impl MotionCache {
         Ok((path_key, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
     }
 
-    /// Returns a lower bound on the seconds that a turn takes.
+    /// Returns a lower bound on the duration of a turn, in seconds.
     pub fn min_turn_seconds(task: &Task, [from, to]: [f64; 2]) -> f64 {
         let ahead = (to - from).rem_euclid(std::f64::consts::TAU);
         let least = ahead.min(std::f64::consts::TAU - ahead);
@@ -277,18 +279,18 @@ impl MotionCache {
     }
 }
 
-/// Returns the options for planning the motions of a task. Tasks bound durations instead of path lengths, and a
-/// somewhat longer path permits faster motions.
+/// Returns the options for planning the motions of a task. Tasks limit durations instead of lengths, and a slightly
+/// longer path permits faster motions.
 pub(super) fn of_legs(options: &Options) -> Options {
     let planner = options.planner.with_gap(options.planner.gap().unwrap_or(PATH_GAP));
     Options { planner, bounded: false, ..*options }
 }
 
-/// Distance, radians and metres, at which neighbours of an IK solution are checked as well. IK solutions are rounded,
-/// so a collision is certain only if the neighbours collide, too.
+/// Distance of the neighbours of an IK solution that are checked as well, in radians and metres. IK solutions are
+/// rounded, so a collision is certain only if the neighbours collide, too.
 const NEIGHBOR_DISTANCE: f64 = 1e-9;
 
-/// Refuses a configuration with collisions. `when` states in words when the arm is there.
+/// Refuses a configuration with collisions. `when` is a phrase for the message that states when the arm is there.
 pub(super) fn require_unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
     let hits = scene.obstructions(q);
     if hits.is_empty() {
@@ -310,7 +312,7 @@ pub(super) fn require_unobstructed(scene: &Scene, q: Configuration, when: &str) 
 
 /// Plans among few objects, and adds those that the path hits. Returns a path that is free among all objects, or a
 /// proof that there is no path even among few. `None` if the path must be planned among all objects. The first `own`
-/// obstacles are not objects; `plan` plans among a subset.
+/// obstacles are not objects. `plan` plans a path among some objects.
 fn among_few(
     scene: &Scene,
     own: usize,
@@ -343,8 +345,8 @@ fn among_few(
     None
 }
 
-/// Returns the problem of a motion and the planner's answer, planned again as [`MotionCache`] does. `None` if the path is
-/// straight.
+/// Returns the problem of a motion, and the planner's answer to it, computed as in [`MotionCache`]. `None` if the path
+/// is straight, which needs no planner.
 pub(super) fn planned_again(
     scene: &Scene,
     own: usize,
@@ -373,7 +375,7 @@ pub(super) fn planned_again(
     }
 }
 
-/// Returns the scene with a subset of its objects. The others keep their numbers, but have no shape.
+/// Returns the scene with only some of its objects. The others keep their numbers, but have no shape.
 fn only(scene: &Scene, own: usize, among: &BTreeSet<usize>) -> Scene {
     let mut number = 0;
     scene.reshaped(
@@ -386,13 +388,13 @@ fn only(scene: &Scene, own: usize, among: &BTreeSet<usize>) -> Scene {
     )
 }
 
-/// Returns the straight path from one configuration to another, if it is free.
+/// Returns the straight path between two configurations. `None` if it is not certified.
 fn straight(scene: &Scene, from: Configuration, to: Configuration) -> Option<CertifiedPath> {
     let straight = Path::new(vec![from, scene.arm().topology().lift(to, from)]);
     certify(scene, straight, scene.workspace().clearance).ok()
 }
 
-/// Examines the path from one configuration to another by inexpensive checks.
+/// Examines the path between two configurations by inexpensive checks.
 fn path_key(scene: &Scene, from: Configuration, to: Configuration) -> PathStatus {
     let ends = require_unobstructed(scene, from, "at its beginning")
         .map_err(|refusal| Refusal { blockers: Blockers::Unknown, ..refusal })
@@ -419,7 +421,7 @@ fn path(scene: &Scene, from: Configuration, to: Configuration, options: &Options
     found(solve(&problem, options, &mut |_| {}).outcome)
 }
 
-/// Returns the path that was found, or the reason why there is no path.
+/// Converts the planner's outcome to a path, or to the reason why there is none.
 fn found(outcome: Outcome<BoundedPath, CheckedProof, Unknown>) -> Result<CertifiedPath, Refusal> {
     match outcome {
         Outcome::Found(path) => Ok(path.certified),
@@ -428,7 +430,7 @@ fn found(outcome: Outcome<BoundedPath, CheckedProof, Unknown>) -> Result<Certifi
     }
 }
 
-/// Returns the data that determines the scene of a motion, for the objects that matter.
+/// Returns the data that determines the scene of a motion, without objects for which `matters` is false.
 fn scene_key(from: &State, step: &Step, matters: impl Fn(usize) -> bool) -> SceneKey {
     let mut key = Vec::new();
     let picked = step.action.picked();

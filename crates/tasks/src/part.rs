@@ -1,9 +1,9 @@
 //! Proofs by a part of a group that the group cannot be done in any order. If some of its pairs cannot be done even
 //! without all other objects, the whole group cannot be done.
 //!
-//! Any solution for the whole group would also solve the part. The arm passes the same configurations among fewer
-//! obstacles. It carries nothing where it carried another object. Link 2 may touch the objects of its picks and places
-//! for longer.
+//! A solution for the whole group would also solve the part: the arm moves through the same configurations among fewer
+//! obstacles. Where it carried another object, it now carries nothing. Link 2 may touch the objects of the part's picks
+//! and places for longer.
 
 use super::heuristic::Heuristic;
 use super::motion_cache::MotionCache;
@@ -17,11 +17,11 @@ use std::collections::BTreeSet;
 /// Largest number of motions planned for one part.
 const MAX_PART_MOTIONS: usize = 200;
 
-/// Largest number of pairs of a part, so small that all their orders can be searched quickly.
+/// Largest number of pairs of a part. All orders of so few pairs can be searched quickly.
 const MAX_PART_PAIRS: usize = 4;
 
-/// Returns the answer that group `item` cannot be done, if that is proven. Tries the first of `pairs` alone, then with
-/// one other pair, and then all pairs if they are few.
+/// Returns the answer that group `item` cannot be done, if that is proven. Tries the first of `pairs` alone, then
+/// together with each other one, and then all of them if they are few.
 pub(super) fn impossible(
     task: &Task,
     item: usize,
@@ -30,7 +30,7 @@ pub(super) fn impossible(
     progress: &mut dyn FnMut(&str),
 ) -> Option<Found> {
     let (&first, others) = pairs.split_first()?;
-    // Earlier groups would have to be searched in all orders.
+    // All orders of the earlier groups would have to be searched.
     if task.items[..item].iter().any(|before| matches!(before, Item::AnyOrder(_))) {
         return None;
     }
@@ -39,7 +39,7 @@ pub(super) fn impossible(
     parts.into_iter().find_map(|part| {
         let alone = part_of(task, item, &part)?;
         let heuristic = Heuristic::new(&alone);
-        // It needs its own legs, because its objects are different.
+        // Its own cache of motions, because its objects are different.
         let mut legs = MotionCache::new(options);
         let mut search = Search::new(&alone, &heuristic, &mut legs);
         let ending = search.run(limits(&alone, MAX_PART_MOTIONS), progress);
@@ -50,7 +50,7 @@ pub(super) fn impossible(
         let Outcome::Infeasible(failed) = &mut found.outcome else { return None };
         let names: Vec<String> = part.iter().map(|&pair| name(task, item, pair)).collect();
         failed.reasons.push(format!("this holds in any order, even if {} are the only objects", names.join(" and ")));
-        // These steps were done in a world with fewer objects.
+        // These steps were done in a world with fewer objects, so they are no part of the answer.
         found.legs.clear();
         Some(found)
     })
@@ -64,8 +64,9 @@ fn name(task: &Task, item: usize, pair: usize) -> String {
     picked.map_or_else(String::new, |object| format!("\"{}\"", task.objects[object].name))
 }
 
-/// Returns the task up to a group with only some of its pairs, without the objects that other pairs, or later steps,
-/// move. `None` if one of the remaining objects is moved later, because then the part ends differently from the group.
+/// Returns the task up to a group, with only some of the group's pairs. Objects that other pairs or later steps move
+/// are left out. `None` if a later step moves one of the remaining objects, because then the part ends differently from
+/// the group.
 fn part_of(task: &Task, item: usize, part: &[usize]) -> Option<Task> {
     let Item::AnyOrder(pairs) = &task.items[item] else { return None };
     let left: Vec<_> = part.iter().map(|&pair| pairs[pair].clone()).collect();

@@ -15,24 +15,24 @@ use cplan_handling::{Item, Task};
 use cplan_solver::Options;
 use std::collections::BTreeSet;
 
-/// Largest numbers of planned motions and expanded nodes while a search with a fixed order insists on the fastest
-/// choice: some seconds of work. Beyond them, weighted A* heads for the end.
+/// Largest numbers of planned motions and of expanded nodes of a search with a fixed order for the fastest choice. It
+/// takes some seconds. Beyond them, weighted A* looks for any solution.
 const MAX_MOTIONS: usize = 2_000;
 const MAX_EXPANDED: usize = 100_000;
 
-/// The same for free orders: about a second of work. Beyond it, one order is chosen.
+/// The same limits for free orders. The search takes about a second. Beyond them, a single order is chosen.
 const FREE_MOTIONS: usize = 500;
 
-/// A chosen order is compared with the file's order, and improved with this many more motions and orders, unless it is
-/// within the factor `CLOSE_FACTOR` of the bound.
+/// Limits of the attempts to improve a chosen order: numbers of further motions and of further orders. There are no
+/// such attempts if its duration is within the factor `CLOSE_FACTOR` of the bound.
 const IMPROVING_MOTIONS: usize = 100;
 const IMPROVING_ORDERS: usize = 6;
 const CLOSE_FACTOR: f64 = 1.15;
 
-/// Additional nodes for each step of a task, since long tasks have more states.
+/// Number of nodes per step of a task that are added to the limits, since long tasks have more states.
 const EXPANDED_PER_STEP: usize = 16;
 
-/// A weighted search ends without an answer after this multiple of the first two numbers.
+/// A weighted search ends without an answer at this multiple of the limits of the first search.
 const WEIGHTED_BUDGET_FACTOR: usize = 10;
 
 /// Largest number of pairs in a group for which all orders are searched. The table of all subsets then has some
@@ -40,11 +40,11 @@ const WEIGHTED_BUDGET_FACTOR: usize = 10;
 const MAX_FULLY_ORDERED_PAIRS: usize = 10;
 
 /// Plans a task: finds the fastest sequence of motions over all IK solutions at the targets, turns of the wrist, and
-/// orders that are free. [`TaskAnswer`] states the guarantees. Long computations are reported to `progress`.
+/// free orders. [`TaskAnswer`] describes the guarantees. Calls `progress` during long computations.
 ///
-/// With too many orders, one is chosen that is good without obstacles, and satisfies the conditions learned from the
-/// proofs and collisions of orders that fail. The file's own order is used if it is faster. With the real durations of
-/// the planned motions, a still better order may be found.
+/// If there are too many orders, one is chosen that is good without obstacles and satisfies the conditions learned from
+/// orders that fail. If the file's own order is faster, it is used instead. With the real durations of planned motions,
+/// a still better order may be found.
 #[must_use]
 pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
     if task.has_moving_obstacles() {
@@ -73,7 +73,7 @@ struct Planning<'a, 'p> {
 }
 
 impl Planning<'_, '_> {
-    /// Answers a task without free orders.
+    /// Plans a task without free orders.
     fn in_order(mut self, heuristic: &Heuristic) -> TaskAnswer {
         let mut search = Search::new(self.task, heuristic, &mut self.legs);
         let mut ending = search.run(limits(self.task, MAX_MOTIONS), self.progress);
@@ -86,7 +86,7 @@ impl Planning<'_, '_> {
         self.answer(found)
     }
 
-    /// Answers a task whose orders can all be searched, unless that takes too long.
+    /// Plans a task all of whose orders can be searched, unless that takes too long.
     fn in_any_order(mut self, heuristic: &Heuristic) -> TaskAnswer {
         let mut search = Search::new(self.task, heuristic, &mut self.legs);
         let mut ending = search.run(limits(self.task, FREE_MOTIONS), self.progress);
@@ -100,7 +100,7 @@ impl Planning<'_, '_> {
         if !matches!(found.outcome, Outcome::Unknown(_)) {
             return self.answer(found);
         }
-        // There may still be an order that the search for one has missed.
+        // The search for a single order may have missed one, so all orders are searched.
         let mut search = Search::new(self.task, heuristic, &mut self.legs);
         ending = hurried(&mut search, self.task, MAX_MOTIONS, self.progress);
         let last = Found::of(&mut search, ending, ending == Ending::Exhausted);
@@ -108,7 +108,7 @@ impl Planning<'_, '_> {
         self.answer(if ending == Ending::OutOfBudget { found } else { Found { exact: false, ..last } })
     }
 
-    /// Answers a task with more orders than can be searched.
+    /// Plans a task with more orders than can be searched.
     fn in_fixed_order(mut self) -> TaskAnswer {
         let found = self.in_chosen_order();
         self.answer(found)
@@ -122,7 +122,7 @@ impl Planning<'_, '_> {
             OrderSearch::Promising => Some(self.in_orders(&orders, f64::INFINITY)).filter(Found::is_done),
             OrderSearch::Stuck { .. } | OrderSearch::Elsewhere => None,
         };
-        // The file's own order, unless it takes longer, hardly less, or is known not to work.
+        // The file's own order is tried, unless it takes longer or hardly less time, or is known to fail.
         let file = Orders::of_file(self.task);
         let below = best.as_ref().map_or(f64::INFINITY, |best| best.seconds);
         if below > CLOSE_FACTOR * self.lower_bound
@@ -148,7 +148,7 @@ impl Planning<'_, '_> {
         proof.unwrap_or_else(|| self.in_orders(&orders, f64::INFINITY))
     }
 
-    /// Returns the best result, or that of a better order, proposed by the real durations of motions.
+    /// Looks for better orders, by the real durations of motions, and returns the best result.
     fn improved(&mut self, mut orders: Orders, mut best: Found) -> Found {
         let most = self.legs.planned() + IMPROVING_MOTIONS;
         let mut tried = BTreeSet::from([orders.order()]);
@@ -170,7 +170,7 @@ impl Planning<'_, '_> {
         best
     }
 
-    /// Returns the fastest choice in these orders, if it takes less than `below` seconds.
+    /// Returns the fastest choice in these orders that takes less than `below` seconds.
     fn in_orders(&mut self, orders: &Orders, below: f64) -> Found {
         let in_chosen_order = orders.in_chosen_order();
         let heuristic = Heuristic::new(&in_chosen_order);
@@ -196,14 +196,14 @@ impl Planning<'_, '_> {
 pub(super) struct Found {
     pub outcome: Outcome<(), FailedStep, FailedStep>,
     pub legs: Vec<Leg>,
-    /// True if no other choice is faster, or could be possible.
+    /// True if no other choice is faster, or, without a solution, if no other choice is possible.
     pub exact: bool,
-    /// Seconds that it takes; infinite if not all steps can be done.
+    /// Duration in seconds. Infinite if not all steps can be done.
     pub seconds: f64,
 }
 
 impl Found {
-    /// Returns the result of a search. `exact` is true if the search was exhaustive.
+    /// Converts the end of a search to its result. `exact` is true if the search was exhaustive.
     pub fn of(search: &mut Search, ending: Ending, exact: bool) -> Self {
         if let Ending::Done(node) = ending {
             let (legs, seconds) = (search.legs(node), search.seconds(node));
@@ -225,13 +225,13 @@ impl Found {
     }
 }
 
-/// Returns the limits of a search that insists on the fastest choice.
+/// Returns the limits of a search for the fastest choice.
 pub(super) fn limits(task: &Task, motions: usize) -> Limits {
     let expanded = MAX_EXPANDED + EXPANDED_PER_STEP * task.steps().count();
     Limits { motions, expanded, below: f64::INFINITY }
 }
 
-/// Runs the search as weighted A*, which heads for the end.
+/// Continues the search as weighted A*, which looks for any solution.
 fn hurried(search: &mut Search, task: &Task, motions: usize, progress: &mut dyn FnMut(&str)) -> Ending {
     search.use_weighted_astar();
     let once = limits(task, motions);

@@ -1,4 +1,4 @@
-//! Replays of how the planner came to each motion of a task.
+//! Replays: how the planner found each motion of a task.
 
 use super::answer::{Leg, TaskAnswer};
 use super::motion_cache::{of_legs, planned_again};
@@ -7,12 +7,12 @@ use cplan_handling::Task;
 use cplan_solver::{Options, Phase, Replay, Shows};
 use std::sync::Arc;
 
-/// The replay of a task. Repeated motions are included once.
+/// The replay of a task. Repeated motions occur once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TaskReplay {
-    /// The distinct motions.
+    /// The different motions.
     pub motions: Vec<MotionReplay>,
-    /// For each leg, in order, the index of its motion.
+    /// For each leg in order, the index of its motion.
     pub legs: Vec<usize>,
 }
 
@@ -21,12 +21,12 @@ pub struct TaskReplay {
 pub struct MotionReplay {
     /// The replay.
     pub replay: Replay,
-    /// The trace that the replay shows in parts. `None` for a straight motion, which needs no search.
+    /// The trace, parts of which the replay shows. `None` for a straight motion, which needs no search.
     pub trace: Option<Trace>,
 }
 
 impl TaskReplay {
-    /// Computes the replay of an answer to a task with these options. Its motions are planned again in the same way.
+    /// Computes the replay of the answer to a task. Plans its motions again, with the same options.
     #[must_use]
     pub fn new(task: &Task, options: &Options, answer: &TaskAnswer) -> Self {
         let options = of_legs(options);
@@ -84,7 +84,8 @@ mod tests {
         (task, answer)
     }
 
-    /// Each motion is planned again in the same way: the path is the same one, except for the last digits of its end.
+    /// Checks that each motion is planned in the same way again. The path is the same one, except for the last digits
+    /// of its end.
     #[test]
     fn the_replay_matches_the_run() {
         let (mut among_few, mut straight) = (0, 0);

@@ -1,7 +1,7 @@
 //! The search for the fastest sequence of motions.
 //!
-//! The A* of petgraph does not fit: it needs the cost of an arc before it puts the arc on the open list. Here that cost
-//! is known only after planning a motion, and most motions need not be planned.
+//! The A* of petgraph does not fit: it needs the cost of an arc before the arc is on the open list. Here, the cost is
+//! known only after a motion has been planned, and most motions need not be planned.
 
 use super::answer::Leg;
 use super::failed_step::{FailedStep, RefusedStep, farthest};
@@ -16,7 +16,7 @@ use cplan_interrupt::checkpoint;
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
-/// Weight of the heuristic in the weighted A* that heads for the end.
+/// Weight of the heuristic in weighted A*. With a large weight, it soon reaches the end of the task.
 const HEURISTIC_WEIGHT: f64 = 4.0;
 
 /// Number of motions between two progress messages.
@@ -29,16 +29,16 @@ pub(super) struct Limits {
     pub motions: usize,
     /// Largest number of expanded nodes.
     pub expanded: usize,
-    /// The search looks for solutions that take less than this, seconds.
+    /// Only solutions that take less than this many seconds are sought.
     pub below: f64,
 }
 
-/// The end of a search.
+/// The reason why a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ending {
-    /// A node in which all steps are done.
+    /// All steps are done in the node with this index.
     Done(usize),
-    /// The search is exhausted.
+    /// The search has examined all nodes.
     Exhausted,
     /// A limit was reached.
     OutOfBudget,
@@ -49,16 +49,16 @@ struct Node<'a> {
     parent: Option<usize>,
     /// Number of steps done.
     depth: usize,
-    /// Seconds to this node; a lower bound while the motion is not planned.
+    /// Time from the start to this node, in seconds. While the motion to it is not planned, this is a lower bound.
     seconds: f64,
     stage: Stage<'a>,
 }
 
-/// State of the evaluation of a node.
+/// Whether the motion to a node is planned.
 enum Stage<'a> {
     /// The motion is not planned yet.
     Pending(Candidate<'a>),
-    /// The motion is planned. The start has no motion.
+    /// The motion is planned. The start node has no motion.
     Reached(Box<State>, Option<(Candidate<'a>, Motion)>),
 }
 
@@ -67,17 +67,18 @@ pub(super) struct Search<'a, 'l> {
     task: &'a Task,
     heuristic: &'a Heuristic<'a>,
     legs: &'l mut MotionCache,
-    /// Number of motions planned before this search.
+    /// Number of motions that were planned before this search.
     planned: usize,
     nodes: Vec<Node<'a>>,
-    /// Ordered by least total time. Among equals, the deeper node comes first, then the one found earlier.
+    /// Nodes by their least total time. Of equal ones, the deeper node comes first, then the one that was found
+    /// earlier.
     open: OpenList<(Reverse<usize>, usize)>,
     closed: BTreeSet<Vec<i64>>,
-    /// Weight of the heuristic: above 1 it is weighted A*.
+    /// Weight of the heuristic. Above 1, the search is weighted A*.
     weight: f64,
     /// Steps that could not be done.
     refused: Vec<RefusedStep<'a>>,
-    /// True if no choice has been left out.
+    /// True if no choice has been left out so far.
     complete: bool,
     expanded: usize,
 }
@@ -102,7 +103,8 @@ impl<'a, 'l> Search<'a, 'l> {
         search
     }
 
-    /// Continues the search up to the limits. The result is the fastest unless [`Search::use_weighted_astar`] was called.
+    /// Continues the search up to the limits. The solution is the fastest one unless [`Search::use_weighted_astar`] was
+    /// called.
     pub fn run(&mut self, limits: Limits, progress: &mut dyn FnMut(&str)) -> Ending {
         let mut reported = 0;
         while let Some((least, (_, index))) = self.open.pop() {
@@ -116,7 +118,7 @@ impl<'a, 'l> Search<'a, 'l> {
                 || self.expanded > limits.expanded
                 || (least >= limits.below && limits.below.is_finite())
             {
-                // The search may be continued with other limits.
+                // The node stays open, because the search may be continued with other limits.
                 self.open(index);
                 return Ending::OutOfBudget;
             }
@@ -136,12 +138,12 @@ impl<'a, 'l> Search<'a, 'l> {
         Ending::Exhausted
     }
 
-    /// Returns the number of nodes expanded so far.
+    /// Returns the number of nodes that have been expanded.
     pub fn expanded(&self) -> usize {
         self.expanded
     }
 
-    /// Returns the seconds to a node.
+    /// Returns the time from the start to a node, in seconds.
     pub fn seconds(&self, index: usize) -> f64 {
         self.nodes[index].seconds
     }
@@ -162,13 +164,13 @@ impl<'a, 'l> Search<'a, 'l> {
         self.open.push(node.seconds + self.weight * left, (Reverse(node.depth), index));
     }
 
-    /// Gives up on the fastest choice: from now on the remaining time has a larger weight than the elapsed time.
+    /// Stops looking for the fastest choice: from now on, the remaining time counts more than the time so far.
     pub fn use_weighted_astar(&mut self) {
         self.weight = HEURISTIC_WEIGHT;
         self.open.drain().into_iter().for_each(|(_, index)| self.open(index));
     }
 
-    /// Records that the search stopped: the steps after the farthest state reached could not be done within the limits.
+    /// Records that the search stopped at a limit: the steps after the farthest state could not be done within it.
     pub fn give_up(&mut self) {
         let open = |&node: &usize| self.state(node).is_some_and(|state| !state.is_done(self.task));
         let farthest = (0..self.nodes.len()).filter(open).max_by_key(|&node| (self.nodes[node].depth, Reverse(node)));
@@ -182,7 +184,7 @@ impl<'a, 'l> Search<'a, 'l> {
         }
     }
 
-    /// Plans the motion to a node.
+    /// Plans the motion to a node, which is then opened again or refused.
     fn evaluate(&mut self, index: usize) {
         let (Some(parent), Stage::Pending(candidate)) = (self.nodes[index].parent, &self.nodes[index].stage) else {
             return;
@@ -262,8 +264,8 @@ impl<'a, 'l> Search<'a, 'l> {
         legs
     }
 
-    /// Returns why the search got no farther than the steps to a node. The last value is true if that is proven for all
-    /// choices, provided that the search is exhausted.
+    /// Explains why the search got no farther than the steps to a node, which is also returned. The last value is true
+    /// if the failure is proven for all choices, provided that the search is exhausted.
     pub fn failure(&mut self) -> (FailedStep, usize, bool) {
         let state = |node: usize| match &self.nodes[node].stage {
             Stage::Reached(state, _) => Some(&**state),

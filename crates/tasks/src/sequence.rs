@@ -1,4 +1,4 @@
-//! The motions of a task as one.
+//! Joins the motions of a task to one motion.
 
 use super::answer::Leg;
 use cplan_motion::Trajectory;
@@ -7,10 +7,11 @@ use std::ops::RangeInclusive;
 /// The whole motion of a task, including the rests at the ends of steps.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sequence {
-    /// All motions, one after the other.
+    /// All motions in sequence.
     pub trajectory: Trajectory,
-    /// For each step, its samples in the trajectory, from the beginning to the end of its motion. A step begins with
-    /// the last sample of the step before if the arm does not stand still between them, otherwise with the next sample.
+    /// For each step, the range of its samples in the trajectory, from the beginning to the end of its motion. The
+    /// range begins with the last sample of the step before, or with the next sample if the arm stands still in
+    /// between.
     pub samples: Vec<RangeInclusive<usize>>,
 }
 
@@ -31,8 +32,8 @@ impl Sequence {
         sequence
     }
 
-    /// Returns the times, in seconds from the beginning, at which a step's motion begins, its motion ends, and the step
-    /// ends.
+    /// Returns the times at which a step's motion begins and ends, and at which the step ends, in seconds from the
+    /// beginning of the task.
     #[must_use]
     pub fn times(&self, step: usize) -> [f64; 3] {
         let time = |sample: usize| self.trajectory.time[sample];
@@ -40,14 +41,14 @@ impl Sequence {
         [time(*self.samples[step].start()), time(*self.samples[step].end()), end]
     }
 
-    /// Returns, for each sample, the step (from 0) to which the interval that begins there belongs. While the arm
-    /// stands still, this is the step just done.
+    /// Returns, for each sample, the index of the step to which the interval from this sample to the next one belongs.
+    /// While the arm stands still, this is the step that has just been done.
     #[must_use]
     pub fn steps(&self) -> Vec<usize> {
         let mut steps = Vec::with_capacity(self.trajectory.time.len());
         for step in 0..self.samples.len() {
             let next = self.samples.get(step + 1).map_or(self.trajectory.time.len(), |next| *next.start());
-            // A step without a motion of its own shares its sample with the next.
+            // A step without a motion shares its sample with the next step.
             steps.resize(next, step);
         }
         steps

@@ -9,14 +9,14 @@ use cplan_handling::{Action, Holding, Item, Object, Payload, Step, Task};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// The items that are done.
+/// The items of a task that are done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Progress {
-    /// The item that is next, or in progress.
+    /// Index of the next item, or of the group that is in progress.
     pub item: usize,
-    /// In a group in any order: the pairs that are done, one bit each.
+    /// In a group in any order, the pairs that are done, one bit each.
     pub done: u64,
-    /// In a group: the pair whose object is carried.
+    /// In a group in any order, the pair whose object is carried.
     pub half: Option<usize>,
 }
 
@@ -25,26 +25,26 @@ pub(super) struct Progress {
 pub(super) struct State {
     pub progress: Progress,
     pub q: Configuration,
-    /// Pose of each object. `None` while it is carried, or still moves.
+    /// Pose of each object. `None` while it is carried or still moves by itself.
     pub poses: Arc<[Option<Pose>]>,
-    /// The objects that still move, in order.
+    /// The objects that still move by themselves, in ascending order.
     pub moving: Arc<[usize]>,
-    /// The payload, with the obstacles on which it rested and will rest as its supports, ascending.
+    /// The payload. Its supports are the obstacles on which it rested and will rest, in ascending order.
     pub held: Option<Payload>,
-    /// The object just released.
+    /// The object that the last step released. `None` if the last step released none.
     pub released: Option<usize>,
 }
 
-/// One candidate for the next step.
+/// A candidate for the next step: one possible configuration, and orientation of the object, at its target.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Candidate<'a> {
     pub step: &'a Step,
     /// Configuration in which the motion ends.
     pub to: Configuration,
-    /// Orientations between which the wrist must turn the object after the motion.
+    /// Angles between which the wrist must turn the object after the motion, in radians. `None` if no turn is needed.
     pub turn: Option<[f64; 2]>,
     pub event: Option<Event>,
-    /// Grip of an object after its pick.
+    /// Grip of the object after a pick.
     grip: Option<Grip>,
     /// The progress after the step.
     pub progress: Progress,
@@ -54,18 +54,19 @@ pub(super) struct Candidate<'a> {
 pub(super) struct Candidates<'a> {
     pub step: &'a Step,
     pub ways: Vec<Candidate<'a>>,
-    /// True if there are no other candidates.
+    /// True if these are all possible candidates.
     pub all: bool,
 }
 
-/// Orientations that differ by less than this, radians, count as equal.
+/// Two orientations that differ by less than this are equal, in radians. It covers rounding.
 const ANGLE_TOLERANCE: f64 = 1e-9;
 
-/// Tolerance of poses and configurations, metres and radians, below which differences are rounding.
+/// Two poses or configurations that differ by less than this are equal, in metres and radians. It covers rounding.
 const POSE_TOLERANCE: f64 = 1e-9;
 
-/// Rounding of the orientations in which rigid payloads are released, radians. It is far below all tolerances, and far
-/// above the rounding of doubles. So repeated cycles return to the same world, bit for bit, and are planned once.
+/// Orientations at which rigid payloads are released are rounded to multiples of this, in radians. It is far below all
+/// tolerances, and far above the rounding of doubles. So repeated cycles return to the same world, bit for bit, and are
+/// planned only once.
 const ORIENTATION_ROUNDING: f64 = 1e-12;
 
 impl State {
@@ -85,7 +86,7 @@ impl State {
         self.progress.item == task.items.len()
     }
 
-    /// Returns a key that distinguishes states, as far as later steps depend on the difference.
+    /// Returns a key of the state. States with the same key are equal for all later steps.
     pub fn key(&self, task: &Task) -> Vec<i64> {
         let grains = |value: f64| (value / POSE_TOLERANCE).round() as i64;
         let Progress { item, done, half } = self.progress;
@@ -106,7 +107,7 @@ impl State {
         key
     }
 
-    /// Returns the state at a moment at which a moving object is picked, with the object at its place at that time.
+    /// Returns the state at the time when a moving object is picked. The object is where it is at that time.
     pub fn at_pick(&self, task: &Task, object: usize, time: f64) -> Self {
         let mut state = self.clone();
         Arc::make_mut(&mut state.poses)[object] = task.objects[object].course.as_ref().map(|course| course.pose(time));
@@ -114,13 +115,13 @@ impl State {
         state
     }
 
-    /// Returns the scene of this state. Link 2 may touch the object
-    /// just released, and one other: the object that it moves to, or the one that it released before.
+    /// Returns the scene of this state. Link 2 may touch the object `touched`, to which it moves, and the object that
+    /// was just released.
     pub fn scene(&self, task: &Task, touched: Option<usize>) -> Scene {
         task.scene(&self.poses, &self.moving, self.held.as_ref(), self.released.into_iter().chain(touched))
     }
 
-    /// Returns the candidates for each of the steps that can be next.
+    /// Returns the candidates for each step that can be next.
     pub fn candidates<'a>(&self, task: &'a Task) -> Vec<Candidates<'a>> {
         let Some(item) = task.items.get(self.progress.item) else { return Vec::new() };
         match (item, self.progress.half) {
@@ -133,12 +134,12 @@ impl State {
                 let open = (0..pairs.len()).filter(|pair| self.progress.done & (1 << pair) == 0);
                 open.map(|pair| self.ways(task, &pairs[pair][0], Some(&pairs[pair][1]), Some(pair))).collect()
             }
-            // States contain no pending renewals.
+            // Renewals happen before the next step, so no state has one as its next item.
             (Item::Renew(_), _) => Vec::new(),
         }
     }
 
-    /// Returns the candidates for a step. `place` is the one that follows a pick.
+    /// Returns the candidates for a step. `place` is the step that places the object after a pick.
     fn ways<'a>(&self, task: &'a Task, step: &'a Step, place: Option<&Step>, pair: Option<usize>) -> Candidates<'a> {
         let progress = self.progress.after(&step.action, pair, task);
         let mut ways = Vec::new();
@@ -204,13 +205,12 @@ impl State {
                 return Candidates { step, ways, all: false };
             }
         };
-        // The turn could also be made during the motion.
+        // A turn during the motion would be another candidate.
         let turns = ways.iter().any(|candidate| candidate.turn.is_some());
         Candidates { step, ways, all: reach.all && !turns }
     }
 
-    /// Returns the state after a candidate's step, with the arm at `q`, and with all renewals that come before the next
-    /// step.
+    /// Returns the state after a candidate's step, with the arm at `q`. Includes all renewals before the next step.
     pub fn after(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
         self.after_step(task, candidate, q).renewed(task)
     }
@@ -235,18 +235,18 @@ impl State {
         Self { poses, ..after }
     }
 
-    /// Returns true if objects will be renewed before the next step. Then the next motion does not begin in the world
-    /// in which the last one ended.
+    /// Returns true if objects are renewed before the next step. Then the world of the next motion differs from that at
+    /// the end of the last one.
     pub fn needs_renewal(&self, task: &Task) -> bool {
         matches!(task.items.get(self.progress.item), Some(Item::Renew(_)))
     }
 
-    /// Renews objects, if the task says so before the next step.
+    /// Renews objects if that is next in the task.
     pub fn renewed(mut self, task: &Task) -> Self {
         while let Some(Item::Renew(objects)) = task.items.get(self.progress.item) {
             let poses = Arc::make_mut(&mut self.poses);
             objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at));
-            // A renewed object is not the one that may be touched.
+            // A renewed object is a new one, which the arm must not touch.
             self.released = self.released.filter(|released| !objects.contains(released));
             self.progress.item += 1;
         }
@@ -255,7 +255,7 @@ impl State {
 }
 
 impl Progress {
-    /// Returns the place step that ends the carrying which a candidate begins.
+    /// Returns the place step for the object that a candidate picks. `None` if there is none.
     fn place<'a>(self, task: &'a Task, candidate: &Candidate) -> Option<&'a Step> {
         match (&task.items[self.item], candidate.progress.half) {
             (Item::AnyOrder(pairs), Some(pair)) => Some(&pairs[pair][1]),
@@ -275,7 +275,7 @@ impl Progress {
     }
 }
 
-/// Returns the obstacles that an object may touch from the pick to the place, by number, ascending.
+/// Returns the obstacles that an object may touch from its pick to its place, by number, in ascending order.
 fn supports(pick: &Step, place: Option<&Step>) -> Vec<usize> {
     let of = |step: &Step| match &step.action {
         Action::Pick { supports, .. } | Action::Place { supports, .. } => supports.clone(),
@@ -288,7 +288,7 @@ fn supports(pick: &Step, place: Option<&Step>) -> Vec<usize> {
     both
 }
 
-/// Returns the place step that ends the carrying which begins with an item.
+/// Returns the place step for the object that the arm carries when an item begins.
 fn following_place(task: &Task, item: usize) -> Option<&Step> {
     task.items[item..].iter().find_map(|item| match item {
         Item::Step(step) if matches!(step.action, Action::Place { .. }) => Some(step),
@@ -301,7 +301,7 @@ pub(super) fn same_angle(a: f64, b: f64) -> bool {
     normalized(a - b).abs() < ANGLE_TOLERANCE
 }
 
-/// Returns the orientation in `[-pi, pi)`. Values within rounding of `pi` become `-pi`.
+/// Returns the orientation in `[-pi, pi)`, in radians. A value that differs from `pi` by rounding becomes `-pi`.
 fn normalized(angle: f64) -> f64 {
     let turn = (angle + PI).rem_euclid(TAU) - PI;
     if turn > PI - ANGLE_TOLERANCE { -PI } else { turn }

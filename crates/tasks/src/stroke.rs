@@ -10,22 +10,22 @@ use cplan_core::space::Path;
 use cplan_handling::{Step, Stroke, Task};
 use cplan_motion::single;
 
-/// The stroke of the tool: it is lowered, and raised again after the gripper's action.
+/// The stroke of the tool: the tool is lowered, the gripper acts, and the tool is raised.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToolStroke {
-    /// The joint's value while the tool is raised, ...
+    /// The joint's value while the tool is raised, in metres.
     pub raised: f64,
-    /// ... and while it is lowered.
+    /// The joint's value while the tool is lowered, in metres.
     pub lowered: f64,
-    /// Seconds for lowering, and for raising, in whole nanoseconds.
+    /// Time for lowering the tool, in seconds, rounded to whole nanoseconds. Raising it takes as long.
     pub seconds: f64,
-    /// Proven lower bound on the distance to obstacles during the stroke, metres; infinite if no obstacle is within
+    /// Proven lower bound on the distance to obstacles during the stroke, in metres. Infinite if no obstacle is within
     /// reach.
     pub clearance: f64,
 }
 
-/// Returns a lower bound on the seconds that the arm stands still for a step with an object, without turns of the
-/// wrist: the dwell, and the stroke down and up.
+/// Returns a lower bound on the time that the arm stands still for a step, in seconds: the dwell, and the stroke if the
+/// step has an object. Turns of the wrist are not included.
 pub(super) fn least_rest(task: &Task, step: &Step, object: Option<usize>) -> f64 {
     let down = |(stroke, object): (&Stroke, usize)| {
         rest_to_rest(stroke.depth(&task.objects[object]).abs(), stroke.velocity, stroke.acceleration)
@@ -33,8 +33,8 @@ pub(super) fn least_rest(task: &Task, step: &Step, object: Option<usize>) -> f64
     step.dwell + 2.0 * task.stroke.as_ref().zip(object).map_or(0.0, down)
 }
 
-/// Returns the stroke at a candidate's target. `None` if the tool is not lowered. A placed object must be free where it
-/// lies, even without a stroke.
+/// Returns the stroke at a candidate's target. `None` if the tool is not lowered. Without a stroke, still checks that
+/// an object is free at the place where it is put.
 pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result<Option<ToolStroke>, Refusal> {
     let Some(event) = candidate.event else { return Ok(None) };
     let Some(scene) = lowered(task, from, candidate, event) else { return Ok(None) };
@@ -51,8 +51,9 @@ pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result
     Ok(Some(ToolStroke { raised, lowered, seconds, clearance: certified.clearance() }))
 }
 
-/// Returns the scene with the arm, and its payload, while the tool is lowered, if it is. A pick rises with its object,
-/// and a place is lowered with it. In the other direction the hand is empty, and meets no more obstacles.
+/// Returns the scene with the lowered tool and its payload. `None` if the tool is not lowered. After a pick the tool
+/// rises with the object, and before a place it goes down with the object. In the other direction it is empty, and
+/// meets no other obstacles.
 fn lowered(task: &Task, from: &State, candidate: &Candidate, event: Event) -> Option<Scene> {
     let left = from.after_step(task, candidate, candidate.to);
     // The wrist turns after a pick, and before a place.

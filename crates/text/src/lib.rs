@@ -1,5 +1,5 @@
-//! Text for people: safe names, markup, numbers, counts, long lists, columns and wrapped lines; and infinite numbers in
-//! data. This crate uses no other crate of the workspace.
+//! Formats text for people: safe names, markup, numbers, counts, long lists, columns and wrapped lines. Also reads and
+//! writes infinite numbers in data. This crate uses no other crate of the workspace.
 
 mod base64;
 mod columns;
@@ -29,10 +29,10 @@ pub fn counted(count: usize, thing: &str) -> String {
     format!("{count} {thing}{ending}")
 }
 
-/// Largest number of reasons that are listed. Further ones are counted.
+/// Largest number of reasons that are listed. Further ones are only counted.
 const MAX_LISTED_REASONS: usize = 6;
 
-/// Joins reasons, all of them if there are few: `a; b; and 12 more`.
+/// Joins reasons by semicolons. If there are many, lists the first ones: `a; b; and 12 more`.
 #[must_use]
 pub fn listed(reasons: &[String]) -> String {
     let [first, more] =
@@ -41,7 +41,7 @@ pub fn listed(reasons: &[String]) -> String {
     first.iter().cloned().chain(rest).collect::<Vec<_>>().join("; ")
 }
 
-/// Does the same for separate lines.
+/// Returns the lines, or the first ones if there are many. Then the last line is `more` of the number of others.
 #[must_use]
 pub fn first_lines(lines: Vec<String>, more: impl Fn(usize) -> String) -> Vec<String> {
     let rest = lines.len().saturating_sub(MAX_LISTED_REASONS);

@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
-/// Returns true if a character affects the terminal or the surrounding text instead of being visible: control
-/// characters, and those that change the writing direction or break lines (Unicode 16, 23.2; UAX 9).
+/// Returns true if a character has an effect on the terminal or on the text around it, instead of being visible. Such
+/// characters are control characters, and those that change the direction of writing or break lines (Unicode 16, 23.2;
+/// UAX 9).
 fn acts(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
@@ -21,24 +22,24 @@ fn escaped(text: &str, spared: impl Fn(char) -> bool, escape: impl Fn(&mut Strin
     Cow::Owned(shown)
 }
 
-/// Escapes characters that would affect a terminal, as in `\u{1b}`. Line breaks stay.
+/// Escapes characters that would have an effect on a terminal, as in `\u{1b}`. Line breaks remain.
 #[must_use]
 pub fn plain(text: &str) -> Cow<'_, str> {
     escaped(text, |c| matches!(c, '\n' | '\t'), |shown, c| shown.extend(c.escape_default()))
 }
 
-/// Does the same for text that must stay on one line.
+/// Escapes the same characters as [`plain`], and line breaks.
 #[must_use]
 pub fn plain_line(text: &str) -> Cow<'_, str> {
     escaped(text, |_| false, |shown, c| shown.extend(c.escape_default()))
 }
 
-/// Escapes such characters within JSON. Parsing gives the same value.
+/// Escapes these characters within JSON. Parsing the result gives the same value.
 #[must_use]
 pub fn plain_json(json: &str) -> Cow<'_, str> {
     use std::fmt::Write;
     let escape = |shown: &mut String, c: char| {
-        // All are in the basic plane, and writing to a string cannot fail.
+        // Four digits are enough, because all these characters are in the basic plane. Writing to a string cannot fail.
         let _ = write!(shown, "\\u{:04x}", u32::from(c));
     };
     escaped(json, |c| matches!(c, '\n' | '\t' | '\r'), escape)

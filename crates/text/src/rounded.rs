@@ -1,9 +1,9 @@
-//! Numbers for people: short, distinct where they differ, and never beyond a proven bound.
+//! Numbers for people. They are short, look different if they differ, and never exceed a proven bound.
 
-/// Numbers that need more decimals are written in full.
+/// Largest number of decimals. A number that needs more is written in full.
 const MAX_DECIMALS: usize = 12;
 
-/// Formats a number with fixed decimals. Zero has no sign.
+/// Formats a number with fixed decimals. Zero never has a minus sign.
 #[must_use]
 pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
@@ -13,8 +13,8 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// Formats a number with fixed decimals. A nonzero number that would look like zero gets two significant digits:
-/// `5.6e-7`.
+/// Formats a number with fixed decimals. If another number than zero would look like zero, it gets two significant
+/// digits: `5.6e-7`.
 #[must_use]
 pub fn nonzero(value: f64, decimals: usize) -> String {
     let text = fixed(value, decimals);
@@ -39,8 +39,8 @@ pub fn short(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// Formats a number with fixed decimals, rounded down, so that a proven lower bound stays true as printed. A positive
-/// number that would look like zero gets two significant digits: `5.6e-7`.
+/// Formats a number with fixed decimals, rounded down, so that a proven lower bound is still true as printed. If a
+/// positive number would look like zero, it gets two significant digits: `5.6e-7`.
 #[must_use]
 pub fn round_down(value: f64, decimals: usize) -> String {
     let text = shown(value, decimals, |shown| shown <= value, -1.0);
@@ -68,20 +68,21 @@ fn two_digits_below(value: f64) -> String {
     }
 }
 
-/// Formats a fraction as a percentage, rounded up: `0.04 %`, `8.5e-3 %`. Ignores the rounding error of the quotient.
+/// Formats a fraction as a percentage, rounded up: `0.04 %`, `8.5e-3 %`. It does not take the rounding error of the
+/// quotient into account.
 #[must_use]
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * (share - 2.0 * f64::EPSILON).max(0.0);
     if percent == 0.0 || percent >= 0.01 {
         return format!("{} %", round_up(percent, 2));
     }
-    // Two significant digits.
+    // Decimals for two significant digits.
     let decimals = 1 - percent.log10().floor() as i32;
     let shown = round_up(percent, decimals.unsigned_abs() as usize);
     shown.parse().map_or(shown.clone(), |shown: f64| format!("{shown:.1e}")) + " %"
 }
 
-/// Formats the nearest decimal, or the next one towards a direction until `holds`.
+/// Formats the nearest decimal for which `holds` is true, in the direction `towards`.
 fn shown(value: f64, decimals: usize, holds: impl Fn(f64) -> bool, towards: f64) -> String {
     let nearest = fixed(value, decimals);
     match nearest.parse::<f64>() {

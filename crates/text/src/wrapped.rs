@@ -1,14 +1,14 @@
 //! Word wrapping.
 
-/// Wraps a line to at most `width` characters, unless a word is longer. Continuation lines start with `indent` blanks.
-/// Spaces before the first word and between words of one line stay.
+/// Wraps a line to at most `width` characters, or more if a single word is longer. Continuation lines begin with
+/// `indent` spaces. Spaces before the first word and between the words of a line remain.
 #[must_use]
 pub fn wrapped(line: &str, width: usize, indent: usize) -> String {
     let mut text = String::with_capacity(line.len());
     let (mut column, mut gap) = (0, 0);
     for word in line.split(' ') {
         let length = word.chars().count();
-        // Two consecutive blanks have an empty word between them.
+        // Between two consecutive spaces there is an empty word.
         if !word.is_empty() && column > indent && column + gap + length > width {
             text.push('\n');
             text.extend(std::iter::repeat_n(' ', indent));

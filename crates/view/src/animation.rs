@@ -8,16 +8,16 @@ use super::view::View;
 /// Time between two pictures, in hundredths of a second: nearly 17 pictures per second.
 pub const FRAME_DELAY: u16 = 6;
 
-/// Shortest and longest time in which the motion is shown, in seconds. Shorter motions are slowed down, longer ones
-/// sped up.
+/// Shortest and longest time for which an animation shows the motion, in seconds. The animation shows a shorter motion
+/// more slowly and a longer one faster than it is.
 const MOTION_TIMES: [f64; 2] = [2.0, 3.5];
 
-/// Time for which the last picture of a phase (`PHASE_DELAY`) and the last picture of all (`END_DELAY`) are shown, in hundredths of
-/// a second.
+/// Time for which the last picture of a phase (`PHASE_DELAY`) and the last picture of the animation (`END_DELAY`) are
+/// shown, in hundredths of a second.
 const PHASE_DELAY: u16 = 36;
 const END_DELAY: u16 = 200;
 
-/// A moment of the animation, and the time for which it is shown, in hundredths of a second.
+/// A moment of the animation, with the time for which its picture is shown, in hundredths of a second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
     what: MomentKind,
@@ -26,11 +26,11 @@ pub struct Moment {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum MomentKind {
-    /// A phase of the planner's run, and the fraction of it that has been shown.
+    /// A moment of the planner's run: the index of the phase, and the fraction of it that has been shown.
     Thinking(usize, f64),
-    /// A time of the motion, in seconds.
+    /// A moment of the motion: the time since its start, in seconds.
     Moving(f64),
-    /// The whole view, at rest.
+    /// The last picture: the complete view, as in a still picture.
     Still,
 }
 

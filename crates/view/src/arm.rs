@@ -8,7 +8,7 @@ use super::view::PayloadView;
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 
-/// Colours and lines of a pose.
+/// Colours and line widths with which an arm is drawn.
 pub struct ArmStyle {
     fill: Rgb,
     line: Rgb,
@@ -28,7 +28,7 @@ pub const CURRENT_LOOK: ArmStyle = ArmStyle { fill: WHITE, line: ACCENT, width: 
 /// The arm at a configuration along the path.
 pub const GHOST_LOOK: ArmStyle = ArmStyle { fill: color::GHOST, line: GRAY, width: 0.8, opacity: 0.7, joints: false };
 
-/// Draws the arm at `q`: its own outline, and above it the payload in the colour of the object.
+/// Draws the arm at `q`: first its outline, then the payload over it in the colour of the object.
 #[must_use]
 pub fn items(frame: &Frame, arm: &Arm, payload: Option<&PayloadView>, q: Configuration, look: &ArmStyle) -> Vec<Item> {
     let body = Style::line(look.line, 2.0 * look.width).filled(look.fill).faded(look.opacity);

@@ -26,20 +26,20 @@ pub struct Frame {
     pub y: Range,
 }
 
-/// Returns a range of positive, finite length: an empty range is widened about its middle, one that is not finite is
-/// replaced.
+/// Returns a range of positive, finite length. Widens a range that is too short about its middle, and replaces one that
+/// is not finite.
 fn sound((lower, upper): Range) -> Range {
     if !(lower.is_finite() && upper.is_finite()) {
         return (-1.0, 1.0);
     }
-    // A millimetre, or a twentieth of a degree. Shorter ranges make long labels without any use.
+    // A millimetre, or a twentieth of a degree. A shorter range would only make the labels long.
     let least = f64::max(1e-3, 1e-9 * lower.abs().max(upper.abs()));
     if upper - lower >= least { (lower, upper) } else { (lower - least / 2.0, lower + least / 2.0) }
 }
 
 impl Frame {
     /// Returns the largest frame in `area` that shows exactly these ranges. With `equal_scale`, both axes have the same
-    /// scale, and the frame lies in the upper middle of the area.
+    /// scale, and the frame is centred horizontally at the top of the area.
     #[must_use]
     pub fn fitted(area: Rect, x: Range, y: Range, equal_scale: bool) -> Self {
         let (x, y) = (sound(x), sound(y));
@@ -81,7 +81,8 @@ impl Frame {
         self.rect.width / (self.x.1 - self.x.0)
     }
 
-    /// Draws light lines across the frame at the ticks; they belong below everything else.
+    /// Draws light lines across the frame at the ticks. Callers draw them before everything else, so that they lie
+    /// below it.
     #[must_use]
     pub fn grid(&self, units: [Unit; 2]) -> Vec<Item> {
         let pen = Style::line(FAINT, 1.0);
@@ -97,8 +98,8 @@ impl Frame {
         upright.chain(level).collect()
     }
 
-    /// Draws sides, ticks and titles; they belong above everything else. A side is dashed if it is a seam, where the
-    /// space continues on the opposite side.
+    /// Draws sides, ticks and titles. Callers draw them last, so that they lie above everything else. A side is dashed
+    /// if it is a seam, where the space continues on the opposite side.
     #[must_use]
     pub fn border(&self, units: [Unit; 2], titles: [String; 2], seams: [bool; 2]) -> Vec<Item> {
         let mut items = self.sides(seams);
@@ -166,7 +167,8 @@ impl Frame {
     }
 }
 
-/// Returns round values in the range with their labels: at most `at_most`, or more if fewer than two would remain.
+/// Returns round values in the range, with their labels: at most `at_most` of them, but at least two if the range has
+/// them.
 fn ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> {
     let few = sparse_ticks(range, unit, at_most.max(2));
     if few.len() >= 2 { few } else { sparse_ticks(range, unit, 2 * at_most.max(2)) }

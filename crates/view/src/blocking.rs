@@ -1,4 +1,4 @@
-//! The blocking obstacles of a motion that does not exist, and the configuration where it gets stuck.
+//! The obstacles that block a motion, and the configuration where the arm gets stuck.
 
 use super::arm::{self, UNREACHED_LOOK};
 use super::axes::Frame;
@@ -13,10 +13,10 @@ use cplan_core::space::Configuration;
 use cplan_geometry::Point;
 use serde::{Serialize, Serializer};
 
-/// Dashes of blocking obstacles.
+/// Dashes of the outlines of blocking obstacles, in pixels.
 const BLOCKING_DASH: &[f64] = &[7.0, 3.0];
 
-/// Width of their outlines, in pixels.
+/// Width of the outlines of blocking obstacles, in pixels.
 const OUTLINE_WIDTH: f64 = 3.0;
 
 /// The blocking obstacles, and the narrowest place.
@@ -24,7 +24,8 @@ const OUTLINE_WIDTH: f64 = 3.0;
 pub struct BlockingView {
     /// Numbers of the blocking obstacles.
     pub blockers: Vec<usize>,
-    /// The configuration where the arm gets stuck, and the place in the plane.
+    /// The configuration where the arm gets stuck, and the place in the plane where it touches. `None` if there is no
+    /// such configuration.
     #[serde(serialize_with = "pair", skip_serializing_if = "Option::is_none")]
     pub at: Option<(Configuration, Point)>,
 }

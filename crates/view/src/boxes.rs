@@ -1,4 +1,4 @@
-//! Boxes of configurations: those of a subdivision, and those of a proof.
+//! Boxes of configurations, of a subdivision or of a proof.
 
 use super::axes::Frame;
 use super::color::{EDGE, FREE, PROOF, UNDECIDED, WHITE};
@@ -7,7 +7,7 @@ use super::key::{Key, Sign};
 use super::view::Chain;
 use cplan_core::space::Configuration;
 
-/// Boxes narrower than this are drawn without sides, in pixels. The lines would hide everything else.
+/// Boxes narrower than this are drawn without sides, in pixels. The sides would hide the colours of such boxes.
 const MIN_OUTLINED_WIDTH: f64 = 2.0;
 
 fn rect([lower, upper]: [Configuration; 2], frame: &Frame) -> Rect {
@@ -46,13 +46,14 @@ pub fn keys() -> Vec<Key> {
 /// Horizontal distance between neighbouring lines of a hatch, in pixels.
 const HATCH_DISTANCE: f64 = 7.0;
 
-/// Draws the boxes of a proof over the C-obstacles. They are hatched, and nothing else is.
+/// Draws the boxes of a proof over the C-obstacles. Only these boxes are hatched.
 #[must_use]
 pub fn proof(boxes: &Chain, frame: &Frame) -> Vec<Item> {
     hatched(&boxes.pairs().map(|b| rect(b, frame)).collect::<Vec<_>>())
 }
 
-/// Draws hatched rectangles with their sides. A translucent ground below the hatch keeps it visible over any colour.
+/// Draws hatched rectangles with their sides. A translucent ground below the hatch keeps the hatch visible over any
+/// colour.
 pub fn hatched(rects: &[Rect]) -> Vec<Item> {
     let sides: Vec<Step> = rects.iter().copied().flat_map(rectangle).collect();
     let lines: Vec<Step> = rects.iter().copied().flat_map(hatch).collect();

@@ -41,8 +41,8 @@ fn is_wide(Chain(corners): &Chain, chart: &Chart) -> bool {
     high - low >= NARROW_CELL
 }
 
-/// Draws centres of cells (discs) and middles of portals (rings), named `C1`, `Q1`, `C2` and so on. If there are only a
-/// few, they have names where these cover no marker.
+/// Draws centres of cells (discs) and middles of portals (rings), named `C1`, `Q1`, `C2` and so on. In a channel of at
+/// most [`MAX_NAMED_CELLS`] cells, it also draws those names that cover no marker.
 pub fn points([centers, middles]: [&Chain; 2], chart: &Chart) -> Vec<Item> {
     let places = |points: &Chain| points.0.iter().map(|&q| chart.place(q)).collect::<Vec<[f64; 2]>>();
     let (centers, middles) = (places(centers), places(middles));
@@ -88,7 +88,7 @@ fn within(place: &Rect, page: &Rect) -> bool {
     place.x >= page.x && place.right() <= page.right() && place.y >= page.y && place.bottom() <= page.bottom()
 }
 
-/// Returns the legend's sign for a point.
+/// Returns the sign of the legend for a middle of a portal (`is_middle`) or a centre of a cell.
 pub fn sign(at: [f64; 2], is_middle: bool) -> Item {
     if is_middle { ring(at) } else { disc(at) }
 }

@@ -8,10 +8,10 @@ use cplan_core::model::{Arm, Joint};
 use cplan_core::space::{Configuration, Topology};
 use cplan_geometry::cross;
 
-/// Largest ratio of the ranges of two joints of one kind with which both axes have the same scale.
+/// Both axes have the same scale if both joints are of the same kind and the ratio of their ranges is at most this.
 const MAX_ONE_SCALE_RATIO: f64 = 2.2;
 
-/// The whole joint space of an arm in a frame of the page.
+/// A frame of the page that shows the whole joint space of an arm.
 #[derive(Debug, Clone, Copy)]
 pub struct Chart {
     /// Frame on the page.
@@ -20,9 +20,9 @@ pub struct Chart {
     pub units: [Unit; 2],
     /// Topology of the joint space: which joints wrap around.
     pub topology: Topology,
-    /// Window in which paths are repeated across seams.
+    /// Part of joint space in which paths are drawn, with copies across seams.
     pub paths: Window,
-    /// Window in which obstacles are repeated.
+    /// Part of joint space in which obstacles are drawn, with a copy for each turn of a revolute joint.
     pub obstacles: Window,
 }
 
@@ -60,7 +60,7 @@ impl Chart {
         pieces.into_iter().flat_map(|p| chain(p.iter().map(|q| self.frame.at(q[0], q[1])), false)).collect()
     }
 
-    /// Returns a closed outline with its copies, repeated as paths are.
+    /// Returns a closed outline with the same copies as paths have.
     #[must_use]
     pub fn polygon(&self, Chain(corners): &Chain) -> Vec<Step> {
         self.copies(corners, &self.paths)
@@ -71,8 +71,8 @@ impl Chart {
         window.shifts(corners).into_iter().flat_map(copy).collect()
     }
 
-    /// Returns contours with their copies as one outline. With a style whose pen lies below the fill, they look like
-    /// their union.
+    /// Returns contours with their copies as one outline. With a style that draws the pen below the fill, the outline
+    /// looks like that of their union.
     #[must_use]
     pub fn c_obstacle<'a>(&self, contours: impl Iterator<Item = &'a ContourView>, style: Style) -> Item {
         let mut steps = Vec::new();
@@ -94,7 +94,8 @@ fn units(arm: &Arm) -> [Unit; 2] {
     [0, 1].map(|k| if arm.joints[k].joint_type.is_revolute() { Unit::Degrees } else { Unit::Meters })
 }
 
-/// Returns the ratio of height to width of the whole joint space if both axes have the same scale.
+/// Returns the ratio of height to width that the chart of the whole joint space has if both axes have the same scale.
+/// `None` if they should not have the same scale.
 #[must_use]
 pub fn one_scale(arm: &Arm) -> Option<f64> {
     let [width, height] = arm.topology().ranges.map(|axis| axis.extent());

@@ -5,7 +5,7 @@
 pub struct Rgb(pub u8, pub u8, pub u8);
 
 impl Rgb {
-    /// Mixes in `part` (0 to 1) of another colour.
+    /// Returns this colour with `part` (0 to 1) of it replaced by another colour.
     #[must_use]
     pub fn mixed(self, other: Rgb, part: f64) -> Rgb {
         let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * part).round() as u8;
@@ -64,7 +64,7 @@ pub const AVOIDED: Rgb = Rgb(0xc4, 0x6a, 0x1d);
 /// Regions that fields prefer.
 pub const PREFERRED: Rgb = Rgb(0x2b, 0x7a, 0x78);
 
-/// The colours with a meaning, by their names in the style sheet of pages.
+/// The colours that have a meaning, with their names in the style sheet of pages.
 pub const TINTS: [(&str, Rgb); 15] = [
     ("ink", INK),
     ("paper", WHITE),
@@ -83,7 +83,7 @@ pub const TINTS: [(&str, Rgb); 15] = [
     ("preferred", PREFERRED),
 ];
 
-/// Returns the name of a colour that has a meaning, and otherwise the colour itself.
+/// Returns the name of a colour that has a meaning, and `#rrggbb` for any other colour.
 #[must_use]
 pub fn tint(color: Rgb) -> String {
     let named = TINTS.iter().find(|(_, tint)| *tint == color);
@@ -104,8 +104,8 @@ const OBSTACLE_COLORS: [Rgb; 9] = [
     Rgb(0x11, 0x77, 0x33),
 ];
 
-/// Returns the colour of obstacle `index`. There are nine hues. Further rounds through them alternate between paler and
-/// deeper colours, so that 63 obstacles differ before the list begins again.
+/// Returns the colour of obstacle `index`. There are nine hues. After nine obstacles the hues repeat, alternately paler
+/// and deeper, so that the first 63 obstacles have different colours.
 #[must_use]
 pub fn obstacle(index: usize) -> Rgb {
     let hue = OBSTACLE_COLORS[index % OBSTACLE_COLORS.len()];
@@ -120,9 +120,9 @@ pub fn obstacle(index: usize) -> Rgb {
     }
 }
 
-/// Returns colour and dashes of path `index` of a comparison: the strong half of Okabe and Ito's scheme (2008). Dashes
-/// distinguish paths that lie on top of each other. Further rounds through the colours have other dashes, so that 36
-/// paths differ.
+/// Returns the colour and the dashes of path `index` of a comparison: the strong half of Okabe and Ito's scheme (2008).
+/// Dashes distinguish paths that lie on top of each other. When the colours repeat, the dashes change, so that the
+/// first 36 paths differ.
 #[must_use]
 pub fn path(index: usize) -> (Rgb, &'static [f64]) {
     const PATH_COLORS: [Rgb; 6] = [
@@ -186,8 +186,7 @@ mod tests {
         assert_eq!(obstacle(63), obstacle(0));
     }
 
-    /// Compares with the paler colours of configuration spaces, where one obstacle once nearly had the colour of the
-    /// channel.
+    /// Compares with the paler colours of configuration spaces. One obstacle once had nearly the colour of the channel.
     #[test]
     fn no_obstacle_has_the_colour_of_the_channel() {
         for index in 0..63 {

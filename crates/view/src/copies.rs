@@ -4,10 +4,11 @@ use super::axes::Range;
 use cplan_core::space::Configuration;
 use std::f64::consts::TAU;
 
-/// Largest number of copies. With more turns in a panel of some 500 pixels, one turn would be half a pixel wide.
+/// Largest number of copies. A panel is some 500 pixels wide: with more copies, a turn would be narrower than half a
+/// pixel.
 const MAX_COPIES: f64 = 1000.0;
 
-/// The visible part of joint space, and the axes along which its content repeats.
+/// The visible part of joint space, and the axes along which the drawing repeats with each turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
     /// Lower and upper value of each axis.
@@ -44,7 +45,8 @@ impl Window {
         (0..=count).map(|k| (first + k as f64) * TAU).collect()
     }
 
-    /// Returns the polyline and its copies, cut at the sides of the window; no piece leaves it. `O(copies * corners)`.
+    /// Returns the polyline and its copies, cut at the sides of the window, so that no piece leaves the window.
+    /// `O(copies * corners)`.
     #[must_use]
     pub fn pieces(&self, polyline: &[Configuration]) -> Vec<Vec<Configuration>> {
         let mut all = Vec::new();
@@ -151,8 +153,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(200))]
 
-        /// Walks along the path, wraps every point, and checks that the pieces contain it. Since the lengths agree as
-        /// well, nothing is lost and nothing is added.
+        /// Walks along the path, wraps every point, and checks that one of the pieces contains it. The lengths are
+        /// equal as well, so the pieces contain nothing else.
         #[test]
         fn pieces_are_the_wrapped_path(
             corners in prop::collection::vec((-12.0..12.0f64, -12.0..12.0f64), 2..8),

@@ -49,7 +49,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));
     items.extend(world.scale.iter().flat_map(|scale| trace::color_bar(scale, &frame.rect)));
-    // If there are paths, goals that no path reached are hollow.
+    // If there are paths, the marker of a goal that no path reached is hollow.
     let mut numbers = Vec::new();
     for (q, number, reached) in view.ends(panel) {
         items.extend(goal_marker(chart.place(q), reached));
@@ -68,8 +68,8 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     items
 }
 
-/// Draws the C-obstacles. If link 2 may reach into an obstacle in one of the worlds, the part that is therefore free is
-/// dashed.
+/// Draws the C-obstacles. Where link 2 may reach into an obstacle in one of the worlds, the part of its C-obstacle that
+/// is free there is dashed.
 fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     let (mut dashed, mut solid) = (Vec::new(), Vec::new());
     for (number, obstacle) in worlds[0].obstacles.iter().enumerate() {
@@ -83,8 +83,8 @@ fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     dashed
 }
 
-/// Draws the C-obstacles of moving obstacles at the current time. In a still picture, it also draws them at each stop,
-/// dashed.
+/// Draws the C-obstacles of moving obstacles at the current time. A still picture also shows them, dashed, at each stop
+/// of their trajectories.
 fn in_time(view: &View, world: &WorldView, chart: &Chart) -> Vec<Item> {
     let mut items = Vec::new();
     for (number, mover) in world.movers.iter().enumerate() {
@@ -100,7 +100,7 @@ fn in_time(view: &View, world: &WorldView, chart: &Chart) -> Vec<Item> {
     items
 }
 
-/// Draws names within the C-obstacles, or numbers if there are many.
+/// Draws the names of obstacles within their C-obstacles, or numbers if there are many obstacles.
 fn names(world: &WorldView, frame: &Frame, markers: Vec<Rect>) -> Vec<Item> {
     let room = frame.rect.width * frame.rect.height;
     let name = |name: &NameView| (world.called(name.obstacle), frame.at(name.at[0], name.at[1]), name.area * room);

@@ -36,7 +36,7 @@ pub enum Step {
     Move([f64; 2]),
     /// A straight line to a place.
     Line([f64; 2]),
-    /// An arc to a place on a circle of this radius, by half a turn at most, counter-clockwise as seen on the page.
+    /// An arc to a place on a circle of this radius: at most half a turn, counter-clockwise as seen on the page.
     Arc(f64, [f64; 2]),
     /// A line back to the beginning of the piece.
     Close,
@@ -60,7 +60,7 @@ pub struct Style {
     pub fill: Option<Rgb>,
     /// Pen of the outline.
     pub pen: Option<Pen>,
-    /// True to stroke first and to fill over it, so that only the common outline of overlapping pieces shows.
+    /// True to draw the pen first and the fill over it, so that of overlapping pieces only the common outline shows.
     pub pen_below: bool,
     /// Opacity: 0 is invisible, 1 is opaque.
     pub opacity: f64,
@@ -170,8 +170,8 @@ pub struct Figure {
     pub items: Vec<Item>,
 }
 
-/// Returns the outline of an open (or closed) chain of spots. It skips spots nearer than a quarter of a pixel to the
-/// one before: nobody can see them, and files stay small.
+/// Returns the outline of an open (or closed) chain of places. It skips a place that is nearer than a quarter of a
+/// pixel to the one before, which nobody could see, so that files stay small.
 #[must_use]
 pub fn chain(spots: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Vec<Step> {
     const MIN_VISIBLE_SIZE: f64 = 0.25;
@@ -199,8 +199,8 @@ pub fn chain(spots: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Vec<Ste
     steps
 }
 
-/// Draws lines that are visible on any ground, because each lies on a broad pale one. The pale lines come first, so
-/// that no line disappears in the gaps of another's dashes.
+/// Draws lines that are visible on any ground, because each lies on a broader pale line. All pale lines are drawn
+/// first, so that none of them hides a line that shows in the gaps of another's dashes.
 #[must_use]
 pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
     let (mut halos, mut lines) = (Vec::new(), Vec::new());
@@ -236,8 +236,8 @@ pub fn rectangle(rect: Rect) -> Vec<Step> {
     ]
 }
 
-/// Estimates the width of a text in pixels. Viewers choose their fonts, so it uses typical advances (in units of the
-/// font's height).
+/// Estimates the width of a text in pixels from typical widths of letters, in units of the font's height. The true
+/// width is unknown, because viewers choose their fonts.
 #[must_use]
 pub fn text_width(text: &str, size: f64) -> f64 {
     let advance = |c: char| match c {

@@ -8,12 +8,12 @@ use cplan_geometry::{Vector, perpendicular};
 
 /// Length of an axis that lies in the plane, in pixels.
 const AXIS_LENGTH: f64 = 52.0;
-/// Axes whose projection onto the plane is a smaller fraction of their length than this are drawn as perpendicular to
-/// the plane.
+/// An axis is drawn as perpendicular to the plane if the length of its projection is less than this fraction of its
+/// length.
 const PERPENDICULAR_SHARE: f64 = 0.1;
 const AXIS_LETTERS: [&str; 3] = ["x", "y", "z"];
 
-/// Draws axes, letters and names.
+/// Draws the axes of the frames, with the letters of the axes and the names of the frames.
 #[must_use]
 pub fn items(panel: &Frame, frames: &[FrameView]) -> Vec<Item> {
     frames.iter().flat_map(|frame| one(panel, frame)).collect()
@@ -44,7 +44,7 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
     items
 }
 
-/// Returns an arrow seen from its point (a dot) or from its feathers (a cross), in a circle.
+/// Draws, in a circle, an axis perpendicular to the plane: a dot if it points towards the viewer, otherwise a cross.
 fn standing(at: [f64; 2], towards: bool, pen: Style) -> Vec<Item> {
     const PERPENDICULAR_RADIUS: f64 = 7.0;
     let ring = Item::Disc(at, PERPENDICULAR_RADIUS, pen.filled(WHITE));

@@ -21,19 +21,20 @@ const UNCHANGED_INDEX: u8 = PALETTE_COLORS as u8;
 /// Colours nearer than this are merged, as the sum of the squared differences of the three channels (0 to 255).
 const COLOR_DISTANCE: i32 = 48;
 
-/// Number of layers that are kept in case the next picture has them, too.
+/// Number of layers that are kept, because the next picture may need them too.
 const KEPT_LAYERS: usize = 8;
 
-/// Largest number of items by which a difference between two figures is assumed to shift the rest.
+/// Limit of the search for the next item that two figures share: at most `2 * MAX_SHIFT - 1` items are skipped, those
+/// of both figures together.
 const MAX_SHIFT: usize = 12;
 
 type Color = [u8; 3];
 
-/// A part of a picture that differs from the one before: left, top, width and height, and the pixels.
+/// A part of a picture that differs from the previous picture: left, top, width and height, and the pixels.
 struct Patch {
     place: [usize; 4],
     pixels: Vec<Color>,
-    /// Time for which it is shown, in hundredths of a second.
+    /// Time for which the picture is shown, in hundredths of a second.
     delay: u16,
 }
 
@@ -75,7 +76,7 @@ fn colors(picture: &Pixmap) -> Vec<Color> {
     picture.pixels().iter().map(|p| [p.red(), p.green(), p.blue()]).collect()
 }
 
-/// Returns the smallest rectangle in which two pictures differ; the whole picture if there was none before.
+/// Returns the smallest rectangle in which two pictures differ, or the whole picture if there is no previous one.
 fn changed(before: Option<&[Color]>, now: &[Color], [width, height]: [usize; 2]) -> Option<[usize; 4]> {
     let Some(before) = before else { return Some([0, 0, width, height]) };
     let differs = |y: usize| before[y * width..][..width] != now[y * width..][..width];
@@ -93,7 +94,7 @@ fn cut(pixels: &[Color], [width, _]: [usize; 2], place: [usize; 4], delay: u16) 
     Patch { place, pixels: rows.collect(), delay }
 }
 
-/// A painter that reuses the layers that the previous figures share.
+/// A painter that reuses the layers that a figure shares with the figures before it.
 struct Painter {
     rasteriser: Rasterizer,
     width: f64,
@@ -159,8 +160,8 @@ fn units(figure: &Figure) -> Vec<Unit> {
     units
 }
 
-/// Splits the items into runs that the previous figure had and runs that it had not. Returns the end of each run, and
-/// true for the former.
+/// Splits the items into runs of items that the previous figure also has, and runs of new items. Returns the end of
+/// each run, and true if the previous figure has its items.
 fn runs(before: &[Unit], now: &[Unit]) -> Vec<(usize, bool)> {
     let same = before.iter().zip(now).take_while(|(a, b)| a == b).count();
     let (old, new) = (&before[same..], &now[same..]);
@@ -200,7 +201,7 @@ fn palette(patches: &[Patch]) -> Vec<Color> {
         *counts.entry(*color).or_default() += 1;
     }
     let mut colors: Vec<(usize, Color)> = counts.into_iter().map(|(color, count)| (count, color)).collect();
-    // By number, and by the colour for equal numbers, since the map has no defined order.
+    // By frequency. Equally frequent colours are ordered by their values, since the order of the map is undefined.
     colors.sort_unstable_by_key(|&(count, color)| (std::cmp::Reverse(count), color));
     let mut palette: Vec<Color> = Vec::new();
     for (_, color) in colors {

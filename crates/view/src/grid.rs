@@ -7,7 +7,7 @@ use super::figure::{Anchor, Item, Rect, label, shortened};
 use super::view::{PanelView, View};
 use cplan_core::model::Arm;
 
-/// Gap between columns, for the values at their ends, and between rows, for the titles; in pixels.
+/// Gaps between columns (for the values at the ends of the axes) and between rows (for titles), in pixels.
 const PANEL_GAPS: [f64; 2] = [40.0, 36.0];
 /// Greatest height of two panels one below the other, in pixels.
 const MAX_STACKED_HEIGHT: f64 = 640.0;
@@ -26,7 +26,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Chooses a number of columns with which the panels stay legible in this width.
+    /// Creates the grid, with the number of columns with which the panels are best legible in this width.
     #[must_use]
     pub fn new(count: usize, arm: &Arm, width: f64) -> Self {
         let proportion = chart::one_scale(arm).unwrap_or(PANEL_PROPORTION).clamp(0.5, 1.2);
@@ -57,8 +57,8 @@ impl Grid {
         Rect { x, y: top + row * (height + PANEL_GAPS[1]), width, height }
     }
 
-    /// Draws the panels. Values appear only at the left and at the lowest panel of each column, titles of the axes only
-    /// once.
+    /// Draws the panels. Only the leftmost panels and the lowest panel of each column have values at their axes. The
+    /// titles of the axes are drawn once for all panels.
     #[must_use]
     pub fn items(&self, view: &View, panels: &[&PanelView], left_out: usize, corner: [f64; 2]) -> Vec<Item> {
         let arm = &view.arm;
@@ -88,7 +88,7 @@ impl Grid {
 /// Draws the title above a frame.
 fn title(text: &str, frame: Rect) -> Item {
     const TITLE_SIZE: f64 = 14.0;
-    // Somewhat wider than the frame: on each side by less than half of the gap between neighbours.
+    // A title may be somewhat wider than its frame, on each side by less than half of the gap between neighbours.
     let text = shortened(text, TITLE_SIZE, frame.width + 24.0);
     label([frame.x + frame.width / 2.0, frame.y - 9.0], text, TITLE_SIZE, Anchor::Middle, INK)
 }

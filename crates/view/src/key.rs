@@ -23,9 +23,9 @@ pub enum Sign {
     Dashed(Rgb),
     /// The hatch of a proof.
     Hatched,
-    /// A point of a channel: the middle of a door, or the centre of a cell.
+    /// A point of a channel: the middle of a portal, or the centre of a cell.
     Point {
-        /// True for the middle of a door.
+        /// True for the middle of a portal.
         middle: bool,
     },
 }
@@ -33,7 +33,7 @@ pub enum Sign {
 /// A sign and its meaning.
 pub type Key = (Sign, String);
 
-/// A key in the document for pages.
+/// An entry of the legend, in the document for pages.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KeyView {
     sign: &'static str,
@@ -44,23 +44,24 @@ pub struct KeyView {
     width: Option<f64>,
     #[serde(skip_serializing_if = "<[f64]>::is_empty")]
     dash: &'static [f64],
-    /// Place on the colour scale.
+    /// Place on the colour scale, from 0 to 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     part: Option<f64>,
     text: String,
-    /// The layers that it belongs to, which a page can hide. Empty if it is always shown.
+    /// The layers of the page that this entry explains. The page hides the entry together with them; it always shows an
+    /// entry without layers.
     #[serde(skip_serializing_if = "<[&str]>::is_empty")]
     layers: &'static [&'static str],
-    /// True if it is shown only with the planner's search.
+    /// True if the page shows the entry only while it shows the planner's search.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     think: bool,
 }
 
-/// A key, and the layers that it belongs to.
+/// An entry of the legend, and the layers of the page that it explains.
 pub type Layered = (Key, &'static [&'static str]);
 
 impl KeyView {
-    /// Returns a key as pages read it.
+    /// Converts an entry of the legend to the form that pages read.
     #[must_use]
     pub fn new(((sign, text), layers): Layered, think: bool) -> Self {
         let name = match sign {

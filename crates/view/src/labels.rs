@@ -1,4 +1,4 @@
-//! Names on their shapes, or beside shapes that are smaller; no name covers another.
+//! Names on their shapes, or beside shapes that are too small. No name covers another.
 
 use super::axes::Frame;
 use super::color::{INK, WHITE};
@@ -14,12 +14,13 @@ const MAX_NAME_WIDTH: f64 = 160.0;
 /// Height of a name's box, and its distance (`NAME_GAP`) from the shape beside it, in pixels.
 const NAME_HEIGHT: f64 = 15.0;
 const NAME_GAP: f64 = 4.0;
-/// Side of the square in a wall's middle that its name refers to, in pixels.
+/// Side of the square in the middle of a wall that the wall's name refers to, in pixels.
 const WALL_SPOT_SIDE: f64 = 10.0;
 /// Largest fraction of a named area that its name may cover.
 const MAX_COVERED_SHARE: f64 = 0.5;
 
-/// Places for a name: on its object, then above, below, beside and at the corners of it.
+/// Places for a name relative to its object, in the order of preference: on it, above, below, beside it, at its
+/// corners.
 const NAME_PLACES: [[f64; 2]; 9] =
     [[0.0, 0.0], [0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
@@ -41,7 +42,7 @@ pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
             about([middle[0] + away[0], middle[1] + away[1]], size)
         });
         let is_free = |b: &Rect| is_free(b, &taken, page);
-        // It is better to hide a part of a large shape than all of a small one.
+        // It is better to hide a part of a large shape than the whole of a small one.
         let share =
             |b: &Rect, other: &Rect| overlap(b, other) / (other.width * other.height).max(NAME_HEIGHT * NAME_HEIGHT);
         let hidden = |b: &Rect| {
@@ -55,8 +56,8 @@ pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
     items
 }
 
-/// Draws names centred at spots, each with the area of the named shape in square pixels. It leaves out a name that
-/// would cover its shape, another name, or one of the `markers`.
+/// Draws names centred at places, each with the area of the named shape in square pixels. Leaves out a name that would
+/// cover its own shape, another name, or one of the `markers`.
 #[must_use]
 pub fn inside(page: &Rect, markers: Vec<Rect>, names: impl IntoIterator<Item = (String, [f64; 2], f64)>) -> Vec<Item> {
     let mut taken = markers;
@@ -73,8 +74,8 @@ pub fn inside(page: &Rect, markers: Vec<Rect>, names: impl IntoIterator<Item = (
     items
 }
 
-/// Returns the box that the name of a shape refers to: of the whole shape, or in the middle of a wall's longest
-/// stretch.
+/// Returns the box that the name of a shape refers to: the box around the whole shape, or for a wall a square in the
+/// middle of its longest stretch.
 pub fn place<'a>(frame: &Frame, shape: &Shape, pieces: impl IntoIterator<Item = &'a Convex>) -> Rect {
     if let Shape::Polyline(points) = shape {
         let longest = points.windows(2).max_by(|a, b| (a[1] - a[0]).norm().total_cmp(&(b[1] - b[0]).norm()));
@@ -87,12 +88,12 @@ pub fn place<'a>(frame: &Frame, shape: &Shape, pieces: impl IntoIterator<Item = 
     Rect { x: left, y: top, width: right - left, height: bottom - top }
 }
 
-/// Returns a rectangle of this size about a spot.
+/// Returns a rectangle of this size, centred at a place.
 pub fn about([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
     Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
 }
 
-/// Returns room for the name of a line that ends at a spot and comes from another: beyond the end.
+/// Returns the box for the name of a line that comes from `from` and ends at `tip`. The box lies beyond the end.
 pub fn beyond(name: &str, tip: [f64; 2], from: [f64; 2]) -> Rect {
     let away = [tip[0] - from[0], tip[1] - from[1]];
     let length = away[0].hypot(away[1]).max(f64::MIN_POSITIVE);
@@ -100,7 +101,7 @@ pub fn beyond(name: &str, tip: [f64; 2], from: [f64; 2]) -> Rect {
     about([0, 1].map(|k| tip[k] + away[k] / length * (size[k] / 2.0 + 2.0 * NAME_GAP)), size)
 }
 
-/// Moves the box into the page.
+/// Moves a box by the least distance that brings it into the page.
 fn pushed(place: Rect, page: &Rect) -> Rect {
     let x = place.x.min(page.right() - place.width).max(page.x);
     let y = place.y.min(page.bottom() - place.height).max(page.y);

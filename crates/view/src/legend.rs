@@ -1,4 +1,4 @@
-//! The legend: the meaning of the signs.
+//! The legend: the signs of a picture, with their meanings.
 
 use super::color::{self, BLOCKED, GRAY, INK, PALE};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
@@ -19,7 +19,7 @@ pub fn keys(view: &View) -> Vec<Key> {
     all(view, true).into_iter().map(|(key, _)| key).collect()
 }
 
-/// Returns the legend of a page, which shows one world after the other, and fewer items than pictures.
+/// Returns the legend of a page. A page shows one world at a time, and fewer items than a picture.
 #[must_use]
 pub fn on_pages(view: &View) -> Vec<KeyView> {
     let mut keys: Vec<KeyView> = all(view, false).into_iter().map(|key| KeyView::new(key, false)).collect();
@@ -78,14 +78,14 @@ fn all(view: &View, still: bool) -> Vec<Layered> {
     keys
 }
 
-/// Returns the legend of the obstacles by their colours, unless there are too many.
+/// Returns the legend of the obstacles by their colours, or an empty one if there are too many obstacles.
 #[must_use]
 pub fn obstacles<'a>(shown: impl Iterator<Item = &'a ObstacleView> + Clone) -> Vec<Key> {
     let count = shown.clone().count();
     shown.filter(|_| count <= MAX_NAMED_OBSTACLES).map(|o| (Sign::Swatch(o.color), o.name.clone())).collect()
 }
 
-/// Returns the legend of the paths: by their names, or for a task with and without a payload.
+/// Returns the legend of the paths: their names, or for a task one entry with a payload and one without.
 fn paths(view: &View) -> Vec<Key> {
     let named = |path: &PathView, name: &str| (Sign::Line(path.pen()), name.to_owned());
     if view.is_task() {
@@ -109,7 +109,7 @@ pub fn layout(keys: Vec<Key>, room: f64) -> Vec<Vec<Key>> {
     let mut rows: Vec<Vec<Key>> = vec![Vec::new()];
     let mut used = 0.0;
     for (sign, name) in keys {
-        // Names of paths include the options of their planners.
+        // A path's name includes the options of its planner, so it gets more room.
         let share = if let Sign::Line(_) = sign { 3.0 } else { 5.0 };
         let key = (sign, shortened(&name, TEXT_SIZE, room / share));
         let needed = width(&key) + KEY_GAP;

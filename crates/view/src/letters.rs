@@ -1,4 +1,5 @@
-//! Texts as outlines, in Ubuntu Light. The font is part of the program, so that pictures look alike on all machines.
+//! Texts as outlines, in the font Ubuntu Light. The font is part of the program, so that pictures look alike on all
+//! machines.
 
 use super::figure::Anchor;
 use tiny_skia::{Path, PathBuilder};
@@ -14,7 +15,7 @@ impl Font {
         Self(Face::parse(epaint_default_fonts::UBUNTU_LIGHT, 0).expect("the built-in font can be read"))
     }
 
-    /// Returns the outline of a line of text of this size, which is anchored at this place of the page; `None` if no
+    /// Returns the outline of a line of text of this size, with its anchor at this place of the page. `None` if no
     /// letter has an outline.
     pub fn outline(&self, text: &str, size: f32, anchor: Anchor, [left, bottom]: [f32; 2]) -> Option<Path> {
         let scale = size / f32::from(self.0.units_per_em());
@@ -35,7 +36,7 @@ impl Font {
         pen.path.finish()
     }
 
-    /// Returns the glyphs of a text; those of letters that the font lacks are boxes.
+    /// Returns the glyphs of a text. A letter that the font lacks becomes a box.
     fn glyphs(&self, text: &str) -> Vec<GlyphId> {
         text.chars().map(|letter| self.0.glyph_index(letter).unwrap_or_default()).collect()
     }
@@ -52,8 +53,8 @@ impl Font {
         places
     }
 
-    /// Returns the additional distance of the second glyph from the first. In each lookup, the first table that knows
-    /// the pair counts.
+    /// Returns the kerning of a pair: how much farther the second glyph is from the first, in units of the font. In
+    /// each lookup, only the first table that lists the pair counts.
     fn kern(&self, first: GlyphId, second: GlyphId) -> i16 {
         let lookups = self.0.tables().gpos.into_iter().flat_map(|table| table.lookups);
         let known = lookups.filter_map(|lookup| {
@@ -63,7 +64,7 @@ impl Font {
     }
 }
 
-/// Returns a table's value for a pair; `None` if it does not know the pair.
+/// Returns a table's value for a pair of glyphs, or `None` if it does not list the pair.
 fn advance(table: &PositioningSubtable, first: GlyphId, second: GlyphId) -> Option<i16> {
     let PositioningSubtable::Pair(pairs) = table else { return None };
     let index = pairs.coverage().get(first)?;

@@ -9,7 +9,7 @@ use super::{labels, page, shapes, svg_writer};
 use cplan_core::model::Obstacle;
 use cplan_text::markup;
 
-/// Fraction of the extent that is left free on each side.
+/// Margin on each side of the obstacles, as a fraction of their extent.
 const MARGIN_SHARE: f64 = 0.04;
 
 /// Draws obstacles as an SVG document, the largest first, each with its name if there is room. Obstacles of the same
@@ -48,7 +48,7 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> S
 
 /// Largest number of colours that the legend explains.
 const MAX_KEYS: usize = 32;
-/// Largest number of obstacles with names. With more of them, nobody could assign the names.
+/// Largest number of obstacles with names. With more names, nobody could tell which obstacle each belongs to.
 const MAX_NAMES: usize = 200;
 /// Draws names on their obstacles or beside them.
 fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {

@@ -22,10 +22,10 @@ const LEFT_COLUMN: Rect = Rect { x: 84.0, y: 0.0, width: 570.0, height: 0.0 };
 const RIGHT_COLUMN: Rect = Rect { x: 760.0, y: 0.0, width: 612.0, height: 0.0 };
 /// Column of a single configuration space, with room for a scale of colours beside it.
 const SCALED_COLUMN: Rect = Rect { x: 770.0, y: 0.0, width: 530.0, height: 0.0 };
-/// Least and greatest height of the workspace of a task, in pixels.
+/// Least and greatest height of the workspace in the picture of a task, in pixels.
 const WORKSPACE_HEIGHTS: [f64; 2] = [520.0, 640.0];
-/// Largest number of payload states that are shown, in addition to the one in which a step fails. With more of them,
-/// the page would be too long to read.
+/// Largest number of payload states that are shown, besides that of a failed step. With more of them, the page would be
+/// too long to read.
 const MAX_PAYLOAD_STATES: usize = 24;
 
 /// Composes the whole page of a view.
@@ -34,7 +34,8 @@ pub fn compose(view: &View) -> Figure {
     explained(view, legend::keys(view))
 }
 
-/// Composes the page with another legend. All pictures of an animation have the same legend, so that nothing jumps.
+/// Composes the page with the given legend. All pictures of an animation share one legend, so that nothing moves when
+/// the content changes.
 #[must_use]
 pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
     let mut items = titles(&view.title, &view.status, PAGE_WIDTH);
@@ -70,8 +71,8 @@ pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
     Figure { width: PAGE_WIDTH, height, items }
 }
 
-/// Composes a page with a single panel and a legend below it. The panel has this aspect, height by width, as far as
-/// there is room.
+/// Composes a page with a single panel and a legend below it. The panel has this ratio of height to width, unless the
+/// page has too little room.
 #[must_use]
 pub fn alone(title: &[String], keys: Vec<Key>, aspect: f64, panel: impl FnOnce(Rect) -> Vec<Item>) -> Figure {
     const PAGE_HEIGHTS: [f64; 2] = [300.0, 960.0];
@@ -141,7 +142,7 @@ fn heading(column: Rect, y: f64, text: &str) -> Item {
     label([column.x + column.width / 2.0, y], text, 16.0, Anchor::Middle, INK)
 }
 
-/// Draws the title and the lines below it, and the status in the opposite corner.
+/// Draws the title and the lines below it on the left, and the status on the right.
 fn titles(lines: &[String], status: &str, width: f64) -> Vec<Item> {
     let mut items = Vec::new();
     let status_width = text_width(status, 18.0);

@@ -5,10 +5,10 @@ use super::letters::Font;
 use super::svg_painter::{number, paint};
 use tiny_skia::{Pixmap, Transform};
 
-/// Greatest side of a picture, in pixels: this fits a 16-bit format, and needs at most 1 GB.
+/// Greatest side of a picture, in pixels. It fits into 16 bits, and a picture of this size needs at most 1 GB.
 const MAX_SIDE: f64 = 16_384.0;
 
-/// Makes pixels of SVG documents, with the font that is part of the program.
+/// Renders SVG documents to pixels, with the font that is part of the program.
 pub struct Rasterizer(Font);
 
 impl Rasterizer {
@@ -22,7 +22,7 @@ impl Rasterizer {
         self.drawn(svg, |_| scale)
     }
 
-    /// Returns the pixels of a document, `width` pixels wide.
+    /// Returns the pixels of a document, scaled to `width` pixels.
     pub fn wide(&self, svg: &str, width: f64) -> Result<Pixmap, DrawError> {
         self.drawn(svg, |units| width / units)
     }

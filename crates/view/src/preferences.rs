@@ -1,4 +1,4 @@
-//! Regions that fields prefer or avoid: dashed, since the arm may pass through them.
+//! Regions that fields prefer or avoid. They are dashed, since the arm may pass through them.
 
 use super::axes::Frame;
 use super::chart::Chart;
@@ -16,7 +16,7 @@ pub fn in_workspace(regions: &[RegionView], frame: &Frame) -> Vec<Item> {
     regions.iter().filter(|region| !region.joints).map(|region| item(region, corners(region))).collect()
 }
 
-/// Draws the regions of the configuration space, with their copies on circles.
+/// Draws the regions of the configuration space, with copies on axes that are circles.
 #[must_use]
 pub fn in_cspace(regions: &[RegionView], chart: &Chart) -> Vec<Item> {
     regions.iter().filter(|region| region.joints).map(|r| item(r, chart.polygon(&r.corners))).collect()

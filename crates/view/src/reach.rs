@@ -9,7 +9,7 @@ use super::view::{Chain, RoundingSteps};
 use cplan_explain::{Access, Reach, Solution};
 use serde::Serialize;
 
-/// Colour and meaning of each kind of cell: one solution, several, proven unreachable, blocked, unknown.
+/// Colour and meaning of each kind of cell: one free solution, several, proven unreachable, blocked, unknown.
 const CELL_KINDS: [(Rgb, &str); 5] = [
     (Rgb(0xb5, 0xd9, 0xc2), "the tip can get there, one way"),
     (Rgb(0x5f, 0xae, 0x83), "with several solutions"),
@@ -68,7 +68,7 @@ pub struct ReachView {
     size: [usize; 2],
     /// Colour and free IK solutions of each kind of cell.
     kinds: Vec<KindView>,
-    /// The kind of each cell, row by row from below; a dot if the cell is out of reach.
+    /// The kind of each cell as a character, row by row from the lowest row. A dot stands for a cell out of reach.
     cells: String,
 }
 

@@ -6,7 +6,7 @@ use super::view::ObstacleView;
 use cplan_core::model::Shape;
 use cplan_geometry::{Convex, Point, Vector};
 
-/// Dashes for objects that are not there yet, and for obstacles that links may enter.
+/// Dashes of objects that will be placed later, and of obstacles that links may enter, in pixels.
 pub const ABSENT_DASH: &[f64] = &[5.0, 3.0];
 
 /// Draws an obstacle at its pose.

@@ -26,7 +26,7 @@ pub fn paint(font: &Font, element: Node, transform: Transform, pixels: &mut Pixm
         "text" => text(font, element)?,
         other => return Err(DrawError::Svg(format!("no picture of ours has an element <{other}>"))),
     };
-    // A path without length has no outline, and shows nothing.
+    // A path without length has no outline, so nothing is drawn.
     if let Some(path) = path {
         Shape::new(element, path)?.paint(transform, pixels);
     }
@@ -49,7 +49,7 @@ fn group(font: &Font, element: Node, transform: Transform, pixels: &mut Pixmap) 
     painted
 }
 
-/// Returns the rectangle that a group is cut to, if it is cut.
+/// Returns the rectangle that a group is cut to. `None` if the group is not cut.
 fn clip(group: Node) -> Result<Option<Rect>, DrawError> {
     let Some(value) = group.attribute("clip-path") else { return Ok(None) };
     let id = value.strip_prefix("url(#").and_then(|rest| rest.strip_suffix(')'));
@@ -60,7 +60,7 @@ fn clip(group: Node) -> Result<Option<Rect>, DrawError> {
     path.and_then(|path| path.first_element_child()).ok_or_else(|| unreadable(group, "clip-path")).and_then(rectangle)
 }
 
-/// Draws on a separate layer, which is then composed with the page. Only the area within the bounds counts.
+/// Draws on a separate layer, which is then laid over the page. The layer covers only the area within `bounds`.
 fn on_layer(
     bounds: Rect,
     transform: Transform,
@@ -68,7 +68,7 @@ fn on_layer(
     pixels: &mut Pixmap,
     draw: impl FnOnce(Transform, &mut Pixmap),
 ) {
-    // Smooth edges take a pixel more.
+    // Smoothing extends edges by up to a pixel.
     let reach = bounds.transform(transform).and_then(|bounds| bounds.outset(2.0, 2.0)?.round_out());
     let page = IntRect::from_xywh(0, 0, pixels.width(), pixels.height());
     let Some(place) = reach.zip(page).and_then(|(reach, page)| reach.intersect(&page)) else { return };
@@ -83,7 +83,7 @@ struct Shape {
     path: Path,
     fill: Option<Color>,
     stroke: Option<(Color, Stroke)>,
-    /// True if the fill covers the line.
+    /// True if the fill is drawn over the line.
     is_stroked_first: bool,
     opacity: f32,
     is_smooth: bool,
@@ -183,7 +183,7 @@ fn text(font: &Font, element: Node) -> Result<Option<Path>, DrawError> {
     };
     let size = inherited(element, "font-size").and_then(|size| size.parse().ok());
     let size: f32 = size.ok_or_else(|| unreadable(element, "font-size"))?;
-    // Spaces at the ends, and several in a row, do not show in SVG.
+    // SVG does not show spaces at the ends, and shows several spaces in a row as one.
     let words: Vec<&str> =
         element.text().unwrap_or_default().split([' ', '\n']).filter(|word| !word.is_empty()).collect();
     Ok(font.outline(&words.join(" "), size, anchor, [number(element, "x")?, number(element, "y")?]))
@@ -222,7 +222,7 @@ fn unreadable(element: Node, name: &str) -> DrawError {
 mod tests {
     use super::*;
 
-    /// Paints a page of 20 x 20 units, of one pixel each.
+    /// Paints a page of 20 by 20 units, each of them one pixel.
     fn painted(content: &str) -> Result<Pixmap, DrawError> {
         let svg =
             format!("<svg xmlns=\"http://www.w3.org/2000/svg\" fill=\"#ff0000\" font-size=\"10\">{content}</svg>");
@@ -253,7 +253,7 @@ mod tests {
         assert!(painted("<g clip-path=\"url(#clip1)\"/>").is_err());
     }
 
-    /// Checks that where line and fill overlap only the upper one is visible, at any opacity of the whole.
+    /// Checks that, where line and fill overlap, only the upper of the two is visible, at any opacity of the shape.
     #[test]
     fn opacity_is_that_of_the_whole() {
         let disc = |order| {

@@ -5,11 +5,11 @@ use ::svg::Document;
 use ::svg::node::element::{Circle, ClipPath, Definitions, Group, Path, Rectangle, Text};
 use std::fmt::Write;
 
-/// The PNG writer has the first of these fonts; viewers take the first one that they have.
+/// Fonts of texts. The PNG writer has the first one; a viewer takes the first one that it has.
 const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
 
-/// Limit of coordinates, in pixels. Nothing that far away is visible, and up to here viewers with single precision stay
-/// exact to a tenth of a pixel.
+/// Greatest absolute value of coordinates, in pixels. Nothing beyond is visible, and up to here viewers that compute in
+/// single precision are exact to a tenth of a pixel.
 const MAX_COORDINATE: f64 = 1e6;
 
 /// Writes the figure as an SVG document. The result is deterministic to the byte; coordinates have two decimals.
@@ -143,8 +143,9 @@ fn is_xml(c: char) -> bool {
     !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')
 }
 
-/// Writes one path of rectangles per colour, in units of cells: runs of equal colour in a column, merged with equal
-/// runs in the following columns. Smoothing is off, because it would show seams between the rectangles.
+/// Writes the cells as one path of rectangles per colour, in units of cells. Cells of one colour that follow each other
+/// in a column form a rectangle, which equal rectangles in the next columns extend. Smoothing is off, because it would
+/// show seams between rectangles.
 fn cells(raster: &Raster) -> Group {
     let [columns, rows] = raster.cells;
     let mut paths = vec![String::new(); raster.palette.len()];

@@ -1,4 +1,4 @@
-//! Numbers beside places; where there is room, none covers another.
+//! Numbers beside places. As far as there is room, no number covers another.
 
 use super::color::{INK, WHITE};
 use super::figure::{Anchor, Item, Rect, Style, label, rectangle, shortened, text_width};
@@ -7,26 +7,28 @@ use super::view::ranges;
 const TEXT_SIZE: f64 = 12.0;
 /// Greatest width of a text, in pixels.
 const MAX_TEXT_WIDTH: f64 = 96.0;
-/// Height of a line, in pixels.
+/// Height of a number's box, in pixels.
 const LINE_HEIGHT: f64 = 15.0;
-/// Places nearer than this share a number's box, in pixels.
+/// Places nearer to each other than this share one box for their numbers, in pixels.
 const SHARED_BOX_DISTANCE: f64 = 4.0;
-/// Distance from the middle of a place to the nearest side of its number's box, in pixels: room for the marker at the
+/// Distance from a place to the nearest side of its number's box, in pixels. It leaves room for the marker at the
 /// place.
 const BOX_GAP: f64 = 9.0;
 
-/// Directions from a place to its box, the favourite first.
+/// Directions from a place to its number's box, in the order of preference.
 const BOX_DIRECTIONS: [[f64; 2]; 8] =
     [[1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
-/// Possible gaps as multiples of [`BOX_GAP`], and the extra cost of each. All costs are in square pixels of covered shapes;
-/// the wider gap costs less than covering a number or a place.
+/// Possible distances of the box as multiples of [`BOX_GAP`], and the extra cost of each. All costs are in square
+/// pixels of covered shapes. The extra cost of the wider gap is less than that of covering two square pixels of a
+/// number.
 const GAP_CHOICES: [(f64, f64); 2] = [(1.0, 0.0), (2.6, 12.0)];
-/// Extra cost of each side compared with the one before. It suffices to place the numbers in a row alike.
+/// Extra cost of each direction compared with the one before it. Any small value works: it only makes the numbers in a
+/// row of places take the same side.
 const SIDE_COST: f64 = 1.0;
-/// Cost of covering a number or a place.
+/// Cost of covering a square pixel of a number or a place, or of leaving the page by one.
 const HIDING_COST: f64 = 8.0;
-/// Cost of covering a spot of a line; the spots are some pixels apart.
+/// Cost of covering one sampled point of a line. The points are some pixels apart.
 const LINE_SPOT_COST: f64 = 4.0;
 
 /// Steps that end at one place.
@@ -38,7 +40,7 @@ pub struct Tag {
     pub numbers: Vec<usize>,
 }
 
-/// Adds a number at a place.
+/// Adds a step's number at a place; a number that is already there is not repeated.
 pub fn add(tags: &mut Vec<Tag>, at: [f64; 2], number: usize) {
     match tags.iter_mut().find(|tag| (tag.at[0] - at[0]).hypot(tag.at[1] - at[1]) < SHARED_BOX_DISTANCE) {
         Some(tag) if tag.numbers.contains(&number) => {}
@@ -47,8 +49,8 @@ pub fn add(tags: &mut Vec<Tag>, at: [f64; 2], number: usize) {
     }
 }
 
-/// Draws the numbers in boxes. Each box lies on the side of its place where it covers the least: first other numbers,
-/// places and the page's border, then the `shapes` and lines through the `spots`.
+/// Draws the numbers in boxes. Each box lies on the side of its place where it covers the least. Covering other numbers
+/// or places, or leaving the page, counts more than covering `shapes`, or lines through the points `spots`.
 #[must_use]
 pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[[f64; 2]]) -> Vec<Item> {
     let mut taken: Vec<Rect> = tags.iter().map(|tag| around(tag.at, [8.0, 8.0])).collect();

@@ -8,10 +8,10 @@ use super::key::{Key, Sign};
 use super::view::{Chain, LEVELS, ScaleView, TraceView, Waves};
 use super::{boxes, channel, wave_numbers};
 
-/// Number of colours of a wavefront; each stands for some of its levels.
+/// Number of colours of a wavefront. Each colour stands for several of its levels.
 const WAVE_SHADES: usize = 32;
 
-/// Fraction of white in the colours of surfaces, on which lines must stay legible.
+/// Fraction of white that is mixed into the colours of surfaces, so that lines on them stay legible.
 const WHITE_SHARE: f64 = 0.22;
 
 /// Draws the surfaces, which lie under the C-obstacles.
@@ -27,7 +27,7 @@ pub fn below(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     }
 }
 
-/// Draws lines and numbers, which lie over the C-obstacles; for a field, these kinds of lines.
+/// Draws lines and numbers, which lie over the C-obstacles. For a field, `field_lines` selects the lines.
 #[must_use]
 pub fn above(trace: &TraceView, field_lines: FieldLines, chart: &Chart) -> Vec<Item> {
     match trace {
@@ -50,7 +50,7 @@ pub fn above(trace: &TraceView, field_lines: FieldLines, chart: &Chart) -> Vec<I
     }
 }
 
-/// Draws the points that the path may visit, which lie over the path.
+/// Draws the centres and middles of a channel, which lie over the path.
 #[must_use]
 pub fn over_path(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     match trace {
@@ -64,14 +64,14 @@ fn edges(lines: &Chain, chart: &Chart) -> Item {
     Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.6))
 }
 
-/// Draws the places that a search expanded; earlier ones are darker.
+/// Draws the places that a search expanded. The earlier a place was expanded, the darker it is.
 fn places(expanded: &Chain, chart: &Chart) -> impl Iterator<Item = Item> {
     let last = expanded.0.len().saturating_sub(1).max(1) as f64;
     let shade = move |k: usize| color::scale(k as f64 / last);
     expanded.0.iter().enumerate().map(move |(k, &q)| Item::Disc(chart.place(q), 2.2, Style::fill(shade(k)).faded(0.8)))
 }
 
-/// Returns the legend of the trace; for a field, with these kinds of lines.
+/// Returns the legend of the trace. For a field, it explains the selected lines.
 #[must_use]
 pub fn keys(trace: &TraceView, field_lines: FieldLines) -> Vec<Key> {
     let line = |color| Sign::Line(Pen { color, width: 1.0, dash: &[] });

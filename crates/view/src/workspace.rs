@@ -55,7 +55,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     items
 }
 
-/// Draws moving obstacles at their current poses. In a still picture, it also draws their trajectories, dashed.
+/// Draws moving obstacles at their current poses. A still picture also shows their trajectories, dashed.
 fn movers(view: &View, frame: &Frame) -> Vec<Item> {
     let (movers, mut items) = (&view.world_now().movers, Vec::new());
     if let (None, Some(duration)) = (view.still.now, view.duration()) {
@@ -71,7 +71,8 @@ fn movers(view: &View, frame: &Frame) -> Vec<Item> {
     items
 }
 
-/// Returns the names of the arm's poses and of the obstacles, or numbers if there are many.
+/// Returns the names of the arm's poses and of the obstacles. Obstacles have numbers instead of names if there are
+/// many.
 fn names(view: &View, frame: &Frame) -> Vec<Named> {
     let arm = |name: &str, q: [f64; 2]| {
         let [tip, elbow] = [view.arm.tip_at(q.into()), view.arm.elbow_at(q[0])].map(|p| frame.at(p.x, p.y));
@@ -88,7 +89,7 @@ fn names(view: &View, frame: &Frame) -> Vec<Named> {
     arms.chain(obstacles).chain(movers).collect()
 }
 
-/// Draws a dot at the actual or intended end of each step, with its number.
+/// Draws a dot with the step's number at the place where each step ends, or should end if it fails.
 fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[[f64; 2]]) -> Vec<Item> {
     let (mut items, mut tags) = (Vec::new(), Vec::new());
     for (q, number, reached) in view.still.panels.iter().flat_map(|panel| view.ends(panel)) {
@@ -102,7 +103,7 @@ fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[[f64; 2]]) -> Ve
     items
 }
 
-/// Returns the end of an outline's step.
+/// Returns the place where a step of an outline ends. `None` for a step that closes the outline.
 fn end(step: &Step) -> Option<[f64; 2]> {
     match *step {
         Step::Move(spot) | Step::Line(spot) | Step::Arc(_, spot) => Some(spot),
@@ -110,7 +111,7 @@ fn end(step: &Step) -> Option<[f64; 2]> {
     }
 }
 
-/// Returns the box around a placed obstacle on the page.
+/// Returns the box on the page around an obstacle that has a place.
 fn on_page(frame: &Frame, obstacle: &ObstacleView) -> Rect {
     let [x, y] = around(obstacle.own());
     let ([left, bottom], [right, top]) = (frame.at(x.0, y.0), frame.at(x.1, y.1));
@@ -140,9 +141,9 @@ fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
     items
 }
 
-/// Returns the path of the tip. Straight joint motions are curves here, so they are followed in small steps.
+/// Returns the path of the tip. Straight motions in joint space are curves here, so they are drawn in small steps.
 fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
-    /// Step in radians. A chord of such an arc is off by at most 2e-5 of the reach, a hundredth of a pixel.
+    /// Step in radians. A chord of such an arc is off by at most 2e-5 of the reach, which is a hundredth of a pixel.
     const ARC_STEP: f64 = 0.0125;
     const MAX_ARC_POINTS: f64 = 2000.0;
     let turns = [0, 1].map(|k| arm.joints[k].joint_type.is_revolute());

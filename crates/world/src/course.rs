@@ -1,4 +1,4 @@
-//! `motion` of the world file's `[[obstacle]]` and `[[object]]`: how it moves while the arm does.
+//! The key `motion` of `[[obstacle]]` and `[[object]]` in the world file: how the obstacle moves while the arm does.
 
 use super::reader::Reader;
 use super::schema::NotNegative;
@@ -42,7 +42,7 @@ pub(super) struct StopTable {
 }
 
 impl ObstacleTrajectoryTable {
-    /// Returns the motion of an obstacle. Stops without a position or angle take those of `place`.
+    /// Returns the motion of an obstacle. A stop without a position or an angle takes that of `place`.
     ///
     /// # Errors
     /// Times that do not increase, numbers that are not finite, and an empty table.

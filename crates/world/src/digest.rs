@@ -4,19 +4,19 @@ use cplan_robot::{FileIdentity, InputError, RobotFile, read_bytes};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
-/// SHA-256 of files, in hex.
+/// SHA-256 of each file, in hexadecimal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Digests {
-    /// The URDF; of xacro the one that it expands to, as `cplan inspect --expanded` writes it.
+    /// Digest of the URDF. For xacro, it is the digest of the URDF to which `cplan inspect --expanded` expands it.
     pub urdf: String,
-    /// The world file.
+    /// Digest of the world file.
     pub world: String,
-    /// All other files that were read because these refer to them, in ascending order.
+    /// Digests of all other files that URDF and world refer to, in ascending order.
     pub others: Vec<String>,
 }
 
 impl Digests {
-    /// Returns the digests of a URDF, a world, and the others of the `files` that were read
+    /// Returns the digests of a URDF, a world, and the other ones of `files`, which are all files that were read
     /// ([`LoadedScene::files`](super::LoadedScene::files)).
     ///
     /// # Errors

@@ -1,12 +1,12 @@
-//! The start and the goals of a motion, if they are given.
+//! Start and goals of a motion, as far as they are given.
 
 use super::{LoadedScene, Overrides};
 use cplan_core::model::Goal;
 use cplan_robot::InputError;
 
 impl LoadedScene {
-    /// Returns the start and the alternative goals: those of the command line, else of the world file. Does not check
-    /// whether they are free and within the limits, because the recorded motion shows that.
+    /// Returns the start and the alternative goals. Values on the command line override those of the world file. Does
+    /// not check whether start and goals are free and within the limits: a recorded motion shows that.
     ///
     /// # Errors
     /// Invalid values on the command line.

@@ -6,16 +6,16 @@ use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, GoalSet};
 use cplan_robot::{DiagnosticKind, InputError, RobotReport};
 
-/// A world to explore and how it was read.
+/// A world to explore, and how it was read.
 #[derive(Debug, Clone)]
 pub struct Explorable {
     /// The true scene.
     pub scene: Scene,
     /// The sensor.
     pub sensor: Sensor,
-    /// The start, which is free and within the limits.
+    /// The start. It is free and within the limits.
     pub start: Configuration,
-    /// The free goals, if the world or the command line gives any.
+    /// The goals that are free. `None` if neither the world nor the command line gives a goal.
     pub goals: Option<GoalSet>,
     /// Report on how the robot was read.
     pub robot: RobotReport,
@@ -27,7 +27,7 @@ impl LoadedScene {
     /// Puts the start into the scene, and a goal if one is given.
     ///
     /// # Errors
-    /// As [`LoadedScene::problem`], but that there need not be a goal.
+    /// The errors of [`LoadedScene::problem`], except that a goal may be missing.
     pub fn explorable(self, overrides: &Overrides) -> Result<Explorable, InputError> {
         self.require_static_obstacles("explorations are for worlds without moving obstacles")?;
         let sensor = self.sensor();
@@ -45,7 +45,7 @@ impl LoadedScene {
         Ok(Explorable { scene: loaded.scene, sensor, start, goals: None, robot: loaded.robot, notes })
     }
 
-    /// The sensor that the world describes; what it does not say is as [`Sensor::usual`] has it.
+    /// Returns the sensor of the world. Properties that the world file does not state are those of [`Sensor::usual`].
     #[must_use]
     pub fn sensor(&self) -> Sensor {
         let turn = self.world.place.as_ref().map_or(0.0, |place| place.rotation.angle());

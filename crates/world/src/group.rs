@@ -1,4 +1,4 @@
-//! Steps as a world file has them: in groups within groups, with objects and supports found.
+//! The steps of a world file as nested groups, with objects and supports by their numbers.
 
 use super::object::Supports;
 use cplan_core::model::Goal;
@@ -6,16 +6,16 @@ use cplan_geometry::{Interval, Point};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// Steps that belong together.
+/// Steps that are repeated together.
 pub(super) struct Group {
     pub body: Body,
     /// Number of repetitions.
     pub repeat: usize,
-    /// Position in the file of the number of repetitions, or else of the group.
+    /// Position in the file of the key `repeat`, or of the group if it has no such key.
     pub at: Range<usize>,
-    /// The objects that its steps pick and that are renewed.
+    /// The objects that steps of the group pick, and that each repetition replaces by new ones.
     pub renewed: BTreeSet<usize>,
-    /// The number of its steps, repetitions written out.
+    /// The number of steps, with repetitions counted.
     pub length: usize,
 }
 
@@ -33,20 +33,20 @@ pub(super) enum Node {
     Group(Group),
 }
 
-/// A step as written.
+/// A step as in the file.
 pub(super) struct Leaf {
     /// Number of the step in the file, from 1.
     pub number: usize,
-    /// File, line and column.
+    /// File, line and column of the step, for messages.
     pub place: String,
-    /// Position in the file of its target: the object's name, the point or the joint values.
+    /// Position in the file of the target: of the object's name, the point or the joint values.
     pub at: Range<usize>,
     pub action: LeafAction,
     pub speed: f64,
     pub dwell: f64,
 }
 
-/// The action of a step, as written.
+/// The action of a step, as in the file.
 pub(super) enum LeafAction {
     Pick { object: usize, grasp: Point, supports: Supports, when: Option<When> },
     Place { at: Point, angle: Option<(f64, Range<usize>)>, supports: Option<Supports> },
@@ -55,14 +55,14 @@ pub(super) enum LeafAction {
 
 /// Times at which a moving object may be picked.
 pub(super) struct When {
-    /// Times, in order; at least one.
+    /// Intervals of time in ascending order, in seconds; at least one.
     pub times: Vec<Interval>,
-    /// Position in the file.
+    /// Position of the key in the file.
     pub at: Range<usize>,
 }
 
 impl Node {
-    /// Returns the number of its steps, with repetitions written out.
+    /// Returns the number of steps, with repetitions counted.
     pub fn length(&self) -> usize {
         match self {
             Node::Step(_) => 1,
@@ -70,7 +70,7 @@ impl Node {
         }
     }
 
-    /// Returns its position in the file.
+    /// Returns the position in the file.
     pub fn at(&self) -> Range<usize> {
         match self {
             Node::Step(leaf) => leaf.at.clone(),

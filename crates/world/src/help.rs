@@ -1,7 +1,7 @@
 //! Hints for values of the wrong type in a world file.
 
-/// Keys with the form of their values. An entry for a key of a specific table precedes entries for the same key
-/// elsewhere.
+/// Keys, with the form of their values. The entry for a key of one table precedes the entry for the same key in other
+/// tables.
 const KEY_FORMS: [(&str, &str); 30] = [
     ("start", "[start] joints = [q1, q2], or tip = [x, y]"),
     ("goal", "[goal] joints = [q1, q2], or tip = [x, y]"),
@@ -38,17 +38,17 @@ const KEY_FORMS: [(&str, &str); 30] = [
     ("step", "[[step]] with pick = \"NAME\", place = { at = [x, y] } or move = { joints = [q1, q2] }"),
 ];
 
-/// The hint if there is no more specific one.
+/// The hint for a key that has no entry in [`KEY_FORMS`].
 const DEFAULT_HINT: &str =
     "`cplan init` writes a world with every key explained; `cplan schema` prints the schema for editors";
 
-/// Returns the hint for an error at a byte of a world file: the form of the key at that place.
+/// Returns the hint for an error at a byte of a world file: the form of the value of the key at that place.
 pub(super) fn help(text: &str, at: usize) -> &'static str {
     let before = &text[..floor(text, at)];
     let line_start = before.rfind('\n').map_or(0, |i| i + 1);
     let line_end = text[line_start..].find('\n').map_or(text.len(), |i| line_start + i);
     let line = text[line_start..line_end].trim();
-    // The key nearest before the place: on its line, in an inline table, or on a line above.
+    // Text in which the key is sought: the line of the error, which may contain an inline table.
     let written = &text[line_start.min(before.len())..line_end];
     let reach = before.len() - line_start.min(before.len());
     let key_of = |part: &str| {
@@ -61,7 +61,7 @@ pub(super) fn help(text: &str, at: usize) -> &'static str {
     let key = if line.starts_with('[') && !line.contains('=') {
         header(line).unwrap_or_default()
     } else {
-        // Of several keys on the line the last that begins at or before the place.
+        // If the line has several keys, the last one that begins at or before the error counts.
         let mut keys = written.match_indices('=').filter(|(i, _)| *i <= reach || !written[..*i].contains('='));
         keys.next_back().map(|(i, _)| key_of(&written[..i])).unwrap_or_default()
     };
@@ -69,7 +69,7 @@ pub(super) fn help(text: &str, at: usize) -> &'static str {
     form(&format!("{table}.{key}")).or_else(|| form(&key)).unwrap_or(DEFAULT_HINT)
 }
 
-/// Returns the nearest character boundary at or before a byte.
+/// Returns the nearest boundary of a character at or before a byte.
 fn floor(text: &str, at: usize) -> usize {
     (0..=at.min(text.len())).rev().find(|i| text.is_char_boundary(*i)).unwrap_or(0)
 }

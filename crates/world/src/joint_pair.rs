@@ -1,10 +1,10 @@
-//! Values of both joints as the world file has them.
+//! Values of both joints as in the world file.
 
 use cplan_core::model::Joint;
 use cplan_robot::{Diagnostic, Source};
 use std::ops::Range;
 
-/// Values of both joints, base to tip, and where those stand that are in degrees.
+/// Values of both joints, base to tip. `degrees` has the positions in the file of those that are written in degrees.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct JointPair {
     pub values: [f64; 2],
@@ -12,10 +12,10 @@ pub(super) struct JointPair {
 }
 
 impl JointPair {
-    /// Refuses degrees of joints that slide.
+    /// Checks that no value of a prismatic joint is in degrees.
     ///
     /// # Errors
-    /// At the first such value.
+    /// The first such value.
     pub fn check(&self, source: &Source, joints: &[Joint; 2]) -> Result<(), Diagnostic> {
         for (joint, at) in joints.iter().zip(&self.degrees) {
             if let Some(at) = at.as_ref().filter(|_| !joint.joint_type.is_revolute()) {

@@ -1,4 +1,5 @@
-//! Files and options to a planning problem or a task: world TOML, maps, objects, steps, and anyone's trajectories.
+//! Reads files and options: worlds in TOML with maps, objects and steps become problems or tasks, and recorded
+//! trajectories of any program become recordings.
 //!
 //! ```text
 //! .map, .yaml with .pgm or .png
@@ -12,9 +13,9 @@
 //! motion.json, .csv, .yaml ---> Recording
 //! ```
 //!
-//! [`load`] reads both files, has `cplan-robot` make the arm, decomposes polygons into convex pieces, and checks start and goal.
-//! Out comes a problem, or every diagnostic at once.
-//! [`load_recording`] makes a recording of anyone's motion, and of a result of a task its steps, too.
+//! [`load`] reads both files: `cplan-robot` makes the arm, polygons are decomposed into convex pieces, and start and
+//! goal are checked. It returns a problem, or all diagnostics together. [`load_recording`] reads a motion that any
+//! program recorded. If the file is cplan's result of a task, it also reads the steps.
 
 mod course;
 mod help;
@@ -74,26 +75,26 @@ use cplan_handling::{ObstacleTrajectory, RobotJoints, TimedScene};
 use cplan_robot::{Diagnostic, InputError, Inspection, RobotFile, RobotReport, RobotTable, Source};
 use std::path::{Path, PathBuf};
 
-/// Arm, obstacles and objects as the files have them, without start, goal and steps.
+/// Arm, obstacles and objects of the files, without start, goal and steps.
 #[derive(Debug, Clone)]
 pub struct LoadedScene {
     /// The arm among its obstacles, with the world's clearance. Objects are at their initial places, after the static
     /// obstacles.
     pub scene: Scene,
-    /// The trajectories of its loose obstacles: moving obstacles and objects.
+    /// The trajectories of the scene's loose obstacles, which are moving obstacles and objects.
     pub courses: Vec<ObstacleTrajectory>,
     /// The world file.
     pub world: World,
-    /// The arm before the world's placement of the robot.
+    /// The arm as the URDF places it, before the world places the robot.
     arm: Arm,
     /// Report on how the robot was read.
     pub robot: RobotReport,
 }
 
-/// A planning problem and how it was read.
+/// A planning problem, and how it was read.
 #[derive(Debug, Clone)]
 pub struct LoadedProblem {
-    /// Scene, start and goals; start and goals are within the limits and free.
+    /// Scene, start and goals. Start and goals are free and within the limits.
     pub problem: MotionProblem,
     /// The trajectories of the scene's loose obstacles.
     pub courses: Vec<ObstacleTrajectory>,
@@ -103,28 +104,28 @@ pub struct LoadedProblem {
     pub notes: Vec<String>,
 }
 
-/// Reads a robot and a world. Start and goal may be missing or wrong, and steps out of the arm's reach: see
-/// [`LoadedScene::problem`] and [`LoadedScene::task`].
+/// Reads a robot and a world. Does not check start, goal and steps: see [`LoadedScene::problem`] and
+/// [`LoadedScene::task`].
 ///
 /// # Errors
-/// [`InputError`] for everything that is wrong with the files themselves.
+/// [`InputError`] with all defects of the files themselves.
 pub fn load_scene(robot: impl Into<RobotFile>, world: &Path) -> Result<LoadedScene, InputError> {
     let world = world::read(Source::read(world)?)?;
     among(world, robot.into().read()?)
 }
 
-/// Does the same with texts, which need not be files.
+/// Reads a robot and a world from texts, which may be in memory only.
 ///
 /// # Errors
-/// [`InputError`] for every defect of the texts.
+/// [`InputError`] with all defects of the texts.
 pub fn scene_from(urdf: Source, world: Source) -> Result<LoadedScene, InputError> {
     among(world::read(world)?, urdf)
 }
 
-/// Does the same for an arm made in code, which has exactly two joints.
+/// Reads a world for an arm that was made in code.
 ///
 /// # Errors
-/// [`InputError`] for every defect of the world; a `[robot]` table, which applies to URDFs; an arm with invalid
+/// [`InputError`] with all defects of the world; a table `[robot]`, which applies to URDFs only; an arm with invalid
 /// numbers.
 pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     let world = world::read(world)?;
@@ -145,10 +146,10 @@ pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     Ok(LoadedScene { scene, courses, world, arm, robot: RobotReport { joints, ..RobotReport::default() } })
 }
 
-/// Reads a world alone.
+/// Reads a world without a robot.
 ///
 /// # Errors
-/// [`InputError`] for everything that is wrong with it but what depends on the arm.
+/// [`InputError`] with all defects of the world that do not depend on the arm.
 pub fn world_from(world: Source) -> Result<World, InputError> {
     world::read(world)
 }
@@ -167,11 +168,11 @@ impl LoadedScene {
         self.robot.files.iter().cloned().chain(self.world.files()).collect()
     }
 
-    /// Does the same as [`scene_from`] for an edited text of the world. Does not read the robot again if the `[robot]`
-    /// table has changed only in its placement.
+    /// Returns the same as [`scene_from`] for a changed text of the world. The robot is not read again if in `[robot]`
+    /// only its placement has changed.
     ///
     /// # Errors
-    /// [`InputError`] for every defect of the texts.
+    /// [`InputError`] with all defects of the texts.
     pub fn edited(&self, urdf: &Source, world: Source) -> Result<Self, InputError> {
         let world = world::read(world)?;
         if world.robot.unplaced() != self.world.robot.unplaced() {
@@ -183,21 +184,21 @@ impl LoadedScene {
         Ok(Self::assembled(world, self.arm.clone(), self.robot.clone()))
     }
 
-    /// Puts an arm into its world, without checks.
+    /// Combines an arm and its world, without checks.
     fn assembled(world: World, arm: Arm, robot: RobotReport) -> Self {
         let initial_workspace = world.initial_workspace();
         let courses = initial_workspace.courses();
         Self { scene: initial_workspace.scene_trusted(standing(&arm, &world)), courses, world, arm, robot }
     }
 
-    /// Returns the scene with its trajectories, on the clock of the world.
+    /// Returns the scene with the trajectories of its loose obstacles. Their times count from time 0 of the world.
     #[must_use]
     pub fn timed(&self) -> TimedScene<'_> {
         TimedScene { scene: &self.scene, courses: &self.courses }
     }
 }
 
-/// Returns the arm in its world.
+/// Reads the robot and combines it with its world.
 fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
     let (arm, robot) = cplan_robot::load(urdf, world.robot_settings())?;
     for pair in &world.in_degrees {
@@ -208,28 +209,29 @@ fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
     Ok(loaded)
 }
 
-/// Returns the arm at the world's placement.
+/// Returns the arm where the world places the robot.
 fn standing(arm: &Arm, world: &World) -> Arm {
     world.place.as_ref().map_or_else(|| arm.clone(), |place| arm.placed(place))
 }
 
 /// Examines a robot and collects all defects. Without a world file, nothing is chosen, held or overridden. Decisions
-/// that a world would have to make are then among the diagnostics and in [`Inspection::help`].
+/// that a world file would have to make are then among the diagnostics, and [`Inspection::help`] has entries that make
+/// them.
 #[must_use]
 pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection {
     let mut unread = None;
     let file = match world.map(|path| Source::read(path).and_then(world::read)) {
-        None => World::silent(),
+        None => World::empty(),
         Some(Ok(file)) => file,
         Some(Err(error)) => {
             unread = Some(error);
-            World::silent()
+            World::empty()
         }
     };
     let inspection = cplan_robot::survey(&robot.into(), file.robot_settings());
     let mut files = inspection.files;
     files.extend(file.files());
-    // A world that cannot be read is an input, too.
+    // A world that cannot be read counts as an input, too.
     files.extend(world.map(Path::to_owned));
     let in_world = |alone: Scene| file.initial_workspace().scene_trusted(standing(alone.arm(), &file));
     let mut inspection = Inspection {

@@ -17,21 +17,21 @@ use cplan_robot::InputError;
 use std::collections::VecDeque;
 use std::path::Path;
 
-/// A line map in its own unit, by custom the millimetre.
+/// A line map in its own unit, which is usually the millimetre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineMap {
-    /// `LineMinPos` and `LineMaxPos`: lower left and upper right corner; all lines lie within.
+    /// `LineMinPos` and `LineMaxPos`: lower left and upper right corner. All lines lie between them.
     pub bounds: [Point; 2],
-    /// Ends of every line, in the order of the file. Both are the same where the file has a line without length.
+    /// Both ends of every line, in the order of the file. They are the same for a line without length.
     pub lines: Vec<[Point; 2]>,
 }
 
-/// Consecutive lines of a map, joined end to end.
+/// Consecutive lines of a map whose ends meet, as one polyline.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
-    /// Corners; no two neighbours are the same. One alone is a line without length, which is a point.
+    /// Corners, of which no two neighbours are the same. A single corner is a line without length.
     pub points: Vec<Point>,
-    /// Numbers of the first and the last of its lines in [`LineMap::lines`].
+    /// Indices in [`LineMap::lines`] of its first and of its last line.
     pub lines: [usize; 2],
 }
 
@@ -39,8 +39,9 @@ impl LineMap {
     /// Reads a map. Ignores blank lines, lines that begin with `#`, tabs and carriage returns.
     ///
     /// # Errors
-    /// With line and column: a file of another kind, lines out of order, missing or after the end, numbers that are not
-    /// finite or outside the bounds, and a `NumLines` that is not the number of lines.
+    /// A file of another kind, lines in the wrong order, missing lines or lines after the end, numbers that are not
+    /// finite or outside the bounds, and a `NumLines` that differs from the number of lines. Each error has line and
+    /// column.
     pub fn read(path: &Path) -> Result<Self, InputError> {
         let mut text = MapText::read(path)?;
         let bounds = text.bounds()?;
@@ -52,8 +53,8 @@ impl LineMap {
         Ok(Self { bounds, lines })
     }
 
-    /// Joins the lines to as few polylines as possible: a line that shares an end with the current chain extends it.
-    /// Linear.
+    /// Joins the lines to as few polylines as possible. A line extends the current polyline if they share an end.
+    /// Linear in the number of lines.
     #[must_use]
     pub fn chains(&self) -> Vec<Chain> {
         let mut chains: Vec<Chain> = Vec::new();

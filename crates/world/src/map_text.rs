@@ -1,4 +1,4 @@
-//! The text that line maps and preference files have in common: `2D-Map`, bounds, counted lists of numbers.
+//! The text of line maps and preference files: the header `2D-Map`, bounds, and counted lists of numbers.
 
 use cplan_geometry::Point;
 use cplan_robot::{Diagnostic, InputError, Source};
@@ -8,16 +8,16 @@ use std::path::Path;
 /// First word of a map file.
 const MAP_HEADER: &str = "2D-Map";
 
-/// A file of the `2D-Map` family, line by line. Blank lines and lines that begin with `#` are passed over; words are
-/// separated by any white space.
+/// A file that begins with `2D-Map`, line by line. Blank lines and lines that begin with `#` are skipped. Any white
+/// space separates words.
 pub(super) struct MapText {
     pub source: Source,
-    /// The lines that say something.
+    /// Positions of the lines that are not skipped.
     lines: Vec<Range<usize>>,
     next: usize,
 }
 
-/// The numbers of a line, and where the line is.
+/// The numbers of a line, and the position of the line.
 pub(super) struct Numbers<const N: usize> {
     pub values: [f64; N],
     pub at: Range<usize>,
@@ -48,7 +48,10 @@ impl MapText {
         Some((&self.source.text()[at.clone()], at.clone()))
     }
 
-    /// Returns the next line, which must exist.
+    /// Returns the next line.
+    ///
+    /// # Errors
+    /// The end of the file. `what` names the expected line in the message.
     fn expected(&self, what: &str) -> Result<(&str, Range<usize>), Diagnostic> {
         self.line().ok_or_else(|| {
             let end = self.source.text().trim_end().len();
@@ -57,7 +60,7 @@ impl MapText {
         })
     }
 
-    /// Passes over a line that is this word.
+    /// Skips a line that consists of this word.
     pub fn word(&mut self, word: &str) -> Result<(), Diagnostic> {
         let what = format!("\"{word}\"");
         let (found, at) = self.expected(&what)?;
@@ -103,7 +106,7 @@ impl MapText {
         Ok(Numbers { values, at })
     }
 
-    /// Reads the announced number of lines of numbers, and the final line `end`.
+    /// Reads the announced number of lines of numbers, then the line `end`.
     pub fn list<const N: usize>(
         &mut self,
         announced: (usize, Range<usize>),
@@ -116,7 +119,7 @@ impl MapText {
         Ok(list)
     }
 
-    /// Does the same up to a line that begins with `end`, which stays unread.
+    /// Reads the announced number of lines of numbers, up to a line that begins with `end` and that stays unread.
     pub fn list_before<const N: usize>(
         &mut self,
         (count, at): (usize, Range<usize>),
@@ -197,7 +200,7 @@ impl MapText {
     }
 }
 
-/// More lines than a file of the greatest size can hold.
+/// Limit of announced numbers of lines. A file of the greatest size has fewer lines.
 const MAX_COUNT: f64 = 1e9;
 
 fn counted(n: usize) -> String {

@@ -1,11 +1,11 @@
-//! A check whether the obstacles are near the arm at all: drawings and maps may use other units, or another origin.
+//! Checks whether obstacles are near the arm at all. Drawings and maps may use other units, or another origin.
 
 use cplan_core::model::Scene;
 use cplan_core::space::JointRange;
 use cplan_geometry::{Convex, separation};
 use cplan_text::format_distinct;
 
-/// Returns a warning if all obstacles are out of the arm's reach. Stops at the first one that it may reach.
+/// Returns a warning if all obstacles are out of the arm's reach. Stops at the first obstacle that may be within reach.
 pub(super) fn warning(scene: &Scene) -> Option<String> {
     let arm = scene.arm();
     let slides = arm.joints.iter().filter(|joint| !joint.joint_type.is_revolute()).map(|joint| match joint.range {

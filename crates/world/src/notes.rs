@@ -1,18 +1,18 @@
-//! Notes about input that was corrected while reading, counted by kind, so that a thousand exported shapes give one
-//! line.
+//! Notes about input that was corrected while reading. They are counted by kind, so that a drawing with a thousand
+//! shapes gives one line.
 
 use std::borrow::Cow;
 use std::cell::RefCell;
 
-/// More names than this are counted.
+/// Largest number of shapes that a note names. If there are more, the note has only their number.
 const MAX_NAMED_SHAPES: usize = 3;
 
-/// Corrections, with the names of the shapes.
+/// Kinds of corrections, each with the names of the corrected shapes.
 #[derive(Debug, Default)]
 pub(super) struct Corrections(RefCell<Vec<(Cow<'static, str>, Vec<String>)>>);
 
 impl Corrections {
-    /// Notes that of `whom` something was taken as `what` says.
+    /// Records a correction `what` of the shape `whom`.
     pub fn note(&self, whom: &str, what: impl Into<Cow<'static, str>>) {
         let what = what.into();
         let mut kinds = self.0.borrow_mut();

@@ -70,46 +70,48 @@ pub(super) struct ObjectTable {
     motion: Option<Spanned<ObstacleTrajectoryTable>>,
 }
 
-/// Names, with the place of each.
+/// A list of names, each with its position in the file.
 pub(super) type NameList = Spanned<Vec<Spanned<String>>>;
 
-/// An object, and what holds for the steps that do not say otherwise.
+/// An object, with defaults for the steps that handle it.
 #[derive(Debug, Clone)]
 pub(super) struct MovableObject {
     pub object: Object,
-    /// The point of it that the tip goes to, in its own frame.
+    /// The point of the object to which the tip moves, in the object's frame.
     pub grasp: Point,
     pub supports: Supports,
-    /// True if each repetition has a new one.
+    /// True if each repetition of the steps finds a new object at the initial place.
     pub is_renewed: bool,
 }
 
-/// The obstacles that an object may touch at its resting place.
+/// The obstacles and objects that an object may touch at its resting place.
 #[derive(Debug, Clone)]
 pub(super) struct Supports {
-    /// Obstacles; objects follow the obstacles that stay where they are.
+    /// Numbers of obstacles and objects. Objects are numbered after the static obstacles.
     pub numbers: Vec<usize>,
-    /// Position of the names in the file.
+    /// Position of the list of names in the file.
     pub at: Range<usize>,
 }
 
 /// Numbers of objects and obstacles by name.
 pub(super) struct Names<'a> {
     objects: BTreeMap<String, usize>,
-    /// The objects on pallets, by their common name.
+    /// Indices of the objects on each pallet, by their common name.
     families: BTreeMap<&'a str, Range<usize>>,
-    /// Obstacles may share a name.
+    /// Numbers of obstacles by name, because several can have the same name.
     obstacles: BTreeMap<&'a str, Vec<usize>>,
     /// Number of static obstacles.
     fixed: usize,
 }
 
-/// More names than this are not listed in a message.
+/// Largest number of names that a message lists.
 const MAX_LISTED_NAMES: usize = 12;
 
 impl<'a> Names<'a> {
+    /// Collects the names.
+    ///
     /// # Errors
-    /// When two objects, or an object and an obstacle, have the same name.
+    /// Two objects with the same name, or an object with the name of an obstacle.
     fn of(
         reader: &Reader,
         placed: &[PlacedObject<'a>],
@@ -150,10 +152,10 @@ impl<'a> Names<'a> {
         Ok(names)
     }
 
-    /// Returns the object with this name.
+    /// Returns the index of the object with this name.
     ///
     /// # Errors
-    /// If the name is unknown.
+    /// An unknown name.
     pub fn object(&self, reader: &Reader, name: &Spanned<String>) -> Result<usize, Diagnostic> {
         let wanted = name.get_ref().as_str();
         if let Some(number) = self.objects.get(wanted) {
@@ -171,10 +173,10 @@ impl<'a> Names<'a> {
         Err(reader.source.diagnostic_at(name.span(), message).help(help))
     }
 
-    /// Returns the objects on a pallet with this common name, row by row.
+    /// Returns the indices of the objects with this common name on a pallet, row by row.
     ///
     /// # Errors
-    /// If the name is unknown.
+    /// An unknown name.
     pub fn family(&self, reader: &Reader, name: &Spanned<String>) -> Result<Range<usize>, Diagnostic> {
         let wanted = name.get_ref().as_str();
         if let Some(family) = self.families.get(wanted) {
@@ -189,7 +191,7 @@ impl<'a> Names<'a> {
         Err(reader.source.diagnostic_at(name.span(), message).help(help))
     }
 
-    /// Returns the available names; objects on a pallet have a common one.
+    /// Returns the available names. Objects on a pallet are listed by their common name.
     fn all(&self) -> String {
         let single = self.objects.iter().filter(|(_, number)| !self.families.values().any(|all| all.contains(number)));
         listed(single.map(|(name, _)| name.as_str()).chain(self.families.keys().copied()))
@@ -198,7 +200,7 @@ impl<'a> Names<'a> {
     /// Returns the numbers of the obstacles and objects in a list of supports.
     ///
     /// # Errors
-    /// If a name is unknown.
+    /// An unknown name.
     pub fn supports(&self, reader: &Reader, list: &NameList) -> Result<Supports, Diagnostic> {
         let mut numbers = Vec::new();
         for name in list.get_ref() {
@@ -226,7 +228,7 @@ impl<'a> Names<'a> {
     }
 }
 
-/// A table's object, or one of those on a pallet.
+/// The object of a table, or one of its objects on a pallet.
 struct PlacedObject<'a> {
     table: &'a Spanned<ObjectTable>,
     name: String,
@@ -234,7 +236,7 @@ struct PlacedObject<'a> {
     at: Pose,
 }
 
-/// Returns all objects with their poses: those of a table on a pallet row by row.
+/// Returns all objects with their initial poses. Objects on a pallet are in the order of the rows.
 fn placed<'a>(
     reader: &Reader,
     tables: &'a [Spanned<ObjectTable>],
@@ -272,11 +274,11 @@ fn placed<'a>(
     Ok(all)
 }
 
-/// Reads all objects. `default` is how the gripper holds them unless they say otherwise.
+/// Reads all objects. `default` is how the gripper holds an object that does not state it.
 ///
 /// # Errors
-/// Names that are not unique, not exactly one shape, not exactly one of position and pallet, invalid shapes and values,
-/// unknown pallets and supports.
+/// Names that are not unique; other than exactly one shape; other than exactly one of position and pallet; invalid
+/// shapes and values; unknown pallets and supports.
 pub(super) fn read<'a>(
     reader: &Reader,
     tables: &'a [Spanned<ObjectTable>],
@@ -338,7 +340,7 @@ fn movable(
     Ok(MovableObject { object, grasp: grasp.unwrap_or_else(Point::zeros), supports, is_renewed: given.renew })
 }
 
-/// Returns the motion of an object. Stops without a position take this one.
+/// Returns the motion of an object. A stop without a position takes that of the object.
 fn course(
     reader: &Reader,
     given: &ObjectTable,
@@ -358,13 +360,13 @@ fn course(
     motion.get_ref().read(reader, what, Some(at), motion.span())
 }
 
-/// Returns the diagnostic of an object that is among its own supports.
+/// Returns the diagnostic about an object that is listed as its own support.
 pub(super) fn rests_on_itself(reader: &Reader, name: &str, supports: &Supports) -> Diagnostic {
     let message = format!("object \"{name}\" cannot rest on itself");
     reader.source.diagnostic_at(supports.at.clone(), message).help("remove it from `supports`")
 }
 
-/// Parses how objects are held: `"rigid"` or `"level"`.
+/// Parses how the gripper holds objects: `"rigid"` or `"level"`.
 pub(super) fn holding(reader: &Reader, word: &Spanned<String>) -> Result<Holding, Diagnostic> {
     match word.get_ref().as_str() {
         "rigid" => Ok(Holding::Rigid),

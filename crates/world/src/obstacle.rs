@@ -71,14 +71,14 @@ pub(super) struct CircleTable {
     radius: Number,
 }
 
-/// Convex pieces of the largest map: beyond it each planner takes minutes.
+/// Largest number of convex pieces of a map. With more pieces, each planner takes minutes.
 pub(super) const MAX_PIECES: usize = 1 << 20;
 
-/// The kinds of an `[[obstacle]]`.
+/// The kinds of obstacles in a world file.
 pub(super) enum ObstacleKind {
-    /// It stands where it is.
+    /// A static obstacle.
     Static(Obstacle),
-    /// It has a motion.
+    /// An obstacle with a motion.
     Moving(MovingObstacle),
 }
 
@@ -89,7 +89,7 @@ impl ObstacleTable {
     /// Reads the obstacle with this index in its file.
     ///
     /// # Errors
-    /// Not exactly one shape, values that are not finite, invalid shapes, and unusable files.
+    /// Other than exactly one shape, values that are not finite, invalid shapes, and unusable files.
     pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<ObstacleKind, InputError> {
         let obstacle = table.get_ref();
         let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
@@ -97,7 +97,7 @@ impl ObstacleTable {
         let place = reader.pose(obstacle.at.as_ref(), obstacle.angle.as_ref(), &what)?;
         let course = obstacle.motion.as_ref().map(|m| m.get_ref().read(reader, &what, place.as_ref(), m.span()));
         let course = course.transpose()?;
-        // A moving obstacle has its shape in its own frame.
+        // The shape of a moving obstacle stays in the obstacle's own frame.
         let place = place.as_ref().filter(|_| course.is_none());
         let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
             (Some(corners), None, None, None) => {

@@ -34,10 +34,11 @@ pub(super) struct PalletTable {
     angle: Option<Written>,
 }
 
-/// Places of one pallet, at most: more than any machine has.
+/// Largest number of places of a pallet. No machine has more.
 const MAX_PLACES: usize = 10_000;
 
-/// Significant digits of places, of the largest number that they are made of: so they are the decimals that people would write.
+/// Number of significant digits of places, counted from the first digit of the largest number in their sum. It removes
+/// rounding errors, so that a place has the decimals that people would write.
 const PLACE_DIGITS: i32 = 15;
 
 /// A grid of places.
@@ -45,9 +46,9 @@ const PLACE_DIGITS: i32 = 15;
 pub(super) struct Pallet {
     rows: usize,
     columns: usize,
-    /// Pose of row 1 and column 1.
+    /// Pose of the place in row 1 and column 1.
     origin: Pose,
-    /// Pitch by column and by row.
+    /// Distances between columns and between rows, in metres.
     pitch: [f64; 2],
 }
 
@@ -57,7 +58,7 @@ impl Pallet {
         self.rows * self.columns
     }
 
-    /// Iterates over all places, row by row: row and column, as in names, and pose.
+    /// Iterates over all places, row by row. Each has row and column, as in names, and its pose.
     pub fn places(&self) -> impl Iterator<Item = (String, Pose)> + '_ {
         (0..self.rows).flat_map(move |row| {
             (0..self.columns).map(move |column| {
@@ -87,8 +88,10 @@ pub(super) struct Pallets<'a> {
 }
 
 impl<'a> Pallets<'a> {
+    /// Reads all pallets.
+    ///
     /// # Errors
-    /// On two of one name, on none or too many places, and on places that coincide.
+    /// Two pallets with the same name, pallets with no or too many places, and places that coincide.
     pub fn read(reader: &Reader, tables: &'a [Spanned<PalletTable>]) -> Result<Self, Diagnostic> {
         let mut pallets = Self::default();
         for table in tables.iter().map(Spanned::get_ref) {
@@ -108,7 +111,7 @@ impl<'a> Pallets<'a> {
     /// Returns the pallet with this name.
     ///
     /// # Errors
-    /// If the name is unknown.
+    /// An unknown name.
     pub fn named(&self, reader: &Reader, name: &Spanned<String>) -> Result<&Pallet, Diagnostic> {
         let wanted = name.get_ref().as_str();
         self.by_name.get(wanted).ok_or_else(|| {
@@ -117,10 +120,10 @@ impl<'a> Pallets<'a> {
         })
     }
 
-    /// Returns the position of the place with this name: `tray 2,3`.
+    /// Returns the position of the place with this name, such as `tray 2,3`.
     ///
     /// # Errors
-    /// If the name is unknown.
+    /// An unknown name.
     pub fn place(&self, reader: &Reader, name: &Spanned<String>) -> Result<Point, Diagnostic> {
         let wanted = name.get_ref().as_str();
         if let Some(place) = self.places.get(wanted) {
@@ -181,7 +184,7 @@ impl PalletTable {
 mod tests {
     use super::*;
 
-    /// Returns the last place of two rows and two columns.
+    /// Returns the last place of a pallet with two rows and two columns.
     fn last(at: [f64; 2], pitch: [f64; 2], angle: f64) -> Point {
         let pallet = Pallet { rows: 2, columns: 2, origin: Pose::new(Point::from(at), angle), pitch };
         pallet.places().last().unwrap().1.translation
@@ -192,7 +195,7 @@ mod tests {
         let quarter = std::f64::consts::FRAC_PI_2;
         assert_eq!(last([0.1, 0.7], [0.2, 0.1], 0.0), Point::new(0.3, 0.8));
         assert_eq!(last([0.3, -0.3], [0.3, 0.3], quarter), Point::new(0.0, 0.0));
-        // Those of the smallest and the largest arms too.
+        // The same for the smallest and the largest arms.
         assert_eq!(last([1.2345678901e-5, 0.0], [1e-6, 0.0], 0.0), Point::new(1.3345678901e-5, 0.0));
         assert_eq!(last([1234.5678901234, 0.0], [0.1, 0.0], 0.0), Point::new(1234.6678901234, 0.0));
     }

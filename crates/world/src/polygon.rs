@@ -9,13 +9,13 @@ use serde::{Deserialize, Deserializer};
 use std::fmt;
 use toml::Spanned;
 
-/// A number, or a list of such: a point, a ring, or GeoJSON's list of rings.
+/// A number or a list of coordinates, so that it can be a point, a ring, or GeoJSON's list of rings.
 pub(super) enum Coordinates {
     Number(f64),
     List(Vec<Spanned<Coordinates>>),
 }
 
-/// Coordinates and where they stand.
+/// Coordinates with their position in the file.
 pub(super) type Ring = Spanned<Coordinates>;
 
 impl<'de> Deserialize<'de> for Coordinates {
@@ -50,7 +50,7 @@ impl<'de> Visitor<'de> for CoordinatesVisitor {
     }
 }
 
-/// Note about rings whose last point repeats the first.
+/// Note about a ring whose last point repeats the first.
 const CLOSED_RING_NOTE: &str = "the last point of a ring repeats the first; taken once";
 /// Note about repeated points.
 const REPEATED_POINTS_NOTE: &str = "points that repeat the one before them are taken once";
@@ -65,7 +65,7 @@ impl Coordinates {
         }
     }
 
-    /// Returns true for a list of rings, as in GeoJSON, instead of a ring.
+    /// Returns true if this is a list of rings, as in GeoJSON, and not a single ring.
     fn is_nested(&self) -> bool {
         let first_point = self.list().first().map(Spanned::get_ref);
         let first_coordinate = first_point.and_then(|point| point.list().first()).map(Spanned::get_ref);
@@ -73,7 +73,10 @@ impl Coordinates {
     }
 }
 
-/// Returns a polygon without crossings, moved to its place. `help` is the hint if it has any.
+/// Returns a polygon at its place.
+///
+/// # Errors
+/// A polygon that crosses itself. `help` is the hint.
 pub(super) fn polygon(
     reader: &Reader,
     given: &Ring,
@@ -112,7 +115,10 @@ pub(super) fn polygon(
     }
 }
 
-/// Returns a polygon whose boundary does not touch itself. `help` is the hint if it does.
+/// Returns a polygon whose boundary does not touch itself.
+///
+/// # Errors
+/// A boundary that touches itself. `help` is the hint.
 pub(super) fn simple_polygon(
     reader: &Reader,
     given: &Ring,
@@ -124,7 +130,7 @@ pub(super) fn simple_polygon(
     })
 }
 
-/// Returns a thin wall, moved to its place.
+/// Returns a thin wall at its place.
 pub(super) fn polyline(
     reader: &Reader,
     given: &Ring,
@@ -148,7 +154,7 @@ fn moved(mut points: Vec<Point>, place: Option<&Pose>) -> Vec<Point> {
     points
 }
 
-/// Returns the corners of a ring without repetitions.
+/// Returns the corners of a ring without repeated points.
 fn ring_of(reader: &Reader, given: &Ring, what: &str) -> Result<Vec<Point>, Diagnostic> {
     let mut corners = without_repeats(reader, points(reader, given, what)?, what);
     if corners.len() > 1 && corners.first() == corners.last() {

@@ -31,17 +31,19 @@ pub(super) struct PreferenceTable {
     polygon: Option<Ring>,
 }
 
-/// Widest region in configurations, radians or metres: it is looked up copy by copy on a circle.
+/// Largest extent of a region of configurations, in radians or metres. On a circle, the region is searched copy by
+/// copy.
 const MAX_REGION_WIDTH: f64 = 100.0;
 
-/// Help for regions that are no simple polygons.
+/// Hint for a region that is not a simple polygon.
 const CORNER_ORDER_HINT: &str = "list the corners in order round the region, each once";
 
 impl PreferenceTable {
     /// Reads the preference with this index in its file.
     ///
     /// # Errors
-    /// Values that are not finite, a direction of length 0, and not exactly one region, which must be a simple polygon.
+    /// Values that are not finite, a direction of length 0, other than exactly one region, and a region that is not a
+    /// simple polygon.
     pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Preference, Diagnostic> {
         let given = table.get_ref();
         let name = given.name.clone().unwrap_or_else(|| format!("preference {}", index + 1));
@@ -65,7 +67,7 @@ impl PreferenceTable {
 fn direction(reader: &Reader, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
     let vector = reader.two(numbers, &format!("{what}, direction"))?;
     let length = vector[0].hypot(vector[1]);
-    // Below the square root of the least normal number its components would lose their digits.
+    // The square of a shorter length is not a normal number, so the direction would lose its digits.
     if length < 1e-150 {
         let diagnostic = reader.source.diagnostic_at(numbers.span(), format!("{what}: the direction is zero"));
         return Err(diagnostic.help("direction = [q1, q2], such as [1, 0]; leave the key out for no direction"));

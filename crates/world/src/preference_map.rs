@@ -18,24 +18,24 @@ use cplan_geometry::Point;
 use cplan_robot::InputError;
 use std::path::Path;
 
-/// A preference file in its own unit, by custom the millimetre.
+/// A preference file in its own unit, which is usually the millimetre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreferenceMap {
-    /// `LineMinPos` and `LineMaxPos`: lower left and upper right corner; all rectangles lie within. They need not be those
-    /// of the line map.
+    /// `LineMinPos` and `LineMaxPos`: lower left and upper right corner. All rectangles lie between them. They may
+    /// differ from those of the line map.
     pub bounds: [Point; 2],
-    /// The alternative goals: lower left and upper right corners. They may be points. At least one.
+    /// The alternative goals, at least one: lower left and upper right corners of rectangles, which may be points.
     pub goals: Vec<[Point; 2]>,
-    /// The rectangles, in the order of the file.
+    /// The preferred and avoided rectangles, in the order of the file.
     pub rectangles: Vec<PreferenceRectangle>,
 }
 
-/// A rectangle that is preferred or avoided.
+/// A rectangle that a field planner prefers or avoids.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PreferenceRectangle {
-    /// Lower left and upper right corner; it has an area.
+    /// Lower left and upper right corner. The area of the rectangle is not zero.
     pub corners: [Point; 2],
-    /// Strength of the preference: the field equation's epsilon there.
+    /// Strength of the preference: the value of epsilon in the field's equation there.
     pub epsilon: f64,
 }
 
@@ -43,7 +43,7 @@ impl PreferenceMap {
     /// Reads a file. Rectangles may be given by any two opposite corners.
     ///
     /// # Errors
-    /// As [`super::LineMap::read`]; likewise without a goal, or with a preference rectangle without area.
+    /// The errors of [`super::LineMap::read`], a file without a goal, and a preference rectangle without area.
     pub fn read(path: &Path) -> Result<Self, InputError> {
         let mut text = MapText::read(path)?;
         let bounds = text.bounds()?;

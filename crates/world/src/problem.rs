@@ -1,4 +1,5 @@
-//! Start and goal: within the limits, free, and for a goal of the tip every IK solution that reaches it.
+//! Checks start and goal: both must be within the limits and free. Finds every IK solution that reaches a goal of the
+//! tip.
 
 use super::reasons::{
     HELP_FOR_LIMITS, beyond_limits, describe, describe_segment, help_at, help_for_ik_solutions, help_for_reach,
@@ -28,12 +29,12 @@ impl Place<'_> {
 }
 
 impl LoadedScene {
-    /// Puts start and goal into the scene: the command line's, else the world file's.
+    /// Puts start and goal into the scene. Values on the command line override those of the world file.
     ///
     /// # Errors
-    /// When the world has steps; when either is missing, outside the joint limits, in contact with an obstacle or nearer to one than the
-    /// clearance, or when no IK solution puts the tip at the goal. The message says which link hits which obstacle and how
-    /// deep.
+    /// A world with steps. A start or goal that is missing, outside the joint limits, in contact with an obstacle or
+    /// nearer to one than the clearance. A goal of the tip that no IK solution reaches. The message states which link
+    /// hits which obstacle, and how deep.
     pub fn problem(self, overrides: &Overrides) -> Result<LoadedProblem, InputError> {
         if self.has_steps() {
             return Err(self.has_no_goal(overrides).into());
@@ -53,7 +54,7 @@ impl LoadedScene {
             }
         }
         if goals.is_empty() {
-            // There is at least one goal, and so at least one reason.
+            // There is at least one goal, so there is at least one reason.
             let first = refused.swap_remove(0);
             return Err(about(first).into());
         }
@@ -63,7 +64,7 @@ impl LoadedScene {
         Ok(LoadedProblem { problem: MotionProblem::trusted(scene, start, goals), courses, robot, notes })
     }
 
-    /// Returns the configurations of a goal that may be free.
+    /// Returns the configurations that reach a goal and are not known to be blocked.
     fn configurations(
         &self,
         goal: Goal,
@@ -90,8 +91,8 @@ impl LoadedScene {
         }
     }
 
-    /// Returns the boundary of a rectangle for the tip as far as it may be free, and the start if the tip is already
-    /// inside.
+    /// Returns the configurations that put the tip on the boundary of a rectangle and are not known to be blocked. If
+    /// the tip at the start is inside the rectangle, adds the start.
     fn area(&self, area: [Point; 2], start: Configuration, place: &Place) -> Result<GoalSet, Diagnostic> {
         let [low, high] = area;
         let shown = format!("the goal area from ({}, {}) to ({}, {})", low.x, low.y, high.x, high.y);
@@ -138,7 +139,7 @@ impl LoadedScene {
         }
     }
 
-    /// Returns the diagnostic of asking for the goal of a world that has steps.
+    /// Returns the diagnostic about a goal that was requested of a world with steps.
     pub(super) fn has_no_goal(&self, overrides: &Overrides) -> Diagnostic {
         let message = "this world has steps, not a goal";
         let option = match (&overrides.goal, &overrides.goal_tip) {
@@ -157,7 +158,7 @@ impl LoadedScene {
         self.world.source.diagnostic(format!("there is no {what}")).help(help)
     }
 
-    /// Refuses a configuration outside the limits or not free.
+    /// Checks that a configuration is within the limits and free.
     pub(super) fn require(&self, what: &str, q: Configuration, place: &Place) -> Result<(), Diagnostic> {
         let outside = beyond_limits(&self.scene, q);
         if !outside.is_empty() {
@@ -177,10 +178,10 @@ impl LoadedScene {
         !self.courses.is_empty()
     }
 
-    /// Refuses moving obstacles, for functions without time. `what` names the function.
+    /// Checks that no obstacle moves, for functions that ignore time. `what` names the function.
     ///
     /// # Errors
-    /// If an obstacle moves.
+    /// A moving obstacle.
     pub fn require_static_obstacles(&self, what: &str) -> Result<(), InputError> {
         let Some(mover) = self.scene.loose().first() else { return Ok(()) };
         let message = format!("{what}, but obstacle \"{}\" moves", mover.obstacle.name);
@@ -189,7 +190,7 @@ impl LoadedScene {
         Err(self.world.source.diagnostic(message).help(help).into())
     }
 
-    /// Refuses a start that is occupied by a moving obstacle initially.
+    /// Checks that no moving obstacle is at the arm's start initially.
     pub(super) fn require_clear(&self, start: Configuration, place: &Place) -> Result<(), Diagnostic> {
         let hits = self.timed().obstructions(start, 0.0);
         if hits.is_empty() {
@@ -204,7 +205,7 @@ impl LoadedScene {
         Err(place.diagnostic(message).help("change the obstacle's initial position, or choose another start"))
     }
 
-    /// Returns every IK solution for `tip` within the limits, except those proven not to be free.
+    /// Returns every IK solution for `tip` that is within the limits and not proven to be blocked.
     fn ik_solutions(
         &self,
         tip: Point,
@@ -240,7 +241,7 @@ impl LoadedScene {
     }
 }
 
-/// Describes which joint values are free if the tip is at a place.
+/// Describes which joint values are possible when the tip is at a place.
 fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
     let name = |joint: usize| &scene.arm().joints[joint].name;
     match free {
@@ -257,7 +258,7 @@ fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
     }
 }
 
-/// Explains, stretch by stretch, why a segment is blocked everywhere. Returns `None` unless that is proven.
+/// Explains why each part of a segment is blocked. Returns `None` unless it is proven that the whole segment is.
 fn blocked_all_along(scene: &Scene, piece: &Segment) -> Option<Vec<String>> {
     if piece.is_point() {
         let [q, _] = piece.ends();

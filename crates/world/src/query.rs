@@ -1,18 +1,18 @@
-//! The query of an explanation, in which start or goal may be blocked.
+//! The query of an explanation. Its start and goal may be blocked.
 
 use super::{LoadedScene, Overrides};
 use cplan_core::model::{Goal, Scene};
 use cplan_core::space::Configuration;
 use cplan_robot::{DiagnosticKind, InputError, RobotReport};
 
-/// Scene, start and goal, and how they were read.
+/// Scene, start and goals, and how they were read.
 #[derive(Debug, Clone)]
 pub struct LoadedEnds {
     /// The arm among its obstacles.
     pub scene: Scene,
-    /// The start, free or not.
+    /// The start, which may be blocked.
     pub start: Configuration,
-    /// The alternative goals, reachable or not.
+    /// The alternative goals, which may be out of reach.
     pub goals: Vec<Goal>,
     /// Report on how the robot was read.
     pub robot: RobotReport,
@@ -21,10 +21,11 @@ pub struct LoadedEnds {
 }
 
 impl LoadedScene {
-    /// Puts start and goal into the scene as [`LoadedScene::problem`] does, but looks neither at limits nor at obstacles.
+    /// Puts start and goal into the scene as [`LoadedScene::problem`] does, but checks neither limits nor obstacles.
     ///
     /// # Errors
-    /// When the world has steps; when start or goal is missing, or a start of the tip is not reached by just one IK solution.
+    /// A world with steps, a missing start or goal, and a start given by the tip that does not have exactly one IK
+    /// solution.
     pub fn query(self, overrides: &Overrides) -> Result<LoadedEnds, InputError> {
         if self.has_steps() {
             return Err(self.has_no_goal(overrides).into());
@@ -40,10 +41,10 @@ impl LoadedScene {
         }
         Ok(LoadedEnds { scene: loaded.scene, start, goals, robot: loaded.robot, notes })
     }
-    /// Returns a query that stays at the start, for worlds with steps, too.
+    /// Returns a query whose goal is its start. The world may have steps.
     ///
     /// # Errors
-    /// When the start is missing, or one of the tip is not reached by just one IK solution.
+    /// A missing start, and a start given by the tip that does not have exactly one IK solution.
     pub fn start_alone(self, overrides: &Overrides) -> Result<LoadedEnds, InputError> {
         let loaded = self.keeping(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();

@@ -6,46 +6,48 @@ use nalgebra::Rotation2;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// What a sensor moves with.
+/// The body to which a sensor is attached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Mount {
-    /// The tip. Straight ahead is from link 2's origin to the tip (link 2's x axis where they coincide).
+    /// The tip. The forward direction is from the origin of link 2 to the tip, or link 2's x axis if both coincide.
     Tip,
-    /// Nothing: it stands on the base. Straight ahead is the robot's x axis: that of the plane, turned as the robot is.
+    /// The base, which does not move. The forward direction is the robot's x axis: the x axis of the plane, turned as
+    /// the robot is.
     Base,
 }
 
-/// A range sensor: rays in a fan, each of which tells how far it goes before it meets something. The arm does not stand in
-/// its way.
+/// A range sensor: a fan of rays, each of which measures the distance to the nearest obstacle. The arm does not block
+/// the rays.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Sensor {
-    /// What it moves with.
+    /// The body to which the sensor is attached.
     pub mount: Mount,
-    /// How the robot is turned in the world, radians.
+    /// Angle of the robot in the world, in radians.
     pub turn: f64,
     /// Number of rays, at least one.
     pub rays: usize,
-    /// Angle between the outermost rays, radians, at most a whole turn, over which rays are spread evenly.
+    /// Angle between the outermost rays, in radians, at most a whole turn. The rays are evenly spaced.
     pub field_of_view: f64,
-    /// How far it sees, metres.
+    /// Length of the rays, in metres.
     pub range: f64,
-    /// Distance in joint space from one reading to the next on the way, rad and m as they come.
+    /// Distance between readings on a path, in joint space (mixing radians and metres).
     pub step: f64,
-    /// The greatest error of a distance, metres: errors are uniform within it to both sides.
+    /// Greatest error of a measured distance, in metres. Errors are uniform between plus and minus this.
     pub noise: f64,
-    /// What its errors follow from.
+    /// Seed of the random errors.
     pub seed: u64,
-    /// Side of the cells of the map, metres.
+    /// Side of a cell of the map, in metres.
     pub cell: f64,
 }
 
 impl Sensor {
-    /// Cells of the map across the arm's reach, if nothing else is said.
+    /// Default number of map cells per length of the arm's reach.
     const DEFAULT_CELLS: f64 = 40.0;
 
-    /// The usual one for an arm: on the tip, 360 rays all around (what the arm moves into lies beside it as a rule, not ahead), as far
-    /// as half the arm reaches, a reading every tenth of a radian or metre, without errors.
+    /// Returns the default sensor of an arm: at the tip, without errors, with a range of half the arm's reach, and with
+    /// a reading every tenth of a radian or metre. Its 360 rays point in all directions, because the arm mostly moves
+    /// towards what lies beside the tip, not ahead of it.
     #[must_use]
     pub fn usual(arm: &Arm) -> Self {
         let cell = arm.reach() / Self::DEFAULT_CELLS;
@@ -63,7 +65,7 @@ impl Sensor {
         }
     }
 
-    /// Where it is and where straight ahead is, as an angle.
+    /// Returns the position of the sensor and the angle of its forward direction, in radians.
     #[must_use]
     pub fn pose(&self, arm: &Arm, q: [f64; 2]) -> (Point, f64) {
         match self.mount {
@@ -78,25 +80,27 @@ impl Sensor {
         }
     }
 
-    /// The angles of its rays, from right to left.
+    /// Iterates over the angles of the rays, from right to left, in radians.
     pub fn rays(&self, ahead: f64) -> impl Iterator<Item = f64> + use<> {
         let sensor = *self;
         (0..self.rays).map(move |k| sensor.ray(ahead, k))
     }
 
-    /// The angle of ray `k`.
+    /// Returns the angle of ray `k`, in radians.
     #[must_use]
     pub fn ray(&self, ahead: f64, k: usize) -> f64 {
         let first = if self.rays == 1 { ahead } else { ahead - self.field_of_view / 2.0 };
         first + self.field_of_view * (k as f64 / self.gaps() as f64)
     }
 
-    /// Gaps between rays, over the field of view: on a whole turn the last ray must not be the first once more.
+    /// Returns the number of gaps between rays in the field of view. If that is a whole turn, there is one more gap,
+    /// between the last ray and the first.
     fn gaps(&self) -> usize {
         if self.field_of_view < TAU { self.rays.max(2) - 1 } else { self.rays }
     }
 
-    /// The numbers of the rays that are no farther than an angle from a direction; some more than once if that is half a turn.
+    /// Iterates over the numbers of the rays within an angle of a direction. A ray can occur more than once if the
+    /// angle is half a turn or more.
     pub fn rays_about(&self, ahead: f64, direction: f64, angle: f64) -> impl Iterator<Item = usize> + use<> {
         let (rays, gap) = (self.rays, self.field_of_view / self.gaps() as f64);
         let from_first = (direction - self.ray(ahead, 0)).rem_euclid(TAU);

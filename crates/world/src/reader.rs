@@ -1,4 +1,4 @@
-//! Checked values of a world file.
+//! Checks the values of a world file.
 
 use super::goal_table::GoalTable;
 use super::joint_pair::JointPair;
@@ -12,14 +12,14 @@ use std::ops::Range;
 use std::path::PathBuf;
 use toml::Spanned;
 
-/// Checks values and knows the file they come from.
+/// Checks values, and knows the file for messages.
 pub(super) struct Reader<'a> {
     pub source: &'a Source,
     /// Corrections of input that is not refused.
     pub taken: Corrections,
-    /// Joint values in degrees.
+    /// Joint values that are written in degrees.
     pub in_degrees: RefCell<Vec<JointPair>>,
-    /// Paths of the files that the world names, and of those that these name.
+    /// Paths of the files that the world names, and of the files that those name.
     pub files: RefCell<Vec<PathBuf>>,
 }
 
@@ -30,7 +30,10 @@ impl<'a> Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// Returns a number that must not be negative.
+    /// Returns a number.
+    ///
+    /// # Errors
+    /// A negative number.
     pub fn not_negative(&self, number: &Number, what: &str) -> Result<f64, Diagnostic> {
         let value = self.source.finite(number, what)?;
         if value < 0.0 {
@@ -40,7 +43,10 @@ impl Reader<'_> {
         Ok(value)
     }
 
-    /// Returns exactly two numbers.
+    /// Returns two numbers.
+    ///
+    /// # Errors
+    /// Another count of numbers.
     pub fn two(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
         match numbers.get_ref().as_slice() {
             [a, b] => Ok([self.source.finite(a, what)?, self.source.finite(b, what)?]),
@@ -51,12 +57,12 @@ impl Reader<'_> {
         }
     }
 
-    /// An angle, or a joint's value.
+    /// Returns an angle or a joint's value.
     pub fn quantity(&self, written: &Written, what: &str) -> Result<f64, Diagnostic> {
         self.source.finite(&Number::new(written.span(), written.get_ref().value), what)
     }
 
-    /// Values of both joints.
+    /// Returns values of both joints.
     pub fn joint_pair(&self, written: &Spanned<Vec<Written>>, what: &str) -> Result<JointPair, Diagnostic> {
         let [a, b] = &written.get_ref()[..] else {
             let message = format!("{what}: expected two numbers, found {}", written.get_ref().len());
@@ -65,7 +71,7 @@ impl Reader<'_> {
         let values = [self.quantity(a, what)?, self.quantity(b, what)?];
         Ok(JointPair { values, degrees: [a, b].map(|w| w.get_ref().in_degrees.then(|| w.span())) })
     }
-    /// A point of the plane.
+    /// Returns a point of the plane.
     pub fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Diagnostic> {
         self.two(numbers, what).map(Point::from)
     }
@@ -116,7 +122,7 @@ impl Reader<'_> {
         self.place(goal.joints.as_ref(), goal.tip.as_ref(), at, what)
     }
 
-    /// Does the same from the two keys, exactly one of them present.
+    /// Returns joint values or a point for the tip from the two keys, of which exactly one must be present.
     pub fn place(
         &self,
         joints: Option<&Spanned<Vec<Written>>>,
@@ -142,7 +148,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns the path of a file that the world names, relative to the world file.
+    /// Returns the path of a file that the world names relative to its own file.
     pub fn beside(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Diagnostic> {
         let anchor = self.source.anchor();
         let anchor = anchor.map_err(|why| {
@@ -158,7 +164,7 @@ impl Reader<'_> {
         Err(self.source.diagnostic_at(name.span(), message).help("paths are relative to the world file"))
     }
 
-    /// Returns heights; all heights if the key is missing.
+    /// Returns heights, or all heights if the key is missing.
     pub fn heights(&self, height: Option<&Numbers>, what: &str) -> Result<Heights, Diagnostic> {
         let Some(height) = height else { return Ok(Heights::ALL) };
         let [lower, upper] = self.two(height, &format!("{what}, height"))?;

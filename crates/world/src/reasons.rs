@@ -1,19 +1,19 @@
-//! Configurations in words: why one is outside the limits or not free, why no IK solution reaches a point.
+//! Describes why a configuration is outside the limits or blocked, and why no IK solution reaches a point.
 
 use cplan_core::model::{Freedom, Inverse, Obstruction, Scene, within};
 use cplan_core::space::{Configuration, JointRange, Segment};
 use cplan_geometry::Point;
 use cplan_text::{fixed, format_distinct};
 
-/// Returns the IK solutions of `solved` that the joint limits allow, including turns of circles and long ranges. For
-/// each other branch it returns the reason.
+/// Returns the IK solutions of `solved` that the joint limits allow, with all their whole turns that they allow. Also
+/// returns the reason for each solution that is outside the limits.
 pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, Vec<String>) {
     let joints = &scene.arm().joints;
     let outside = |branch: &Configuration| {
         let counts = |i: usize| solved.free.is_none_or(|free| free == Freedom::Joint(1 - i));
         let copies = [0, 1].map(|i| within(joints[i].range, joints[i].joint_type.is_revolute(), branch[i]));
         let beyond = (0..2).any(|i| counts(i) && copies[i].is_empty());
-        // A free joint is within its limits somewhere.
+        // A free joint has values within its limits, so any of them may be shown.
         let shown = Configuration::from_fn(|i, _| match joints[i].range {
             JointRange::Interval { lower, upper } if !counts(i) => branch[i].clamp(lower, upper),
             _ => copies[i].first().copied().unwrap_or(branch[i]),
@@ -43,12 +43,12 @@ pub(super) fn describe_segment(scene: &Scene, segment: &Segment) -> String {
     format!("{}, {}", value(0), value(1))
 }
 
-/// Rounds to six decimals, which suffice for people.
+/// Rounds to six decimals, which is enough for people.
 fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6 + 0.0
 }
 
-/// Describes the joints outside their limits.
+/// Describes the joints whose values are outside their limits.
 pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     let mut outside = Vec::new();
     for (joint, value) in scene.arm().joints.iter().zip(q.iter()) {
@@ -56,7 +56,7 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
             && !joint.range.contains(*value)
         {
             let unit = joint.unit();
-            // Unrounded when rounding would hide the excess.
+            // Not rounded if rounding would hide that the value is outside.
             let shown = if joint.range.contains(rounded(*value)) { *value } else { rounded(*value) };
             outside.push(format!(
                 "joint \"{}\" at {shown} {unit} exceeds its limits [{lower}, {upper}] {unit}",
@@ -67,11 +67,11 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     outside
 }
 
-/// Hint for a configuration outside the limits.
+/// Hint about a configuration outside the limits.
 pub(super) const HELP_FOR_LIMITS: &str =
     "choose values within the limits, or override [robot] limits in the world file";
 
-/// Hint for a tip position outside the limits.
+/// Hint about a tip position outside the limits.
 pub(super) const HELP_FOR_TIP: &str = "choose another point, or override [robot] limits in the world file";
 
 /// Explains why `q` is blocked: the worst pair of shapes for each link and obstacle.
@@ -79,18 +79,18 @@ pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
     scene.obstructions(q).iter().map(|obstruction| scene.explain(obstruction)).collect()
 }
 
-/// The hint for a configuration in which links of the robot hit each other alone.
+/// Hint about a configuration in which the robot's links hit only each other.
 const HELP_FOR_OWN_BODY: &str =
     "choose another configuration, or let these links touch: [robot] ignore_contact = [[\"LINK\", \"LINK\"]]";
 
-/// Returns the hint for a configuration that is not free.
+/// Returns the hint about a blocked configuration.
 pub(super) fn help_at(scene: &Scene, q: Configuration) -> &'static str {
     let hits = scene.obstructions(q);
     let is_own = |hit: &Obstruction| scene.self_obstacle(hit.contact.pair.obstacle).is_some();
     if !hits.is_empty() && hits.iter().all(is_own) { HELP_FOR_OWN_BODY } else { help_for_contact(scene) }
 }
 
-/// Returns the hint for a configuration in contact.
+/// Returns the hint about a configuration in which the arm hits or nearly hits something.
 pub(super) fn help_for_contact(scene: &Scene) -> &'static str {
     if scene.workspace().clearance > 0.0 {
         "move it away from the obstacle, or require less clearance"
@@ -99,7 +99,7 @@ pub(super) fn help_for_contact(scene: &Scene) -> &'static str {
     }
 }
 
-/// Returns the hint if no IK solution is allowed and free: some are `outside` the limits, others `blocked`.
+/// Returns the hint if each IK solution is `outside` the limits or `blocked`. Both can be true.
 pub(super) fn help_for_ik_solutions(scene: &Scene, outside: bool, blocked: bool) -> String {
     let contact = help_for_contact(scene);
     match (outside, blocked) {
@@ -126,7 +126,7 @@ pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
     )
 }
 
-/// Returns the hint for a point out of reach.
+/// Returns the hint about a point out of reach.
 pub(super) fn help_for_reach(scene: &Scene, point: Point) -> String {
     let arm = scene.arm();
     let (upper, lower) = (arm.offset.norm(), arm.tip.norm());

@@ -1,41 +1,41 @@
-//! Requirements of steps on the arm, each listed once.
+//! Requirements of steps on the arm. Repeated steps have each of theirs once.
 
 use cplan_core::space::Configuration;
 use cplan_geometry::Point;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// Something that a step requires.
+/// Something that a step requires of the arm.
 #[derive(Debug, Clone)]
 pub(super) struct Requirement {
     pub required: Required,
     /// The step's number.
     pub step: usize,
-    /// Position in the file of the reason.
+    /// Position in the file of the value that leads to the requirement.
     pub at: Range<usize>,
 }
 
 /// The kinds of requirements.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Required {
-    /// The arm can take these values.
+    /// The arm must be able to take these joint values.
     Joints(Configuration),
-    /// The tip can be here.
+    /// The tip must be able to reach this point.
     Tip(Point),
-    /// This object can rest on something.
+    /// The object with this index must be able to rest on something.
     Rest(usize),
 }
 
-/// Requirements of steps that are repeated.
+/// The requirements of all steps, without repetitions.
 #[derive(Default)]
 pub(super) struct Requirements {
     pub all: Vec<Requirement>,
-    /// Step, kind, and bits of the values.
+    /// Number of the step, kind, and bits of the values, of each requirement.
     known: BTreeSet<(usize, u8, [u64; 2])>,
 }
 
 impl Requirements {
-    /// Adds a requirement of a step, unless the step has it already.
+    /// Adds a requirement of a step, unless the step already has it.
     pub fn add(&mut self, step: usize, required: Required, at: Range<usize>) {
         let (kind, values) = match required {
             Required::Joints(q) => (0, [q[0], q[1]].map(f64::to_bits)),

@@ -9,10 +9,10 @@ use serde::Deserialize;
 use std::f64::consts::TAU;
 use toml::Spanned;
 
-/// Rays at the most: more than any sensor has.
+/// Largest number of rays. No sensor has more.
 const MAX_RAYS: u64 = 100_000;
 
-/// Least distance between readings, in joint space. A path of many turns then has millions of readings.
+/// Least distance between readings, in joint space. With it, a path of many turns has millions of readings.
 const MIN_READING_STEP: f64 = 1e-4;
 
 /// The sensor of an exploration (`cplan explore`). Every key has a default. Rays are as wide as the map cells that they
@@ -46,7 +46,7 @@ pub(super) struct SensorTable {
     cell: Option<Number>,
 }
 
-/// The given properties of a sensor.
+/// The properties of a sensor that the file states.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct SensorWishes {
     mount: Option<Mount>,
@@ -63,7 +63,7 @@ impl SensorTable {
     /// Checks the values.
     ///
     /// # Errors
-    /// Words and numbers that make no sensor.
+    /// Invalid words and numbers.
     pub fn read(&self, reader: &Reader) -> Result<SensorWishes, Diagnostic> {
         let mount = |word: &Spanned<String>| match word.get_ref().as_str() {
             "tip" => Ok(Mount::Tip),
@@ -118,7 +118,7 @@ impl SensorTable {
 }
 
 impl SensorWishes {
-    /// The usual sensor with what is wished for.
+    /// Returns the default sensor `usual`, with the properties that the file states.
     pub fn over(&self, usual: Sensor) -> Sensor {
         Sensor {
             mount: self.mount.unwrap_or(usual.mount),

@@ -1,4 +1,4 @@
-//! Steps with their repetitions written out, and the state of the objects after each step.
+//! The steps of a task with all repetitions, and the state of the objects after each step.
 
 use super::group::{Body, Group, Leaf, LeafAction, Node, When};
 use super::object::{MovableObject, Names, Supports, rests_on_itself};
@@ -17,21 +17,21 @@ use std::ops::Range;
 #[derive(Debug, Clone)]
 pub(super) struct Sequence {
     pub items: Vec<Item>,
-    /// Requirements on the arm, each once for each step of the file.
+    /// Requirements on the arm. Each step of the file has each of its requirements once.
     pub requirements: Vec<Requirement>,
     /// Position in the file of the first step.
     pub at: Range<usize>,
 }
 
-/// Largest difference of equal orientations, radians: far above the rounding of angles, and below the repeatability of
-/// any wrist.
+/// Two orientations that differ by at most this are equal, in radians. It is far above the rounding of angles, and
+/// below the repeatability of any wrist.
 const ANGLE_TOLERANCE: f64 = 1e-9;
 
-/// Writes out the file's steps, which start at `at`.
+/// Writes out the file's steps with all repetitions. `at` is the position of the first step in the file.
 ///
 /// # Errors
 /// Picks while an object is carried, places without a carried object, repetitions that do not end in the state in which
-/// they started, and impossible orientations.
+/// they began, and impossible orientations.
 pub(super) fn write_out(
     reader: &Reader,
     names: &Names,
@@ -56,15 +56,15 @@ pub(super) fn write_out(
     Ok(Sequence { items: writer.items, requirements: writer.requirements.all, at })
 }
 
-/// The place of an object. While the object is carried, parts of it may be unknown.
+/// The place of an object. Parts of it may be unknown after the object was carried.
 #[derive(Clone, Copy)]
 struct ObjectPlace {
     at: Point,
-    /// The angle. `None` if it depends on the configuration in which a rigid payload was placed.
+    /// The angle of the object. `None` if it depends on the configuration in which a rigid payload is placed.
     angle: Option<f64>,
-    /// Position of the tip at its placement, which is required already.
+    /// Position of the tip when the object is placed. The placement already requires that the tip reaches it.
     tip: Option<Point>,
-    /// True if it moves. The other fields are then initial values.
+    /// True if the object moves by itself. The other fields are then its initial values.
     moves: bool,
 }
 
@@ -75,7 +75,7 @@ impl ObjectPlace {
         Self { at: pose.translation, angle: Some(pose.rotation.angle()), tip: None, moves }
     }
 
-    /// Returns the position of a point of the object, if it is known.
+    /// Returns the position of a point of the object's frame, if it is known.
     fn point(&self, own: Point) -> Option<Point> {
         match self.angle {
             _ if own == Point::zeros() => Some(self.at),
@@ -99,7 +99,7 @@ struct Writer<'a> {
     has_wrist: bool,
     carried: Option<CarriedObject>,
     lying: Vec<ObjectPlace>,
-    /// For each step, the number of times that it has been done.
+    /// For each step of the file, the number of times that it has been written out.
     cycles: Vec<usize>,
     items: Vec<Item>,
     requirements: Requirements,
@@ -134,7 +134,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Comes back to the beginning of a group that began with this object carried.
+    /// Begins the next repetition of a group. The arm must carry the same object as when the group began: `initial`.
     fn repeat(&mut self, group: &Group, initial: Option<usize>) -> Result<(), Diagnostic> {
         let carried = self.carried.map(|c| c.object);
         if carried != initial {
@@ -259,7 +259,11 @@ impl Writer<'_> {
         Ok(Action::Place { at, angle: asked, supports: supports.numbers.clone() })
     }
 
-    /// Returns the orientation for an object: the current one if both are equal.
+    /// Returns the angle at which an object is placed: the current one if it equals the requested one, otherwise the
+    /// requested one.
+    ///
+    /// # Errors
+    /// An object that is held rigidly, or a requested turn without a wrist.
     fn turned(&self, leaf: &Leaf, object: usize, angle: f64, place: &Range<usize>) -> Result<f64, Diagnostic> {
         let refuse = |message: String, help: &str| {
             let message = format!("step {}: {message}", leaf.number);
@@ -283,7 +287,7 @@ impl Writer<'_> {
         Ok(angle)
     }
 
-    /// Notes that an object rests on something.
+    /// Records that the object must be able to rest on its supports.
     fn rest(&mut self, leaf: &Leaf, object: usize, supports: &Supports) -> Result<(), Diagnostic> {
         if supports.numbers.contains(&self.names.as_obstacle(object)) {
             return Err(rests_on_itself(self.reader, &self.objects[object].object.name, supports));

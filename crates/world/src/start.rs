@@ -1,4 +1,4 @@
-//! The start of the arm: joint values, or the only IK solution for a tip position.
+//! The start of the arm: joint values, or a tip position that has only one IK solution.
 
 use super::problem::Place;
 use super::reasons::{describe, help_for_ik_solutions, help_for_reach, obstructions, out_of_reach, within_limits};
@@ -9,15 +9,15 @@ use cplan_geometry::Point;
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::listed;
 
-/// Values beyond a limit by at most this, radians or metres, count as at the limit. This is the rounding of nine
-/// digits, and far below the resolution of any drive.
+/// A value that exceeds a limit by at most this, in radians or metres, counts as the limit. It covers the rounding to
+/// nine digits, and is far below the resolution of any drive.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
-/// More IK solutions than this are counted, not listed.
+/// Largest number of IK solutions that a message lists. If there are more, it states their number.
 const MAX_LISTED_SOLUTIONS: usize = 6;
 
 impl LoadedScene {
-    /// Returns the start and the goal as joint values. `None` for tip positions and missing entries.
+    /// Returns the start and the first goal as joint values. `None` for one that is a tip position or missing.
     #[must_use]
     pub fn resolved_ends(&self) -> [Option<Configuration>; 2] {
         self.given().map(|end| match end {
@@ -26,7 +26,8 @@ impl LoadedScene {
         })
     }
 
-    /// Returns the start and its source. It must be within the limits up to rounding, which is removed with a note.
+    /// Returns the start and its source. It must be within the limits. An excess that is due to rounding is removed,
+    /// with a note.
     pub(super) fn start(
         &self,
         overrides: &Overrides,
@@ -51,13 +52,13 @@ impl LoadedScene {
         let q = match start {
             Goal::Joints(q) => *q,
             Goal::Tip(tip) => self.only_ik_solution(*tip, &place, notes)?,
-            // No start is read as one.
+            // A start is never an area.
             Goal::Area([corner, _]) => self.only_ik_solution(*corner, &place, notes)?,
         };
         Ok((q, place))
     }
 
-    /// Moves values that exceed a limit only by rounding to the limit.
+    /// Replaces values that exceed a limit by rounding only by the limit.
     pub(super) fn at_limits(&self, what: &str, q: Configuration, notes: &mut Vec<String>) -> Configuration {
         let joints = &self.scene.arm().joints;
         Configuration::from_fn(|i, _| {
@@ -75,7 +76,7 @@ impl LoadedScene {
         })
     }
 
-    /// Returns the IK solution for a tip position, if exactly one is within the limits and free.
+    /// Returns the IK solution for a tip position. Exactly one must be within the limits and free.
     fn only_ik_solution(
         &self,
         tip: Point,
@@ -93,7 +94,7 @@ impl LoadedScene {
             return Err(place.diagnostic(message).help("give the start's joint values: joints = [q1, q2]"));
         }
         let (allowed, outside) = within_limits(scene, &solved);
-        // No joint is free, so these are points.
+        // No joint is free, so each solution is a single configuration.
         let allowed: Vec<Configuration> = allowed.iter().map(|ik_solution| ik_solution.ends()[0]).collect();
         let (free, blocked): (Vec<_>, Vec<_>) = allowed.into_iter().partition(|q| obstructions(scene, *q).is_empty());
         match free[..] {

@@ -128,20 +128,21 @@ pub(super) struct TaskTable {
     dwell: Option<Number>,
 }
 
-/// Most steps of a task, repetitions written out: some days of work.
+/// Largest number of steps of a task, with repetitions counted. It is some days of work.
 const MAX_STEPS: usize = 100_000;
 
-/// Distance within which a position counts as on an axis, metres: the precision with which people write positions.
+/// A position within this distance of an axis counts as on it, in metres. This is the precision with which people write
+/// positions.
 const ON_AXIS_DISTANCE: f64 = 1e-3;
 
-/// Default speed and dwell of steps.
+/// Speed and dwell of steps that state none.
 #[derive(Clone, Copy)]
 struct Pace {
     speed: f64,
     dwell: f64,
 }
 
-/// Keys that a group has beside its steps.
+/// The keys of a group, besides its steps.
 struct Manner<'a> {
     repeat: Option<&'a Spanned<i64>>,
     order: Option<&'a Spanned<String>>,
@@ -155,7 +156,7 @@ pub(super) struct StepReader<'a> {
     objects: &'a [MovableObject],
     cursor: Cursor<'a>,
     file: String,
-    /// Steps read so far.
+    /// Number of steps that have been read.
     count: usize,
 }
 
@@ -231,7 +232,7 @@ impl<'a> StepReader<'a> {
         }
     }
 
-    /// Returns the pairs of a group in free order.
+    /// Returns the pairs of pick and place of a group in free order.
     fn pairs(&self, nodes: Vec<Node>) -> Result<Vec<[Leaf; 2]>, Diagnostic> {
         let source = self.reader.source;
         let help = "steps in free order are pick, place, pick, place, and so on";
@@ -301,7 +302,7 @@ impl<'a> StepReader<'a> {
         Ok(actions.into_iter().map(leaf).collect())
     }
 
-    /// Refuses keys that mean nothing where they stand.
+    /// Checks that all keys of a step apply to its action.
     fn require_fitting_keys(&self, step: &StepTable) -> Result<(), Diagnostic> {
         let refuse = |at: Option<Range<usize>>, message: &str, help: &str| match at {
             Some(at) => Err(self.reader.source.diagnostic_at(at, message).help(help)),
@@ -341,7 +342,7 @@ impl<'a> StepReader<'a> {
         })
     }
 
-    /// Returns the times at which a moving object may be picked, or `None` if there are no such keys.
+    /// Returns the times at which a moving object may be picked. `None` if the step states none.
     fn when(&self, step: &StepTable, object: &Object) -> Result<Option<When>, Diagnostic> {
         let Some(stated) = step.at.as_ref().or(step.window.as_ref()).map(Spanned::span) else { return Ok(None) };
         let name = &object.name;
@@ -384,7 +385,7 @@ impl<'a> StepReader<'a> {
         Ok(Some(When { times, at: stated }))
     }
 
-    /// Returns a place and its position in the file. `at` is the step.
+    /// Returns a place and its position in the file. `at` is the position of the step.
     fn place(&self, place: &PlaceTable, at: Range<usize>) -> Result<(Range<usize>, LeafAction), Diagnostic> {
         let (to, stated) = match (&place.at, &place.on) {
             (Some(at), None) => (self.reader.point(at, "place, at")?, at.span()),
@@ -405,7 +406,7 @@ impl<'a> StepReader<'a> {
         angle.map(|angle| Ok((self.reader.quantity(angle, "place, angle")?, angle.span()))).transpose()
     }
 
-    /// Returns the steps of a transfer, with the position in the file of each.
+    /// Returns the steps of a transfer, each with its position in the file.
     fn transfer(&self, transfer: &TransferTable) -> Result<Vec<(Range<usize>, LeafAction)>, Diagnostic> {
         let TransferTable { objects, to, .. } = transfer;
         let family = self.names.family(self.reader, objects)?;

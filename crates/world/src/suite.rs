@@ -1,4 +1,4 @@
-//! Many problems: those that a manifest lists, or all worlds of a folder with one robot.
+//! Many problems: those that a manifest lists, or one robot in all worlds of a folder.
 
 use super::world::in_toml_words;
 use super::{LoadedProblem, LoadedScene, Overrides, RobotFile, load_scene};
@@ -7,17 +7,17 @@ use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
-/// Name of a folder's manifest.
+/// Name of the manifest in a folder.
 pub const MANIFEST_NAME: &str = "suite.toml";
 
-/// Robots in their worlds, read, in the order in which they were named.
+/// Robots in their worlds, in the order in which they are listed.
 #[derive(Debug, Clone)]
 pub struct Suite {
     /// The title of the suite.
     pub name: String,
-    /// The worlds, at least one, with distinct names.
+    /// The worlds that were read, at least one. Their names are distinct.
     pub members: Vec<Member>,
-    /// Worlds that are nothing to compare planners on.
+    /// Worlds that planners cannot be compared on.
     pub left_out: Vec<ExcludedWorld>,
     /// Problems that cannot be read.
     pub refused: Vec<RefusedProblem>,
@@ -25,28 +25,28 @@ pub struct Suite {
     pub files: Vec<PathBuf>,
 }
 
-/// A world that is nothing to compare planners on.
+/// A world that planners cannot be compared on.
 #[derive(Debug, Clone)]
 pub struct ExcludedWorld {
     /// The world file.
     pub world: PathBuf,
-    /// The reason, as a sentence about "it".
+    /// The reason, as a clause that follows "it".
     pub why: &'static str,
 }
 
-/// A problem that cannot be read, or whose start or goal cannot be.
+/// A problem that cannot be read, or whose start or goal is invalid.
 #[derive(Debug, Clone)]
 pub struct RefusedProblem {
-    /// Stands for the problem in tables.
+    /// Name of the problem in tables.
     pub name: String,
-    /// Why it cannot be read.
+    /// The reason.
     pub error: InputError,
 }
 
 /// A robot in a world.
 #[derive(Debug, Clone)]
 pub struct Member {
-    /// Stands for the problem in tables.
+    /// Name of the problem in tables.
     pub name: String,
     /// The scene, as from [`load_scene`].
     pub scene: LoadedScene,
@@ -68,15 +68,15 @@ struct ProblemTable {
     world: Spanned<String>,
 }
 
-/// A pair of files, before they are read.
+/// A robot file and a world file that have not been read yet.
 struct Pair {
     name: Option<String>,
     robot: RobotFile,
     world: PathBuf,
 }
 
-/// Reads the problems that a manifest lists: `place` is the manifest, or a folder that holds one of the name
-/// [`MANIFEST_NAME`]. Paths in it are relative to it.
+/// Reads the problems that a manifest lists. `place` is the manifest, or a folder with a manifest named
+/// [`MANIFEST_NAME`]. Paths in a manifest are relative to its folder.
 ///
 /// ```toml
 /// name = "two tables"          # optional
@@ -144,11 +144,11 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
     Ok(suite)
 }
 
-/// Reads all worlds of a folder (every `.toml` except [`MANIFEST_NAME`], by name) with one robot.
+/// Reads one robot in all worlds of a folder: every file `.toml` except [`MANIFEST_NAME`], ordered by name.
 ///
 /// # Errors
-/// [`InputError`] for a folder without worlds, and with every diagnostic of all files if none can be read. If some can,
-/// the others are in [`Suite::refused`].
+/// [`InputError`] for a folder without worlds, and with all diagnostics of all files if none can be read. If some can
+/// be read, the others are in [`Suite::refused`].
 pub fn load_folder(robot: impl Into<RobotFile>, folder: &Path) -> Result<Suite, InputError> {
     let whole = |message: String| Diagnostic::new(folder.display().to_string(), message);
     let entries = std::fs::read_dir(folder).map_err(|error| {
@@ -169,7 +169,7 @@ pub fn load_folder(robot: impl Into<RobotFile>, folder: &Path) -> Result<Suite, 
     read(folder_name(folder), pairs, Vec::new())
 }
 
-/// Reads all files, and collects the defects of those that cannot be read.
+/// Reads all files. Collects the defects of those that cannot be read.
 fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<RefusedProblem>) -> Result<Suite, InputError> {
     let (mut members, mut left_out) = (Vec::<Member>::new(), Vec::new());
     let mut files = Vec::new();
@@ -202,11 +202,14 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<RefusedProblem>) -> Res
     Ok(Suite { name, members, left_out, refused, files })
 }
 
-/// Returns the error with all these defects, if there are any.
+/// Returns an error with all these defects.
+///
+/// # Errors
+/// The error, if there are any defects.
 fn all_of(refused: &[RefusedProblem]) -> Result<(), InputError> {
     let mut diagnostics: Vec<Diagnostic> = Vec::new();
     for diagnostic in refused.iter().flat_map(|refused| refused.error.diagnostics()) {
-        // One robot in many worlds has the same diagnostics in each.
+        // Diagnostics about the robot are the same in each world, so they are reported once.
         if !diagnostics.contains(diagnostic) {
             diagnostics.push(diagnostic.clone());
         }
@@ -215,11 +218,11 @@ fn all_of(refused: &[RefusedProblem]) -> Result<(), InputError> {
 }
 
 impl Suite {
-    /// Sets start and goal in every scene, like [`LoadedScene::problem`]. Invalid problems are reported beside the
-    /// unreadable ones.
+    /// Sets start and goal in every scene, as [`LoadedScene::problem`] does. Invalid problems are added to those that
+    /// cannot be read.
     ///
     /// # Errors
-    /// [`InputError`] with the diagnostics of all of them, if no problem is left.
+    /// [`InputError`] with the diagnostics of all problems, if none is left.
     pub fn problems(self, overrides: &Overrides) -> Result<LoadedProblems, InputError> {
         let (mut problems, mut refused) = (Vec::new(), self.refused);
         for Member { name, scene } in self.members {
@@ -235,7 +238,7 @@ impl Suite {
     }
 }
 
-/// Problems with their names, and those that cannot be asked.
+/// Valid problems with their names, and the problems that are invalid or cannot be read.
 pub type LoadedProblems = (Vec<(String, LoadedProblem)>, Vec<RefusedProblem>);
 
 /// Returns a file's name without its extension.
@@ -243,14 +246,15 @@ fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// Returns a folder's own name, even for a path that is `..` or empty.
+/// Returns the name of a folder, also for a path that is `..` or empty.
 fn folder_name(folder: &Path) -> String {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     whole.file_name().map_or_else(|| whole.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
-/// Returns `name`, or a distinct one with the robot's name and a number if it is taken.
+/// Returns `name` if it is not taken. Otherwise returns a distinct name, with the name of the robot and, if necessary,
+/// a number.
 fn distinct(name: &str, robot: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let with_robot = format!("{name}, {robot}");
     let numbered = (2_usize..).map(|number| format!("{with_robot}, {number}"));

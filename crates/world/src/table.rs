@@ -1,4 +1,4 @@
-//! TOML tables that are read as tables only.
+//! TOML tables that cannot be written as arrays.
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
@@ -6,8 +6,8 @@ use serde::{Deserialize, Deserializer};
 use std::fmt;
 use std::marker::PhantomData;
 
-/// A table, not an array, which serde would take for the table's values in the order of its keys: `place = [0.5, 0.6]`
-/// would be refused for its first number.
+/// A table that refuses arrays. Serde would take the elements of an array for the table's values in the order of its
+/// keys: `place = [0.5, 0.6]` would be refused for its first number.
 pub(super) struct Table<T>(pub T);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {

@@ -1,4 +1,4 @@
-//! The steps of a world as a task for its arm.
+//! Converts the steps of a world to a task for its arm.
 
 use super::reasons::{HELP_FOR_LIMITS, HELP_FOR_TIP, beyond_limits, help_for_reach, out_of_reach, within_limits};
 use super::requirement::{Required, Requirement};
@@ -10,10 +10,10 @@ use cplan_handling::{Payload, Stroke, Task, TimedWorkspace};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError, RobotReport};
 use cplan_text::listed;
 
-/// A task and how it was read.
+/// A task, and how it was read.
 #[derive(Debug, Clone)]
 pub struct LoadedTask {
-    /// The task; its start is within the limits and free, unless it is [`LoadedScene::recorded_task`].
+    /// The task. Its start is within the limits and free, unless it comes from [`LoadedScene::recorded_task`].
     pub task: Task,
     /// The arm, empty-handed, among obstacles and objects at their initial places.
     pub scene: Scene,
@@ -24,27 +24,27 @@ pub struct LoadedTask {
 }
 
 impl LoadedScene {
-    /// Returns true if the world has steps, and so no goal.
+    /// Returns true if the world has steps. Such a world has no goal.
     #[must_use]
     pub fn has_steps(&self) -> bool {
         self.world.steps.is_some()
     }
 
-    /// Returns the task of the world's steps, from the start on the command line or else in the world.
+    /// Returns the task of the world's steps. A start on the command line overrides that of the world.
     ///
     /// # Errors
     /// A world without steps; a goal on the command line; a start that is missing, outside the limits or blocked; a
-    /// step that asks for joint values outside the limits, for a point out of the tip's reach, or for a too thin object
-    /// to rest.
+    /// step that requires joint values outside the limits, a point out of the tip's reach, or that a too thin object
+    /// rests on something.
     pub fn task(self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
         self.task_from(overrides, true)
     }
 
-    /// Does the same for judging a recording of the task. The start may then be outside the limits or blocked, which
-    /// the judgement reports.
+    /// Returns the task for judging a recording. Its start may be outside the limits or blocked, which the judgement
+    /// reports.
     ///
     /// # Errors
-    /// Otherwise those of [`LoadedScene::task`].
+    /// The errors of [`LoadedScene::task`] that do not concern the start.
     pub fn recorded_task(self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
         self.task_from(overrides, false)
     }
@@ -83,7 +83,7 @@ impl LoadedScene {
         Ok(LoadedTask { task, scene, robot, notes })
     }
 
-    /// Returns the reason why the arm cannot satisfy a requirement, or `None`.
+    /// Returns the reason why the arm cannot satisfy a requirement. `None` if it can.
     fn unfulfilled(&self, requirement: &Requirement, start: Configuration) -> Option<Diagnostic> {
         let step = format!("step {}", requirement.step);
         let (message, help) = match requirement.required {
@@ -105,7 +105,7 @@ impl LoadedScene {
         if solved.branches.is_empty() {
             return Some((out_of_reach(&self.scene, &format!("{step}:"), tip), help_for_reach(&self.scene, tip)));
         }
-        // Where a joint's value does not matter, others of its values may be within the limits.
+        // If a joint's value does not matter, another value may be within the limits.
         let (allowed, outside) = within_limits(&self.scene, &solved);
         (allowed.is_empty() && solved.free.is_none()).then(|| {
             let message = format!(
@@ -133,7 +133,8 @@ impl LoadedScene {
     }
 }
 
-/// Iterates over the objects for which the tool would have to move farther down than its joint allows.
+/// Iterates over the objects that the tool cannot reach because it would have to move farther down than its joint
+/// allows.
 fn too_deep<'a>(stroke: &'a Stroke, world: &'a World) -> impl Iterator<Item = Diagnostic> + 'a {
     let joint = &stroke.joint;
     world.objects.iter().filter_map(|object| {

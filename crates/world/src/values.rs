@@ -14,19 +14,19 @@ use std::str::FromStr;
 pub struct Overrides {
     /// The value of `--start`.
     pub start: Option<JointValues>,
-    /// `--goal`; not together with `goal_tip`.
+    /// The value of `--goal`. It excludes `goal_tip`.
     pub goal: Option<JointValues>,
-    /// `--goal-tip`, metres in plane coordinates.
+    /// The value of `--goal-tip`, in plane coordinates, in metres.
     pub goal_tip: Option<TipPoint>,
     /// The value of `--clearance`, metres.
     pub clearance: Option<f64>,
 }
 
 impl LoadedScene {
-    /// Sets the clearance of `--clearance`, metres, instead of the world's. `None` keeps the world's.
+    /// Sets the clearance that overrides the world's, in metres. `None` keeps the world's.
     ///
     /// # Errors
-    /// If it is negative or not finite.
+    /// A clearance that is negative or not finite.
     pub fn keeping(mut self, clearance: Option<f64>) -> Result<Self, InputError> {
         if let Some(clearance) = clearance {
             let refused = |diagnostic: SceneError| {
@@ -37,10 +37,10 @@ impl LoadedScene {
         Ok(self)
     }
 
-    /// Limits motions by the joints' efforts, even if the world does not.
+    /// Limits motions by the efforts of the joints, even if the world file does not request it.
     ///
     /// # Errors
-    /// If the robot lacks the necessary data.
+    /// A robot that lacks the necessary data.
     pub fn keeping_efforts(mut self) -> Result<Self, InputError> {
         if self.scene.arm().dynamics.is_none() {
             let why = self.robot.no_dynamics.as_deref().unwrap_or("the arm has no masses");
@@ -49,13 +49,14 @@ impl LoadedScene {
                 .into());
         }
         keep_efforts(self.scene.arm_mut());
-        // Efforts take the place of accelerations that nobody gives.
+        // Efforts replace assumed acceleration limits.
         self.robot.assumed.acceleration.clear();
         Ok(self)
     }
 }
 
-/// Two joint values as written: `-0.9,0.4` or `10deg, 20deg`. Without a suffix radians or metres, as the joint has it.
+/// Two joint values as the user writes them: `-0.9,0.4` or `10deg, 20deg`. Values without the suffix `deg` are in
+/// radians for a revolute joint, and in metres for a prismatic one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointValues {
     numbers: [f64; 2],
@@ -66,7 +67,7 @@ impl JointValues {
     /// Returns the values in radians and metres.
     ///
     /// # Errors
-    /// If a prismatic joint's value has the suffix `deg`. `option` names the option in the message.
+    /// A value of a prismatic joint with the suffix `deg`. `option` names the option in the message.
     pub fn resolve(&self, joints: &[Joint; 2], option: &str) -> Result<Configuration, Diagnostic> {
         let mut q = Configuration::zeros();
         for i in 0..2 {
@@ -104,7 +105,7 @@ impl fmt::Display for JointValues {
 }
 
 impl From<Configuration> for JointValues {
-    /// Converts from radians and metres.
+    /// Creates values from radians and metres.
     fn from(q: Configuration) -> Self {
         Self { numbers: q.into(), degrees: [false; 2] }
     }
@@ -124,7 +125,7 @@ impl FromStr for JointValues {
     }
 }
 
-/// A point of the plane as written: `0.35,0.5`, metres.
+/// A point of the plane as the user writes it: `0.35,0.5`, in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipPoint(pub Point);
 

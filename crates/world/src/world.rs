@@ -27,7 +27,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 use toml::Spanned;
 
-/// A world file that has been read: the workspace is valid; names of joints and links are not yet checked.
+/// A world file that has been read. Its workspace is valid, but names of joints and links are not checked yet.
 #[derive(Debug, Clone)]
 pub struct World {
     /// Obstacles without the objects, clearance and title.
@@ -36,26 +36,26 @@ pub struct World {
     pub objects: Vec<Object>,
     /// Notes about input that was corrected.
     pub notes: Vec<String>,
-    /// Paths of the files that the world names, and of those that these name.
+    /// Paths of the files that the world names, and of the files that those name.
     pub(super) named_files: Vec<PathBuf>,
     pub(super) source: Source,
     pub(super) robot: RobotTable,
-    /// Placement of the robot, if it is given.
+    /// Pose of the robot in the world. `None` if the file states none.
     pub(super) place: Option<Pose>,
     pub(super) start: Option<(Goal, Range<usize>)>,
-    /// Joint values that are in degrees, where it is not yet known whether the joints turn.
+    /// Joint values that are written in degrees. Whether the joints are revolute is checked when the robot is known.
     pub(super) in_degrees: Vec<JointPair>,
-    /// The alternative goals, at least one, and their position in the file.
+    /// The alternative goals, at least one, and their position in the file. `None` if the file states no goal.
     pub(super) goals: Option<(Vec<Goal>, Range<usize>)>,
     pub(super) steps: Option<Sequence>,
     pub(super) sensor: SensorWishes,
-    /// The wrist, with a note about it.
+    /// The wrist, with a note about its limits if any is assumed.
     pub(super) wrist: Option<(Wrist, Option<String>)>,
 }
 
 impl World {
     /// Creates an empty world.
-    pub(super) fn silent() -> Self {
+    pub(super) fn empty() -> Self {
         Self {
             workspace: Workspace::new([]).into(),
             objects: Vec::new(),
@@ -83,7 +83,8 @@ impl World {
         RobotSettings { table: &self.robot, source: &self.source, has_steps: self.steps.is_some() }
     }
 
-    /// Returns the workspace with every object at its initial place, after the static obstacles, or on its motion.
+    /// Returns the workspace with all objects after the static obstacles. Each object is at its initial place, or moves
+    /// as the file states.
     pub(super) fn initial_workspace(&self) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
         let lying = |object: &Object| object.obstacle_at(object.initial_static_pose().as_ref());
@@ -151,11 +152,12 @@ struct StartTable {
     tip: Option<Numbers>,
 }
 
-/// The schema of the world file, JSON Schema draft 7 (what editors of TOML read). It has every key with its meaning and
-/// unit, and refuses unknown keys, missing ones and all but exactly one shape, region or kind of goal.
+/// Returns the schema of world files, in JSON Schema draft 7, which editors of TOML read. It has every key with its
+/// meaning and unit. It refuses unknown keys, missing keys, and anything but exactly one shape, one region and one kind
+/// of goal.
 ///
-/// What it cannot say is checked only when the file is read: that polygons are simple, that names exist, that files are
-/// there, that numbers are not too large, that an arm can take the values.
+/// Other conditions are checked only when the file is read: polygons are simple, names and files exist, numbers are not
+/// too large, and the arm can take the values.
 #[must_use]
 pub fn world_schema() -> Value {
     toml_schema::<WorldFile>()
@@ -164,7 +166,7 @@ pub fn world_schema() -> Value {
 /// Reads a world.
 ///
 /// # Errors
-/// On malformed TOML, unknown keys and invalid values, with line, column and a caret.
+/// Malformed TOML, unknown keys and invalid values, with line, column and a caret.
 pub(super) fn read(source: Source) -> Result<World, InputError> {
     if source.text().trim_start().starts_with('<') {
         let diagnostic = source.diagnostic("this is XML, not a world file (TOML)");
@@ -222,7 +224,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         start,
         in_degrees: reader.in_degrees.take(),
         named_files: reader.files.take(),
-        // Steps count for more than a map's goal.
+        // If the world has steps, the goals of its map are ignored.
         goals: goals.or(map.goals.filter(|_| steps.is_none())),
         objects: movables.into_iter().map(|movable| movable.object).collect(),
         steps,
@@ -234,7 +236,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     })
 }
 
-/// Returns the steps, written out, or `None` without steps.
+/// Returns the steps with all repetitions. `None` if there are no steps.
 fn steps(
     reader: &Reader,
     file: &WorldFile,
@@ -259,7 +261,7 @@ fn steps(
     write_out(reader, names, movables, has_wrist, &group, at).map(Some)
 }
 
-/// Returns the deserialiser's message with TOML's words for keys and numbers instead of Rust's.
+/// Returns the deserialiser's message, with TOML's words for keys and numbers in place of Rust's.
 pub fn in_toml_words(message: &str) -> String {
     message
         .replace("unknown field", "unknown key")

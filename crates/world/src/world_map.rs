@@ -1,4 +1,4 @@
-//! The world file's `[map]`: a line map and a preference file, brought to metres.
+//! The table `[map]` of the world file: a line map and a preference file, converted to metres.
 
 use super::line_map::LineMap;
 use super::obstacle::MAX_PIECES;
@@ -37,16 +37,16 @@ pub(super) struct MapTable {
     height: Option<Numbers>,
 }
 
-/// The contents that a map adds to a world, metres.
+/// The obstacles, goals and preferences that a map adds to a world, in metres.
 #[derive(Default)]
 pub(super) struct MapContent {
     pub obstacles: Vec<Obstacle>,
-    /// The goal rectangles, and what in the world file names them.
+    /// The goal rectangles, and the position in the world file of the name of their file.
     pub goals: Option<(Vec<Goal>, Range<usize>)>,
     pub preferences: Vec<Preference>,
 }
 
-/// Maps are in millimetres unless the world says otherwise.
+/// Metres per unit of a map. Maps are in millimetres unless the world file states another scale.
 const MILLIMETER: f64 = 1e-3;
 
 /// Reads the files that the table names.
@@ -77,7 +77,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
         let points: Vec<Point> = points.into_iter().map(place).collect();
         let (shape, pieces) = match points[..] {
             [center] => (Shape::Circle { center, radius: 0.0 }, vec![Convex::point(center)]),
-            // Ends that are apart in the file may coincide in metres: that is a point.
+            // The ends differ in the file but are equal in metres, so the line is a point.
             _ => {
                 let pieces = points.windows(2).map(|w| Convex::between(w[0], w[1])).collect();
                 (Shape::Polyline(points), pieces)
@@ -119,12 +119,12 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
     Ok(content)
 }
 
-/// Returns the file's name without extension, as a prefix for names.
+/// Returns the file's name without extension, as a prefix of obstacles' names.
 fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "map".to_owned(), |s| s.to_string_lossy().into_owned())
 }
 
-/// Metres a unit.
+/// Returns the number of metres per unit.
 fn scale(reader: &Reader, number: &Number) -> Result<f64, InputError> {
     let scale = reader.source.finite(number, "map scale")?;
     if scale > 0.0 {

@@ -1,4 +1,4 @@
-//! `cplan batch`: problems as JSON lines, one result per line, one process for thousands.
+//! `cplan batch`: reads problems as JSON lines, and writes one result per line. A single process plans for thousands.
 
 mod reader;
 mod turns;
@@ -69,7 +69,7 @@ pub struct BatchArgs {
     pub time: Option<f64>,
 }
 
-/// The answer to a line.
+/// The answer to a line, as JSON.
 #[derive(Serialize)]
 struct Row<T> {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -85,7 +85,7 @@ struct Stopped {
     reason: String,
 }
 
-/// Answers all lines.
+/// Answers all lines of the input.
 ///
 /// # Errors
 /// Input that cannot be read or contains no objects, and output that cannot be written.
@@ -108,7 +108,7 @@ pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
         (1..args.jobs).for_each(|_| drop(scope.spawn(work)));
         work();
     });
-    // Prints each warning once, in an order that does not depend on the jobs.
+    // Each warning is printed once, in an order that does not depend on the number of jobs.
     let warnings = warnings.into_inner().unwrap_or_else(PoisonError::into_inner);
     warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     let count = turns.end()?;
@@ -132,7 +132,7 @@ fn opened(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
     Ok(Box::new(File::open(path).map_err(refused)?))
 }
 
-/// Returns the answer as a line, and true if the answered line is an object.
+/// Returns the answer as a line. The second value is true if the answered line is a JSON object.
 fn row(answer: Answer, fields: &[String]) -> (String, bool) {
     let Answer { id, is_object, plan } = answer;
     let text = match plan {

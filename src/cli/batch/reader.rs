@@ -1,4 +1,4 @@
-//! Converts lines to problems. Repeated robots, worlds and option lists are read once.
+//! Converts lines to problems. Reads robots, worlds and option lists that several lines have only once.
 
 use super::turns::Line;
 use crate::cli::failure::Failure;
@@ -16,14 +16,14 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Greatest number of robots, and of option lists, that are remembered.
+/// Largest number of robots that are remembered, and of option lists.
 const MAX_REMEMBERED: usize = 256;
 
 /// The keys of a line.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LineKeys {
-    /// Kept in its original form.
+    /// The key `id`, which is copied to the answer as it is written.
     #[serde(rename = "id")]
     _id: Option<IgnoredAny>,
     urdf: Option<PathBuf>,
@@ -56,7 +56,7 @@ impl Default for Options {
     }
 }
 
-/// A file, or a text instead of it.
+/// A file by its name, or its text.
 #[derive(Clone, PartialEq, Eq, Hash)]
 enum Named {
     File(PathBuf),
@@ -66,11 +66,11 @@ enum Named {
 
 /// The answer to a line.
 pub struct Answer {
-    /// The line's `id`, character by character, so that no number is too large.
+    /// The line's `id` as it is written, so that even very large numbers are preserved.
     pub id: Option<Box<RawValue>>,
     /// True if the line is a JSON object.
     pub is_object: bool,
-    /// The answer itself.
+    /// The plan, or the reason why there is none.
     pub plan: Result<ProblemOutcome, Failure>,
 }
 
@@ -78,18 +78,18 @@ pub struct Answer {
 pub enum ProblemOutcome {
     /// The finished plan.
     Done(Box<Plan>),
-    /// The time was up before the end; the reason, in words.
+    /// The time limit was reached. Contains the reason in words.
     Stopped(String),
 }
 
-/// A reader of lines, which remembers their robots and options.
+/// A reader of lines. It remembers their robots and options.
 #[derive(Default)]
 pub struct Reader {
     robots: HashMap<Named, RememberedRobot>,
     words: HashMap<Vec<String>, ParsedWords>,
 }
 
-/// A robot, and the last world in which it was loaded.
+/// A robot, and the last world that was loaded with it.
 struct RememberedRobot {
     source: Source,
     world: Named,
@@ -100,7 +100,7 @@ impl Reader {
     /// Answers a line within a time limit. `input` is the name of its file in messages.
     pub fn answer(&mut self, line: &Line, input: &str, limit: Option<Duration>) -> Answer {
         let refused = |message: String, help: &str| refused(input, line.number, message, help);
-        // The parser reports a position within this line.
+        // The parser's position refers to the line, not to the whole file.
         let json_error = |error: serde_json::Error| error.to_string().replace(" at line 1 column", " at column");
         let mut keys = match serde_json::from_slice::<HashMap<String, Box<RawValue>>>(&line.text) {
             Ok(keys) => keys,
@@ -117,7 +117,7 @@ impl Reader {
         };
         let given = serde_json::from_slice(&line.text)
             .map_err(|error| refused(json_error(error), "`cplan batch --help` describes the members of a line"));
-        // A failure of one problem does not affect the others, which are answered, too.
+        // If planning fails for one line, the other lines are still answered.
         let planned = given.and_then(|given| {
             let help = "please report it with this line; the other lines are answered";
             caught(|| self.in_time(given, &refused, limit)).unwrap_or_else(|why| Err(refused(why, help)))
@@ -125,7 +125,7 @@ impl Reader {
         Answer { id: keys.remove("id"), is_object: true, plan: planned }
     }
 
-    /// Plans within the time limit.
+    /// Plans, unless the time limit is reached.
     fn in_time(
         &mut self,
         given: LineKeys,
@@ -206,8 +206,8 @@ impl Named {
     }
 }
 
-/// Returns an option by name, as a word of the command line; `None` for values that are false or null. Pairs are
-/// separated by commas, numbers of cells by an x.
+/// Converts an option of a line to a word of the command line. `None` if its value is false or null. Pairs are written
+/// with a comma, and numbers of cells with an x.
 fn word(name: &str, value: &Value) -> Result<Option<String>, String> {
     let option = format!("--{}", name.replace('_', "-"));
     let one = |value: &Value| match value {
@@ -228,7 +228,7 @@ fn word(name: &str, value: &Value) -> Result<Option<String>, String> {
     })
 }
 
-/// Forgets all entries when there is no more room. Repeated ones are soon known again.
+/// Removes all entries if there is no room for another one. Repeated ones are added again later.
 fn make_room<K, V>(known: &mut HashMap<K, V>) {
     if known.len() >= MAX_REMEMBERED {
         known.clear();

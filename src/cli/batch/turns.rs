@@ -1,20 +1,22 @@
-//! Lines in and out. A job that is done with a line takes the next one, and answers leave in the order of the lines.
+//! Passes lines to jobs and collects their answers. A job that has answered a line takes the next one. Answers are
+//! written in the order of the lines.
 
 use crate::cli::failure::Failure;
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, ErrorKind, Read, Write};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Greatest length of a line, bytes, so that endless input ends with an error.
+/// Longest line, in bytes. With it, endless input ends with an error.
 const MAX_LINE_BYTES: u64 = 64 << 20;
 
-/// Bytes with which some programs begin a text in UTF-8.
+/// Bytes that some programs write before a text in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// Number of answers per job that may wait for an earlier one: enough to keep all jobs busy during a hard problem.
+/// Largest number of answers per job that wait for an earlier one. It is enough to keep all jobs busy during a hard
+/// problem.
 const MAX_WAITING_PER_JOB: usize = 64;
 
-/// A line that is not blank, and its number among all, from 1.
+/// A line that is not blank, and its number among all lines, from 1.
 pub struct Line {
     pub number: usize,
     pub text: Vec<u8>,
@@ -23,13 +25,13 @@ pub struct Line {
 /// Counts of the input.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Count {
-    /// Lines that are not blank.
+    /// Number of lines that are not blank.
     pub lines: usize,
-    /// JSON objects among them.
+    /// Number of these lines that are JSON objects.
     pub objects: usize,
 }
 
-/// Shared by all jobs.
+/// Input and output that all jobs share.
 pub struct Turns<R, W> {
     input: Mutex<Input<R>>,
     output: Mutex<Output<W>>,
@@ -39,11 +41,11 @@ pub struct Turns<R, W> {
 
 struct Input<R> {
     reader: R,
-    /// Its name in messages.
+    /// Name of the input in messages.
     name: String,
-    /// Lines read, blank ones included.
+    /// Number of lines that have been read, including blank ones.
     read: usize,
-    /// Lines given out.
+    /// Number of lines that have been passed to jobs.
     given: usize,
 }
 
@@ -52,7 +54,7 @@ struct Output<W> {
     waiting: BTreeMap<usize, String>,
     written: usize,
     count: Count,
-    /// The reason for the end of the work. It is no failure if the reader of the output has closed it.
+    /// The reason why the work has ended. If the reader of the output has closed it, that is no failure.
     ended: Option<Result<(), Failure>>,
 }
 
@@ -68,7 +70,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
         }
     }
 
-    /// Answers lines until there are no more. `answer` returns the answer, and true if the line was an object.
+    /// Answers lines until there are no more. `answer` returns the answer, and true if the line was a JSON object.
     pub fn work(&self, mut answer: impl FnMut(&Line) -> (String, bool)) {
         while self.has_room() {
             match self.next() {
@@ -91,7 +93,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
         output.ended.unwrap_or(Ok(())).map(|()| output.count)
     }
 
-    /// Waits until there is room for another waiting answer. Returns false at the end of the work.
+    /// Waits until another answer may wait. Returns false if the work has ended.
     fn has_room(&self) -> bool {
         let is_full = |output: &mut Output<W>| output.ended.is_none() && output.waiting.len() >= self.most;
         self.moved.wait_while(self.output(), is_full).unwrap_or_else(PoisonError::into_inner).ended.is_none()
@@ -128,7 +130,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
         }
     }
 
-    /// Writes an answer and those that waited for it, or lets it wait.
+    /// Writes an answer and those that waited for it, or stores it until its turn.
     fn put(&self, turn: usize, text: String, is_object: bool) {
         let mut output = self.output();
         output.count.lines += 1;
@@ -163,7 +165,7 @@ impl<W: Write> Output<W> {
         self.writer.flush()
     }
 
-    /// Ends the work; only the first reason counts.
+    /// Ends the work. Only the first reason is recorded.
     fn end(&mut self, why: Result<(), Failure>) {
         self.ended.get_or_insert(why);
     }
@@ -183,7 +185,7 @@ mod tests {
         let turns = Turns::new(lines.as_bytes(), "input", &mut written, JOBS);
         let done = AtomicUsize::new(0);
         let answer = |line: &Line| {
-            // The first line takes until all others wait for it.
+            // The first line is answered when all other jobs wait for it.
             if line.number == 1 {
                 while done.load(Ordering::SeqCst) < MAX_WAITING_PER_JOB * JOBS {
                     std::thread::yield_now();

@@ -12,15 +12,15 @@ use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The problems to compare, read and checked.
+/// The problems to compare planners on, read and checked.
 pub struct Cases {
-    /// Their common title.
+    /// Title of all problems.
     pub title: String,
-    /// Problems, at least one.
+    /// The problems, at least one.
     pub cases: Vec<Case>,
-    /// Random queries instead of the worlds' own.
+    /// How queries are drawn at random. `None` if they are those of the worlds.
     pub sampling: Option<Sampling>,
-    /// Excluded problems with the reason, one line each.
+    /// Problems that were left out, each with the reason on the same line.
     pub left_out: Vec<String>,
     /// Problems that could not be run.
     pub refused: Vec<Refusal>,
@@ -30,20 +30,21 @@ pub struct Cases {
     pub files: Vec<PathBuf>,
 }
 
-/// A robot in a world, as one column of the comparison.
+/// A problem of the comparison: a robot in a world.
 pub struct Case {
     /// Name of the problem in tables.
     pub name: String,
-    /// Number of its world, from 0.
+    /// Index of its world, from 0.
     pub world: usize,
-    /// The problem with the world's own start and goal, or with any for random queries.
+    /// The problem with the world's own start and goal. For random queries, start and goal have no meaning.
     base: Arc<MotionProblem>,
-    /// Start and goal of a random query.
+    /// Start and goal of a random query. `None` for the world's own query.
     pub query: Option<[Configuration; 2]>,
 }
 
 impl Case {
-    /// Returns the problem itself. For a random query it is a copy of the scene, since there may be a million queries.
+    /// Returns the problem. For a random query, it is a copy: storing one for each of a million queries would take too
+    /// much memory.
     pub fn problem(&self) -> Cow<'_, MotionProblem> {
         match self.query {
             None => Cow::Borrowed(&self.base),
@@ -51,7 +52,7 @@ impl Case {
         }
     }
 
-    /// Returns the problem before a random query is set: its scene is the case's.
+    /// Returns the problem whose scene the case uses, before a random query is set.
     pub fn base(&self) -> &MotionProblem {
         &self.base
     }
@@ -65,7 +66,7 @@ impl Cases {
     /// Reads the files that the arguments name.
     ///
     /// # Errors
-    /// Every diagnostic of all files at once.
+    /// All diagnostics of all files together.
     pub fn load(args: &CompareArgs) -> Result<Self, Failure> {
         let suite = match (&args.urdf, &args.world, &args.suite) {
             (Some(urdf), Some(world), _) => one(input::load_scene(args.xacro.robot(urdf), world)?),
@@ -76,10 +77,10 @@ impl Cases {
         Self::of_suite(suite, args)
     }
 
-    /// Creates the cases for a robot in a world that is read already.
+    /// Creates the cases for a robot in a world that has been read.
     ///
     /// # Errors
-    /// Same as for [`Cases::load`].
+    /// The errors of [`Cases::load`].
     pub fn of_scene(scene: LoadedScene, args: &CompareArgs) -> Result<Self, Failure> {
         Self::of_suite(one(scene), args)
     }
@@ -110,7 +111,7 @@ impl Cases {
         }
         let sampling = args.queries.map(|queries| Sampling { queries: queries as usize, seed: args.seed });
         let mut cases = Vec::new();
-        // Worlds are numbered without gaps.
+        // Worlds have consecutive numbers.
         let mut world = 0;
         for (name, problem) in bases {
             let name = if args.is_single() { title_of(problem.scene()) } else { name };
@@ -137,7 +138,7 @@ impl Cases {
     }
 }
 
-/// Returns a robot in a world as a suite of one.
+/// Returns a suite that consists of one robot in its world.
 fn one(scene: LoadedScene) -> Suite {
     let name = scene.scene.workspace().name.clone();
     Suite {
@@ -152,13 +153,13 @@ fn one(scene: LoadedScene) -> Suite {
 /// Problems with their names, and those that cannot be run.
 type LoadedProblems = (Vec<(String, MotionProblem)>, Vec<RefusedProblem>);
 
-/// Returns the problems with the worlds' own start and goal, or those of the command line.
+/// Returns the problems with the start and goal of their worlds, or with those of the command line.
 fn problems(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure> {
     let (problems, refused) = suite.problems(overrides)?;
     Ok((problems.into_iter().map(|(name, loaded)| (name, loaded.problem)).collect(), refused))
 }
 
-/// Returns the reason why a problem is not run, on a line.
+/// Returns the reason why a problem is not run, on one line.
 fn refusal(refused: &RefusedProblem) -> Refusal {
     let diagnostic = refused.error.diagnostics().first();
     let kind = match diagnostic.map(|diagnostic| diagnostic.kind) {
@@ -170,10 +171,11 @@ fn refusal(refused: &RefusedProblem) -> Refusal {
     Refusal { problem: refused.name.clone(), kind, reason }
 }
 
-/// Returns scenes whose start and goal are not used: the worlds' own may be missing or blocked.
+/// Returns the scenes for random queries. Start and goal of the worlds are not used, so they may be missing or blocked.
 fn scenes(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure> {
     let scene = |member: input::Member| {
-        // Only a world named on the command line can have steps here; then the request for its goal reports the error.
+        // Only a world that the command line names can have steps here. The request for its goal then reports the
+        // error.
         if member.scene.has_steps() {
             member.scene.clone().problem(overrides)?;
         }
@@ -185,10 +187,10 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure
     Ok((scenes?, suite.refused))
 }
 
-/// Returns the problem, or this many random ones in its scene.
+/// Returns the problem itself, or as many random ones in its scene as `sampling` requests.
 ///
 /// # Errors
-/// The reason, if hardly anything is free.
+/// The reason, if hardly any configuration is free.
 fn drawn(name: &str, world: usize, base: Arc<MotionProblem>, sampling: Option<Sampling>) -> Result<Vec<Case>, String> {
     let Some(Sampling { queries, seed }) = sampling else {
         return Ok(vec![Case { name: name.to_owned(), world, base, query: None }]);

@@ -1,4 +1,4 @@
-//! Pictures of the paths, for files and for the page.
+//! Pictures of the compared paths, for files and for the page.
 
 use super::cases::{Case, Cases};
 use super::runner::ComparisonResults;
@@ -12,16 +12,16 @@ use crate::output::{self, PictureFormat};
 use crate::report::{self, Comparison, Overlay, Study, labels};
 use crate::space::Path;
 
-/// Number of random queries that a page draws one by one.
+/// Largest number of random queries for which a page has a picture each.
 const MAX_DRAWN_QUERIES: usize = 6;
 
-/// Number of problems in different worlds that a page draws one by one.
+/// Largest number of worlds for which a page has a picture each.
 const MAX_DRAWN_WORLDS: usize = 60;
 
-/// Number of queries whose paths a page draws together.
+/// Largest number of queries whose paths a page draws in one picture.
 const MAX_OVERLAID_PATHS: usize = 300;
 
-/// Share of the arm's reach by which contours may deviate in a page's small panels.
+/// Largest deviation of contours in a page's small pictures, as a fraction of the arm's reach.
 const CONTOUR_TOLERANCE: f64 = 4e-3;
 
 /// Draws the paths of one problem into a file.
@@ -38,8 +38,8 @@ pub fn save(
     sinks::save_picture(format, file, &view(case, comparison, paths))
 }
 
-/// Returns the page's pictures: workspace and configuration space of each problem. For random queries, it draws those
-/// on which the planners' lengths differ most.
+/// Returns the page's pictures with workspace and configuration space, one per problem. Of random queries, it draws
+/// those for which the planners' lengths differ most.
 pub fn pictures(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<report::Picture> {
     let mut chosen: Vec<usize> = (0..study.comparisons.len()).collect();
     if cases.sampling.is_some() {
@@ -58,7 +58,7 @@ pub fn pictures(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<r
     drawn.collect()
 }
 
-/// Returns pictures of all paths of each planner together, for each world with random queries.
+/// Returns, for each world with random queries, pictures with all paths of each planner.
 pub fn overlays(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<Overlay> {
     let Some(sampling) = cases.sampling else { return Vec::new() };
     let worlds = cases.cases.chunks(sampling.queries).zip(done.paths.chunks(sampling.queries));
@@ -109,8 +109,8 @@ fn view(case: &Case, comparison: &Comparison, paths: &[Option<Path>]) -> View {
     })
 }
 
-/// Returns the default planner's proof, if planners proved that there is no path. The proof is computed again rather
-/// than stored, because only a few of many problems are drawn.
+/// Returns the default planner's proof, if planners proved that there is no path. Computes it again, which is cheaper
+/// than storing the proofs of all problems, because only a few are drawn.
 fn proof(problem: &MotionProblem, comparison: &Comparison) -> Option<CheckedProof> {
     let is_proven = comparison.rows.iter().any(|row| row.outcome == Status::Infeasible);
     let made = is_proven.then(|| plan(&Problem::from(problem.clone()), &Options::default()))?.ok()?;

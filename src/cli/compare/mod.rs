@@ -1,9 +1,10 @@
 //! `cplan compare`: every planner on the same problems, side by side.
 //!
-//! It provides the numbers that `report` shows. `cases` has the problems: one, a suite's, or random pairs from `pairs`,
-//! which implements its own generator so that a seed keeps its meaning. `runner` has threads, times and memory, and a
-//! lower bound for each problem from the shortest path that any planner found. The allocator that counts bytes belongs
-//! to the program, not to the library: `cli::run` gets it as a `MemoryMeter`.
+//! It provides the numbers that `report` shows. `cases` reads the problems: a single one, those of a suite, or random
+//! pairs. `pairs` draws random pairs with a generator of its own, so that a seed gives the same pairs in all versions.
+//! `runner` runs the planners on several threads, and measures times and memory. It also computes a lower bound for
+//! each problem, starting from the shortest path that any planner found. The allocator that counts bytes belongs to the
+//! program, not to the library: `cli::run` gets it as a `MemoryMeter`.
 
 mod args;
 mod cases;
@@ -32,8 +33,8 @@ use clap::Parser;
 use runner::{ComparisonResults, Entry, Runner};
 use sink::{ReportFormat, report_sinks};
 
-/// Compares, and returns the exit code: that of the best answer to a single problem, and 1 if planners contradict each
-/// other.
+/// Compares planners, and returns the exit code: for a single problem that of the best answer, and 1 if planners
+/// contradict each other.
 ///
 /// # Errors
 /// Bad input and I/O.
@@ -77,11 +78,11 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
     Ok(exit_code(&study, args.is_single()))
 }
 
-/// Compares planners in a scene that is read already, for callers from a library. They pass the words of this command
-/// line after the files. Without random queries it is a study of one problem.
+/// Compares planners in a scene that has been read, for callers from a library. `words` are the arguments of `cplan
+/// compare` after the files. Without random queries, the result is a study of one problem.
 ///
 /// # Errors
-/// Words that make no sense, and defects of start and goal.
+/// Invalid words, and defects of start and goal.
 pub fn compare_in(scene: LoadedScene, words: &[String]) -> Result<Study, Failure> {
     let words = ["URDF", "WORLD", "--quiet"].into_iter().chain(words.iter().map(String::as_str));
     let CompareWords { args } = CompareWords::try_parse_from(words).map_err(|error| Failure::Usage(message(&error)))?;
@@ -93,7 +94,7 @@ pub fn compare_in(scene: LoadedScene, words: &[String]) -> Result<Study, Failure
     Ok(measured(&args, &Cases::of_scene(scene, &args)?, None)?.0)
 }
 
-/// Arguments of `compare` alone.
+/// The arguments of `cplan compare`, for callers from a library.
 #[derive(Debug, Parser)]
 #[command(no_binary_name = true, disable_help_flag = true)]
 struct CompareWords {
@@ -104,7 +105,7 @@ struct CompareWords {
 /// Runs the planners on the problems.
 ///
 /// # Errors
-/// Options that make no sense for a world, and motions that cannot be timed with the options.
+/// Options that do not suit a world, and motions that cannot be timed with the options.
 fn measured(
     args: &CompareArgs,
     cases: &Cases,
@@ -130,8 +131,8 @@ fn measured(
     Ok((study, done))
 }
 
-/// Returns the exit code. A contradiction is a failure. So is a problem that could not be run, but only after all
-/// others were run. Otherwise the code is that of a single problem's best answer.
+/// Returns the exit code. A contradiction is a failure. A problem that could not be run is a failure, too, but only
+/// after all others have been run. Otherwise, the code is that of the best answer to a single problem.
 fn exit_code(study: &Study, is_single: bool) -> u8 {
     match study.settled() {
         _ if !study.alarms().is_empty() || !study.refused.is_empty() => BAD_INPUT,
@@ -145,7 +146,7 @@ fn exit_code(study: &Study, is_single: bool) -> u8 {
 /// Returns the planners for each world.
 ///
 /// # Errors
-/// Options of a planner that need something that a world lacks, or a missing GPU.
+/// Options of a planner that need something that a world lacks, and a missing GPU.
 fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure> {
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
     let plain = methods.iter().map(|&method| {
@@ -171,14 +172,14 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
     cases.cases.chunk_by(|a, b| a.world == b.world).map(|world| of(&world[0])).collect()
 }
 
-/// Returns the options for a planner. Bounds are measured separately, for all planners alike; only a planner with a
-/// required gap needs one itself.
+/// Returns the options for a planner. Bounds are computed separately, in the same way for all planners. Only a planner
+/// for which a gap is required computes its own bound.
 fn options(args: &CompareArgs, planner: Planner, levels: usize) -> Options {
     let (drive, jerk, bounded) = (args.motion.drive(), args.motion.jerk(), planner.gap().is_some());
     Options { planner, levels, bounded, drive, jerk, ..Options::default() }
 }
 
-/// All data to write.
+/// The results, and all data that files need.
 struct Results<'a> {
     args: &'a CompareArgs,
     cases: &'a Cases,
@@ -188,12 +189,12 @@ struct Results<'a> {
 }
 
 impl Results<'_> {
-    /// Returns the only problem, if one was asked for.
+    /// Returns the comparison if there is only one problem.
     fn single(&self) -> Option<&Comparison> {
         self.study.comparisons.first().filter(|_| self.args.is_single())
     }
 
-    /// Returns a file's content.
+    /// Returns the content of a file.
     fn content(&self, format: ReportFormat) -> Result<String, Failure> {
         let (single, study) = (self.single(), self.study);
         Ok(match format {

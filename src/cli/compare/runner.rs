@@ -1,4 +1,4 @@
-//! Runs every planner on every problem, with several jobs if requested.
+//! Runs every planner on every problem, on several threads if requested.
 
 use super::cases::{Case, Cases};
 use crate::cli::memory::MemoryMeter;
@@ -13,7 +13,7 @@ use crate::space::{Metric, Path};
 use std::convert::Infallible;
 use std::time::{Duration, Instant};
 
-/// A planner to compare.
+/// A planner that is compared.
 #[derive(Debug, Clone)]
 pub struct Entry {
     /// Name of the planner in tables.
@@ -28,40 +28,40 @@ pub struct ComparisonResults {
     pub comparisons: Vec<Comparison>,
     /// For each case, the path of each planner that found one.
     pub paths: Vec<Vec<Option<Path>>>,
-    /// Total computing time, as elapsed real time.
+    /// Time that all runs took together, from start to end.
     pub elapsed: Duration,
 }
 
 /// Settings of the runs.
 pub struct Runner<'a> {
-    /// The planners for each world, the same number for all.
+    /// The planners for each world. All worlds have the same number of planners.
     pub entries: &'a [Vec<Entry>],
-    /// Number of jobs.
+    /// Number of runs at the same time.
     pub jobs: usize,
-    /// Counter of allocated bytes, for one run at a time only.
+    /// Counter of allocated bytes. `None` if several runs take place at the same time.
     pub meter: Option<MemoryMeter>,
     /// Display of progress.
     pub progress: &'a Progress,
 }
 
-/// A run's row, and its path.
+/// The row of a run, and the path if one was found.
 type RunResult = Result<(Row, Option<Path>), PlanError>;
 
 /// Number of boxes for the warm-up run.
 const WARM_UP_BOXES: usize = 1000;
 
-/// Required gap between a bound and the shortest path found, as a share of the path.
+/// Required gap between a bound and the shortest path that was found, as a fraction of the path.
 const BOUND_GAP: f64 = 1e-4;
 
 impl Runner<'_> {
-    /// Runs all cases. Results come in the order of the cases, independent of the order of execution.
+    /// Runs all cases. Results are in the order of the cases, whatever the order of execution.
     ///
     /// # Errors
-    /// Motions that cannot be timed as asked, the first of them in that order.
+    /// A motion that cannot be timed as requested: the first one in the order of the cases.
     pub fn run(&self, cases: &Cases) -> Result<ComparisonResults, (String, PlanError)> {
         let clock = Instant::now();
         let width = self.entries.first().map_or(0, Vec::len);
-        // Each problem begins with another planner, because the first one fills the caches for the others.
+        // Each problem begins with another planner, because the first one to run fills the caches for the others.
         let runs = self.all(cases.cases.len() * width, |i| {
             let (number, turn) = (i / width, i % width);
             let case = &cases.cases[number];
@@ -95,7 +95,7 @@ impl Runner<'_> {
         Ok(ComparisonResults { comparisons, paths, elapsed: clock.elapsed() })
     }
 
-    /// Does `count` pieces of work on as many threads as there are jobs, and returns the results in order.
+    /// Runs `count` pieces of work on as many threads as there are jobs. Returns the results in order.
     fn all<T: Send>(&self, count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
         let mut results = Vec::with_capacity(count);
         let Ok(()) = in_order(count, self.jobs, work, |result| {
@@ -105,8 +105,8 @@ impl Runner<'_> {
         results
     }
 
-    /// Does one run and measures it. A coarse run goes before the very first one, which otherwise would include the
-    /// time to load the program.
+    /// Measures one run. Before the very first one, it makes a coarse run, so that the measured time does not include
+    /// loading the program.
     fn one(&self, case: &Case, entry: &Entry, is_first: bool) -> RunResult {
         self.progress.begin(&case.name, &entry.label);
         let problem = Problem::from(case.problem().into_owned());
@@ -159,7 +159,7 @@ impl Runner<'_> {
     }
 }
 
-/// Returns the planner's path of the other kind, if it has one; the time for it is not measured.
+/// Returns the planner's path of the other kind. `None` if it has none. The time for it is not measured.
 fn other_path(problem: &Problem, options: &Options) -> Result<Option<OtherPath>, PlanError> {
     if !options.planner.method().has_own_path() || options.planner.path_kind() == PathKind::Middles {
         return Ok(None);
@@ -169,7 +169,8 @@ fn other_path(problem: &Problem, options: &Options) -> Result<Option<OtherPath>,
     Ok(made.length().map(|length| OtherPath { length, clearance: made.clearance() }))
 }
 
-/// Returns a lower bound on the length of motions, within a gap if possible; `None` without a path.
+/// Returns a lower bound on the length of all motions, within a gap of the shortest path if possible. `None` if there
+/// is no path.
 fn lower_bound<'a>(problem: &MotionProblem, paths: impl Iterator<Item = &'a Path>, gap: f64) -> Option<f64> {
     let shortest = paths.min_by(|a, b| a.length().total_cmp(&b.length()))?;
     Some(bound(problem, shortest, Metric::Euclidean, gap).lower)
@@ -181,7 +182,7 @@ pub fn length_unit(problem: &MotionProblem) -> String {
     if units[0] == units[1] { units[0].into() } else { units.join(", ") }
 }
 
-/// Prints the reason if memory cannot be measured.
+/// Returns the meter if memory can be measured. Otherwise prints the reason.
 pub fn meter(meter: Option<MemoryMeter>, jobs: usize, quiet: bool) -> Option<MemoryMeter> {
     if jobs > 1 && meter.is_some() && !quiet {
         sinks::print_status(

@@ -1,4 +1,4 @@
-//! Files with results of a comparison.
+//! Files with the results of a comparison.
 
 use crate::cli::failure::Failure;
 use crate::cli::sinks::outputs;
@@ -19,7 +19,7 @@ pub enum ReportFormat {
     Arena,
 }
 
-/// Returns the formats for the file names, checked before any work is done.
+/// Returns the format for each file name. Names are checked before any work is done.
 ///
 /// # Errors
 /// Unknown extensions, and files that cannot be written.

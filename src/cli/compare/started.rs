@@ -1,4 +1,4 @@
-//! A date and a time as text.
+//! Formats date and time.
 
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -8,8 +8,8 @@ pub fn now() -> String {
     written(since.as_secs())
 }
 
-/// Returns the time that is this many seconds after the beginning of 1970. Days are converted to dates by Howard
-/// Hinnant's `civil_from_days`: eras of 400 years that begin in March, so that leap days come last.
+/// Formats the time that is this many seconds after the beginning of 1970. Days are converted to dates by Howard
+/// Hinnant's `civil_from_days`. It counts eras of 400 years that begin in March, so that leap days come last.
 fn written(seconds: u64) -> String {
     let (days, second) = (seconds / 86_400 + 719_468, seconds % 86_400);
     let (era, day_of_era) = (days / 146_097, days % 146_097);
@@ -36,7 +36,7 @@ mod tests {
         assert_eq!(written(4_107_542_400), "2100-03-01 00:00:00 UTC");
     }
 
-    /// Compares day by day with a simple calendar.
+    /// Compares with a simple calendar, day by day.
     #[test]
     fn every_day_of_two_centuries() {
         let (mut year, mut month, mut day) = (1970, 1, 1);

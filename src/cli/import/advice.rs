@@ -1,17 +1,17 @@
-//! Notes about parts of a world that are probably mistakes, with a hint.
+//! Notes about parts of a world that are probably mistakes, with hints.
 
 use super::obstacles::{ImportedObstacle, coordinates, placed};
 use crate::cli::fresh::word;
 use cplan_drawing::{Geometry, Notes, Shape};
 use std::path::Path;
 
-/// Usual range of a drawing's width, metres.
+/// Usual range of the width of a drawing, in metres.
 const USUAL_WIDTHS: [f64; 2] = [0.01, 100.0];
 
-/// Least and greatest coordinates.
+/// Least and greatest value of both coordinates.
 type Bounds = [(f64, f64); 2];
 
-/// Adds notes about obstacles at the arm's base or around all others, and about an unusual extent.
+/// Adds notes about an obstacle at the arm's base, an obstacle around all others, and an unusual extent.
 pub(super) fn note(taken: &[ImportedObstacle], notes: &mut Notes) {
     let bounds: Vec<Bounds> = taken.iter().map(|taken| bounds(coordinates(&taken.shape))).collect();
     let border = border(taken, &bounds);
@@ -45,8 +45,8 @@ fn bounds(points: impl Iterator<Item = [f64; 2]>) -> Bounds {
     })
 }
 
-/// Returns the solid that surrounds all others, if there is one: drawings often show the walls of a room, or an arm's
-/// reach, like that.
+/// Returns the index of the solid that surrounds all others. `None` if there is none. Drawings often show the walls of
+/// a room, or an arm's reach, as such a solid.
 fn border(taken: &[ImportedObstacle], bounds: &[Bounds]) -> Option<usize> {
     let holds = |i: usize, j: usize| (0..2).all(|k| bounds[i][k].0 < bounds[j][k].0 && bounds[j][k].1 < bounds[i][k].1);
     let is_solid = |shape: &Shape| match &shape.geometry {
@@ -54,7 +54,7 @@ fn border(taken: &[ImportedObstacle], bounds: &[Bounds]) -> Option<usize> {
         Geometry::Circle { .. } => true,
         Geometry::Polyline(_) => false,
     };
-    // Only the widest obstacle can surround all others.
+    // Only the widest obstacle can surround the others.
     let width = |i: usize| bounds[i][0].1 - bounds[i][0].0;
     let widest = (0..taken.len()).max_by(|&i, &j| width(i).total_cmp(&width(j)))?;
     let others = (0..taken.len()).filter(|&j| j != widest);

@@ -73,7 +73,7 @@ pub struct ImportArgs {
 }
 
 impl ImportArgs {
-    /// Returns the drawing's name, without folder and extension.
+    /// Returns the file name of the drawing without extension.
     pub(super) fn title(&self) -> String {
         self.drawing.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
     }
@@ -83,7 +83,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x >= MIN_TOLERANCE, &format!("of metres, finite and at least {MIN_TOLERANCE}"))
 }
 
-/// Longest move, metres: drawings hold coordinates of half of this.
+/// Longest move of a drawing, in metres. The coordinates of drawings are at most half of this.
 const MAX_MOVE: f64 = 2e12;
 
 fn displacement(text: &str) -> Result<[f64; 2], String> {

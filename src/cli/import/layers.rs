@@ -1,4 +1,4 @@
-//! Selects the parts of a drawing, and decides their type.
+//! Selects the parts of a drawing, and decides whether they become solids or walls.
 
 use super::obstacles::{ImportedObstacle, Names, rounded};
 use crate::cli::failure::Failure;
@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
 use std::str::FromStr;
 
-/// `NAME=LOW:HIGH`.
+/// A height from the command line: `NAME=LOW:HIGH`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerHeight {
     name: String,
@@ -32,28 +32,28 @@ impl FromStr for LayerHeight {
     }
 }
 
-/// The options about layers and names.
+/// The options that refer to layers and names.
 pub(super) struct Layers<'a> {
     pub only: &'a [String],
     pub without: &'a [String],
     pub heights: &'a [LayerHeight],
     pub walls: &'a [String],
-    /// Greatest distance between a circle and the wall that replaces it, metres.
+    /// Greatest distance between a circle and the wall that replaces it, in metres.
     pub tolerance: f64,
 }
 
-/// Returns true if an obstacle, its layer, or the layer that hides it has this name.
+/// Returns true if an obstacle has this name, or its layer, or the hidden layer of the block that contains it.
 fn is_called(taken: &ImportedObstacle, name: &str) -> bool {
     is_same(&taken.name, name) || taken.shape.called().iter().any(|own| is_same(own, name))
 }
 
-/// Compares names without regard to upper and lower case.
+/// Compares names, ignoring upper and lower case.
 fn is_same(name: &str, other: &str) -> bool {
     name.to_lowercase() == other.to_lowercase()
 }
 
 impl Layers<'_> {
-    /// Refuses names that the drawing does not have.
+    /// Checks that the drawing has all names to which options refer.
     pub fn check(&self, found: &[ImportedObstacle]) -> Result<(), Failure> {
         let only = self.only.iter().map(|name| ("--layer", name));
         let without = self.without.iter().map(|name| ("--without", name));
@@ -75,13 +75,13 @@ impl Layers<'_> {
         Err(Failure::Option(format!("{option}: the drawing has no layer or part \"{name}\"\n  hint: {known}")))
     }
 
-    /// Returns true if the options include an obstacle with these names.
+    /// Returns true if options select an obstacle with one of these names.
     pub fn asks_for(&self, names: &[String]) -> bool {
         let among = |asked: &[String]| asked.iter().any(|name| names.iter().any(|own| is_same(own, name)));
         (self.only.is_empty() || among(self.only)) && !among(self.without)
     }
 
-    /// Returns the selected obstacles, with the heights and walls that the options set.
+    /// Returns the selected obstacles, with the heights that options state, and as walls if options say so.
     pub fn chosen(&self, found: Vec<ImportedObstacle>, notes: &mut Notes) -> Vec<ImportedObstacle> {
         let mut names = Names::of(&found);
         let mut chosen = Vec::new();
@@ -90,7 +90,7 @@ impl Layers<'_> {
             if !self.only.is_empty() && !among(self.only) || among(self.without) {
                 continue;
             }
-            // An obstacle that is selected only by its own layer may still lie in a block that is hidden as a whole.
+            // An obstacle that only its own layer selects may still be in a block that is hidden as a whole.
             let shape = &taken.shape;
             let is_asked_for = |own: &String| self.only.iter().any(|name| is_same(own, name));
             let is_taken = || {
@@ -118,7 +118,7 @@ impl Layers<'_> {
     }
 }
 
-/// Returns the outlines of an obstacle as thin walls.
+/// Converts the outlines of an obstacle to thin walls.
 fn walls(taken: ImportedObstacle, tolerance: f64, names: &mut Names) -> Vec<ImportedObstacle> {
     let rings = match taken.shape.geometry.clone() {
         Geometry::Polygon { outer, holes } => [outer].into_iter().chain(holes).collect(),
@@ -134,7 +134,7 @@ fn walls(taken: ImportedObstacle, tolerance: f64, names: &mut Names) -> Vec<Impo
     rings.into_iter().map(&mut wall).collect()
 }
 
-/// Returns corners on a circle, with chords within this distance of it.
+/// Returns corners on a circle. The chords between them are at most `tolerance` away from it.
 fn chords([x, y]: [f64; 2], radius: f64, tolerance: f64) -> Vec<[f64; 2]> {
     const MIN_CHORDS: f64 = 8.0;
     let half = (1.0 - tolerance / radius).clamp(0.0, 1.0).acos();
@@ -146,7 +146,7 @@ fn chords([x, y]: [f64; 2], radius: f64, tolerance: f64) -> Vec<[f64; 2]> {
     (0..count).map(at).collect()
 }
 
-/// Returns the number of obstacles taken from each layer.
+/// Lists the layers with the number of obstacles from each.
 pub(super) fn lines(taken: &[ImportedObstacle]) -> Vec<String> {
     let mut layers = BTreeMap::<&str, usize>::new();
     for layer in taken.iter().filter_map(|taken| taken.shape.layer.as_deref()) {

@@ -24,7 +24,7 @@ use serde::Serialize;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// The result of the import, for scripts.
+/// The result of an import, as JSON.
 #[derive(Serialize)]
 struct Json<'a> {
     /// Always `imported`.
@@ -32,14 +32,14 @@ struct Json<'a> {
     drawing: String,
     output: Option<String>,
     obstacles: Vec<Entry<'a>>,
-    /// Content that was left out or changed.
+    /// Parts of the drawing that were left out or changed.
     notes: &'a [String],
-    /// The world, if it is not written to a file.
+    /// The text of the world. `None` if it is written to a file.
     #[serde(skip_serializing_if = "Option::is_none")]
     world: Option<&'a str>,
 }
 
-/// An obstacle, and its origin in the drawing.
+/// An obstacle, and the part of the drawing from which it comes.
 #[derive(Serialize)]
 struct Entry<'a> {
     name: &'a str,
@@ -105,7 +105,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     }
     let text = world_file::text(args, &taken, &notes);
     let name = args.output.clone().unwrap_or_else(|| "the imported world".into());
-    // This makes sure that the written world can be read, and the picture shows the world as it was read.
+    // The text is read back. So the written world is valid, and the picture shows it as it will be read.
     let world = input::world_from(Source::in_memory(name, text.as_str()))?;
     let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     for sink in &pictures {
@@ -119,7 +119,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// Returns the pictures, after checking that all outputs are different files.
+/// Returns the requested pictures. Checks that all outputs are different files.
 fn sinks(args: &ImportArgs) -> Result<Vec<Sink>, Failure> {
     if let Some(path) = &args.output {
         if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
@@ -132,7 +132,7 @@ fn sinks(args: &ImportArgs) -> Result<Vec<Sink>, Failure> {
     Ok(pictures)
 }
 
-/// Returns a diagnostic of the drawing.
+/// Adds the file of the drawing to a diagnostic about it.
 fn refused(args: &ImportArgs, diagnostic: Diagnostic) -> Failure {
     Failure::Input(Diagnostic { origin: args.drawing.display().to_string(), ..diagnostic }.into())
 }
@@ -144,7 +144,7 @@ fn picture(args: &ImportArgs, world: &World, taken: &[ImportedObstacle]) -> Stri
     draw::obstacles(&[args.title(), below], obstacles, &layers)
 }
 
-/// Reports the result: on stdout, or on stderr if the world goes to stdout.
+/// Prints the result on stdout. If the world goes to stdout, prints the result on stderr.
 fn report(
     args: &ImportArgs,
     taken: &[ImportedObstacle],
@@ -169,7 +169,7 @@ fn report(
     sinks::print(text)
 }
 
-/// Returns the numbers of obstacles taken and left out, and the next command.
+/// Describes how many obstacles were imported and left out, and the next command.
 fn summary(args: &ImportArgs, taken: &[ImportedObstacle], notes: &[String], world: &World) -> String {
     let [x, y] = draw::extent(&world.workspace.obstacles);
     let size = |(low, high): (f64, f64)| format!("{low:.3} to {high:.3}");
@@ -187,7 +187,7 @@ fn summary(args: &ImportArgs, taken: &[ImportedObstacle], notes: &[String], worl
     laid_out(&lines)
 }
 
-/// Returns the command that plans in the world; missing values are in capitals.
+/// Returns the command that plans in the world. Values that the user must fill in are in capitals.
 fn next(args: &ImportArgs, path: &Path) -> String {
     let query = &args.query;
     let start = if query.start.is_none() { " --start Q1,Q2" } else { "" };

@@ -1,4 +1,4 @@
-//! Converts shapes to obstacles: in their place, valid, and with unique names.
+//! Converts shapes to obstacles at their places, with valid outlines and unique names.
 
 use crate::geometry::{Point, Polygon};
 use crate::input::{Diagnostic, MAX_LENGTH, Position};
@@ -6,29 +6,29 @@ use cplan_drawing::{FillRule, Frame, Geometry, Notes, Ring, Shape, filled};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
-/// An obstacle of the world.
+/// An obstacle that was imported.
 #[derive(Clone)]
 pub(super) struct ImportedObstacle {
     pub name: String,
-    /// The shape in metres, in the frame of the world file, if it has one.
+    /// The shape in metres. Its coordinates are relative to its frame if the world file states one.
     pub shape: Shape,
 }
 
-/// Note for shapes that are too small for the file.
+/// Note about shapes that are too small to be written.
 const NO_EXTENT_NOTE: &str = "parts without extent: left out";
 
-/// The placement of a drawing: turned, then moved.
+/// The placement of a drawing: it is turned and then moved.
 pub(super) struct Placement {
     pub turn: f64,
     pub shift: [f64; 2],
 }
 
-/// Rounding of coordinates in the file, per metre: a nanometre is smaller than any measurement, and gives short
-/// numbers.
+/// Coordinates in the file are rounded to this many steps per metre. A step of a nanometre is smaller than any
+/// measurement, and gives short numbers.
 const ROUNDING_STEPS_PER_METRE: f64 = 1e9;
 
 impl Placement {
-    /// Returns the frame of a block, as it lies in the world.
+    /// Returns the frame of a block in the world.
     fn frame(&self, frame: Frame) -> Frame {
         let drawing = Frame { at: self.shift, angle: self.turn };
         let angle = frame.angle + self.turn;
@@ -36,7 +36,7 @@ impl Placement {
         Frame { at: drawing.placed(frame.at).map(rounded), angle: angle + 0.0 }
     }
 
-    /// Returns a point in the file's coordinates: relative to the frame of a block, otherwise in the world.
+    /// Returns the coordinates of a point in the file. In a block, they are relative to the block's frame.
     fn point(&self, p: [f64; 2], frame: Option<&Frame>) -> [f64; 2] {
         let drawing = Frame { at: self.shift, angle: self.turn };
         frame.map_or_else(|| drawing.placed(p), |frame| frame.local(p)).map(rounded)
@@ -52,13 +52,13 @@ impl Placement {
     }
 }
 
-/// Returns a length of the file, without a negative zero.
+/// Rounds a length for the file. Never returns negative zero.
 pub(super) fn rounded(value: f64) -> f64 {
     (value * ROUNDING_STEPS_PER_METRE).round() / ROUNDING_STEPS_PER_METRE + 0.0
 }
 
-/// Returns the obstacles of a drawing, each with its name in the world. An outline that crosses itself becomes the area
-/// that it surrounds, or thin walls if even that is too narrow.
+/// Returns the obstacles of a drawing, with their names in the world. An outline that crosses itself is replaced by the
+/// area that it encloses, or by thin walls if the area is too narrow.
 pub(super) fn found(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes) -> Vec<ImportedObstacle> {
     let mut sound: Vec<Shape> = Vec::new();
     for shape in shapes {
@@ -94,7 +94,7 @@ pub(super) fn found(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes
     named(sound)
 }
 
-/// Returns rings as polygons that do not cross themselves.
+/// Returns the area that rings enclose as polygons that do not cross themselves.
 fn untangled(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Notes) -> Vec<Geometry> {
     if is_sound(&outer, &holes) {
         return vec![Geometry::Polygon { outer, holes }];
@@ -122,7 +122,7 @@ fn is_sound(outer: &[[f64; 2]], holes: &[Ring]) -> bool {
     Polygon::new(points(outer), holes.iter().map(|hole| points(hole)).collect()).is_ok()
 }
 
-/// Refuses shapes at coordinates that no arm can have; the drawing has been moved by `shift`.
+/// Refuses shapes at coordinates that no arm can reach. `shift` is the move of the drawing that options state.
 pub(super) fn within_reach(taken: &[ImportedObstacle], shift: [f64; 2]) -> Result<(), Diagnostic> {
     taken.iter().try_for_each(|ImportedObstacle { shape, .. }| {
         let greatest = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(f64::abs).fold(0.0, f64::max);
@@ -142,8 +142,8 @@ pub(super) fn within_reach(taken: &[ImportedObstacle], shift: [f64; 2]) -> Resul
     })
 }
 
-/// Returns a hint for a drawing that is far away: the move that brings its middle to the arm, in whole metres, unless
-/// the drawing is too large.
+/// Returns a hint for a drawing that is far from the arm: the move, in whole metres, that brings its middle to the arm.
+/// If the drawing is too large, the hint is another one.
 fn far_off(taken: &[ImportedObstacle], shift: [f64; 2]) -> String {
     let points: Vec<[f64; 2]> = taken.iter().flat_map(|taken| coordinates(&taken.shape)).collect();
     let ends = |k: usize| {
@@ -160,7 +160,7 @@ fn far_off(taken: &[ImportedObstacle], shift: [f64; 2]) -> String {
     }
 }
 
-/// Returns points of the world with the same extent as the shape.
+/// Iterates over points of the world whose bounding box is that of the shape.
 pub(super) fn coordinates(shape: &Shape) -> impl Iterator<Item = [f64; 2]> {
     let points = match &shape.geometry {
         Geometry::Polygon { outer, holes } => outer.iter().chain(holes.iter().flatten()).copied().collect(),
@@ -173,7 +173,7 @@ pub(super) fn coordinates(shape: &Shape) -> impl Iterator<Item = [f64; 2]> {
     points.into_iter().map(|p| placed(shape, p)).collect::<Vec<_>>().into_iter()
 }
 
-/// Returns the place of a shape's point in the world.
+/// Returns the world coordinates of a point of a shape.
 pub(super) fn placed(shape: &Shape, p: [f64; 2]) -> [f64; 2] {
     shape.frame.map_or(p, |frame| frame.placed(p))
 }

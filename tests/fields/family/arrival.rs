@@ -3,7 +3,7 @@
 //! Without obstacles, the field is `exp(-e <v, x> / 2) K0(e r / 2)`. Here `x` is the place relative to the goal, `r`
 //! its distance, and `e` the drift per cell. Far from the goal, its lines are parabolas about the goal with their axis
 //! along `v`. So the path turns towards `v`. It arrives along `v` if `e (r - <v, x>)` is well above 1 at the start.
-//! Straight behind the goal, where that is 0, it arrives against `v`.
+//! Straight behind the goal, `e (r - <v, x>)` is 0, and the path arrives against `v`.
 
 use super::planner::{found, grid, planner, run, scene};
 use cplan::cspace::ZonedGrid;
@@ -104,7 +104,7 @@ fn paths_arrive_along_the_drift_unless_they_start_behind_the_goal() {
     assert!(along >= 12 && others >= 2, "{along} {others}");
 }
 
-/// The start in docs/fields.md whose path does not arrive along `v`, and some whose paths do.
+/// Checks the start of docs/fields.md whose path does not arrive along `v`, and some starts whose paths do.
 #[test]
 fn path_bearings_agree_with_the_closed_form() {
     for (degrees, from) in [(180, [-7, -3]), (225, [-7, -3]), (0, [-7, -3]), (90, [-12, 0]), (0, [4, 12]), (0, [8, 4])]

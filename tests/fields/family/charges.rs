@@ -1,5 +1,5 @@
-//! Repulsion by all obstacle cells together, and figure 3.4 of the sources: four times the charge opens a trap, and
-//! then keeps the robot from the goal.
+//! Repulsion by all obstacle cells together, and figure 3.4 of the sources. With four times the charge, the robot gets
+//! out of a trap, but then cannot reach some goals.
 
 use crate::common::placed;
 use cplan::cspace::{Grid, Proves, ZonedGrid};
@@ -22,7 +22,8 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
 proptest! {
     #![proptest_config(cplan_cases::cases(60))]
 
-    /// The sum is computed term by term: circles by the shorter direction, and a frame of one cell beyond high limits.
+    /// Checks the sum term by term. On circles, the shorter direction counts. With high limits, a frame of one cell
+    /// counts as obstacles.
     #[test]
     fn the_sum_is_that_over_all_obstacle_cells(
         (rows, columns, blocked) in (1..9_usize, 1..9_usize).prop_flat_map(|(rows, columns)| {
@@ -79,7 +80,7 @@ fn room(gap: &str) -> (ZonedGrid, Query) {
     let mut rows: Vec<String> = vec![".".repeat(44); 40];
     for (i, row) in rows.iter_mut().enumerate() {
         if (8..17).contains(&i) {
-            // Side walls of the trap, and its bottom.
+            // The side walls of the trap, and its bottom.
             let wall = if i == 16 { "######" } else { "#....#" };
             row.replace_range(19..25, wall);
         }
@@ -105,7 +106,7 @@ fn outcome(charge: f64, gap: &str) -> Proposal {
     planner.query(&space, &(), &query).outcome
 }
 
-/// Returns true between the side walls of the trap.
+/// Returns true for places between the side walls of the trap.
 fn is_in_trap([i, j]: [f64; 2]) -> bool {
     (8.0..16.0).contains(&i) && (20.0..24.0).contains(&j)
 }
@@ -123,13 +124,13 @@ fn a_fourfold_charge_removes_the_trap_and_then_blocks_the_goal() {
     const OPEN: &str = "................";
     const NARROW: &str = "#######..#######";
     let q = 0.8;
-    // Attraction leads into the trap, and its bottom stops the path.
+    // Attraction leads into the trap, where its bottom stops the path.
     let [i, j] = trapped_at(&outcome(q, OPEN));
     assert!(is_in_trap([i, j]), "({i}, {j}) is not in the trap");
-    // With four times the charge, its walls keep the robot out.
+    // With four times the charge, the walls of the trap keep the robot out of it.
     let Proposal::Found(path) = outcome(4.0 * q, OPEN) else { panic!("{:?}", outcome(4.0 * q, OPEN)) };
     assert!(!path.waypoints().iter().any(|q| is_in_trap([q[0], q[1]])));
-    // But if the goal lies between obstacles, their repulsion makes it unreachable.
+    // But then a goal between obstacles cannot be reached, because they repel the robot.
     let [i, j] = trapped_at(&outcome(4.0 * q, NARROW));
     assert!(!is_in_trap([i, j]) && (i - 35.5).hypot(j - 22.5) > 2.0, "({i}, {j}) is in the trap, or at the goal");
 }

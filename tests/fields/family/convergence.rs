@@ -1,5 +1,5 @@
-//! Convergence of relaxations: rates against closed forms for empty rectangles, solutions by elimination against dense
-//! ones and the harmonic potential, samples against relaxations that end earlier.
+//! Convergence of relaxations. Rates are compared with closed forms for empty rectangles, solutions by elimination with
+//! dense ones and with the harmonic potential, and samples with relaxations that end earlier.
 
 use super::direct;
 use super::promises::{monotone, random_domain};
@@ -13,7 +13,8 @@ use std::f64::consts::PI;
 
 const ROWS: Order = Order::Lines(Scan::ROWS);
 
-/// Returns a rectangle of free cells among obstacles of value 0. Its field is the error alone, initially 1 everywhere.
+/// Returns a rectangle of free cells among obstacles of value 0. The exact field is 0, so the values are the error,
+/// which is initially 1 everywhere.
 fn empty(cells: [usize; 2]) -> Domain {
     let levels = Levels { free: 1.0, ..Levels::PROBABILITY };
     Domain::new(cells, vec![Cell::Free; cells[0] * cells[1]], [Boundary::High; 2], levels)
@@ -31,7 +32,7 @@ fn jacobi_rate(cells: [usize; 2], equation: &Equation) -> f64 {
     match equation {
         Equation::Oriented { epsilon, difference: Difference::Central, .. } => {
             let squared = 1.0 - 0.25 * epsilon * epsilon;
-            // Beyond 2 the part along the drift is imaginary.
+            // If the drift exceeds 2, the part along the drift is imaginary.
             if squared >= 0.0 { 0.5 * (squared.sqrt() * a + b) } else { 0.5 * (-squared * a * a + b * b).sqrt() }
         }
         Equation::Oriented { epsilon, difference: Difference::Upwind, .. } => {
@@ -64,7 +65,7 @@ fn rates_in_empty_rectangles_are_the_closed_forms() {
             let close = |measured: f64, known: f64, within: f64| {
                 assert!((measured - known).abs() < within, "{cells:?} {equation:?}: {measured} instead of {known}");
             };
-            // The last half of some fifty sweeps has not quite converged.
+            // The rate over the last half of some fifty sweeps is close to the limit.
             close(rate(Relaxation::JACOBI), jacobi, 1e-2);
             close(rate(Relaxation::weighted_jacobi(0.8)), 0.2 + 0.8 * jacobi, 1e-2);
             close(rate(Relaxation::gauss_seidel(ROWS)), jacobi * jacobi, 1e-2);
@@ -123,12 +124,12 @@ fn the_scan_is_best_at_the_theoretical_factor() {
     assert!(before.len() > 12 && before.windows(2).all(|w| w[0] > w[1]), "{before:?}");
     let after: Vec<usize> = scan.points.iter().filter(|p| p.at > theory + 0.02).map(|p| p.sweeps).collect();
     assert!(after.len() > 3 && after.windows(2).all(|w| w[0] < w[1]), "{after:?}");
-    // Each scan has the results of its own relaxation.
+    // Each scan has the results of the relaxation that it varies.
     let gauss_seidel = measured.courses.iter().find(|c| c.relaxation == Relaxation::gauss_seidel(ROWS)).unwrap();
     assert_eq!((scan.points[0].at, scan.points[0].sweeps), (1.0, gauss_seidel.trace.sweeps));
     assert!(measured.strengths.iter().all(|s| s.points[0].sweeps == gauss_seidel.trace.sweeps));
-    // Jacobi's eigenvalues lie between minus the rate and the rate. A weight above 2 / (1 + rate) diverges; the best is
-    // 1 or just below.
+    // Jacobi's eigenvalues lie between minus the rate and the rate. So a weight above 2 / (1 + rate) diverges, and the
+    // best weight is 1 or slightly less.
     let weights = &measured.weights[0];
     let jacobi = measured.courses.iter().find(|c| c.relaxation == Relaxation::JACOBI).unwrap();
     let at_one = weights.points.iter().find(|point| point.at == 1.0).unwrap();
@@ -143,7 +144,7 @@ fn the_scan_is_best_at_the_theoretical_factor() {
 
 #[test]
 fn elimination_finds_the_harmonic_potential() {
-    // Rooms with doors, on a cylinder: rows wrap around.
+    // Rooms with doors, on a cylinder, so that rows wrap around.
     let n = 36;
     let blocked: Vec<bool> = (0..n * n)
         .map(|cell| {
@@ -177,7 +178,7 @@ fn elimination_finds_the_harmonic_potential() {
     assert!(compared > 500, "{compared}");
 }
 
-/// Generates any relaxation, also with over-relaxation.
+/// Generates all kinds of relaxations, including over-relaxation.
 fn relaxation() -> impl Strategy<Value = Relaxation> {
     prop_oneof![
         Just(Relaxation::JACOBI),
@@ -218,7 +219,7 @@ proptest! {
         let until = |sweeps| relax(&domain, &equation, &relaxation, &never(sweeps)).unwrap();
         prop_assert_eq!(run.sweeps, until(last).sweeps());
         prop_assert_eq!(run.ending == Ending::Converged, until(last).converged());
-        // If there are two stages, the first can be cut off alone.
+        // If there are two stages, a relaxation can end after the first.
         for sample in run.samples.iter().filter(|sample| sample.stage == 0) {
             let stage = if exact.is_some() { equation.clone() } else { Equation::Harmonic };
             let at = |sweeps| relax(&domain, &stage, &relaxation, &never(sweeps)).unwrap().values;

@@ -1,9 +1,10 @@
-//! Direct solutions by dense LU. The code shares nothing with the library except the types that state the problem.
+//! Direct solutions by dense LU decomposition. This code shares nothing with the library, except the types that state
+//! the problem.
 
 use cplan::field::{Boundary, Cell, Difference, Domain, Equation, Levels};
 use nalgebra::{DMatrix, DVector};
 
-/// Parses a domain drawn in text: `#` obstacle, `G` goal; rows of text are rows of the domain.
+/// Parses a domain: `#` is an obstacle and `G` a goal. Rows of text are rows of the domain.
 pub fn drawn(text: &str, boundaries: [Boundary; 2], levels: Levels) -> Domain {
     let rows: Vec<&str> = text.split_whitespace().collect();
     let kinds = rows.iter().flat_map(|row| {
@@ -16,7 +17,7 @@ pub fn drawn(text: &str, boundaries: [Boundary; 2], levels: Levels) -> Domain {
     Domain::new([rows.len(), rows[0].len()], kinds.collect(), boundaries, levels)
 }
 
-/// The neighbour of a cell along an axis.
+/// The neighbour of a cell in one direction along an axis.
 #[derive(Clone, Copy, PartialEq)]
 enum There {
     Cell(usize),
@@ -40,7 +41,7 @@ fn there(domain: &Domain, cell: usize, axis: usize, step: i64) -> There {
     There::Cell((at[0] * columns + at[1]) as usize)
 }
 
-/// Returns the value of a neighbour, among `values`.
+/// Returns the value of a neighbour. `values` has those of all cells.
 fn value(domain: &Domain, values: &[f64], cell: usize, axis: usize, step: i64) -> f64 {
     match there(domain, cell, axis, step) {
         There::Cell(next) => values[next],
@@ -57,7 +58,8 @@ fn fixed(domain: &Domain, cell: usize) -> Option<f64> {
     }
 }
 
-/// Solves `lap p + <b, grad p> = 0` for a drift `b` in each cell. A cell is 1 wide along axis 0 and `1 / beta` along axis 1.
+/// Solves `lap p + <b, grad p> = 0`, where `b` is the drift of each cell. A cell has the side 1 along axis 0, and `1 /
+/// beta` along axis 1.
 fn solve(domain: &Domain, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Vec<f64> {
     let n = domain.kinds().len();
     let mut matrix = DMatrix::zeros(n, n);
@@ -68,7 +70,7 @@ fn solve(domain: &Domain, drift: impl Fn(usize) -> [f64; 2], difference: Differe
             right[cell] = value;
             continue;
         }
-        // Adds a multiple of the value in some direction to the cell's equation.
+        // Adds `factor` times the value of a neighbour to the cell's equation.
         let mut add = |to: There, factor: f64| match to {
             There::Cell(next) => matrix[(cell, next)] += factor,
             There::Obstacle => right[cell] -= factor * domain.levels().obstacle,
@@ -94,7 +96,7 @@ fn solve(domain: &Domain, drift: impl Fn(usize) -> [f64; 2], difference: Differe
     matrix.lu().solve(&right).expect("the equations determine the field").as_slice().to_vec()
 }
 
-/// Returns the gradient of the published field (obstacles high), normalised.
+/// Returns the normalised gradient of the published field, in which obstacles have the high value.
 fn uphill(domain: &Domain, values: &[f64], cell: usize) -> [f64; 2] {
     let sign = if domain.levels().obstacle > domain.levels().goal { 0.5 } else { -0.5 };
     let slope =
@@ -104,11 +106,12 @@ fn uphill(domain: &Domain, values: &[f64], cell: usize) -> [f64; 2] {
     if length == 0.0 { slope } else { slope.map(|x| x / length) }
 }
 
-/// Returns the equation of the altered preferences for a cell, as in the literature, with obstacles high.
+/// Returns the left side of the equation of the altered preferences for a cell, as in the literature, where obstacles
+/// have the high value.
 pub fn altered(domain: &Domain, published: &[f64], epsilon: &[f64], cell: usize) -> f64 {
     let [west, east] = [-1, 1].map(|step| value(domain, published, cell, 1, step));
     let [south, north] = [-1, 1].map(|step| value(domain, published, cell, 0, step));
-    // Per unit of length: second differences over the squares of sides, slopes over sides.
+    // Per unit of length: second differences are divided by squares of sides, and slopes by sides.
     let weight = domain.beta() * domain.beta();
     let sum = 2.0 + 2.0 * weight;
     let h = (north + south + weight * (west + east)) / sum;
@@ -131,7 +134,7 @@ pub fn solution(domain: &Domain, equation: &Equation) -> Vec<f64> {
             solve(domain, |cell| v(cell).map(|v| epsilon[cell] * v), *difference)
         }
         Equation::AlteredPreference { epsilon } => {
-            // For any levels: solves in the published ones, by the slow method with all cells at once.
+            // For other levels, solves with the published ones, by the slow method that updates all cells at once.
             let Levels { obstacle, goal, free } = domain.levels();
             let published = Levels::PUBLISHED;
             let same = Domain::new(domain.cells(), domain.kinds().to_vec(), domain.boundaries(), published)

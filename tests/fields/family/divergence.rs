@@ -1,4 +1,4 @@
-//! Failing relaxations: they return an error, and never a field.
+//! Relaxations that fail. They return an error, and never a field.
 
 use super::direct::drawn;
 use cplan::field::{
@@ -125,7 +125,8 @@ fn single_precision_rounds_stored_values_only() {
         let [double, single] = [Precision::Double, Precision::Single].map(|kept| run(kept, max_sweeps).values);
         assert!(single.iter().all(|&value| f64::from(value as f32) == value));
         assert!(double.iter().any(|&value| f64::from(value as f32) != value), "doubles were rounded, too");
-        // Each update adds at most half a unit in the last place, and passes on at most the mean of the errors.
+        // Each update adds at most half a unit in the last place, and passes on at most the mean of the neighbours'
+        // errors.
         let bound = max_sweeps as f64 * f64::from(f32::EPSILON);
         assert!(double.iter().zip(&single).all(|(a, b)| (a - b).abs() <= bound));
     }

@@ -23,8 +23,8 @@ fn escaped(run: &Run) -> (&'static str, usize, usize) {
     }
 }
 
-/// Samples a path densely, and checks that every point is in a free cell. On a side between two cells, either may be
-/// the free one.
+/// Samples a path densely, and checks that every point is in a free cell. On a side between two cells, either cell may
+/// be the free one.
 fn stays_free(grid: &Grid, run: &Run) {
     for (a, b) in found(run).segments() {
         for k in 0..=40 {
@@ -46,7 +46,7 @@ fn escapes_from_the_u_are_reported() {
         stays_free(&zoned.grid, &out);
         assert_eq!(found(&out).goal(), zoned.grid.center(goal));
         let (how, minima, moves) = escaped(&out);
-        // The path leaves the U over at least seven cells, and comes back along its side.
+        // The path leaves the trap over at least seven cells, and returns along its side.
         assert!(
             how == escape.description() && minima >= 1 && moves >= 10,
             "{escape:?}: {minima} minima, {moves} moves"
@@ -77,7 +77,7 @@ fn paths_without_minima_are_unchanged() {
 proptest! {
     #![proptest_config(cplan_cases::cases(150))]
 
-    /// With a wave, the planner finds a path exactly if the cells have one, also on circles.
+    /// Checks that with a wave, the planner finds a path exactly if free cells connect start and goal, also on circles.
     #[test]
     fn with_a_wave_the_goal_is_found_wherever_it_is_connected(
         rows in 2..14_usize, columns in 2..14_usize, circles in any::<[bool; 2]>(), density in 0.0..0.5_f64,

@@ -1,4 +1,4 @@
-//! Attraction and repulsion: their laws, their traps, and the reports of traps.
+//! Attraction and repulsion: their laws, their traps, and how traps are reported.
 
 use super::planner::drawn;
 use cplan::cspace::{Grid, Proves};
@@ -135,7 +135,7 @@ fn on_a_torus_the_goal_attracts_the_short_way_round() {
     let laws =
         Khatib { attraction: Attraction::Linear(1.0), repulsion: Repulsion::InverseSquare(1.0), saturated: false };
     let field = ForceField::new(&grid, laws, &[grid.center(15 * 16 + 15)], Limits::High);
-    // Diagonally across both seams, then one more.
+    // Diagonally across both seams, and then one more cell.
     assert_eq!(field.descend(17, &[255]).unwrap(), [17, 0, 255]);
     assert_eq!(field.force(255), [0.0; 2]);
     let nearest_of_two: [Configuration; 2] = [grid.center(255), grid.center(34)];

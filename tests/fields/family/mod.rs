@@ -1,5 +1,5 @@
-//! The family of field equations and relaxations against direct solutions of the same equations, assembled here from
-//! difference quotients; and its promises on random grids.
+//! The family of field equations and relaxations, compared with direct solutions of the same equations, which this
+//! module assembles from difference quotients. Also the guarantees of the family on random grids.
 
 mod arrival;
 mod charges;

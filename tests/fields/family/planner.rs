@@ -62,7 +62,7 @@ pub fn found(run: &Run) -> &Path {
     }
 }
 
-/// Returns true if a cell at `q` is free; on a side between two cells, either may be.
+/// Returns true if a cell at `q` is free. On a side between two cells, either cell may be free.
 fn is_free(grid: &Grid, q: Configuration) -> bool {
     let beside = |d: [f64; 2]| {
         let p = q + Configuration::new(d[0] * 1e-7 * grid.step()[0], d[1] * 1e-7 * grid.step()[1]);
@@ -94,7 +94,7 @@ fn equations() -> Vec<EquationChoice> {
 proptest! {
     #![proptest_config(cplan_cases::cases(150))]
 
-    /// Every field finds a path exactly if the wave does, and its path visits only free cells.
+    /// Checks that every field finds a path exactly if the wave does, and that its path visits only free cells.
     #[test]
     fn every_field_answers_as_the_wave_does(
         (cells, blocked, start, goal) in (2..10_usize, 2..10_usize).prop_flat_map(|(rows, columns)| {
@@ -147,7 +147,7 @@ fn the_direction_decides_on_which_side_of_an_obstacle_to_pass() {
 
 #[test]
 fn a_positive_preference_keeps_out_of_a_region_and_a_negative_one_draws_in() {
-    // Two routes round a block; the region lies on one of them.
+    // Two routes lead round a block, and the region is on one of them.
     let text = "...........\n".repeat(3) + &"...#####...\n".repeat(5) + &"...........\n".repeat(3);
     let corners = [(2.0, 0.0), (9.0, 0.0), (9.0, 3.0), (2.0, 3.0)].map(|(x, y)| Point::new(x, y));
     for choice in [
@@ -194,8 +194,8 @@ fn unconverged_fields_are_reported() {
     // After three sweeps, the goal has not influenced a cell ten cells away.
     let early = run(hasty(3), &zoned, 99, 0);
     assert!(reason(&early).starts_with("the field is not converged after 3 sweeps: "), "{:?}", early.outcome);
-    // After thirty sweeps it has influenced all cells, and the field leads to the goal. But it is not the converged
-    // field.
+    // After thirty sweeps it has influenced all cells, and the field leads to the goal, but the field has not
+    // converged.
     let late = run(hasty(30), &zoned, 99, 0);
     assert!(
         reason(&late).starts_with("the field is not converged after 30 sweeps: allow more sweeps"),

@@ -55,7 +55,7 @@ fn equations(domain: &Domain) -> Vec<Equation> {
             Equation::Preference { epsilon: epsilon.clone(), difference },
         ]);
     }
-    // More drift than central differences allow.
+    // The drift is larger than central differences allow.
     equations.push(Equation::Oriented { direction, epsilon: 5.0, difference: Difference::Upwind });
     equations
 }

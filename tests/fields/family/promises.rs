@@ -35,7 +35,7 @@ pub fn random_domain() -> impl Strategy<Value = Domain> {
     })
 }
 
-/// Returns the cells that are connected with a goal, by repeated passes.
+/// Returns the cells that are connected with a goal, found by repeated passes over all cells.
 fn flood(domain: &Domain, goal: usize) -> Vec<bool> {
     let [rows, columns] = domain.cells();
     let mut reached = vec![false; rows * columns];
@@ -76,7 +76,7 @@ pub fn monotone(n: usize) -> impl Strategy<Value = Equation> {
     ]
 }
 
-/// Generates relaxations without over-relaxation, for which the guarantees hold at any time.
+/// Generates relaxations without over-relaxation, for which the guarantees hold after any number of sweeps.
 fn cautious() -> impl Strategy<Value = Relaxation> {
     prop_oneof![
         Just(Relaxation::JACOBI),
@@ -106,7 +106,7 @@ proptest! {
         prop_assert!(equation.is_monotone());
         let stopping = Stopping { measure: Measure::SumOfChange, below: 0.0, max_sweeps };
         let field = relax(&domain, &equation, &relaxation, &stopping).unwrap();
-        // Weights add up to 1 only up to rounding.
+        // The weights of an update add up to 1 only up to rounding.
         prop_assert!(field.values.iter().all(|&v| (-1e-12..=1.0 + 1e-12).contains(&v)), "{:?}", field.values);
     }
 
@@ -115,7 +115,7 @@ proptest! {
         let stopping = Stopping { measure: Measure::GreatestChange, below: 1e-15, max_sweeps: 30_000 };
         let field = relax(&domain, &equation, &relaxation, &stopping).unwrap();
         for (cell, kind) in domain.kinds().iter().enumerate() {
-            // Cells enclosed by goals and reflecting limits have no obstacle to lead away from. The only field there is
+            // No obstacle is connected with cells that goals and reflecting limits enclose. The only field there is
             // constant.
             let shut_in = (field.values[cell] - domain.levels().goal).abs() < 1e-9;
             if *kind == Cell::Free && !shut_in {
@@ -127,15 +127,16 @@ proptest! {
 }
 
 /// Returns true if a path reaches a goal, or ends beside a cell whose value is equal up to rounding. Reflecting limits
-/// can make a field exactly level about a cell. Whether the computed values are then level too, or have a minimum by
-/// their last bit, is chance.
+/// can make a field exactly level around a cell. Rounding then decides whether the computed values are level, too, or
+/// have a minimum.
 fn leads(domain: &Domain, values: &[f64], way: &Result<Vec<usize>, DeadEnd>) -> bool {
     let Err(stuck) = way else { return true };
     let level = |neighbor: Neighbor| matches!(neighbor, Neighbor::Cell(n) if (values[n] - stuck.value).abs() < 1e-14);
     domain.boundaries().contains(&Boundary::Reflecting) && domain.neighbors(stuck.cell).into_iter().any(level)
 }
 
-/// Found by the property above: a field that is level around the cell in the last row, except for rounding.
+/// Checks a case that the property test above found: a field that is level around the cell in the last row, except for
+/// rounding.
 #[test]
 fn rounding_noise_in_flat_fields_is_reported() {
     let domain = drawn("G...\n...#\n....\n.#..", [Boundary::Reflecting; 2], Levels::PUBLISHED);
@@ -154,12 +155,12 @@ fn a_field_that_is_level_about_a_corner_is_crossed() {
     let stopping = Stopping { measure: Measure::GreatestChange, below: 0.0, max_sweeps: 10_000 };
     let relaxation = Relaxation::gauss_seidel(Order::Lines(Scan::ROWS));
     let field = relax(&domain, &Equation::Harmonic, &relaxation, &stopping).unwrap();
-    // In sevenths: 1 1 0, 1 2 3, 0 3 7.
+    // The values in sevenths are 1 1 0, 1 2 3, 0 3 7.
     let sevenths = [1.0, 1.0, 0.0, 1.0, 2.0, 3.0, 0.0, 3.0, 7.0];
     assert!(field.values.iter().zip(sevenths).all(|(value, expected)| (7.0 * value - expected).abs() < 1e-12));
     let way = descend(&domain, &sevenths.map(|value| value / 7.0), 0).unwrap();
     assert_eq!(way, [0, 3, 4, 7, 8]);
-    // Cells with the value of obstacles, or of goals, are not crossed; nor is a minimum.
+    // A path crosses no cell with the value of obstacles or of goals, and leaves no minimum.
     let at = |values: [f64; 9]| descend(&domain, &values, 0).unwrap_err();
     let zeros = [0.0, 0.0, 0.0, 0.0, 0.2, 0.3, 0.0, 0.3, 1.0];
     assert_eq!(at(zeros), DeadEnd { cell: 0, value: 0.0, flat: true });

@@ -21,7 +21,7 @@ fn greatest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// 000, 3.3.2: `(p(-x) + p(+x) + beta^2 (p(-y) + p(+y))) / (2 (1 + beta^2))`.
+/// Checks the formula of source 000, section 3.3.2: `(p(-x) + p(+x) + beta^2 (p(-y) + p(+y))) / (2 (1 + beta^2))`.
 #[test]
 fn one_cell_is_the_weighted_mean_of_its_neighbors() {
     let beta = 2.0;
@@ -32,7 +32,7 @@ fn one_cell_is_the_weighted_mean_of_its_neighbors() {
     let [along, across] = ["### #.# #G#", "### #.G ###"];
     assert!((value(along, &Equation::Harmonic) - 0.1).abs() < 1e-15);
     assert!((value(across, &Equation::Harmonic) - 0.4).abs() < 1e-15);
-    // A drift counts once along axis 1 and beta times along axis 2.
+    // A drift counts with the factor 1 along axis 1, and with `beta` along axis 2.
     let drift = |direction: [f64; 2], difference| {
         let direction = Direction::of(direction).unwrap();
         Equation::Oriented { direction, epsilon: 1.0, difference }
@@ -90,7 +90,7 @@ fn cells_of_any_sides_give_the_field_of_the_room() {
         let kinds = (0..cells[0] * cells[1]).map(|cell| if goal(cell) { Cell::Goal } else { Cell::Free });
         let domain = Domain::new(cells, kinds.collect(), [Boundary::High; 2], Levels::PROBABILITY).with_beta(beta);
         let values = eliminated(&domain, &Equation::Harmonic).unwrap();
-        // At three quarters of the length, in the middle: the mean of the cells about it.
+        // At three quarters of the length, in the middle of the width: the mean of the cells around that place.
         let (i, j) = (cells[0] * 3 / 4, cells[1] / 2);
         let around = [[i, j], [i - 1, j], [i, j - 1], [i - 1, j - 1]].map(|[i, j]| values[i * cells[1] + j]);
         (around.iter().sum::<f64>() / 4.0).ln()

@@ -1,4 +1,4 @@
-//! Over-relaxation where values span many orders of magnitude.
+//! Over-relaxation of fields whose values span many orders of magnitude.
 
 use super::direct::drawn;
 use cplan::field::{
@@ -51,7 +51,7 @@ fn over_relaxation_settles_values_that_are_smaller_than_its_rounding() {
         let least = field.values.iter().filter(|value| **value > 0.0).fold(1.0, |least: f64, value| least.min(*value));
         assert!(least < 1e-16, "{least:e}");
     }
-    // Without a guard, it does not.
+    // Without a guard, the relaxation fails.
     let field = relax(&domain, &Equation::Harmonic, &Relaxation::sor(Factor::Formula, ROWS), &RELATIVE).unwrap();
     assert!(!field.converged());
 }
@@ -78,7 +78,7 @@ fn over_relaxed_values_never_pass_that_of_obstacles() {
     }
 }
 
-/// Without small values, a guard changes nothing.
+/// Checks that a guard changes nothing if there are no small values.
 #[test]
 fn a_guard_leaves_relaxations_without_small_values_as_they_are() {
     let domain = drawn("G.... ..#.. .....", [Boundary::Reflecting; 2], Levels::PROBABILITY);

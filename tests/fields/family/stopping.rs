@@ -1,4 +1,4 @@
-//! Measures of a sweep, and areas of influence of robots: small cases by hand.
+//! Measures of a sweep, and areas in which robots have influence: small cases, computed by hand.
 
 use super::direct::drawn;
 use cplan::field::{Boundary, Equation, Influence, Levels, Measure, Relaxation, Stopping, around, relax};
@@ -17,7 +17,7 @@ fn measures(measure: Measure) -> Vec<f64> {
 
 #[test]
 fn measures_match_their_definitions() {
-    // The values are 0, 3/8, 9/16, 21/32.
+    // The values of the cell are 0, 3/8, 9/16, 21/32.
     let changes = [f64::INFINITY, 0.375, 0.1875, 0.09375];
     assert_eq!(measures(Measure::SumOfChange), changes);
     assert_eq!(measures(Measure::GreatestChange), changes);
@@ -34,7 +34,7 @@ fn several_cells_are_summed_or_compared() {
         let stopping = Stopping { measure, below: 0.0, max_sweeps: 1 };
         relax(&domain, &Equation::Harmonic, &relaxation, &stopping).unwrap().change()
     };
-    // To 3/4 (three walls) and to 1/2 (two).
+    // The values tend to 3/4 with three walls, and to 1/2 with two.
     assert_eq!(after(Measure::SumOfChange), 1.25);
     assert_eq!(after(Measure::SumOfSquares), 0.5625 + 0.25);
     assert_eq!(after(Measure::GreatestChange), 0.75);
@@ -71,6 +71,6 @@ fn each_cell_follows_the_nearest_robot_within_its_radius() {
             }
         })
         .collect();
-    // (0, 3) is within the radius of the first, but nearer to the second, whose radius it is outside of.
+    // (0, 3) is within the radius of the first robot. It is nearer to the second one, but outside its radius.
     assert_eq!(shown.iter().collect::<String>(), "aaa.b..aaabbb.aaa.b..");
 }

@@ -1,4 +1,4 @@
-//! Areas in which preferences hold.
+//! Areas in which preferences apply.
 
 use crate::common::{placed, q, rr};
 use cplan::cspace::{Grid, Proves, ZonedGrid};
@@ -23,7 +23,7 @@ fn torus() -> Arm {
 proptest! {
     #![proptest_config(cplan_cases::cases(256))]
 
-    /// A rectangle of angles, anywhere on the line, holds if some copy of the angle is in it.
+    /// Checks that a rectangle of angles applies if it contains some copy of the configuration.
     #[test]
     fn a_region_of_angles_holds_for_every_copy(
         first in (-10.0..10.0_f64, 0.1..5.0_f64),
@@ -36,7 +36,7 @@ proptest! {
         prop_assert_eq!(preference("p", region).holds_at(&torus(), q(at[0], at[1])), expected);
     }
 
-    /// A region of the workspace holds if the tip is in it.
+    /// Checks that a region of the workspace applies if it contains the tip.
     #[test]
     fn a_region_of_the_workspace_holds_for_the_tip(at in [-PI..PI, -PI..PI], corner in [-2.0..1.0_f64, -2.0..1.0_f64]) {
         let arm = torus();

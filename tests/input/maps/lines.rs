@@ -1,4 +1,4 @@
-//! Line maps and preference files: as an independent program wrote them, and with errors.
+//! Line maps and preference files, as an independent program wrote them, and with errors.
 
 use super::{assert_refused, folder, problem_in, world_in};
 use crate::common::{q, wall};
@@ -62,7 +62,7 @@ proptest! {
         let sides = chains.iter().flat_map(|c| c.points.windows(2).map(|w| [w[0], w[1]]));
         let with_length = written.iter().copied().filter(|[a, b]| a != b);
         prop_assert_eq!(segments(sides), segments(with_length));
-        // A line without length is a point, by itself or on its chain.
+        // A line without length is a point. It may be part of a chain.
         for (i, [a, b]) in written.iter().enumerate() {
             let chain = chains.iter().find(|c| c.lines[0] <= i && i <= c.lines[1]).unwrap();
             prop_assert!(chain.points.contains(a) && chain.points.contains(b));
@@ -115,16 +115,16 @@ fn goal_rectangles_are_areas_unless_the_world_has_a_goal() {
         problem.goals().pieces().iter().map(|piece| piece.ends().map(|q| arm.tip_at(q))).collect()
     };
     let rim = [point(1.0, 0.7), point(1.5, 0.7), point(1.5, 0.9), point(1.0, 0.9)];
-    // The upper side is nearer to the frame than the mast's radius.
+    // The upper side is nearer to the frame than the radius of the mast.
     let expected = [[rim[0], rim[1]], [rim[1], rim[2]], [rim[3], rim[0]]];
     assert_near(&sides(&problem), &expected);
-    // With two goals, either one is enough, and a goal can be a point.
+    // Of two goals, one is enough. A goal can be a point.
     let two = PREFERENCES
         .replace("NumGoal: 1", "NumGoal: 2")
         .replace("1500 700 1000 900", "1500 700 1000 900\n-1200 -800 -1200 -800");
     let problem = problem_in(&files(MAP, &two, &low)).unwrap().problem;
     assert_near(&sides(&problem), &[&expected[..], &[[point(-1.2, -0.8); 2]]].concat());
-    // A blocked goal among them disappears with a note.
+    // A goal that is blocked is left out, with a note.
     let walled = two.replace("-1200 -800 -1200 -800", "500 0 500 0");
     let loaded = problem_in(&files(MAP, &walled, &low)).unwrap();
     assert_near(&sides(&loaded.problem), &expected);
@@ -132,7 +132,7 @@ fn goal_rectangles_are_areas_unless_the_world_has_a_goal() {
     let own = format!("{low}[goal]\njoints = [-1.2, -0.4]\n");
     let problem = problem_in(&files(MAP, PREFERENCES, &own)).unwrap().problem;
     assert_eq!(*problem.goals(), q(-1.2, -0.4).into());
-    // The error for a goal that is not free names the place where the world names the file.
+    // The error about a blocked goal has the position at which the world names the file.
     let walled = PREFERENCES.replace("1500 700 1000 900", "500 -400 500 400");
     assert_refused(problem_in(&files(MAP, &walled, &low)), &["world.toml: line 6", "wishes.map", "room, lines 1 to 2"]);
 }

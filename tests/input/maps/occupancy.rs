@@ -1,4 +1,4 @@
-//! Occupancy maps in the plane: obstacles against the pixels below each place, and the errors.
+//! Occupancy maps in the plane: obstacles compared with the pixels at each place, and errors.
 
 use super::{assert_refused, folder, world_in};
 use cplan::geometry::{Convex, Point};
@@ -7,11 +7,11 @@ use cplan::model::Shape;
 use proptest::prelude::*;
 
 const YAML: &str = "image: room.pgm\nresolution: 0.5\norigin: [-1.0, -2.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
-/// Three columns and two rows: occupied, unknown, free above free, free, occupied.
+/// A picture of three columns and two rows: occupied, unknown, free; below that free, free, occupied.
 const PGM: &[u8] = b"P2\n3 2\n255\n0 128 254 254 254 0\n";
 const WORLD: &str = "[[obstacle]]\nname = \"room\"\nimage = \"room.yaml\"\n";
 
-/// Returns the depth of a place inside the counter-clockwise polygon; negative outside.
+/// Returns the depth of a point inside a counter-clockwise polygon; negative outside.
 fn depth(piece: &Convex, place: Point) -> f64 {
     let core = piece.core();
     let sides = (0..core.len()).map(|i| (core[i], core[(i + 1) % core.len()]));
@@ -156,8 +156,8 @@ fn negate_may_be_a_word_and_modes_may_be_named() {
     }
 }
 
-/// Map savers write 205 for unseen cells, and a `free_thresh` of 0.25. The shade is unknown, also with 16 bits per
-/// pixel or if light is occupied.
+/// Checks the shade 205, which map savers write for unseen cells with a `free_thresh` of 0.25. It is unknown, also with
+/// 16 bits per pixel, and with `negate`.
 #[test]
 fn the_shade_of_unseen_cells_is_unknown_whatever_free_thresh() {
     for (picture, negate) in [
@@ -175,7 +175,7 @@ fn the_shade_of_unseen_cells_is_unknown_whatever_free_thresh() {
             assert!(notes.contains("room") && notes.contains("though free_thresh 0.25 would make it free"), "{notes}");
         }
     }
-    // With the usual thresholds it is unknown anyway.
+    // With the usual thresholds, it is unknown in any case.
     let files = [("room.pgm", PGM), ("room.yaml", YAML.as_bytes()), ("world.toml", WORLD.as_bytes())];
     assert_eq!(world_in(&folder(&files)).unwrap().notes, [""; 0]);
 }

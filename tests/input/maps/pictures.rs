@@ -1,4 +1,5 @@
-//! Pictures from independent writers: greymaps byte by byte, PNG by the encoder of the crate that also decodes.
+//! Pictures from independent writers: greymaps written byte by byte, and PNG from the encoder of the crate that also
+//! decodes.
 
 use super::{assert_refused, folder};
 use cplan::input::{InputError, Occupancy, OccupancyMap};
@@ -44,7 +45,7 @@ fn greymap(width: usize, values: &[u32], most: u32, in_text: bool, comments: boo
             }
         }
     } else {
-        // A comment directly after the greatest value ends with the white space that ends the header.
+        // The white space that ends a comment after the greatest value also ends the header.
         bytes.extend(if comments { &b"# last\n"[..] } else { b"\n" });
         for &value in values {
             bytes.extend(if most > 255 { (value as u16).to_be_bytes().to_vec() } else { vec![value as u8] });
@@ -94,7 +95,7 @@ proptest! {
         let wide = read(&encoded(width as u32, ColorType::Grayscale, BitDepth::Sixteen, None, bytes(2))).unwrap();
         let values: Vec<u32> = bytes(2).chunks(2).map(|b| 256 * u32::from(b[0]) + u32::from(b[1])).collect();
         prop_assert_eq!(wide.cells, expected(&values, 65535));
-        // The mean of three colours is their sum out of three times as much.
+        // The mean of three colours equals their sum as a part of three times as much.
         let color = read(&encoded(width as u32, ColorType::Rgb, eight, None, bytes(3))).unwrap();
         let values: Vec<u32> = bytes(3).chunks(3).map(|b| b.iter().map(|v| u32::from(*v)).sum()).collect();
         prop_assert_eq!(color.cells, expected(&values, 3 * 255));
@@ -124,7 +125,7 @@ fn pngs_of_few_bits_and_palettes() {
     let colors = [0, 0, 0, 255, 255, 255, 128, 128, 128, 255, 255, 255];
     let palette = encoded(4, ColorType::Indexed, BitDepth::Eight, Some((&colors, &[255, 255, 255, 7])), &[0, 1, 2, 3]);
     assert_eq!(read(&palette).unwrap().cells, [Occupied, Free, Unknown, Unknown]);
-    // Indices outside the palette have no colour; the fill bits of a row are not pixels.
+    // Indices outside the palette have no colour. The bits that fill up a row are no pixels.
     let two = Some((&colors[..6], &[255, 255][..]));
     let lacking = encoded(2, ColorType::Indexed, BitDepth::Two, two, &[0b0010_0000]);
     assert!(read(&lacking).unwrap_err().to_string().contains("a colour that its palette lacks"));

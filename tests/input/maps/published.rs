@@ -1,4 +1,4 @@
-//! The room-sized gantry in the published line maps.
+//! The room-sized gantry in published line maps.
 
 use super::robot;
 use crate::common::reference::published;
@@ -30,7 +30,7 @@ fn the_maps_have_the_lines_that_are_printed() {
         assert_eq!(map.lines.len(), lines);
         assert_eq!(map.bounds[1].x, half);
     }
-    // The rectangles of the letters and of the room: consecutive lines join.
+    // The rectangles of the letters and of the room become chains, because consecutive lines join.
     let chains = |map: usize| LineMap::read(&data.join(format!("map{map}.map"))).unwrap().chains().len();
     assert_eq!([1, 2, 3].map(chains), [5, 2, 5]);
     for (file, goal) in [(1, [-19500.0, -19500.0, -19000.0, -19000.0]), (2, [-3000.0, -3000.0, -1000.0, -1000.0])] {
@@ -46,7 +46,7 @@ fn the_maps_have_the_lines_that_are_printed() {
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_gantry_finds_paths_in_all_three_maps() {
     let data = published("data");
-    // Map 1 with its goal in the lower left corner; maps 2 and 3 with the goal in the middle, where map 1 has a wall.
+    // Map 1 has its goal in the lower left corner. Maps 2 and 3 have it in the middle, where map 1 has a wall.
     for (map, preferences, start) in [(1, 1, [-9.0, 9.0]), (2, 2, [22.0, -22.0]), (3, 2, [8.0, -8.0])] {
         let problem = problem(&data, map, preferences, start);
         for method in Method::ALL {
@@ -71,8 +71,8 @@ fn no_path_leads_out_of_a_letter() {
     }
 }
 
-/// The worlds in `workspaces/maps` have the printed lines and rectangles. On map 2, the source spreads its preference
-/// file over the whole map, and on map 3 two of the rectangles lie in it.
+/// Checks that the worlds in `workspaces/maps` have the printed lines and rectangles. On map 2, the source spreads its
+/// preference file over the whole map. On map 3, two of the rectangles are inside the map.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_shipped_maps_are_the_printed_ones() {

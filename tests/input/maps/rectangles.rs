@@ -1,4 +1,4 @@
-//! Rectangles against the pixels that they cover, and against the least number of them.
+//! Rectangles, compared with the pixels that they cover, and with the least possible number of rectangles.
 
 use cplan::input::{PixelRectangle, rectangles};
 use proptest::prelude::*;
@@ -63,7 +63,7 @@ proptest! {
 
     #[test]
     fn they_are_few(width in 3..6_usize, height in 3..6_usize, bits in any::<u32>(), more in any::<u32>()) {
-        // Two random numbers combined fill three quarters, so that there are holes.
+        // The combination of two random numbers fills three quarters, so that there are holes.
         let solid = (bits | more) & ((1_u64 << (width * height)) - 1) as u32;
         let pixels: Vec<Vec<bool>> =
             (0..height).map(|y| (0..width).map(|x| solid >> (y * width + x) & 1 == 1).collect()).collect();
@@ -82,7 +82,7 @@ fn shapes_that_one_sees_at_a_glance() {
     assert_eq!(parsed(&["####", "####"]), 1);
     assert_eq!(parsed(&["#.#", ".#.", "#.#"]), 5);
     assert_eq!(parsed(&["###", "#.#", "###"]), 4);
-    // A comb is cut along its back in every orientation.
+    // A comb in any orientation is cut along its back.
     assert_eq!(parsed(&["#####", "#.#.#", "#.#.#"]), 4);
     assert_eq!(parsed(&["###", "#..", "###", "#..", "###"]), 4);
 }

@@ -1,9 +1,9 @@
-//! Invalid objects and steps: refused with the place, the defect, and a hint.
+//! Invalid objects and steps. They are refused with the place, the defect, and a hint.
 
 use super::{CELL, task_of, with_world};
 use cplan::input::{Inspection, Overrides, inspect, load};
 
-/// Steps for the cell; the first is on line 24.
+/// Steps for the cell. The first one is on line 24.
 const STEPS: &str = r#"[[step]]
 pick = "part"
 [[step]]
@@ -214,7 +214,7 @@ fn an_orientation_is_that_of_the_last_place() {
     let once = "angle = 1.5 }\n";
     let world = healthy().replace(once, &format!("{once}{again}"));
     assert_eq!(steps_of(&world, &Overrides::default()), 7);
-    // Without a wrist the first turn fails; without the first, the second would not be a turn.
+    // Without a wrist, the first turn fails. Without the first turn, the second would be none.
     let still = world.replace("wrist = { velocity = 6.0, acceleration = 60.0 }", "").replace(", angle = 1.5", "");
     assert_eq!(steps_of(&still, &Overrides::default()), 7);
 }
@@ -252,7 +252,7 @@ fn infeasible_steps() {
         .replace("at = [0.5, 1.5]", "at = [0.0, 1.81]")
         .replace("pick = \"part\"", "pick = \"part\"\ngrasp = [0.02, 0]");
     assert_eq!(steps_of(&far, &Overrides::default()), 5);
-    // No clearance is kept from the support.
+    // The clearance does not apply to the support.
     let clearance = Overrides { clearance: Some(0.02), ..Overrides::default() };
     assert_eq!(steps_of(&healthy(), &clearance), 5);
     // The error names each step once, however often the task repeats it.
@@ -260,7 +260,7 @@ fn infeasible_steps() {
         healthy().replace("[[obstacle]]", "[task]\nrepeat = 50\n[[obstacle]]").replace("[0.1, 0.2]", "[0.1, 3.2]");
     let error = task_of(&many, &Overrides::default()).unwrap_err();
     assert_eq!(error.diagnostics().len(), 1, "{error}");
-    // A pick of an unreachable object is a consequence of its place.
+    // That the object cannot be picked is a consequence of where it was placed.
     let repeated = many.replace("3.2", "0.2").replace("renew = true\n", "").replace("[0.5, 1.5]", "[2.5, 1.5]");
     let error = task_of(&repeated, &Overrides::default()).unwrap_err();
     assert_eq!(error.diagnostics().len(), 1, "{error}");

@@ -11,7 +11,7 @@ mod errors;
 mod pallets;
 mod written_out;
 
-/// Objects and the start of the arm; steps follow.
+/// A world with objects and the start of the arm, without steps.
 const CELL: &str = r#"name = "cell"
 [robot]
 wrist = { velocity = 6.0, acceleration = 60.0 }
@@ -53,7 +53,7 @@ fn task(steps: &str) -> LoadedTask {
     task_of(&format!("{CELL}{steps}"), &Overrides::default()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Returns the steps in words, `number.cycle: action`, with groups in brackets.
+/// Returns the steps as texts `number.cycle: action`, with groups in brackets.
 fn in_words(loaded: &LoadedTask) -> Vec<String> {
     let objects = &loaded.task.objects;
     let step = |s: &Step| format!("{}.{}: {}", s.number, s.cycle, s.action.describe(objects));

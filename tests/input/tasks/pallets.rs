@@ -6,7 +6,7 @@ use cplan::input::Overrides;
 use cplan::model::Item;
 use std::f64::consts::FRAC_PI_2;
 
-/// A store turned by a right angle, a tray, and parts on the store.
+/// A pallet that is turned by a right angle, with parts on it, and a tray.
 const CELL: &str = r#"[robot]
 payload = "level"
 [start]

@@ -3,8 +3,7 @@
 //! quintics if both have accelerations. Times are those of the message, in whole nanoseconds. The code shares nothing
 //! with the library.
 
-/// The points of a message: the time of each, and its lists of positions, velocities and accelerations, which may be
-/// empty.
+/// The points of a message: the time of each, and its positions, velocities and accelerations. Each list may be empty.
 #[derive(Debug, Clone, Default)]
 pub struct Message {
     pub joints: Vec<String>,

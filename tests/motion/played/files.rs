@@ -3,8 +3,8 @@
 use super::controller::Message;
 use serde_json::Value;
 
-/// Reads the message of a YAML file: its names by a YAML library, its points line by line, which is faster for long
-/// ones.
+/// Reads the message of a YAML file. A YAML library reads the names. Points are read line by line, which is faster for
+/// long files.
 pub fn yaml(text: &str) -> Message {
     let (head, body) = text.split_once("\npoints:\n").expect("points");
     let head: Value = serde_saphyr::from_str(head).expect("YAML");
@@ -48,7 +48,7 @@ pub fn csv(text: &str) -> Message {
     message
 }
 
-/// Returns the messages on `/joint_trajectory` of a recording, each with the nanosecond at which it begins.
+/// Returns the messages on `/joint_trajectory` of a recording, each with the time at which it begins, in nanoseconds.
 #[cfg(feature = "mcap")]
 pub fn mcap(file: &[u8]) -> Vec<(u64, Message)> {
     let (_, motions) = crate::mcap::read(file);

@@ -1,10 +1,10 @@
-//! The joints that files name, and accelerations on request.
+//! The joints that files name, and accelerations if they are requested.
 
 use super::{Certified, Run, files, judge, root};
 use cplan::input::load_scene;
 use std::path::Path;
 
-/// A two-link arm on a rail that is held, with a gripper whose fingers follow each other and a fan that follows the
+/// A two-link arm on a rail that is held. It has a gripper whose fingers mimic each other, and a fan that mimics the
 /// elbow.
 const ROBOT: &str = r#"<robot name="rig">
   <link name="base"/>

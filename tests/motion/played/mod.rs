@@ -1,5 +1,5 @@
-//! Our files as a controller interpolates them, by its own formula: the certified motion, within all limits, at rest
-//! where it stops.
+//! Our files, interpolated by the formula of a controller. The result is the certified motion, within all limits, and
+//! at rest where it stops.
 
 mod controller;
 mod files;
@@ -13,15 +13,15 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Fraction of a limit by which a played motion may exceed it, as in `cplan verify`: rounding of doubles over a
-/// millisecond.
+/// Fraction of a limit by which an interpolated motion may exceed it, as in `cplan verify`. It covers the rounding of
+/// doubles over a millisecond.
 const OVER: f64 = 1e-6;
 
-/// Largest distance of a played motion from the one in the result, in radians or metres: the tolerance about blends
-/// that the certificate covers, for radii of at most one, and rounding.
+/// Largest distance of an interpolated motion from that in the result, in radians or metres. It covers the tolerance
+/// about blends for which the certificate holds (for radii of at most one), and rounding.
 const OFF: f64 = 1e-6;
 
-/// Formats that the program writes and `verify` reads.
+/// Formats that the program writes and that `verify` reads.
 #[cfg(feature = "mcap")]
 pub const FORMATS: [&str; 4] = ["json", "csv", "yaml", "mcap"];
 #[cfg(not(feature = "mcap"))]
@@ -118,7 +118,7 @@ impl Certified {
     }
 }
 
-/// Extreme values of a played motion: fractions of the limits, and the distance from the certified motion.
+/// Greatest values of an interpolated motion: fractions of the limits, and the distance from the certified motion.
 #[derive(Debug, Default, Clone, Copy)]
 pub struct Extremes {
     pub velocity: f64,
@@ -127,8 +127,8 @@ pub struct Extremes {
     pub dwells: usize,
 }
 
-/// Plays a message that begins at a time of the certified motion, densely, and asserts everything that a certificate
-/// guarantees.
+/// Interpolates a message densely, and asserts everything that a certificate guarantees. `begin` is the time in the
+/// certified motion at which the message begins.
 pub fn judge(what: &str, message: &Message, begin: u64, certified: &Certified, joints: &[Joint; 2]) -> Extremes {
     let mut found = Extremes::default();
     for (k, joint) in joints.iter().enumerate() {

@@ -1,10 +1,11 @@
-//! Tools that are lowered at picks and places, and wrists that turn: in the duration, the certificate and the files.
+//! Tools that are lowered at picks and places, and wrists that turn: their effects on the duration, the certificate and
+//! the files.
 
 use super::controller::{Message, played, seconds};
 use super::{Run, files, root};
 use serde_json::Value;
 
-/// A SCARA with its quill and its wrist, and a part to be turned.
+/// A SCARA with its quill and its wrist, and a part that must be turned.
 const CELL: &str = r#"name = "cell"
 [robot]
 joints = ["axis_1", "axis_2"]
@@ -60,7 +61,7 @@ fn a_stroke_takes_its_time_in_the_task_and_in_its_bound() {
     assert_eq!(verified.expect("done").0, 0);
     let (without, _) = planned(&CELL.replace("STROKE", ""), &[]);
     let (with, without) = (with.json(), without.json());
-    // Two strokes down and two up: 0.12 m at 5 m/s2, whose top speed of 1 m/s is not reached.
+    // Two strokes down and two up. Each is 0.12 m at 5 m/s2, which does not reach the top speed of 1 m/s.
     let way = 2.0 * (0.12_f64 / 5.0).sqrt();
     for key in ["duration", "lower_bound"] {
         let more = number(&with[key]) - number(&without[key]);
@@ -75,7 +76,7 @@ fn a_stroke_takes_its_time_in_the_task_and_in_its_bound() {
         let turn = step["turn"].get("seconds").map_or(0.0, number);
         let [arrival, end] = ["arrival", "end"].map(|key| number(&step[key]));
         assert!((end - arrival - wait - turn - 2.0 * way).abs() < 1e-8);
-        // The gripper works while the tool is down; a turn at a place comes before.
+        // The gripper acts while the tool is lowered. In a place step, the wrist turns before that.
         let before = if event["event"] == "release" { turn } else { 0.0 };
         assert!((number(&event["time"]) - arrival - before - way).abs() < 1e-8, "{event}");
     }
@@ -133,7 +134,7 @@ fn the_quill_goes_down_at_picks_and_places_and_nowhere_else() {
 fn the_wrist_levels_and_turns_the_payload() {
     let (run, _) = planned(&CELL.replace("STROKE", STROKE), &[]);
     let (message, result) = (files::yaml(&run.text("yaml")), run.json());
-    // All three turn about z: the orientation of the flange is their sum.
+    // Three joints turn about z, so the orientation of the flange is the sum of their values.
     let level =
         |time: f64| ["axis_1", "axis_2", "axis_4"].map(|joint| at(&message, joint, time)[0]).iter().sum::<f64>();
     let place = &result["steps"][1];
@@ -145,17 +146,17 @@ fn the_wrist_levels_and_turns_the_payload() {
         assert!((level(time) - held).abs() < 1e-6, "turned by {} at {time}", level(time) - held);
     }
     let picked = &result["steps"][0];
-    // From its initial orientation, 0, to that of its place, before or after the carrying motion.
+    // The part turns from its initial orientation, 0, to that of its place, before or after the carrying motion.
     let turned = level(number(&result["events"][1]["time"])) - level(number(&result["events"][0]["time"]));
     assert!((turned - 1.0).abs() < 1e-6, "{turned}: {picked}");
-    // With an empty hand, it returns to its rest position.
+    // Without a payload, the wrist returns to its rest position.
     assert!(at(&message, "axis_4", number(&result["duration"]))[0].abs() < 1e-9);
 }
 
 #[test]
 fn collisions_of_the_lowered_tool_are_found() {
-    // Beside the place, below everything that travels, and nearer than the width of the flange, which comes down to
-    // 0.06 m.
+    // The post is beside the place, and lower than everything that travels. It is nearer than the width of the flange,
+    // which comes down to 0.06 m.
     let post =
         "[[obstacle]]\nname = \"stub\"\ncircle = { center = [0.35, -0.155], radius = 0.003 }\nheight = [0.0, 0.1]\n";
     let world = format!("{CELL}{post}").replace(", angle = 1.0", "");
@@ -199,7 +200,7 @@ fn strokes_that_cannot_be_are_refused() {
     for part in ["accelerations cannot be written", "the tool's joint \"axis_3\"", "--joints planned"] {
         assert!(run.code == 1 && run.errors.contains(part), "{part}: {}", run.errors);
     }
-    // For the two planned joints alone, no acceleration jumps.
+    // The two planned joints alone have no jumps of the acceleration.
     let (run, _) =
         planned(&CELL.replace("STROKE", STROKE), &["--accelerations", "--jerk", "300,300", "--joints", "planned"]);
     assert_eq!(run.code, 0, "{}", run.errors);

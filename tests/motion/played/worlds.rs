@@ -1,4 +1,4 @@
-//! Every shipped world and task, and random ones.
+//! All shipped worlds and tasks, and random ones.
 
 use super::{Certified, Extremes, FORMATS, Run, files, judge, root};
 use crate::common::dice::Dice;
@@ -89,7 +89,7 @@ fn interpolated_motions_of_shipped_worlds_are_certified() {
             continue;
         }
         let extremes = judge_all(&name, &run, &joints(&robot, &world));
-        // It is as fast as the limits allow, not just slow enough.
+        // The motion is as fast as the limits allow, not merely slow enough.
         assert!(extremes.acceleration > 0.99 || extremes.velocity > 0.99, "{name}: {extremes:?}");
         for format in FORMATS {
             let (code, report) = run.verified(&robot, &world, format);
@@ -113,7 +113,7 @@ fn interpolated_motions_of_shipped_tasks_are_certified() {
         dwells += judge_all(&name, &run, &joints(&robot, &world)).dwells;
         let (code, report) = run.verified(&robot, &world, "json");
         assert_eq!(code, 0, "{name}: {report}");
-        // Without the steps, the file is one motion among objects at their initial places. The output says so, and the
+        // Without its steps, the file is a motion among objects at their initial places. The output says so, and the
         // motion touches nothing else.
         let objects = objects(&world);
         for format in FORMATS.into_iter().filter(|format| *format != "json") {

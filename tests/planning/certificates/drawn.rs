@@ -1,4 +1,4 @@
-//! Random arms among a few large obstacles, kept as numbers from which the files are written.
+//! Random arms among a few large obstacles. They are stored as numbers, from which the files are written.
 
 use crate::common::dice::Dice;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -13,16 +13,16 @@ pub const PLANES: [([usize; 3], f64); 3] = [([0, 1, 2], 1.0), ([0, 2, 1], -1.0),
 /// A problem in numbers: lengths in metres.
 #[derive(Debug, Clone)]
 pub struct Drawn {
-    /// Into [`PLANES`].
+    /// Index into [`PLANES`].
     pub plane: usize,
     pub joints: [Joint; 2],
-    /// Origins of the joints in the plane, each as seen from the one before, and their heights.
+    /// Origin of each joint in the plane, relative to the joint before it, and heights of the joints (`heights`).
     pub origins: [V; 2],
     pub heights: [f64; 2],
     pub solids: [Vec<Solid>; 2],
     /// True if the solids are `<visual>` because the links have no others.
     pub visual: bool,
-    /// The tip as seen from the second joint; `None` if it is there.
+    /// The tip relative to the second joint. `None` if it is at that joint.
     pub tip: Option<V>,
     /// Angle of each axis off the plane's normal, or of each slide off the plane, radians. Exported files have such
     /// deviations.
@@ -49,7 +49,7 @@ pub struct Joint {
     pub slides: bool,
     /// Revolute joint: 1 if it turns to the left, -1 if to the right. Prismatic joint: the angle of its direction.
     pub way: f64,
-    /// `None` if the joint is continuous.
+    /// Least and greatest value. `None` if the joint is continuous.
     pub range: Option<V>,
 }
 

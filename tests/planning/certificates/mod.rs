@@ -4,8 +4,8 @@
 //! moved and turned, from millimetres to a kilometre. The obstacles have heights, the problems a clearance, and the
 //! goals are joint values or places of the tip. The checker refuses each falsified certificate, or it is still true. An
 //! oracle decides that, and shares no code with the checker or the library.
-//! Every run tries some of both. Campaigns of some 10 000 worlds and of 1 000 000 falsified certificates are
-//! 10 000 worlds and of 1 000 000 falsified certificates, are
+//!
+//! Every run tries some of both. The campaigns of some 10 000 worlds and of 1 000 000 falsified certificates are
 //!
 //! ```sh
 //! CPLAN_TIMES=150 cargo test --profile quick --test planning certificates_of_random_worlds -- --nocapture
@@ -33,14 +33,14 @@ use std::time::{Duration, Instant};
 /// Kinds of arms: RR, RP, PR, PP.
 const KINDS: u64 = 4;
 
-/// Number of pairs of start and goal per world, and of draws until both are free.
+/// Number of pairs of start and goal per world (`ENDS`), and of draws until both are free.
 const ENDS: usize = 3;
 const TRIES: usize = 200;
 
-/// Size above which certificates are not falsified, because it takes long and shows nothing new.
+/// Largest number of boxes of a certificate that is falsified. Larger ones take long and show nothing new.
 const MAX_BOXES: usize = 30;
 
-/// Certificates to falsify, at the fewest.
+/// Least number of certificates that are falsified.
 const FEWEST: usize = 3;
 
 /// Largest number of seeds whose certificates are falsified.
@@ -61,7 +61,7 @@ struct Tally {
     largest: usize,
     /// Number of arms with oblique cylinders.
     oblique: usize,
-    /// Refused certificates, with the reasons.
+    /// Certificates that the checker refused, with the reasons.
     failed: Vec<String>,
     checking: Duration,
 }
@@ -247,7 +247,7 @@ fn falsify(dice: &mut Dice, InfeasibleExplanation { drawn, certificate }: &Infea
                 1 => drawn.origins[1][k] = moved(dice, drawn.origins[1][k], scale),
                 _ => drawn.angle = moved(dice, drawn.angle, 1.0),
             },
-            // A box of its own.
+            // A box with new values.
             _ => {
                 let mut more = value["boxes"][number].clone();
                 more[end][k] = json!(moved(dice, more[end][k].as_f64().unwrap(), units[k]));
@@ -286,7 +286,7 @@ fn respelled(dice: &mut Dice, text: &str) -> String {
     out + rest
 }
 
-/// Texts that are hardly certificates.
+/// Returns a text that is hardly a certificate.
 fn nonsense(dice: &mut Dice, text: &str) -> String {
     let at = dice.below(text.len());
     let number = |dice: &mut Dice| {
@@ -344,7 +344,7 @@ fn judged(urdf: &str, world: &str, certificate: &str) -> Result<(), bool> {
 #[test]
 fn falsified_certificates_are_refused_or_true() {
     let (mut tally, mut pool) = (Tally::default(), Vec::new());
-    // Some worlds are infeasible: tries more until there is enough to falsify.
+    // Only some worlds are infeasible, so more are tried until there are enough certificates to falsify.
     let drawn = seeds(24);
     for seed in drawn.start.. {
         if seed - drawn.start >= (MAX_SEEDS as u64).min(drawn.end - drawn.start) && pool.len() >= FEWEST {

@@ -1,4 +1,4 @@
-//! Every motion found in a random world has a valid certificate.
+//! Checks that every motion found in a random world has a valid certificate.
 //!
 //! ```sh
 //! CPLAN_TIMES=100 cargo test --profile quick --test planning certificates::motions -- --nocapture
@@ -28,7 +28,7 @@ struct Tally {
     longest: Duration,
 }
 
-/// Plans in the world of this seed, in turn by the shortest path, the first path and one far from obstacles.
+/// Plans in the world of this seed: the shortest path, the first path found, and a path far from obstacles, in turn.
 fn ways(seed: u64, tally: &mut Tally) {
     let mut dice = Dice::new(seed.wrapping_mul(0x9e6c_63d0_876a_1b1d));
     let kind = seed % KINDS;

@@ -5,17 +5,17 @@ use super::drawn::{Drawn, Goal, Joint, Kind, Outline, PLANES, Solid, V};
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};
 
-/// Rounding, as a share of lengths and angles.
+/// Allowance for rounding, as a fraction of lengths and angles.
 const ROUNDING: f64 = 1e-9;
 
-/// A configuration counts as inside a cell if it is farther than this from the sides, as a share of the domain.
+/// A configuration counts as inside a cell if it is at least this far from the sides, as a fraction of the domain.
 const INSIDE: f64 = 1e-6;
 
-/// Distance from a place within which the tip counts as there, as a share of lengths: less than the checker's
+/// The tip counts as being at a place within this distance, as a fraction of lengths. It is less than the checker's
 /// tolerance.
 const REACHED: f64 = 1e-13;
 
-/// Samples of a box along each joint.
+/// Number of samples of a box along each joint.
 const SAMPLES: usize = 3;
 
 fn turned([x, y]: V, angle: f64) -> V {
@@ -66,7 +66,7 @@ impl Drawn {
     }
 }
 
-/// All points within a radius of the convex hull of some points; the heights are those of the whole.
+/// All points within a radius of the convex hull of some points. The heights are those of the whole body.
 struct Body {
     points: Vec<V>,
     radius: f64,
@@ -163,7 +163,8 @@ fn pair(value: &Value) -> Option<V> {
     Some([value.get(0)?.as_f64()?, value.get(1)?.as_f64()?].map(|x| x.clamp(-1e100, 1e100)))
 }
 
-/// Returns the fault of a certificate, if there is one. The certificate has the form that the checker accepts.
+/// Returns a description of what is false in a certificate. `None` if nothing is. The certificate must have the form
+/// that the checker accepts.
 pub fn lie(drawn: &Drawn, certificate: &Value) -> Option<String> {
     let clearance = certificate["clearance"].as_f64().unwrap_or(drawn.clearance);
     let boxes: Vec<[V; 2]> = certificate["boxes"]
@@ -257,7 +258,7 @@ fn part_of(drawn: &Drawn, part: &Value) -> Result<(Vec<V>, f64), &'static str> {
     }
 }
 
-/// Reports how the boxes leave the start connected with a goal, if they do.
+/// Describes how the boxes leave the start connected with a goal. `None` if they do not.
 fn connection(drawn: &Drawn, certificate: &Value, boxes: &[[V; 2]]) -> Option<String> {
     let domain = drawn.joints.map(|joint| joint.domain());
     let ends = [0, 1].map(|k| {

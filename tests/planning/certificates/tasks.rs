@@ -1,4 +1,4 @@
-//! Every feasible random task has a valid certificate. Infeasible ones have none.
+//! Checks that every feasible random task has a valid certificate, and that infeasible ones have none.
 //!
 //! ```sh
 //! CPLAN_TIMES=100 cargo test --profile quick --test planning certificates::tasks -- --nocapture
@@ -59,7 +59,7 @@ fn world(dice: &mut Dice, drawn: &Drawn, mut free: impl FnMut(&mut Dice) -> Opti
                 "polygon = {:?}",
                 [[-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0]].map(|p| p.map(|c| c * size))
             ),
-            // Like an L.
+            // An object in the form of an L.
             _ => {
                 let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
                 format!("polygon = {:?}", corners.map(|p| p.map(|c| 0.5 * c * size)))
@@ -96,7 +96,7 @@ fn world(dice: &mut Dice, drawn: &Drawn, mut free: impl FnMut(&mut Dice) -> Opti
     Some(text + &steps)
 }
 
-/// Tasks for an arm of this seed.
+/// Plans tasks for the arm of this seed, and checks their certificates.
 fn tasks(seed: u64, tally: &mut Tally) {
     let mut dice = Dice::new(seed.wrapping_mul(0x51a3_77c1_90d5_0b2f));
     let kind = seed % KINDS;
@@ -141,7 +141,7 @@ fn tasks(seed: u64, tally: &mut Tally) {
         tally.turned += usize::from(certificate.contains("\"turn\""));
         tally.resting += usize::from(world.contains("supports"));
         tally.free_order += usize::from(world.contains("task.order"));
-        // If the object lies elsewhere, by more than any tolerance, the certificate picks something that is not there.
+        // The object lies elsewhere, by more than any tolerance, so the certificate picks an object that is not there.
         let mut whole: Value = serde_json::from_str(&certificate).unwrap();
         let far = 1e-3 * drawn.scale.max(1.0);
         let Some((before, after)) = world.split_once("[[object]]") else { continue };

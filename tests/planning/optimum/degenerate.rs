@@ -1,4 +1,4 @@
-//! Starts and goals where rows, seams and domains end, and joints that cannot move.
+//! Starts and goals at the ends of rows, seams and domains, and joints that cannot move.
 
 use super::{LIMITS, ROUNDING, bound, metrics};
 use crate::common::{arm, asked, convex, disc, joint, link, q, rectangle, rr, scene};
@@ -62,8 +62,8 @@ fn a_goal_at_the_start_is_reached_at_once() {
     }
 }
 
-/// Joint 1's domain begins as 64 strips. Starts and goals lie exactly on the border of two strips, on either side of it
-/// by one last bit, on the seam, and the same on other turns.
+/// Checks borders of strips: the domain of joint 1 begins with 64 strips. Starts and goals are exactly on the border of
+/// two strips, on either side of it by one last bit, on the seam, and at the same places on other turns.
 #[test]
 fn starts_and_goals_on_slices() {
     let axes = [JointRange::Circle, JointRange::Interval { lower: -1.0, upper: 2.5 }];
@@ -94,7 +94,8 @@ fn among(axes: [JointRange; 2], pieces: Vec<Convex>, start: Configuration, goal:
     asked(scene(rr(axes), pieces), start, goal)
 }
 
-/// The upper arm cannot pass a post. Goals on its other side are reached in the other direction, with a straight arm.
+/// Checks goals on the other side of a post that the upper arm cannot pass. They are reached in the other direction,
+/// with a straight arm.
 #[test]
 fn the_other_way_round() {
     let post = disc(Point::new(0.5, 0.0), 0.1);
@@ -114,7 +115,7 @@ fn the_other_way_round() {
     }
 }
 
-/// A joint without room to move leaves nothing to cut into strips, or nothing beside them.
+/// Checks joints without room to move. There is nothing to cut into strips, or nothing beside the strips.
 #[test]
 fn joints_that_cannot_move() {
     let fixed = JointRange::Interval { lower: 0.5, upper: 0.5 };

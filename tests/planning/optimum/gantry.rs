@@ -1,4 +1,5 @@
-//! A point moved by two slides: configuration space is the plane, up to a linear map, and shortest paths are known.
+//! A point that two slides move. Its configuration space is the plane, up to a linear map, and its shortest paths are
+//! known.
 
 use super::{LIMITS, ROUNDING, bound};
 use crate::common::{arm, asked, convex, disc, joint, link, q, rectangle, scene};
@@ -25,7 +26,8 @@ pub fn square(pieces: Vec<Convex>, start: Configuration, goal: Configuration) ->
     gantry([0.0, TAU / 4.0], pieces, start, &[goal])
 }
 
-/// Checks that the bound is within the gap of a known length, whatever length limit it starts from.
+/// Checks that the bound is within the gap of a known length, for every limit of the length from which the search
+/// starts.
 fn assert_is(problem: &MotionProblem, length: f64) {
     for factor in LIMITS {
         let found = bound(problem, Metric::Euclidean, factor * length, 1e-5 / factor);
@@ -39,7 +41,7 @@ fn around_a_block() {
     assert_is(&square(vec![block], q(-1.5, 0.0), q(1.5, 0.0)), 1.0 + 2.0 * 1.0_f64.hypot(0.25));
 }
 
-/// The path leads out of a U, around one of its sides, and along its outside: four straight pieces.
+/// Checks a path out of a U, around one of its sides, and along its outside: four straight pieces.
 #[test]
 fn out_of_a_trap() {
     let walls =
@@ -50,7 +52,7 @@ fn out_of_a_trap() {
         corners.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>()
     };
     assert_is(&square(walls.clone(), start, goal), out(-1.0, 0.7).min(out(1.0, 0.8)));
-    // Lying on its side.
+    // The same U, turned by a right angle.
     let turned = walls.iter().map(|w| convex(w.core().iter().map(|p| Point::new(-p.y, p.x)).collect(), 0.0));
     let turn = |p: Configuration| q(-p[1], p[0]);
     assert_is(&square(turned.collect(), turn(start), turn(goal)), out(-1.0, 0.7).min(out(1.0, 0.8)));
@@ -66,7 +68,7 @@ fn through_a_slot() {
     assert_is(&square(turned.collect(), q(0.0, -1.0), q(0.0, 1.0)), length);
 }
 
-/// Two slots lie behind one another, far apart: the path leads to one and back to the other.
+/// Checks two slots in walls behind one another, far apart: the path leads to one, and back to the other.
 #[test]
 fn through_two_slots() {
     let wall = |x: f64, slot: f64| [rectangle(x, x + 0.1, -3.0, slot), rectangle(x, x + 0.1, slot + 0.01, 3.0)];
@@ -89,7 +91,7 @@ fn around_a_disc() {
     assert_is(&asked(scene, q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
 }
 
-/// A wall from side to side leaves no path, so the bound exceeds any limit.
+/// Checks a wall from side to side. It leaves no path, so the bound exceeds any limit.
 #[test]
 fn no_path_is_shorter_than_any_limit() {
     let problem = square(vec![rectangle(-0.1, 0.1, -3.0, 3.0)], q(-1.0, 0.0), q(1.0, 0.0));

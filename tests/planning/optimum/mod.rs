@@ -1,6 +1,6 @@
 //! Lower bounds on the length of every free motion. A bound above the length of a free motion is false. So bounds are
-//! compared with independent motions: of all planners on random worlds, of brute force among polygons, and of closed
-//! forms. The limit is always far above the length, because bounds are cut off there.
+//! compared with the motions of all planners in random worlds, with brute force among polygons, and with closed forms.
+//! The limit is always far above the length, because bounds are cut off there.
 
 mod degenerate;
 mod gantry;

@@ -1,4 +1,4 @@
-//! A point among convex polygons, against all-pairs visibility of their corners by brute force.
+//! A point among convex polygons, compared with the visibility of all pairs of corners by brute force.
 
 use super::gantry::{REACH, gantry};
 use super::{LIMITS, ROUNDING, bound, metrics};
@@ -8,7 +8,7 @@ use cplan::space::{Configuration, Metric};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-/// Depth to which a segment may enter a polygon and still count as passing it, metres.
+/// A segment that enters a polygon by at most this depth counts as passing it, in metres.
 const GRAZE: f64 = 1e-12;
 
 /// Sides of polygons in joint space, as half-planes `n . q <= c`, in counterclockwise order.
@@ -86,7 +86,7 @@ fn polygon() -> impl Strategy<Value = Vec<Configuration>> {
     )
 }
 
-/// Bounds are not above the optimum.
+/// Checks that bounds do not exceed the optimum.
 fn agree(polygons: &[Vec<Configuration>], angles: [f64; 2], start: Configuration, goals: &[Configuration], gap: f64) {
     let directions = angles.map(|angle| Vector::new(angle.cos(), angle.sin()));
     let place = |q: &Configuration| directions[0] * q[0] + directions[1] * q[1];
@@ -100,8 +100,8 @@ fn agree(polygons: &[Vec<Configuration>], angles: [f64; 2], start: Configuration
     }
 }
 
-/// The ends of the closed intervals in the slices along a slanting side are in line. None may be lost between the
-/// values that its neighbours imply.
+/// Checks a slanting side. In the slices along it, the ends of the closed intervals are in line. None may be lost
+/// although its neighbours imply its value.
 #[test]
 fn along_a_slanting_side() {
     let corners = [

@@ -1,4 +1,4 @@
-//! The shipped workspaces: distance of the bounds from the best known path.
+//! The shipped workspaces: how far the bounds are from the best known paths.
 
 use super::{ROUNDING, bound};
 use crate::common::shipped_feasible;

@@ -1,4 +1,4 @@
-//! Random worlds of all kinds of arms: no planner finds a motion that is shorter than the bound.
+//! Random worlds with all kinds of arms: no planner finds a motion that is shorter than the bound.
 
 use super::{LIMITS, ROUNDING, bound, metrics};
 use crate::common::{all_kinds, asked, convex, disc, inside, rectangle, scene, wall};
@@ -68,8 +68,8 @@ fn obstacle() -> impl Strategy<Value = Convex> {
     })
 }
 
-/// The walls of a pair part and meet within a strip. Level barriers through all of them once closed the path by
-/// mistake, because the elbow, in the link all along, counted as in the obstacle.
+/// Checks a pair of walls that separate and meet again within a strip. Barriers through all of them once closed the
+/// path by mistake, because the elbow, which is in the link everywhere, counted as being in the obstacle.
 #[test]
 fn walls_that_part_and_meet_block_no_path() {
     for gap in [1e-2, 1e-4] {

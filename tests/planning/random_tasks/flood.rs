@@ -1,5 +1,5 @@
-//! Scenes with payloads against a flood fill with its own distances: entirely free cells connect, entirely blocked
-//! cells separate.
+//! Scenes with payloads, compared with a flood fill that computes its own distances. Cells that are entirely free
+//! connect, and cells that are entirely blocked separate.
 
 use super::replay::World;
 use super::task;

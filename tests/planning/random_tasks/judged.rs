@@ -1,5 +1,5 @@
-//! The library's own judge of recorded tasks, on random ones. Plans are free and fulfil the task. With larger
-//! objects than planned for, most of them are not free.
+//! The library's own judge of recorded tasks, on random tasks. Plans are free and fulfil the task. With larger objects
+//! than planned for, most of them are not free.
 
 use super::{options, task};
 use crate::common::random::{seeds, times};

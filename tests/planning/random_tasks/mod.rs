@@ -1,5 +1,5 @@
-//! Random pick-and-place tasks against a replay by brute force. The replay repeats each plan step by step, with its own
-//! kinematics, distances and rules, and checks dense samples.
+//! Random pick-and-place tasks, compared with a replay by brute force. The replay repeats each plan step by step, with
+//! its own kinematics, distances and rules, and checks dense samples.
 //!
 //! `CPLAN_TIMES=30 cargo test --test planning random_tasks -- --nocapture` tries thirty times as many.
 
@@ -15,7 +15,7 @@ use cplan::engine::task::plan;
 use cplan::engine::{Method, Options};
 use cplan::motion::Drive;
 
-/// Planned, proven impossible, unknown.
+/// Numbers of tasks that are planned, proven infeasible, and unknown.
 #[derive(Debug, Default, PartialEq)]
 struct Count {
     done: usize,
@@ -52,7 +52,8 @@ fn planned_tasks_are_feasible() {
     assert!(found.done * 2 > found.infeasible + found.unknown, "hardly any task can be done: {found:?}");
 }
 
-/// The oracle does refuse plans: those for smaller objects are not valid for larger ones, nor for other targets.
+/// Checks that the oracle refuses plans: those for smaller objects are not valid for larger ones, nor for other
+/// targets.
 #[test]
 fn recordings_of_another_task_are_refused() {
     let (mut larger, mut elsewhere, mut done) = (0, 0, 0);

@@ -9,13 +9,13 @@ use cplan::model::{Action, Goal, Holding, Item, Joint, JointType, Step, Task};
 /// Tolerance of positions, metres: inverse kinematics is exact to a few nanometres.
 const NEAR: f64 = 1e-7;
 
-/// Looks at each motion.
+/// Number of samples of each motion.
 const LOOKS: usize = 300;
 
-/// Greatest depth to which an object may press into its support, as a share of the arm's reach.
+/// Greatest depth to which an object may press into its support, as a fraction of the arm's reach.
 const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
-/// The tolerance of the book, metres.
+/// Heights that overlap by at most this count as resting, as the book states, in metres.
 const RESTING_TOLERANCE: f64 = 1e-6;
 
 /// A frame: cosine and sine of its turn, and its origin.
@@ -37,8 +37,8 @@ fn turned(angle: f64, at: V) -> Frame {
 /// A payload.
 struct Held {
     object: usize,
-    /// Rigid payloads: the object in link 2's frame. Level ones: the object relative to the tip, in the plane's
-    /// directions.
+    /// Pose of the object: in link 2's frame for a rigid payload; relative to the tip, in the plane's directions, for a
+    /// level one.
     frame: Frame,
     level: bool,
     supports: Vec<usize>,
@@ -203,7 +203,7 @@ impl<'a> World<'a> {
         World { task, lies: lies.collect(), held: None, released: None }
     }
 
-    /// Returns the world with an object in the hand, as the arm at `q` would take it.
+    /// Returns the world with an object in the gripper, gripped as by the arm at `q`.
     pub fn carrying(mut self, object: usize, q: V, supports: Vec<usize>) -> Self {
         let (frames, tip) = self.frames(q);
         if let Some(lies) = self.lies[object].take() {
@@ -214,7 +214,7 @@ impl<'a> World<'a> {
         self
     }
 
-    /// Frames of both links, and the tip.
+    /// Returns the frames of both links, and the tip.
     fn frames(&self, q: V) -> ([Frame; 2], V) {
         let arm = &self.task.arm;
         let joint = |k: usize| match arm.joints[k].joint_type {
@@ -305,9 +305,9 @@ impl<'a> World<'a> {
         wrong
     }
 
-    /// Returns two values of the room at `q`: the distance from obstacles beyond the required one, at the least and at
-    /// the most. A body that does not press into its support at all is free. Otherwise its corners decide how far short
-    /// of [`World::pressed`] it must stay.
+    /// Returns the least and the greatest possible value of the room at `q`, which is the distance from obstacles
+    /// beyond the required one. A body that does not press into its support at all is free. Otherwise its corners
+    /// decide how much less than [`World::pressed`] it may press.
     pub fn room(&self, q: V) -> [f64; 2] {
         let (mut surely, mut perhaps) = (f64::INFINITY, f64::INFINITY);
         self.distances(q, None, |_, _, distance, pressed| {

@@ -1,4 +1,4 @@
-//! Random worlds of arms whose own body is in their way.
+//! Random worlds in which the arm's own body is an obstacle.
 
 use super::world;
 use crate::common::dice::Dice;

@@ -1,5 +1,5 @@
-//! Explorations of random worlds against brute force. Free cells are free, an explored world shows nothing new, an
-//! unreachable goal is unreachable, and the arm moves only where it may.
+//! Explorations of random worlds, compared with brute force. Free cells are free, an explored world shows nothing new,
+//! an unreachable goal is unreachable, and the arm moves only where it may.
 //!
 //! `CPLAN_WORLDS=50` tries 50 of each kind of arm, and prints the lengths of the paths and the endings.
 
@@ -19,13 +19,13 @@ use std::f64::consts::TAU;
 const STRATEGIES: [Strategy; 5] =
     [Strategy::Goal, Strategy::Nearest, Strategy::Harmonic, Strategy::View, Strategy::Wall];
 
-/// Rounding of a distance.
+/// Allowance for the rounding of a distance, in metres.
 const ROUNDING: f64 = 1e-9;
 
-/// Distance below which two sides of cells count as met at a corner, where rounding decides which cell the ray meets.
+/// If a ray meets two sides of cells within this distance, rounding decides which cell it meets first, in metres.
 const CORNER: f64 = 1e-9;
 
-/// Cells along both axes of joint space.
+/// Number of cells along both axes of joint space.
 const GRID: [usize; 2] = [36, 40];
 
 /// Returns a sensor whose rays do not run along the map's sides.
@@ -59,7 +59,7 @@ fn square(map: &OccupancyMap, cell: usize) -> [Point; 4] {
         .map(|[u, v]| map.pose.point(Point::new((x + u) * map.resolution, (y + v) * map.resolution)))
 }
 
-/// Checks that free cells hold nothing, and occupied ones something.
+/// Checks that free cells contain no obstacle, and occupied ones do.
 fn map_is_true(scene: &Scene, map: &OccupancyMap) {
     let obstacles: Vec<Solid> =
         scene.workspace().obstacles.iter().flat_map(|obstacle| obstacle.pieces.iter().map(Solid::new)).collect();
@@ -74,7 +74,7 @@ fn map_is_true(scene: &Scene, map: &OccupancyMap) {
     }
 }
 
-/// Returns an unknown cell that a ray would show, from all sides that it meets, in order.
+/// Returns an unknown cell that a ray would show. Considers all sides of cells that the ray meets, in order.
 fn shown_by_ray(map: &OccupancyMap, from: Point, angle: f64, range: f64) -> Option<usize> {
     let local = map.pose.inverse_point(from) / map.resolution;
     let (from, ahead, far) = ([local.x, local.y], [angle.cos(), angle.sin()], range / map.resolution);

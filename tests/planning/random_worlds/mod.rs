@@ -34,21 +34,21 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// Largest sum of rounding errors in a distance.
+/// Largest rounding error of a distance, in metres.
 const ROUNDING: f64 = 1e-9;
 
-/// Time above which the long run lists an answer.
+/// An answer that takes longer than this is listed in the long run.
 const SLOW: Duration = Duration::from_secs(2);
 
 const PLANNERS: usize = Method::ALL.len();
 
-/// Verdicts of one planner.
+/// Numbers of verdicts of one planner.
 #[derive(Debug, Clone, Copy, Default)]
 struct Count {
     found: usize,
     infeasible: usize,
     unknown: usize,
-    /// Unknown, although the flood fill is decisive.
+    /// Number of worlds in which the planner's answer is unknown although the flood fill decides them.
     unknown_yet_decided: usize,
     time: Duration,
     longest: (Duration, u64),
@@ -66,7 +66,7 @@ struct Tally {
     lies: Vec<String>,
 }
 
-/// The first margin of polygons, as a share of the reach.
+/// First margin of polygons, as a fraction of the reach.
 const MARGIN: f64 = 1e-3;
 
 /// Settings of a run.
@@ -75,15 +75,15 @@ struct Run {
     boxes: usize,
     cells: Option<usize>,
     lattice: usize,
-    /// Interval between worlds in which all planners answer.
+    /// One of this many worlds is answered by all planners.
     share: u64,
-    /// True to include arms whose own body is in their way.
+    /// True to include arms whose own body is an obstacle.
     body: bool,
     long: bool,
 }
 
 impl Run {
-    /// Returns the run with the default settings of each planner, and this lattice.
+    /// Returns the settings of a run with the defaults of each planner, and with this lattice.
     fn usual(lattice: usize) -> Self {
         let Options { levels, boxes, .. } = Options::default();
         Self { levels, boxes, cells: None, lattice, share: u64::MAX, body: false, long: false }
@@ -96,7 +96,7 @@ impl Run {
     }
 }
 
-/// Returns the fault of an answer, if there is one.
+/// Describes what is false in an answer. `None` if nothing is.
 fn lie(problem: &MotionProblem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Option<String> {
     match &answer.outcome {
         Outcome::Unknown(_) => None,

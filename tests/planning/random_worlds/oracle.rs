@@ -7,11 +7,12 @@ use cplan::space::{Configuration, Path};
 
 /// A part of a link and the obstacles that it can hit.
 struct MovingObstacle {
-    /// 0 or 1; 2 for link 2 with joint 1 at zero, which can hit obstacles fixed to link 1.
+    /// Index of the link: 0 or 1. The index 2 stands for link 2 with joint 1 at zero, which can hit obstacles fixed to
+    /// link 1.
     link: usize,
     solid: Solid,
     obstacles: Vec<u16>,
-    /// Bounds on the speed of its points per unit of each joint's rate.
+    /// Bounds on the speed of the part's points, per unit of each joint's rate.
     speed: V,
 }
 
@@ -26,7 +27,7 @@ pub struct Oracle {
     movers: Vec<MovingObstacle>,
     obstacles: Vec<Solid>,
     clearance: f64,
-    /// Lower and upper value of each axis; whether it is a circle.
+    /// Lower and upper value of each axis, and true if it is a circle.
     pub axes: [(f64, f64, bool); 2],
 }
 

@@ -6,7 +6,7 @@ use cplan::geometry::Convex;
 /// A point or a vector.
 pub type V = [f64; 2];
 
-/// Most corners of a body.
+/// Largest number of corners of a body.
 const MOST: usize = 8;
 
 /// Gaps nearer to zero than this are computed from the distance of corners to sides. If bodies lie on one line, no

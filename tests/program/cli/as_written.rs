@@ -1,5 +1,5 @@
-//! Files as people and exporters write them. If only one meaning is possible, the program uses it and reports that. It
-//! refuses the rest with a hint.
+//! Files as people and exporters write them. If a file can have only one meaning, the program uses that and reports it.
+//! Otherwise it refuses the file with a hint.
 
 use super::{Done, FREE, Place, shipped};
 
@@ -65,7 +65,7 @@ fn preferred_regions_are_read_like_obstacles_and_noted_by_verify() {
         ("configurations = [[0, 0], [1, 0], [1, 1], [0, 0]]", "preference \"wish\": the last point of a ring repeats"),
     ] {
         place.plan(wish(shape), "").found(&[note]);
-        // The motion for the world without repetitions is judged in this one.
+        // The motion for the world without repeated points is judged in this world.
         let judged = place.run(&["verify", &robot, "world.toml", "a.csv"], "");
         judged.found(&[note]);
     }
@@ -84,7 +84,7 @@ fn preferred_regions_are_read_like_obstacles_and_noted_by_verify() {
     }
 }
 
-/// A start in the hole of a plate.
+/// A world with a plate whose hole contains the start.
 const PLATE: &str = "[start]\njoints = [0.0, 0.0]\n[goal]\njoints = [GOAL]\n[[obstacle]]\nname = \"plate\"\n";
 
 #[test]
@@ -96,7 +96,7 @@ fn holes_are_free_and_enclosed() {
         place.write("world.toml", world);
         place.run(&["arm.urdf", "world.toml"], options)
     };
-    // The second link, a short block at (1.5, 0), is in the hole. A turn of joint 1 moves it out.
+    // The second link, a short block at (1.5, 0), is in the hole. If joint 1 turns, the link leaves the hole.
     let outer = "[[1, -0.5], [2.2, -0.5], [2.2, 0.5], [1, 0.5]]";
     let hole = "[[1.3, -0.2], [1.7, -0.2], [1.7, 0.2], [1.3, 0.2]]";
     for shape in [format!("polygon = {outer}\nholes = [{hole}]"), format!("polygon = [{outer}, {hole}]")] {
@@ -198,7 +198,7 @@ fn limits_that_are_none_make_a_joint_continuous() {
         run(turning(limits), "").refused(1, &["joint \"j1\"", "too long for planning", "limits = { j1 = ", "hint"]);
     }
     run(turning("lower=\"nan\" upper=\"1\""), "").refused(1, &["not finite"]);
-    // Slides of any length.
+    // Prismatic joints of any length.
     let sliding = |limits: &str| {
         let urdf = arm(&format!("{limits} velocity=\"1\"")).replace("\"continuous\"", "\"prismatic\"");
         urdf.replacen("xyz=\"0 0 1\"", "xyz=\"1 0 0\"", 1).replacen("xyz=\"0 0 1\"", "xyz=\"0 1 0\"", 1)
@@ -246,14 +246,14 @@ fn the_only_planar_pair_is_taken() {
         joint("a2", "revolute", up, "l2", "l3"),
     ];
     run(&between, "").found(&["the two joints are \"a1\" and \"a2\""]);
-    // Of three joints in a row that share a plane, the program takes the first two.
+    // If three joints in a row share a plane, the program takes the first two.
     let three = [
         joint("a1", "revolute", up, "base", "l1"),
         joint("a2", "revolute", up, "l1", "l2"),
         joint("a3", "revolute", up, "l2", "l3"),
     ];
     run(&three, "").found(&["the two joints are \"a1\" and \"a2\", the first of 2 planar pairs of neighbours"]);
-    // Yaw, pitch, yaw: the yaws are parallel only while the pitch is held.
+    // Yaw, pitch, yaw: the axes of the yaws are parallel only while the pitch is held.
     let crooked = [
         joint("a1", "revolute", up, "base", "l1"),
         joint("b", "revolute", across, "l1", "l2"),

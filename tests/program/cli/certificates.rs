@@ -1,4 +1,4 @@
-//! `--certificate`, and the verdict of the checker, which shares no code with the program.
+//! The option `--certificate`, and the verdict of the checker, which shares no code with the program.
 
 use super::{FREE, Place, shipped};
 use cplan_check_files::{CheckError, check, check_files};
@@ -12,7 +12,7 @@ pub fn without_digests(certificate: &str) -> String {
     whole.to_string()
 }
 
-/// Returns shipped infeasible worlds, and their robots.
+/// Returns shipped worlds that are infeasible, and their robots.
 fn closed() -> Vec<(String, String)> {
     let folder = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces")).unwrap();
     let mut found = Vec::new();
@@ -40,8 +40,8 @@ fn every_infeasible_shipped_world_has_a_valid_certificate() {
         let read = |path: &str| std::fs::read_to_string(path).unwrap();
         let judged = |world: &str, certificate: &str| check(&read(&robot), world, certificate);
         judged(&read(&world), &certificate).unwrap_or_else(|why| panic!("{world}: {why}"));
-        // Without one of the necessary boxes, a path is open. In the twin, which has a path, part of the certificate is
-        // false.
+        // If one of the necessary boxes is missing, a path is open. In the twin, which has a path, part of the
+        // certificate is false.
         let whole: Value = serde_json::from_str(&certificate).unwrap();
         let without = |k: usize| {
             let mut fewer = whole.clone();
@@ -72,8 +72,8 @@ fn the_certificate_states_the_query_of_the_command_line() {
     }
 }
 
-/// The tasks are those of shipped worlds, with the goal as a place of the tip: both elbows, two solutions of a slide, a
-/// stretched arm.
+/// Checks the tasks of shipped worlds, with the goal as a place of the tip: both elbows, two solutions of a slide, and
+/// a stretched arm.
 #[test]
 fn places_of_the_tip_that_are_shut_off_have_certificates_that_hold() {
     let place = Place::new();
@@ -92,7 +92,7 @@ fn places_of_the_tip_that_are_shut_off_have_certificates_that_hold() {
         let certificate = place.read("c.json");
         let report = check(&read(&files[0]), &read(&files[1]), &certificate).unwrap();
         assert!(report.contains("a position of the tip \"tool0\""), "{report}");
-        // The start itself is also on the start's side.
+        // The start is on its own side of the boxes.
         let mut other: Value = serde_json::from_str(&certificate).unwrap();
         other.as_object_mut().unwrap().remove("goal_tip");
         other["goal"] = start_of(&read(&files[1]));
@@ -107,7 +107,8 @@ fn start_of(world: &str) -> Value {
     serde_json::from_str(start.lines().next().unwrap()).unwrap()
 }
 
-/// The robot stands elsewhere, and the world with it: everything is turned to the left and moved by (2, -1).
+/// Checks a robot that is placed elsewhere together with its world: everything is turned to the left and moved by (2,
+/// -1).
 #[test]
 fn moved_robots_have_certificates() {
     let place = Place::new();
@@ -130,7 +131,7 @@ fn moved_robots_have_certificates() {
     assert!(matches!(judged(&world.replace("90deg", "100deg")), Err(CheckError::Fails(_))));
 }
 
-/// The links have only visual geometry, or no shapes, so that bars replace them.
+/// Checks links that have only visual geometry, or no shapes, so that bars replace them.
 #[test]
 fn every_shape_of_a_link_is_named() {
     let place = Place::new();
@@ -158,7 +159,7 @@ fn a_certificate_does_not_take_the_place_of_its_input() {
     done.refused(1, &["world.toml is the input"]);
 }
 
-/// A certificate is about its files, byte by byte, and about the files that they name.
+/// Checks that a certificate applies to its files only, byte by byte, and to the files that they name.
 #[test]
 fn certificates_are_bound_to_their_files() {
     let place = Place::new();
@@ -181,13 +182,13 @@ fn certificates_are_bound_to_their_files() {
         assert!(why.contains(named), "{why}");
         place.write(file, &whole);
     }
-    // A pixel that is a shade lighter.
+    // A pixel becomes a shade lighter.
     let mut other = picture.clone();
     *other.last_mut().unwrap() ^= 1;
     place.write("den.pgm", &other);
     assert!(matches!(judged(), Err(CheckError::Fails(why)) if why.contains("den.pgm")));
     place.write("den.pgm", &picture);
-    // The certificate of `verify` is bound to the same files, not to the trajectory.
+    // The certificate of `verify` refers to the same files, but not to the trajectory.
     let done = place.run(&["verify", "arm.urdf", "den.toml", "m.csv"], "--quiet --certificate v.json");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let digests = |file: &str| {
@@ -199,8 +200,8 @@ fn certificates_are_bound_to_their_files() {
     check_files(&urdf, &world, &place.path("v.json")).unwrap();
 }
 
-/// The certificate is written beside the result or into it. In the result, its readers skip the certificate, and the
-/// checker finds it.
+/// Checks that a certificate can be written to a file of its own or into the result. Readers of the result skip it, and
+/// the checker finds it.
 #[test]
 fn a_certificate_can_be_a_part_of_the_result() {
     let place = Place::new();
@@ -228,7 +229,7 @@ fn a_certificate_can_be_a_part_of_the_result() {
     done.refused(1, &["m.csv", "the same file"]);
 }
 
-/// Returns a block of 1 m along x as an STL, a little thinner in its middle. Its hull counts.
+/// Returns an STL of a block of 1 m along x that is slightly thinner in the middle. Its convex hull counts.
 fn stl() -> String {
     let ring = |x: f64, half: f64| [[x, -half, -half], [x, half, -half], [x, half, half], [x, -half, half]];
     let rings = [ring(-0.5, 0.05), ring(0.0, 0.02), ring(0.5, 0.05)];
@@ -245,7 +246,7 @@ fn stl() -> String {
     text + "endsolid block\n"
 }
 
-/// Meshes of links: motions, bounds and proofs are about their hulls.
+/// Checks links with meshes: motions, bounds and proofs refer to the convex hulls.
 #[test]
 fn arms_of_meshes_have_certificates_that_hold() {
     let place = Place::new();
@@ -272,8 +273,8 @@ fn arms_of_meshes_have_certificates_that_hold() {
     }
 }
 
-/// The arms have two bars of a millimetre or two, and the polygons are a thousand times as large. The shortest paths
-/// keep some nanometres from their sides.
+/// Checks arms with two bars of a millimetre or two, among polygons that are a thousand times as large. The shortest
+/// paths keep some nanometres from their sides.
 #[test]
 fn shortest_paths_past_what_is_a_thousand_times_as_large_have_certificates_that_hold() {
     let arm = |[first, second]: [f64; 2], width: f64| {
@@ -320,7 +321,7 @@ fn shortest_paths_past_what_is_a_thousand_times_as_large_have_certificates_that_
     }
 }
 
-/// A path to goal areas ends on a rim, and a proof of infeasibility covers all of them. The checker supports both.
+/// Checks goal areas: a path ends on the rim of one, and a proof covers all of them. The checker accepts both.
 #[test]
 fn goal_areas_have_certificates_that_hold() {
     let robot = shipped("robots/room_gantry.urdf");
@@ -342,7 +343,7 @@ fn goal_areas_have_certificates_that_hold() {
     assert!(inside["length"].as_f64().unwrap() < 1e-9, "{inside}");
     let ring = "[[obstacle]]\npolyline = [[-2, -2], [2, -2], [2, 2], [-2, 2], [-2, -2]]\nheight = [0, 3]\n";
     judged("[[5, -1], [7, 1]], [[-9, -2], [-8, 2]]", ring, 3);
-    // Only a corner of the area lies within the ring.
+    // Only a corner of the area is within the ring.
     judged("[[1, 1], [7, 7]]", ring, 0);
 }
 

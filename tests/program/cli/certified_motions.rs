@@ -6,7 +6,7 @@ use cplan_check_files::{CheckError, check, check_files};
 use serde_json::Value;
 use std::path::Path;
 
-/// Returns shipped feasible worlds by name, and their robots.
+/// Returns shipped worlds that are feasible by name, and their robots.
 fn open() -> Vec<(String, String)> {
     let folder = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces")).unwrap();
     let mut found = Vec::new();
@@ -51,7 +51,7 @@ fn every_solved_shipped_world_has_a_valid_certificate() {
         let verdict = judged(&world, &certificate);
         eprintln!("{world}: {} bytes, {:.3} s", certificate.len(), begun.elapsed().as_secs_f64());
         let report = verdict.unwrap_or_else(|why| panic!("{world}: {why}"));
-        // The checker proves the reported bound, except for the loss from the walls that it sums up.
+        // The checker proves the reported bound, except for a small loss from the walls.
         let plan: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
         let [output, length] = ["lower_bound", "length"].map(|of| plan["optimum"][of].as_f64().unwrap());
         if let Some((_, proven)) = report.split_once("is shorter than ") {
@@ -63,7 +63,7 @@ fn every_solved_shipped_world_has_a_valid_certificate() {
             eprintln!("  no bound");
         }
         let fails = |world: &str, certificate: &str| matches!(judged(world, certificate), Err(CheckError::Fails(_)));
-        // Without its end, the motion does not reach the goal. A clearance greater than any distance is false.
+        // A motion without its end does not reach the goal. A clearance greater than any distance is false.
         assert!(fails(&world, &altered(&certificate, |knots| knots.truncate(knots.len() / 2))), "{world}");
         let farther = certificate.replacen("\"motion\"", "\"clearance\": 100.0,\n  \"motion\"", 1);
         assert!(fails(&world, &farther), "{world}");
@@ -84,7 +84,7 @@ fn the_certificate_states_motion_and_query() {
         assert_eq!(done.code, 0, "{}", done.stderr);
         let [certificate, plan] =
             ["c.json", "plan.json"].map(|file| serde_json::from_str::<Value>(&place.read(file)).unwrap());
-        // The samples equal the trajectory's, number by number.
+        // The samples are those of the trajectory, number by number.
         let knots = certificate["motion"]["knots"].as_array().unwrap();
         let times = plan["trajectory"]["time"].as_array().unwrap();
         assert!(knots.len() == times.len() && (0..knots.len()).all(|k| knots[k][0] == times[k]));
@@ -105,7 +105,7 @@ fn the_certificate_states_motion_and_query() {
     assert!(tip.contains("goal (0.35, 0.5), a position of the tip") && tip.contains("within 1e-1"), "{tip}");
 }
 
-/// Includes the motions of the other planners, and one with sharp corners.
+/// Checks the motions of the other planners, and one with sharp corners.
 #[test]
 fn motions_of_every_planner_hold() {
     let place = Place::new();
@@ -155,7 +155,7 @@ fn verify_writes_certificates_of_motions_that_it_accepts() {
     assert!(code == 3 && !exists && why.contains("not accepted"), "{code} {why}");
 }
 
-/// Coordinates of a map, in the hundreds of kilometres.
+/// Checks coordinates of a map, in the hundreds of kilometres.
 #[test]
 fn an_arm_far_from_the_origin() {
     let place = Place::new();
@@ -174,8 +174,8 @@ fn an_arm_far_from_the_origin() {
     assert!(report.as_ref().is_ok_and(|report| report.contains("is shorter than")), "{report:?}");
 }
 
-/// A limit in degrees, or with more digits than a double has, is no double. The nearest double may lie slightly beyond
-/// it.
+/// Checks limits that are no doubles: in degrees, or with more digits than a double has. The nearest double may lie
+/// slightly beyond such a limit.
 #[test]
 fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {
     let place = Place::new();
@@ -198,7 +198,7 @@ fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {
         );
         let report = hold("");
         assert!(report.contains("is shorter than"), "{report}");
-        // The same on the command line, in the other direction.
+        // The same limits on the command line, in the other direction.
         let report = hold(&format!("--start {high},{high} --goal={low},0"));
         assert!(report.contains("is shorter than"), "{report}");
     }
@@ -212,7 +212,7 @@ fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {
     }
 }
 
-/// A limit of 0 has no room in proportion to its size.
+/// Checks a limit of 0, for which a margin in proportion to its size is none.
 #[test]
 fn motions_at_a_limit_of_0_are_within_the_limits_as_they_are_written() {
     let place = Place::new();

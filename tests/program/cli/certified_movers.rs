@@ -32,14 +32,14 @@ fn every_shipped_motion_among_moving_obstacles_has_a_valid_certificate() {
             assert!(report.is_ok(), "{name} {file}: {report:?}");
         }
     }
-    // If the only path is closed for ever, the program claims nothing.
+    // If the only path is closed for ever, the program writes no certificate.
     let place = Place::new();
     let unknown = place.run(&[robot, shipped("workspaces/moving/parked.toml")], "--quiet --certificate c.json");
     assert_eq!(unknown.code, 4);
     assert!(unknown.stderr.contains("claims nothing") && !place.path("c.json").exists(), "{}", unknown.stderr);
 }
 
-/// The motion is checked in a world where the cart comes half a second later, or one without the cart.
+/// Checks the motion in a world where the cart comes half a second later, and in one without the cart.
 #[test]
 fn of_another_time_it_does_not_hold() {
     let (place, robot, world) =
@@ -105,7 +105,7 @@ fn certificates_among_random_moving_obstacles_hold() {
         let (place, mut dice) = (Place::new(), Dice::new(seed ^ 0x6d6f_7665));
         place.write("world.toml", drawn(&mut dice));
         let done = place.run(&[&*robot, "world.toml"], "--certificate c.json");
-        // If an end is not free, there is nothing to plan.
+        // If start or goal is blocked, there is nothing to plan.
         if done.code != 0 {
             continue;
         }
@@ -118,7 +118,7 @@ fn certificates_among_random_moving_obstacles_hold() {
     assert!(!usual() || (found > 8 && waited > 0), "{found} found, {waited} with waits");
 }
 
-/// The object stands still on a part of its trajectory. There it has no direction.
+/// Checks an object that stands still on a part of its trajectory, where it has no direction of motion.
 #[test]
 fn obstacles_waiting_out_of_reach_stay_out_of_reach() {
     let place = Place::new();
@@ -132,7 +132,7 @@ fn obstacles_waiting_out_of_reach_stay_out_of_reach() {
     assert!(done.stdout.contains("never within the arm's reach"), "{}", done.stdout);
 }
 
-/// The pick is at the very beginning of its window, which is not a whole nanosecond. The plan uses the first whole
+/// Checks a pick at the very beginning of its window, which is not a whole nanosecond. The plan uses the first whole
 /// nanosecond within it.
 #[test]
 fn a_pick_at_the_beginning_of_its_window_is_within_it() {

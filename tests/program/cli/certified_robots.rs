@@ -6,7 +6,7 @@ use super::certificates::without_digests;
 use cplan_check_files::{CheckError, check_files};
 use std::path::PathBuf;
 
-/// Two bars of 1 m and 0.8 m. The words in braces are placeholders for the differences.
+/// An arm with two bars of 1 m and 0.8 m. The words in braces are placeholders for what differs between cases.
 const ARM: &str = r#"<robot name="r" {version}>
 <link name="base"/>
 <joint name="j1" type="revolute">
@@ -36,13 +36,13 @@ const USUAL: [(&str, &str); 9] = [
     ("{more}", ""),
 ];
 
-/// Discs that leave the upper arm little room in either direction; start and goal are within it.
+/// A world with discs that leave the upper arm little room in either direction. Start and goal are between them.
 const WORLD: &str = "[start]\njoints = [0.0, 0.0]\n[goal]\njoints = [0.2, 0.5]\n\
                      [[obstacle]]\ncircle = { center = [0.38, 0.32], radius = 0.1 }\n\
                      [[obstacle]]\ncircle = { center = [0.38, -0.32], radius = 0.1 }\n\
                      [[obstacle]]\ncircle = { center = [-0.5, 0.0], radius = 0.1 }\n";
 
-/// A robot, or a world, in somebody's notation.
+/// A robot, or a world, as some tool or person writes it.
 #[derive(Default)]
 struct Case<'a> {
     what: &'a str,
@@ -100,7 +100,7 @@ impl Case<'_> {
     }
 }
 
-/// Frames are turned by rounded angles, axes are slightly off, and planes are not along axes.
+/// Checks frames that are turned by rounded angles, axes that are slightly off, and planes that are not along axes.
 #[test]
 fn frames_and_axes_as_exporters_write_them() {
     for (what, robot, report) in [
@@ -121,7 +121,7 @@ fn frames_and_axes_as_exporters_write_them() {
 
 const ENDLESS: &str = r#"<limit lower="-1e16" upper="1e16" velocity="1" effort="1"/>"#;
 
-/// Limits are soft, infinite, or missing, and joints are held or follow others.
+/// Checks limits that are soft, infinite or missing, and joints that are held or mimic others.
 #[test]
 fn limits_and_joints_that_do_not_move() {
     let finger = |limit: &str, rest: &str| {
@@ -180,8 +180,8 @@ fn limits_and_joints_that_do_not_move() {
     assert!(matches!(&report, Err(CheckError::Fails(why)) if why.contains("leaves its limits")), "{report:?}");
 }
 
-/// Corners lie on a line between others, at their place or turned. Ends are at half a turn, and beyond a limit by
-/// rounding.
+/// Checks corners on a line between others, in place or turned, starts and goals at half a turn, and ones beyond a
+/// limit by rounding.
 #[test]
 fn worlds_whose_numbers_are_no_doubles() {
     for (what, obstacle) in [
@@ -202,7 +202,7 @@ fn worlds_whose_numbers_are_no_doubles() {
         let after = format!("[[obstacle]]\n{obstacle}\n");
         Case { what, world: ["", &after], ..Case::default() }.is_certified();
     }
-    // The part that a proof names has them.
+    // The part that a proof names has such corners.
     let flat = "polygon = [[0.2, 0.3], [0.3, 0.3], [0.4, 0.3], [0.4, 0.5], [0.2, 0.5]]";
     let circle = "circle = { center = [0.38, 0.32], radius = 0.1 }";
     for (what, robot, from, to) in [
@@ -252,8 +252,8 @@ fn worlds_whose_numbers_are_no_doubles() {
     }
 }
 
-/// The links that a wrist turns cover a disc, and at all angles a smaller one. The program refuses a link away from the
-/// wrist's axis, and one that mimics a joint of the arm or the tool.
+/// Checks links that a wrist turns: together they cover a disc, and a smaller one at all angles. The program refuses a
+/// link away from the wrist's axis, and one that mimics a joint of the arm or the tool.
 #[test]
 fn other_joints_that_move() {
     let place = Place::new();
@@ -279,7 +279,7 @@ fn other_joints_that_move() {
         let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
         check_files(&urdf, &world, &certificate)
     };
-    // The post is 0.1 m ahead of a gripper whose ends are 0.15 m from the axis and now to the sides.
+    // The post is 0.1 m ahead of a gripper whose ends are 0.15 m from the axis, and now at the sides.
     let done = run(&bar("0 0 0"), &task(1.9));
     assert!(done.code == 1 && done.stderr.contains("not free"), "{}{}", done.stdout, done.stderr);
     let done = run(&bar("0 0 0"), &task(2.0));
@@ -292,7 +292,7 @@ fn other_joints_that_move() {
     let beside = run(&bar("0.1 0 0"), &task(2.5));
     assert!(beside.code == 1 && beside.stderr.contains("turns with the wrist"), "{}", beside.stderr);
     assert!(matches!(judged(), Err(CheckError::Input { message, .. }) if message.contains("turns with the wrist")));
-    // A bar beside the base turns like the arm, another is above the arm, and one follows the wrist.
+    // One bar is beside the base and turns like the arm, another is above the arm, and one mimics the wrist.
     for (parent, leader, world) in
         [("base", "j1", WORLD), ("l1", "j2", WORLD), ("gripper", "w", &task(2.5)), ("base", "w", &task(2.5))]
     {
@@ -347,7 +347,7 @@ fn meshes_and_what_stands_in_for_them() {
     };
     let bar = ["[robot]\nbar = 0.05", ""];
     let [obj, dae, none] = ["bar.obj", "bar.dae", "none.stl"].map(mesh);
-    // The mesh has so many corners that its outline is cut up.
+    // The mesh has so many corners that its outline is split.
     let rim =
         (0..1500).map(|k| f64::from(k) * std::f64::consts::TAU / 1500.0).map(|t| (500.0 * t.cos(), 60.0 * t.sin()));
     let rim: String = rim.map(|(x, y)| format!("v {x} {y} 0\n")).collect();
@@ -403,7 +403,8 @@ fn maps_as_tools_write_them() {
     ] {
         Case { what, world: map, files: &[("map.yaml", yaml.as_bytes()), picture], ..Case::default() }.is_certified();
     }
-    // The shade 51 is a fifth of 255, the limit of free pixels. Exactly that shade is unknown, and solid.
+    // The shade 51 is a fifth of 255, which is the limit of free pixels. A pixel of exactly that shade is unknown, and
+    // solid.
     let place = Place::new();
     Case { files: &[("map.yaml", MAP.as_bytes()), ("map.pgm", b"P2 1 1 255 204")], ..Case::default() }.written(&place);
     let on_it = "[start]\njoints = [-0.75, 0.0]\n[goal]\njoints = [0.0, 0.0]\n[[obstacle]]\nimage = \"map.yaml\"\n";
@@ -412,7 +413,7 @@ fn maps_as_tools_write_them() {
     assert!(done.code == 1 && done.stderr.contains("the start"), "{}{}", done.stdout, done.stderr);
 }
 
-/// The world has a start at a place of the tip, and numbers in other bases.
+/// Checks a world with a start at a place of the tip, and with numbers in other bases.
 #[test]
 fn worlds_as_people_write_them() {
     let tip = WORLD.replace("joints = [0.0, 0.0]", "tip = [1.8, 0.0]");

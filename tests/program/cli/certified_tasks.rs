@@ -75,7 +75,7 @@ fn every_shipped_task_that_can_be_done_has_a_certificate_that_holds() {
                 (steps[0]["step"], steps[other]["step"]) = (steps[other]["step"].clone(), steps[0]["step"].clone());
             }),
         );
-        // Without a rest the next step begins with the same knot.
+        // Without a rest, the next step begins at the same knot.
         if rest.start() < rest.end() {
             fails(&text, "the arm does not stand", &altered(&whole, |c| moved(c, last..=last, |q| q + 1e-9)));
         }
@@ -86,7 +86,7 @@ fn every_shipped_task_that_can_be_done_has_a_certificate_that_holds() {
         if !text.contains("wrist = ") {
             fails(&text, "there is no wrist", &altered(&whole, |c| c["steps"][1]["turn"] = json!(3.0)));
         }
-        // All values change by a unit in the last place, as another compiler may compute them.
+        // All values change by a unit in the last place, as with another compiler.
         let shifted = altered(&whole, |c| {
             let all = 0..=c["motion"]["knots"].as_array().unwrap().len() - 1;
             moved(c, all, f64::next_up);
@@ -103,10 +103,10 @@ fn every_shipped_task_that_can_be_done_has_a_certificate_that_holds() {
     }
 }
 
-/// The warning of a task that is infeasible.
+/// The warning about a task that is infeasible.
 const NONE: &str = "is not written: an infeasible task has no certificate";
 
-/// Except for the warning, all output is as without `--certificate`.
+/// Checks that, except for the warning, all output is the same as without `--certificate`.
 #[test]
 fn infeasible_tasks_have_no_certificate() {
     let tasks = tasks("infeasible");
@@ -153,7 +153,7 @@ fn is_infeasible(world: &str) {
     assert!(code == 3 && report.is_none(), "{code} {stderr}");
 }
 
-/// If a group is infeasible among other pairs, it is so in all orders.
+/// Checks that a group with infeasible pairs is infeasible in all orders.
 #[test]
 fn proofs_are_about_all_orders() {
     let rigid = read(&shipped("workspaces/tasks/slot_rigid.toml"));
@@ -168,7 +168,7 @@ fn proofs_are_about_all_orders() {
     for count in [0, 2, 5] {
         is_infeasible(&(free.clone() + &(0..count).map(pin).collect::<String>()));
     }
-    // Two objects that change places block each other, also with a third one that blocks neither.
+    // Two objects that exchange places block each other. A third one that blocks neither changes nothing.
     let swap = read(&shipped("workspaces/tasks/swap.toml"));
     for count in [0, 1] {
         is_infeasible(&(swap.clone() + &(0..count).map(pin).collect::<String>()));
@@ -177,7 +177,7 @@ fn proofs_are_about_all_orders() {
     assert_eq!(code, 0);
 }
 
-/// The tool would hit the stub while it is lowered, though nothing blocks the arm above.
+/// Checks a stub that the tool would hit while it is lowered, although nothing blocks the arm above.
 #[test]
 fn proofs_are_about_strokes() {
     let world = |robot: &str, stub: [f64; 2]| {
@@ -207,15 +207,15 @@ place = {{ at = [0.35, -0.17] }}
         )
     };
     let stroke = "stroke = { joint = \"axis_3\", velocity = 1.0, acceleration = 5.0 }";
-    // The stub is beside the pick, beside the target, or where only the payload comes down on it, with a stroke or
-    // without.
+    // The stub is beside the pick, beside the target, or where only the payload is lowered onto it. There is a stroke
+    // or none.
     for (stub, without) in [([0.14, 0.375], 0), ([0.35, -0.155], 0), ([0.336, -0.17], 3)] {
         assert_eq!(certified(&world("", stub)).0, without, "{stub:?}");
         is_infeasible(&world(stroke, stub));
     }
 }
 
-/// A bar that replaces the tool's meshes ends at the tip, and is lowered with it.
+/// Checks a bar that replaces the tool's meshes: it ends at the tip, and is lowered with it.
 #[test]
 fn bars_are_lowered_with_the_tool() {
     let place = Place::new();
@@ -263,7 +263,8 @@ pick = "part"
     }
 }
 
-/// The object is placed into its support, as deep as it may press, and deeper. It is convex, or has several parts.
+/// Checks an object that is placed into its support, as deep as it may press, and deeper. It is convex, or has several
+/// parts.
 #[test]
 fn what_presses_into_its_supports_has_certificates() {
     let into = |depth: f64| {
@@ -271,7 +272,7 @@ fn what_presses_into_its_supports_has_certificates() {
             .replace("payload = \"rigid\"", "payload = \"level\"")
             .replace("at = [0.26, 0.35]", &format!("at = [0.26, {}], supports = [\"near jaw\"]", 0.345 - depth))
     };
-    // It may press 5.5e-5 m into the support, with its sides by 0.7 of that.
+    // Its corners may press 5.5e-5 m into the support, and its sides 0.7 of that.
     assert_eq!(certified(&into(2e-5)).0, 0);
     for depth in [2e-4, 1e-2] {
         is_infeasible(&into(depth));
@@ -286,7 +287,7 @@ fn what_presses_into_its_supports_has_certificates() {
     assert!(code == 0 && report.is_some_and(|report| report.contains("does all")), "{code} {stderr}");
 }
 
-/// Rings around pegs have convex pieces some of whose sides extend sides of the hole.
+/// Checks rings around pegs. They have convex pieces, some of whose sides extend sides of the hole.
 #[test]
 fn rings_on_pegs_have_certificates() {
     let square = |x: f64, y: f64, half: f64| {
@@ -308,7 +309,7 @@ fn rings_on_pegs_have_certificates() {
     );
     let wedged = "[[[-0.1, -0.1], [0.1, -0.1], [0.1, -0.0346], [0.15000000000000002, -0.0346], [0.15000000000000002, 0.0278], [0.13, 0.0278], [0.13, 0.1], [0.0447, 0.1], [0.0447, 0.13], [-0.0438, 0.13], [-0.0438, 0.07], [-0.1, 0.07]], [[-0.0438, -0.0346], [0.0447, -0.0346], [-0.0438, 0.0278]]]";
     let wedge = "[[0.9559263156877668, 0.7651263156877668], [1.045563099894364, 0.7651263156877668], [0.9559263156877668, 0.8283278448910624]]";
-    // The allowance is 1.6e-4 m, and for sides beside right angles 0.7 of that.
+    // The allowance is 1.6e-4 m, and 0.7 of that for sides beside right angles.
     let on_a_peg = |grown: f64| (stepped.clone(), square(1.0, 0.8, 0.04 + grown));
     for ((ring, peg), code) in
         [(on_a_peg(1e-6), 0), (on_a_peg(1.1e-4), 0), (on_a_peg(2e-4), 3), ((wedged.to_owned(), wedge.to_owned()), 3)]
@@ -324,7 +325,7 @@ fn rings_on_pegs_have_certificates() {
     }
 }
 
-/// A released object may be touched, but not the new one that replaces it: the arm avoids it.
+/// Checks that a released object may be touched, but not the new one that replaces it.
 #[test]
 fn a_new_object_is_an_obstacle() {
     let walls = |low: f64, high: f64| {
@@ -352,14 +353,14 @@ fn a_new_object_is_an_obstacle() {
     let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json");
     // Between the walls, the only path leads through the new object.
     assert_eq!(done.code, 3, "{}", done.stderr);
-    // Where it is not renewed there is.
+    // If the object is not renewed, there is a path.
     place.write("w.toml", world.concat().replace("renew = true\n", ""));
     let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json");
     assert_eq!(done.code, 0, "{}", done.stderr);
 }
 
-/// A released object may be touched until the next step has ended. Then the arm must be free of it. This also holds if
-/// a new object replaces it from then on, and if an obstacle moves.
+/// Checks that a released object may be touched until the next step has ended, after which the arm must be free of it.
+/// This also holds if a new object replaces it from then on, and if an obstacle moves.
 #[test]
 fn what_is_renewed_is_there_until_the_arm_goes_on() {
     let place = Place::new();
@@ -394,7 +395,7 @@ fn what_is_renewed_is_there_until_the_arm_goes_on() {
     }
 }
 
-/// An IK solution at half a turn of a continuous joint is blocked on both sides of that value.
+/// Checks an IK solution at half a turn of a continuous joint, which is blocked on both sides of that value.
 #[test]
 fn boxes_reach_across_half_a_turn() {
     let urdf = read(&shipped("robots/planar_2r_continuous.urdf"));
@@ -411,7 +412,7 @@ fn boxes_reach_across_half_a_turn() {
     }
 }
 
-/// A piece has no area except for rounding: a hole touches a side between its corners, in decimal numbers.
+/// Checks a piece whose area is due only to rounding: a hole touches a side between its corners, in decimal numbers.
 #[test]
 fn slivers_are_no_evidence() {
     let urdf = read(&shipped("robots/gantry.urdf"));
@@ -422,7 +423,8 @@ fn slivers_are_no_evidence() {
     assert_eq!(code, 3, "{stderr}");
 }
 
-/// A crane turns a thin object of 100 m. Its orientation is as exact as the joint values, however large the crane is.
+/// Checks a crane that turns a thin object of 100 m. Its orientation is as exact as the joint values, however large the
+/// crane is.
 #[test]
 fn needles_on_cranes_are_in_the_way() {
     let link = "<link name=\"boom\"><collision><origin xyz=\"300 0 20\"/><geometry><box size=\"600 1 1\"/></geometry></collision></link>";
@@ -457,7 +459,7 @@ fn what_is_asked_in_place_of_the_world_is_in_the_certificate() {
     for part in ["start (0.5, 0.69813170079773", "with clearance 0.0005 (", "read as cubic or quartic"] {
         assert!(report.contains(part), "{report}");
     }
-    // Anybody's record of it, too.
+    // A recording of the motion by another program is refused, too.
     let verify = ["verify", &files[0], &files[1], "plan.json"];
     let options = "--quiet --certificate v.json --start 0.5,40deg --clearance 0.0005";
     let done = place.run(&verify, options);
@@ -472,8 +474,8 @@ fn what_is_asked_in_place_of_the_world_is_in_the_certificate() {
     assert!(report.contains("to the goal (0.5, 0.8)"), "{report}");
 }
 
-/// The certificates are bound like those of motions: by digests, in the result, and with joint values slightly inside
-/// the limits.
+/// Checks that certificates of tasks have digests, can be part of the result, and have joint values slightly inside the
+/// limits, like those of motions.
 #[test]
 fn certificates_of_tasks_are_bound_to_their_files_and_can_be_a_part_of_the_result() {
     let place = Place::new();

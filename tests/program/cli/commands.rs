@@ -85,7 +85,7 @@ fn planning_is_also_a_command() {
     assert_eq!((short.code, &short.stdout, &short.stderr), (0, &long.stdout, &long.stderr));
 }
 
-/// The suggested command explains the same query.
+/// Checks that the suggested command explains the same query.
 #[test]
 fn infeasible_results_and_blocked_ends_suggest_an_explanation() {
     let place = Place::new();
@@ -171,7 +171,7 @@ fn limits_of_the_jerk_are_kept_in_every_format() {
         assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
     }
     let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
-    // With a stop at each corner it takes 3.5 s.
+    // With a stop at each corner, the motion would take 3.5 s.
     assert!(result["blends"]["count"] == 10 && result["duration"].as_f64().unwrap() < 2.1, "{}", result["duration"]);
     assert!(result["interpolation"].as_str().unwrap().ends_with("the jerk is constant"));
     let verify = |file: &str| place.run(&["verify", &urdf, "smooth.toml", file], "");
@@ -287,7 +287,7 @@ fn recheck_accepts_true_bounds_and_no_others() {
         let recheck = [&["recheck".to_owned()], &files[..]].concat();
         let holds = place.run(&recheck, "--proof made.json");
         assert_eq!((holds.code, holds.stdout.starts_with("the bound holds")), (0, true), "{world}: {}", holds.stderr);
-        // One bound is too high, one belongs to no length, and one to another world.
+        // One bound is too high, one is without a length, and one is that of another world.
         let lower = made["optimum"]["lower_bound"].as_f64().unwrap();
         for (wrong, report) in [(lower * (1.0 + 2e-4), "are not bounds"), (lower * 1.01, "not confirmed")] {
             made["optimum"]["lower_bound"] = wrong.into();
@@ -328,7 +328,7 @@ fn recheck_accepts_true_proofs_and_no_others() {
     place.run(&["recheck", &urdf, &closed], "").refused(2, &["--proof"]);
 }
 
-/// Gaps below the resolution of doubles cause no further search.
+/// Checks that gaps below the resolution of doubles cause no further search.
 #[test]
 fn gaps_below_the_rounding_of_doubles_end() {
     let place = Place::new();
@@ -340,7 +340,7 @@ fn gaps_below_the_rounding_of_doubles_end() {
     }
 }
 
-/// The first of more than two words is a misspelled command, not a file.
+/// Checks that the first of more than two words is reported as a misspelled command, not as a file.
 #[test]
 fn a_command_that_is_none_is_told() {
     let place = Place::new();

@@ -1,4 +1,4 @@
-//! `cplan compare` on many problems, and its files.
+//! `cplan compare` for many problems, and the files that it writes.
 
 use super::{FREE, Place, shelf, shipped};
 use cplan::input::{Overrides, load};
@@ -36,7 +36,7 @@ fn without_costs(mut json: Value) -> Value {
         }
     }
     clean(&mut json);
-    // The words speak of times, too.
+    // The summary mentions times, too.
     json.as_object_mut().unwrap().remove("summary");
     json
 }
@@ -62,7 +62,7 @@ fn suites_list_every_problem_with_every_planner() {
         assert_eq!(planner["distributions"]["total"]["n"], 2);
         assert_eq!(planner["distributions"]["over_optimum"]["n"], 1);
     }
-    // The robot suits all worlds of the folder. The manifest is not one of them.
+    // The robot suits all worlds of the folder. The manifest is not a world.
     let folder =
         place.run(&["compare", &shipped("robots/planar_2r.urdf"), "--suite", "worlds"], &format!("{QUICK} --json"));
     assert_eq!(folder.code, 0, "{}", folder.stderr);
@@ -115,7 +115,8 @@ fn what_is_wrong_with_a_suite_is_told_at_once() {
         .refused(1, &["empty: the folder contains no world", "hint:"]);
 }
 
-/// Worlds that cannot be run do not prevent the others: all tables and the exit code count them.
+/// Checks that worlds which cannot be run do not prevent others from being run. All tables and the exit code count
+/// them.
 #[test]
 fn a_suite_goes_on_without_the_worlds_that_cannot_be_run() {
     let place = Place::new();
@@ -266,7 +267,7 @@ fn check_knots(html: &str) -> usize {
     for node in document.descendants() {
         assert_ne!(node.tag_name().name(), "script");
         for attribute in node.attributes() {
-            // Pictures are data, in which a name space is only a name.
+            // Pictures are data URIs, in which a name space is only a name.
             let is_data = attribute.value().starts_with("data:image/svg+xml,");
             assert!(is_data || !attribute.value().contains("//"), "{attribute:?}: no page but this one");
         }
@@ -350,7 +351,7 @@ fn a_planner_with_a_gap_is_run_until_it_is_within() {
     assert!(close <= 1e-6, "{close}");
 }
 
-/// Names of variants are long. Where room is scarce, the output omits their common part and keeps the differences.
+/// Checks long names of variants. If room is scarce, their common part is left out, and the differences remain.
 #[test]
 fn pictures_and_charts_keep_what_tells_variants_apart() {
     let place = Place::new();

@@ -4,7 +4,7 @@ use super::{FREE, Place, shelf, shipped};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Returns files with a coarse grid, so that debug builds answer soon.
+/// Returns files with a coarse grid, so that debug builds finish soon.
 fn files() -> Vec<String> {
     let mut words = vec!["converge".to_owned()];
     words.extend(shelf());
@@ -80,7 +80,7 @@ fn files_hold_one_measurement_the_same_each_time() {
     let svg = roxmltree::Document::parse(&kept[2].1).unwrap();
     let titles = svg.descendants().filter(|n| n.attribute("font-size") == Some("14")).count();
     assert_eq!(titles, 6, "three equations, two factors and epsilon");
-    // The factors of weighted Jacobi increase to the first that does not converge.
+    // The factors of weighted Jacobi increase up to the first one that does not converge.
     for scan in json["weights"].as_array().unwrap() {
         let points = scan["points"].as_array().unwrap();
         let (last, before) = points.split_last().unwrap();

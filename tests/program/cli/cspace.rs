@@ -67,7 +67,7 @@ fn files_are_as_the_schema_has_them() {
         assert_eq!(of("cell").len(), space["cells"]["corners"].as_array().map_or(0, Vec::len));
         assert_eq!(of("roadmap").len(), usize::from(space.get("roadmap").is_some()));
     }
-    // Other file names are results, as usual; an exploration has no such file.
+    // Other file names are those of results, as usual. An exploration has no such file.
     let done = place.run(&shelf(), "--quiet --output mycspace.json");
     assert_eq!((done.code, place.read("mycspace.json").contains("\"trajectory\"")), (0, true));
     let files = ["explore".to_owned(), shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml")];

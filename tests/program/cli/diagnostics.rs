@@ -1,4 +1,4 @@
-//! Every diagnostic has help: hundreds of files with a typing error, through the program.
+//! Checks that every diagnostic has a hint, with hundreds of files that have a typing error.
 
 use super::{Done, FREE, Place, shipped};
 use crate::common::dice;
@@ -10,7 +10,7 @@ use serde_json::Value;
 const MISSING: [&str; 6] =
     ["there is no ", "there are no ", "holds no ", "holds neither ", "is missing", "has no link"];
 
-/// Names of members in documents with nested members. Errors of syntax have lines there, errors of content do not.
+/// Names of members in nested documents. There, errors of syntax have lines, but errors of content do not.
 const MEMBERS: [&str; 7] = ["points", "steps", "path", "trajectory", "joint_names", "\"joints\"", "is too large"];
 
 /// Checks that the program succeeds (0, 3, 4), or reports the error in one object with file, place, message and help.
@@ -42,7 +42,8 @@ fn is_answered(done: &Done, text: &str) -> bool {
     true
 }
 
-/// Runs many texts with one slip each, and checks that `run` answers each. Both kinds of answers must occur.
+/// Runs many texts with one typing error each, and checks that `run` answers each of them. Both kinds of answers must
+/// occur.
 fn every_slip_is_answered(stream: u64, usual: u64, text: &str, run: impl Fn(&str) -> Done) {
     assert_eq!(run(text).code, 0, "{}", run(text).stdout);
     let mut dice = dice(stream);
@@ -86,7 +87,7 @@ fn slips_in_a_task() {
     every_slip_is_answered(23, 60, task, |task| place.plan(task, "--json"));
 }
 
-/// Tests slips in a motion of a format, for [`FREE`].
+/// Checks typing errors in a motion of a format, for the world [`FREE`].
 fn slips_in_a_motion(stream: u64, file: &str) {
     let place = Place::new();
     assert_eq!(place.plan(FREE, &format!("--quiet --path taut --period 0.4 --output {file}")).code, 0);

@@ -1,4 +1,4 @@
-//! `--margin 0`, which writes exact C-obstacles of gantries, and `--graph full`.
+//! The option `--margin 0`, with which exact C-obstacles of gantries are written, and `--graph full`.
 
 use super::*;
 use serde_json::{Value, json};
@@ -32,7 +32,7 @@ fn near(found: &[[f64; 2]], expected: &[[f64; 2]]) {
     }
 }
 
-/// The head of 0.1 m x 0.1 m is beside walls. All sides are parallel, so `B - A` has four corners, too.
+/// Checks a head of 0.1 m x 0.1 m beside walls. All sides are parallel, so `B - A` has four corners, too.
 #[test]
 fn margin_0_writes_the_c_obstacles_of_a_gantry_as_the_sweep_gives_them() {
     let place = Place::new();
@@ -48,7 +48,7 @@ fn margin_0_writes_the_c_obstacles_of_a_gantry_as_the_sweep_gives_them() {
     assert!((corners(&grown, "dead end")[0][0] - 0.35).abs() > 1e-4);
 }
 
-/// The head is a disc, and a wall is at an angle. Only the arcs are replaced, by tangents outside of them.
+/// Checks a head that is a disc, and a wall at an angle. Only the arcs are replaced, by tangents outside of them.
 #[test]
 fn margin_0_keeps_flat_sides_where_corners_are_round() {
     let place = Place::new();
@@ -103,7 +103,7 @@ fn margin_0_is_for_what_has_exact_polygons() {
     place.run(&maze(), "--graph full").refused(2, &["--graph needs --planner visibility"]);
 }
 
-/// An independent count gives 64 arcs; the reduced graph has 11 of them.
+/// Checks the maze, for which an independent count gives 64 arcs. The reduced graph has 11 of them.
 #[test]
 fn the_full_visibility_graph_of_the_maze_has_all_arcs() {
     let place = Place::new();

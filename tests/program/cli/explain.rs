@@ -24,7 +24,7 @@ fn walls_in_the_way_are_named_verdict_first() {
     }
 }
 
-/// The two ends of a change are a millimetre apart.
+/// Checks that the two ends of a change are a millimetre apart.
 #[test]
 fn json_has_sets_and_changes() {
     let result = json(&explain(&Place::new(), "planar_2r_continuous", "no_path", "--json"));
@@ -58,7 +58,7 @@ fn what_the_main_job_refuses_is_explained() {
     assert!((misses - 3.2).abs() < 1e-9, "{misses}");
 }
 
-/// The arm stands in the camera's column, so no step can begin.
+/// Checks an arm that stands in the camera's column, so that no step can begin.
 #[test]
 fn a_start_of_steps_that_is_not_free_is_explained() {
     let done = explain(&Place::new(), "scara", "tasks/kitting_cell", "--start 0.3,0 --json");
@@ -97,8 +97,8 @@ fn bad_input_is_refused() {
     assert_eq!(explain(&place, "planar_2r", "shelf", "--picture why.txt").code, 2);
 }
 
-/// The slide of a polar arm ends long before its goal. Without that limit there is a path, and the joint must move
-/// as far as the program reports.
+/// Checks a polar arm whose slide ends long before its goal. Without that limit there is a path, and the joint must
+/// move as far as the program reports.
 #[test]
 fn a_tip_beyond_the_slide_is_opened_by_its_limit() {
     let place = Place::new();
@@ -123,7 +123,7 @@ fn a_tip_beyond_the_slide_is_opened_by_its_limit() {
     assert_ne!(place_of(upper + change["closed"].as_f64().expect("a number")), 0, "{change}");
 }
 
-/// A feasible task is drawn with its motions.
+/// Checks that a feasible task is drawn with its motions.
 #[test]
 fn of_a_task_that_can_be_done_there_is_a_picture() {
     let place = Place::new();
@@ -132,7 +132,7 @@ fn of_a_task_that_can_be_done_there_is_a_picture() {
     assert!(place.read("done.svg").contains("<svg"));
 }
 
-/// Arm of hundreds of metres. The program knows its blockers at once, but needs over a minute to find which of them are
+/// An arm of hundreds of metres. The program soon finds its blockers, but needs over a minute to find which of them are
 /// necessary.
 const LONG_ARM: &str = r#"<robot name="long"><link name="base"/>
 <joint name="j1" type="revolute"><parent link="base"/><child link="first"/><origin xyz="-143.9847 267.1032 0" rpy="3.141592653589793 0 0"/>
@@ -167,7 +167,7 @@ fn after_the_time_it_says_what_it_has() {
     place.write("w.toml", WIDE_WORLD);
     let result = json(&place.run(&["explain", "a.urdf", "w.toml"], "--time 0.3 --json"));
     assert_eq!((&result["status"], &result["stopped_after"]), (&"infeasible".into(), &0.3.into()), "{result}");
-    // In no time at all.
+    // With hardly any time.
     let done = place.run(&["explain", "a.urdf", "w.toml"], "--time 0.000001");
     assert_eq!(done.code, 3, "{}", done.stderr);
     for words in [

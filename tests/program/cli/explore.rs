@@ -3,7 +3,7 @@
 use super::{Done, FREE, Place, shelf, shipped};
 use serde_json::Value;
 
-/// A grid that is soon explored.
+/// A coarse grid, which is soon explored.
 const COARSE: &str = "--grid 48";
 
 fn rooms() -> [String; 2] {
@@ -30,7 +30,7 @@ fn the_goal_is_reached_and_what_is_played_is_free() {
     assert_eq!(positions[positions.len() - 1], serde_json::json!([1.55, -0.35]));
     let legs = result["legs"].as_array().unwrap();
     assert!(legs.len() > 2 && legs.windows(2).all(|w| w[0]["path"].as_array().unwrap().last() == w[1]["path"].get(0)));
-    // The judge has the true world. It checks the motion that readers of the file play.
+    // The judge has the true world. It checks the motions that programs execute when they read the files.
     for file in ["a.csv", "a.yaml"] {
         let [urdf, world] = shelf();
         let verified = place.run(&["verify", &urdf, &world, file], "");
@@ -68,7 +68,7 @@ fn rooms_are_explored_and_the_map_is_a_world() {
     assert_eq!(planned.code, 0, "{}{}", planned.stdout, planned.stderr);
 }
 
-/// The program explores no known area again, and refuses the map of another world.
+/// Checks that the program explores no known area again, and refuses the map of another world.
 #[test]
 fn a_known_map_is_taken_up() {
     let place = Place::new();
@@ -91,8 +91,8 @@ fn a_known_map_is_taken_up() {
     finer.refused(1, &["rooms.yaml", "has other cells"]);
 }
 
-/// The head moves above all obstacles, so its sensor can stand above unknown places. One leg is longer than the
-/// sensor's range.
+/// Checks a head that moves above all obstacles, so that its sensor can be above unknown places. One leg is longer than
+/// the sensor's range.
 #[test]
 fn nothing_is_left_by_a_head_that_stands_above_the_unknown() {
     let place = Place::new();
@@ -114,7 +114,7 @@ fn nothing_is_left_by_a_head_that_stands_above_the_unknown() {
     }
 }
 
-/// All obstacles are lower than the arm, which passes above them with its tool beside them.
+/// Checks obstacles that are all lower than the arm, which passes above them with its tool beside them.
 #[test]
 fn heights_that_are_known_let_a_scara_pass() {
     let place = Place::new();
@@ -128,7 +128,7 @@ fn heights_that_are_known_let_a_scara_pass() {
     assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
 }
 
-/// World in which the sensor sees the obstacles between start and goal from some distance.
+/// A world in which the sensor sees the obstacles between start and goal from some distance.
 const RING: &str = "start.joints = [-2.0, 0.3]\ngoal.joints = [1.6, -0.6]\nsensor = { range = 0.7, on = \"tip\", rays = 200 }\n\
                     [[obstacle]]\npolygon = [[1.0, -0.1], [1.6, -0.1], [1.6, 0.1], [1.0, 0.1]]\n\
                     [[obstacle]]\ncircle = { center = [-0.7, 0.9], radius = 0.2 }\n";
@@ -156,7 +156,7 @@ fn what_cannot_be_reached_is_proven() {
     assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
 }
 
-/// With so few cells, steps between their middles lead through walls.
+/// Checks a grid with so few cells that steps between their centres lead through walls.
 #[test]
 fn on_a_coarse_grid_it_ends() {
     let place = Place::new();
@@ -168,7 +168,7 @@ fn on_a_coarse_grid_it_ends() {
     }
 }
 
-/// The sensor also detects obstacles that only the clearance reaches.
+/// Checks that the sensor also detects obstacles that are out of reach, but nearer to it than the clearance.
 #[test]
 fn the_clearance_is_kept_from_what_lies_beyond_reach() {
     let place = Place::new();
@@ -211,7 +211,8 @@ fn what_makes_no_exploration_is_refused() {
     }
 }
 
-/// No steps of the grid join the cells around the arm with those around its start, but the arm's own path does.
+/// Checks cells around the arm that no steps of the grid connect with those around its start, although the arm's own
+/// path does.
 #[test]
 fn what_the_arm_can_go_back_to_is_explored_too() {
     let place = Place::new();

@@ -3,7 +3,7 @@
 use super::{FREE, Place, shelf, shipped};
 use serde_json::{Value, json};
 
-/// Coarse, so that debug builds answer soon.
+/// Options for a coarse grid, so that debug builds finish soon.
 const COARSE: &str = "--planner harmonic --cells 48 --json";
 
 fn u_trap() -> [String; 2] {
@@ -138,7 +138,7 @@ fn a_local_minimum_and_a_divergence_are_unknown_with_their_reasons() {
     assert!(diverged.json()["reason"].as_str().unwrap().contains("the relaxation diverged: after "));
 }
 
-/// The figure shows a trap, its remedy by stronger repulsion, and the cost of that. Both kinds of escape need no other
+/// Checks a figure: a trap, how stronger repulsion opens it, and what that costs. Both kinds of escape need no other
 /// charge.
 #[test]
 fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {

@@ -28,7 +28,7 @@ fn values(list: &Value) -> Vec<[f64; 2]> {
     serde_json::from_value(list.clone()).unwrap()
 }
 
-/// Compares with figures 6.11 and 6.12 of the course. Previously, only cells wider than five pixels had sides.
+/// Compares with figures 6.11 and 6.12 of the course. Formerly, only cells wider than five pixels had sides.
 #[test]
 fn all_trapezoids_are_outlined_and_the_channels_points_are_marked() {
     let place = Place::new();
@@ -51,8 +51,8 @@ fn all_trapezoids_are_outlined_and_the_channels_points_are_marked() {
     );
 }
 
-/// The simpler path of the course, section 6.3.2: all midpoints of portals, and the centre of a cell only between
-/// portals on one line.
+/// Checks the simpler path of the course, section 6.3.2. It visits the middles of all portals, and the centre of a cell
+/// only between portals on one line.
 #[test]
 fn the_path_of_middles_has_a_centre_only_between_collinear_doors() {
     let place = Place::new();
@@ -77,7 +77,7 @@ fn the_path_of_middles_has_a_centre_only_between_collinear_doors() {
     place.run(&maze(), "--planner triangles --path middles").refused(2, &["--path middles needs --planner trapezoid"]);
 }
 
-/// The path leads around the end of a bar: the channel enters a cell and leaves it by the same vertical.
+/// Checks a path around the end of a bar: the channel enters a cell and leaves it by the same vertical.
 #[test]
 fn doors_on_one_vertical_have_the_centre_of_their_cell_between_them() {
     let place = Place::new();
@@ -108,7 +108,7 @@ fn cells_of_a_coarse_grid_have_the_numbers_of_the_wave() {
     assert!(!texts(&fine).contains(&"37"));
 }
 
-/// The program uses the requested number of cells, or finds no path and states that as the reason.
+/// Checks that the program uses the requested number of cells, or finds no path and states that number as the reason.
 #[test]
 fn coarse_grids_are_kept_or_refused_with_the_reason() {
     let place = Place::new();
@@ -124,7 +124,7 @@ fn coarse_grids_are_kept_or_refused_with_the_reason() {
     assert_eq!(place.run(&shelf(), "--planner visibility --cells 16 --quiet").code, 0);
 }
 
-/// Figures 34 and 35 of Deicu's text.
+/// Compares with figures 34 and 35 of Deicu's text.
 #[test]
 fn flow_lines_are_drawn_where_they_are_asked_for() {
     let place = Place::new();

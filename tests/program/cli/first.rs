@@ -54,7 +54,7 @@ fn the_demo_spares_what_is_there() {
     assert!(place.read("more.csv").starts_with("time,axis_1,"));
     place.run(&["demo"], "--dir plan.json/x").refused(1, &["cannot make the folder plan.json/x"]);
     place.run(&["demo"], "--dir plan.json").refused(1, &["plan.json: it exists and is not a folder"]);
-    // Bad options are those of the main job.
+    // Bad options are reported as by `cplan plan`.
     place.run(&["demo"], "--force --goal-tip 9,9").refused(1, &["--goal-tip", "out of reach"]);
     place
         .run(&["demo"], "--force --planner wavefront --gap 0.1")
@@ -154,12 +154,12 @@ fn init_spares_what_is_there() {
     assert!(place.read("world.toml").contains("bridge_slide"));
     place.run(&["init", "world.toml"], "").refused(1, &["cannot make the folder world.toml"]);
     place.run(&["init"], "--kind xyz").refused(2, &["rr, rp, pr, pp, scara"]);
-    // Names that a shell would take apart are printed in quotes.
+    // Names that a shell would split are printed in quotes.
     let done = place.run(&["init", "a b"], "");
     assert!(done.stdout.contains("cplan inspect \"a b/arm.urdf\" \"a b/world.toml\""), "{}", done.stdout);
 }
 
-/// A folder in which nothing can be created gives one error, and its contents do not change.
+/// Checks that a folder in which nothing can be created gives one error, and that its contents do not change.
 #[cfg(unix)]
 #[test]
 fn places_that_cannot_be_written_give_one_error() {
@@ -169,8 +169,8 @@ fn places_that_cannot_be_written_give_one_error() {
     place.run(&["demo"], "").refused(1, &["plan.json exists already"]);
     fs::create_dir(place.path("locked")).unwrap();
     fs::set_permissions(place.path("locked"), fs::Permissions::from_mode(0o555)).unwrap();
-    // For users who may write everywhere (root), no folder is locked. They cannot write to /proc either, where it
-    // exists.
+    // For users who may write everywhere (root), no folder is locked. On systems with /proc, not even they can write
+    // there.
     let locked = if fs::write(place.path("locked/probe"), "").is_ok() { "/proc" } else { "locked" };
     if fs::metadata(locked).is_ok() || locked == "locked" {
         for command in ["demo --dir", "init", "man"] {
@@ -184,7 +184,7 @@ fn places_that_cannot_be_written_give_one_error() {
     fs::set_permissions(place.path("locked"), fs::Permissions::from_mode(0o755)).unwrap();
 }
 
-/// Every value of a wrong kind is refused with its place and the right form.
+/// Checks that every value of a wrong type is refused with its place and the right form.
 #[test]
 fn every_wrong_kind_of_value_has_help() {
     let place = Place::new();

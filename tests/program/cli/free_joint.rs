@@ -87,7 +87,7 @@ fn no_bound_is_above_the_length_to_any_value_of_the_free_joint() {
     }
 }
 
-/// The optimum is at right angles to the segment of goals, in the sense of the metric.
+/// Checks that the optimum is at right angles to the segment of goals, as measured by the metric.
 #[test]
 fn without_obstacles_only_the_joint_that_matters_moves() {
     let place = place(ELBOW, ENDS);
@@ -113,7 +113,7 @@ fn a_goal_is_refused_only_if_no_value_of_the_free_joint_is_free() {
     let done = run(&some, "--json");
     assert_eq!(done.code, 0, "{}", done.stderr);
     assert!(last(&done.json())[1].abs() > 0.1);
-    // Most of a ring around the goal's elbow blocks link 2 in every direction. Link 1 enters through the rest.
+    // A ring around the elbow's place at the goal blocks link 2 in most directions. Link 1 enters through its opening.
     let ring: Vec<String> = (-9..=9)
         .map(|k| {
             let (sin, cos) = (1.0 + f64::from(k) * std::f64::consts::TAU / 24.0).sin_cos();
@@ -128,7 +128,7 @@ fn a_goal_is_refused_only_if_no_value_of_the_free_joint_is_free() {
     run(&none, "").refused(1, &["no IK solution that puts the tip at", "elbow from -2.5 ", "hits obstacle", " more"]);
 }
 
-/// Walls close off one part of the segment, and all of the rest is blocked. The program proves that.
+/// Checks a segment of which walls close off one part, and obstacles block the rest. The program proves this.
 #[test]
 fn a_proof_for_all_values_of_the_free_joint_holds() {
     let across = "[[obstacle]]\npolyline = [[0.6, 0.05], [1.9, 0.05]]\n";
@@ -142,7 +142,7 @@ fn a_proof_for_all_values_of_the_free_joint_holds() {
     }
 }
 
-/// Links of equal lengths fold onto their base, which leaves joint 1 free.
+/// Checks links of equal lengths that fold onto their base, which leaves joint 1 free.
 #[test]
 fn a_folded_arm_may_stand_at_any_angle() {
     let arm = ELBOW.replace("0.4 0 0", "0.5 0 0").replace("0.8 0.05", "1 0.05").replace("2.5", "3.3").replace(

@@ -1,4 +1,4 @@
-//! Searches of a grid on the command line: start points, ties, iterative deepening, and the matrix of their labels.
+//! Searches of a grid on the command line: where they begin, ties, iterative deepening, and the matrix of their labels.
 
 use super::*;
 use crate::common::reference::published;
@@ -17,7 +17,7 @@ fn matrix(place: &Place, options: &str) -> Vec<Vec<f64>> {
     place.read("cspace.csv").lines().map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
 }
 
-/// Number of cells with a label.
+/// Returns the number of cells with a label.
 fn labeled(matrix: &[Vec<f64>]) -> usize {
     matrix.iter().flatten().filter(|value| value.is_finite()).count()
 }
@@ -40,7 +40,7 @@ fn a_search_from_the_start_with_ties_first_labels_the_published_50_cells() {
     assert_eq!(labeled(&matrix(&place, "--search astar")), 40);
 }
 
-/// Compares all of both matrices, cell by cell.
+/// Compares both matrices completely, cell by cell.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_published_matrices_come_from_the_command_line() {

@@ -1,4 +1,4 @@
-//! Robots as real files describe them: limits in degrees, lengths in millimetres, placeholders for speeds, missing
+//! Robots as real files describe them: with limits in degrees, lengths in millimetres, placeholders for speeds, or no
 //! limits.
 
 use super::{FREE, Place, shipped};
@@ -14,7 +14,7 @@ fn arm(changes: &[(&str, &str)]) -> String {
 
 const TO_A_TIP: &str = "[start]\njoints = [0.0, 1.0]\n[goal]\ntip = [0.5, 0.5]\n";
 
-/// Checks the hint that the main job and `inspect` give about a robot.
+/// Checks the hint about a robot that `cplan plan` and `cplan inspect` give.
 fn hinted(changes: &[(&str, &str)], world: &str, parts: &[&str]) {
     let place = Place::new();
     place.write("arm.urdf", arm(changes));
@@ -43,10 +43,10 @@ fn limits_that_look_like_degrees_are_refused_with_both_readings() {
         place.write("world.toml", format!("[robot]\nlimits = {{ shoulder = {range}, elbow = {range} }}\n{TO_A_TIP}"));
         let done = place.run(&["arm.urdf", "world.toml"], "");
         assert_eq!(done.code, 0, "{range}: {}", done.stderr);
-        // If the joints turn 48 times, thousands of IK solutions reach the tip.
+        // The joints turn 48 times, so that thousands of IK solutions reach the tip's place.
         assert!(done.stdout.lines().count() < 40, "{}", done.stdout);
     }
-    // Limits of whole turns are in radians, and so are those of a wrist with a cable.
+    // Limits of whole turns are in radians. So are those of a wrist with a cable.
     for range in ["lower=\"-31.416\" upper=\"31.416\"", "lower=\"-6.98\" upper=\"6.98\""] {
         place.write("arm.urdf", arm(&[("lower=\"-2.9\" upper=\"2.9\"", range)]));
         place.write("world.toml", FREE);
@@ -84,7 +84,7 @@ fn speeds_that_no_drive_has_are_noticed() {
         FREE,
         &["joint \"elbow\": velocity=\"0\" in the URDF counts as missing"],
     );
-    // The hint helps.
+    // Following the hint solves the problem.
     let place = Place::new();
     place.write("arm.urdf", arm(&[("velocity=\"2.0\"", "velocity=\"1000\"")]));
     place.write("world.toml", format!("[robot]\nvelocity = {{ shoulder = 2.0 }}\n{FREE}"));
@@ -123,7 +123,7 @@ fn verify_judges_limits_that_are_given_and_reports_the_others() {
     let json = verify("--anywhere --json").json();
     assert_eq!((&json["verdict"], json["limits_broken"].as_array().unwrap().len()), (&"free".into(), 0));
     assert_eq!(json["assumed_exceeded"][1]["limit"], "acceleration");
-    // Given limits decide, whether the world or the URDF states them.
+    // Stated limits decide, whether the world or the URDF states them.
     place.write("world.toml", format!("[robot]\nacceleration = {{ elbow = 12 }}\n{FREE}"));
     let given = verify("--anywhere --json");
     let json = given.json();
@@ -132,7 +132,7 @@ fn verify_judges_limits_that_are_given_and_reports_the_others() {
     place.write("world.toml", FREE);
     place.write("arm.urdf", arm(&[("velocity=\"2.0\"", "velocity=\"2.0\"")]));
     assert_eq!(verify("--anywhere").code, 3);
-    // A speed that nobody gives does not.
+    // A speed that no file states does not decide.
     place.write("arm.urdf", arm(&[(" velocity=\"2.0\"", ""), (" velocity=\"3.0\"", "")]));
     let report = verify("--anywhere");
     assert_eq!(report.code, 0, "{}", report.stdout);

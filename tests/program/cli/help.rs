@@ -1,9 +1,9 @@
-//! Help, completions, manual pages: every example is a valid command.
+//! Help, completions and manual pages: every example in them is a valid command.
 
 use super::Place;
 use std::path::Path;
 
-/// Examples that the test does not run: they run without end, or too long for a test.
+/// Examples that the test only parses, because they run without end, or too long.
 const ONLY_READ: [&str; 3] = ["cplan serve", "--suite", "--queries"];
 
 /// Returns the commands that the help lists.
@@ -148,8 +148,7 @@ fn offered_by_fish(place: &Place, line: &str) -> Option<Vec<String>> {
 fn fish_completes_whatever_stands_before() {
     let place = Place::new();
     let script = place.run(&["completions", "fish"], "").stdout;
-    // The options of the main job are also offered behind its files: only subcommands require that the word is the
-    // first.
+    // Options are also offered after the files of `cplan URDF WORLD`. Only subcommands must be the first word.
     assert!(!script.contains("needs_command\" -l") && !script.contains("needs_command\" -s"), "{script}");
     for rule in [
         "$__fish_cplan_commands\" -l planner",

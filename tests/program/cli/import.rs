@@ -17,7 +17,7 @@ fn world(place: &Place, file: &str) -> toml::Table {
     toml::from_str(&place.read(file)).unwrap()
 }
 
-/// Names of the obstacles.
+/// Returns the names of the obstacles.
 fn names(world: &toml::Table) -> Vec<&str> {
     world["obstacle"].as_array().unwrap().iter().map(|obstacle| obstacle["name"].as_str().unwrap()).collect()
 }
@@ -378,7 +378,8 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
     place.run(&["import", "broken.svg"], "--picture broken.svg").refused(1, &["the output broken.svg is the input"]);
 }
 
-/// A map has projected coordinates, as from surveys and GIS. With the options of the hint, one can plan in its world.
+/// Checks a map with projected coordinates, as from surveys and GIS. With the options of the hint, one can plan in its
+/// world.
 #[test]
 fn projected_coordinates_are_moved_as_the_hint_says() {
     let place = Place::new();

@@ -1,4 +1,4 @@
-//! Joints on circles, many turns from zero: a proof there is checked against the true start.
+//! Joints on circles, many turns from zero. A proof there is checked against the true start.
 
 use super::*;
 use crate::common::{random, recheck};
@@ -8,7 +8,7 @@ use cplan::model::Pair;
 use cplan::space::Configuration;
 use std::f64::consts::{PI, TAU};
 
-/// A wall that the first link touches at an angle between 0.4 and 1.
+/// A world with a wall that the first link touches at an angle between 0.4 and 1.
 const WALL: &str =
     "[goal]\njoints = [-2.5, 0.3]\n[[obstacle]]\npolygon = [[0.6, 0.6], [0.9, 0.6], [0.9, 0.9], [0.6, 0.9]]\n";
 
@@ -17,7 +17,7 @@ fn scene(place: &Place) -> LoadedScene {
     load_scene(shipped("robots/planar_2r_continuous.urdf"), &place.path("world.toml")).unwrap()
 }
 
-/// The second link out of the way.
+/// Angle of the second link that keeps it away from the wall, in radians.
 const FOLDED: f64 = -2.0;
 
 /// Returns the greatest angle at which the first link is free, to the last bit.
@@ -65,7 +65,7 @@ fn a_start_half_a_million_radians_from_zero_is_not_moved_into_a_stuck_box() {
         assert_eq!(verdict, Err(ProofError::NotSeparated(0)), "{start} is not {careless}");
     }
 
-    // Through the front door.
+    // The same through the program.
     let (start, careless) = candidates[0];
     let CollisionBox { cell, .. } = stuck(careless);
     place.write(

@@ -1,5 +1,5 @@
-//! Input with a hundred or a thousand times as many corners, links or pixels as anybody draws. It is answered in the
-//! memory of a small machine, with the same results as for the same shapes given by a few numbers.
+//! Input with a hundred or a thousand times as many corners, links or pixels as anybody draws. A small machine's memory
+//! suffices to answer it. Results are those for the same shapes stated by a few numbers.
 
 use super::{FREE, Place, shipped};
 use serde_json::Value;
@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::process::Command;
 
-/// Memory of a run, including reserved memory that is not used, KiB.
+/// Memory that a run may use, in KiB. It includes memory that is reserved but not used.
 const MEMORY: u32 = 1 << 20;
 
 fn listed(points: impl IntoIterator<Item = [f64; 2]>) -> String {
@@ -33,7 +33,7 @@ fn polyline(points: Vec<[f64; 2]>) -> String {
     format!("[[obstacle]]\npolyline = [{}]\n", listed(points))
 }
 
-/// Returns the program's result for `planar_2r`, or another arm, among obstacles, within [`MEMORY`].
+/// Returns the program's result for an arm among obstacles, within [`MEMORY`].
 fn planned(urdf: &str, obstacles: &str, options: &str) -> Value {
     let place = Place::new();
     place.write("world.toml", format!("{FREE}{obstacles}"));
@@ -109,12 +109,12 @@ fn a_star_of_4000_corners_is_passed_between_its_core_and_the_circle_around_it() 
     is_found_within(&planned(&arm(), &star, ""), number(&around, "length") * 1.01);
 }
 
-/// Numbers that look random, in `[-1, 1)`.
+/// Returns numbers that look random, in `[-1, 1)`.
 fn noise(k: usize) -> f64 {
     (k as f64 * 0.618_033_988_749 + (k as f64 * 0.013).sin() * 17.0).rem_euclid(1.0) * 2.0 - 1.0
 }
 
-/// The polygon is like the outline of a scanned object: each corner has its own noise.
+/// Checks a polygon like the outline of a scanned object, each of whose corners has its own noise.
 #[test]
 fn a_scanned_outline_of_6000_corners_is_passed_between_its_least_and_its_greatest_circle() {
     let center = [1.2, 0.3];
@@ -123,7 +123,8 @@ fn a_scanned_outline_of_6000_corners_is_passed_between_its_least_and_its_greates
     is_found_within(&planned(&arm(), &scan, ""), number(&around, "length") * 1.06);
 }
 
-/// The wall crosses itself thousands of times. Exact C-obstacles of all its pieces cross each other by the million.
+/// Checks a wall that crosses itself thousands of times. The exact C-obstacles of its pieces cross each other millions
+/// of times.
 #[test]
 fn a_noisy_zigzag_of_5000_points_is_passed_like_the_band_that_it_fills() {
     let point = |k: usize| [1.0 + 0.3 * k as f64 / 5000.0, 0.25 + 0.05 * (k % 2) as f64 + 0.02 * noise(k)];
@@ -209,8 +210,8 @@ fn a_robot_with_20_000_broken_joints_is_refused_with_the_first_of_them() {
     assert!(done.stderr.len() < 40_000, "{} bytes", done.stderr.len());
 }
 
-/// With ten thousand obstacles out of reach, the optimum is that without them, to the same gap. Proofs keep the numbers
-/// of all obstacles.
+/// Checks ten thousand obstacles out of reach: the optimum is that without them, within the same gap. Proofs keep the
+/// numbers of all obstacles.
 #[test]
 fn what_is_out_of_reach_changes_nothing() {
     let place = Place::new();

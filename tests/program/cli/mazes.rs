@@ -1,4 +1,4 @@
-//! Corridors exactly one cell wide, through the whole program: a pen on two slides among walls without thickness.
+//! Corridors exactly one cell wide, through the whole program. A pen on two slides moves among walls without thickness.
 
 use super::Place;
 use cplan_cases::mazes;
@@ -83,7 +83,7 @@ fn a_maze_of_201_x_201_cells() {
     is_solved(201, &mazes::maze(201, 0), 201 * 201 - 1);
 }
 
-/// The maze has more than a hundred thousand walls.
+/// Checks a maze with more than a hundred thousand walls.
 #[test]
 fn a_maze_of_501_x_501_cells() {
     is_solved(501, &mazes::maze(501, 0), 501 * 501 - 1);

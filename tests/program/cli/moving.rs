@@ -1,4 +1,4 @@
-//! Moving obstacles, through the program: planned, played, judged, refused.
+//! Moving obstacles, through the program: plans, their execution, judgements and refusals.
 
 use super::{FREE, Place, shipped};
 use serde_json::Value;
@@ -53,15 +53,15 @@ fn the_arm_waits_until_the_cart_has_gone() {
     let judged = place.run(&["verify", &urdf, &world, "rushed.csv"], "--anywhere");
     assert_eq!(judged.code, 3, "{}", judged.stdout);
     assert!(judged.stdout.contains("obstacle \"cart\""), "{}", judged.stdout);
-    // Without times nobody can tell.
+    // Without times, a motion cannot be judged.
     place.write("path.csv", "shoulder,elbow\n-0.9,0.3\n0.9,-0.3\n");
     let judged = place.run(&["verify", &urdf, &world, "path.csv"], "");
     assert_eq!(judged.code, 4, "{}", judged.stdout);
     assert!(judged.stdout.contains("no times"), "{}", judged.stdout);
 }
 
-/// To a place of the tip, the fastest motion may take another path than the shortest, to another IK solution. The time
-/// at which that solution is free counts.
+/// Checks a goal of the tip, to which the fastest motion may follow another path than the shortest, to another IK
+/// solution. The time from which that solution is free counts.
 #[test]
 fn the_fastest_motion_is_timed_along_its_own_path() {
     let place = Place::new();
@@ -132,7 +132,7 @@ fn motions_that_are_none_are_refused_with_their_place() {
     ] {
         place.plan(world(motion), "").refused(1, &parts);
     }
-    // Where the arm begins.
+    // The obstacle is where the arm begins.
     let done = place.plan(world("{ stops = [{ time = 0, at = [0.6, -0.8] }, { time = 1, at = [3, 3] }] }"), "--json");
     assert_eq!(done.code, 1);
     let output = done.json();
@@ -154,7 +154,7 @@ fn what_knows_no_time_refuses_what_moves() {
     }
 }
 
-/// The bottles are picked at their positions at that time, in all written files.
+/// Checks that bottles are picked where they are at that time, in all written files.
 #[test]
 fn bottles_are_picked_from_a_belt() {
     let place = Place::new();
@@ -205,13 +205,13 @@ fn a_falsified_recording_of_a_task_is_found_out() {
     let judged = judge("late.json", &late);
     assert_eq!(judged.code, 3, "{}", judged.stdout);
     assert!(judged.stdout.contains("step 1 (cycle 1): the tip ends 0.035"), "{}", judged.stdout);
-    // All clocks faster.
+    // All times are faster.
     let mut fast = result.clone();
     for time in fast["trajectory"]["time"].as_array_mut().unwrap() {
         *time = (time.as_f64().unwrap() * 0.9).into();
     }
     assert_eq!(judge("fast.json", &fast).code, 3);
-    // Picked when it may not be.
+    // The pick is outside its window.
     let narrow = std::fs::read_to_string(&world).unwrap();
     let narrow = narrow.replace("pick = \"bottle 1\"", "pick = \"bottle 1\"\nwindow = [2.0, 2.5]");
     place.write("narrow.toml", narrow);

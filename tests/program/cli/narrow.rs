@@ -1,4 +1,4 @@
-//! Passages of a few cells, and walls for which strips of joint 1 are seldom fine enough.
+//! Passages of a few cells, and walls for which strips of joint 1 are rarely fine enough.
 
 use super::{Place, shipped};
 
@@ -17,8 +17,8 @@ fn fields_find_a_passage_of_three_cells_without_a_finer_grid() {
     }
 }
 
-/// A slide of hundreds of metres is beside a star. A taut path leads through a side of the star however fine the strips
-/// are. The planner must search again, and not build a visibility graph after millions of strips.
+/// Checks a slide of hundreds of metres beside a star. A taut path leads through a side of the star, however fine the
+/// strips are. The planner must search again, and must not build a visibility graph after millions of strips.
 #[test]
 fn ways_through_walls_are_searched_for_anew() {
     let place = Place::new();

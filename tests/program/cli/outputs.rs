@@ -1,4 +1,4 @@
-//! No output overwrites an input or another output, in any notation of their paths.
+//! Checks that no output overwrites an input or another output, however their paths are written.
 
 use super::*;
 
@@ -60,7 +60,7 @@ fn an_input_is_not_overwritten_by_any_path_to_it() {
     for output in &spellings {
         refused(&place, &["arm.urdf", "world.json", "--output", output], &["the input file world.json", output]);
     }
-    // By the other name of the world, too.
+    // The world has another name, too.
     refused(&place, &["arm.urdf", spellings[spellings.len() - 1], "--output", "world.json"], &["world.json"]);
     refused(&place, &["compare", "arm.urdf", "world.json", "--output", "sub/../world.json"], &["the input"]);
     assert_eq!(place.run(&["arm.urdf", "world.json", "--output", "new.json"], "").code, 0);

@@ -80,8 +80,8 @@ fn link_1_is_in_the_way_of_the_quill() {
     }
 }
 
-/// From one side of the fold to the other, joint 2 would have to pass through angles where the quill is in link 1.
-/// Without a limit it turns the other way round.
+/// Checks that joint 2 does not pass angles where the quill would be in link 1. Without a limit, it turns in the other
+/// direction.
 #[test]
 fn joint_2_does_not_pass_the_fold() {
     let urdf = scara(0.29, "").replace(r#"<limit lower="-3.1" upper="3.1" velocity="5" effort="1"/>"#, "");
@@ -93,7 +93,7 @@ fn joint_2_does_not_pass_the_fold() {
     assert!((path[path.len() - 1][1] + 2.0).abs() < 1e-9, "the long way round: {path:?}");
     let files = ["arm.urdf", "world.toml", "c.json"].map(|name| place.path(name));
     check_files(&files[0], &files[1], &files[2]).expect("holds");
-    // A post bars the other way.
+    // A post blocks the other direction.
     let post = "[[obstacle]]\ncircle = { center = [0.9, 0.0], radius = 0.15 }\n";
     let barred = world("limits = { j1 = [-0.2, 0.2] }", [0.0, -2.0]) + post;
     let (place, none) = run(&turns, &barred, "--json --quiet --certificate c.json");
@@ -105,7 +105,7 @@ fn joint_2_does_not_pass_the_fold() {
     assert!(blocking.as_array().unwrap().contains(&"inner".into()), "{}", explained.stdout);
 }
 
-/// A hand without collision geometry is where its visual geometry is, though the link that it is attached to has
+/// Checks a hand without collision geometry, whose visual geometry counts although the link that it is attached to has
 /// collision geometry.
 #[test]
 fn a_hand_that_has_only_a_visual_is_not_left_out() {

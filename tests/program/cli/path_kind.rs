@@ -1,4 +1,4 @@
-//! `--path own|taut`, and answers if a planner's space does not show the existing path.
+//! The option `--path own|taut`, and answers if a planner's space does not contain the path that exists.
 
 use super::{FREE, Place, shelf, shipped};
 use serde_json::{Value, json};
@@ -113,7 +113,8 @@ fn compare_lists_both_paths_of_each_planner() {
     assert_eq!((two["planners"].as_array().unwrap().len(), &two["planners"][1]["path_kind"]), (2, &json!("own")));
 }
 
-/// The cells are too coarse for a slot that the arm passes. The answer states that there is a path, but has none.
+/// Checks cells that are too coarse for a slot that the arm passes. The answer states that there is a path, but
+/// contains none.
 #[test]
 fn where_cells_are_too_coarse_the_answer_says_whether_there_is_a_path() {
     let place = Place::new();

@@ -1,4 +1,4 @@
-//! Depth to which a placed object presses into its support.
+//! How deep a placed object may press into its support.
 
 use super::{Place, shipped};
 use std::f64::consts::FRAC_1_SQRT_2;

@@ -6,7 +6,7 @@ use crate::common::random::seeds;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// Boxes of a proof at most.
+/// Largest number of boxes of a proof.
 const MOST: usize = 10_000;
 
 /// Returns a world of discs, triangles and thin walls around the arm, with start and goal far apart. Walls and slim

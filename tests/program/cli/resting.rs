@@ -3,7 +3,7 @@
 use super::{Done, Place, shipped};
 use cplan_check_files::check;
 
-/// Method of lowering the tool, and of holding the part.
+/// How the tool is lowered, and how the part is held.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Hand {
     Lifting,

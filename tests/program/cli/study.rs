@@ -18,7 +18,7 @@ fn study(place: &Place, head: &str, parameters: &str) -> String {
     text
 }
 
-/// The crate's place, in steps and drawn.
+/// A parameter for the crate's place, in steps and drawn.
 const CRATE: &str = "[[parameter]]\nname = \"x\"\nsets = \"world.obstacle.crate.at[0]\"\nfrom = -1.5\nto = 1.5\nsteps = 4\n\
                      [[parameter]]\nname = \"y\"\nsets = [\"world.obstacle.crate.at[1]\"]\nfrom = -1.5\nto = 1.5\ndraw = \"latin\"\n";
 

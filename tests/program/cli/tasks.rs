@@ -52,9 +52,9 @@ move = { joints = [0.3, 0.4] }
 
 const REPEATED: &str = "[task]\nrepeat = 5\n";
 
-/// Something to place, into the post.
+/// Steps that place the part into the post.
 const BARRED: &str = "[[step]]\npick = \"part\"\n[[step]]\nplace = { at = [1.45, 0.25] }\n";
-/// Target in the post, for an object that the arm could also turn on the path.
+/// Steps with a target in the post. The arm could also turn the object during the motion.
 const DOUBTFUL: &str = "[[step]]\npick = \"cup\"\n[[step]]\nplace = { at = [1.45, 0.25], angle = 1.0 }\n";
 
 impl Place {
@@ -93,7 +93,7 @@ fn moves_within_limits(arm: &Arm, time: &[f64], position: &[[f64; 2]], velocity:
     assert_eq!(limit_violations(&arm.joints, &recording), []);
 }
 
-/// Checks everything that holds for every finished task.
+/// Checks the properties that every finished task must have.
 fn consistent(arm: &Arm, result: &Value) {
     assert_eq!((&result["status"], &result["certified"]), (&json!("found"), &json!(true)));
     let trajectory = &result["trajectory"];

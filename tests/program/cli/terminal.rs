@@ -112,7 +112,7 @@ fn colours_are_for_terminals_that_want_them() {
     assert_eq!(forced.lines().count(), plain.lines().count());
 }
 
-/// `script` runs a program on its own terminal.
+/// Checks lines on a terminal of their own, on which `script` runs the program.
 #[cfg(target_os = "linux")]
 #[test]
 fn lines_keep_to_the_terminal() {

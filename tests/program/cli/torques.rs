@@ -116,7 +116,7 @@ fn what_is_missing_or_makes_no_sense_is_named() {
         place.write("wrong.toml", text.replace(from, to));
         place.run(&[urdf.as_str(), "wrong.toml"], "").refused(1, &[part]);
     }
-    // Also where nothing depends on it.
+    // Invalid values are refused, even if nothing depends on them.
     for wrong in ["shoulder = 0", "shoulder = nan", "gravity"] {
         let silent = text.replace("dynamics = true\n", if wrong == "gravity" { "gravity = [0, 1]\n" } else { "" });
         place.write(
@@ -143,7 +143,7 @@ fn what_is_missing_or_makes_no_sense_is_named() {
     place.run(&["weak.urdf", "own.toml"], "").refused(1, &["joint \"shoulder\" has no effort", "[robot] effort"]);
 }
 
-/// No motion follows that would show the excess.
+/// Checks the effort that holds the arm at the end. No motion follows that would show the excess.
 #[test]
 fn what_is_held_in_the_end_is_held_by_the_efforts() {
     let place = Place::new();
@@ -165,7 +165,7 @@ fn what_is_held_in_the_end_is_held_by_the_efforts() {
     }
 }
 
-/// Efforts in a much different unit, in the world or the robot's file.
+/// Checks efforts in a very different unit, in the world or in the robot's file.
 #[test]
 fn efforts_next_to_nothing_are_told_from_links_without_mass() {
     let place = Place::new();
@@ -178,8 +178,8 @@ fn efforts_next_to_nothing_are_told_from_links_without_mass() {
     place.run(&[&urdf, "weak.toml"], "").refused(1, &parts);
 }
 
-/// Without velocities, the speed of the arm is unknown, so torques cannot be judged. For a single sample, the judge
-/// takes the torques that hold the arm there.
+/// Checks recordings without velocities. The speed of the arm is unknown, so torques cannot be judged. For a single
+/// sample, the judge computes the torques that hold the arm there.
 #[test]
 fn torques_of_what_has_no_velocities_are_not_said_to_be_kept() {
     let place = Place::new();

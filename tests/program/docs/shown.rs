@@ -6,7 +6,7 @@ use crate::rounding;
 /// Mark for omitted output.
 const OUT: &str = "[...]";
 
-/// Stands for what differs from run to run.
+/// Stands for a value that differs from run to run.
 const ANY: &str = "~";
 
 /// Splits a table line into cells, which two blanks or more separate.

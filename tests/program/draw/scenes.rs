@@ -94,7 +94,7 @@ pub fn scene(arm: Arm, obstacles: Vec<Obstacle>) -> Scene {
     placed(arm, Workspace { name: "test".to_owned(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
-/// A grid of looks at the scene.
+/// The cells of a grid, with what the arm hits at their centres.
 pub struct Cells {
     topology: Topology,
     pub n: usize,

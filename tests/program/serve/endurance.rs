@@ -25,7 +25,7 @@ fn a_world_of_19_999_corners_is_answered() {
     assert!(answer["done"] == true && answer["verdict"].is_string(), "{answer}");
 }
 
-/// Asks and asks until nothing more goes in.
+/// Sends requests until the connection accepts no more.
 fn pipelined(server: &Server) -> TcpStream {
     let mut stream = server.connect();
     stream.set_write_timeout(Some(Duration::from_millis(100))).unwrap();

@@ -7,13 +7,13 @@ use std::time::Duration;
 
 const WORLD: &str = "workspaces/shelf.toml";
 
-/// Obstacles of the crowd.
+/// Number of obstacles of the crowd.
 const MANY: usize = 300;
 
 /// Answers per second that a page should get during a drag.
 const WANTED: f64 = 10.0;
 
-/// Answers that are waited for.
+/// Number of answers that the test waits for.
 const ANSWERS: u32 = 30;
 
 const START: [f64; 2] = [-0.9, 0.4];

@@ -21,7 +21,7 @@ pub struct Server {
 }
 
 impl Server {
-    /// Starts one on a free port.
+    /// Starts a server on a free port.
     pub fn start(arguments: &[&str]) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_cplan"))
             .args(["serve", "--port", "0"])
@@ -74,7 +74,7 @@ impl Server {
         Response(String::from_utf8_lossy(&bytes).into_owned())
     }
 
-    /// Returns the answer to a GET.
+    /// Returns the answer to a GET request.
     pub fn get(&self, path: &str) -> Response {
         self.raw(&format!("GET {path} HTTP/1.1\r\nHost: HOST\r\nConnection: close\r\n\r\n"))
     }

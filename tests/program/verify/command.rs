@@ -1,4 +1,4 @@
-//! The command from outside: exit codes and output.
+//! The command `verify` as its users see it: exit codes and output.
 
 use serde_json::Value;
 use std::path::Path;

@@ -323,7 +323,7 @@ fn another_start() {
     let (code, _, error) = tower.report(&["--picture", "a.svg"]);
     assert_eq!(code, 2, "{error}");
     assert!(error.contains("--picture"), "{error}");
-    // More than there is.
+    // A clearance that is greater than the actual distance.
     let (code, text, _) = shipped("sorting").report(&["--clearance", "0.01"]);
     assert!(code == 3 && text.contains("nearer than the required clearance"), "{text}");
 }

@@ -1,4 +1,4 @@
-//! The charts: one for each equation, one for the factor, one for the drift.
+//! The charts: one for each equation, one for the factor of SOR, one for the strength of the drift.
 
 use super::lines::{self, CHART_SIZE, Line, LineChart};
 use super::{Convergence, Course, FactorScan, Point, StrengthScan, WeightScan, files};
@@ -6,12 +6,12 @@ use crate::page::number;
 use cplan_fields::{Factor, Order, Sample, Scheme};
 use cplan_text::markup;
 
-/// Charts side by side.
+/// Number of charts side by side.
 const CHARTS_PER_ROW: usize = 2;
-/// Above the charts, for the title.
+/// Height of the title above the charts, in pixels.
 const TITLE_HEIGHT: f64 = 44.0;
 
-/// The PNG writer has the first font; viewers use those that they have.
+/// Fonts of the charts. The PNG writer has the first one; a viewer uses the first one that it has.
 const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
 
 impl Convergence {
@@ -79,7 +79,7 @@ impl Convergence {
 
     fn by_strength(&self) -> LineChart {
         let line = |(k, scan): (usize, &StrengthScan)| Line {
-            name: files::oriented(scan.difference),
+            name: files::oriented_name(scan.difference),
             pen: lines::pen(k),
             points: converged(&scan.points),
             dots: true,
@@ -89,7 +89,7 @@ impl Convergence {
             title: format!("Sweeps of Gauss-Seidel ({}), drift along ({a:.2}, {b:.2})", self.order),
             axes: ["epsilon (per cell)", "sweeps until it converges"],
             lines: self.strengths.iter().enumerate().map(line).collect(),
-            // Central differences are monotone below.
+            // Central differences are monotone below this strength.
             marks: vec![(2.0 / a.abs().max(b.abs()), "monotone")],
         }
     }
@@ -100,7 +100,7 @@ fn converged(points: &[Point]) -> Vec<[f64; 2]> {
     points.iter().filter_map(|point| Some([point.at, point.converged()? as f64])).collect()
 }
 
-/// Charts the relaxations of one equation: the error if it is known, else the sum of squared changes.
+/// Charts the relaxations of one equation: the error if it is known, otherwise the sum of squared changes of a sweep.
 fn errors(courses: &[Course]) -> LineChart {
     let known = courses.iter().flat_map(|course| &course.trace.samples).any(|sample| sample.error.is_some());
     let line = |course: &Course| {
@@ -124,7 +124,7 @@ fn errors(courses: &[Course]) -> LineChart {
     }
 }
 
-/// Colours tell relaxations apart, dashes orders.
+/// Returns numbers of colour and dashes. Each relaxation has its colour, and each order its dashes.
 fn pen(scheme: Scheme) -> [usize; 2] {
     match scheme {
         Scheme::Simultaneous { factor } => [0, usize::from(factor != 1.0)],

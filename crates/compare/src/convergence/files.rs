@@ -1,4 +1,4 @@
-//! Text, CSV and JSON.
+//! Convergence as text, CSV and JSON.
 
 use super::{Convergence, Course, FactorScan, Point, StrengthScan, WeightScan};
 use crate::table::{Align, Column, Table, fixed, quoted};
@@ -61,7 +61,8 @@ impl Convergence {
         Table { columns, rows: self.courses.iter().map(row).collect() }
     }
 
-    /// Returns a table with one row per equation: best factor, formula, Young's.
+    /// Returns a table with one row per equation: the sweeps with the best factor of the scan, with the formula's
+    /// factor, and with Young's factor.
     #[must_use]
     pub fn factor_table(&self) -> Table {
         let cells =
@@ -74,8 +75,8 @@ impl Convergence {
         Table { columns, rows: self.factors.iter().map(row).collect() }
     }
 
-    /// Returns a table with one row per equation: the best factor of weighted Jacobi, Jacobi's own, the first that does
-    /// not converge.
+    /// Returns a table with one row per equation: the best factor of weighted Jacobi, Jacobi itself (factor 1), and the
+    /// first factor that does not converge.
     #[must_use]
     pub fn weight_table(&self) -> Table {
         let row = |scan: &WeightScan| {
@@ -93,7 +94,8 @@ impl Convergence {
         Table { columns, rows: self.weights.iter().map(row).collect() }
     }
 
-    /// Returns a table with one row per relaxation of two stages: the leap of its changes where preferences begin.
+    /// Returns a table with one row per relaxation of two stages: how the changes of a sweep jump where preferences
+    /// begin.
     #[must_use]
     pub fn leap_table(&self) -> Table {
         let row = |course: &Course| {
@@ -120,9 +122,10 @@ impl Convergence {
         Table { columns, rows: (0..count).step_by(5).map(row).collect() }
     }
 
-    /// Returns one line per sample, with full precision: after a sweep (`error`), and for the scans over the factor
-    /// (`factor` of SOR, `weight` of weighted Jacobi) and over the drift (`epsilon`), where `sweep` is the total
-    /// number. Columns that do not apply are empty. `ending` is in the last line of a relaxation.
+    /// Returns CSV with one line per sample, in full precision. Samples are taken after sweeps (`error`), for each
+    /// factor of SOR (`factor`) and of weighted Jacobi (`weight`), and for each strength of the drift (`epsilon`). For
+    /// the last three, `sweep` is the total number of sweeps. Columns that do not apply are empty. The last line of a
+    /// relaxation has its `ending`.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut text = format!("{CSV_COLUMNS}\n");
@@ -133,7 +136,7 @@ impl Convergence {
                 let ending = if *sweep == trace.sweeps { word(trace.ending) } else { "" };
                 text += &format!("{head},,{stage},{sweep},{squares:e},{relative:e},{error},{ending}\n");
             }
-            // Sweeps with NaN leave no samples, but the ending must be reported.
+            // Sweeps without finite values leave no samples, but the ending must be reported.
             if trace.samples.last().is_none_or(|sample| sample.sweep != trace.sweeps) {
                 text += &format!("{head},,,{},,,,{}\n", trace.sweeps, word(trace.ending));
             }
@@ -152,15 +155,16 @@ impl Convergence {
         }
         for StrengthScan { difference, points } in &self.strengths {
             for Point { at, sweeps, ending } in points {
-                let head = format!("epsilon,{},gauss-seidel,{},1,{at}", quoted(&oriented(*difference)), self.order);
+                let head =
+                    format!("epsilon,{},gauss-seidel,{},1,{at}", quoted(&oriented_name(*difference)), self.order);
                 text += &format!("{head},,{sweeps},,,,{}\n", word(*ending));
             }
         }
         text
     }
 
-    /// Returns everything as a JSON object. Samples are lists of equal length, with null for unknown or infinite
-    /// values.
+    /// Returns everything as a JSON object. A sample is a list of numbers, all of one length, with null for a value
+    /// that is unknown or infinite.
     #[must_use]
     pub fn to_json(&self) -> Value {
         let course = |Course { equation, relaxation, trace }: &Course| {
@@ -204,7 +208,7 @@ impl Convergence {
         };
         let strength = |scan: &StrengthScan| {
             json!({
-                "equation": oriented(scan.difference),
+                "equation": oriented_name(scan.difference),
                 "points": scan.points.iter().map(|p| point("epsilon", p)).collect::<Vec<_>>(),
             })
         };
@@ -243,8 +247,8 @@ impl Convergence {
     }
 }
 
-/// Returns the name of the equation in the scans over epsilon.
-pub(super) fn oriented(difference: Difference) -> String {
+/// Returns the name of the equation with a drift in the scans over its strength `epsilon`.
+pub(super) fn oriented_name(difference: Difference) -> String {
     format!("oriented, {}", if difference == Difference::Central { "central" } else { "upwind" })
 }
 

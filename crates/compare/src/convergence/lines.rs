@@ -1,30 +1,30 @@
-//! Charts of lines, as parts of an SVG document.
+//! Line charts, as parts of an SVG document.
 
 use crate::page::{Axis, number};
 use cplan_text::markup;
 
-/// Size of the plot, pixels.
+/// Width and height of the plot, in pixels.
 const PLOT_SIZE: [f64; 2] = [400.0, 250.0];
-/// Left of the plot, for the ticks and the title of the vertical axis.
+/// Room left of the plot, for the ticks and the title of the vertical axis, in pixels.
 const LEFT_MARGIN: f64 = 74.0;
-/// Above the plot, for the title.
+/// Room above the plot, for the title, in pixels.
 const TOP_MARGIN: f64 = 34.0;
-/// Right of the plot, for the names of lines.
+/// Room right of the plot, for the names of lines, in pixels.
 const RIGHT_MARGIN: f64 = 186.0;
-/// Below the plot, for the ticks and the title of the axis.
+/// Room below the plot, for the ticks and the title of the horizontal axis, in pixels.
 const BOTTOM_MARGIN: f64 = 52.0;
-/// Between two names of lines.
+/// Distance between the names of two lines, in pixels.
 const NAME_SPACING: f64 = 19.0;
 
-/// Size of a chart, pixels.
+/// Width and height of a chart with its margins, in pixels.
 pub const CHART_SIZE: [f64; 2] = [LEFT_MARGIN + PLOT_SIZE[0] + RIGHT_MARGIN, TOP_MARGIN + PLOT_SIZE[1] + BOTTOM_MARGIN];
 
-/// Okabe and Ito's, as on the pages.
+/// Colours of lines: Okabe and Ito's, as on the pages.
 const COLORS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#b04f88", "#a87400", "#2b90c9"];
-/// Lines of one colour differ in their dashes.
+/// Dashes of lines, in pixels. They distinguish lines of one colour.
 const DASHES: [&str; 4] = ["", "7 3", "2 3", "7 3 2 3"];
 
-/// Returns colour and dashes of a line by its number: a new colour for each, and new dashes once all colours are used.
+/// Returns colour and dashes of a line by its number. The dashes change each time that all colours have been used.
 pub fn pen(line: usize) -> [usize; 2] {
     [line % COLORS.len(), line / COLORS.len()]
 }
@@ -35,14 +35,14 @@ pub struct LineChart {
     /// Titles of the axes.
     pub axes: [&'static str; 2],
     pub lines: Vec<Line>,
-    /// Values of the horizontal axis with names.
+    /// Values of the horizontal axis that are marked, with their names.
     pub marks: Vec<(f64, &'static str)>,
 }
 
 /// A line with its name.
 pub struct Line {
     pub name: String,
-    /// Numbers of colour and dashes.
+    /// Indices of colour and dashes.
     pub pen: [usize; 2],
     pub points: Vec<[f64; 2]>,
     /// True to draw a dot at each point.
@@ -50,12 +50,12 @@ pub struct Line {
 }
 
 impl LineChart {
-    /// Draws the chart with its upper left corner at a place; nothing without points. Axes are logarithmic if values
-    /// differ greatly; values that a logarithmic axis cannot show are omitted.
+    /// Draws the chart with its upper left corner at `[left, top]`. Returns an empty text if there are no points. An
+    /// axis is logarithmic if its values differ greatly; values that a logarithmic axis cannot show are left out.
     pub fn svg(&self, [left, top]: [f64; 2]) -> String {
         let of = |k: usize| self.lines.iter().flat_map(|line| &line.points).map(move |point| point[k]);
         let marks = self.marks.iter().map(|mark| mark.0);
-        // A zero, to which an error may well come, has no place on a logarithmic axis.
+        // An error can be zero, which has no place on a logarithmic axis.
         let positive = of(1).filter(|&value| value > 0.0);
         let (Some(x), Some(y)) = (Axis::over(of(0).chain(marks), None), Axis::over(positive, None)) else {
             return String::new();
@@ -124,7 +124,7 @@ impl Line {
         let mut path = String::new();
         let mut last = String::new();
         for [x, y] in places {
-            // A tenth of a pixel is enough, and what falls on the last place is nothing new.
+            // Precision of a tenth of a pixel. A point that rounds to the one before is left out.
             let place = format!("{x:.1} {y:.1}");
             if place != last {
                 path += &format!("{}{place}", if path.is_empty() { 'M' } else { 'L' });
@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn points_without_a_place_are_omitted() {
-        // No error at all has no logarithm.
+        // An error of zero has no logarithm.
         let svg = chart(&[[1.0, 1.0], [2.0, 1e-3], [3.0, 0.0]]);
         assert_eq!(dots(&svg).len(), 2);
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");

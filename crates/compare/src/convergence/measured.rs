@@ -1,4 +1,4 @@
-//! The measuring.
+//! Measures the convergence of relaxations.
 
 use super::{Convergence, Course, FactorScan, Point, StrengthScan, WeightScan};
 use cplan_fields::{
@@ -6,27 +6,27 @@ use cplan_fields::{
     Stopping, eliminated, relax, trace,
 };
 
-/// The setup of a measurement.
+/// Domain, equations and settings of a measurement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup<'a> {
     /// Title of the domain.
     pub title: String,
     /// The domain of the equations.
     pub domain: &'a Domain,
-    /// Names and equations.
+    /// The equations, with their names.
     pub equations: Vec<(String, Equation)>,
-    /// The direction of the drift in the scans over its strength, in cells.
+    /// Direction of the drift, in grid coordinates, for the scans over its strength.
     pub direction: Direction,
     /// Order of cells in the scans.
     pub order: Order,
-    /// When relaxations end.
+    /// Rule by which a relaxation ends.
     pub stopping: Stopping,
 }
 
-/// The factor of weighted Jacobi: the usual choice of smoothers in the plane.
+/// Factor of weighted Jacobi. 0.8 is the usual choice for smoothers in two dimensions.
 const JACOBI_WEIGHT: f64 = 0.8;
 
-/// Returns the traced relaxations.
+/// Returns the relaxations whose error is measured after each sweep.
 fn relaxations() -> Vec<Relaxation> {
     let orders = [Order::Lines(Scan::ROWS), Order::Corners(Lines::Rows), Order::RedBlack];
     let at_once = [Relaxation::JACOBI, Relaxation::weighted_jacobi(JACOBI_WEIGHT)];
@@ -35,25 +35,26 @@ fn relaxations() -> Vec<Relaxation> {
     at_once.into_iter().chain(gauss_seidel).chain(sor).collect()
 }
 
-/// Factors of the scan: by twentieths, and by hundredths near 2.
+/// Returns the factors of SOR in the scan: from 1 in steps of 0.05, near 2 in steps of 0.01.
 fn factors() -> Vec<f64> {
     (20..39).map(|k| f64::from(k) / 20.0).chain((95..100).map(|k| 1.0 + f64::from(k) / 100.0)).collect()
 }
 
-/// Factors of weighted Jacobi in the scan, by twentieths; lesser ones only take longer.
+/// Iterates over the factors of weighted Jacobi in the scan, in steps of 0.05. It begins at 0.5: smaller factors only
+/// take longer.
 fn weights() -> impl Iterator<Item = f64> {
     (10..40).map(|k| f64::from(k) / 20.0)
 }
 
-/// Strengths of the scan, by fifths.
+/// Returns the strengths of the drift in the scan: from 0 to 6, in steps of 0.2.
 fn strengths() -> Vec<f64> {
     (0..=30).map(|k| f64::from(k) / 5.0).collect()
 }
 
 /// Relaxes each equation by Jacobi, weighted Jacobi, Gauss-Seidel and SOR in each order, and measures the error after
 /// each sweep. Then scans the factors of SOR and of weighted Jacobi for each equation, and the strength of the drift by
-/// Gauss-Seidel with either discretisation. Reports each part to `progress`. Runs some hundred relaxations, and an
-/// elimination for each equation.
+/// Gauss-Seidel with either discretisation. Reports its progress to `progress`. It runs some hundred relaxations, and
+/// one elimination for the exact solution of each equation.
 ///
 /// # Errors
 /// [`RelaxError::Refused`] if an equation does not fit the domain. Divergence is a result, not an error.
@@ -109,7 +110,8 @@ pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Conv
     })
 }
 
-/// Relaxes with one factor of weighted Jacobi after the other, until one from 1 on does not converge; lesser ones may just be slow.
+/// Relaxes with increasing factors of weighted Jacobi. Stops at the first factor that does not converge and is at least
+/// 1; with smaller ones, convergence may only be slow.
 fn weight_scan(
     name: &str,
     domain: &Domain,
@@ -127,7 +129,7 @@ fn weight_scan(
     Ok(WeightScan { equation: name.to_owned(), points })
 }
 
-/// Returns Young's best factor for the rate of Jacobi.
+/// Returns Young's best factor of SOR for Jacobi's rate of convergence. `None` if the rate is not below 1.
 fn best_factor(rate: f64) -> Option<f64> {
     (rate < 1.0).then(|| 2.0 / (1.0 + (1.0 - rate * rate).sqrt()))
 }

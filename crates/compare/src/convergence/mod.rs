@@ -1,5 +1,5 @@
-//! Convergence of relaxations: error against sweeps for each equation, relaxation and order; sweeps against the factor
-//! of SOR and against the strength of a drift.
+//! Convergence of relaxations: the error against the number of sweeps, for each equation, relaxation and order; and the
+//! number of sweeps against the factor of SOR, and against the strength of a drift.
 //!
 //! ```text
 //! Setup (a domain and equations on it) -> convergence -> Convergence -> table, CSV, JSON
@@ -25,21 +25,21 @@ pub struct Convergence {
     pub title: String,
     /// Rows and columns.
     pub cells: [usize; 2],
-    /// Cells whose values are sought.
+    /// Number of cells whose values are sought.
     pub free: usize,
-    /// When relaxations end.
+    /// Rule by which a relaxation ends.
     pub stopping: Stopping,
     /// Order of cells in the scans.
     pub order: Order,
-    /// Relaxation by relaxation, by equation.
+    /// All relaxations of the first equation, then those of the next one.
     pub courses: Vec<Course>,
-    /// Sweeps against the factor of SOR, an equation each.
+    /// For each equation, the sweeps against the factor of SOR.
     pub factors: Vec<FactorScan>,
-    /// Sweeps against the factor of weighted Jacobi, an equation each.
+    /// For each equation, the sweeps against the factor of weighted Jacobi.
     pub weights: Vec<WeightScan>,
-    /// The direction of the drift in the scans over its strength, in cells; a vector of length 1.
+    /// Direction of the drift in the scans over its strength, in grid coordinates; a vector of length 1.
     pub direction: [f64; 2],
-    /// Sweeps of Gauss-Seidel against the strength of the drift, a discretisation each.
+    /// For each discretisation of the drift, the sweeps of Gauss-Seidel against its strength.
     pub strengths: Vec<StrengthScan>,
 }
 
@@ -50,11 +50,11 @@ pub struct Course {
     pub equation: String,
     /// The relaxation.
     pub relaxation: Relaxation,
-    /// Its measurements.
+    /// Samples and ending of the relaxation.
     pub trace: Trace,
 }
 
-/// Sweeps against the factor of SOR.
+/// Numbers of sweeps for several factors of SOR.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FactorScan {
     /// The name of the equation.
@@ -66,42 +66,43 @@ pub struct FactorScan {
     /// consistent orders, such as rows and red-black, this is the best factor if all eigenvalues are real (Young 1954).
     /// `None` if `r` is unknown or not below 1, or the equation is not monotone.
     pub by_rate: Option<Point>,
-    /// Factors of the scan, rising.
+    /// Results for the factors of the scan, in ascending order.
     pub points: Vec<Point>,
 }
 
-/// Sweeps against the factor of weighted Jacobi, by twentieths up to the first factor from 1 on that does not converge. No greater
-/// factor converges: of each eigenvalue `m` of Jacobi's relaxation a sweep makes `1 - w (1 - m)`, whose size is convex in `w` and 1 at 0.
+/// Numbers of sweeps for several factors of weighted Jacobi, in steps of 0.05. The scan ends at the first factor from 1
+/// on that does not converge. No greater factor converges: for each eigenvalue `m` of Jacobi's relaxation, a sweep
+/// multiplies a part of the error by `1 - w (1 - m)`, whose absolute value is convex in the factor `w` and 1 at 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WeightScan {
     /// The name of the equation.
     pub equation: String,
-    /// Factors of the scan, rising.
+    /// Results for the factors of the scan, in ascending order.
     pub points: Vec<Point>,
 }
 
-/// Sweeps against the strength of the drift, `epsilon` per cell.
+/// Numbers of sweeps for several strengths of the drift, in `epsilon` per cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StrengthScan {
     /// Discretisation of the drift.
     pub difference: Difference,
-    /// Strengths, rising.
+    /// Results for the strengths of the scan, in ascending order.
     pub points: Vec<Point>,
 }
 
-/// A relaxation with one value of the varied parameter.
+/// The result of a relaxation for one value of the varied parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
-    /// The factor, or the strength.
+    /// The value of the parameter: a factor or a strength.
     pub at: f64,
-    /// Sweeps until it ended.
+    /// Number of sweeps until the relaxation ended.
     pub sweeps: usize,
-    /// Reason why it ended.
+    /// Reason why the relaxation ended.
     pub ending: Ending,
 }
 
 impl Point {
-    /// Sweeps that it took to converge, if it did.
+    /// Returns the number of sweeps if the relaxation converged.
     #[must_use]
     pub fn converged(&self) -> Option<usize> {
         (self.ending == Ending::Converged).then_some(self.sweeps)
@@ -109,8 +110,8 @@ impl Point {
 }
 
 impl FactorScan {
-    /// Returns the point of the scan, marked ones included, with the fewest sweeps; of several, the one with the least
-    /// factor. Returns `None` if no relaxation converged.
+    /// Returns the converged point with the fewest sweeps, among the points of the scan, `formula` and `by_rate`. Of
+    /// several such points, returns the one with the least factor.
     #[must_use]
     pub fn best(&self) -> Option<Point> {
         fewest(self.points.iter().chain([&self.formula]).chain(&self.by_rate))
@@ -118,13 +119,14 @@ impl FactorScan {
 }
 
 impl WeightScan {
-    /// Returns the point with the fewest sweeps, and of several the one with the least factor, if any converged.
+    /// Returns the converged point with the fewest sweeps; of several such points, the one with the least factor.
     #[must_use]
     pub fn best(&self) -> Option<Point> {
         fewest(self.points.iter())
     }
 
-    /// Returns the least factor from which on no relaxation of the scan converged, unless the last one did.
+    /// Returns the point with the least factor from which on no relaxation of the scan converged. `None` if the last
+    /// one converged.
     #[must_use]
     pub fn lost_from(&self) -> Option<Point> {
         lost_from(&self.points)
@@ -137,14 +139,15 @@ fn lost_from(points: &[Point]) -> Option<Point> {
     points.get(after).copied()
 }
 
-/// Returns the converged point with the fewest sweeps; of several, the first on the axis.
+/// Returns the converged point with the fewest sweeps; of several such points, the one with the least parameter.
 fn fewest<'a>(points: impl Iterator<Item = &'a Point>) -> Option<Point> {
     let converged = points.filter(|point| point.converged().is_some()).copied();
     converged.min_by(|a, b| a.sweeps.cmp(&b.sweeps).then(a.at.total_cmp(&b.at)))
 }
 
 impl StrengthScan {
-    /// Returns the least strength from which no relaxation of the scan converged, or `None` if the last one did.
+    /// Returns the point with the least strength from which on no relaxation of the scan converged. `None` if the last
+    /// one converged.
     #[must_use]
     pub fn lost_from(&self) -> Option<Point> {
         lost_from(&self.points)

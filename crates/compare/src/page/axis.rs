@@ -1,23 +1,23 @@
 //! The axis of a chart.
 
-/// Greatest over least value from which a logarithmic axis shows more than a linear one.
+/// An axis becomes logarithmic if the ratio of its greatest to its least value is at least this.
 const LOGARITHMIC_RATIO: f64 = 8.0;
 
 /// Largest number of ticks, except on a logarithmic axis over many decades.
 const MAX_TICKS: usize = 6;
 
-/// A stretch of values, to be laid over a stretch of pixels.
+/// A range of values along an axis of a chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
     lower: f64,
     upper: f64,
-    /// Equal factors are equally far apart.
+    /// True if equal ratios of values are equally far apart.
     pub is_logarithmic: bool,
 }
 
 impl Axis {
-    /// Returns an axis that contains these values with a small margin, and `base` if it is given; `None` without
-    /// values. It is logarithmic if all values are positive and differ greatly.
+    /// Returns an axis that contains these values with a small margin, and `base` if it is given. `None` if there
+    /// is neither. The axis is logarithmic if all values are positive and differ greatly.
     pub fn over(values: impl Iterator<Item = f64> + Clone, base: Option<f64>) -> Option<Self> {
         let all = values.chain(base).filter(|v| v.is_finite());
         let min = all.clone().reduce(f64::min)?;
@@ -54,7 +54,7 @@ impl Axis {
         }
     }
 
-    /// Powers of ten, with 2 and 5 times them, or 3 times, where there is room.
+    /// Returns powers of ten and some of their multiples: as many kinds of multiples as there is room for.
     fn factors(&self) -> Vec<f64> {
         let decades = self.lower.log10().floor() as i32..=self.upper.log10().ceil() as i32;
         let within = |digits: &[f64]| -> Vec<f64> {
@@ -69,7 +69,7 @@ impl Axis {
         })
     }
 
-    /// Returns a round number with at least three multiples within the axis, so that distances are readable.
+    /// Returns a round step with at least three multiples within the axis, so that distances can be read.
     fn step(&self) -> f64 {
         let least = (self.upper - self.lower) / (MAX_TICKS - 1) as f64;
         let power = 10_f64.powf(least.log10().floor());
@@ -80,7 +80,7 @@ impl Axis {
 
     fn multiples(&self, step: f64) -> Vec<f64> {
         let first = (self.lower / step).ceil();
-        // Not sums: those would gather roundings.
+        // Products instead of sums, which would accumulate rounding errors.
         let multiples = (0..=2 * MAX_TICKS).map(|i| (first + i as f64) * step);
         multiples.take_while(|v| *v <= self.upper + 1e-9 * step).collect()
     }
@@ -91,7 +91,7 @@ fn written(value: f64, apart: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    // Powers of ten, safe from the rounding of logarithms.
+    // The small addition protects powers of ten from the rounding of the logarithm.
     let power = |v: f64| (v.abs().log10() + 1e-9).floor();
     let (magnitude, last) = (power(value), power(apart));
     if (-4.0..6.0).contains(&magnitude) {

@@ -1,24 +1,25 @@
-//! Box plots, a line a planner.
+//! Box plots, one line per planner.
 
 use super::axis::Axis;
 use super::markup::{COLOR_COUNT, margin, name_before, number};
 use crate::{Measure, Spread, Study, labels};
 use cplan_text::{counted, markup};
 
-/// Width of a chart, pixels: about that of a phone, where charts are not made smaller then.
+/// Width of a chart in pixels. It is about the width of a phone's screen, so that phones show charts unscaled.
 const CHART_WIDTH: f64 = 460.0;
-/// Right of the plot.
+/// Room right of the plot, in pixels.
 const RIGHT_MARGIN: f64 = 14.0;
-/// Height of a planner's line.
+/// Height of a planner's line, in pixels.
 const ROW_HEIGHT: f64 = 30.0;
-/// Above the first line.
+/// Room above the first line, in pixels.
 const TOP_MARGIN: f64 = 6.0;
-/// Below the last one, for the axis.
+/// Room below the last line for the axis, in pixels.
 const AXIS_HEIGHT: f64 = 26.0;
-/// Runs that are shown as dots, too; more make a grey surface.
+/// Largest number of runs that are shown as dots. More dots would make a grey surface; then only every second or third
+/// run is shown, and so on.
 const MAX_DOTS: usize = 250;
 
-/// Draws the chart of one measure, or returns `None` if no run has a value.
+/// Draws the chart of one measure. `None` if no run has a value.
 pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     let values: Vec<Vec<f64>> = (0..study.planners().len())
         .map(|i| study.runs(i).filter_map(|(c, row)| measure.of(c, row)).map(|v| v * measure.scale()).collect())
@@ -26,7 +27,7 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     if values.iter().all(Vec::is_empty) {
         return None;
     }
-    // Nothing is shorter than the optimum.
+    // No path is shorter than the optimum, so the axis begins at 1.
     let base = (measure == Measure::OverOptimum).then_some(1.0);
     let axis = Axis::over(values.iter().flatten().copied(), base)?;
     let height = TOP_MARGIN + ROW_HEIGHT * values.len() as f64 + AXIS_HEIGHT;
@@ -57,8 +58,8 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     Some(svg + "</svg>\n")
 }
 
-/// Whiskers from the least to the greatest, the box between the quartiles, the median across it, and runs as dots. Of a
-/// single run, a dot.
+/// Draws one line: whiskers from the least to the greatest value, a box between the quartiles, the median across it,
+/// and a dot for each run. A single run is drawn as one dot.
 fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) -> String {
     if let [only] = values {
         return format!("<circle class=\"only\" cx=\"{}\" cy=\"{}\" r=\"4.5\"/>", number(x(*only)), number(middle));
@@ -72,7 +73,7 @@ fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) 
     svg += &format!("<rect class=\"box\" x=\"{low}\" y=\"{}\" width=\"{width}\" height=\"16\"/>", number(middle - 8.0));
     let stride = values.len().div_ceil(MAX_DOTS).max(1);
     for (k, value) in values.iter().enumerate().step_by(stride) {
-        // Beside each other by a fixed pattern, so that equal values do not hide each other.
+        // The dots are spread vertically by a fixed pattern, so that equal values do not hide each other.
         let y = number(middle + ((k * 7) % 11) as f64 - 5.0);
         svg += &format!("<circle class=\"dot\" cx=\"{}\" cy=\"{y}\" r=\"1.6\"/>", number(x(*value)));
     }
@@ -115,7 +116,7 @@ mod tests {
     #[test]
     fn boxes_are_placed_by_their_values() {
         let svg = chart(&study(&[2.0, 1.0, 5.0, 3.0, 4.0]), Measure::Duration).unwrap();
-        // From 0.84 to 5.16: the values and a twenty-fifth of their range on either side.
+        // The axis ranges from 0.84 to 5.16: the values with a twenty-fifth of their range on either side.
         let left = margin(&["<planner>"]);
         let x = |value: f64| left + (CHART_WIDTH - left - RIGHT_MARGIN) * (value - 0.84) / 4.32;
         assert_eq!(attribute(&svg, "box", "x"), number(x(2.0)));

@@ -4,12 +4,12 @@ use super::axis::Axis;
 use super::markup::number;
 use cplan_text::markup;
 
-/// Size of a chart, pixels.
+/// Width and height of a chart, in pixels.
 const CHART_SIZE: [f64; 2] = [460.0, 380.0];
-/// Left of the plot, above it, right of it, below it.
+/// Room left of the plot, above it, right of it and below it, in pixels.
 const PLOT_MARGINS: [f64; 4] = [78.0, 10.0, 14.0, 46.0];
 
-/// A chart with its axes, open for its contents.
+/// A chart with its axes, to which the caller adds the contents.
 pub struct Frame<F> {
     /// The SVG text so far.
     pub svg: String,

@@ -3,17 +3,18 @@
 use crate::{Align, Table};
 use cplan_text::{markup, wrapped};
 
-/// Colours of planners, after which they begin again: those of Okabe and Ito that pictures draw paths in.
+/// Number of colours of planners; further planners repeat them. They are Okabe and Ito's colours, as for paths in
+/// pictures.
 pub const COLOR_COUNT: usize = 6;
 
-/// Characters of a planner's name that a line of it has room for in front of a chart, at the most.
+/// Largest number of characters of a planner's name in one line before a chart.
 const MAX_NAME_CHARACTERS: usize = 24;
 
-/// Pixels between two lines of a name.
+/// Distance of two lines of a name, in pixels.
 const NAME_LINE_HEIGHT: f64 = 13.0;
 
-/// Writes a name before a chart's line, right-aligned at `right` around the height `middle`, in two lines if it is
-/// long. The second line of a longer name holds its end.
+/// Writes a name before a line of a chart: right-aligned at `right`, and centred about the height `middle`. A long name
+/// takes two lines; of a still longer one, the second line shows the end.
 pub fn name_before(name: &str, right: f64, middle: f64) -> String {
     let lines = name_lines(name);
     let first = middle - NAME_LINE_HEIGHT * 0.5 * (lines.len() - 1) as f64;
@@ -38,7 +39,7 @@ fn name_lines(name: &str) -> Vec<String> {
     }
 }
 
-/// Pixels that the longest of these names takes in front of a chart's lines.
+/// Returns the width in pixels that the longest of these names takes before the lines of a chart.
 pub fn margin(names: &[&str]) -> f64 {
     let lines = names.iter().flat_map(|name| name_lines(name));
     let longest = lines.map(|line| line.chars().count()).fold(8, usize::max);
@@ -52,12 +53,13 @@ pub fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Encodes an SVG picture as the source of an image. There it keeps its own names and styles, and runs no scripts.
+/// Encodes an SVG picture as the source of an image. As an image, it keeps its own names and styles, and cannot run
+/// scripts.
 pub fn image_source(svg: &str) -> String {
     let mut source = String::from("data:image/svg+xml,");
     for byte in svg.bytes() {
         match byte {
-            // Characters allowed in a URI in double quotes; blanks and slashes are allowed in data.
+            // Characters that are allowed in a URI in double quotes. Blanks and slashes are allowed in data URIs.
             b'A'..=b'Z'
             | b'a'..=b'z'
             | b'0'..=b'9'
@@ -79,7 +81,8 @@ pub fn image_source(svg: &str) -> String {
     source
 }
 
-/// Writes a table with its first column as headings of the rows. It scrolls in place, also by keys.
+/// Writes a table whose first column has the headings of the rows. A table that is too wide scrolls by itself, also
+/// with the keyboard.
 pub fn table(table: &Table) -> String {
     let class = |align| if align == Align::Right { " class=\"r\"" } else { "" };
     let head = table.columns.iter().map(|c| format!("<th scope=\"col\"{}>{}</th>", class(c.align()), markup(c.name())));

@@ -1,5 +1,5 @@
-//! A study as one page of HTML: charts, paths, tables and the summary in words, in a file that needs no other, no network
-//! and no script. Light and dark as the reader's system has it.
+//! A study as one page of HTML: charts, paths, tables and the summary in words. The file needs no other file, no
+//! network and no scripts. It is light or dark, as the reader's system is.
 
 mod axis;
 mod boxes;
@@ -19,7 +19,7 @@ use super::study::Study;
 use super::words::words;
 use cplan_text::{counted, markup};
 
-/// A drawing that the page holds.
+/// A picture that the page includes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
     /// Title of the picture.
@@ -31,11 +31,11 @@ pub struct Picture {
 /// The contents of the page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Page<'a> {
-    /// The figures that are shown.
+    /// The study that the page shows.
     pub study: &'a Study,
-    /// All paths, by planner and world.
+    /// All paths in a configuration space, by planner and world.
     pub overlays: &'a [Overlay],
-    /// Problem by problem, workspace and configuration space.
+    /// Workspace and configuration space of each problem.
     pub pictures: &'a [Picture],
 }
 
@@ -117,7 +117,7 @@ impl Page<'_> {
             )
         };
         let pictures = self.pictures.iter().enumerate().map(|(i, p)| {
-            // The first is open: a page of closed covers looks empty.
+            // The first picture is unfolded: a page of folded parts looks empty.
             if i == 0 {
                 format!("<h3>{}</h3>\n{}", markup(&p.title), picture(p))
             } else {
@@ -130,7 +130,7 @@ impl Page<'_> {
     }
 
     fn tables(&self) -> String {
-        // Of a single problem there are no distributions.
+        // A single problem has no distributions.
         let mut html = match &self.study.comparisons[..] {
             [only] => table(&only.table()),
             _ => self.study.tables().into_iter().map(|(heading, rows)| folded(&heading, &table(&rows))).collect(),
@@ -156,12 +156,12 @@ pub fn head(title: &str, subtitle: &str) -> String {
     )
 }
 
-/// Returns the foot of a page, with an HTML text on how its numbers were obtained.
+/// Returns the foot of a page. `how` is an HTML text that says how the numbers were obtained.
 pub fn foot(how: &str) -> String {
     format!("<footer>{how}</footer>\n</main>\n</body>\n</html>\n")
 }
 
-/// More problems than this are folded away.
+/// If there are more problems than this, their list is folded.
 const MAX_UNFOLDED_PROBLEMS: usize = 40;
 
 const STYLE: &str = include_str!("style.css");

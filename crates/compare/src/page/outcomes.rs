@@ -1,19 +1,19 @@
-//! Results for each problem: bars, and a matrix.
+//! Outcomes of each problem, as bars and as a matrix.
 
 use super::markup::{margin, name_before, number};
 use crate::{Comparison, Measure, Row, Study, labels};
 use cplan_core::model::Status;
 use cplan_text::markup;
 
-/// Width of the bars, pixels.
+/// Width of the bars, in pixels.
 const BAR_WIDTH: f64 = 460.0;
-/// Height of a planner's line.
+/// Height of a planner's line, in pixels.
 const ROW_HEIGHT: f64 = 28.0;
-/// Pixels that a number and a sign need.
+/// Width in pixels that a number and a sign need.
 const NUMBER_WIDTH: f64 = 44.0;
 
-/// Draws one bar per planner, with the problems that it solved, proved infeasible, and left open. Pieces show their
-/// sign, and their number if there is room.
+/// Draws one bar per planner: the problems that it solved, that it proved infeasible, and that it left open. Each piece
+/// of a bar shows its sign, and its number if there is room.
 pub fn bars(study: &Study) -> String {
     let planners = study.planners();
     let height = ROW_HEIGHT * planners.len() as f64 + 4.0;
@@ -71,7 +71,8 @@ fn sign(outcome: Status) -> char {
     }
 }
 
-/// Draws one line per problem and one column per planner: sign and figure, with redundant colours.
+/// Draws one line per problem and one column per planner. Each cell has a sign and a figure; its colour repeats the
+/// sign.
 pub fn matrix(study: &Study) -> String {
     let head: String = study.planners().iter().map(|name| format!("<th scope=\"col\">{}</th>", markup(name))).collect();
     let cell = |c: &Comparison, row: &Row| {

@@ -12,19 +12,19 @@ pub struct Overlay {
     pub joints: [String; 2],
     /// Lower and upper value of each joint.
     pub window: [(f64, f64); 2],
-    /// True for each axis that is a circle, whose copies a turn apart are the same.
+    /// For each axis, true if it is a circle, on which everything repeats after a turn.
     pub circles: [bool; 2],
-    /// Contours of what is blocked, unwrapped.
+    /// Contours of the blocked region, in unwrapped values.
     pub blocked: Vec<Vec<[f64; 2]>>,
-    /// Paths, unwrapped, by planner.
+    /// Paths of each planner, in unwrapped values.
     pub planners: Vec<(String, Vec<Vec<[f64; 2]>>)>,
-    /// What is shown of what, in words, if not all.
+    /// Which of all paths are shown, in words. `None` if all are shown.
     pub note: Option<String>,
 }
 
-/// Pixels of a panel's plot.
+/// Width and height of a panel's plot, in pixels.
 const PANEL_SIZE: f64 = 220.0;
-/// Left of it, and below it, for the names of the joints.
+/// Room left of the plot and below it, for the names of the joints, in pixels.
 const NAME_MARGIN: f64 = 18.0;
 
 /// Draws one panel per planner. `id` distinguishes the blocked region of this overlay from others in the page.
@@ -67,7 +67,7 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
     html + "</div>\n"
 }
 
-/// The lines as one path's data; on circles with those copies that reach into the window.
+/// Returns the data of one SVG path for all lines. On circles, it contains all copies that reach into the window.
 fn lines(overlay: &Overlay, lines: &[Vec<[f64; 2]>], closed: bool) -> String {
     let mut data = String::new();
     for line in lines {
@@ -81,7 +81,8 @@ fn lines(overlay: &Overlay, lines: &[Vec<[f64; 2]>], closed: bool) -> String {
     data
 }
 
-/// By how much a line is to be moved along an axis to reach into the window; once, as it is, on an interval.
+/// Returns the distances by which copies of a line are moved along an axis to reach into the window. On an interval,
+/// returns 0 only.
 fn shifts(overlay: &Overlay, line: &[[f64; 2]], axis: usize) -> Vec<f64> {
     if !overlay.circles[axis] {
         return vec![0.0];
@@ -99,7 +100,7 @@ fn trace(overlay: &Overlay, line: &[[f64; 2]], shift: [f64; 2], closed: bool, da
     let pixel = |p: &[f64; 2], axis: usize| {
         let (lower, upper) = overlay.window[axis];
         let share = (p[axis] + shift[axis] - lower) / (upper - lower);
-        // A tenth of a pixel is enough, and half the size.
+        // A tenth of a pixel is precise enough, and halves the size.
         format!("{:.1}", PANEL_SIZE * if axis == 0 { share } else { 1.0 - share })
     };
     let mut last = None;

@@ -1,10 +1,11 @@
-//! Evidence that no motion is shorter: walls that nothing crosses, and potentials of their ends.
+//! Evidence that no motion is shorter than a bound: walls that motions cannot cross, and potentials of the walls' ends.
 //!
-//! The checker requires that a potential grows along no leg by more than the leg's length, unless a wall bars the leg.
-//! Lengths of shortest paths from the start satisfy that wherever they are below the bound. Elsewhere the checker
-//! itself takes the bound minus the least remaining length, so the certificate need not state those potentials. So the
-//! shortest paths are computed once more, over the walls alone, with every leg counted slightly shorter than it is.
-//! Walls that do not bar any of the legs are then dropped.
+//! A potential is a lower bound on the length of paths from the start to a place. The checker requires that along each
+//! leg between two places, a potential grows by at most the leg's length, unless a wall bars the leg. The lengths of
+//! shortest paths from the start satisfy this as long as they are below the bound. For other places, the checker itself
+//! takes the bound minus the least remaining length, so the certificate need not state their potentials. The evidence
+//! is made by computing the shortest paths once more, among the walls alone, with every leg counted slightly shorter
+//! than it is. Walls that bar no leg are then dropped.
 
 use cplan_core::space::{Configuration, JointRange, Metric, Topology};
 use cplan_geometry::OpenList;
@@ -13,7 +14,7 @@ use cplan_proofs::ClosedSegment;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
-/// A length, with the evidence that no motion is shorter.
+/// A length, and the evidence that no motion is shorter.
 pub(super) struct LeastLength {
     pub length: f64,
     pub walls: Vec<ClosedSegment>,
@@ -28,41 +29,42 @@ pub(super) struct Potential {
     pub value: f64,
 }
 
-/// Share by which legs count as shorter than they are, ...
+/// Fraction by which a leg counts as shorter than it is.
 const LEG_ROUNDING: f64 = 1e-8;
 
-/// ... and the amount subtracted in addition, as a share of the whole length: far above rounding.
+/// Fraction of the whole length that is subtracted from every leg in addition. It is far above rounding.
 const TOTAL_ROUNDING: f64 = 1e-11;
 
-/// Distance from the ends of a wall, as a share of its length, at which a leg must cross it.
+/// A leg counts as crossing a wall if it does so at least this far from the wall's ends, as a fraction of the wall's
+/// length.
 const WALL_END_MARGIN: f64 = 1e-9;
 
-/// Rounds of dropping walls. Each round drops fewer.
+/// Number of rounds in which walls are dropped. Each round drops fewer than the one before.
 const PRUNING_ROUNDS: usize = 2;
 
 /// Largest number of wall ends from which paths are extended.
 const MAX_EXTENDED_ENDS: usize = 20_000;
 
-/// Endpoints and limits of the paths from a start to goals.
+/// Start and goals of the paths, and limits of their search.
 pub(super) struct PathLimits<'a> {
     pub topology: &'a Topology,
     pub metric: Metric,
     pub start: Configuration,
     pub goals: &'a [Configuration],
-    /// How near to a goal a path may end, as a share of the limit.
+    /// Greatest distance from a goal at which a path may end, as a fraction of the limit.
     pub robot_members: f64,
-    /// Longer paths are ignored.
+    /// Length of the longest paths that are considered.
     pub limit: f64,
 }
 
-/// A wall, shifted by whole turns.
+/// A copy of a wall, shifted by whole turns.
 struct WallCopy {
     wall: usize,
     turns: [i64; 2],
     ends: [Configuration; 2],
 }
 
-/// An end of a wall, where a path can turn.
+/// An end of a wall, at which a path can turn.
 #[derive(Clone, Copy)]
 struct Corner {
     wall: usize,
@@ -70,11 +72,11 @@ struct Corner {
     turns: [i64; 2],
     at: Configuration,
     line: Line,
-    /// Lower bound on the length of paths from there to a goal.
+    /// Lower bound on the length of paths from this end to a goal.
     rest: f64,
 }
 
-/// A place from which paths are extended: the start, or a corner.
+/// A place from which paths are extended: the start, or an end of a wall.
 #[derive(Clone, Copy)]
 struct Source {
     at: Configuration,
@@ -82,11 +84,11 @@ struct Source {
     potential: f64,
 }
 
-/// A line of equal values of joint 1: the bits of the value, and its number of turns.
+/// A line on which joint 1 has one value: the bits of the value, and the number of turns.
 type Line = (u64, i64);
 
-/// Overlapping walls on one line, from end to end. `beside` lists the walls that end within them, coming from either
-/// side.
+/// Overlapping walls on one line, as a single range of joint 2. `beside` lists the walls that come from either side and
+/// end within the range.
 struct WallRun {
     ends: [f64; 2],
     walls: Vec<usize>,
@@ -94,12 +96,12 @@ struct WallRun {
 }
 
 impl LeastLength {
-    /// Builds the evidence from these walls. `None` if they give none.
+    /// Builds the evidence from these walls. `None` if they prove no bound.
     pub(super) fn new(limits: &PathLimits, walls: Vec<ClosedSegment>) -> Option<Self> {
         let mut plane = Plane::new(limits, &walls);
         let (length, reached) = plane.lengths()?;
         let length = length - limits.less();
-        // Fewer walls have fewer ends from which paths extend, so even fewer walls are needed.
+        // With fewer walls there are fewer ends from which paths extend, so that still fewer walls are needed.
         for _ in 0..PRUNING_ROUNDS {
             let needed = plane.needed(length, &reached);
             plane.copies.retain(|copy| needed.contains(&copy.wall));
@@ -118,22 +120,24 @@ impl LeastLength {
 }
 
 impl PathLimits<'_> {
-    /// Returns the fixed amount by which every leg, however short, counts as shorter.
+    /// Returns the fixed amount by which every leg counts as shorter than it is.
     fn less(&self) -> f64 {
         TOTAL_ROUNDING * self.limit
     }
 
-    /// Returns the length of a leg as it counts in the evidence.
+    /// Returns the length of a leg, reduced as it counts in the evidence.
     fn leg(&self, from: Configuration, to: Configuration) -> f64 {
         (self.metric.norm(to - from) * (1.0 - LEG_ROUNDING) - self.less()).max(0.0)
     }
 
-    /// Returns a lower bound on the length from a configuration to a goal, given the displacement between them.
+    /// Returns a lower bound on the length from a configuration to a goal. `displacement` is the difference between the
+    /// two.
     fn to_goal(&self, displacement: Configuration) -> f64 {
         (self.metric.norm(displacement) - self.robot_members * self.limit).max(0.0)
     }
 
-    /// Returns the turns of a joint that shift values from `low` to `high` to where paths can reach.
+    /// Returns the numbers of whole turns that shift the values from `low` to `high` of a joint to where paths can
+    /// reach.
     fn turns(&self, joint: usize, low: f64, high: f64) -> std::ops::RangeInclusive<i64> {
         let JointRange::Circle = self.topology.ranges[joint] else { return 0..=0 };
         let reach = self.limit / self.metric.norm(Configuration::from_fn(|k, _| if k == joint { 1.0 } else { 0.0 }));
@@ -146,7 +150,7 @@ type ReachedEnds = BTreeMap<(usize, usize, [i64; 2]), f64>;
 
 struct Plane<'a> {
     limits: &'a PathLimits<'a>,
-    /// Sorted by the least value of joint 1.
+    /// Copies of the walls, sorted by the least value of joint 1.
     copies: Vec<WallCopy>,
     /// Largest extent of a wall along joint 1.
     widest: f64,
@@ -205,8 +209,8 @@ impl<'a> Plane<'a> {
         Self { limits, copies, widest, runs, corners, goals }
     }
 
-    /// Computes the length of the shortest path to a goal, and the lengths of shorter paths to corners. `None` if there
-    /// are too many corners.
+    /// Computes the length of the shortest path to a goal, and the lengths of shorter paths to ends of walls. `None` if
+    /// there are too many ends.
     fn lengths(&self) -> Option<(f64, ReachedEnds)> {
         let corners = &self.corners;
         let mut lengths = vec![f64::INFINITY; corners.len()];
@@ -246,15 +250,15 @@ impl<'a> Plane<'a> {
         None
     }
 
-    /// Returns the potential of a corner, which is the length of the shortest path there. `None` if no such path can be
-    /// part of one shorter than `length`.
+    /// Returns the potential of a corner: the length of the shortest path to it. `None` if no path through the corner
+    /// is shorter than `length`.
     fn potential(&self, length: f64, reached: &ReachedEnds, corner: &Corner) -> Option<f64> {
         let potential = *reached.get(&(corner.wall, corner.end, corner.turns))?;
         (potential + corner.rest < length - self.limits.less() / 4.0).then_some(potential)
     }
 
-    /// Returns the walls that bar a leg along which potentials would grow too much, and the walls that contain the ends
-    /// of such walls.
+    /// Returns the walls that bar a leg along which potentials would grow too much. Also returns the walls that contain
+    /// the ends of such walls.
     fn needed(&self, length: f64, reached: &ReachedEnds) -> BTreeSet<usize> {
         let known = |corner: &Corner| {
             let potential = self.potential(length, reached, corner)?;
@@ -275,7 +279,7 @@ impl<'a> Plane<'a> {
             }
             checkpoint();
         }
-        // Ends within walls are not corners as long as these walls are present.
+        // An end within another wall is no corner as long as that wall is present.
         for run in self.runs.values().flatten() {
             let is_needed = |wall: &usize| needed.contains(wall);
             let ends_within = run.beside.iter().flatten().any(|(_, wall)| is_needed(wall));
@@ -290,7 +294,7 @@ impl<'a> Plane<'a> {
         Source { at: self.limits.start, line: Some((self.limits.start[0].to_bits(), 0)), potential: 0.0 }
     }
 
-    /// Adds the walls that bar a leg, unless a needed wall already does.
+    /// Adds walls that bar a leg, unless a needed wall already does.
     fn bar(&self, from: Source, to: Configuration, line: Option<Line>, needed: &mut BTreeSet<usize>) {
         let mut first = None;
         for copy in self.near(from.at, to).filter(|copy| crosses(&copy.ends, from.at, to)) {
@@ -312,7 +316,7 @@ impl<'a> Plane<'a> {
             || self.barred_along(from, line, to, other).is_some()
     }
 
-    /// Returns the walls that a leg may cross, those near its beginning first.
+    /// Iterates over the walls that a leg may cross. Those near its beginning come first.
     fn near(&self, from: Configuration, to: Configuration) -> impl Iterator<Item = &WallCopy> {
         let first = self.copies.partition_point(|copy| copy.begins() < from[0].min(to[0]) - self.widest);
         let last = self.copies.partition_point(|copy| copy.begins() <= from[0].max(to[0]));
@@ -321,7 +325,8 @@ impl<'a> Plane<'a> {
         onward.iter().chain(back.iter().rev())
     }
 
-    /// Returns the run that a leg along its line can pass on neither side, with one wall that ends there on each side.
+    /// Returns the run that bars a leg along its line, with one wall on each side that ends there. Such a leg can pass
+    /// the run on neither side.
     fn barred_along(
         &self,
         from: Configuration,
@@ -346,14 +351,14 @@ impl WallCopy {
 }
 
 impl WallRun {
-    /// Returns true if a value of joint 2 is well within the run.
+    /// Returns true if a value of joint 2 is in the run, by more than rounding.
     fn holds(&self, q2: f64) -> bool {
         let hair = WALL_END_MARGIN * (self.ends[1] - self.ends[0]);
         self.ends[0] + hair < q2 && q2 < self.ends[1] - hair
     }
 }
 
-/// Collects the runs of upright walls, with the other walls that end within them.
+/// Collects the runs of walls on which joint 1 is constant, with the other walls that end within them.
 fn runs(copies: &[WallCopy], walls: &[ClosedSegment]) -> BTreeMap<Line, Vec<WallRun>> {
     let mut runs: BTreeMap<Line, Vec<WallRun>> = BTreeMap::new();
     let lines = |copy: &WallCopy| walls[copy.wall].ends.map(|end| (end[0].to_bits(), copy.turns[0]));
@@ -394,7 +399,7 @@ fn runs(copies: &[WallCopy], walls: &[ClosedSegment]) -> BTreeMap<Line, Vec<Wall
     runs
 }
 
-/// Returns true if a leg crosses the inside of a wall, by more than rounding.
+/// Returns true if a leg crosses the interior of a wall, by more than rounding.
 fn crosses([a, b]: &[Configuration; 2], from: Configuration, to: Configuration) -> bool {
     let apart = |k: usize| from[k].max(to[k]) < a[k].min(b[k]) || a[k].max(b[k]) < from[k].min(to[k]);
     if apart(0) || apart(1) {

@@ -1,4 +1,4 @@
-//! The shapes and the parts of obstacles that evidence names.
+//! The shapes and parts of obstacles to which the evidence of a certificate refers.
 
 use super::{Evidence, lines, reaching_out};
 use cplan_core::check::CollisionBox;
@@ -17,12 +17,12 @@ struct CertificateBox {
     part: usize,
 }
 
-/// The shapes and the parts of obstacles that evidence names, each once.
+/// The shapes and parts of obstacles to which the evidence refers, each once.
 pub(super) struct Contacts<'a> {
     scene: &'a Scene,
     pub shapes: Vec<Value>,
     pub parts: Vec<Value>,
-    /// Indices of this scene's shapes in the list.
+    /// For each shape of the scene that is named, its index in the list.
     shape_numbers: BTreeMap<(usize, usize), usize>,
     part_numbers: BTreeMap<(usize, usize), usize>,
 }
@@ -40,13 +40,13 @@ impl<'a> Contacts<'a> {
         Self { scene, shapes: vec![], parts: vec![], shape_numbers: BTreeMap::new(), part_numbers: BTreeMap::new() }
     }
 
-    /// Returns the lists in the form in which certificates hold them. Empty if no shape is named.
+    /// Returns the lists as members of a certificate. Empty if no shape is named.
     pub fn named(&self) -> Evidence {
         let lists = [("shapes", &self.shapes), ("parts", &self.parts)].map(|(name, list)| (name, lines(list)));
         if self.shapes.is_empty() { Vec::new() } else { lists.into() }
     }
 
-    /// Returns the indices of a pair's shape and part.
+    /// Returns the indices of the shape and of the obstacle's part in the lists, for a pair of shapes.
     pub fn numbers(&mut self, pair: Pair) -> (usize, usize) {
         let Self { scene, shapes, parts, .. } = self;
         let Pair { link, part, obstacle, piece } = pair;
@@ -55,13 +55,13 @@ impl<'a> Contacts<'a> {
         (*shape, *part)
     }
 
-    /// Returns the list of boxes in the form in which certificates hold it.
+    /// Returns the list of boxes as a member of a certificate.
     pub fn boxes(&mut self, stuck: &[CollisionBox]) -> (&'static str, String) {
         let boxes: Vec<CertificateBox> = stuck.iter().flat_map(|stuck| self.collision_boxes(stuck)).collect();
         ("boxes", lines(&boxes))
     }
 
-    /// Returns a box in the form in which certificates hold it. A box that reaches across half a turn becomes two.
+    /// Converts a box to the form of certificates. A box across half a turn becomes two.
     fn collision_boxes(&mut self, stuck: &CollisionBox) -> Vec<CertificateBox> {
         let (shape, part) = self.numbers(stuck.pair);
         let parts = reaching_out(self.scene, stuck).into_iter();
@@ -81,7 +81,7 @@ fn shape(scene: &Scene, pair: Pair) -> Value {
     of_layer(json!({ "link": body, kind(*is_visual): number }), *heights, layers)
 }
 
-/// Names a piece of an obstacle by its corners. A disc is the only piece of its obstacle.
+/// Names a piece of an obstacle by its corners. A disc needs none, because it is the only piece of its obstacle.
 fn part_of(scene: &Scene, pair: Pair) -> Value {
     let obstacle = pair.obstacle;
     if let Some(own) = scene.self_obstacle(obstacle) {
@@ -104,7 +104,7 @@ fn kind(is_visual: bool) -> &'static str {
     if is_visual { "visual" } else { "collision" }
 }
 
-/// Adds a height within the layer to the name of a shape that has several layers.
+/// Adds a height within the layer to the name of a shape, if the shape has several layers.
 fn of_layer(mut named: Value, own: Heights, mut all: impl Iterator<Item = Heights>) -> Value {
     if all.any(|other| other != own) {
         named["height"] = json!(f64::midpoint(own.lower, own.upper));

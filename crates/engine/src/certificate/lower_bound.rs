@@ -1,4 +1,4 @@
-//! The lower bound of a result, with the evidence that a checker needs.
+//! The lower bound of a result, with evidence for a checker.
 
 use super::bound::{LeastLength, PathLimits, Potential};
 use super::contacts::Contacts;
@@ -12,12 +12,13 @@ use cplan_solver::Bound;
 use cplan_world::Overrides;
 use serde_json::json;
 
-/// Points that are checked along a wall in either direction. A checker that looks as closely takes longer.
+/// Number of points at which the distance is checked along a wall in either direction. With more points, the checker
+/// takes longer.
 const CHECKS_PER_WALL: usize = 60;
-/// The same where [`CHECKS_PER_WALL`] lose too much of the bound.
+/// The same number if [`CHECKS_PER_WALL`] points lose too much of the bound.
 const MORE_CHECKS_PER_WALL: usize = 300;
 
-/// That no motion is shorter than a length, which is the bound of a result up to a hair.
+/// A length, and the evidence that no motion is shorter. The length is the bound of a result, except for a small loss.
 ///
 /// The motions lead to one configuration, or to any configuration that puts the tip at the requested place. In the
 /// latter case, boxes cover the configurations that are not free.
@@ -29,9 +30,9 @@ pub(super) struct LowerBound {
 }
 
 impl LowerBound {
-    /// Computes evidence for the bound again. It looks more closely if more than the share `loss` of the bound is lost,
-    /// because shapes that come apart slowly, as in a slot, make walls end too early. Returns `None` if the goals are a
-    /// curve, or cannot be separated from the configurations beside them.
+    /// Computes evidence for a bound. If more than the fraction `loss` of the bound is lost, computes it again with
+    /// more points per wall: shapes that separate slowly, as in a slot, make walls end too early. Returns `None` if the
+    /// goals are a curve, or if a checker could not separate them from neighbouring configurations.
     pub fn of(problem: &MotionProblem, stated: &Bound, asked: &Overrides, loss: f64) -> Option<Self> {
         let scene = problem.scene();
         let topology = scene.arm().topology();
@@ -63,7 +64,7 @@ impl LowerBound {
         self.least.walls.len()
     }
 
-    /// Returns the members of a certificate that prove the bound.
+    /// Returns the members of a certificate that are the evidence for the bound.
     pub fn evidence(&self, contacts: &mut Contacts) -> Evidence {
         let wall = |wall: &ClosedSegment| {
             let (shape, part) = contacts.numbers(wall.pair);
@@ -90,13 +91,13 @@ impl LowerBound {
     }
 }
 
-/// Where a bound leads to.
+/// The goals to which the bound applies.
 struct Ends {
-    /// The goal configuration, if there is only one. `None` if the goal is a place of the tip.
+    /// The goal configuration. `None` if the goal is a place of the tip.
     to: Option<Configuration>,
-    /// All configurations that may count as goals.
+    /// All configurations that may be goals.
     goals: Vec<Configuration>,
-    /// Boxes around solutions that are not goals.
+    /// Boxes around IK solutions that are not goals.
     boxes: Vec<CollisionBox>,
 }
 
@@ -114,7 +115,7 @@ impl Ends {
             return Some(Self { to: Some(*goal), goals, boxes: Vec::new() });
         }
         let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
-        // All solutions share the parts that a checker examines, including solutions on other turns.
+        // The checker divides ranges into equal parts, which all solutions share, including those on other turns.
         let least = MIN_SEPARATION * solved.solutions(arm).len().max(1) as f64;
         if solved.free.is_some() || solved.branches.iter().any(|q| tells_apart(arm, *q) <= least) {
             return None;
@@ -124,12 +125,12 @@ impl Ends {
     }
 }
 
-/// Tolerance of a checker for the place of the tip, as a share of the path length. The checker finds these
-/// configurations itself, down to 10^-12 of the joints' ranges.
+/// Tolerance of a checker for the place of the tip, as a fraction of the path length. The checker computes the goal
+/// configurations itself, to 10^-12 of the joints' ranges.
 const GOAL_TOLERANCE: f64 = 1e-6;
 
-/// Below this value of [`tells_apart`], a checker cannot separate configurations that put the tip at a place from their
-/// neighbours, because it divides both joints' ranges into equal shares.
+/// Least value of [`tells_apart`] with which a checker can separate configurations with one place of the tip from their
+/// neighbours. It does so by dividing both joints' ranges into equal parts.
 const MIN_SEPARATION: f64 = 0.012;
 
 /// Computes the area spanned by the two directions in which the joints move the tip, divided by the square of the sum

@@ -1,4 +1,5 @@
-//! Evidence for an answer, which an independent checker can verify against the two files: `docs/certificates.md`.
+//! Evidence for an answer, which an independent checker can verify against the two files. `docs/certificates.md`
+//! describes it.
 
 mod bound;
 mod contacts;
@@ -26,19 +27,19 @@ use serde_json::json;
 use std::collections::BTreeSet;
 use thiserror::Error;
 
-/// Share of a bound that the certificate of a motion may lose, so that it is small and quickly checked.
+/// Fraction of a bound that the certificate of a motion may lose, so that it is small and can be checked quickly.
 const MAX_BOUND_LOSS: f64 = 1e-3;
 
-/// Why an answer has no certificate.
+/// Reason why an answer has no certificate.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum NoCertificate {
-    /// The answer is neither a motion nor a proof.
+    /// The answer is unknown.
     #[error("the answer is \"{}\", which claims nothing", .0.name())]
     Answer(Status),
     /// The answer is an infeasible task.
     #[error("an infeasible task has no certificate: the result states the step that fails, and why")]
     Task,
-    /// An object rests on another one, and a checker refuses to move its corners.
+    /// An object rests on another one, but a checker cannot move the corners of its outline inwards.
     #[error(
         "object \"{0}\" rests on a support, but its outline is too fine or touches itself: it cannot be shrunk by the depth that it may press in"
     )]
@@ -49,8 +50,8 @@ pub enum NoCertificate {
 }
 
 impl Plan {
-    /// Returns the certificate of the answer, if it can have one. The certificate includes the values in `asked` that
-    /// override the world file, and the digests of the `files` that it is about.
+    /// Returns the certificate of the answer. It includes the values in `asked`, which override the world file, and the
+    /// digests of the `files` that it refers to.
     ///
     /// # Errors
     /// [`NoCertificate`].
@@ -105,7 +106,7 @@ fn certificate_of_task(
     Ok(written("found", members, evidence))
 }
 
-/// Members of a certificate by name, in the form in which certificates hold them.
+/// Members of a certificate: names, and values as JSON texts.
 type Evidence = Vec<(&'static str, String)>;
 
 /// Formats a certificate as text, one member per line.
@@ -118,7 +119,7 @@ fn written(answer: &str, members: JsonMembers, evidence: impl IntoIterator<Item 
     text + "\n}\n"
 }
 
-/// Members of a certificate, by name.
+/// Members of a certificate: names, and values.
 type JsonMembers = Vec<(&'static str, serde_json::Value)>;
 
 /// Formats a list as JSON, one entry per line.
@@ -127,7 +128,7 @@ fn lines(entries: &[impl Serialize]) -> String {
     format!("[\n{}\n  ]", entries.join(",\n"))
 }
 
-/// Returns the files, the joints, and the robot's links that overlap in every configuration.
+/// Returns the members about files, joints, and the robot's links that overlap in every configuration.
 fn robot_members(files: Option<&Digests>, arm: &Arm) -> JsonMembers {
     let joints = ("joints", json!(arm.joints.each_ref().map(|joint| &joint.name)));
     let permanent =
@@ -140,7 +141,7 @@ fn robot_members(files: Option<&Digests>, arm: &Arm) -> JsonMembers {
     [("urdf", json!(urdf)), ("world", json!(world))].into_iter().chain(others).chain(joints).collect()
 }
 
-/// Returns the values that override the world file.
+/// Returns the members with values that override the world file.
 fn members(problem: &MotionProblem, asked: &Overrides) -> JsonMembers {
     let topology = problem.scene().arm().topology();
     let written = |q| json!(inward(&topology, q));
@@ -151,17 +152,17 @@ fn members(problem: &MotionProblem, asked: &Overrides) -> JsonMembers {
     start.into_iter().chain(goal).chain(tip).chain(clearance).collect()
 }
 
-/// Values of a joint that are closer than this, radians or metres, count as equal.
+/// Two values of a joint that differ by less than this count as equal, in radians or metres.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
-/// Margins of boxes around their contents, as shares of the joints' ranges, widest first.
+/// Margins of boxes around IK solutions that are tried, as fractions of the joints' ranges, the widest first.
 const BOX_MARGINS: [f64; 11] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7];
 
-/// Largest number of halvings of a curve of IK solutions.
+/// Largest number of times that a curve of IK solutions is halved to find boxes around its pieces.
 const MAX_HALVINGS: u32 = 12;
 
-/// Returns boxes around the IK solutions that are not goals because they are not free. A checker knows only the tip's
-/// place, so it counts them among the targets. Also returns the middles of pieces for which no box was found.
+/// Returns boxes around the IK solutions that are not free, and therefore no goals. A checker knows only the place of
+/// the tip, so it would count them as goals. Also returns the middles of pieces for which no box was found.
 fn infeasible_members(problem: &MotionProblem) -> (Vec<CollisionBox>, Vec<Configuration>) {
     let (scene, goals) = (problem.scene(), problem.goals());
     let (arm, topology) = (scene.arm(), scene.arm().topology());
@@ -184,11 +185,11 @@ fn infeasible_members(problem: &MotionProblem) -> (Vec<CollisionBox>, Vec<Config
     (boxes, left)
 }
 
-/// Returns the widest box around a piece in which the same obstacle collides everywhere.
+/// Returns the widest box around a piece in which one obstacle collides everywhere. `None` if there is no such box.
 fn collision_box_about(scene: &Scene, piece: &Segment) -> Option<CollisionBox> {
     let (scene, [from, to]) = (&*scene.inner(), piece.ends());
     let ranges = scene.arm().topology().ranges.map(|range| range.domain());
-    // An obstacle that the arm may pass over or under proves nothing.
+    // A checker does not accept an obstacle that the arm may pass over or under.
     let obstructions = scene.obstructions(piece.at(0.5));
     BOX_MARGINS.into_iter().find_map(|margin| {
         let room = ranges.map(|(lower, upper)| margin * (upper - lower));
@@ -199,9 +200,10 @@ fn collision_box_about(scene: &Scene, piece: &Segment) -> Option<CollisionBox> {
     })
 }
 
-/// Distance from a limit that absorbs rounding, as a share of the limit or of the range, whichever is larger. A limit
-/// given in degrees, or with more digits than a double has, lies up to two units in the last place inside the double
-/// that represents it. Near a limit of 0, control points of polynomials are differences of values within the range.
+/// Values nearer to a limit than this are moved inwards, as a fraction of the limit or of the range, whichever is
+/// larger. It covers rounding: a limit in degrees, or with many digits, may lie up to two units in the last place
+/// inside the double that represents it. Near a limit of 0, control points of polynomials are differences of values
+/// within the range.
 const LIMIT_MARGIN: f64 = 4.0 * f64::EPSILON;
 
 /// Returns a configuration for the certificate. Values at a limit are moved slightly inwards.
@@ -215,9 +217,9 @@ fn inward(topology: &Topology, q: Configuration) -> Configuration {
     })
 }
 
-/// Returns the ends of a box. A box that reaches across half a turn of a circle is split into its parts on either side.
-/// A part that ends with the domain is extended slightly, because limits are decimals and half a turn is irrational: a
-/// double next to it would leave a gap.
+/// Returns the least and greatest values of a box. A box across half a turn of a circle is split there into two. A part
+/// that ends at the end of the domain is extended slightly: limits are decimals, but half a turn is irrational, so the
+/// nearest double would leave a gap.
 fn reaching_out(scene: &Scene, stuck: &CollisionBox) -> Vec<[[f64; 2]; 2]> {
     let mut parts = vec![[stuck.cell.lower, stuck.cell.upper]];
     for (k, range) in scene.arm().topology().ranges.into_iter().enumerate() {

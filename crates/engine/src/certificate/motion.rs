@@ -1,4 +1,4 @@
-//! Evidence for a motion: the curve that consumers of the file execute. A checker needs nothing else.
+//! Evidence for a motion: the curve that programs execute when they read the file. A checker needs nothing else.
 
 use super::task::{checkable, steps_of_recording};
 use super::{NoCertificate, inward, lines, robot_members, written};
@@ -9,10 +9,10 @@ use cplan_motion::Trajectory;
 use cplan_world::{Digests, Overrides, TipPoint};
 use serde_json::{Value, json};
 
-/// Returns the evidence of a planned motion: the curves by which readers of tables and of ROS 2's messages join its
-/// samples, and the one that its JSON defines.
+/// Returns the evidence of a planned motion. It consists of the curves with which programs join the samples of tables
+/// and of ROS 2 messages, and of the curve that the JSON defines.
 pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, String) {
-    // With limits on jerk, the JSON of the samples defines the same cubics.
+    // With limits on jerk, the JSON defines the same cubics.
     let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
     let Trajectory { time, position, velocity, acceleration, torque: _ } = trajectory;
     let position = &written_inward(&arm.topology(), position);
@@ -23,9 +23,9 @@ pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, Str
     }
 }
 
-/// Returns the certificate of a recorded motion, with samples joined as in its format. It leads from the world's start
-/// to its goal, or to those that are `asked` for. Where `ends` has none, the motion's own ends count. A recorded task
-/// leads from the start through all its steps. The certificate names these `files`.
+/// Returns the certificate of a recorded motion, whose samples are joined as in its format. It claims that the motion
+/// leads from the world's start to its goal, or to those of `asked`. If `ends` has no start or goal, the motion's own
+/// end counts. A recorded task leads from the start through all its steps. The certificate refers to `files`.
 ///
 /// # Errors
 /// [`NoCertificate::Untimed`] and [`NoCertificate::Outline`].
@@ -71,13 +71,13 @@ pub fn recorded(
     Ok(written("found", members, [motion].into_iter().chain(steps.map(|(_, steps)| steps_of_recording(steps)))))
 }
 
-/// Returns values of the joints in the form in which certificates hold them.
+/// Returns the values of the joints for a certificate, moved inwards at limits.
 fn written_inward(topology: &Topology, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
     positions.iter().map(|&q| inward(topology, q.into()).into()).collect()
 }
 
-/// Returns the motion as knots, each with a time and the values of the columns at that time. `readings` names the
-/// interpolations.
+/// Returns the member with the motion: knots, each with a time and the values of the columns at that time. `readings`
+/// are the names of the interpolations.
 fn played(readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> (&'static str, String) {
     let knot =
         |k: usize| json!([times[k]].into_iter().chain(columns.iter().flat_map(|rows| rows[k])).collect::<Vec<f64>>());

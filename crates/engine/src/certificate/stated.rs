@@ -1,4 +1,4 @@
-//! Certificates of the claims in a result, rebuilt for its files.
+//! Certificates of the claims in a result, computed again for its files.
 
 use super::contacts::Contacts;
 use super::lower_bound::LowerBound;
@@ -8,7 +8,7 @@ use cplan_core::model::MotionProblem;
 use cplan_solver::Bound;
 use cplan_world::Overrides;
 
-/// Share of a bound that its own certificate may lose before it is computed more closely.
+/// Fraction of a bound that its certificate may lose. If more is lost, the certificate is computed with more points.
 const MAX_STATED_BOUND_LOSS: f64 = 1e-6;
 
 /// A certificate that no motion is shorter than a length.
@@ -18,15 +18,15 @@ pub struct BoundCertificate {
     pub length: f64,
     /// The number of walls that bar shorter motions.
     pub walls: usize,
-    /// The text for a checker.
+    /// The text of the certificate.
     pub text: String,
 }
 
-/// Returns a certificate which claims that boxes separate the start from all goals, whether or not they do. It includes
-/// the values in `asked` that override the world file.
+/// Returns a certificate that claims that boxes separate the start from all goals, whether or not that is true. It
+/// includes the values in `asked`, which override the world file.
 ///
 /// # Errors
-/// Returns the first box whose shapes are not part of the problem, or never meet.
+/// The first box whose shapes are not part of the problem, or never meet.
 pub fn certificate_of_boxes(
     problem: &MotionProblem,
     stuck: &[CollisionBox],

@@ -10,15 +10,16 @@ use serde::Serialize;
 /// Findings about one configuration.
 #[derive(Debug, Clone, Serialize)]
 pub struct ConfigurationFindings {
-    /// True if it is within the limits and not nearer to any obstacle than allowed.
+    /// True if the configuration is within the limits and keeps the required clearance.
     pub free: bool,
     /// Joint values, base to tip.
     pub configuration: [f64; 2],
     /// For each joint, true if it is within its limits.
     pub within_limits: [bool; 2],
-    /// The tip in plane coordinates, metres.
+    /// Position of the tip in plane coordinates, in metres.
     pub tip: [f64; 2],
-    /// Least signed distance to an obstacle, metres. `None` if no obstacle is within reach.
+    /// Least signed distance to an obstacle, in metres; negative if the arm penetrates it. `None` if no obstacle is
+    /// within reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
     /// The required clearance, metres.
@@ -42,7 +43,7 @@ pub struct NearestFinding {
     /// Least distance to an obstacle, metres. `None` if no obstacle is within reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
-    /// Spacing of the values of joint 1 that were tried, before refinement. Joint 2 is exact for each.
+    /// Spacing of the values of joint 1 that were tried, before refinement. For each of them, joint 2 is exact.
     pub resolution: f64,
 }
 
@@ -51,9 +52,9 @@ pub struct NearestFinding {
 pub struct BasisFinding {
     /// Direction of the first coordinate.
     pub u: [f64; 3],
-    /// Direction of the second.
+    /// Direction of the second coordinate.
     pub v: [f64; 3],
-    /// Direction of heights.
+    /// Direction in which heights increase.
     pub normal: [f64; 3],
 }
 
@@ -62,28 +63,28 @@ pub struct BasisFinding {
 pub struct PairFinding {
     /// Name of the arm's link.
     pub link: String,
-    /// Name of the link in the URDF whose shape is in contact; it moves with the arm's link.
+    /// Name of the URDF link whose shape is in contact. It is part of the arm's link.
     pub body: String,
     /// Name of the obstacle.
     pub obstacle: String,
-    /// True if they have a point in common.
+    /// True if link and obstacle have a point in common.
     pub touching: bool,
     /// Penetration depth, metres. A negative value is a distance.
     pub depth: f64,
-    /// Corners of the link in the obstacle: plane coordinates and depth. Empty for rounded shapes.
+    /// Corners of the link that lie in the obstacle. Empty for rounded shapes.
     pub link_corners_inside: Vec<CornerFinding>,
-    /// Corners of the obstacle in the link.
+    /// Corners of the obstacle that lie in the link. Empty for rounded shapes.
     pub obstacle_corners_inside: Vec<CornerFinding>,
-    /// Crossing sides, each given by its two corners: the link's and the obstacle's.
+    /// Pairs of sides that cross, the link's and the obstacle's, each given by its two corners.
     pub crossing_sides: Vec<[[[f64; 2]; 2]; 2]>,
 }
 
-/// A corner in the other shape.
+/// A corner of one shape that lies in the other shape.
 #[derive(Debug, Clone, Serialize)]
 pub struct CornerFinding {
     /// Plane coordinates, metres.
     pub at: [f64; 2],
-    /// Distance from the nearest side, metres.
+    /// Distance of the corner from the nearest side of the other shape, in metres.
     pub depth: f64,
 }
 
@@ -116,7 +117,7 @@ pub fn check(scene: &Scene, q: Configuration) -> ConfigurationFindings {
     }
 }
 
-/// Describes a pair, if its shapes touch or are nearer than the required clearance.
+/// Describes a pair of shapes. `None` if they keep the required clearance.
 fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFinding> {
     let Contact { pair: indices, separation } = contact;
     let part = scene.part(indices).at(&scene.arm().pose(indices.link, q));
@@ -126,7 +127,7 @@ fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFind
         return None;
     }
     let (a, b) = (part.core(), piece.core());
-    // Only polygons have corners and sides. For rounded shapes the depth is enough.
+    // Only polygons have corners and sides. For rounded shapes, the depth says enough.
     let sharp = part.radius() == 0.0 && piece.radius() == 0.0;
     let test = sharp.then(|| polygon_test(&part, piece));
     let inside = |corners: &[Point], found: &[CornerInside]| {

@@ -1,5 +1,4 @@
-//! Findings about configurations and recorded motions, as data. They are the output of `cplan check` and `cplan
-//! verify`.
+//! Findings about configurations and recorded motions, as data. `cplan check` and `cplan verify` print them.
 
 mod configuration;
 mod motion;
@@ -20,11 +19,11 @@ use cplan_motion::recorded::{
 use cplan_robot::InputError;
 use cplan_world::{LoadedRecording, LoadedScene, LoadedTask, Overrides};
 
-/// Judges a recording. It must lead from the world's start to its goal, or to those of `overrides`; with `anywhere`, it
-/// may begin and end where it does. A recording with steps is judged as the world's task.
+/// Judges a recording. It must lead from the world's start to its goal, or to those of `overrides`. With `anywhere`, it
+/// may begin and end at any configuration. A recording with steps is judged as the world's task.
 ///
 /// # Errors
-/// Fails if overrides do not suit the world, or if no arm like this one can do the steps.
+/// Overrides that do not suit the world, and steps that an arm like this one cannot do.
 pub fn verify(
     loaded: &LoadedScene,
     recorded: &LoadedRecording,

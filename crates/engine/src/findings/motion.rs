@@ -7,7 +7,7 @@ use cplan_motion::recorded::{CollisionCheck, Encounter, Limit, LimitViolation, M
 use cplan_robot::AssumedLimits;
 use serde::Serialize;
 
-/// The verdict on a motion in one word, ordered from best to worst.
+/// The verdict on a motion, from best to worst.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Judgement {
@@ -15,7 +15,7 @@ pub enum Judgement {
     Free,
     /// Neither proven free nor proven to collide.
     Undecided,
-    /// Free, but values stated in the file are wrong.
+    /// Free, but some values that the file states are wrong.
     Claims,
     /// Not known to collide, but does not lead from the start to the goal.
     Ends,
@@ -28,7 +28,7 @@ pub enum Judgement {
 }
 
 impl Judgement {
-    /// Returns the word for it in JSON.
+    /// Returns the word for the verdict in JSON.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -46,7 +46,7 @@ impl Judgement {
 /// Findings about a motion, or about the motions of a task.
 #[derive(Debug, Clone, Serialize)]
 pub struct MotionFindings {
-    /// The verdict in one word.
+    /// The verdict on the motion.
     pub verdict: Judgement,
     /// Names of the joints, base to tip.
     pub joints: [String; 2],
@@ -54,7 +54,7 @@ pub struct MotionFindings {
     pub units: [&'static str; 2],
     /// Number of samples.
     pub samples: usize,
-    /// Seconds from the first to the last sample.
+    /// Time from the first to the last sample, in seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<f64>,
     /// The required clearance, metres.
@@ -62,10 +62,10 @@ pub struct MotionFindings {
     /// Collisions and clearance along the motion.
     #[serde(flatten)]
     pub collisions: CollisionFinding,
-    /// Violated limits, each once.
+    /// Violated limits, each listed once.
     pub limits_broken: Vec<LimitFinding>,
-    /// Limits that the files do not give, and whose assumed values the motion exceeds, each once. They do not affect
-    /// the verdict.
+    /// Assumed limits that the motion exceeds, each listed once. The files do not state them, so they do not affect the
+    /// verdict.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assumed_exceeded: Vec<LimitFinding>,
     /// Differences from the requested motion or task, and false statements in the file.
@@ -74,18 +74,18 @@ pub struct MotionFindings {
     /// Members of a result that were not judged.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub not_judged: Vec<String>,
-    /// Findings about the steps, if this is a task.
+    /// Findings about the steps of a task.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<Vec<StepFinding>>,
-    /// How the file was read, and which parts were judged, line by line.
+    /// Notes on how the file was read, and on which parts were judged.
     pub notes: Vec<String>,
 }
 
 /// Collisions and clearance along a motion.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct CollisionFinding {
-    /// Proven lower bound on the distance to every obstacle, metres. Only for a free motion with obstacles within
-    /// reach.
+    /// Proven lower bound on the distance to every obstacle, in metres. `None` unless the motion is free and obstacles
+    /// are within reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
     /// The place where a free motion comes nearest to an obstacle.
@@ -94,13 +94,13 @@ pub struct CollisionFinding {
     /// The first contact of a motion that collides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_contact: Option<EncounterFinding>,
-    /// Time, on the clock of `first_contact`, before which the motion is proven free.
+    /// Time before which a colliding motion is proven free. It counts as the time of `first_contact` does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free_until: Option<f64>,
     /// The deepest penetration found on a motion that collides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deepest: Option<EncounterFinding>,
-    /// The place where it could not be decided whether the motion collides.
+    /// The place for which it is not known whether the motion collides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub undecided: Option<EncounterFinding>,
 }
@@ -113,13 +113,13 @@ pub struct EncounterFinding {
     pub moment: MomentFinding,
     /// Name of the arm's link.
     pub link: String,
-    /// Name of the link in the URDF whose shape is in contact; it moves with the arm's link.
+    /// Name of the URDF link whose shape is in contact. It is part of the arm's link.
     pub body: String,
     /// Name of the obstacle.
     pub obstacle: String,
     /// Penetration depth, metres. A negative value is a distance.
     pub depth: f64,
-    /// The pair in words.
+    /// Description of the pair in words.
     #[serde(skip)]
     pub pair: String,
 }
@@ -127,15 +127,16 @@ pub struct EncounterFinding {
 /// A moment of a motion.
 #[derive(Debug, Clone, Serialize)]
 pub struct MomentFinding {
-    /// Seconds on the file's clock.
+    /// Time as in the file, in seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
-    /// For a motion without times: the number of the waypoint, counted from 0, plus the share of the path to the next.
+    /// For a motion without times: the number of the waypoint, counted from 0, plus the fraction of the segment to the
+    /// next waypoint.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub waypoint: Option<f64>,
-    /// The sample at or before it, counted from 0.
+    /// Index of the last sample at or before this moment, from 0.
     pub sample: usize,
-    /// Joint values then, base to tip.
+    /// Joint values at this moment, base to tip.
     pub configuration: [f64; 2],
 }
 
@@ -146,28 +147,28 @@ pub struct LimitFinding {
     pub joint: String,
     /// The quantity that is limited, such as `velocity`.
     pub limit: &'static str,
-    /// The value reached: rad or m, and per second, second squared or cubed.
+    /// The value that the motion reaches, in rad or m, per second, second squared or cubed.
     pub value: f64,
     /// The allowed value, in the same unit.
     pub allowed: f64,
-    /// The moment of the violation.
+    /// The moment at which the limit is violated.
     #[serde(flatten)]
     pub moment: MomentFinding,
-    /// The violation in its original form.
+    /// The violation as the judge reports it.
     #[serde(skip)]
     pub excess: LimitViolation,
 }
 
-/// Limits that a motion exceeds, by their origin.
+/// Limits that a motion exceeds, by their source.
 pub(super) struct ExceededLimits {
-    /// Limits that the files give.
+    /// Violations of limits that the files state.
     pub given: Vec<LimitViolation>,
-    /// Limits that cplan assumes.
+    /// Violations of limits that cplan assumes.
     pub assumed: Vec<LimitViolation>,
 }
 
 impl ExceededLimits {
-    /// Separates given limits from assumed ones.
+    /// Separates violations of stated limits from those of assumed ones.
     pub fn new(joints: &[Joint; 2], broken: &[LimitViolation], assumed: &AssumedLimits) -> Self {
         let is_assumed = |excess: &LimitViolation| {
             let name = &joints[excess.joint].name;
@@ -183,7 +184,7 @@ impl ExceededLimits {
 }
 
 impl MotionFindings {
-    /// Collects the results of the checks of one motion.
+    /// Creates the findings from the results of the checks of one motion.
     pub(super) fn new(
         scene: &Scene,
         recording: &Recording,
@@ -203,7 +204,7 @@ impl MotionFindings {
         }
     }
 
-    /// Returns the findings about a recording before it is judged.
+    /// Creates the findings about a recording without any result.
     pub(super) fn of_nothing(scene: &Scene, recording: &Recording) -> Self {
         let joints = &scene.arm().joints;
         Self {
@@ -223,7 +224,7 @@ impl MotionFindings {
         }
     }
 
-    /// Adds faults of one kind, if there are any.
+    /// Adds faults. If there are any, the verdict becomes at least as bad as `verdict`.
     pub(super) fn but(mut self, verdict: Judgement, faults: Vec<impl ToString>) -> Self {
         if !faults.is_empty() {
             self.verdict = self.verdict.max(verdict);
@@ -232,14 +233,14 @@ impl MotionFindings {
         self
     }
 
-    /// Adds the claims in the file that are not judged.
+    /// Adds the claims of the file that are not judged.
     pub(super) fn leaving(mut self, claims: &Claims) -> Self {
         self.not_judged.clone_from(&claims.unjudged);
         self
     }
 }
 
-/// Returns the verdict on a motion in one word.
+/// Returns the verdict on a motion.
 pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[LimitViolation]) -> Judgement {
     match collision_check {
         CollisionCheck::Collision { .. } => Judgement::Collision,
@@ -250,7 +251,7 @@ pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[LimitViolation
 }
 
 impl CollisionFinding {
-    /// Converts the result of the collision check of a motion, `timed` or not.
+    /// Converts the result of the collision check of a motion. `timed` is true if the motion has times.
     pub(super) fn new(scene: &Scene, collision_check: &CollisionCheck, timed: bool) -> Self {
         let encounter = |e: &Encounter| encounter(scene, e, timed);
         match collision_check {
@@ -270,7 +271,7 @@ impl CollisionFinding {
     }
 }
 
-/// Returns the violations of limits.
+/// Converts violations of limits.
 pub(super) fn limits(joints: &[Joint; 2], broken: &[LimitViolation], timed: bool) -> Vec<LimitFinding> {
     broken.iter().map(|excess| limit(joints, excess, timed)).collect()
 }

@@ -22,23 +22,23 @@ pub struct StepFinding {
     pub object: Option<String>,
     /// The object that is carried during the motion.
     pub carried: Option<String>,
-    /// The verdict in one word.
+    /// The verdict on the step.
     pub verdict: Judgement,
-    /// First sample of its motion, from 0.
+    /// Index of the first sample of the step's motion, from 0.
     pub first_sample: usize,
-    /// Last sample of its motion.
+    /// Index of the last sample of the step's motion.
     pub last_sample: usize,
-    /// Duration of the motion.
+    /// Duration of the step's motion, in seconds.
     pub seconds: f64,
-    /// Collisions and clearance along its motion.
+    /// Collisions and clearance along the step's motion.
     #[serde(flatten)]
     pub collisions: CollisionFinding,
-    /// The turn of the wrist at its end.
+    /// The turn of the wrist at the end of the step's motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn: Option<TurnFinding>,
-    /// Violated limits, each once.
+    /// Violated limits, each listed once.
     pub limits_broken: Vec<LimitFinding>,
-    /// Limits that the files do not give, and whose assumed values its motion exceeds. They do not affect the verdict.
+    /// Assumed limits that the step's motion exceeds. The files do not state them, so they do not affect the verdict.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assumed_exceeded: Vec<LimitFinding>,
     /// Differences from the requested step.
@@ -52,10 +52,10 @@ pub struct TurnFinding {
     pub from: f64,
     /// Orientation of the object at the end, radians.
     pub to: f64,
-    /// Duration of the turn.
+    /// Duration of the turn, in seconds.
     pub seconds: f64,
-    /// Proven lower bound on the distance between object and obstacles, metres. Only for a free turn with obstacles
-    /// within reach.
+    /// Proven lower bound on the distance between object and obstacles, in metres. `None` unless the turn is free and
+    /// obstacles are within reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
     /// The first contact of a turn that is not free.
@@ -108,8 +108,8 @@ impl StepFinding {
         format!("step {} (cycle {})", self.step, self.cycle)
     }
 
-    /// Returns a proven lower bound on the distance kept in the step's motion and turn, metres. `None` if no obstacle
-    /// is within reach.
+    /// Returns a proven lower bound on the distance to obstacles during the step's motion and turn, in metres. `None`
+    /// if no obstacle is within reach.
     #[must_use]
     pub fn clearance(&self) -> Option<f64> {
         let turn = self.turn.as_ref().and_then(|turn| turn.clearance);
@@ -128,8 +128,8 @@ impl TurnFinding {
     }
 }
 
-/// Judges all steps. The findings about the whole task are those of the step that decides it: the first that collides,
-/// else the first that is undecided, else the one with the least clearance.
+/// Judges all steps. Collisions and clearance of the whole task are those of the decisive step: the first that
+/// collides, otherwise the first that is undecided, otherwise the one with the least clearance.
 pub(super) fn judged(
     task: &Task,
     scene: &Scene,
@@ -146,7 +146,7 @@ pub(super) fn judged(
         happened.extend(step.event.clone());
         steps.push(StepFinding::new(task, &step, assumed));
     }
-    // If a task breaks off, the statements about the whole describe another task.
+    // If the recording departs from the task, the file's statements about the whole task do not apply to it.
     if replay.departure().is_none() {
         false_claims.extend(false_task_claims(task, recording, recorded, &happened, claims));
     }

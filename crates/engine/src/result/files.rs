@@ -10,10 +10,10 @@ impl Plan {
     /// Returns the result as a file in this format. `None` if the format holds only a trajectory and there is no
     /// motion. All formats except MCAP are text in UTF-8.
     ///
-    /// Tables of tasks have a column with the number of each sample's step among those that are done, from 1. ROS 2
-    /// messages hold the motion as one. Recordings hold a message for each step: its motion, followed by the turns of
-    /// the wrist and strokes of the tool. Recordings made here include nothing to display; see `PlanOutput::bytes` of
-    /// the crate `view`.
+    /// In the table of a task, a column has the number of each sample's step, counted from 1 in the order of execution.
+    /// A ROS 2 message holds the whole motion. A recording has a message for each step: its motion, followed by the
+    /// turns of the wrist and strokes of the tool. Such a recording includes nothing to display; see
+    /// `PlanOutput::bytes` of the crate `view`.
     #[must_use]
     pub fn encoded(&self, format: Format) -> Option<Vec<u8>> {
         Some(match format {
@@ -30,7 +30,7 @@ impl Plan {
         })
     }
 
-    /// Returns the result as a recording, with the objects to show if `stage` is given.
+    /// Returns the result as a recording. With `stage`, it includes the scene to display.
     #[cfg(feature = "mcap")]
     #[must_use]
     pub fn recording(&self, stage: Option<&Stage>) -> Option<Vec<u8>> {
@@ -38,8 +38,8 @@ impl Plan {
         Some(mcap(&steps.iter().map(|(begin, motion)| (motion, *begin)).collect::<Vec<_>>(), stage))
     }
 
-    /// Returns the motion of each step of a task as a file of its own, with its own clock and without waits. `None` for
-    /// a single motion, and if the format is not for single trajectories.
+    /// Returns the motion of each step of a task as a file of its own, without waits and with times from its beginning.
+    /// `None` for a single motion, and for formats that do not hold single trajectories.
     #[must_use]
     pub fn encoded_per_step(&self, format: Format) -> Option<Vec<Vec<u8>>> {
         let (_, answer) = self.task()?;
@@ -54,13 +54,13 @@ impl Plan {
         Some(text.into_iter().map(String::into_bytes).collect())
     }
 
-    /// Returns a motion as a table. `steps` holds the number of each sample's step.
+    /// Returns a motion as a table. `steps` has the number of each sample's step.
     fn table(&self, motion: &Trajectory, steps: Option<&[usize]>) -> String {
         let joints = self.arm().joints.each_ref().map(|joint| joint.name.clone());
         csv(&joints, motion, self.options().accelerations, steps)
     }
 
-    /// Returns the content of messages. A single motion is one step.
+    /// Returns the content of ROS messages. A single motion counts as one step.
     fn messages(&self) -> Option<Messages> {
         let robot = named(self.problem(), self.options());
         let messages = match self.detail() {
@@ -68,7 +68,7 @@ impl Plan {
                 let whole = JointMotion::new(&robot, &answer.outcome.found()?.timed.trajectory, true);
                 Messages { steps: vec![(0.0, whole.clone())], whole }
             }
-            // Planning has already refused joints that messages cannot name.
+            // Planning refuses joints that messages cannot name.
             Detail::Task { task, answer } => {
                 Messages::new(&robot, task, &answer.legs, &answer.outcome.found()?.sequence).ok()?
             }

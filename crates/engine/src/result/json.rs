@@ -21,10 +21,10 @@ use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// Writer of fields in order.
+/// Writes fields in order.
 struct Fields<'a, M> {
     map: M,
-    /// Names of the fields that are written. If empty, all are.
+    /// Names of the fields to write. Empty for all fields.
     only: &'a [String],
 }
 
@@ -35,13 +35,13 @@ impl<M: SerializeMap> Fields<'_, M> {
         if is_written { self.map.serialize_entry(name, value) } else { Ok(()) }
     }
 
-    /// Writes a field, or omits it if there is no value.
+    /// Writes a field. Omits it if it has no value.
     fn some(&mut self, name: &'static str, value: Option<impl Serialize>) -> Result<(), M::Error> {
         value.map_or(Ok(()), |value| self.put(name, &value))
     }
 }
 
-/// The whole motion, with the step of each of its samples.
+/// The whole motion, with the number of each sample's step.
 #[derive(Serialize)]
 struct Samples<'a> {
     #[serde(flatten)]
@@ -50,7 +50,7 @@ struct Samples<'a> {
     step: Option<Vec<usize>>,
 }
 
-/// Limits that the files do not give, by joint and in words.
+/// Assumed limits by joint, and their description.
 #[derive(Serialize)]
 struct AssumedLimitTexts {
     #[serde(flatten)]
@@ -67,11 +67,11 @@ impl Serialize for Stages<'_> {
     }
 }
 
-/// Some fields of a plan's result.
+/// A plan's result, or some of its fields.
 struct PlanResult<'a> {
     plan: &'a Plan,
     fields: &'a [String],
-    /// A certificate that follows the fields unchanged.
+    /// A certificate that is written after the fields, unchanged.
     certificate: Option<&'a RawValue>,
 }
 
@@ -91,7 +91,7 @@ impl Serialize for PlanResult<'_> {
 }
 
 impl PlanResult<'_> {
-    /// Writes the query and the status.
+    /// Writes the fields of the query and the status.
     fn head<M: SerializeMap>(&self, fields: &mut Fields<M>) -> Result<(), M::Error> {
         let Self { plan, .. } = self;
         let (planner, name) = (&plan.options().planner, &plan.problem().scene().workspace().name);
@@ -106,7 +106,7 @@ impl PlanResult<'_> {
         fields.some("reason", plan.reason())
     }
 
-    /// Returns the limits that the files do not give, with the usual notes.
+    /// Returns the assumed limits with their description. `None` if no limits are assumed.
     fn assumed_in_words(&self) -> Option<AssumedLimitTexts> {
         let mut limits = self.plan.problem().robot().assumed.clone();
         if self.plan.options().drive.torque {
@@ -147,7 +147,7 @@ impl PlanResult<'_> {
         self.trajectory(fields, plan.trajectory().map(|trajectory| Samples { trajectory, step: None }))
     }
 
-    /// Writes a task. Its path follows its steps, unlike that of a motion, which precedes its bounds.
+    /// Writes the fields of a task. The path follows the steps; in a motion, it precedes the bounds.
     fn task<M: SerializeMap>(&self, fields: &mut Fields<M>, task: &Task, answer: &TaskAnswer) -> Result<(), M::Error> {
         let Self { plan, .. } = self;
         let motion = answer.outcome.found();
@@ -178,7 +178,7 @@ impl PlanResult<'_> {
         fields.some("timings", plan.options().timings.then(|| Stages(plan.timings())))
     }
 
-    /// Writes the motion in time, and how to interpolate between its samples.
+    /// Writes the trajectory, and how to interpolate between its samples.
     fn trajectory<M: SerializeMap>(&self, fields: &mut Fields<M>, samples: Option<Samples>) -> Result<(), M::Error> {
         fields.some("interpolation", samples.as_ref().map(|_| interpolation(&self.plan.arm().joints)))?;
         fields.put("trajectory", &samples)
@@ -233,20 +233,20 @@ impl Plan {
         "trajectory",
     ];
 
-    /// Returns the result with these fields only, in their usual order. With all fields if the list is empty.
+    /// Returns the result with these fields only, in their usual order. If the list is empty, returns all fields.
     #[must_use]
     pub fn result<'a>(&'a self, fields: &'a [String]) -> impl Serialize + 'a {
         PlanResult { plan: self, fields, certificate: None }
     }
 
-    /// Returns the result as a JSON object, one field per line, in the format that interface and book describe. Numbers
-    /// have enough digits to restore the same `f64`.
+    /// Returns the result as a JSON object, one field per line, as the book describes it. Numbers have enough digits to
+    /// restore the same `f64`.
     #[must_use]
     pub fn to_json(&self) -> String {
         field_per_line(&self.result(&[]))
     }
 
-    /// Returns the same with a [`Plan::certificate`] as its last member.
+    /// Returns the result as a JSON object, with a certificate ([`Plan::certificate`]) as its last member.
     #[must_use]
     pub fn to_json_with(&self, certificate: &RawValue) -> String {
         field_per_line(&PlanResult { plan: self, fields: &[], certificate: Some(certificate) })

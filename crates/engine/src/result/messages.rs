@@ -1,8 +1,9 @@
 //! Motions of all joints of the robot during a task, for messages that name them.
 //!
 //! The arm moves with the tool raised. While the arm stands still, the wrist turns, and the tool is lowered and raised.
-//! A wrist whose joint is named keeps the orientation of level payloads against that of link 2. With an empty hand, it
-//! returns towards its rest position during the motion, as far as its limits allow.
+//! If the world names the wrist's joint, that joint compensates the rotation of link 2, so that level payloads keep
+//! their orientation. Without a payload, it returns towards its rest position during the motion, as far as its limits
+//! allow.
 
 use cplan_core::model::JointType;
 use cplan_core::space::JointRange;
@@ -14,10 +15,10 @@ use thiserror::Error;
 /// Reason why messages cannot name all joints as requested.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MessageError {
-    /// Accelerations that would mislead their readers.
+    /// Accelerations that jump, which would mislead programs that read them.
     #[error(transparent)]
     Jump(#[from] AccelerationJump),
-    /// A moving joint of the tool, whose accelerations are unknown.
+    /// A joint of the tool that moves. Its accelerations are unknown.
     #[error(
         "accelerations cannot be written: the acceleration of the tool's joint \"{joint}\" jumps when it moves at {time:.6} s; \
          write only the two planned joints (--joints planned), or leave out --accelerations"
@@ -25,10 +26,10 @@ pub enum MessageError {
     Tool {
         /// The joint's name in the URDF.
         joint: String,
-        /// Time at which it first moves, seconds from the beginning.
+        /// Time at which the joint first moves, in seconds from the beginning.
         time: f64,
     },
-    /// A wrist that cannot keep up.
+    /// A wrist that cannot turn fast enough.
     #[error(
         "joint \"{joint}\" cannot keep the payload level: at {time:.6} s it would {what}; widen its range, give the step a \
          lower speed, or write only the two planned joints (--joints planned)"
@@ -36,29 +37,27 @@ pub enum MessageError {
     Wrist {
         /// The joint's name in the URDF.
         joint: String,
-        /// Time of the violation, seconds from the beginning.
+        /// Time of the violation, in seconds from the beginning.
         time: f64,
-        /// The violation, in words.
+        /// Description of the violation.
         what: String,
     },
 }
 
-/// The motion of all joints that messages name, as one and step by step.
+/// The motion of all joints that ROS messages name, of the whole task and step by step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Messages {
-    /// The whole task, including the times at which the arm stands still.
+    /// The motion of the whole task, including the times at which the arm stands still.
     pub whole: JointMotion,
-    /// For each step, the time at which it begins, seconds, and its motion until the last of these joints comes to
-    /// rest.
+    /// For each step, the time at which it begins, in seconds, and its motion until all of the joints are at rest.
     pub steps: Vec<(f64, JointMotion)>,
 }
 
-/// Share of a limit by which rounding may exceed it.
+/// Fraction of a limit by which rounding may exceed it.
 const ROUNDING: f64 = 1e-6;
 
 impl Messages {
-    /// Returns the messages for the steps of a sequence, with the accelerations of the arm, and no accelerations of the
-    /// tool.
+    /// Creates the messages for the steps of a sequence. They have accelerations of the arm, but none of the tool.
     pub fn new(robot: &RobotJoints, task: &Task, legs: &[Leg], sequence: &Sequence) -> Result<Self, MessageError> {
         let mut tool = Tool { robot, task, wrist: robot.wrist.as_ref().map_or(0.0, |joint| joint.rest) };
         let mut whole = Rows::default();
@@ -75,14 +74,14 @@ impl Messages {
 }
 
 impl Messages {
-    /// Returns the same for readers that join samples by cubics.
+    /// Returns the messages without accelerations, for programs that join samples by cubics.
     pub fn without_accelerations(self) -> Self {
         let steps = self.steps.into_iter().map(|(begin, motion)| (begin, motion.without_accelerations()));
         Self { whole: self.whole.without_accelerations(), steps: steps.collect() }
     }
 
-    /// Checks that quintics describe the motion of the tool, too: it must not move, because its acceleration would
-    /// jump.
+    /// Checks that quintics also describe the motion of the tool. They do so only if it does not move, because its
+    /// acceleration would jump.
     pub fn check_accelerations(&self, robot: &RobotJoints) -> Result<(), MessageError> {
         let tool = |driver: Driver| matches!(driver, Driver::Stroke | Driver::Wrist);
         let moved = |(k, joint): (usize, &RobotJoint)| {
@@ -96,13 +95,13 @@ impl Messages {
     }
 }
 
-/// The values that drive the joints at one nanosecond.
+/// Values of the joints at a time in whole nanoseconds.
 #[derive(Debug, Clone, Copy)]
 struct Row {
     at: u64,
     value: Drives,
     rate: Drives,
-    /// Accelerations of the planned joints.
+    /// Accelerations of the two planned joints.
     pull: [f64; 2],
 }
 
@@ -111,8 +110,8 @@ struct Row {
 struct Rows(Vec<Row>);
 
 impl Rows {
-    /// Adds a row. It replaces an earlier row at the same time, since its acceleration is that of the interval that
-    /// begins there.
+    /// Adds a row. It replaces an earlier row with the same time, because its acceleration is that of the interval that
+    /// begins then.
     fn push(&mut self, row: Row) {
         self.0.pop_if(|last| last.at == row.at);
         self.0.push(row);
@@ -139,7 +138,7 @@ struct Tool<'a> {
 }
 
 impl Tool<'_> {
-    /// Returns the rows of a step that begins, arrives and ends at these nanoseconds.
+    /// Returns the rows of a step. `begin`, `arrival` and `end` are its times in nanoseconds.
     fn rows(&mut self, leg: &Leg, [begin, arrival, end]: [u64; 3]) -> Rows {
         let mut rows = Rows::default();
         let trajectory = &leg.timed.trajectory;
@@ -156,7 +155,8 @@ impl Tool<'_> {
         let Some(&Row { value, .. }) = rows.0.last() else { return rows };
         self.wrist = value.wrist;
         let mut still = Row { at: arrival, value, rate: Drives::default(), pull: [0.0; 2] };
-        // In a place step, the wrist turns before the tool is lowered; in a pick, after it has been raised.
+        // In a place step, the wrist turns before the tool is lowered. In a pick, it turns after the tool has been
+        // raised.
         let places = matches!(leg.event, Some(Event::Release { .. }));
         if places {
             self.turn(leg, &mut still, &mut rows);
@@ -167,13 +167,13 @@ impl Tool<'_> {
         if !places {
             self.turn(leg, &mut still, &mut rows);
         }
-        // The whole motion ends with the sequence, to the nanosecond.
+        // The whole motion ends with the sequence, in the same nanosecond.
         rows.0.pop_if(|last| last.at >= end);
         rows.push(Row { at: end, ..still });
         rows
     }
 
-    /// Returns value and rate of the wrist's joint at a sample of the arm's motion.
+    /// Returns value and velocity of the wrist's joint at sample `k` of the arm's motion.
     fn underway(&self, leg: &Leg, k: usize) -> [f64; 2] {
         let (Some(joint), Some(limits)) = (&self.robot.wrist, self.task.wrist) else { return [self.wrist, 0.0] };
         let trajectory = &leg.timed.trajectory;
@@ -195,7 +195,7 @@ impl Tool<'_> {
         }
     }
 
-    /// Returns the turn of link 2, or its rate.
+    /// Returns the angle of link 2, or its velocity.
     fn turned(&self, planned: [f64; 2]) -> f64 {
         let of = |k: usize| match self.task.arm.joints[k].joint_type {
             JointType::Revolute { sign } => sign * planned[k],
@@ -204,7 +204,7 @@ impl Tool<'_> {
         of(0) + of(1)
     }
 
-    /// Turns the wrist from a row on, while everything else stands still.
+    /// Adds rows in which the wrist turns and everything else stands still.
     fn turn(&mut self, leg: &Leg, still: &mut Row, rows: &mut Rows) {
         let (Some((turn, seconds)), Some(limits)) = (leg.turn, self.task.wrist) else { return };
         let Some(joint) = &self.robot.wrist else {
@@ -221,7 +221,7 @@ impl Tool<'_> {
         self.wrist = still.value.wrist;
     }
 
-    /// Lowers or raises the tool from a row on, while everything else stands still.
+    /// Adds rows in which the tool is lowered or raised, and everything else stands still.
     fn stroke(&self, leg: &Leg, up: bool, still: &mut Row, rows: &mut Rows) {
         let (Some(stroke), Some(limits)) = (leg.stroke, &self.task.stroke) else { return };
         if self.robot.stroke.is_none() {
@@ -233,13 +233,13 @@ impl Tool<'_> {
         let (from, samples) = (still.at, single((ends[1] - ends[0]).abs(), limits.velocity, limits.acceleration));
         for (k, [time, distance, speed]) in samples.iter().enumerate() {
             still.at = from + nanoseconds(*time);
-            // The end is exact in spite of rounding.
+            // The last value is exact, without rounding.
             still.value.stroke = if k + 1 == samples.len() { ends[1] } else { ends[0] + sign * distance };
             rows.push(Row { rate: Drives { stroke: sign * speed, ..Drives::default() }, ..*still });
         }
     }
 
-    /// Checks that the wrist's joint keeps its range and its top speed.
+    /// Checks that the wrist's joint stays within its range and below its top speed.
     fn check(&self, rows: &Rows) -> Result<(), MessageError> {
         let (Some(joint), Some(limits)) = (&self.robot.wrist, self.task.wrist) else { return Ok(()) };
         let what = |row: &Row| beyond(joint, limits, row.value.wrist, row.rate.wrist);
@@ -250,14 +250,15 @@ impl Tool<'_> {
     }
 }
 
-/// Returns how much of a distance the wrist can cover in a given time, from rest to rest along a cubic. Its top speed
-/// is 1.5 times the mean speed, and its greatest acceleration is 6 times the distance over the squared time.
+/// Returns the part of a distance that the wrist can cover in a given time, from rest to rest along a cubic. The top
+/// speed of a cubic is 1.5 times the mean speed, and its greatest acceleration is 6 times the distance over the squared
+/// time.
 fn back(distance: f64, duration: f64, limits: Wrist) -> f64 {
     let most = (limits.velocity * duration / 1.5).min(limits.acceleration * duration * duration / 6.0);
     distance.clamp(-most, most)
 }
 
-/// Describes the violation, if a joint exceeds its speed or range.
+/// Describes the violation if a joint exceeds its speed or range. `None` otherwise.
 fn beyond(joint: &ToolJoint, limits: Wrist, value: f64, rate: f64) -> Option<String> {
     if rate.abs() > limits.velocity * (1.0 + ROUNDING) {
         return Some(format!("turn at {:.3} rad/s, above its top speed of {} rad/s", rate.abs(), limits.velocity));

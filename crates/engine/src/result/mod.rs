@@ -20,7 +20,8 @@ use cplan_solver::{Bound, Planner, Setting, Settings};
 use cplan_tasks::FailedStep;
 
 impl Plan {
-    /// Returns the reason why there is no motion, or why it is unknown. `None` if there is a motion.
+    /// Returns the reason why there is no motion, or why it is not known whether there is one. `None` if there is a
+    /// motion.
     #[must_use]
     pub fn reason(&self) -> Option<String> {
         match self.detail() {
@@ -29,8 +30,8 @@ impl Plan {
         }
     }
 
-    /// Returns the waypoints of the straight segments that the motion follows, apart from blends. For a task, those of
-    /// all its motions.
+    /// Returns the waypoints of the straight segments that the motion follows, before corners are rounded. For a task,
+    /// returns those of all its motions.
     #[must_use]
     pub fn waypoints(&self) -> Option<Vec<[f64; 2]>> {
         match self.detail() {
@@ -48,7 +49,7 @@ impl Plan {
         }
     }
 
-    /// Returns the Euclidean length of the path in joint space. For a task, that of all its motions.
+    /// Returns the Euclidean length of the path in joint space. For a task, returns the total length of all its paths.
     #[must_use]
     pub fn length(&self) -> Option<f64> {
         match self.detail() {
@@ -59,7 +60,7 @@ impl Plan {
         }
     }
 
-    /// Returns the duration of the motion, seconds.
+    /// Returns the duration of the motion, in seconds.
     #[must_use]
     pub fn duration(&self) -> Option<f64> {
         self.trajectory().map(Trajectory::duration)
@@ -76,7 +77,7 @@ impl Plan {
         .and_then(finite)
     }
 
-    /// Returns the link and the obstacle that come closest in a single motion, in words.
+    /// Describes the link and the obstacle that come closest in a single motion.
     #[must_use]
     pub fn closest(&self) -> Option<String> {
         let (problem, answer) = self.motion()?;
@@ -84,13 +85,13 @@ impl Plan {
         Some(problem.scene().describe(nearest.contact.pair))
     }
 
-    /// Returns the bounds on the path length of a single motion, if the planner computes them.
+    /// Returns the bounds on the path length of a single motion. `None` if the planner computes none.
     #[must_use]
     pub fn bound(&self) -> Option<Bound> {
         self.motion().and_then(|(_, answer)| answer.bound())
     }
 
-    /// Returns how the motion passes moving obstacles, if there are any.
+    /// Returns how the motion passes moving obstacles. `None` if there are none.
     #[must_use]
     pub fn timing(&self) -> Option<&Timing> {
         match self.detail() {
@@ -99,7 +100,7 @@ impl Plan {
         }
     }
 
-    /// Returns how the planner searched its grid, or its roadmap if it did not use the usual search.
+    /// Returns how the planner searched its grid. For a roadmap, only a search other than the usual one is reported.
     #[must_use]
     pub fn search(&self) -> Option<SearchReport> {
         search_used(&self.options().planner)
@@ -110,7 +111,7 @@ fn waypoints(path: &Path) -> Vec<[f64; 2]> {
     path.waypoints().iter().map(|q| [q[0], q[1]]).collect()
 }
 
-/// Describes which step fails, in a sentence.
+/// Describes the step that fails, in a sentence.
 fn reason(task: &Task, FailedStep { step, .. }: &FailedStep, status: Status) -> String {
     let cycle = if step.cycle > 1 { format!(" of cycle {}", step.cycle) } else { String::new() };
     let which = format!("step {}{cycle}, {} ({})", step.number, step.action.describe(&task.objects), step.place);
@@ -122,12 +123,12 @@ fn reason(task: &Task, FailedStep { step, .. }: &FailedStep, status: Status) -> 
     }
 }
 
-/// Returns a finite value only. JSON cannot represent infinity.
+/// Returns a value if it is finite, because JSON cannot represent infinity.
 pub(super) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// A bound as the result has it.
+/// Converts a bound to the form of the result.
 fn optimum(bound: Bound) -> LengthOptimality {
     let (metric, weights) = match bound.metric {
         Metric::Euclidean => ("euclidean", None),
@@ -137,7 +138,7 @@ fn optimum(bound: Bound) -> LengthOptimality {
     LengthOptimality { metric, weights, length: bound.upper, lower_bound: bound.lower, gap: finite(bound.gap()) }
 }
 
-/// Returns how a planner searches its grid, or its roadmap if it does not use the usual search.
+/// Returns how a planner searches its grid. For a roadmap, only a search other than the usual one is reported.
 fn search_used(planner: &Planner) -> Option<SearchReport> {
     let Settings { grid_search, ties, forward, neighborhood, .. } = planner.settings();
     if planner.method().reads(Setting::GridSearch) {

@@ -36,29 +36,30 @@ impl From<&Action> for ActionName {
 pub struct TurnReport {
     /// Orientation of the object at the beginning, radians.
     pub from: f64,
-    /// Orientation at the end, radians: beyond the beginning in the direction of the turn.
+    /// Orientation of the object at the end, in radians. The sign of its difference from `from` is the direction of the
+    /// turn.
     pub to: f64,
-    /// Duration of the turn.
+    /// Duration of the turn, in seconds.
     pub seconds: f64,
     /// Proven lower bound on the distance between the object and obstacles, metres. `None` if no obstacle is within
     /// reach.
     pub clearance: Option<f64>,
 }
 
-/// The stroke of the tool: it is lowered, and raised again after the gripper's action, while the arm stands still.
+/// The stroke of the tool while the arm stands still: the tool is lowered, the gripper acts, and the tool is raised.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct StrokeReport {
     /// The joint's value while the tool is raised, metres.
     pub raised: f64,
-    /// The joint's value while it is lowered, metres.
+    /// The joint's value while the tool is lowered, in metres.
     pub lowered: f64,
-    /// Duration of lowering, and of raising.
+    /// Duration of lowering, in seconds. Raising takes as long.
     pub seconds: f64,
     /// Proven lower bound on the distance to obstacles, metres. `None` if no obstacle is within reach.
     pub clearance: Option<f64>,
 }
 
-/// A step of the answer: a motion from rest to rest, and a rest.
+/// A step of the answer: a motion from rest to rest, and a rest after it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StepReport {
     /// The step's number in the world file, from 1.
@@ -71,36 +72,38 @@ pub struct StepReport {
     pub object: Option<String>,
     /// The object that is carried during the motion.
     pub carried: Option<String>,
-    /// Seconds from the beginning of the task to that of the motion, ...
+    /// Time from the beginning of the task to that of the motion, in seconds.
     pub begin: f64,
-    /// ... to the end of the motion, ...
+    /// Time from the beginning of the task to the end of the motion, in seconds.
     pub arrival: f64,
-    /// ... and to the end of the step.
+    /// Time from the beginning of the task to the end of the step, in seconds.
     pub end: f64,
-    /// Waypoints of the motion, straight segments between them.
+    /// Waypoints of the motion, which straight segments connect.
     pub path: Vec<[f64; 2]>,
     /// Euclidean length of the path in joint space.
     pub length: f64,
-    /// Proven lower bound on the distance between obstacles and the arm with its payload during the step, metres.
+    /// Proven lower bound on the distance between obstacles and the arm with its payload during the step, in metres.
     /// `None` if no obstacle is within reach.
     pub clearance: Option<f64>,
-    /// The link (or payload) and the obstacle that come closest during the motion, in words.
+    /// Description of the link (or payload) and the obstacle that come closest during the motion.
     pub closest: Option<String>,
-    /// The path's corners that the motion rounds.
+    /// How the motion rounds the corners of the path.
     pub blends: BlendReport,
     /// The turn of the wrist after the motion.
     pub turn: Option<TurnReport>,
-    /// The stroke of the tool at the end of the motion, if the world has one.
+    /// The stroke of the tool at the end of the motion. `None` if the world has no stroke.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stroke: Option<StrokeReport>,
-    /// The motion's first sample in the whole trajectory, from 0. `None` without a whole trajectory.
+    /// Index of the motion's first sample in the whole trajectory, from 0. `None` if the result has no whole
+    /// trajectory.
     pub first_sample: Option<usize>,
-    /// The motion's last sample, at which the arm stands still.
+    /// Index of the motion's last sample, at which the arm stands still.
     pub last_sample: Option<usize>,
 }
 
 impl StepReport {
-    /// Reports step `index` of a sequence, whose trajectory is part of the result if `is_whole`.
+    /// Creates the report of step `index` of a sequence. `is_whole` is true if the sequence's trajectory is part of the
+    /// result.
     fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize, is_whole: bool) -> Self {
         let curve = &leg.timed.curve;
         let path = curve.curve().path();
@@ -139,7 +142,7 @@ impl StepReport {
     }
 }
 
-/// Reports the steps of an answer, and the events of the gripper.
+/// Creates the reports of the steps of an answer, and of the events of the gripper.
 pub fn step_reports(task: &Task, answer: &TaskAnswer) -> (Vec<StepReport>, Vec<EventReport>) {
     let (sequence, is_whole) = match answer.outcome.found() {
         Some(motion) => (Cow::Borrowed(&motion.sequence), true),
@@ -151,7 +154,7 @@ pub fn step_reports(task: &Task, answer: &TaskAnswer) -> (Vec<StepReport>, Vec<E
     (steps.collect(), events.collect())
 }
 
-/// The kind of a gripper event, in one word.
+/// The kind of a gripper event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum EventName {
@@ -173,11 +176,11 @@ pub struct PoseReport {
 /// An event of the gripper, with its time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EventReport {
-    /// Seconds from the beginning of the task.
+    /// Time of the event, in seconds from the beginning of the task.
     pub time: f64,
     /// The kind of event.
     pub event: EventName,
-    /// The object.
+    /// Name of the object.
     pub object: String,
     /// Number of the step in the world file, from 1.
     pub step: usize,
@@ -185,13 +188,13 @@ pub struct EventReport {
     pub cycle: usize,
     /// Position of the tip, metres.
     pub tip: [f64; 2],
-    /// Pose of the object after its release.
+    /// Pose of the object after its release. `None` for a grasp.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pose: Option<PoseReport>,
 }
 
 impl EventReport {
-    /// Reports the event of step `index` of a sequence, if it has one.
+    /// Creates the report of the event of step `index` of a sequence. `None` if the step has none.
     fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize) -> Option<Self> {
         let happens = leg.event?;
         let [_, arrival, end] = sequence.times(index);
@@ -221,9 +224,10 @@ impl EventReport {
 pub struct IkSolutionReport {
     /// The values of both joints, radians or metres.
     pub joints: [f64; 2],
-    /// The reason, in words, why the arm cannot reach it.
+    /// The reason why the arm cannot reach the solution, or is not known to.
     pub reason: String,
-    /// Boxes of colliding configurations that separate it from the arm's configuration, if that is the reason.
+    /// Boxes of colliding configurations that separate the solution from the arm's configuration. `None` if the reason
+    /// is another one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proof: Option<CheckedProof>,
 }
@@ -241,18 +245,18 @@ pub struct FailedStepReport {
     pub step: usize,
     /// The repetition of the step, from 1.
     pub cycle: usize,
-    /// The kind of step, ...
+    /// The kind of step.
     pub action: ActionName,
-    /// ... and a short description of it.
+    /// A short description of the step.
     pub description: String,
-    /// Its position in the world file: file, line and column.
+    /// Position of the step in the world file: file, line and column.
     pub place: String,
     /// The reasons, with the motions that were tried, as in [`FailedStep::reasons`].
     pub reasons: Vec<String>,
     /// The object that is carried in the failing step.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub carried: Option<String>,
-    /// Joint values after the earlier steps.
+    /// Joint values of the arm after the earlier steps.
     pub from: [f64; 2],
     /// The IK solutions that were tried from there. Empty if no IK solution within the joint limits reaches the target.
     #[serde(rename = "postures")]
@@ -260,7 +264,7 @@ pub struct FailedStepReport {
 }
 
 impl FailedStepReport {
-    /// Reports the first step of a task that cannot be done, with the reasons.
+    /// Creates the report of the first step of a task that cannot be done, with the reasons.
     pub fn new(task: &Task, why: &FailedStep) -> Self {
         let FailedStep { step, reasons, scene, moving: _, from, ik_solutions } = why;
         Self {

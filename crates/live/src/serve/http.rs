@@ -1,4 +1,4 @@
-//! The server: one page, its parts, and its WebSocket, and nothing else. It refuses requests that come from other
+//! The HTTP server. It serves one page with its parts and its WebSocket, and refuses requests that come from other
 //! pages.
 
 use super::{Server, socket};
@@ -16,21 +16,21 @@ use std::time::Duration;
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 
-/// Greatest number of simultaneous connections. A browser opens some six.
+/// Largest number of simultaneous connections. A browser opens some six.
 const MAX_CONNECTIONS: usize = 32;
 
-/// Time that a client has to send the head of a request.
+/// Time limit for a client to send the head of a request.
 const HEAD_TIME: Duration = Duration::from_secs(10);
 
-/// Time limit of a connection, except for WebSockets, which have their own. A browser opens another one. Without it,
-/// clients that send requests and never read would block all others.
+/// Time limit of a connection, except for WebSockets, which have their own. After it, a browser opens another
+/// connection. Without the limit, clients that send requests but never read would block all others.
 const CONNECTION_TIME: Duration = Duration::from_secs(10);
 
-/// Greatest size of the head of a request, bytes.
+/// Largest size of the head of a request, in bytes.
 const MAX_HEAD_BYTES: usize = 16 << 10;
 
-/// Headers of every response. The page is one file, the same for every world (its data comes by the WebSocket, and is
-/// never treated as HTML), so its scripts and styles may be inline; nothing is loaded from elsewhere.
+/// Headers of every response. The page is one file that is the same for every world. Data comes over the WebSocket and
+/// is never treated as HTML. So scripts and styles may be inline, and nothing is loaded from elsewhere.
 const HEADERS: [(HeaderName, &str); 6] = [
     (
         header::CONTENT_SECURITY_POLICY,
@@ -54,17 +54,17 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) {
         .with_state(server);
     let room = Arc::new(Semaphore::new(MAX_CONNECTIONS));
     loop {
-        // The permit is always granted in the end, because the semaphore is never closed.
+        // This cannot fail, because the semaphore is never closed.
         let Ok(permit) = Arc::clone(&room).acquire_owned().await else { return };
         let stream = match listener.accept().await {
             Ok((stream, _)) => stream,
             Err(_) => {
-                // Too many open files, or a client that has disconnected already.
+                // The process has too many open files, or the client has disconnected already.
                 tokio::time::sleep(Duration::from_millis(50)).await;
                 continue;
             }
         };
-        // Messages are small and go in both directions, so waiting for more data gains nothing.
+        // Messages are small and go in both directions, so collecting data before sending it gains nothing.
         let _ = stream.set_nodelay(true);
         let service = TowerToHyperService::new(router.clone());
         tokio::spawn(async move {
@@ -81,7 +81,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) {
     }
 }
 
-/// Refuses requests that the page does not make, and adds [`HEADERS`] to all responses.
+/// Refuses requests that the page does not make. Adds [`HEADERS`] to all responses.
 async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next) -> Response {
     let mut response = match refusal(&server, request.headers()) {
         Some((status, why)) => (status, why).into_response(),
@@ -93,13 +93,13 @@ async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next
     response
 }
 
-/// Returns the reason why a request is refused, or `None`.
+/// Returns the reason why a request is refused. `None` if it is accepted.
 fn refusal(server: &Server, headers: &HeaderMap) -> Option<(StatusCode, &'static str)> {
     let named = headers.get(header::HOST).and_then(|value| value.to_str().ok());
     if !named.is_some_and(|named| is_ours(named, server.address)) {
         return Some((StatusCode::MISDIRECTED_REQUEST, "this server goes by its address alone\n"));
     }
-    // Only WebSockets and requests of other pages have one.
+    // Only WebSockets and requests of other pages have the header `Origin`.
     if let Some(origin) = headers.get(header::ORIGIN)
         && origin.to_str().ok().and_then(|origin| origin.strip_prefix("http://")) != named
     {
@@ -110,8 +110,8 @@ fn refusal(server: &Server, headers: &HeaderMap) -> Option<(StatusCode, &'static
     has_body.then_some((StatusCode::PAYLOAD_TOO_LARGE, "no request to this server has a body\n"))
 }
 
-/// Returns true if a Host header names this server by an address, or `localhost`. A name that a foreign DNS server
-/// resolves to this machine (DNS rebinding) is refused.
+/// Returns true if a `Host` header names this server by its address or as `localhost`. Another name may be one that a
+/// foreign DNS server resolves to this machine (DNS rebinding).
 fn is_ours(named: &str, here: SocketAddr) -> bool {
     let (name, port) = match named.rsplit_once(':') {
         Some((name, port)) if !port.ends_with(']') => (name, port.parse().ok()),
@@ -126,7 +126,7 @@ fn is_ours(named: &str, here: SocketAddr) -> bool {
     known && port == Some(here.port())
 }
 
-/// Opens the WebSocket. Browsers always state their origin, so clients without one are refused.
+/// Opens the WebSocket. Browsers always send their origin, so a client that does not is refused.
 async fn upgrade(State(server): State<Arc<Server>>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
     if !headers.contains_key(header::ORIGIN) {
         return (StatusCode::FORBIDDEN, "this server answers its own page alone\n").into_response();

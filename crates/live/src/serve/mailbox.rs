@@ -1,14 +1,14 @@
-//! The requests of a page that its worker has not handled yet. The latest counts.
+//! The requests of a page that its worker has not handled yet. Of plans, only the latest counts.
 
 use crate::Request;
 use cplan_interrupt::Interrupt;
 use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Greatest number of waiting requests; of plans only the latest waits.
+/// Largest number of waiting requests. At most one of them is a plan, the latest.
 const MAX_WAITING: usize = 8;
 
-/// A mailbox between the connection that adds requests and the worker that takes them.
+/// A mailbox. A connection adds requests to it, and a worker takes them.
 #[derive(Default)]
 pub struct Mailbox {
     inside: Mutex<MailboxState>,
@@ -25,7 +25,7 @@ struct MailboxState {
 
 impl Mailbox {
     fn inside(&self) -> MutexGuard<'_, MailboxState> {
-        // A panic while the lock is held leaves the state consistent.
+        // The state is consistent even after a panic while the lock is held.
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -47,7 +47,7 @@ impl Mailbox {
         true
     }
 
-    /// Waits for the next request, and returns it with its interrupt; `None` once the mailbox is closed.
+    /// Waits for the next request, and returns it with its interrupt. `None` when the mailbox is closed.
     pub fn take(&self) -> Option<(Request, Interrupt)> {
         let mut inside = self.inside();
         inside.running = None;
@@ -57,7 +57,7 @@ impl Mailbox {
             }
             if let Some(request) = inside.waiting.pop_front() {
                 let interrupt = Interrupt::new();
-                // There is a newer request already.
+                // A newer request is waiting, so this one is interrupted at once.
                 if !inside.waiting.is_empty() {
                     interrupt.set();
                 }

@@ -1,7 +1,7 @@
 //! The server of the live page, for this machine's browser.
 //!
 //! ```text
-//! browser <-- http: the page --> socket <-> mailbox (the latest counts) -> crate::Desk
+//! browser <-- http: the page --> socket <-> mailbox (the latest counts) -> LiveSession
 //! ```
 //!
 //! - Each page has one worker thread (`socket`), which takes the latest request; a newer one interrupts the plan under
@@ -18,22 +18,22 @@ use std::net::{SocketAddr, TcpListener};
 use std::sync::Arc;
 use tokio::sync::Semaphore;
 
-/// Pages that may be open at a time: each has a thread that plans.
+/// Largest number of open pages. Each has a thread that plans.
 const MAX_PAGES: usize = 8;
 
 /// The state that all connections share.
 struct Server {
     /// Address of the server.
     address: SocketAddr,
-    /// Room for pages.
+    /// One permit for each page that may be opened.
     sessions: Arc<Semaphore>,
     host: Arc<Host>,
 }
 
-/// Serves until interrupted. Plans in progress end with the process.
+/// Serves until it is interrupted. Plans in progress end with the process.
 ///
 /// # Errors
-/// If the machine cannot wait for connections.
+/// A machine that cannot wait for connections.
 pub fn run(listener: TcpListener, host: Host) -> std::io::Result<()> {
     let address = listener.local_addr()?;
     let server = Server { address, sessions: Arc::new(Semaphore::new(MAX_PAGES)), host: Arc::new(host) };

@@ -1,4 +1,4 @@
-//! One open page: its WebSocket, and the worker that plans for it.
+//! An open page: its WebSocket, and the worker that plans for it.
 
 use super::mailbox::Mailbox;
 use crate::{Host, LiveSession, Reply, Request, TimeSpent};
@@ -11,25 +11,25 @@ use std::time::Duration;
 use tokio::sync::{OwnedSemaphorePermit, mpsc};
 use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
 
-/// Bytes of the largest message that a page may send: a world of a megabyte.
+/// Largest size of a message from a page, in bytes. It suffices for a world of a megabyte.
 pub const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
-/// Messages to the page that may wait before the worker does.
+/// Largest number of messages that wait for the page. With more, the worker waits.
 const MAX_QUEUED_MESSAGES: usize = 4;
 
-/// Time that the page has to take a message.
+/// Time limit for the page to receive a message.
 const SEND_TIME: Duration = Duration::from_secs(20);
 
-/// Interval of checks whether a page is still connected.
+/// Interval at which the server checks whether a page is still connected.
 const PING_INTERVAL: Duration = Duration::from_secs(20);
 
-/// Time without any message after which a page counts as gone.
+/// A page that sends nothing for this time counts as gone.
 const MAX_SILENCE: Duration = Duration::from_secs(70);
 
-/// Stack of a worker: as much as the main thread has.
+/// Size of a worker's stack, in bytes: that of the main thread.
 const WORKER_STACK_BYTES: usize = 8 << 20;
 
-/// Serves one page until it is closed. The permit counts it among the open pages.
+/// Serves one page until it is closed. `permit` is the page's permit, one for each open page.
 pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaphorePermit) {
     let mailbox = Arc::new(Mailbox::default());
     let (send, mut replies) = mpsc::channel(MAX_QUEUED_MESSAGES);
@@ -37,7 +37,7 @@ pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaph
         let mailbox = Arc::clone(&mailbox);
         thread::Builder::new().name("planner".into()).stack_size(WORKER_STACK_BYTES).spawn(move || {
             work(&mailbox, host, &send);
-            // A new page may open when the work is finished, not when the connection is closed.
+            // The permit is released when the work has finished, which may be later than the end of the connection.
             drop(permit);
         })
     };
@@ -80,7 +80,7 @@ pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaph
     mailbox.close();
 }
 
-/// Sends a message. Returns true if the page received it.
+/// Sends a message. Returns false if the page does not receive it.
 async fn send_message(socket: &mut WebSocket, message: Message) -> bool {
     matches!(timeout(SEND_TIME, socket.send(message)).await, Ok(Ok(())))
 }
@@ -97,9 +97,9 @@ fn failed(id: u64, error: String) -> Message {
     carried(crate::Message::from(&Reply::Failed { id, error }))
 }
 
-/// Handles the page's requests in sequence until its mailbox is closed.
+/// Handles the page's requests in sequence, until the mailbox is closed.
 fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
-    // The mailbox is also closed when the page is gone.
+    // If the page is gone, the message is lost; the mailbox is then closed, too.
     let send_message = |message: Message| drop(send.blocking_send(message));
     let mut desk = LiveSession::new(host);
     while let Some((request, interrupt)) = mailbox.take() {
@@ -111,8 +111,8 @@ fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
     }
 }
 
-/// Runs work and returns an error message if it panics. A desk changes its state only after everything that can fail,
-/// so it continues with its previous state.
+/// Runs `work`. If it panics, returns an error message for the page. A session changes its state only after everything
+/// that can fail, so it continues with its previous state.
 fn guarded(id: u64, work: impl FnOnce()) -> Option<Message> {
     let error = || "the planner failed on this world, which is a defect of cplan; the page still works".to_owned();
     catch_unwind(AssertUnwindSafe(work)).is_err().then(|| failed(id, error()))

@@ -1,4 +1,4 @@
-//! Warnings about properties that are probably unintended, with hints: other units, placeholders, missing axes.
+//! Warnings about properties that are probably unintended, with hints: wrong units, placeholders, missing axes.
 
 use super::limits::{find, key};
 use super::reduction::Reduction;
@@ -7,23 +7,23 @@ use cplan_core::space::JointRange;
 use cplan_geometry::Point;
 use cplan_text::{counted, short};
 
-/// Implausible top speed of a revolute joint, rad/s: the fastest axes of robots turn at 45 rad/s.
+/// Greatest plausible top speed of a revolute joint, in rad/s. The fastest axes of robots turn at 45 rad/s.
 const MAX_PLAUSIBLE_TURN_SPEED: f64 = 60.0;
 
-/// Fastest plausible prismatic joint, m/s.
+/// Greatest plausible top speed of a prismatic joint, in m/s.
 const MAX_PLAUSIBLE_SLIDE_SPEED: f64 = 20.0;
 
-/// Greatest plausible length of arms, slides and shapes, metres: only cranes are longer.
+/// Greatest plausible length of arms, slides and shapes, in metres. Only cranes are longer.
 const MAX_PLAUSIBLE_LENGTH: f64 = 50.0;
 
-/// Greatest plausible reach of an arm's shapes, as a multiple of its length.
+/// Greatest plausible distance of an arm's shapes from its joints, as a multiple of the arm's length.
 const MAX_PLAUSIBLE_OUTREACH: f64 = 20.0;
 
-/// Shapes that reach less than this, metres, are not compared with the arm's length, because joints may be almost at
-/// the same place.
+/// Shapes within this distance of the joints, in metres, are not compared with the arm's length: the joints may be
+/// almost at the same place.
 const MIN_COMPARED_OUTREACH: f64 = 5.0;
 
-/// Returns hints about an arm, each in a line.
+/// Returns warnings about an arm, one per line.
 pub(super) fn warnings(reduction: &Reduction, arm: &Arm) -> Vec<String> {
     let mut warnings = Vec::new();
     for (&index, joint) in reduction.chain.joints.iter().zip(&arm.joints) {
@@ -45,7 +45,7 @@ pub(super) fn missing_axis(reduction: &Reduction, index: usize) -> Option<String
     })
 }
 
-/// Returns the warning about a top speed that no drive has.
+/// Returns the warning about a top speed that no drive reaches.
 fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
     let Reduction { document, settings, .. } = reduction;
     let name = &joint.name;
@@ -105,7 +105,7 @@ fn outreach(arm: &Arm) -> Option<String> {
     ))
 }
 
-/// Returns the distances between the joints, and from the second one to the tip, metres.
+/// Returns the distance between the joints, and the distance from the second joint to the tip, in metres.
 fn lengths(arm: &Arm) -> [f64; 2] {
     [arm.offset.norm(), arm.tip.norm()]
 }

@@ -1,4 +1,4 @@
-//! Checks of single URDF elements and attributes, with their places.
+//! Checks of single URDF elements and attributes, with their positions.
 
 use super::document::{escaped, tag};
 use crate::error::Diagnostic;
@@ -7,7 +7,7 @@ use crate::source::Source;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
-/// Numeric attributes of any element of a link or joint; those in [`UNLIMITED_ATTRIBUTES`] are numeric, too.
+/// Attributes of links, joints and their elements that are numbers. Those in [`UNLIMITED_ATTRIBUTES`] are numbers, too.
 const NUMERIC_ATTRIBUTES: [&str; 22] = [
     "xyz",
     "rpy",
@@ -33,7 +33,7 @@ const NUMERIC_ATTRIBUTES: [&str; 22] = [
     "izz",
 ];
 
-/// Numeric attributes in which an infinity means that there is no limit.
+/// Attributes that are numbers and in which an infinity means that there is no limit.
 const UNLIMITED_ATTRIBUTES: [&str; 9] = [
     "lower",
     "upper",
@@ -64,9 +64,9 @@ pub(super) fn children<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterat
     })
 }
 
-/// Returns the roll, pitch and yaw of a quaternion (x, y, z, w) of any length, or `None` for length zero. The angles
-/// are removed one after the other, so that they reproduce the rotation even at a pitch of a right angle, where the
-/// other two are about one axis. (`urdf-rs` is off by 5e-3 there.)
+/// Returns roll, pitch and yaw of a quaternion (x, y, z, w) of any length. `None` if its length is zero. The angles are
+/// extracted one after the other, so that they reproduce the rotation even if the pitch is a right angle and the other
+/// two turn about the same axis. (There, `urdf-rs` is off by 5e-3.)
 fn roll_pitch_yaw(quaternion: &[f64]) -> Option<[f64; 3]> {
     let &[x, y, z, w] = quaternion else { return None };
     let quaternion = Quaternion::new(w, x, y, z);
@@ -86,8 +86,8 @@ impl Attributes<'_> {
         self.diagnostics.push(diagnostic.help(help));
     }
 
-    /// Refuses NaN in every numeric attribute below `node`, also in unused ones. Refuses infinities unless they mean
-    /// that there is no limit. A file with such values was not written correctly.
+    /// Refuses NaN in all attributes below `node` that are numbers, even in unused ones. Refuses infinities, unless
+    /// they mean that there is no limit. A file with such values was not written correctly.
     pub fn finite_everywhere(&mut self, node: Node) {
         for element in node.descendants().filter(Node::is_element) {
             for attribute in element.attributes() {
@@ -106,7 +106,7 @@ impl Attributes<'_> {
         }
     }
 
-    /// Returns the only child element with a name, or `None` if it is optional and absent.
+    /// Returns the only child element with a name. `None` if it is optional and absent, or invalid.
     pub fn only<'a, 'i>(&mut self, node: Node<'a, 'i>, name: &'a str, required: bool) -> Option<Node<'a, 'i>> {
         let mut found = children(node, name);
         let first = found.next();
@@ -129,8 +129,8 @@ impl Attributes<'_> {
         value
     }
 
-    /// Returns `count` finite numbers, or `None` if the attribute is absent or invalid. Numbers that are not finite are
-    /// reported elsewhere.
+    /// Returns the `count` finite numbers of an attribute. `None` if it is absent or invalid. Another check reports
+    /// numbers that are not finite.
     fn numbers(&mut self, node: Node, name: &str, count: usize) -> Option<Vec<f64>> {
         let text = node.attribute(name)?;
         let values: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();
@@ -165,12 +165,12 @@ impl Attributes<'_> {
         }
     }
 
-    /// Returns one number, or `None` if the attribute is absent or invalid.
+    /// Returns the number of an attribute. `None` if it is absent or invalid.
     pub fn number(&mut self, node: Node, name: &str) -> Option<f64> {
         self.numbers(node, name, 1).map(|v| v[0])
     }
 
-    /// Returns the `<origin>` to copy; empty if the element is missing.
+    /// Returns the text of `<origin>` for the copy of the document; empty if the element is missing.
     pub fn origin(&mut self, node: Node) -> String {
         let Some(origin) = self.only(node, "origin", false) else { return String::new() };
         let mut copy = "<origin".to_owned();
@@ -208,7 +208,7 @@ impl Attributes<'_> {
             return false;
         };
         let length = xyz.iter().fold(0.0, |l, x| f64::hypot(l, *x));
-        // A shorter axis has no direction that its digits support.
+        // A shorter axis has too few significant digits for a direction.
         if length < 1e-9 {
             let help = "give the axis a direction, such as xyz=\"0 0 1\"; a joint that does not move is of type fixed";
             self.diagnostic(
@@ -233,8 +233,8 @@ impl Attributes<'_> {
         None
     }
 
-    /// Returns lower, upper, velocity and acceleration of a `<limit>`. `absent` has the defaults for lower and upper.
-    /// Lower may exceed upper only if the joint type ignores them; if `ranged`, this is reported and they are swapped,
+    /// Returns lower, upper, velocity and acceleration of a `<limit>`. `absent` has the defaults of lower and upper.
+    /// Lower may exceed upper only if the joint type ignores both. If `ranged`, this is reported, and both are swapped
     /// so that further checks work.
     pub fn limit(&mut self, limit: Node, absent: [f64; 2], ranged: bool) -> [Option<f64>; 4] {
         let mut values = ["lower", "upper", "velocity", "acceleration"].map(|name| self.number(limit, name));
@@ -264,7 +264,7 @@ impl Attributes<'_> {
         values
     }
 
-    /// Returns the soft limits, by default 0, unless both are 0, which exporters write for missing ones.
+    /// Returns the soft limits, by default 0. `None` if both are 0, because exporters write that for missing ones.
     pub fn soft_limits(&mut self, safety: Node) -> Option<[f64; 2]> {
         let [lower, upper] = ["soft_lower_limit", "soft_upper_limit"].map(|name| self.number(safety, name));
         let [lower, upper] = [lower, upper].map(|limit| limit.unwrap_or(0.0));
@@ -275,8 +275,8 @@ impl Attributes<'_> {
         (lower != 0.0 || upper != 0.0).then_some([lower.min(upper), lower.max(upper)])
     }
 
-    /// Returns the shape in a `<geometry>`. Its sizes must be positive, or all zero, which exporters write for a
-    /// missing shape.
+    /// Returns the shape in a `<geometry>`. Its sizes must be positive, or all zero: exporters write that for a missing
+    /// shape.
     pub fn geometry<'a, 'i>(&mut self, geometry: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
         let mut shapes = geometry.children().filter(Node::is_element);
         let (first, second) = (shapes.next(), shapes.next());
@@ -335,7 +335,7 @@ impl Attributes<'_> {
 mod tests {
     use super::*;
 
-    /// The angles reproduce the rotation, also with a pitch at or near a right angle.
+    /// Checks that the angles reproduce the rotation, even with a pitch at or near a right angle.
     #[test]
     fn angles_of_quaternions() {
         let half = std::f64::consts::FRAC_PI_2;

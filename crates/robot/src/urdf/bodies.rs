@@ -15,22 +15,22 @@ use cplan_text::counted;
 use nalgebra::Isometry3;
 use std::collections::BTreeSet;
 
-/// Largest number of corners of an outline that stays one shape. The time of queries grows with them.
+/// Largest number of corners with which an outline remains a single shape. The time of queries grows with the number.
 const MAX_CORNERS: usize = 1024;
 
-/// The data for the outlines.
+/// The data from which outlines are made.
 pub(super) struct Bodies<'a> {
     pub document: &'a Document,
     pub tree: &'a Tree,
     pub chain: &'a Chain,
     pub settings: RobotSettings<'a>,
     pub plane: &'a Plane,
-    /// Poses of all links in the root frame, the two joints at 0.
+    /// Poses of all links in the root frame, with the two arm joints at 0.
     pub poses: &'a [Isometry3<f64>],
 }
 
-/// Returns the region that a shape may cover in any orientation about a point, and the region that it covers in all
-/// orientations, if any. `certain` is a shape within the shape.
+/// Returns a region that contains the shape at every orientation about a point, and a region that the shape contains at
+/// every orientation, if any. `certain` is a region within the shape.
 fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, Option<Convex>)> {
     let is_disc = |convex: &Convex| convex.core().len() == 1 && (convex.core()[0] - axis).norm() <= AXIS_TOLERANCE;
     if is_disc(shape) && is_disc(certain) {
@@ -41,27 +41,28 @@ fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, O
     (within > 0.0).then(|| (disc(shape.reach_from(axis)), Some(disc(within))))
 }
 
-/// Largest distance of a disc's centre from an axis that it counts as centred on, metres; and a relative tolerance for
-/// other shapes.
+/// A disc is centred on an axis if its centre is at most this far from it, in metres. For other shapes, it is a
+/// relative tolerance.
 const AXIS_TOLERANCE: f64 = 1e-9;
 
-/// Both links with their self obstacles and the notes for the user.
+/// The outlines of both links, the robot's links that are obstacles, and notes for the user.
 pub(super) struct Outlines {
     pub links: [Link; 2],
     pub self_obstacles: Vec<SelfObstacle>,
     pub geometry: Vec<String>,
     pub notes: Vec<String>,
-    /// The notes about shapes of size zero.
+    /// Notes about shapes of size zero.
     pub sizeless: Vec<String>,
     pub warnings: Vec<String>,
 }
 
-/// Returns the message about a link without outline, whose mesh cannot be read.
+/// Returns the message about a link that has no outline because its mesh cannot be read.
 fn left_out(unread: &Diagnostic) -> String {
     format!("{}; the link is ignored, so the arm may collide with it", unread.message)
 }
 
-/// Names the URDF links of an arm link whose visual geometry is used, if others have collision geometry.
+/// Names the URDF links of an arm link whose visual geometry is used although others have collision geometry. `None` if
+/// there are none.
 fn visual_links(link: &Link) -> Option<String> {
     let mut names: Vec<&str> = link.parts.iter().filter(|part| part.is_visual).map(|part| part.body.as_str()).collect();
     names.dedup();
@@ -71,12 +72,12 @@ fn visual_links(link: &Link) -> Option<String> {
 }
 
 impl Bodies<'_> {
-    /// Returns the outlines of both links in their frames (origin at the joint), and the fixed links as obstacles for
-    /// them.
+    /// Returns the outlines of both links in their frames, whose origins are at the joints, and the fixed links as
+    /// obstacles for them.
     ///
     /// # Errors
-    /// If a mesh cannot be used and the world does not ask for a bar instead, if neither link has an outline, or if the
-    /// world names links that the robot does not have.
+    /// A mesh that cannot be used although the world does not request a bar instead; two links without outlines; names
+    /// of links in the world that the robot does not have.
     pub fn outlines(&self) -> Result<Outlines, InputError> {
         let bar = self.bar()?;
         let (mut notes, mut sizeless, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
@@ -136,13 +137,13 @@ impl Bodies<'_> {
         &self.tree.links[self.tree.child[self.chain.joints[index]]]
     }
 
-    /// Names the bodies of a link that have shapes of size zero.
+    /// Names the bodies of a link that have shapes of size zero. `None` if there are none.
     fn sizeless(&self, index: usize, bodies: &[String]) -> Option<String> {
         let (link, name, bodies) = (index + 1, self.name(index), bodies.join(", "));
         (!bodies.is_empty()).then(|| format!("link {link} \"{name}\": shapes of size zero are ignored (in {bodies})"))
     }
 
-    /// Returns a link of these parts, which are all that could be read.
+    /// Creates an arm link from these parts, which are all that could be read.
     fn link(
         &self,
         index: usize,
@@ -227,11 +228,11 @@ impl Bodies<'_> {
         (0..self.document.robot.links.len()).filter(is_fixed)
     }
 
-    /// Returns a shape as parts of arm link `index`, in the link's frame: one for each layer, cut at the heights
-    /// `cuts`.
+    /// Returns a shape as parts of arm link `index`, in the link's frame. There is one part for each layer between the
+    /// heights `cuts`.
     ///
     /// # Errors
-    /// If it turns with the wrist and covers a different region at each angle.
+    /// A shape that turns with the wrist and covers a different region at each angle.
     fn parts(&self, index: usize, shape: &PlacedShape, cuts: &[f64]) -> Result<Vec<Part>, Diagnostic> {
         let PlacedShape { link, number, is_visual, solid, pose, .. } = shape;
         let joint = self.joint_at(index).0;
@@ -272,7 +273,7 @@ impl Bodies<'_> {
         }
     }
 
-    /// Returns the wrist's axis about which a link turns during steps.
+    /// Returns the wrist's axis in the plane if a link turns about it during steps.
     fn wrist_axis(&self, body: usize) -> Option<Point> {
         let name = self.settings.table.wrist_joint().filter(|_| self.settings.has_steps)?;
         let joint = self.document.robot.joints.iter().position(|joint| joint.name == *name.get_ref())?;

@@ -9,25 +9,26 @@ use crate::settings::RobotSettings;
 use toml::Spanned;
 use urdf_rs::JointType;
 
-/// The choice that turns a robot into a two-joint arm. Indices into the file's lists.
+/// The choice that turns a robot into a two-joint arm. Links and joints are given by their indices in the file.
 #[derive(Debug)]
 pub(super) struct Chain {
-    /// Base to tip.
+    /// The two arm joints, base to tip.
     pub joints: [usize; 2],
-    /// The tip's link.
+    /// The link whose origin is the tip.
     pub tip: usize,
-    /// Value of every joint, 0 for the chosen ones.
+    /// Value of every joint, with 0 for the two arm joints.
     pub values: Vec<f64>,
-    /// The other movable joints that matter to the arm. Their values are held.
+    /// The other movable joints whose values matter to the arm. They are held.
     pub held: Vec<usize>,
-    /// Notes about them.
+    /// Notes about the held joints.
     pub notes: Vec<String>,
 }
 
 /// Chooses joints, values and tip.
 ///
 /// # Errors
-/// If the two joints are not clear, do not follow one another, or cannot be planned alone.
+/// It is not clear which two joints are meant, the first one does not carry the second, or other joints would have to
+/// move with them.
 pub(super) fn choose(document: &Document, tree: &Tree, settings: RobotSettings) -> Result<Chain, InputError> {
     let chooser = Chooser { document, tree, settings };
     chooser.names_exist()?;
@@ -41,10 +42,10 @@ pub(super) fn choose(document: &Document, tree: &Tree, settings: RobotSettings) 
     Ok(chain)
 }
 
-/// Returns the chain of two joints. The first one carries the second.
+/// Returns the chain of these two joints, of which the first carries the second.
 ///
 /// # Errors
-/// If they cannot be planned alone, or the world's tip or fixed values do not fit them.
+/// Other joints would have to move with them, or the world's tip or fixed values do not fit them.
 pub(super) fn with_joints(
     document: &Document,
     tree: &Tree,
@@ -58,12 +59,12 @@ pub(super) fn with_joints(
     Ok(Chain { joints, tip, values, held, notes })
 }
 
-/// Returns true if everything else in the world's `[robot]` table fits these two joints.
+/// Returns true if the other entries of the world's `[robot]` table fit these two joints.
 pub(super) fn admits(document: &Document, tree: &Tree, settings: RobotSettings, joints: [usize; 2]) -> bool {
     Chooser { document, tree, settings }.names_exist().is_ok() && with_joints(document, tree, settings, joints).is_ok()
 }
 
-/// Returns the two joints that the world names, or that are the only ones.
+/// Returns the two joints that the world names, or the only two that can move. `None` if neither applies.
 pub(super) fn joints(document: &Document, tree: &Tree, settings: RobotSettings) -> Option<[usize; 2]> {
     Chooser { document, tree, settings }.joints().ok().map(|evident| evident.joints)
 }
@@ -85,7 +86,7 @@ pub(super) struct Chooser<'a> {
     pub settings: RobotSettings<'a>,
 }
 
-/// Returns true if a joint has a single value that can change.
+/// Returns true if a joint has a single value, and the value can change.
 pub(super) fn is_movable(joint: &urdf_rs::Joint) -> bool {
     matches!(joint.joint_type, JointType::Revolute | JointType::Continuous | JointType::Prismatic)
 }
@@ -138,7 +139,7 @@ impl Chooser<'_> {
         InputError::check(diagnostics)
     }
 
-    /// Returns the two joints. The reason is empty if they are named, or the only ones.
+    /// Returns the two joints. Their reason is empty if the world names them, or if no others can move.
     fn joints(&self) -> Result<ImpliedPair, Diagnostic> {
         let implied = |joints: [usize; 2]| ImpliedPair { joints, reason: String::new() };
         let ImpliedPair { joints: pair, reason } = match &self.settings.table.joints {
@@ -180,7 +181,7 @@ impl Chooser<'_> {
         }
     }
 
-    /// Returns the joints that can move on their own.
+    /// Returns the joints that move independently of others.
     fn candidates(&self) -> Vec<usize> {
         (0..self.all().len()).filter(|j| is_movable(&self.all()[*j]) && self.all()[*j].mimic.is_none()).collect()
     }
@@ -249,7 +250,7 @@ impl Chooser<'_> {
         Err(self.document.source.diagnostic(message).help(help))
     }
 
-    /// Refuses chains whose two joints do not move alone.
+    /// Checks that no other joint moves with one of the two joints.
     fn independent(&self, chosen: [usize; 2]) -> Result<(), Diagnostic> {
         let reason = "an arm with coupled joints (a parallelogram or other linkage) is no serial two-joint arm";
         for j in chosen {
@@ -270,7 +271,7 @@ impl Chooser<'_> {
                     .joint_diagnostic(j, &message)
                     .help("make it fixed, or choose joints above it"));
             }
-            // A joint outside the arm matters if it could collide.
+            // A joint outside the arm matters if it moves links that could collide.
             let matters = || carried || self.tree.carries(j, self.tree.child[chosen[0]]) || self.has_shapes(j);
             if joint.mimic.is_none() || !matters() {
                 continue;

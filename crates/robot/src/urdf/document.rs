@@ -15,27 +15,27 @@ use std::fmt::Write;
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// A valid part of a URDF: all numbers are finite, every element has its attributes, names are unique. Invalid elements
-/// are omitted, with a diagnostic.
+/// The valid part of a URDF: all numbers are finite, every element has its attributes, and names are unique. Each
+/// invalid element is left out and has a diagnostic.
 #[derive(Debug)]
 pub(super) struct Document {
     pub source: Source,
     /// Paths of the meshes that were read so far.
     pub meshes: RefCell<Vec<PathBuf>>,
     pub robot: urdf_rs::Robot,
-    /// Places of the links, in the order of `robot.links`.
+    /// Positions of the links, in the order of `robot.links`.
     pub links: Vec<LinkPlace>,
-    /// Places of the joints, in the order of `robot.joints`.
+    /// Positions of the joints, in the order of `robot.joints`.
     pub joints: Vec<JointPlace>,
     /// Number of elements other than links and joints, by name.
     pub others: BTreeMap<String, usize>,
-    /// Defects of single elements. A robot with defects is usable only for a report.
+    /// Defects of single elements. A robot with defects can be inspected, but not planned for.
     pub diagnostics: Vec<Diagnostic>,
-    /// True if no defect concerns joints or names, so that the kinematics are those of the file.
+    /// True if no defect concerns joints or names. Then the kinematics are those of the file.
     pub tree_is_sound: bool,
 }
 
-/// Place of a link and its shapes in the file.
+/// Positions of a link and its shapes in the file.
 #[derive(Debug)]
 pub(super) struct LinkPlace {
     pub at: Range<usize>,
@@ -43,7 +43,7 @@ pub(super) struct LinkPlace {
     pub collision: Vec<Range<usize>>,
 }
 
-/// Place of a joint and its parts in the file, and which of its limits are given.
+/// Positions of a joint and its parts in the file, and which of its limits are stated.
 #[derive(Debug)]
 pub(super) struct JointPlace {
     pub at: Range<usize>,
@@ -52,13 +52,13 @@ pub(super) struct JointPlace {
     pub child: Range<usize>,
     pub limit: Option<Range<usize>>,
     pub mimic: Option<Range<usize>>,
-    /// The `safety_controller`, if it gives both soft limits and they are not both 0 (which exporters write for missing
-    /// ones).
+    /// Position of the `safety_controller`. `None` unless it states both soft limits and they are not both 0, which
+    /// exporters write for missing ones.
     pub soft_limits: Option<Range<usize>>,
     /// True if the limit gives a `velocity`.
     pub has_velocity: bool,
-    /// The `acceleration` of the limit. It is part of URDF 1.2, and is read from older files too, where `urdf-rs` drops
-    /// it.
+    /// The `acceleration` of the limit. It is part of URDF 1.2. This reader also reads it in older files, for which
+    /// `urdf-rs` drops it.
     pub acceleration: Option<f64>,
 }
 
@@ -66,8 +66,8 @@ impl Document {
     /// Reads a URDF.
     ///
     /// # Errors
-    /// If it is not XML, is xacro or SDF, or has no valid content. [`Document::diagnostics`] collects all other defects
-    /// that are visible without the tree of links.
+    /// A file that is not XML, is xacro or SDF, or has no valid content. [`Document::diagnostics`] collects all other
+    /// defects that can be found without the tree of links.
     pub fn read(source: Source) -> Result<Self, InputError> {
         foreign::without_entities(&source)?;
         let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
@@ -104,7 +104,7 @@ impl Document {
         }
     }
 
-    /// Returns the paths of the files that were read so far: those of the text, and the meshes.
+    /// Returns the paths of the files that were read so far, which are those of the text and the meshes.
     pub fn files(&self) -> Vec<PathBuf> {
         self.source.files().into_iter().chain(self.meshes.borrow().iter().cloned()).collect()
     }
@@ -125,7 +125,7 @@ impl Document {
     }
 }
 
-/// Returns an `<inertial>` for `urdf-rs`, or `None` if it is incomplete. Many are, and only torques need it.
+/// Returns an `<inertial>` for `urdf-rs`. `None` if it is incomplete, which is frequent; only torques need it.
 fn inertial(node: Node) -> Option<String> {
     const INERTIA_ATTRIBUTES: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
     let mass = numbers(children(node, "mass").next()?, "value", 1)?;
@@ -147,7 +147,7 @@ fn inertial(node: Node) -> Option<String> {
     Some(copy)
 }
 
-/// Returns the value of an attribute that consists of this many finite numbers.
+/// Returns the text of an attribute that consists of `count` finite numbers. `None` for other attributes.
 fn numbers<'a>(node: Node<'a, '_>, name: &str, count: usize) -> Option<&'a str> {
     let text = node.attribute(name)?;
     let numbers: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
@@ -164,13 +164,13 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn robot(&mut self, root: Node) -> (Vec<LinkPlace>, Vec<JointPlace>) {
-        // `urdf-rs` validates only from version 1.2 on, without places; the checks here do it for all versions. Version
-        // 1.1 is the least that knows `quat_xyzw`.
+        // `urdf-rs` validates only from version 1.2 on, and reports no positions. The checks here apply to all
+        // versions. Version 1.1 is the first that knows `quat_xyzw`.
         let unlimited = version(root) >= (1, 2);
         let _ = write!(self.copy, "<robot name=\"{}\" version=\"1.1\">", escaped(root.attribute("name").unwrap_or("")));
         let mut links = Vec::new();
         let mut joints = Vec::new();
-        // The place of the first element of each name.
+        // The position of the first element with each name.
         let mut names: HashMap<(&str, &str), usize> = HashMap::new();
         for node in root.children().filter(|n| is_ours(*n, root)) {
             let kind = node.tag_name().name();
@@ -253,7 +253,7 @@ impl Reader<'_> {
         let moves = kind.is_some_and(|k| k != "fixed" && k != "floating");
         let axis = attributes.only(joint, "axis", false).filter(|axis| moves && attributes.direction(*axis));
         let limit = attributes.only(joint, "limit", false);
-        // From URDF 1.2 on an absent limit means no limit, before that it means 0.
+        // From URDF 1.2 on, a missing limit means that there is no limit. Before, it means 0.
         let [low, high] = if unlimited { [f64::NEG_INFINITY, f64::INFINITY] } else { [0.0; 2] };
         let [lower, upper, velocity, acceleration] = match limit {
             Some(limit) => attributes.limit(limit, [low, high], matches!(kind, Some("revolute" | "prismatic"))),
@@ -306,7 +306,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Copies an element with only the attributes for `urdf-rs`.
+    /// Copies an element, with only the attributes that `urdf-rs` should read.
     fn copy_element(&mut self, node: Node, keep: &[&str]) {
         let _ = write!(self.copy, "<{}", node.tag_name().name());
         for attribute in node.attributes().filter(|a| keep.contains(&a.name())) {
@@ -324,7 +324,7 @@ impl Reader<'_> {
     }
 }
 
-/// Returns the first line of the opening tag, for the caret.
+/// Returns the position of the first line of the opening tag, where messages put the caret.
 pub(super) fn tag(node: Node) -> Range<usize> {
     let range = node.range();
     let text = &node.document().input_text()[range.clone()];
@@ -332,7 +332,7 @@ pub(super) fn tag(node: Node) -> Range<usize> {
     range.start..end
 }
 
-/// Elements of other namespaces (`<drake:joint>`) are no URDF elements.
+/// Returns true for URDF elements. Elements of other namespaces (`<drake:joint>`) are none.
 fn is_ours(node: Node, root: Node) -> bool {
     node.is_element() && node.tag_name().namespace() == root.tag_name().namespace()
 }

@@ -10,7 +10,7 @@ use cplan_handling::{HeldEffect, HeldJoint};
 use urdf_rs::JointType;
 
 impl Reduction<'_> {
-    /// Returns the held joints that matter to the arm, with the effects of their motion.
+    /// Returns the held joints whose values matter to the arm, with the effects of their motion.
     pub fn held_joints(&self, plane: &Plane) -> Vec<HeldJoint> {
         let below = |joint: usize| (0..self.tree.links.len()).filter(move |&link| self.tree.carries(joint, link));
         let held = |&index: &usize| HeldJoint {

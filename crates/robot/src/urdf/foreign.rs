@@ -9,7 +9,7 @@ use roxmltree::{Document, Error, Node};
 /// Namespace of xacro.
 const XACRO_NAMESPACE: &str = "ros.org/wiki/xacro";
 
-/// Refuses a text in xacro. Files are expanded earlier.
+/// Adds the hint for xacro, which must be expanded before it is read here.
 fn xacro(diagnostic: Diagnostic) -> Diagnostic {
     diagnostic.help(
         "save it as a file, which is expanded: `cplan robot.urdf.xacro world.toml`; \
@@ -17,8 +17,8 @@ fn xacro(diagnostic: Diagnostic) -> Diagnostic {
     )
 }
 
-/// Refuses document types that define entities, which can grow without end. Other document types are harmless, and
-/// ignored.
+/// Refuses document types that define entities, because these can expand without end. Ignores other document types,
+/// which are harmless.
 pub(super) fn without_entities(source: &Source) -> Result<(), Diagnostic> {
     const ENTITY_DECLARATION: &str = "<!ENTITY";
     match source.text().find(ENTITY_DECLARATION).filter(|at| source.text()[..*at].contains("<!DOCTYPE")) {
@@ -45,7 +45,7 @@ pub(super) fn malformed(source: &Source, error: &Error) -> Diagnostic {
     let in_line: usize = source.text()[line_start..].chars().take(column.saturating_sub(1)).map(char::len_utf8).sum();
     let offset = line_start + in_line;
     let mut message = error.to_string();
-    // The place is already shown before the message.
+    // The message would repeat the position that is shown before it.
     if let Some(cut) = message.rfind(&format!(" at {}:{}", at.row, at.col)) {
         message.truncate(cut);
     }
@@ -54,7 +54,7 @@ pub(super) fn malformed(source: &Source, error: &Error) -> Diagnostic {
         .help("is this the URDF? The order is URDF, then world file; an XML editor shows where a tag is not closed")
 }
 
-/// Refuses documents that are not a URDF. A URDF that merely declares the xacro namespace is accepted.
+/// Refuses documents that are not URDF. Accepts URDF that declares the namespace of xacro but does not use it.
 pub(super) fn recognize(source: &Source, root: Node) -> Result<(), Diagnostic> {
     let at = |node: Node, message: &str| source.diagnostic_at(tag(node), message);
     match root.tag_name().name() {

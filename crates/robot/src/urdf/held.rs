@@ -1,4 +1,4 @@
-//! Values of the joints that do not move, from the world, at rest, or from a mimic rule.
+//! Values of the joints that do not move: the world states them, they are at rest, or a mimic rule determines them.
 
 use super::chain::{Chooser, is_movable, unit};
 use super::limits::{Limits, Range, find};
@@ -7,7 +7,7 @@ use crate::quantity::Quantity;
 use cplan_core::space::JointRange;
 use urdf_rs::{JointType, Mimic};
 
-/// Values of all joints, with the list of held joints that matter.
+/// Values of all joints, with the list of held joints whose values matter.
 pub(super) struct HeldValues {
     pub values: Vec<f64>,
     pub held: Vec<usize>,
@@ -22,7 +22,7 @@ impl Chooser<'_> {
         })
     }
 
-    /// Returns the joint at the end of a chain of mimics.
+    /// Returns the joint at the end of a chain of mimic rules.
     pub(super) fn leader(&self, joint: usize) -> Result<usize, Diagnostic> {
         let mut at = joint;
         for _ in 0..=self.all().len() {
@@ -34,7 +34,7 @@ impl Chooser<'_> {
         Err(self.mimic_diagnostic(joint, "follows itself: the mimics form a cycle"))
     }
 
-    /// Returns the joint that a joint follows, with factor and offset. Without a mimic rule it is the joint itself,
+    /// Returns the joint that a joint follows, with factor and offset. Without a mimic rule, returns the joint itself,
     /// with 1 and 0.
     pub(super) fn rule(&self, joint: usize) -> Result<(usize, f64, f64), Diagnostic> {
         let leader = self.leader(joint)?;
@@ -47,7 +47,7 @@ impl Chooser<'_> {
         Ok((leader, value.factor, value.offset))
     }
 
-    /// Returns the value of every joint, and notes about the relevant ones.
+    /// Returns the value of every joint, and notes about those that matter to the arm.
     pub(super) fn values(&self, chosen: [usize; 2]) -> Result<HeldValues, InputError> {
         for name in self.settings.table.fixed.keys() {
             if chosen.iter().any(|j| self.all()[*j].name == *name.get_ref()) {
@@ -94,7 +94,7 @@ impl Chooser<'_> {
         Ok(HeldValues { values, held, notes })
     }
 
-    /// Returns the value of a held joint: the world's, otherwise 0 clamped into its limits.
+    /// Returns the value at which a joint is held: the world's, or otherwise 0 clamped into its limits.
     fn held_at(&self, index: usize) -> Result<f64, Diagnostic> {
         let joint = &self.all()[index];
         let range = Limits { document: self.document, settings: self.settings }.range(index)?;
@@ -127,14 +127,14 @@ impl Chooser<'_> {
     }
 }
 
-/// `factor * x + offset`, composed along a chain of mimics.
+/// The map `factor * x + offset`, composed along a chain of mimic rules.
 struct Affine {
     factor: f64,
     offset: f64,
 }
 
 impl Affine {
-    /// Composes it with a mimic's own map, which applies first.
+    /// Returns the composition with the map of a mimic rule, which is applied first.
     fn after(self, mimic: &Mimic) -> Self {
         let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
         Affine { factor: self.factor * multiplier, offset: self.factor * offset + self.offset }

@@ -1,11 +1,11 @@
-//! Entries that a world file needs for a robot to load.
+//! Entries for the world file that make a robot usable.
 
 use super::limits::{Limits, key};
 use super::reduction::Reduction;
 use cplan_core::model::Plane;
 
-/// Returns the entries of `[robot]` with which the pair of joints loads, one per line: the joints, and placeholders for
-/// missing or invalid ranges and for unusable geometry. Returns `None` if `[robot]` is complete.
+/// Returns the entries of `[robot]` that make these two joints usable, one per line: the joints, and placeholders for
+/// missing or invalid ranges and for unusable geometry. Returns `None` if nothing is missing.
 pub(super) fn entries(reduction: &Reduction, plane: &Plane) -> Option<String> {
     let &Reduction { document, settings, chain, .. } = reduction;
     let joints = &document.robot.joints;

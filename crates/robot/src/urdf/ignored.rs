@@ -50,7 +50,7 @@ pub(super) fn beside_the_arm(reduction: &Reduction) -> Vec<String> {
     ignored
 }
 
-/// Reports visual geometry that is replaced by collision geometry.
+/// Lists links whose visual geometry is ignored because they have collision geometry.
 pub(super) fn visuals(reduction: &Reduction, links: &[Link; 2]) -> Vec<String> {
     let Reduction { document, tree, chain, .. } = reduction;
     let mut ignored = Vec::new();
@@ -68,7 +68,7 @@ pub(super) fn visuals(reduction: &Reduction, links: &[Link; 2]) -> Vec<String> {
     ignored
 }
 
-/// Returns true if a joint is one of the two, carries them or is carried by them.
+/// Returns true if a joint is one of the two arm joints, or carries them, or is carried by them.
 pub(super) fn concerns_the_arm(reduction: &Reduction, joint: usize) -> bool {
     let Reduction { tree, chain, .. } = reduction;
     tree.carries(joint, tree.child[chain.joints[1]]) || tree.carries(chain.joints[0], tree.child[joint])

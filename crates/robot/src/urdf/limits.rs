@@ -10,56 +10,59 @@ use std::f64::consts::{PI, TAU};
 use toml::Spanned;
 use urdf_rs::JointType;
 
-/// Longest range of a prismatic joint, metres: beyond the coordinates that a world may have, nothing can be hit.
+/// Longest range of a prismatic joint, in metres. It spans all coordinates that a world may have, so a longer one would
+/// reach nothing more.
 const MAX_SLIDE: f64 = 2.0 * MAX_LENGTH;
 
-/// A revolute joint with both limits beyond this, radians, counts as unlimited: simulators write 1e16, exporters 1e9 or
-/// infinity. No valid start is that far out.
+/// A revolute joint counts as unlimited if both limits are at least this, in radians. Simulators write 1e16 for no
+/// limit, and exporters 1e9 or infinity. No valid start is that far out.
 const UNLIMITED_TURN: f64 = MAX_LENGTH;
 
-/// Least limit of a revolute joint, radians, that looks like degrees: four turns. Up to [`MAX_LIMIT_LIKE_DEGREES`].
+/// Limits of a revolute joint look like degrees if they are between this and [`MAX_LIMIT_LIKE_DEGREES`]. This is four
+/// turns in radians.
 const MIN_LIMIT_LIKE_DEGREES: f64 = 4.0 * TAU;
 
-/// Two turns, degrees. No joint has a larger range in either unit.
+/// Two turns in degrees. No joint has a larger range, whether in radians or in degrees.
 const MAX_LIMIT_LIKE_DEGREES: f64 = 720.0;
 
-/// Limits this close to a multiple of half a turn, radians, are rounded to it. This is the rounding of three decimals.
+/// A limit that is at most this far from a multiple of half a turn, in radians, is rounded to it. It covers the
+/// rounding to three decimals.
 const HALF_TURN_ROUNDING: f64 = 1e-3;
 
-/// The known range of a joint.
+/// What is known about the range of a joint.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Range {
     Known(JointRange),
-    /// A range changed from the file's, with a note.
+    /// A range that differs from the file's, with a note.
     Taken(JointRange, String),
-    /// No limits, with the reason.
+    /// There is no range, with the reason.
     Unset(String),
 }
 
-/// Top speed, acceleration and jerk of a moving joint.
+/// Top speed, acceleration limit and jerk limit of an arm joint.
 pub(super) struct Rates {
     pub velocity: f64,
     pub acceleration: f64,
     pub jerk: Option<f64>,
-    /// Rates that were assumed because limits are missing.
+    /// The limits that were assumed because they are missing.
     pub assumed: MissingRates,
 }
 
-/// The missing rates.
+/// For each limit, true if it is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct MissingRates {
     pub velocity: bool,
     pub acceleration: bool,
 }
 
-/// Limits of joints in the URDF and the world file.
+/// Limits of joints, from the URDF and the world file.
 pub(super) struct Limits<'a> {
     pub document: &'a Document,
     pub settings: RobotSettings<'a>,
 }
 
 impl Limits<'_> {
-    /// Returns the range of a movable joint: the world's, otherwise the URDF's restricted by its soft limits.
+    /// Returns the range of a movable joint. The world's range overrides that of the URDF, which soft limits narrow.
     pub fn range(&self, index: usize) -> Result<Range, Diagnostic> {
         let joint = &self.document.robot.joints[index];
         if let Some(limits) = find(&self.settings.table.limits, &joint.name) {
@@ -103,7 +106,7 @@ impl Limits<'_> {
         Ok(Range::Known(JointRange::Interval { lower, upper }))
     }
 
-    /// Returns the range of a planned joint.
+    /// Returns the range of an arm joint.
     pub fn planned_range(&self, index: usize) -> Result<JointRange, Diagnostic> {
         match self.range(index)? {
             Range::Known(axis) | Range::Taken(axis, _) => Ok(axis),
@@ -126,8 +129,8 @@ impl Limits<'_> {
         }
     }
 
-    /// Returns an example range for the world file, for a joint without a usable one: the URDF's in degrees if it looks
-    /// like degrees, otherwise a placeholder.
+    /// Returns an example range for the world file, for a joint that has no usable one. If the URDF's range looks like
+    /// degrees, the example is that range in degrees; otherwise it is a placeholder.
     pub fn example(&self, index: usize) -> String {
         match self.degrees(index) {
             Some([lower, upper]) => format!("[\"{lower}deg\", \"{upper}deg\"]"),
@@ -190,7 +193,7 @@ impl Limits<'_> {
         Ok(narrowed)
     }
 
-    /// Returns top speed, acceleration and jerk of a planned joint.
+    /// Returns top speed, acceleration limit and jerk limit of an arm joint.
     pub fn rates(&self, index: usize) -> Result<Rates, Diagnostic> {
         let joint = &self.document.robot.joints[index];
         let place = &self.document.joints[index];

@@ -11,12 +11,12 @@ use cplan_dynamics::{Torques, joined};
 use cplan_geometry::Vector;
 use nalgebra::{Matrix3, Vector3};
 
-/// Acceleration of free fall in the root frame, whose z axis points up; m/s2.
+/// Default acceleration of free fall in the root frame, whose z axis points up, in m/s2.
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
-/// Least determinant of an inertia matrix, as a fraction of the product of its diagonal; below it, a joint moves no
-/// mass. Also the least effort, as a fraction of the effort that the greatest inertia may need; below it, only rounding
-/// is left.
+/// A joint moves no mass if the determinant of an inertia matrix is below this fraction of the product of its diagonal.
+/// Likewise, an effort below this fraction of the effort for the greatest inertia counts as zero. Below it, only
+/// rounding is left.
 const NEGLIGIBLE_SHARE: f64 = 1e-12;
 
 /// Checks the world's values for efforts and gravity, even if they are not used.
@@ -44,7 +44,7 @@ impl Bodies<'_> {
     /// Returns masses and efforts of an arm.
     ///
     /// # Errors
-    /// Links without mass, joints without effort, numbers that are impossible for a body.
+    /// Links without mass, joints without effort, and numbers that no rigid body can have.
     pub fn dynamics(&self, arm: &Arm, assumed: [bool; 2]) -> Result<Dynamics, Diagnostic> {
         check(self.settings)?;
         let effort = [self.effort(0)?, self.effort(1)?];

@@ -1,4 +1,4 @@
-//! From a URDF to a planar two-joint arm.
+//! Reduces a URDF to a planar two-joint arm.
 //!
 //! The joints' axes and all link frames are computed in the root frame at the zero configuration (the two joints at 0,
 //! the others at their values in `[robot] fixed`). Then they are projected on the common plane of motion.
@@ -46,7 +46,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use tree::Tree;
 
-/// Returns the meshes that a robot finds at its own place, but would not find if its text were the file `other`.
+/// Returns the meshes that a robot's file finds, but that would not be found if the same text were in the file `other`.
 #[must_use]
 pub fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
     let (Ok(here), Ok(xml)) = (robot.anchor(), roxmltree::Document::parse(robot.text())) else { return Vec::new() };
@@ -61,7 +61,8 @@ pub fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
 /// Reads a URDF and reduces it to the arm that the settings choose.
 ///
 /// # Errors
-/// Broken or foreign files, robots that are no planar two-joint arm, unset limits, meshes that cannot be read.
+/// Files that are damaged or not URDF, robots that have no planar two-joint arm, limits that are not set, and meshes
+/// that cannot be read.
 pub fn load(source: Source, settings: RobotSettings) -> Result<(Arm, RobotReport), InputError> {
     let document = Document::read(source)?;
     InputError::check(document.diagnostics.clone())?;

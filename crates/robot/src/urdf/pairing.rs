@@ -11,15 +11,15 @@ use crate::settings::RobotSettings;
 use cplan_core::model::Plane;
 use urdf_rs::JointType;
 
-/// Greatest number of pairs in a message.
+/// Largest number of pairs that a message lists.
 const MAX_LISTED_PAIRS: usize = 6;
 
-/// Largest number of movable joints for which pairs are tried. The number of pairs grows with its square.
+/// Largest number of movable joints with which pairs are tried. The number of pairs grows with its square.
 pub(super) const MAX_TRIED_JOINTS: usize = 40;
 
 /// Two joints that form a planar arm.
 pub(super) struct PlanarPair {
-    /// Base to tip.
+    /// The two joints, base to tip.
     pub joints: [usize; 2],
     plane: Plane,
 }
@@ -27,7 +27,7 @@ pub(super) struct PlanarPair {
 /// A pair that is chosen although the world names none.
 pub(super) struct ImpliedPair {
     pub joints: [usize; 2],
-    /// The reason for this pair, in words that follow its names.
+    /// The reason for this pair, as a clause that follows the names of the joints.
     pub reason: String,
 }
 
@@ -41,9 +41,9 @@ pub(super) fn planar(document: &Document, tree: &Tree, settings: RobotSettings) 
     pairs.filter_map(|joints| Some(PlanarPair { joints, plane: plane(joints)? })).collect()
 }
 
-/// Returns the pair that must be meant. This is the only planar pair, if no joint between turns. Otherwise, among the
-/// planar pairs without movable joints between them, it is the only one, or the first of the chain if all share its
-/// plane.
+/// Returns the pair of joints that can be the only one meant. If there is only one planar pair and no revolute joint
+/// between its joints, it is that. Otherwise, consider the planar pairs without movable joints between their joints: it
+/// is the only one of them, or the first one along the chain if all share its plane.
 pub(super) fn evident(document: &Document, tree: &Tree, planar: &[PlanarPair]) -> Option<ImpliedPair> {
     let between = |pair: &PlanarPair| -> Vec<&urdf_rs::Joint> {
         let [a, b] = &pair.joints;
@@ -70,7 +70,7 @@ pub(super) fn evident(document: &Document, tree: &Tree, planar: &[PlanarPair]) -
     others.iter().all(follows).then_some(ImpliedPair { joints: first.joints, reason })
 }
 
-/// Returns the entries that would choose these pairs, for messages.
+/// Returns the entries of `[robot]` that choose these pairs, for messages.
 pub(super) fn choices(document: &Document, pairs: &[PlanarPair]) -> String {
     let entry = |pair: &PlanarPair| {
         let [a, b] = pair.joints.map(|j| document.robot.joints[j].name.as_str());

@@ -4,8 +4,8 @@ use cplan_core::model::{JointType, Plane};
 use cplan_geometry::{Point, Vector};
 use nalgebra::Vector3;
 
-/// Directions within this angle, radians, count as parallel (or perpendicular): exported files have axes like
-/// `-1.19e-5 0 0.9999` and angles like 1.57. Over a metre it is a millimetre.
+/// Directions within this angle, in radians, count as parallel (or perpendicular). Exported files have axes like
+/// `-1.19e-5 0 0.9999` and angles like 1.57. Over a length of a metre, the angle is a deviation of a millimetre.
 pub(super) const ALIGNMENT_TOLERANCE: f64 = 1e-3;
 
 /// A joint's axis in the root frame.
@@ -45,9 +45,10 @@ pub(super) fn common_plane(axes: [SpatialAxis; 2]) -> Result<Plane, String> {
     Ok(basis(normal))
 }
 
-/// Describes by how much axes deviate from the plane's normal, or prismatic axes from the plane, if it is noticeable.
+/// Describes how much revolute axes deviate from the plane's normal, or prismatic axes from the plane. `None` if it is
+/// not noticeable.
 pub(super) fn deviation(plane: &Plane, axes: [SpatialAxis; 2]) -> Option<String> {
-    /// A micrometre over a metre.
+    /// Least deviation that is reported, in radians: a micrometre over a metre.
     const NOTICED_DEVIATION: f64 = 1e-6;
     let off = |axis: &SpatialAxis| {
         let [across, along] = [axis.direction.cross(&plane.normal).norm(), axis.direction.dot(&plane.normal).abs()];
@@ -75,7 +76,7 @@ fn refusal(axes: [SpatialAxis; 2], reason: &str) -> String {
 
 /// Formats a direction for messages.
 pub(super) fn vector(d: Vector3<f64>) -> String {
-    // Adding 0 turns the -0 that rounding may leave into 0.
+    // Adding 0 turns -0, which rounding may produce, into 0.
     let [x, y, z] = [d.x, d.y, d.z].map(|c| (c * 1e4).round() / 1e4 + 0.0);
     format!("({x}, {y}, {z})")
 }
@@ -106,7 +107,7 @@ pub(super) fn joint_type_in(plane: &Plane, axis: SpatialAxis) -> JointType {
     JointType::Prismatic { direction: clean(project(plane, &axis.direction).normalize()) }
 }
 
-/// Removes rounding from a unit direction: within 1e-12 of an axis it becomes that axis.
+/// Returns a unit direction without rounding errors. Within 1e-12 of an axis, it becomes that axis.
 fn clean(direction: Vector) -> Vector {
     const ROUNDING: f64 = 1e-12;
     let snapped = direction.map(|c| if c.abs() < ROUNDING { 0.0 } else { c });

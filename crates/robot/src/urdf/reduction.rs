@@ -24,11 +24,11 @@ pub(super) struct Reduction<'a> {
     pub tree: &'a Tree,
     pub settings: RobotSettings<'a>,
     pub chain: &'a Chain,
-    /// Poses of all links in the root frame, the two joints at 0, the others at their held values.
+    /// Poses of all links in the root frame, with the two arm joints at 0 and the others at their held values.
     pub poses: Vec<Isometry3<f64>>,
 }
 
-/// Range and rates of one of the two joints.
+/// Range, top speed, acceleration limit and jerk limit of one of the two joints.
 pub(super) struct Bounds {
     pub range: JointRange,
     pub rates: Rates,
@@ -68,12 +68,12 @@ impl<'a> Reduction<'a> {
         })
     }
 
-    /// Does the same, with the reason alone as the error.
+    /// Returns the plane of motion. The error is the reason alone.
     pub fn common_plane(&self) -> Result<Plane, String> {
         plane::common_plane(self.axes())
     }
 
-    /// Returns the limits of the two joints. Reports all missing ones together.
+    /// Returns the limits of the two joints. The error reports all missing ones together.
     pub fn bounds(&self) -> Result<[Bounds; 2], InputError> {
         let limits = Limits { document: self.document, settings: self.settings };
         let mut diagnostics = Vec::new();
@@ -110,7 +110,7 @@ impl<'a> Reduction<'a> {
         Bodies { document, tree, chain, settings, plane: &arm.plane, poses }.dynamics(arm, assumed)
     }
 
-    /// Assembles the arm, and returns the reason if its masses and efforts are unknown.
+    /// Assembles the arm. If masses and efforts are unknown, also returns the reason.
     pub fn arm(&self, plane: Plane, bounds: [Bounds; 2], outlines: Outlines) -> (Arm, RobotReport, Option<Diagnostic>) {
         let mut report = RobotReport {
             geometry: vec![plane::describe(&plane, &self.tree.links[self.tree.root])],
@@ -134,7 +134,7 @@ impl<'a> Reduction<'a> {
             if bounds.rates.assumed.velocity {
                 report.assumed.velocity.insert(name.clone(), bounds.rates.velocity);
             }
-            // Efforts replace missing acceleration limits.
+            // With efforts, acceleration limits are not needed.
             if bounds.rates.assumed.acceleration && !self.settings.table.dynamics {
                 report.assumed.acceleration.insert(name.clone(), bounds.rates.acceleration);
             }

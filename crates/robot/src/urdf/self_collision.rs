@@ -16,34 +16,34 @@ use cplan_geometry::separation;
 use std::collections::BTreeSet;
 use urdf_rs::JointType;
 
-/// Number of values of each joint at which links are placed to find those that meet in every configuration.
+/// Number of values of each joint at which links are placed, to find links that touch in every configuration.
 const SAMPLES_PER_JOINT: usize = 32;
 
-/// Part of the robot to which a link belongs, by the joint that moves it last.
+/// The part of the robot to which a link belongs. The last joint that moves the link determines it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Group {
-    /// Links that no movable joint moves.
+    /// Links that neither arm joint moves.
     Fixed,
     First,
     Second,
 }
 
-/// Pairs of URDF links that are kept apart.
+/// Pairs of URDF links that the planner keeps apart.
 pub(super) struct SelfCollision<'a> {
     bodies: &'a Bodies<'a>,
-    /// The group of each URDF link; `None` if another joint moves it.
+    /// The group of each URDF link. `None` if a joint outside the arm moves it.
     groups: Vec<Option<Group>>,
     /// URDF links that have a shape.
     solid: BTreeSet<usize>,
-    /// Pairs that the world allows to meet, each in both orders.
+    /// Pairs whose contact the world allows, each in both orders.
     allowed: BTreeSet<(usize, usize)>,
 }
 
 impl<'a> SelfCollision<'a> {
-    /// Examines these shapes, which are all shapes of the robot.
+    /// Determines the pairs. `solid` are the URDF links that have a shape.
     ///
     /// # Errors
-    /// If the world names links that the robot does not have.
+    /// Names of links in the world that the robot does not have.
     pub fn new(bodies: &'a Bodies<'a>, solid: BTreeSet<usize>) -> Result<Self, Diagnostic> {
         let groups = (0..bodies.document.robot.links.len())
             .map(|link| group(bodies.document, bodies.tree, bodies.chain, link))
@@ -82,19 +82,19 @@ impl<'a> SelfCollision<'a> {
         is_enabled && are_apart && !self.allowed.contains(&(a, b)) && !self.are_neighbors(a, b)
     }
 
-    /// Returns true if no link with a shape is between two links in the tree.
+    /// Returns true if no link with a shape lies between two links in the tree.
     fn are_neighbors(&self, a: usize, b: usize) -> bool {
         let [above_a, above_b] = [a, b].map(|link| self.bodies.tree.ancestors(link));
         let common = above_a.iter().rev().zip(above_b.iter().rev()).take_while(|(a, b)| a == b).count();
         let between = |above: &[usize]| above[..above.len() - common].iter().skip(1).copied().collect::<Vec<_>>();
-        // If one carries the other, the last common link is that one itself.
+        // If one link carries the other, it is their last common link.
         let top = above_a[above_a.len() - common];
         let middle = (top != a && top != b).then_some(top);
         !between(&above_a).into_iter().chain(between(&above_b)).chain(middle).any(|link| self.solid.contains(&link))
     }
 
-    /// Returns the heights at which a link's meshes are cut, ascending: the ends of the heights of shapes from which
-    /// the link is kept apart.
+    /// Returns the heights at which a link's meshes are cut into layers, in ascending order. They are the ends of the
+    /// heights of shapes from which the link is kept apart.
     pub fn cuts(&self, link: usize, all: &[PlacedShape]) -> Vec<f64> {
         let others = all.iter().filter(|other| self.checked(link, other.link));
         let mut cuts: Vec<f64> = others.flat_map(|other| [other.heights.lower, other.heights.upper]).collect();
@@ -103,7 +103,8 @@ impl<'a> SelfCollision<'a> {
         cuts
     }
 
-    /// Lists the links that others further along the chain can hit, in layers, with the links that are free to meet them.
+    /// Lists the links that others further along the chain can hit, layer by layer. Each has the links whose contact
+    /// with it is ignored.
     pub fn obstacles(&self, all: &[PlacedShape]) -> Vec<SelfObstacle> {
         if !self.bodies.settings.table.own_body_is_obstacle() {
             return Vec::new();
@@ -129,19 +130,19 @@ impl<'a> SelfCollision<'a> {
         obstacles
     }
 
-    /// Returns true if a link is kept apart from one further along the chain.
+    /// Returns true if the planner keeps a link apart from one further along the chain.
     fn is_hit_by(&self, link: usize, other: usize) -> bool {
         self.groups[link] < self.groups[other] && self.checked(link, other)
     }
 
-    /// Lists the links further along the chain that are free to meet a link.
+    /// Lists the links further along the chain whose contact with a link is ignored.
     fn ignored(&self, link: usize) -> Vec<String> {
         let further = |other: &usize| self.groups[link] < self.groups[*other];
         let ignored = self.solid.iter().copied().filter(|other| further(other) && !self.checked(link, *other));
         ignored.map(|other| self.bodies.document.robot.links[other].name.clone()).collect()
     }
 
-    /// Describes the neighbours, which are free to meet.
+    /// Describes the neighbours whose contact is ignored.
     pub fn notes(&self) -> Vec<String> {
         let neighbors: Vec<String> =
             self.pairs().filter(|(a, b)| self.are_neighbors(*a, *b)).map(|p| self.named(p)).collect();
@@ -164,9 +165,8 @@ impl<'a> SelfCollision<'a> {
     }
 }
 
-/// Allows links to meet that do so in every configuration, and names them.
-///
-/// The arm is placed at [`SAMPLES_PER_JOINT`] values of each joint within its limits.
+/// Ignores the contact of links that touch in every configuration, and names them. The arm is placed at
+/// [`SAMPLES_PER_JOINT`] values of each joint within its limits.
 pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
     if arm.self_obstacles.is_empty() {
         return None;
@@ -201,7 +201,7 @@ pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
     Some(format!("contact of links that meet in every configuration is ignored: {}", named.join(", ")))
 }
 
-/// Returns the joint that moves a URDF link last; `None` if that is a joint outside the arm.
+/// Returns the group of a URDF link. `None` if the last joint that moves it is outside the arm.
 pub(super) fn group(document: &Document, tree: &Tree, chain: &Chain, link: usize) -> Option<Group> {
     let [first, second] = chain.joints;
     if tree.carries(second, link) {

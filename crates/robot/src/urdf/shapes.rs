@@ -1,4 +1,4 @@
-//! The shapes of URDF links in their places: collision geometry, or visual geometry where a link has none.
+//! The shapes of URDF links at their poses. They are collision geometry, or visual geometry of links without that.
 
 use super::bodies::Bodies;
 use super::mesh;
@@ -10,11 +10,11 @@ use nalgebra::{Isometry3, Vector3};
 use std::ops::Range;
 use urdf_rs::Geometry;
 
-/// A shape in its place, the two joints at 0.
+/// A shape at its pose, with the two arm joints at 0.
 pub(super) struct PlacedShape {
     /// The URDF link.
     pub link: usize,
-    /// Number among the link's shapes of the same kind with a size.
+    /// Index among those shapes of the link that are of the same kind and have a size.
     pub number: usize,
     /// True for visual geometry.
     pub is_visual: bool,
@@ -30,7 +30,7 @@ pub(super) struct PlacedShape {
 #[derive(Default)]
 pub(super) struct GatheredShapes {
     pub shapes: Vec<PlacedShape>,
-    /// Links with a shape without any size.
+    /// Links that have a shape of size zero.
     pub empty: Vec<String>,
     /// Collision meshes that cannot be used.
     pub unread: Vec<Diagnostic>,
@@ -45,7 +45,8 @@ enum Kind {
 }
 
 impl Bodies<'_> {
-    /// Collects the shapes of these URDF links. For a link without collision geometry these are its visual geometry.
+    /// Collects the shapes of these URDF links. A link without collision geometry is represented by its visual
+    /// geometry.
     pub fn gather(&self, links: impl IntoIterator<Item = usize>) -> GatheredShapes {
         let mut gathered = GatheredShapes::default();
         for link in links {

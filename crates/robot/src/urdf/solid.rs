@@ -1,4 +1,4 @@
-//! Solids in space and their projections on a plane.
+//! Solids in space, and their projections on a plane.
 
 use super::mesh::Mesh;
 use super::plane::project;
@@ -6,7 +6,8 @@ use cplan_core::model::{Heights, Plane};
 use cplan_geometry::{Convex, Point, Vector, hull};
 use nalgebra::{Isometry3, Point3, Vector3};
 
-/// A collision or visual shape. Lengths in metres; cylinders and capsules along z, everything centred at the origin.
+/// A collision or visual shape, centred at the origin of its frame. Lengths are in metres. The axis of a cylinder or a
+/// capsule is z.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Solid {
     Box {
@@ -16,7 +17,7 @@ pub(super) enum Solid {
         radius: f64,
         half: f64,
     },
-    /// `half` is half the length between the centres of the caps.
+    /// A capsule. `half` is half the distance between the centres of its caps.
     Capsule {
         radius: f64,
         half: f64,
@@ -24,29 +25,30 @@ pub(super) enum Solid {
     Sphere {
         radius: f64,
     },
-    /// A mesh, represented by the convex hull of its points, or of each layer of it; see [`Solid::layers`].
+    /// A mesh. Its convex hull represents it, or the convex hull of each of its layers; see [`Solid::layers`].
     Mesh(Mesh),
 }
 
-/// Corners closer than this to the previous one are removed, metres. They come from the rounding of rotations. The
-/// outline shrinks by at most this.
+/// A corner nearer than this to the one before is removed, in metres. Such corners come from the rounding of rotations.
+/// Removing them moves the outline inwards by at most this.
 const CORNER_ROUNDING: f64 = 1e-9;
 
-/// An oblique cylinder's outline exceeds its exact projection by at most this fraction of its radius.
+/// The outline of an oblique cylinder may exceed its exact projection by at most this fraction of its radius.
 const MAX_OUTLINE_EXCESS: f64 = 0.005;
 
-/// Sides of the polygon round an oblique cylinder's end: circumscribed, so `1 / cos(pi / n) - 1 <= MAX_OUTLINE_EXCESS`.
+/// Number of sides of the polygon around the end of an oblique cylinder. Since the polygon is circumscribed, it must
+/// satisfy `1 / cos(pi / n) - 1 <= MAX_OUTLINE_EXCESS`.
 const ELLIPSE_SIDES: usize = 32;
 
-/// Number of steps along half of the ellipse within an oblique cylinder's end. Its corners are the points where the
-/// sides of the polygon around it touch.
+/// Number of steps along half of the ellipse within the end of an oblique cylinder. The corners of that polygon are the
+/// points where the sides of the circumscribed polygon touch the ellipse.
 const ELLIPSE_STEPS: usize = ELLIPSE_SIDES / 2;
 
-/// Least thickness of a mesh's layers, metres: far above the rounding of heights.
+/// Least thickness of a mesh's layers, in metres. It is far above the rounding of heights.
 pub(super) const MIN_LAYER_THICKNESS: f64 = 1e-6;
 
-/// A cylinder whose axis is off the plane, or off its normal, by less than this share counts as parallel or
-/// perpendicular.
+/// A cylinder counts as perpendicular (or parallel) to the normal if the cosine of the angle between its axis and the
+/// normal differs from 0 (or 1) by at most this.
 const EXACT_ALIGNMENT: f64 = 1e-13;
 
 impl Solid {
@@ -87,11 +89,12 @@ impl Solid {
         }
     }
 
-    /// Returns the outlines of the layers between consecutive `cuts` (ascending), with their extents along the normal.
-    /// For a solid that is no mesh, or that no cut goes through, returns the whole outline.
+    /// Returns the outlines of the layers between consecutive `cuts`, which are ascending, with the least and greatest
+    /// height of each. Only meshes are cut: for another solid, or a mesh through which no cut goes, returns the whole
+    /// outline.
     ///
-    /// A layer's outline is the convex hull of the part of the mesh's surface within the layer: of the vertices there,
-    /// and of the points where edges cross its two heights.
+    /// A layer's outline is the convex hull of the part of the mesh's surface within the layer. This is the hull of the
+    /// vertices in the layer, and of the points where edges cross its two boundary heights.
     pub fn layers(&self, pose: &Isometry3<f64>, plane: &Plane, cuts: &[f64]) -> Vec<(Convex, Heights)> {
         let heights = self.heights(pose, plane);
         let is_within =
@@ -118,8 +121,8 @@ impl Solid {
         ends().zip(ends().skip(1)).filter_map(layer).collect()
     }
 
-    /// Returns a shape within the projection if the outline is larger than the projection, which is the case for
-    /// oblique cylinders. It is smaller than the outline by at most a hundredth of the radius.
+    /// Returns a shape within the exact projection, if the outline exceeds that. This applies only to oblique
+    /// cylinders. The shape is smaller than the outline by at most a hundredth of the radius.
     pub fn inner(&self, pose: &Isometry3<f64>, plane: &Plane) -> Option<Convex> {
         let Solid::Cylinder { radius, half } = self else { return None };
         let center = project(plane, &(pose * Point3::origin()).coords);
@@ -127,7 +130,7 @@ impl Solid {
         within_cylinder(center, project(plane, &axis), axis.dot(&plane.normal).abs(), *radius, *half)
     }
 
-    /// Returns the extent along the plane's normal.
+    /// Returns the least and the greatest height.
     pub fn heights(&self, pose: &Isometry3<f64>, plane: &Plane) -> Heights {
         let n = plane.normal;
         let middle = pose.translation.vector.dot(&n);
@@ -161,7 +164,7 @@ pub(super) fn capsule(a: Point, b: Point, radius: f64) -> Convex {
     Convex::trusted(vec![a, b], radius)
 }
 
-/// Returns the convex hull without corners due to rounding.
+/// Returns the convex hull of the points, without corners that come from rounding.
 fn polygon(points: Vec<Point>) -> Convex {
     let mut corners: Vec<Point> = Vec::new();
     for corner in hull(&points) {
@@ -175,12 +178,12 @@ fn polygon(points: Vec<Point>) -> Convex {
     Convex::trusted(corners, 0.0)
 }
 
-/// Returns the outline of a cylinder whose axis projects to `along` (its length is the sine of the angle to the normal,
-/// `tilt` the cosine). The exact projection is the hull of two ellipses, the ends, with half-axes `radius` across and
-/// `radius * |tilt|` along.
+/// Returns the outline of a cylinder. Its axis projects to `along`, whose length is the sine of the angle between axis
+/// and normal; `tilt` is the cosine. The exact projection is the hull of two ellipses, which are the ends. Their
+/// half-axes are `radius` across the axis and `radius * |tilt|` along it.
 fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> Convex {
     if 1.0 - tilt.abs() <= MAX_OUTLINE_EXCESS {
-        // For an axis close to the normal the ends are discs, up to a factor of `tilt` in one direction.
+        // If the axis is close to the normal, the ends are discs, up to a factor of `tilt` in one direction.
         return capsule(center - along * half, center + along * half, radius);
     }
     let direction = along.normalize();
@@ -188,7 +191,8 @@ fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> 
     let bulge = direction * (radius * tilt.abs());
     let end = along * half;
     if tilt.abs() <= MAX_OUTLINE_EXCESS {
-        // Lying or nearly so: a rectangle as long as the ellipses reach.
+        // If the axis is in the plane, or nearly so, the outline is a rectangle, lengthened by the half-axes of the
+        // ellipses.
         let end = end + bulge;
         return polygon(vec![
             center - end - across,
@@ -200,7 +204,7 @@ fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> 
     let step = std::f64::consts::TAU / ELLIPSE_SIDES as f64;
     let grown = 1.0 / (step / 2.0).cos();
     let rim = (0..ELLIPSE_SIDES).flat_map(|i| {
-        // Half a step off: sides, not corners, at the ends of the axes, so that the width is exact.
+        // Offset by half a step, so that the ends of the axes are on sides instead of corners, and the width is exact.
         let (sine, cosine) = ((i as f64 + 0.5) * step).sin_cos();
         let offset = (bulge * cosine + across * sine) * grown;
         [center - end + offset, center + end + offset]
@@ -208,8 +212,9 @@ fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> 
     polygon(rim.collect())
 }
 
-/// Returns a region that an oblique cylinder certainly covers, or `None` if [`cylinder`] is exact. Each end contributes
-/// a disc if it is almost one, else a polygon whose corners are on the outer half of the ellipse.
+/// Returns a region that an oblique cylinder certainly covers. `None` if [`cylinder`] is exact. Each end contributes a
+/// disc if it is almost circular; otherwise it contributes a polygon whose corners are on the outer half of the
+/// ellipse.
 fn within_cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> Option<Convex> {
     if tilt <= EXACT_ALIGNMENT || 1.0 - tilt <= EXACT_ALIGNMENT {
         return None;

@@ -23,7 +23,8 @@ use cplan_core::space::{Configuration, JointRange};
 use nalgebra::Vector3;
 use urdf_rs::JointType;
 
-/// Examines a robot without stopping at the first defect. In its scene the arm is alone, at its place in the URDF.
+/// Examines a robot without stopping at the first defect. The report's scene contains only the arm, where the URDF
+/// places it.
 #[must_use]
 pub fn survey(robot: &RobotFile, settings: RobotSettings) -> Inspection {
     let mut report = Inspection { urdf: robot.path.display().to_string(), ..Inspection::default() };
@@ -43,7 +44,7 @@ pub fn survey(robot: &RobotFile, settings: RobotSettings) -> Inspection {
     report.joints = (0..document.robot.joints.len()).map(|j| joint(&limits, j)).collect();
     match Tree::build(&document) {
         Ok(tree) => in_tree(&mut report, &document, &tree, settings),
-        // Defects of the tree caused by omitted elements are not reported again.
+        // If elements were left out, the tree may have defects only because of that. They are not reported.
         Err(error) if document.tree_is_sound => report.errors.push(error),
         Err(_) => {}
     }
@@ -65,7 +66,7 @@ fn in_tree(report: &mut Inspection, document: &Document, tree: &Tree, settings: 
     report.pairs = pairs.iter().map(|p| pair(document, tree, settings, *p)).collect();
     let planar: Vec<[usize; 2]> =
         pairs.iter().zip(&report.pairs).filter(|(_, entry)| entry.planar).map(|(p, _)| *p).collect();
-    // If the choice fails, the entries for a planar pair are useful information.
+    // If the choice of joints fails, entries that choose a planar pair are still useful.
     let named = chain::joints(document, tree, settings);
     let likely = named.filter(|p| planar.contains(p)).or(planar.first().copied());
     let trial = |p: [usize; 2]| {
@@ -113,7 +114,7 @@ fn reduced(report: &mut Inspection, reduction: &Reduction) {
     report.ignored.extend(ignored::beside_the_arm(reduction));
     let plane = reduction.plane();
     let bounds = reduction.bounds();
-    // An outline would be wrong if a shape is missing because of its diagnostics.
+    // A shape that was left out because of a defect would make the outline wrong.
     let sound = document.diagnostics.is_empty();
     let outlines = plane.as_ref().ok().filter(|_| sound).map(|plane| reduction.outlines(plane));
     report.errors.extend(plane.as_ref().err().cloned());
@@ -210,7 +211,7 @@ fn range(limits: &Limits, index: usize) -> LimitEntry {
     }
 }
 
-/// Returns the table without its joints and tip, and without values for these two joints.
+/// Returns the table without joints and tip, and without values for these two joints.
 fn neutral(document: &Document, table: &RobotTable, joints: [usize; 2]) -> RobotTable {
     let mut table = RobotTable { joints: None, tip: None, ..table.clone() };
     table.fixed.retain(|name, _| joints.iter().all(|j| document.robot.joints[*j].name != *name.get_ref()));
@@ -326,7 +327,8 @@ fn bare(reduction: &Reduction) -> Outlines {
     }
 }
 
-/// Returns ranges for the picture of an arm whose ranges are not all known: the known ones, a turn, or no slide.
+/// Returns ranges for the picture of an arm. A range that is unknown becomes a whole turn, or zero for a prismatic
+/// joint.
 fn unbounded(reduction: &Reduction) -> [Bounds; 2] {
     let Chain { joints, .. } = reduction.chain;
     let limits = Limits { document: reduction.document, settings: reduction.settings };

@@ -1,4 +1,4 @@
-//! The joints of the tool: one that lowers it, and a wrist.
+//! The joints of the tool: one that lowers it, and the wrist.
 
 use super::chain::{Chooser, is_movable};
 use super::limits::Limits;
@@ -12,10 +12,11 @@ use cplan_handling::{Driver, RobotJoint, RobotJoints, Stroke, ToolJoint};
 use toml::Spanned;
 use urdf_rs::JointType;
 
-/// Rounding within which an axis is parallel to the plane's normal: 1 minus the cosine.
+/// An axis is parallel to the plane's normal if 1 minus the cosine of the angle between them is at most this. It covers
+/// rounding.
 pub(super) const PARALLEL_TOLERANCE: f64 = 1e-9;
 
-/// Rounding within which the tip is on the wrist's axis, metres.
+/// The tip is on the wrist's axis if it is at most this far from it, in metres. It covers rounding.
 const AXIS_TOLERANCE: f64 = 1e-6;
 
 /// The function of a tool's joint.
@@ -28,7 +29,7 @@ enum Tool {
 }
 
 impl Tool {
-    /// Names its table in the world file.
+    /// Returns the name of the joint's table in the world file.
     fn table(self) -> &'static str {
         match self {
             Self::Stroke => "stroke",
@@ -41,7 +42,7 @@ impl Reduction<'_> {
     /// Returns the movable joints in the order of the file, and which of them move the tool.
     ///
     /// # Errors
-    /// A stroke or wrist with an unsuitable joint; mimics of joints that do not exist, or of themselves.
+    /// A stroke or wrist with an unsuitable joint, and mimic rules about joints that do not exist or about themselves.
     pub fn robot_joints(&self, plane: &Plane) -> Result<RobotJoints, Diagnostic> {
         let chooser = Chooser { document: self.document, tree: self.tree, settings: self.settings };
         let robot = &self.settings.table;
@@ -95,7 +96,7 @@ impl Reduction<'_> {
         Ok(Stroke { joint, travel, velocity, acceleration: acceleration.unwrap_or(own), bodies })
     }
 
-    /// Returns a joint that mimics a joint of the tool and moves the tip or a link that can collide.
+    /// Returns the name of a joint that mimics a joint of the tool and moves the tip or a link that can collide.
     fn follower_with_shapes(&self, chooser: &Chooser, leader: usize) -> Result<Option<String>, Diagnostic> {
         for (index, joint) in chooser.all().iter().enumerate().filter(|(_, joint)| joint.mimic.is_some()) {
             let counts = chooser.has_shapes(index) || self.tree.carries(index, self.chain.tip);
@@ -106,7 +107,10 @@ impl Reduction<'_> {
         Ok(None)
     }
 
-    /// Returns a joint that moves the tool along the plane's normal or about it.
+    /// Returns the joint that moves the tool along the plane's normal or turns it about the normal.
+    ///
+    /// # Errors
+    /// An unsuitable joint.
     fn tool_joint(
         &self,
         chooser: &Chooser,

@@ -7,37 +7,37 @@ use std::collections::HashMap;
 use std::ops::Range;
 use urdf_rs::JointType;
 
-/// The links of a URDF as a tree. Links and joints are indices into the file's lists; an undeclared link `world` at the
-/// root, which Drake's files leave out, comes after the last one.
+/// The links of a URDF as a tree. Links and joints are indices into the file's lists. If the root is a link `world`
+/// that the file does not declare, as in Drake's files, its index follows those of the others.
 #[derive(Debug)]
 pub(super) struct Tree {
-    /// Names, in the order of the file.
+    /// Names of the links, in the order of the file.
     pub links: Vec<String>,
-    /// Links above and below each joint.
+    /// The link above each joint (`parent`) and the link below it (`child`).
     pub parent: Vec<usize>,
     pub child: Vec<usize>,
-    /// The joint above each link; `None` for the root.
+    /// The joint above each link. `None` for the root.
     pub above: Vec<Option<usize>>,
-    /// The one link without a joint above.
+    /// The only link without a joint above it.
     pub root: usize,
-    /// True if the root is a `world` that the file does not declare.
+    /// True if the root is a link `world` that the file does not declare.
     pub implicit_world: bool,
-    /// Links from the root downwards, each immediately before its descendants.
+    /// Links from the root downwards. The descendants of a link follow it directly.
     order: Vec<usize>,
-    /// For each link, the range of that order with the link and its descendants.
+    /// For each link, the range of `order` that contains the link and its descendants.
     stretch: Vec<Range<usize>>,
     /// Number of joints above each link.
     depth: Vec<usize>,
 }
 
-/// The one link name that may be used without being declared, as a root.
+/// The only link that may be used as a root without being declared.
 const WORLD_LINK: &str = "world";
 
 impl Tree {
-    /// Connects the joints. Linear in their number.
+    /// Builds the tree. Linear in the number of joints.
     ///
     /// # Errors
-    /// Missing links, links below two joints, cycles, several roots: all defects of one kind together.
+    /// Missing links, links below two joints, cycles, or several roots. The error has all defects of one kind.
     pub fn build(document: &Document) -> Result<Self, InputError> {
         let mut links: Vec<String> = document.robot.links.iter().map(|l| l.name.clone()).collect();
         let declared = links.len();
@@ -123,7 +123,7 @@ fn motion(joint: &urdf_rs::Joint, value: f64) -> Isometry3<f64> {
         JointType::Prismatic => {
             Isometry3::from_parts((axis(joint).into_inner() * value).into(), UnitQuaternion::identity())
         }
-        // These are held at the origin of their frames; the chain refuses arms that move with one of them.
+        // These joints are held at the origins of their frames. Arms that move with one of them are refused elsewhere.
         JointType::Fixed | JointType::Floating | JointType::Planar | JointType::Spherical => Isometry3::identity(),
     }
 }
@@ -182,7 +182,7 @@ fn joints_above(document: &Document, links: &[String], child: &[usize]) -> Resul
     Ok(above)
 }
 
-/// Returns the links below the roots in preorder.
+/// Returns the links below the roots, each before its descendants.
 fn downwards(roots: &[usize], links: usize, parent: &[usize], child: &[usize]) -> Vec<usize> {
     let mut below = vec![Vec::new(); links];
     for (&parent, &child) in parent.iter().zip(child) {
@@ -198,7 +198,7 @@ fn downwards(roots: &[usize], links: usize, parent: &[usize], child: &[usize]) -
 }
 
 fn cycle(document: &Document, stray: usize, above: &[Option<usize>], parent: &[usize]) -> Diagnostic {
-    // Walking up from a link that no root reaches must run into the cycle.
+    // The path upwards from a link that no root reaches must enter a cycle.
     let mut seen = Vec::new();
     let mut passed = vec![false; parent.len()];
     let mut joint = above[stray];

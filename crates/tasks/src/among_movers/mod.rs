@@ -1,16 +1,16 @@
 //! Tasks among moving obstacles, and picks of moving objects. The search chooses what to do next, with which IK
 //! solution, and when.
 //!
-//! Each state has a time, from which the next motion is planned ([`in_time`]). The motion must arrive so that the arm
-//! can stand at its target long enough for the step. To pick a passing object, it must be there when the object passes.
-//! Moments along the whole passage are tried, the earliest first. After the first one that works, an earlier one is
-//! sought between it and the previous moment.
+//! Each state has a time, from which the next motion is planned ([`in_time`]). The motion must arrive when the arm can
+//! stand at its target long enough for the step. To pick a passing object, the arm must be there when the object
+//! passes. Several moments of the passage are tried, the earliest first. When one is possible, an earlier one is sought
+//! between it and the moment tried before.
 //!
-//! The search continues from the farthest state, by the earliest end of a step, so that it soon reaches an end of the
-//! task. With the remaining budget of motions it then looks for an earlier end. It does not look ahead: if an object
-//! passes while another step is done, it is missed, and another choice before it is tried. So it proves nothing about
-//! choices. It does prove that a moving object is never within reach, and that a step cannot be done even without
-//! moving obstacles.
+//! The search always continues from the state with the most steps, and of these from the earliest one, so that it soon
+//! reaches an end of the task. With the remaining budget of motions, it then looks for an earlier end. It does not look
+//! ahead: if an object has passed while the arm did another step, an earlier choice is changed. So a search without a
+//! result proves nothing about other choices. Two reasons of failure are proven: a moving object is never within reach,
+//! or a step cannot be done even without moving obstacles.
 
 mod passing;
 mod timed_candidates;
@@ -35,21 +35,21 @@ use std::collections::BinaryHeap;
 use std::sync::Arc;
 use timed_candidates::{Choices, Moment, TimedCandidate, TimedState};
 
-/// Budget of motions planned in time until all steps are done: a fixed number, plus a number for each step.
+/// Largest number of motions that are planned in time until all steps are done: a fixed number, and a number per step.
 const MOTION_BUDGET: [usize; 2] = [150, 40];
 
-/// The same budget for finding an earlier end.
+/// The same limit for finding an earlier end of the task.
 const IMPROVEMENT_BUDGET: [usize; 2] = [10, 8];
 
-/// Budget of motions with rounded corners if jerks are limited, which takes tenths of a second for each: a fixed
-/// number, plus a number for each step. Later motions stop at their corners.
+/// Largest number of motions with rounded corners if jerks are limited: a fixed number, and a number per step. Each
+/// takes tenths of a second. Later motions stop at their corners.
 const ROUNDED_MOTION_BUDGET: [usize; 2] = [12, 4];
 
-/// Number of parts of the span between a moment that works and the one before it, in which an earlier moment is sought
-/// repeatedly, ...
+/// Number of parts of the time between a moment that is possible and the one tried before it. Repeatedly, the ends of
+/// the parts are tried as earlier moments.
 const PARTS_PER_SPAN: usize = 4;
 
-/// ... until the two moments are this close, seconds.
+/// The search for an earlier moment ends when the two moments are at most this far apart, in seconds.
 const MIN_MOMENT_DISTANCE: f64 = 5e-3;
 
 /// Number of motions between two progress messages.
@@ -101,7 +101,7 @@ pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str
     TaskAnswer { outcome, legs, lower_bound, motions: search.motions, expanded: search.nodes.len() }
 }
 
-/// Returns the failed step if it is proven that an object is never within reach when it is to be picked.
+/// Returns the failed step if it is proven that a moving object is never within reach while it may be picked.
 fn out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
     let mut moving: Vec<usize> = start.moving.to_vec();
     let step = task.steps().find(|step| match &step.action {
@@ -122,8 +122,8 @@ fn out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
     })
 }
 
-/// Returns the failed step if it is proven that the task cannot be done even without moving obstacles. If moving
-/// objects are picked, their places would be unknown, so nothing is proven.
+/// Returns the failed step if it is proven that the task cannot be done even without moving obstacles. Proves nothing
+/// if moving objects are picked, because then their places are unknown.
 fn if_nothing_moved(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> Option<FailedStep> {
     if task.initially_moving().next().is_some() {
         return None;
@@ -136,8 +136,8 @@ fn if_nothing_moved(task: &Task, options: &Options, progress: &mut dyn FnMut(&st
     }
 }
 
-/// Returns a lower bound on the end of the task: each moving object that is picked must first come within reach, one
-/// after the other.
+/// Returns a lower bound on the end of the task, in seconds: each moving object that is picked must first come within
+/// reach, one after the other.
 fn last_passage(task: &Task) -> f64 {
     let mut moving: Vec<usize> = task.initially_moving().collect();
     let mut after = |step: &Step, time: f64| {
@@ -166,50 +166,50 @@ struct Node<'a> {
     parent: Option<usize>,
     /// Number of steps done.
     depth: usize,
-    /// End of the last of them, seconds; a lower bound while its motion is not planned.
+    /// End of the last step, in seconds. While its motion is not planned, this is a lower bound.
     seconds: f64,
     stage: Stage<'a>,
 }
 
-/// State of the evaluation of a node.
+/// Whether the motion to a node is planned.
 enum Stage<'a> {
     /// The motion is not planned yet.
     Pending(Box<TimedCandidate<'a>>),
-    /// The motion is planned. The start has no motion.
+    /// The motion is planned. The start node has no motion.
     Reached(Box<State>, Option<Box<ExecutedStep>>),
 }
 
-/// A step that is done.
+/// A step with its motion.
 struct ExecutedStep {
     leg: Leg,
-    /// How its motion passes moving obstacles, on a clock of its own.
+    /// How the motion passes moving obstacles. Times count from the beginning of the motion.
     timing: Timing,
 }
 
-/// Rank of a node: its depth, deepest first until the task is done once; the earliest end of the task; and the node's
-/// index.
+/// Rank of a node in the search. Until a solution is known, nodes with more steps come first. Then follow the earliest
+/// end of the task, and the node's index.
 type Rank = (Reverse<usize>, OrderedF64, usize);
 
 struct Search<'a> {
     task: &'a Task,
     options: Options,
     heuristic: &'a Heuristic<'a>,
-    /// Motions planned without moving obstacles.
+    /// Cache of motions that are planned without moving obstacles.
     legs: MotionCache,
-    /// Options with a stop at every corner.
+    /// The options, with a stop at every corner.
     stopping: Options,
     stopping_legs: MotionCache,
     nodes: Vec<Node<'a>>,
     open: BinaryHeap<Reverse<Rank>>,
-    /// True if a sequence through the whole task is known.
+    /// True if a sequence for the whole task is known.
     is_done: bool,
     refused: Vec<RefusedStep<'a>>,
-    /// Motions planned in time.
+    /// Number of motions that were planned in time.
     motions: usize,
 }
 
 impl<'a> Search<'a> {
-    /// Runs the search. Returns the node in which all steps are done at the earliest time found.
+    /// Runs the search. Returns the node in which all steps are done, with the earliest end that was found.
     fn run(&mut self, progress: &mut dyn FnMut(&str)) -> Option<usize> {
         let steps = self.task.steps().count();
         let budget = |[some, each]: [usize; 2]| some + each * steps;
@@ -227,7 +227,7 @@ impl<'a> Search<'a> {
             if best.is_some_and(|best| self.nodes[best].seconds <= least) {
                 continue;
             }
-            // A higher lower bound may be known by now.
+            // The lower bound may have risen since the node was opened.
             if self.soonest(index) > least {
                 self.open(index);
                 continue;
@@ -259,7 +259,7 @@ impl<'a> Search<'a> {
         self.open.push(Reverse((Reverse(depth), OrderedF64(self.soonest(index)), index)));
     }
 
-    /// Returns the earliest known end of the task through a node.
+    /// Returns a lower bound on the end of the task through a node, in seconds.
     fn soonest(&self, index: usize) -> f64 {
         let node = &self.nodes[index];
         let left = match &node.stage {
@@ -269,7 +269,7 @@ impl<'a> Search<'a> {
         node.seconds + left
     }
 
-    /// Records where the search stopped, unless a solution is known.
+    /// Records the node at which the search stopped, unless a solution is known.
     fn give_up(&mut self, index: usize, is_known: bool) {
         let node = &self.nodes[index];
         let next = match (&node.stage, node.parent) {
@@ -310,7 +310,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Plans the motion to a node, and tries an earlier moment.
+    /// Plans the motion to a node. For the pick of a moving object, also tries earlier moments.
     fn evaluate(&mut self, index: usize) {
         let (Some(parent), Stage::Pending(choice)) = (self.nodes[index].parent, &self.nodes[index].stage) else {
             return;
@@ -328,7 +328,7 @@ impl<'a> Search<'a> {
                 self.open(index);
             }
             Err(refusal) => {
-                // With a passing object, no single place says more than the others.
+                // A passing object is picked at many places, so that no single IK solution is reported.
                 let ik_solution = choice.moment.is_none().then_some(choice.candidate.to);
                 let step = choice.candidate.step;
                 self.refused.push(RefusedStep { depth, node: parent, step, ik_solution, refusal });
@@ -336,7 +336,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Raises the lower limit of the next moment of a pick, because an earlier moment is now known to work.
+    /// Raises the lower limit of the next moment of a pick, because an earlier moment is now known to be possible.
     fn leave_later_moments(&mut self, parent: usize, done: &TimedCandidate) {
         let Some(done_at) = done.moment else { return };
         for node in self.nodes.iter_mut().filter(|node| node.parent == Some(parent)) {
@@ -351,7 +351,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the same pick at an earlier moment, if it can be done then.
+    /// Returns the same pick at an earlier moment. `None` if no earlier one is possible.
     fn sooner(&mut self, here: TimedState<'a, '_>, choice: &TimedCandidate<'a>) -> Option<(ExecutedStep, State, f64)> {
         let moment = choice.moment?;
         let (mut since, mut until, mut best) = (moment.since, moment.time, None);
@@ -373,7 +373,7 @@ impl<'a> Search<'a> {
         best
     }
 
-    /// Does a step. Returns the state after it, and the time.
+    /// Does a step. Returns the state after it, and its end in seconds.
     fn done(
         &mut self,
         here: TimedState<'a, '_>,
@@ -382,7 +382,7 @@ impl<'a> Search<'a> {
         let TimedState { task, state, time } = here;
         let (candidate, step) = (&choice.candidate, choice.candidate.step);
         if matches!(candidate.event, Some(Event::Grasp { .. })) {
-            // If the payload would touch something at this place, the object may be picked elsewhere on its path.
+            // If the payload would touch something here, the object may still be picked elsewhere on its path.
             require_unobstructed(&here.scene_at_rest(candidate, time).0, candidate.to, "after it")?;
         }
         let [some, each] = ROUNDED_MOTION_BUDGET;
@@ -390,12 +390,12 @@ impl<'a> Search<'a> {
             && self.motions >= some + each * self.task.steps().count();
         let (options, legs) =
             if stops { (&self.stopping, &mut self.stopping_legs) } else { (&self.options, &mut self.legs) };
-        // Without moving obstacles.
+        // The motion without moving obstacles.
         let motion = legs.motion(task, state, candidate)?;
         self.motions += 1;
         let (scene, courses) = here.scene(step);
         let problem = MotionProblem::trusted(scene, state.q, candidate.to);
-        // On the clock of the motion. Differences of whole nanoseconds are whole nanoseconds.
+        // Times from the beginning of the motion. Differences of whole nanoseconds are whole nanoseconds.
         let since = |at: f64| match at.is_finite() {
             true => seconds(nanoseconds(at).saturating_sub(nanoseconds(time))),
             false => at,
@@ -471,7 +471,8 @@ impl<'a> Search<'a> {
         Some(whole)
     }
 
-    /// Returns the time until which the arm may stay where a node has led it. `None` if it may stay for ever.
+    /// Returns the time until which the arm may stay at its configuration in a node, in seconds. `None` if it may stay
+    /// for ever.
     fn free_until(&self, index: usize) -> Option<f64> {
         let (node, state) = (&self.nodes[index], self.state(index)?);
         let released = node.parent.and_then(|parent| self.state(parent)?.released);
@@ -483,7 +484,7 @@ impl<'a> Search<'a> {
         safe.first().filter(|[_, until]| until.is_finite()).map(|[_, until]| node.seconds + until)
     }
 
-    /// Returns why the search got no farther than the steps to a node.
+    /// Explains why the search got no farther than the steps to a node, which is also returned.
     fn failure(&mut self) -> (FailedStep, usize) {
         let state = |node: usize| match &self.nodes[node].stage {
             Stage::Reached(state, _) => Some(&**state),

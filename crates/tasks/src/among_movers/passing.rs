@@ -5,10 +5,10 @@ use cplan_core::space::JointRange;
 use cplan_geometry::{Interval, Point};
 use cplan_handling::{Leg, Object, ObstacleTrajectory};
 
-/// Share by which radii are enlarged: far more than rounding.
+/// Fraction by which radii are enlarged. It is far more than rounding.
 const RADIUS_ENLARGEMENT: f64 = 1e-9;
 
-/// An interval of time in which an object may be within reach, on one leg of its course.
+/// An interval of time in which an object may be within reach, on one leg of its trajectory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Passage {
     pub times: Interval,
@@ -16,11 +16,11 @@ pub(super) struct Passage {
     pub is_still: bool,
 }
 
-/// Number of parts of a passage between the moments that are tried.
+/// Number of parts of a passage. The moments between the parts are tried.
 const PARTS_PER_PASSAGE: usize = 24;
 
 impl Passage {
-    /// Returns moments throughout the passage. Only one if the object does not move.
+    /// Returns moments throughout the passage, or a single one if the object does not move.
     pub fn moments(&self) -> Vec<f64> {
         let [from, to] = self.times;
         let parts = if self.is_still || from == to { 0 } else { PARTS_PER_PASSAGE };
@@ -30,9 +30,9 @@ impl Passage {
     }
 }
 
-/// Returns the times, in order, at which a moving object may be picked at a given point of it, from the time `from` on.
-/// At all other times it is certainly out of the arm's reach, or must not be picked. `when` lists the allowed times;
-/// all are allowed if it is empty.
+/// Returns the passages, in order, during which the point `grasp` of a moving object may be picked, from the time
+/// `from` on. At all other times the point is certainly out of the arm's reach, or the object must not be picked.
+/// `when` lists the allowed times; if it is empty, all times are allowed.
 pub(super) fn passages(arm: &Arm, object: &Object, grasp: Point, when: &[Interval], from: f64) -> Vec<Passage> {
     let legs = object.course.as_ref().map_or(&[][..], ObstacleTrajectory::legs);
     let reach = (tip_reach(arm) + grasp.norm()) * (1.0 + RADIUS_ENLARGEMENT);
@@ -51,7 +51,7 @@ pub(super) fn passages(arm: &Arm, object: &Object, grasp: Point, when: &[Interva
     all
 }
 
-/// Returns the largest distance of the tip from the base, metres.
+/// Returns an upper bound on the distance of the tip from the base, in metres.
 fn tip_reach(arm: &Arm) -> f64 {
     let extents = [arm.offset.norm(), arm.tip.norm()];
     let of = |(joint, extent): (usize, f64)| {
@@ -67,7 +67,7 @@ fn tip_reach(arm: &Arm) -> f64 {
     extents.into_iter().enumerate().map(of).sum()
 }
 
-/// Returns the times of a leg at which the frame's origin is in a disc. `None` if it never is.
+/// Returns the times of a leg during which the origin of the object's frame is in a disc. `None` if there are none.
 fn within(leg: &Leg, center: Point, radius: f64) -> Option<Interval> {
     let (extent, speed) = (center - leg.start.at, leg.velocity.norm());
     if speed == 0.0 || radius == f64::INFINITY {

@@ -12,24 +12,24 @@ use cplan_handling::{Action, ObstacleTrajectory, Step, Task, TimedScene};
 use cplan_motion::{MIN_INTERVAL, nanoseconds, nearest_within, round_down, round_up, seconds};
 use cplan_movers::MovingObstacles;
 
-/// Largest number of arrival intervals for each IK solution.
+/// Largest number of intervals of arrival for each IK solution.
 const MAX_ARRIVALS: usize = 3;
 
-/// Least time, seconds, between the last arrival and the moment for which the arm waits: shorter pauses cannot be
-/// represented.
+/// Least time between the latest arrival and the moment for which the arm waits, in seconds. Shorter waits cannot be
+/// represented in a trajectory.
 const MIN_WAIT: f64 = 2.0 * MIN_INTERVAL;
 
-/// A candidate for the next step. All times are on the clock of the task.
+/// A candidate for the next step, with times from the beginning of the task in seconds.
 #[derive(Debug, Clone)]
 pub(super) struct TimedCandidate<'a> {
     pub candidate: Candidate<'a>,
-    /// Interval in which the motion may arrive.
+    /// Interval within which the motion may arrive.
     pub arrival: Interval,
-    /// The moment at which the object is picked, if it is moving then.
+    /// The moment at which the object is picked. `None` if it does not move then, or if the step is no pick.
     pub moment: Option<Moment>,
     /// Index of the candidate.
     pub branch: usize,
-    /// Lower bound on the end of the step.
+    /// Lower bound on the end of the step, in seconds.
     pub ends: f64,
 }
 
@@ -37,11 +37,11 @@ pub(super) struct TimedCandidate<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moment {
     pub time: f64,
-    /// From this time on it might be picked as well, unless obstacles prevent it.
+    /// From this time on, a pick may be possible as well, unless obstacles prevent it.
     pub since: f64,
 }
 
-/// The reason why a step cannot be done with an IK solution, or with any.
+/// The reason why a step cannot be done, with one IK solution or with any.
 pub(super) struct Reason<'a> {
     pub step: &'a Step,
     pub to: Option<Configuration>,
@@ -64,14 +64,15 @@ pub(super) struct TimedState<'a, 's> {
 }
 
 impl<'a> TimedState<'a, '_> {
-    /// Returns the scene during the motion of a step, and its trajectories on a clock that begins with it.
+    /// Returns the scene during the motion of a step, with trajectories of its loose obstacles. Their times count from
+    /// the beginning of the motion.
     pub fn scene(&self, step: &Step) -> (Scene, Vec<ObstacleTrajectory>) {
         let scene = self.state.scene(self.task, step.action.picked());
         (scene, self.task.courses_since(&self.state.moving, self.time))
     }
 
-    /// Returns the scene when the arm stands at the end of a candidate's step, and its trajectories on a clock that
-    /// begins at `time`.
+    /// Returns the scene while the arm stands at the end of a candidate's step, with trajectories of its loose
+    /// obstacles. Their times count from `time`.
     pub fn scene_at_rest(&self, candidate: &Candidate, time: f64) -> (Scene, Vec<ObstacleTrajectory>) {
         let left = self.state.after_step(self.task, candidate, candidate.to);
         (left.scene(self.task, self.state.released), self.task.courses_since(&left.moving, time))
@@ -116,7 +117,7 @@ impl<'a> TimedState<'a, '_> {
         choices
     }
 
-    /// Returns the same pick at another moment, with the nearest IK solution.
+    /// Returns the same pick at another moment, with the IK solution nearest to that of `choice`.
     pub fn at_moment(&self, choice: &TimedCandidate<'a>, moment: Moment) -> Option<TimedCandidate<'a>> {
         let object = choice.candidate.step.action.picked()?;
         let (scene, courses) = self.scene(choice.candidate.step);
@@ -126,7 +127,7 @@ impl<'a> TimedState<'a, '_> {
         ways.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)))
     }
 
-    /// Adds the candidates for picking a moving object at the places where it may be.
+    /// Adds the candidates for picking a moving object, at several moments of each passage.
     fn pick(
         &self,
         movers: &MovingObstacles,
@@ -144,7 +145,7 @@ impl<'a> TimedState<'a, '_> {
                     }
                     continue;
                 }
-                // Clocks count nanoseconds: the one nearest to the beginning of the interval may be before it.
+                // Times are whole nanoseconds. The one nearest to the beginning of the interval may lie before it.
                 let [begins, ends] = passage.times;
                 let instant = || (begins == ends).then(|| seconds(nanoseconds(time)));
                 let Some(time) = nearest_within(time, passage.times).or_else(instant) else { continue };
@@ -155,7 +156,7 @@ impl<'a> TimedState<'a, '_> {
         }
     }
 
-    /// Returns the candidates of a pick at a moment.
+    /// Returns the candidates for a pick at a given time.
     fn candidates(&self, step: &Step, object: usize, time: f64) -> Vec<Candidate<'a>> {
         let stopped = self.state.at_pick(self.task, object, time);
         let same = |other: &Step| (other.number, other.cycle) == (step.number, step.cycle);
@@ -163,7 +164,7 @@ impl<'a> TimedState<'a, '_> {
         all.flat_map(|candidates| candidates.ways).collect()
     }
 
-    /// Returns the candidates for picking an object at a moment, after waiting for it.
+    /// Returns the candidates for picking a passing object at a moment. The arm arrives before and waits for it.
     fn passing(&self, movers: &MovingObstacles, step: &Step, object: usize, moment: Moment) -> Vec<TimedCandidate<'a>> {
         let choice = |(branch, candidate): (usize, Candidate<'a>)| {
             let [safe, stays] = self.safe(movers, &candidate);
@@ -172,15 +173,15 @@ impl<'a> TimedState<'a, '_> {
             stays.into_iter().find(|[from, to]| *from <= moment.time && stays_until <= *to)?;
             let arrival = [round_up(before[0]), moment.time - MIN_WAIT];
             let is_in_time = arrival[0].max(self.soonest(&candidate)) <= arrival[1];
-            // An earlier moment may be found for it.
+            // The bound takes into account that an earlier moment may be found.
             let ends = moment.since + step.dwell;
             is_in_time.then_some(TimedCandidate { candidate, arrival, moment: Some(moment), branch, ends })
         };
         self.candidates(step, object, moment.time).into_iter().enumerate().filter_map(choice).collect()
     }
 
-    /// Adds the candidates that arrive at a target within an interval, and stay there as long as the step requires. The
-    /// arrival intervals begin and end at whole nanoseconds inside it.
+    /// Adds the candidates that arrive at a target within an interval and stay there as long as the step requires. The
+    /// intervals of arrival begin and end at whole nanoseconds.
     fn arrivals(
         &self,
         movers: &MovingObstacles,
@@ -202,13 +203,13 @@ impl<'a> TimedState<'a, '_> {
         }));
     }
 
-    /// Returns the earliest time at which the arm can be at a candidate's target.
+    /// Returns a lower bound on the time at which the arm can be at a candidate's target.
     fn soonest(&self, candidate: &Candidate) -> f64 {
         self.time + least_time(&self.task.arm, self.state.q, candidate.to, candidate.step.speed)
     }
 
-    /// Returns the times at which no moving obstacle is at a candidate's target: first for the arriving arm, and then
-    /// for the arm standing there after the step's event.
+    /// Returns the times at which no moving obstacle comes too near to the arm at a candidate's target: first before
+    /// the step's event, then after it.
     fn safe(&self, movers: &MovingObstacles, candidate: &Candidate) -> [Vec<Interval>; 2] {
         let (after, courses) = self.scene_at_rest(candidate, self.time);
         let then = self.movers(&after, &courses);
@@ -219,7 +220,7 @@ impl<'a> TimedState<'a, '_> {
         })
     }
 
-    /// Explains why a moving object cannot be picked any more. `passed` returns its passages from a time on.
+    /// Explains why a moving object cannot be picked any more. `passed` returns the object's passages from a time on.
     fn missed(&self, step: &Step, object: usize, passed: impl Fn(f64) -> Vec<Passage>) -> Refusal {
         let name = &self.task.objects[object].name;
         let (all, left) = (passed(0.0), passed(self.time));

@@ -2,18 +2,18 @@
 
 use super::super::motion_cache::{Blockers, Refusal};
 
-/// A pair that comes before another in the order.
+/// A requirement on an order: the first pair comes before the second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Precedence(pub usize, pub usize);
 
-/// A condition that an order must satisfy: all requirements of one of the alternatives.
+/// A condition on orders. An order satisfies it if it satisfies all requirements of at least one alternative.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Condition {
     alternatives: Vec<Vec<Precedence>>,
 }
 
 impl Condition {
-    /// Creates a condition from these alternatives. `None` if one of them requires nothing.
+    /// Creates a condition from alternatives. `None` if one of them requires nothing, so that every order satisfies it.
     pub fn of(alternatives: impl IntoIterator<Item = Vec<Precedence>>) -> Option<Self> {
         let mut all: Vec<Vec<Precedence>> = Vec::new();
         for mut alternative in alternatives {
@@ -30,17 +30,18 @@ impl Condition {
         Some(Self { alternatives: all })
     }
 
-    /// Learns a condition for `pair`, which could not be done after exactly the pairs that are `done`, for these
-    /// reasons. `pair_of` returns the pair that moves an obstacle.
+    /// Derives a condition from the reasons why `pair` could not be done after exactly the pairs that are `done`.
+    /// `pair_of` returns the pair that moves an obstacle.
     ///
-    /// An obstacle that blocks the path to one IK solution, or from one place, may not block others, so conditions are
-    /// learned and not proven. If the reasons reveal nothing, the pair must come earlier or later in the order.
+    /// Such a condition is not proven, because an obstacle that blocks the path to one IK solution, or from one place,
+    /// may not block others. If the reasons name no obstacle of another pair, the condition is only that the pair comes
+    /// earlier or later in the order.
     pub fn learned(pair: usize, done: &[bool], refusals: &[Refusal], pair_of: impl Fn(usize) -> Option<usize>) -> Self {
         let elsewhere = |other: usize| if done[other] { Precedence(pair, other) } else { Precedence(other, pair) };
         let mut alternatives = Vec::new();
         for refusal in refusals {
             match &refusal.blockers {
-                // All of them must be elsewhere. Obstacles that no other pair moves stay.
+                // All of these obstacles must be elsewhere. Those that no other pair moves remain.
                 Blockers::AtEnd(blockers) => {
                     let others: Option<Vec<usize>> =
                         blockers.iter().map(|&blocker| pair_of(blocker).filter(|&other| other != pair)).collect();
@@ -60,7 +61,7 @@ impl Condition {
         Self::of(alternatives).unwrap_or(Self { alternatives: Vec::new() })
     }
 
-    /// Returns true if an order satisfies the condition, given the position of each pair in it.
+    /// Returns true if an order satisfies the condition. `places` has the position of each pair in the order.
     pub fn holds(&self, places: &[usize]) -> bool {
         self.alternatives.iter().any(|all| all.iter().all(|Precedence(first, then)| places[*first] < places[*then]))
     }

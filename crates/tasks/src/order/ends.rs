@@ -1,5 +1,5 @@
-//! Conditions that follow from the ends of motions: the arm or its payload would hit an object that another pair has
-//! not yet removed, or has already placed.
+//! Conditions that follow from the ends of motions: there, the arm or its payload must not hit an object that another
+//! pair has not yet removed, or has already placed.
 
 use super::super::state::State;
 use super::Group;
@@ -10,7 +10,7 @@ use cplan_geometry::Pose;
 use cplan_handling::{Action, Item, Step, Task};
 use std::sync::Arc;
 
-/// Poses of all objects as far as they do not depend on IK solutions. Otherwise objects count as not turned.
+/// Poses of all objects. If the orientation of an object depends on IK solutions, its initial one is assumed.
 type Poses = Arc<[Option<Pose>]>;
 
 /// Returns the poses of all objects before an item of a task.
@@ -48,7 +48,7 @@ pub(super) fn conditions(task: &Task, group: &Group) -> Vec<Condition> {
     let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);
     let objects = || group.objects().map(|object| &task.objects[object]);
     let heights = || own().chain(objects().map(|object| object.carried_heights()));
-    // If all parts are carried above all others, there are no conditions.
+    // If all objects are carried above all others, there are no conditions.
     if !objects().any(|object| heights().any(|h| h.meet(object.heights))) {
         return Vec::new();
     }
@@ -102,13 +102,13 @@ impl Ends<'_> {
                 places.extend(at_place.zip(self.alternative(&released, candidate.to)).map(|(a, b)| [a, b].concat()));
             }
         }
-        // Without any alternative, no order helps. The search will find that out.
+        // If there is no alternative at all, no order is possible. The search will find this.
         let made = [picks, places].into_iter().filter(|alternatives| !alternatives.is_empty());
         made.filter_map(Condition::of).collect()
     }
 
-    /// Returns the pairs that must come before or after for the arm to be at `q`, given the worlds before and after the
-    /// group. `None` if no order of the group makes that possible.
+    /// Returns the requirements for the arm to be at `q`: which pairs must come before or after. The two scenes are the
+    /// worlds before and after the group. `None` if no order of the group satisfies the requirements.
     fn alternative(&self, [before, after]: &[Scene; 2], q: Configuration) -> Option<Vec<Precedence>> {
         let hit = |scene: &Scene, ahead: bool| {
             let others = scene.obstructions(q).into_iter().map(move |hit| {

@@ -1,5 +1,5 @@
-//! Orders for groups that are too large to try all orders. An order is proposed by times without obstacles, tried
-//! without planning motions, and proposed again with the conditions learned from the failure.
+//! Orders for groups with too many orders to try all. An order is proposed by times without obstacles. It is then tried
+//! without planning motions. If it fails, another one is proposed that satisfies conditions derived from the failure.
 
 mod condition;
 mod ends;
@@ -18,13 +18,13 @@ use std::collections::BTreeSet;
 use tour::Tour;
 use walk::{Layer, advance, walk};
 
-/// Largest number of paths examined for an order: some seconds of work.
+/// Largest number of paths that are examined in the search for an order. They take some seconds.
 const MAX_EXAMINED_PATHS: usize = 20_000;
 
-/// Number of proposed orders of a group before one is built pair by pair.
+/// Largest number of orders that are proposed for a group. After them, an order is built pair by pair.
 const MAX_PROPOSALS: usize = 64;
 
-/// Largest number of pairs of a group for which the ends of motions are examined in advance.
+/// Largest number of pairs of a group for which conditions are derived from the ends of motions.
 const MAX_PAIRS_WITH_ENDS: usize = 64;
 
 /// The groups of a task whose order is free, each with one order.
@@ -38,33 +38,35 @@ struct Group<'a> {
     /// Index of the item in the task.
     item: usize,
     pairs: &'a [[Step; 2]],
-    /// Times of the group. `None` if the group is too large.
+    /// Times between the pairs. `None` if the group is too large.
     tour: Option<Tour>,
     /// The order, as indices of pairs.
     order: Vec<usize>,
     conditions: Vec<Condition>,
 }
 
-/// Origin of an item of a task in a fixed order: the group, and the number of its pairs that come before.
+/// For an item of a task in a fixed order: the group from which it comes, and the number of the group's pairs before
+/// it. `None` if it comes from no group.
 type Origin = Option<(usize, usize)>;
 
-/// Result of the search for an order.
+/// The result of a search for an order.
 pub(super) enum OrderSearch {
-    /// Nothing known rules it out.
+    /// No inexpensive check rules out the order that was found.
     Promising,
-    /// No order was found. These pairs of a group were the last to block each other.
+    /// No order was found.
     Stuck {
         /// Index of the group among the items of the task.
         item: usize,
-        /// Pairs of the group; the first is the one that could not be done.
+        /// Pairs of the group. The first could not be done in the last order, and the others are those of the condition
+        /// that followed.
         pairs: Vec<usize>,
     },
-    /// A step outside the groups cannot be done after the orders before it.
+    /// A step outside the groups cannot be done after the steps before it.
     Elsewhere,
 }
 
 impl<'a> Orders<'a> {
-    /// Returns the orders of the file.
+    /// Returns the groups with the orders of the file.
     pub fn of_file(task: &'a Task) -> Self {
         let stops = stops(task);
         let groups = task.items.iter().enumerate().filter_map(|(item, group)| match group {
@@ -80,7 +82,7 @@ impl<'a> Orders<'a> {
         Self { task, groups: groups.collect() }
     }
 
-    /// Returns the task in these orders.
+    /// Returns the task in which each group has its order.
     pub fn in_chosen_order(&self) -> Task {
         self.with_origins().0
     }
@@ -109,21 +111,21 @@ impl<'a> Orders<'a> {
         self.groups.iter().map(|group| group.order.clone()).collect()
     }
 
-    /// Returns a lower bound on the seconds of the task in these orders.
+    /// Returns a lower bound on the duration of the task in these orders, in seconds.
     pub fn least_seconds(&self) -> f64 {
         let in_chosen_order = self.in_chosen_order();
         let start = State::at_start(&in_chosen_order);
         Heuristic::new(&in_chosen_order).remaining(start.q, start.progress)
     }
 
-    /// Takes the orders of `other`.
+    /// Replaces the orders by those of `other`.
     pub fn adopt(&mut self, other: &Self) {
         for (group, other) in self.groups.iter_mut().zip(&other.groups) {
             group.order.clone_from(&other.order);
         }
     }
 
-    /// Learns the durations of motions that have been planned in these orders.
+    /// Records the durations of motions that were planned in these orders.
     pub fn learn_times(&mut self, arm: &Arm, legs: &[Leg]) {
         let (in_chosen_order, origins) = self.with_origins();
         let steps = in_chosen_order.items.iter().zip(origins).filter(|(item, _)| matches!(item, Item::Step(_)));
@@ -149,8 +151,8 @@ impl<'a> Orders<'a> {
         }
     }
 
-    /// Finds other orders that seem faster by the known times, and that nothing rules out. Returns true if there are
-    /// any.
+    /// Looks for orders that are faster by the recorded times and that no inexpensive check rules out. Returns true if
+    /// it found any.
     pub fn improve(&mut self, legs: &mut MotionCache) -> bool {
         for _ in 0..MAX_PROPOSALS {
             let before = self.order();
@@ -166,12 +168,12 @@ impl<'a> Orders<'a> {
         false
     }
 
-    /// Returns true if nothing known rules these orders out.
+    /// Returns true if no inexpensive check rules out these orders.
     pub fn promising(&self, legs: &mut MotionCache) -> bool {
         walk(&self.in_chosen_order(), legs).is_ok()
     }
 
-    /// Looks for orders that can be done.
+    /// Looks for orders that no inexpensive check rules out.
     pub fn search(&mut self, legs: &mut MotionCache, progress: &mut dyn FnMut(&str)) -> OrderSearch {
         let most = legs.examined_paths() + MAX_EXAMINED_PATHS;
         for group in &mut self.groups {
@@ -222,7 +224,8 @@ impl Group<'_> {
         self.pairs.iter().position(|[pick, _]| pick.action.picked() == Some(object))
     }
 
-    /// Replaces the order by one that satisfies more of the conditions, or is faster. Returns true if it satisfies all.
+    /// Replaces the order by one that violates fewer conditions, or as many and is faster. Returns true if it satisfies
+    /// all.
     fn propose(&mut self) -> bool {
         let Some(tour) = &self.tour else { return false };
         let (order, (broken, _)) = tour.improved(self.order.clone(), &self.conditions);
@@ -230,8 +233,8 @@ impl Group<'_> {
         broken == 0
     }
 
-    /// Learns from the pair that cannot be done after the first `before` pairs. Returns it, and the pairs that its
-    /// condition involves.
+    /// Derives a condition from the reasons why a pair cannot be done after the first `before` pairs. Returns this
+    /// pair, followed by the other pairs of the condition.
     fn learn(&mut self, task: &Task, before: usize, refusals: &[super::motion_cache::Refusal]) -> Vec<usize> {
         let pair = self.order[before];
         let mut done = vec![false; self.pairs.len()];
@@ -245,7 +248,7 @@ impl Group<'_> {
     }
 }
 
-/// Returns the states before an item of a task in a fixed order.
+/// Returns the states before an item of a task in a fixed order. `None` if the items before it cannot be done.
 fn entered(task: &Task, legs: &mut MotionCache, item: usize) -> Option<Layer> {
     let mut layer = vec![(0.0, State::at_start(task))];
     while layer[0].1.progress.item < item {
@@ -254,14 +257,14 @@ fn entered(task: &Task, legs: &mut MotionCache, item: usize) -> Option<Layer> {
     Some(layer)
 }
 
-/// Builds an order pair by pair. Pairs that come first in the proposed order are tried first.
+/// Builds an order pair by pair. Tries pairs in the sequence of the proposed order.
 struct OrderBuilder<'a, 'g> {
     group: &'a mut Group<'g>,
     legs: &'a mut MotionCache,
     most: usize,
-    /// Dead ends: the set of pairs done, and the last of them.
+    /// Dead ends, each given by the set of pairs that are done and the last of them.
     dead: BTreeSet<(Vec<bool>, Option<usize>)>,
-    /// The task of one pair, with another step after it.
+    /// A task with a single pair, and another step after it.
     alone: Task,
 }
 
@@ -303,7 +306,7 @@ impl<'a, 'g> OrderBuilder<'a, 'g> {
         false
     }
 
-    /// Returns the states after a pair.
+    /// Returns the states after a pair. `None` if it cannot be done.
     fn with(&mut self, layer: &Layer, pair: usize) -> Option<Layer> {
         let [pick, place] = &self.group.pairs[pair];
         self.alone.items = [pick, place, place].map(|step| Item::Step(step.clone())).into();

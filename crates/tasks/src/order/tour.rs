@@ -1,4 +1,4 @@
-//! Good orders for groups that are too large to try all.
+//! Good orders for groups that have too many orders to try all.
 
 use super::super::heuristic::{Stop, Stops};
 use super::super::least_time::least_time;
@@ -8,39 +8,43 @@ use cplan_core::space::Configuration;
 use cplan_geometry::OrderedF64;
 use cplan_handling::Task;
 
-/// Longest run of pairs that is moved elsewhere.
+/// Greatest length of a run of pairs that is moved to another position in the order.
 const MAX_MOVED_RUN: usize = 3;
 
-/// Largest total number of pairs in all orders that are evaluated: some tenths of a second of work.
+/// Largest number of pairs in all orders that are evaluated, counted together. The evaluation takes some tenths of a
+/// second.
 const MAX_EVALUATED_PAIRS: usize = 20_000_000;
 
-/// Largest number of pairs for which the table of times between them fits in memory. Larger groups keep their order.
+/// Largest number of pairs for which the table of times between them is made, so that it fits into memory. Larger
+/// groups keep their order.
 const MAX_TABLE_PAIRS: usize = 300;
 
-/// The times of a group without obstacles, by IK solutions, and the extra times learned since. An unknown IK solution
-/// counts as one that takes no time.
+/// Times between the stops of a group, in seconds. They are lower bounds without obstacles, for each IK solution, to
+/// which learned times are added. If the IK solutions of a stop are unknown, times to and from it are 0.
 pub(super) struct Tour {
-    /// From the beginning of the group to the pick of each pair.
+    /// Times from the beginning of the group to the pick of each pair.
     entry: Vec<Vec<f64>>,
-    /// From the pick of each pair to its place, by the IK solutions of pick and place.
+    /// Times from the pick of each pair to its place, for the IK solutions of both.
     carry: Vec<Vec<Vec<f64>>>,
-    /// From the place of one pair to the pick of another.
+    /// Times from the place of one pair to the pick of another, for the IK solutions of both.
     transfer: Vec<Vec<Vec<Vec<f64>>>>,
-    /// From the place of each pair to the step after the group.
+    /// Times from the place of each pair to the step after the group.
     exit: Vec<Vec<f64>>,
-    /// Extra seconds of motions that have been planned, beyond these times: for carrying each pair, ...
+    /// Learned times, in seconds: how much longer than in `carry` the planned motion takes that carries each pair's
+    /// object.
     carry_more: Vec<f64>,
-    /// ... and from the place of one to the pick of another. Unknown ones count as half the mean of the known ones.
+    /// Learned times, in seconds: how much longer than in `transfer` the planned motion takes. An unknown one counts as
+    /// half the mean of the known ones.
     way_more: Vec<Vec<Option<f64>>>,
     unknown_more: f64,
 }
 
-/// Merit of an order: the number of violated conditions, then seconds.
+/// Merit of an order, where less is better: the number of violated conditions, then the duration in seconds.
 pub(super) type Merit = (usize, OrderedF64);
 
 impl Tour {
-    /// Creates the tour for the group with index `index` in a task with these stops. `None` if that item is not a
-    /// group, or is too large.
+    /// Creates the times for the group with index `index`, in a task with these stops. `None` if the item is no group
+    /// or is too large.
     pub fn new(task: &Task, stops: &[Stops], index: usize) -> Option<Self> {
         let Stops::Pairs(pairs) = &stops[index] else { return None };
         if pairs.len() > MAX_TABLE_PAIRS {
@@ -94,8 +98,8 @@ impl Tour {
         self.unknown_more = known().sum::<f64>() / (2 * known().count()) as f64;
     }
 
-    /// Returns the seconds for the pairs in this order: the shortest path through the layers of IK solutions, plus the
-    /// learned extra times.
+    /// Returns the duration of the pairs in this order, in seconds: the shortest path through the layers of IK
+    /// solutions, plus the learned times.
     pub fn seconds(&self, order: &[usize]) -> f64 {
         let Some(&first) = order.first() else { return 0.0 };
         let mut times = self.entry[first].clone();
@@ -113,7 +117,7 @@ impl Tour {
         times.into_iter().fold(f64::INFINITY, f64::min) + more.sum::<f64>()
     }
 
-    /// Returns the merit of an order. Seconds are not computed if it violates more than `most` conditions.
+    /// Returns the merit of an order. If it violates more than `most` conditions, the duration is not computed.
     fn merit(&self, order: &[usize], conditions: &[Condition], most: usize) -> Merit {
         let mut places = vec![0; order.len()];
         order.iter().enumerate().for_each(|(at, &pair)| places[pair] = at);
@@ -121,8 +125,8 @@ impl Tour {
         (broken, OrderedF64(if broken > most { f64::INFINITY } else { self.seconds(order) }))
     }
 
-    /// Improves the order until no change helps, taking the first improvement found. A change moves a run of up to
-    /// [`MAX_MOVED_RUN`] pairs elsewhere, or reverses a run.
+    /// Improves an order until no change helps, and takes the first improvement each time. A change moves a run of up
+    /// to [`MAX_MOVED_RUN`] pairs to another position, or reverses a run of any length.
     pub fn improved(&self, mut order: Vec<usize>, conditions: &[Condition]) -> (Vec<usize>, Merit) {
         let count = order.len();
         let mut best = self.merit(&order, conditions, usize::MAX);
@@ -134,7 +138,7 @@ impl Tour {
                 for last in first..count {
                     let run = last - first + 1;
                     let moves = if run <= MAX_MOVED_RUN { count - run + 1 } else { 0 };
-                    // All of these changes start from the same order.
+                    // All changes of this round start from the same order.
                     let from = order.clone();
                     for change in 0..=moves {
                         if left == 0 {
@@ -165,7 +169,7 @@ impl Tour {
     }
 }
 
-/// Computes the times after a stage from those before it.
+/// Computes the least times after a stage from those before it.
 fn through(times: &mut Vec<f64>, stage: &[Vec<f64>], next: &mut Vec<f64>) {
     next.clear();
     next.resize(stage.first().map_or(0, Vec::len), f64::INFINITY);
@@ -177,7 +181,7 @@ fn through(times: &mut Vec<f64>, stage: &[Vec<f64>], next: &mut Vec<f64>) {
     std::mem::swap(times, next);
 }
 
-/// Returns the least seconds between IK solutions; zero if they are unknown.
+/// Returns lower bounds on the times between IK solutions, in seconds; 0 if they are unknown.
 fn between(arm: &Arm, from: Option<&[Configuration]>, to: Option<&[Configuration]>, speed: f64) -> Vec<Vec<f64>> {
     let seconds = |row: usize, column: usize| match (from, to) {
         (Some(from), Some(to)) => least_time(arm, from[row], to[column], speed),

@@ -1,4 +1,4 @@
-//! Tries steps in a fixed order, without planning motions.
+//! Tries the steps of a fixed order without planning motions.
 
 use super::super::least_time::least_time;
 use super::super::motion_cache::{MotionCache, Refusal};
@@ -8,24 +8,24 @@ use cplan_handling::Task;
 use cplan_interrupt::checkpoint;
 use std::collections::BTreeMap;
 
-/// Largest number of states that are followed at once, the earliest first. That covers all states with level payloads,
-/// whose places do not depend on IK solutions.
+/// Largest number of states after a step that are kept, the earliest first. It suffices for all states with level
+/// payloads, whose places do not depend on IK solutions.
 const MAX_STATES: usize = 8;
 
-/// States of the world after the same steps, each with the least seconds to it. Never empty.
+/// States after the same steps, each with a lower bound on its time in seconds. Never empty.
 pub(super) type Layer = Vec<(f64, State)>;
 
-/// The item that cannot be done after those before it.
+/// An item that cannot be done after those before it.
 pub(super) struct Failure {
     pub item: usize,
-    /// The reasons, from each state and with each IK solution.
+    /// The reasons, for each state before the item and each IK solution.
     pub refusals: Vec<Refusal>,
 }
 
-/// Goes through all items of a task that has no groups in any order, using only inexpensive checks.
+/// Goes through all items of a task without groups in any order, using only inexpensive checks.
 ///
 /// # Errors
-/// Returns the first item that cannot be done.
+/// The first item that cannot be done.
 pub(super) fn walk(task: &Task, legs: &mut MotionCache) -> Result<(), Failure> {
     let mut layer = vec![(0.0, State::at_start(task))];
     while !layer[0].1.is_done(task) {
@@ -38,9 +38,9 @@ pub(super) fn walk(task: &Task, legs: &mut MotionCache) -> Result<(), Failure> {
 /// Returns the states after the next step.
 ///
 /// # Errors
-/// Returns the reasons if there are no such states.
+/// The reasons, if there are no such states.
 pub(super) fn advance(task: &Task, legs: &mut MotionCache, layer: &Layer) -> Result<Layer, Vec<Refusal>> {
-    // By the key of the state, so that each state is reached once.
+    // The states by their keys, so that each state occurs once.
     let mut next: BTreeMap<Vec<i64>, (f64, State)> = BTreeMap::new();
     let mut refusals = Vec::new();
     for (seconds, state) in layer {

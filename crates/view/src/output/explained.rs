@@ -11,7 +11,7 @@ use cplan_explain::{
 use cplan_solver::BoundedPath;
 use cplan_text::{fixed, listed, nonzero, percent, round_down, round_up, short};
 
-/// Factor by which more time is suggested for an explanation that was stopped.
+/// If an explanation was stopped early, cplan suggests its time limit times this factor.
 const TIME_LIMIT_FACTOR: f64 = 12.0;
 
 /// Returns the verdict, and then the reasons.
@@ -80,7 +80,7 @@ fn verdict(explanation: &Explanation) -> String {
     }
 }
 
-/// Returns a note if the time was up too early, with the option for more time.
+/// Returns a note with the option for more time, if the time limit ended the explanation early.
 fn stopped(explanation: &Explanation) -> Option<String> {
     let limit = explanation.question.time_limit().filter(|_| explanation.is_stopped)?.as_secs_f64();
     let more = short((TIME_LIMIT_FACTOR * limit).max(TIME_LIMIT.as_secs_f64()));
@@ -91,7 +91,7 @@ fn counted_makes(n: usize) -> String {
     if n == 1 { "one thing makes".into() } else { format!("{n} things each make") }
 }
 
-/// Returns the facts, by name.
+/// Returns names and descriptions of the facts that the explanation found.
 fn facts(explanation: &Explanation) -> Vec<Line> {
     let scene = explanation.question.scene();
     match &explanation.outcome {
@@ -194,7 +194,7 @@ fn misses(scene: &Scene, out: &OutOfReach) -> String {
     )
 }
 
-/// Describes a change.
+/// Describes a change that opens a path.
 fn opens(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
     let Change { element, cure, among, by } = change;
     let (what, unit) = (element.describe(scene), element.unit(scene.arm()));

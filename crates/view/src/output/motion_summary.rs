@@ -12,7 +12,7 @@ use cplan_movers::{Timing, Wait};
 use cplan_solver::{Answer, Bound, GridSpace, Space};
 use cplan_text::{counted, percent, round_down};
 
-/// Returns the planner's result and work, and the query.
+/// Returns the lines of the summary: the planner's result and work, and the query.
 pub(super) fn summary_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> SummaryLines {
     let (scene, arm) = (problem.scene(), plan.arm());
     let moving = match scene.loose().len() {
@@ -47,7 +47,7 @@ fn found(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Vec<L
     lines
 }
 
-/// Returns the lines of the motion that was found, and the facts that are proven of it.
+/// Returns the lines about a motion that was found, with the properties that are proven.
 fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motion) -> Vec<Line> {
     let (scene, arm, path) = (problem.scene(), problem.scene().arm(), motion.path.path());
     let TimedMotion { curve, trajectory } = &motion.timed;
@@ -67,7 +67,7 @@ fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motio
     lines
 }
 
-/// Returns the number of cells, if it differs from the requested one.
+/// Returns a line with the number of cells, if the planner used another number than the requested one.
 fn cells(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let Space::Grid(grid) = &answer.space else { return None };
     let asked = plan.options().planner.cells().filter(|asked| asked.0 != grid.cells)?;
@@ -75,7 +75,7 @@ fn cells(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     Some(("cells", format!("{used}: {asked} show no certified path")))
 }
 
-/// Returns the result of the attempt among exact polygons.
+/// Returns a line about planning among exact polygons, for planners that use them and if a path was found.
 fn exact(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let Space::Regions(_) = &answer.space else { return None };
     let is_found = matches!(answer.outcome, Outcome::Found(_));
@@ -93,10 +93,11 @@ fn exact(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     })
 }
 
-/// Number of boxes that are examined for each decision about blocking obstacles. `cplan explain` does longer searches.
+/// Number of boxes that each decision about blocking obstacles may examine. `cplan explain` searches longer.
 const BOXES_PER_DECISION: usize = 500;
 
-/// Largest number of pairs of shapes; with more of them, the decisions can take seconds.
+/// Largest number of pairs of shapes with which blocking obstacles are sought. With more pairs, the decisions can take
+/// seconds.
 const MAX_PAIRS: usize = 1000;
 
 /// Returns the obstacles that block the motion, if there is no motion and they can be found within milliseconds. `cplan
@@ -110,7 +111,7 @@ pub(super) fn blocked_by(problem: &MotionProblem, answer: &Answer<Motion>) -> Op
     Some(("blocked by", summary_lines.unwrap_or_else(|| "unknown so far; `cplan explain` takes more time".into())))
 }
 
-/// Describes the clearance of the motion, and the nearest place.
+/// Describes the clearance of the motion, and the place nearest to an obstacle.
 fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
     match curve.nearest() {
         Some(nearest) => format!(

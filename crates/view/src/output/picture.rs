@@ -36,7 +36,7 @@ pub enum PictureFormatError {
         /// The name as given.
         file: String,
     },
-    /// This build of the program does not have the format.
+    /// The format is pixels, and this build of the program cannot write them.
     #[error("{file}: this program was built without pixels (feature png); use .svg or .html")]
     WithoutPng {
         /// The name as given.
@@ -52,7 +52,7 @@ const PNG_SCALE: f64 = 2.0;
 #[cfg(feature = "png")]
 const GIF_WIDTH: f64 = 960.0;
 
-/// Largest deviation of C-obstacle contours in pictures, as a fraction of the arm's reach: less than a pixel.
+/// Largest deviation of contours of C-obstacles in pictures, as a fraction of the arm's reach. It is less than a pixel.
 pub(super) const PICTURE_TOLERANCE: f64 = 1e-3;
 
 impl PictureFormat {
@@ -112,7 +112,8 @@ impl PictureFormat {
         }
     }
 
-    /// Returns the file's content for anything that can be an SVG document and a page; as a GIF it is a single picture.
+    /// Returns the content of a file that shows anything with an SVG document and a page. As a GIF, it is a single
+    /// picture.
     ///
     /// # Errors
     /// A picture that cannot be rendered.
@@ -146,7 +147,7 @@ pub fn replayed(plan: &Plan, view: View) -> View {
     if let Some(replay) = plan.task_replay() { view.with_task_replay(&replay) } else { view }
 }
 
-/// Returns the view with contours from `contours`, which returns the C-obstacles of single motions.
+/// Returns the view. If the plan is a single motion, `contours` computes its C-obstacles.
 #[must_use]
 pub fn view_with(plan: &Plan, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -> View {
     match plan.detail() {
@@ -219,12 +220,12 @@ pub fn status(status: Status) -> &'static str {
     }
 }
 
-/// Describes the proven distance of a motion from obstacles.
+/// Describes the proven clearance of a motion.
 fn kept(clearance: Option<f64>) -> String {
     clearance.map_or("no obstacle within reach".into(), |c| format!("proven clearance {} m", round_down(c, 6)))
 }
 
-/// Returns a title from workspace and robot.
+/// Returns the title of a scene: the names of the workspace and of the robot.
 #[must_use]
 pub fn title_of(scene: &Scene) -> String {
     match scene.workspace().name.as_str() {
@@ -233,10 +234,12 @@ pub fn title_of(scene: &Scene) -> String {
     }
 }
 
-/// Largest number of times of a motion at which C-obstacles of moving obstacles are drawn.
+/// Limit on the number of times of a motion for which C-obstacles of moving obstacles are computed. Each takes as long
+/// as a picture of a static world.
 const MAX_MOMENTS: usize = 60;
 
-/// Returns C-obstacles of moving obstacles, some times per second, at most at this many times.
+/// Returns the C-obstacles of moving obstacles at 20 times per second between `from` and `to`, both included. If that
+/// is more than `most + 1` times, they are `most + 1`, evenly spaced.
 fn contours_in_time(TimedScene { scene, courses }: TimedScene, [from, to]: [f64; 2], most: usize) -> Moments {
     if courses.is_empty() {
         return Vec::new();
@@ -260,7 +263,7 @@ fn contours_of(options: &Options) -> fn(&Scene) -> Vec<CObstacle> {
     if options.planner.is_exact() { exact_contours } else { contours }
 }
 
-/// Returns exact C-obstacles for pictures, if the arm has any.
+/// Returns the exact C-obstacles for pictures if the arm has exact ones; otherwise the same as [`contours`].
 fn exact_contours(scene: &Scene) -> Vec<CObstacle> {
     exact_c_obstacles(scene).map_or_else(|| contours(scene), |(exact, _)| exact)
 }

@@ -9,7 +9,8 @@ use cplan_handling::{ObstacleTrajectory, Task};
 use cplan_motion::{Body, Solid, Stage};
 use cplan_tasks::{Event, Leg, TaskAnswer};
 
-/// Number of the first link (`FIRST_LINK`) and of the first object (`FIRST_OBJECT`) among the bodies. The workspace has number 0.
+/// Numbers of the first link (`FIRST_LINK`) and of the first object (`FIRST_OBJECT`) among the bodies of the recording.
+/// The workspace has number 0.
 const FIRST_LINK: usize = 1;
 const FIRST_OBJECT: usize = 3;
 
@@ -27,7 +28,7 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
         size: arm.reach(),
     };
     for (number, link) in arm.links.iter().enumerate() {
-        // A payload is a body of its own.
+        // A payload is a body of its own, so it is not among the parts of the arm.
         let parts = match plan.detail() {
             Detail::Motion { problem, .. } => problem.scene().own_parts(number),
             Detail::Task { .. } => &link.parts,
@@ -69,7 +70,8 @@ fn with_movers<'a>(
     }
 }
 
-/// Adds the objects: they lie, or move as given for these times, are carried, and lie again.
+/// Adds the objects with their poses over time: at their initial places or on their trajectories, then carried, then
+/// where they are released.
 fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f64]) {
     for (number, object) in task.objects.iter().enumerate() {
         let of_all = task.obstacle_number(number);

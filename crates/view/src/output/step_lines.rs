@@ -2,24 +2,24 @@
 
 use cplan_text::{SECOND_COLUMN, counted, wrapped};
 
-/// Width of a line in characters, so that it fits a terminal of 80 beside the summary's first column.
+/// Width of a line, in characters. Beside the first column of the summary, it fits a terminal of 80 characters.
 const LINE_WIDTH: usize = 80 - SECOND_COLUMN;
 
-/// Number of repetitions of a step that are shown; of the others only the number is shown.
+/// Number of repetitions of a step that are listed. Later repetitions are only counted.
 const MAX_SHOWN_CYCLES: usize = 3;
 
-/// A step of a task, for people.
+/// A step of a task, as a line of the summary.
 pub struct StepLine {
     /// Number of the repetition, from 1.
     pub cycle: usize,
-    /// True if the step is also shown in late repetitions.
+    /// True if the step is listed even in late repetitions.
     pub matters: bool,
-    /// The line in four columns.
+    /// Texts of the columns: number, action, payload and motion.
     pub columns: [String; 4],
 }
 
-/// Returns the lines, with one line for each run of later cycles. If a table of all columns is too wide, payload and
-/// motion are in the line below the action.
+/// Returns the lines of the steps. Consecutive steps that are only counted share one line. If all columns are too wide
+/// for one line, payload and motion are in the line below the action.
 pub fn step_lines(steps: &[StepLine]) -> Vec<String> {
     let shown = |step: &StepLine| step.matters || step.cycle <= MAX_SHOWN_CYCLES;
     let width = |k: usize| {

@@ -15,7 +15,8 @@ pub fn configuration(arm: &Arm, q: Configuration) -> String {
     format!("{} {}, {} {}", a.name, a.shown(q[0]), b.name, b.shown(q[1]))
 }
 
-/// Returns the values of both joints along a segment by name; for a joint that moves along it, both ends.
+/// Returns the values of both joints along a segment by name. For a joint that moves along the segment, returns the
+/// values at both ends.
 pub fn segment(arm: &Arm, segment: &Segment) -> String {
     let [from, to] = segment.ends();
     let shown = |k: usize| {
@@ -28,7 +29,7 @@ pub fn segment(arm: &Arm, segment: &Segment) -> String {
     format!("{}, {}", shown(0), shown(1))
 }
 
-/// Returns a line for each goal, if there are only a few.
+/// Returns a line for each of the first few goals, and a line with the number of the others.
 pub(super) fn goal_lines(arm: &Arm, goals: &GoalSet) -> Vec<Line> {
     let lines = goals.pieces().iter().map(|goal| segment(arm, goal)).collect();
     first_lines(lines, |more| format!("and {more} more")).into_iter().map(|line| ("goal", line)).collect()
@@ -42,8 +43,8 @@ pub fn range(joint: &Joint) -> String {
     }
 }
 
-/// Returns the result in some ten lines for people, the verdict first. It includes the written files, and the stages
-/// after planning in milliseconds. On request, it also describes how the robot was read.
+/// Returns the result in some ten lines for people, the verdict first. It includes the written files, and the times of
+/// the stages after planning, in milliseconds. If `is_verbose`, it also describes how the robot was read.
 #[must_use]
 pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Duration)], is_verbose: bool) -> String {
     let SummaryLines { found: mut lines, asked } = summary_lines(plan);
@@ -99,7 +100,7 @@ fn arm_lines(arm: &Arm) -> Vec<Line> {
     for (k, joint) in arm.joints.iter().enumerate() {
         let unit = joint.unit();
         let mut speeds = format!("at most {} {unit}/s", joint.velocity);
-        // An assumed acceleration was not chosen by the user.
+        // A default acceleration is marked, because the user did not choose it.
         if dynamics.is_none_or(|dynamics| !dynamics.assumed[k]) {
             speeds += &format!(", {} {unit}/s2", joint.acceleration);
         }
@@ -110,7 +111,7 @@ fn arm_lines(arm: &Arm) -> Vec<Line> {
     lines
 }
 
-/// Describes the greatest torques of a motion that keeps within the joints' efforts.
+/// Describes the greatest torques of a motion whose torques stay within the effort limits of the joints.
 pub(super) fn torque(arm: &Arm, trajectory: &Trajectory) -> Option<Line> {
     let dynamics = arm.dynamics.filter(|dynamics| dynamics.limits)?;
     let joint = |k: usize| {
@@ -126,14 +127,14 @@ pub(super) fn field(options: &Options) -> Option<Line> {
     options.planner.field().map(|field| ("field", field.to_string()))
 }
 
-/// Returns lines in two columns.
+/// Formats lines in two columns.
 pub fn laid_out(lines: &[Line]) -> String {
     let mut columns = Columns::default();
     lines.iter().for_each(|(key, line)| columns.add(key, line));
     columns.into_text()
 }
 
-/// Returns a title, or a text for an empty one.
+/// Returns a title, or a placeholder if the title is empty.
 pub(super) fn non_empty(name: &str) -> &str {
     if name.is_empty() { "(no name)" } else { name }
 }

@@ -31,7 +31,7 @@ pub(super) fn summary_lines(plan: &Plan, task: &Task, answer: &TaskAnswer) -> Su
     SummaryLines { found, asked }
 }
 
-/// Returns one line per step, with later cycles merged.
+/// Returns the lines of the steps. Late repetitions are merged.
 fn steps(task: &Task, answer: &TaskAnswer) -> Vec<String> {
     let repeated = answer.legs.iter().any(|leg| leg.step.cycle > 1);
     let line = |leg: &Leg| StepLine { cycle: leg.step.cycle, matters: false, columns: row(task, leg, repeated) };
@@ -62,7 +62,7 @@ fn failure_lines(plan: &Plan, answer: &TaskAnswer, failed: &FailedStep) -> Vec<L
     lines
 }
 
-/// Returns the lines of the motion, with its proven time and clearance.
+/// Returns the lines about the whole motion, with its proven duration and clearance.
 fn motion_lines(arm: &Arm, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Line> {
     let count = counted(answer.legs.len(), "step");
     let trajectory = &motion.sequence.trajectory;
@@ -93,7 +93,7 @@ fn motion_lines(arm: &Arm, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Line
     lines
 }
 
-/// Returns the clearance of the whole motion, and the step with the nearest place.
+/// Returns a line with the clearance of the whole motion, and the step that comes nearest to an obstacle.
 fn clearance(answer: &TaskAnswer) -> Option<Line> {
     let least = answer.legs.iter().min_by(|a, b| a.clearance().total_cmp(&b.clearance()))?;
     let (step, cycle) = (least.step.number, least.step.cycle);

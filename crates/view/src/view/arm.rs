@@ -19,13 +19,13 @@ struct JointView<'a> {
     /// Direction of a prismatic joint.
     #[serde(skip_serializing_if = "Option::is_none")]
     direction: Option<[f64; 2]>,
-    /// Least and greatest value that is shown.
+    /// Least and greatest value on the axis.
     domain: [f64; 2],
-    /// True if both ends of the domain are the same value.
+    /// True if the joint is a circle, so that both ends of the domain are the same position.
     circle: bool,
     velocity: f64,
     acceleration: f64,
-    /// Effort limit, if motions keep within it.
+    /// Effort limit, if motions respect it.
     #[serde(skip_serializing_if = "Option::is_none")]
     torque: Option<f64>,
 }

@@ -14,7 +14,8 @@ use cplan_core::space::Configuration;
 use cplan_explain::Reach;
 use serde::{Serialize, Serializer};
 
-/// Writes the outcome for colours and symbols; `shown` if there was no query: for a comparison, or a configuration.
+/// Serialises the outcome for colours and symbols. A view without a query (a comparison, or a single configuration) has
+/// the outcome `shown`.
 fn ending<S: Serializer>(status: &Option<Status>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(status.map_or("shown", Status::name))
 }
@@ -47,10 +48,10 @@ pub struct View {
     pub(super) motions: Vec<MotionView>,
     pub(super) clock: Option<Clock>,
     pub(crate) frames: Vec<FrameView>,
-    /// The planner's search: phases, one after the other.
+    /// The phases of the planner's search, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) replay: Vec<PhaseView>,
-    /// The search of each motion of a task.
+    /// The phases of the search for each motion of a task.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) replays: Vec<MotionReplayView>,
     #[serde(skip)]
@@ -65,24 +66,24 @@ pub(crate) struct FrameView {
     pub axes: [[f64; 3]; 3],
 }
 
-/// Content that only pictures show at once; pages show it over time.
+/// Content that pictures show at once, and pages over time or not at all.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct StillContent {
-    /// Empty for an arm alone.
+    /// The configuration spaces; empty for the view of an arm alone.
     pub panels: Vec<PanelView>,
     /// The lines of a field to draw.
     pub field_lines: FieldLines,
-    /// Objects at the places where they are put, each place once.
+    /// Objects at the places where the task puts them, each place once.
     pub placed: Vec<ObstacleView>,
     /// The places that the tip can reach.
     pub reach: Option<Reach>,
-    /// The arm's configuration now, and the world, while it moves.
+    /// During an animation of the motion: the arm's configuration, and the index of the current world.
     pub now: Option<([f64; 2], usize)>,
-    /// The time of that, seconds.
+    /// The time of `now`, in seconds since the start of the motion.
     pub time: f64,
     /// The obstacles that block the motion.
     pub stuck: Option<BlockingView>,
-    /// The arm's final configuration, and the world.
+    /// The arm's final configuration, and the index of the world at the end.
     pub end: Option<([f64; 2], usize)>,
     /// The steps of a task, below the names of the columns; empty for single motions.
     pub steps: Vec<Row>,
@@ -93,13 +94,13 @@ pub(crate) struct StillContent {
 pub(crate) struct PanelView {
     /// The text above the panel.
     pub title: String,
-    /// Its worlds. They differ only in the obstacles that link 2 may reach into.
+    /// Indices of the worlds of this space. They differ only in the obstacles that link 2 may reach into.
     pub worlds: Vec<usize>,
-    /// The paths to draw; repeated ones once.
+    /// Indices of the paths to draw. Of repeated paths, only one is listed.
     pub paths: Vec<usize>,
     /// The arm's initial configuration.
     pub start: [f64; 2],
-    /// The failed step of this panel, if any.
+    /// The number of the failed step, if it is in this space.
     pub fails: Option<usize>,
 }
 
@@ -109,12 +110,12 @@ impl View {
         !self.still.steps.is_empty()
     }
 
-    /// Returns the traces of the planner for the motions of a task, if they are shown.
+    /// Returns the traces of the planner for the motions of a task. Empty if the view does not show them.
     pub(crate) fn traces_of_steps(&self) -> impl Iterator<Item = &TraceView> {
         self.replays.iter().filter_map(|replay| replay.trace.as_ref())
     }
 
-    /// Returns the view with these lines of a field in pictures; pages show and hide each kind.
+    /// Returns the view with a choice of the field lines that pictures show. On a page, the user shows and hides them.
     #[must_use]
     pub fn with_field_lines(mut self, lines: FieldLines) -> Self {
         self.still.field_lines = lines;
@@ -143,7 +144,7 @@ impl View {
         view
     }
 
-    /// Returns the world now, or the initial one.
+    /// Returns the current world during an animation, otherwise the initial world.
     pub(crate) fn world_now(&self) -> &WorldView {
         &self.worlds[self.still.now.map_or(0, |(_, world)| world)]
     }
@@ -160,14 +161,15 @@ impl View {
         &self.worlds[0]
     }
 
-    /// Returns the configurations that were to be reached and are not, each with its world.
+    /// Returns the goals that no motion reaches, each with the index of its world.
     pub(crate) fn unreached(&self) -> impl Iterator<Item = (usize, Configuration)> {
         let worlds = self.worlds.iter().enumerate();
         worlds.flat_map(|(index, world)| world.unreached.iter().map(move |&q| (index, q.into())))
     }
 
-    /// Returns the ends of motions in a panel, found or intended: the configuration, the number of the step, and true
-    /// if a motion ends there (or none was found).
+    /// Returns the ends of the motions in a panel, found or intended: the configuration, the number of the step (0 for
+    /// a goal of the whole query), and true if its marker is filled. The marker of a goal that no motion reached is
+    /// hollow; without any path in the panel, the goals of the query are filled.
     pub(crate) fn ends(&self, panel: &PanelView) -> Vec<(Configuration, usize, bool)> {
         let paths = panel.paths.iter().map(|&index| &self.paths[index]).filter(|path| !path.grows);
         let is_alone = paths.clone().next().is_none();

@@ -8,7 +8,7 @@ use cplan_geometry::{Convex, Point, Pose};
 /// Number of samples along each axis from which the extent of the arm's motion is taken.
 const SAMPLES_PER_AXIS: usize = 17;
 
-/// Returns least and greatest coordinates of everything that the arm can sweep, and of the obstacles that are not much
+/// Returns the least and greatest coordinates of everything that the arm can sweep, and of obstacles that are not much
 /// farther away.
 #[must_use]
 pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
@@ -29,7 +29,7 @@ pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     sides.map(|(lower, upper)| (lower - MARGIN_SHARE * size, upper + MARGIN_SHARE * size))
 }
 
-/// Returns the box around the arm in a sample of its configurations, dense enough for a picture.
+/// Returns the box around the arm in many of its configurations, enough of them for a picture.
 fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     let arm = scene.arm();
     let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
@@ -59,7 +59,7 @@ fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     bounds
 }
 
-/// Returns the box around shapes; turned inside out for an empty list.
+/// Returns the box around shapes. For an empty list, its lower ends are above its upper ends.
 #[must_use]
 pub fn around<'a>(shapes: impl IntoIterator<Item = &'a Convex>) -> [Range; 2] {
     let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];

@@ -7,15 +7,16 @@ use cplan_core::space::Topology;
 const STARTS_PER_AXIS: usize = 16;
 /// Length of a step, in cells.
 const STEP_LENGTH: f64 = 0.5;
-/// Length of the shortest step, in cells. On a ridge, long steps lead down its other side; short ones follow it.
+/// Length of the shortest step, in cells. On a ridge, a long step would cross to the other side; short steps follow the
+/// ridge.
 const MIN_STEP_LENGTH: f64 = 0.03;
-/// Greatest length of a line, in widths of the grid. Lines that wind for longer add nothing to the picture.
+/// Greatest length of a line, in widths of the grid. A longer line winds around and adds nothing to the picture.
 const MAX_LINE_LENGTH: f64 = 4.0;
-/// One of this many points of a line is kept.
+/// Of this many consecutive points of a line, one is kept.
 const POINTS_PER_KEPT_POINT: usize = 4;
 
-/// Returns lines of steepest ascent, as polylines. They end at the goal, at a local maximum, or where there is no
-/// value. On a circle they may leave the domain by less than a cell and end there, so that the seam is visible.
+/// Returns lines of steepest ascent, as polylines. A line ends at the goal, at a local maximum, or where the field has
+/// no value. On a circle, a line ends when it leaves the domain, at most a cell beyond the seam.
 #[must_use]
 pub fn lines(samples: &Samples, topology: &Topology) -> Vec<Vec<[f64; 2]>> {
     let size = [samples.x.len(), samples.y.len()];

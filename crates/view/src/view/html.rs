@@ -6,7 +6,7 @@ use cplan_text::markup;
 
 const STYLE: &str = include_str!("assets/view.css");
 
-/// Code that draws a view. Each part needs only the parts before it.
+/// Code that draws a view. Each script needs only the scripts before it.
 const SCRIPTS: [&str; 11] = [
     include_str!("assets/geometry.js"),
     include_str!("assets/panel.js"),
@@ -24,7 +24,7 @@ const SCRIPTS: [&str; 11] = [
 /// Code that shows the view in the page.
 const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
 
-/// Returns the colours of pictures as variables of the style sheet, which has other colours for dark mode.
+/// Returns the colours of pictures as variables of the style sheet. Dark mode replaces them by other colours.
 fn colors() -> String {
     let variables: String = TINTS.iter().map(|(name, color)| format!(" --{name}: {color};")).collect();
     format!(":root {{{variables} }}\n")
@@ -37,25 +37,25 @@ pub fn page(view: &View) -> String {
     sealed(title, "", "view", &view.json(), &(drawing() + PLAN_SCRIPT))
 }
 
-/// Returns the code that draws a view; a page's own code can follow it.
+/// Returns the scripts that draw a view, for pages that add their own code after them.
 #[must_use]
 pub fn drawing() -> String {
     SCRIPTS.concat()
 }
 
-/// Returns a self-contained page that loads nothing, and is not allowed to. `json` is in the element `id`, where `code`
-/// finds it.
+/// Returns a self-contained page that loads nothing and that the browser does not allow to load anything. The element
+/// `id` contains `json`, which `code` reads.
 #[must_use]
 pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> String {
     let policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
     let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n");
-    // Within a script, only the less-than sign could end it.
+    // Only a less-than sign could end the script.
     let data = json.replace('<', "\\u003c");
     shell(title, &policy, style, &format!("<script id=\"{id}\" type=\"application/json\">{data}</script>\n"), code)
 }
 
-/// Returns a page that its code draws within `main`. The arguments are its title, further elements of its head, its own
-/// styles, the elements before the code, and the code.
+/// Returns a page on which code draws within the element `main`. `head` has further elements of the page's head,
+/// `style` its own styles, and `before` the elements before the code.
 #[must_use]
 pub fn shell(title: &str, head: &str, style: &str, before: &str, code: &str) -> String {
     let title = markup(title);

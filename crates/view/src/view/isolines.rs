@@ -9,7 +9,7 @@ pub struct Samples {
     pub x: Vec<f64>,
     /// Second coordinates, ascending.
     pub y: Vec<f64>,
-    /// Values, ordered by `x` and then by `y`; not finite where the field has no value.
+    /// Values, ordered by `x` and then by `y`. A value is not finite if the field has none there.
     pub values: Vec<f64>,
 }
 
@@ -19,8 +19,8 @@ impl Samples {
     }
 
     /// Returns the polylines on which the linearly interpolated values equal `level` (marching squares: Lorensen and
-    /// Cline 1987, in two dimensions). A closed line ends at its first point. Squares with a corner without value
-    /// contain no line. `O(n log n)` in the squares.
+    /// Cline 1987, in two dimensions). A closed line ends at its first point. A square with a corner without a value
+    /// contains no line. `O(n log n)` for `n` squares.
     #[must_use]
     pub fn isolines(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         let mut next: BTreeMap<Side, Vec<Side>> = BTreeMap::new();
@@ -61,8 +61,8 @@ impl Samples {
         (line.len() > 1).then_some(line)
     }
 
-    /// Returns pairs of sides of square `(i, j)` that the line connects. In a saddle, the mean decides which corners
-    /// belong together.
+    /// Returns the pairs of sides of square `(i, j)` that lines connect. In a saddle, the mean of the corners decides
+    /// which corners belong together.
     fn crossings(&self, i: usize, j: usize, level: f64) -> Vec<(Side, Side)> {
         let corners = [self.value(i, j), self.value(i + 1, j), self.value(i + 1, j + 1), self.value(i, j + 1)];
         if !corners.iter().all(|v| v.is_finite()) {
@@ -134,7 +134,7 @@ mod tests {
         assert!(Samples { x: vec![], y: vec![], values: vec![] }.isolines(0.0).is_empty());
     }
 
-    /// All lines together visit each side that the level crosses once (twice at the seam of a loop).
+    /// Checks that all lines together visit each side that the level crosses once (twice where a loop begins and ends).
     #[test]
     fn every_crossing_is_used_once() {
         let field = samples(40, |x, y| (5.0 * x).sin() * (7.0 * y).cos() + 0.3 * x);

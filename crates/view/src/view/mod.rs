@@ -1,4 +1,4 @@
-//! The content of pictures and pages, determined once: both render the same view.
+//! The content of pictures and pages, determined once, so that both show the same.
 //!
 //! ```text
 //! Picture, TaskPicture -> View -> Figure -> SVG -> PNG

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 /// Number of poses shown between the ends of a path.
 const GHOST_POSES: usize = 5;
-/// Width of a highlighted line, and of another line (`LINE_WIDTH`), in pixels.
+/// Width of a highlighted path (`HIGHLIGHTED_WIDTH`) and of another path (`LINE_WIDTH`), in pixels.
 const HIGHLIGHTED_WIDTH: f64 = 2.4;
 const LINE_WIDTH: f64 = 1.6;
 
@@ -18,7 +18,7 @@ const LINE_WIDTH: f64 = 1.6;
 pub struct PathView {
     pub name: String,
     pub world: usize,
-    /// Colour; `None` for ink.
+    /// Colour of the line. `None` for the colour of ink.
     #[serde(skip_serializing_if = "Option::is_none")]
     color: Option<Rgb>,
     /// Width of the line, in pixels.
@@ -27,12 +27,12 @@ pub struct PathView {
     dash: &'static [f64],
     /// Unwrapped configurations.
     pub points: Chain,
-    /// Configurations that divide the path into equal parts.
+    /// Configurations of the poses that are shown between start and goal. They divide the path into equal parts.
     pub ghosts: Chain,
-    /// Number of the step in a task.
+    /// Number of the step in a task, from 1; 0 for a single motion.
     #[serde(skip_serializing_if = "is_none")]
     pub step: usize,
-    /// True while the path is being drawn and does not end at its goal yet.
+    /// True while an animation draws the path and has not reached its goal.
     #[serde(skip)]
     pub grows: bool,
 }
@@ -42,7 +42,7 @@ fn is_none(step: &usize) -> bool {
 }
 
 impl PathView {
-    /// Creates path `index` out of `count`: a single one is drawn in ink.
+    /// Creates path `index` out of `count`. A single path has the colour of ink.
     pub fn of_several(name: &str, path: &Path, [index, count]: [usize; 2], grain: RoundingSteps) -> Self {
         let (color, dash) = color::path(index);
         let (color, dash) = if count > 1 { (Some(color), dash) } else { (None, &[][..]) };
@@ -73,12 +73,12 @@ impl PathView {
         Self { name, world, color, width, step, ..Self::of_several("", path, [0, 1], grain) }
     }
 
-    /// Returns this line along other configurations, without poses between its ends, while it is being drawn.
+    /// Returns the part of this line that has been drawn so far, through `points`, without poses between its ends.
     pub fn along(&self, points: Chain) -> Self {
         Self { points, ghosts: Chain::default(), grows: true, ..self.clone() }
     }
 
-    /// Returns a second path in grey beside this one.
+    /// Returns a grey line through `points`, to be drawn beside this one.
     pub fn beside(&self, points: Chain) -> Self {
         Self { name: "before it is pulled taut".to_owned(), color: Some(GRAY), width: LINE_WIDTH, ..self.along(points) }
     }
@@ -124,19 +124,19 @@ fn between(path: &Path, count: usize) -> Vec<Configuration> {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MotionView {
     pub world: usize,
-    /// Number of the path; `None` for a final world without a motion.
+    /// Index of the path. `None` for the world after the last motion.
     pub path: Option<usize>,
-    /// Time from which its world is the current one, in seconds.
+    /// Time at which its world becomes the current one, in seconds.
     pub from: f64,
     /// Description of the motion.
     pub label: String,
-    /// Number of the planner's replay for this motion.
+    /// Index of the planner's replay for this motion. `None` if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replay: Option<usize>,
 }
 
 impl MotionView {
-    /// Returns the only motion of a plan.
+    /// Creates the view of a plan's only motion, of `duration` seconds.
     pub fn only(duration: f64) -> Self {
         Self { world: 0, path: Some(0), from: 0.0, label: format!("{duration:.3} s"), replay: None }
     }
@@ -150,21 +150,21 @@ pub struct Clock {
     position: Chain,
     /// Velocity of both joints, in rad/s or m/s.
     velocity: Chain,
-    /// Acceleration of both joints in the interval that begins at the sample, in rad/s² or m/s².
+    /// Acceleration of both joints from this sample to the next, in rad/s² or m/s².
     acceleration: Chain,
-    /// Torque or force of both joints in that interval, if known.
+    /// Torque or force of both joints from this sample to the next, if known.
     #[serde(skip_serializing_if = "Option::is_none")]
     torque: Option<Chain>,
 }
 
 impl Clock {
-    /// Returns the end of the motion, in seconds.
+    /// Returns the time of the last sample, in seconds.
     pub fn duration(&self) -> f64 {
         self.time.last().copied().unwrap_or(0.0)
     }
 
-    /// Returns the configuration at a time. It interpolates linearly between two samples, a difference that nobody can
-    /// see.
+    /// Returns the configuration at a time. It interpolates linearly between two samples; the error is too small to be
+    /// seen.
     pub fn at(&self, time: f64) -> Configuration {
         let positions = &self.position.0;
         if let [only] = positions[..] {

@@ -8,12 +8,12 @@ use cplan_core::space::Configuration;
 use cplan_geometry::{Point, pole_of_inaccessibility};
 use serde::Serialize;
 
-/// Largest number of obstacles with names. With more of them, nobody could assign the names.
+/// Largest number of obstacles with names. With more names, nobody could tell which C-obstacle each belongs to.
 const MAX_NAMED_OBSTACLES: usize = 100;
-/// Ratio of width to height of a typical name; the place with the most room depends on it.
+/// Ratio of width to height of a typical name. It decides which place has the most room for a name.
 const NAME_PROPORTION: f64 = 2.5;
-/// Precision of the places, and the detail of outlines (`OUTLINE_PRECISION`) that may be ignored for this, as fractions of an
-/// axis.
+/// Precision of the places (`PLACE_PRECISION`), and the size of details of outlines that the search may ignore
+/// (`OUTLINE_PRECISION`), as fractions of an axis.
 const PLACE_PRECISION: f64 = 0.004;
 const OUTLINE_PRECISION: f64 = 0.005;
 
@@ -26,7 +26,8 @@ pub struct NameView {
     pub area: f64,
 }
 
-/// Returns a place for each obstacle that has a C-obstacle: in its largest visible part, farthest from the outline.
+/// Returns one place for each obstacle that has a C-obstacle: in the largest visible part of the C-obstacle, as far
+/// from its outline as possible.
 pub fn places(arm: &Arm, count: usize, contours: &[ContourView], grain: RoundingSteps) -> Vec<NameView> {
     if count > MAX_NAMED_OBSTACLES {
         return Vec::new();
@@ -78,7 +79,7 @@ fn clipped(corners: impl Iterator<Item = Point>) -> Vec<Point> {
     corners
 }
 
-/// Returns the outline without corners that hardly differ from the one before.
+/// Returns the outline without corners that lie very near to the one before.
 fn coarsened(corners: Vec<Point>) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::new();
     for corner in corners {

@@ -1,4 +1,5 @@
-//! Numbers rounded to visible precision, and their form in a document: a list of places is a flat list of coordinates.
+//! Numbers rounded to visible precision, and their form in a document, where a list of places is a flat list of
+//! coordinates.
 
 use crate::color::Rgb;
 use cplan_core::model::{Arm, Shape};
@@ -7,35 +8,37 @@ use cplan_geometry::{Convex, Point};
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
-/// Number of digits of a length after the first digit of the arm's reach: a hundredth of a pixel at the size of a
-/// screen.
+/// Number of decimal digits of a length after the first digit of the arm's reach. On a screen-wide picture, the last
+/// one is a hundredth of a pixel.
 const LENGTH_DIGITS: i32 = 5;
 
-/// Steps of rounding. Each is a power of ten, stored as its reciprocal, so that rounding leaves short decimals.
+/// Numbers of rounding steps per unit, for lengths and for joint values. Each is a power of ten, so that rounded
+/// numbers have few decimals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoundingSteps {
     lengths: f64,
     joints: [f64; 2],
 }
 
-/// Rounds a number to a multiple of `1 / grains`, without a negative zero.
+/// Rounds a number to a multiple of `1 / grains`. Never returns negative zero.
 fn rounded(value: f64, grains: f64) -> f64 {
     (value * grains).round() / grains + 0.0
 }
 
-/// Returns the grains for values of this size.
+/// Returns the number of rounding steps per unit for values up to `size`.
 fn grains(size: f64) -> f64 {
     10_f64.powi((LENGTH_DIGITS - size.log10().floor() as i32).clamp(-12, 15))
 }
 
-/// Rounds an angle or another number of the order of 1.
+/// Rounds an angle, or another number near 1.
 #[must_use]
 pub fn number(value: f64) -> f64 {
     rounded(value, grains(1.0))
 }
 
 impl RoundingSteps {
-    /// Returns the grain of an arm: from its reach for lengths, and from a radian or the stroke for joints.
+    /// Returns the rounding steps of an arm. Lengths are rounded by its reach. Joint values are rounded by a radian if
+    /// the joint is revolute, and by its stroke if it is prismatic.
     #[must_use]
     pub fn of(arm: &Arm) -> Self {
         let stroke = |k: usize| arm.joints[k].range.extent().max(f64::MIN_POSITIVE);
@@ -43,7 +46,7 @@ impl RoundingSteps {
         Self { lengths: grains(arm.reach()), joints }
     }
 
-    /// Returns the grain for content within a box of this size, if there is no arm.
+    /// Returns the rounding steps for content within a box of this size. It is for pictures without an arm.
     #[must_use]
     pub fn within(size: f64) -> Self {
         Self { lengths: grains(size), joints: [grains(1.0); 2] }
@@ -99,7 +102,7 @@ impl RoundingSteps {
     }
 }
 
-/// Configurations or places that form a line, a polygon, or pairs.
+/// Configurations, or places in the plane, that form a line, a polygon, or pairs.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Chain(pub Vec<Configuration>);
 
@@ -134,7 +137,7 @@ impl Serialize for ShapeView {
     }
 }
 
-/// Serialises a shape of the world file by its kind; the union of the pieces is a word.
+/// Serialises a shape of the world file with its kind. A shape that is the union of its pieces becomes a single word.
 pub fn outline<S: Serializer>(shape: &Shape, serializer: S) -> Result<S::Ok, S::Error> {
     const NAME: &str = "Outline";
     match shape {

@@ -5,7 +5,7 @@ use super::trace::{ScaleView, TraceView};
 use super::waves::Waves;
 use serde::Serialize;
 
-/// The planner's search for a motion of a task, with its trace.
+/// The phases of the search for one motion of a task, and the planner's trace.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MotionReplayView {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -15,13 +15,13 @@ pub struct MotionReplayView {
     pub phases: Vec<PhaseView>,
 }
 
-/// A phase of a run; without data of its own it shows a part of the trace.
+/// A phase of the planner's run. If `shows` has no data, the phase shows a part of the trace.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PhaseView {
     pub caption: String,
-    /// Number of things shown one after the other.
+    /// Number of items that the phase shows one after the other.
     pub events: usize,
-    /// Time in which they are shown.
+    /// Duration of the phase, in seconds.
     pub seconds: f64,
     #[serde(flatten)]
     pub shows: ShowsView,
@@ -41,23 +41,23 @@ pub enum ShowsView {
     Slices,
     Wave,
     Levels,
-    /// Boxes of the trace, by their numbers among the free, the stuck and the undecided ones, in the order of their
-    /// display.
+    /// Boxes of the trace. `order` has their numbers in the order of display, where the free boxes count first, then
+    /// the colliding ones, then the undecided ones.
     Boxes {
         order: Vec<usize>,
     },
-    /// Boxes of slabs, in the same form.
+    /// Boxes of slabs: least and greatest values of each box, and `order` as for [`ShowsView::Boxes`].
     Slabs {
         free: Chain,
         stuck: Chain,
         mixed: Chain,
         order: Vec<usize>,
     },
-    /// A field after this many sweeps, as levels.
+    /// A field during its relaxation: for some sweeps, the number of the sweep and the values as levels.
     Sweeps {
         frames: Vec<(usize, Waves)>,
     },
-    /// A path that differs from the answer's.
+    /// The planner's own path, if it differs from the path of the answer.
     Own {
         points: Chain,
     },

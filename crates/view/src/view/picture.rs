@@ -17,8 +17,8 @@ use cplan_handling::TimedScene;
 use cplan_motion::Trajectory;
 use nalgebra::Vector3;
 
-/// The content of a picture of a scene. With one path, it shows a plan with the arm's poses along its path. With
-/// several, it compares paths in different colours and dashes. With none, it shows only the problem.
+/// The content of a picture of a scene. A picture with one path shows the arm's poses along it. A picture with several
+/// paths compares them in different colours and dashes. A picture without a path shows the problem.
 #[derive(Debug, Clone)]
 pub struct Picture<'a> {
     /// The first line is the title; the others follow in smaller type.
@@ -33,8 +33,8 @@ pub struct Picture<'a> {
     pub scene: TimedScene<'a>,
     /// Start configuration.
     pub start: Configuration,
-    /// Goals: single configurations and segments. Without a path, the arm is shown at the first goal; on a segment,
-    /// where it is nearest to the start.
+    /// Goals: single configurations and segments. A picture without a path shows the arm at the first goal. If that is
+    /// a segment, it shows the configuration on it that is nearest to the start.
     pub goals: &'a [Segment],
     /// Names and paths, in unwrapped values.
     pub paths: Vec<(String, &'a Path)>,
@@ -46,8 +46,8 @@ pub struct Picture<'a> {
     pub proof: Option<&'a CheckedProof>,
     /// Contours of the C-obstacles in joint space.
     pub c_obstacles: &'a [CObstacle],
-    /// C-obstacles of moving obstacles at some times, in seconds, ascending; each with the number of its moving
-    /// obstacle.
+    /// C-obstacles of moving obstacles at some times in ascending order, in seconds. `obstacle` is the number of the
+    /// moving obstacle.
     pub moments: &'a [(f64, Vec<CObstacle>)],
 }
 

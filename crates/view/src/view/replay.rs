@@ -10,22 +10,23 @@ use cplan_core::space::{Configuration, Topology};
 use cplan_solver::{Phase, Replay, Shows, SlabBoxes, Sweeps};
 use cplan_tasks::TaskReplay;
 
-/// Shortest and longest time of a phase, in seconds; in between, `SECONDS_PER_ROOT` times the square root of the number of its
-/// events.
+/// Shortest and longest duration of a phase, in seconds. Within these limits, the duration is `SECONDS_PER_ROOT` times
+/// the square root of the number of events.
 const PHASE_SECONDS: [f64; 2] = [1.2, 2.2];
 const SECONDS_PER_ROOT: f64 = 0.1;
 
-/// Longest time of all phases together, in seconds. Nobody would watch a longer replay.
+/// Longest duration of all phases together, in seconds. Nobody would watch a longer replay.
 const MAX_REPLAY_SECONDS: f64 = 6.0;
 
-/// Largest size of the replays for a task's motions in a page, in bytes. Later motions have none.
+/// Limit of the size of a page's replays for the motions of a task, in bytes. Once it is reached, later motions have no
+/// replay.
 const MAX_REPLAY_BYTES: usize = 200_000;
 
 /// Largest number of slab boxes, for all motions of a task together.
 const MAX_BOXES: usize = 5_000;
 
-/// If there are too many boxes, those narrower than this fraction of a joint's range disappear. The first fraction
-/// that suffices is used.
+/// If there are more boxes than `MAX_BOXES`, the replay leaves out those narrower than one of these fractions of a
+/// joint's range: the first fraction that suffices.
 const BOX_WIDTH_LIMITS: [f64; 4] = [1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0];
 
 impl PhaseView {
@@ -74,7 +75,8 @@ impl PhaseView {
     }
 }
 
-/// Returns the replay with at most this many slab boxes; it leaves out the finest ones.
+/// Returns the replay with at most `most` boxes of slabs, as far as the widths in [`BOX_WIDTH_LIMITS`] suffice. It
+/// leaves out the narrowest boxes.
 fn thinned(replay: &Replay, topology: &Topology, most: usize) -> Replay {
     let extents = topology.ranges.map(|axis| axis.extent());
     let mut replay = replay.clone();
@@ -94,8 +96,8 @@ fn thinned(replay: &Replay, topology: &Topology, most: usize) -> Replay {
     replay
 }
 
-/// Orders boxes by the weighted number of times their sides were halved, and then from left to right. Returns their
-/// numbers.
+/// Returns the numbers of the boxes, from large to small, and from left to right for boxes of one size. The size is how
+/// often the sides were halved, weighted by axis.
 fn coarse_to_fine(kinds: [&Chain; 3], topology: &Topology, weights: [f64; 2]) -> Vec<usize> {
     let extents = topology.ranges.map(|axis| axis.extent());
     let level = |[lower, upper]: [Configuration; 2]| {
@@ -122,7 +124,7 @@ fn frames(sweeps: &Sweeps) -> Vec<(usize, Waves)> {
 }
 
 impl View {
-    /// Adds the planner's replay for each motion of a task, as far as there is room.
+    /// Adds the phases of the planner's run for each motion of a task, until the limit of size is reached.
     #[must_use]
     pub fn with_task_replay(mut self, replay: &TaskReplay) -> Self {
         let (grain, topology) = (RoundingSteps::of(&self.arm), self.arm.topology());
@@ -153,7 +155,7 @@ impl View {
         self
     }
 
-    /// Returns the view when this part of a phase has been shown, from 0 to 1.
+    /// Returns the view at a moment of the replay: `part` of the phase has been shown, from 0 to 1.
     pub fn thinking(&self, phase: usize, part: f64) -> Self {
         let mut view = self.clone();
         let now = &self.replay[phase];
@@ -162,7 +164,7 @@ impl View {
             Some(at) if at > phase => 0.0,
             _ => 1.0,
         };
-        // As many lines as at the beginning of the motion, so that nothing jumps.
+        // The title keeps its number of lines, so that nothing moves when the motion begins.
         view.title.rotate_right(1);
         view.title[0].clone_from(&now.caption);
         view.status.clear();
@@ -188,7 +190,7 @@ impl View {
     }
 }
 
-/// Reduces a world's trace to the part that has been shown.
+/// Reduces the trace of a world to the part that has been shown so far.
 fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn(&ShowsView) -> bool) -> f64) {
     let edges = || shown(|shows| *shows == ShowsView::Edges);
     let expanded_part = || shown(|shows| *shows == ShowsView::Expanded);
@@ -204,7 +206,7 @@ fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn
         (_, TraceView::Roadmap { edges: all, .. }) => *all = begun(all, 2, edges()),
         (_, TraceView::Slices { free }) => *free = begun(free, 2, shown(|shows| *shows == ShowsView::Slices)),
         (_, TraceView::Channel { cells, channel, centers, middles, expanded, sweep }) => {
-            // Later cells keep their places, without corners.
+            // Cells that appear later keep their places in the list, but have no corners yet.
             let count = count(cells.len(), shown(|shows| matches!(shows, ShowsView::Cells { .. })));
             cells[count..].iter_mut().for_each(|cell| cell.0.clear());
             *sweep = match now.shows {
@@ -236,22 +238,22 @@ fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn
     }
 }
 
-/// Returns the least value of joint 1.
+/// Returns the least value of joint 1 in a cell.
 fn left(cell: &Chain) -> f64 {
     cell.0.iter().map(|corner| corner[0]).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the number of items that have appeared.
+/// Returns how many of `all` items have appeared when `part` of the phase has been shown.
 fn count(all: usize, part: f64) -> usize {
     ((all as f64 * part).round() as usize).min(all)
 }
 
-/// Returns the items that have appeared; each one consists of `each` configurations.
+/// Returns the items that have appeared. Each item consists of `each` configurations.
 fn begun(chain: &Chain, each: usize, part: f64) -> Chain {
     Chain(chain.0[..each * count(chain.0.len() / each, part)].to_vec())
 }
 
-/// Returns the boxes that have appeared; all others are undecided so far.
+/// Returns the boxes that have appeared. The others form undecided boxes.
 fn cut(kinds: [&Chain; 3], order: &[usize], part: f64) -> TraceView {
     let boxes: Vec<[Configuration; 2]> = kinds.iter().flat_map(|chain| chain.pairs()).collect();
     let ends = [kinds[0].0.len() / 2, (kinds[0].0.len() + kinds[1].0.len()) / 2];
@@ -265,7 +267,7 @@ fn cut(kinds: [&Chain; 3], order: &[usize], part: f64) -> TraceView {
     TraceView::Boxes { free, stuck, mixed, rest }
 }
 
-/// Returns the beginning of a path, as a part of its length.
+/// Returns the beginning of a path: `part` of its length.
 fn gone(points: &Chain, part: f64) -> Chain {
     let lengths = || points.0.windows(2).map(|ends| (ends[1] - ends[0]).norm());
     let mut left = part * lengths().sum::<f64>();

@@ -1,4 +1,4 @@
-//! Fields that paths follow upwards: the values of their equipotentials.
+//! Fields that paths follow upwards, and the values of their equipotentials.
 
 use super::isolines::Samples;
 use cplan_core::planner::Trace;
@@ -7,13 +7,13 @@ use std::borrow::Cow;
 
 /// Number of equipotentials that are drawn.
 const EQUIPOTENTIALS: usize = 20;
-/// Fraction of the cells that may lie below the lowest equipotential. The field continues to fall in dead ends that
-/// interest nobody, and these would leave no lines for the rest.
+/// Fraction of the cells that may lie below the lowest equipotential. In dead ends the field falls far below its other
+/// values; with these ends included, few lines would remain for the rest.
 const IGNORED_SHARE: f64 = 0.02;
-/// Same fraction for a potential that grows without bound towards obstacles.
+/// The same fraction for potentials that grow without bound towards obstacles.
 const IGNORED_SHARE_OF_UNBOUNDED: f64 = 0.15;
 
-/// A field that paths follow upwards, coarse enough to be drawn.
+/// A field that paths follow upwards, sampled coarsely enough to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slope {
     /// Values at the points of a coarse grid.
@@ -23,10 +23,10 @@ pub struct Slope {
 }
 
 impl Slope {
-    /// Returns the slope that a field planner followed; `None` for other planners, and if the field has no values.
+    /// Returns the field that a field planner followed. `None` for other planners, and if the field has no values.
     pub fn new(trace: &Trace, topology: &Topology) -> Option<Self> {
         let (cells, values, tail) = match trace {
-            // Heights fall towards the goal, so their negatives rise.
+            // Heights fall towards the goal, so their negatives rise towards it.
             Trace::Potential { cells, heights } => (
                 *cells,
                 Cow::Owned(heights.iter().map(|height| -height).collect::<Vec<_>>()),
@@ -43,8 +43,8 @@ impl Slope {
         Some(Self { span: span(&values, tail)?, samples: samples(cells, &values, topology) })
     }
 
-    /// Returns lines at equal distances of values, each set with its place in the span: 0 at the goal, 1 at the far
-    /// end.
+    /// Returns equipotentials at equal steps of the value. Each comes with its place in the span of values, where 0 is
+    /// the goal and 1 the far end.
     pub fn equipotentials(&self) -> impl Iterator<Item = (f64, Vec<Vec<[f64; 2]>>)> + '_ {
         let (low, high) = self.span;
         let part = |k: usize| (k as f64 + 0.5) / EQUIPOTENTIALS as f64;
@@ -60,8 +60,8 @@ fn span(potential: &[f64], tail: f64) -> Option<(f64, f64)> {
     Some((low, *known.last()?))
 }
 
-/// Returns the potential at the centres of every cell, or on a fine grid at the centres of some. On a circle there is
-/// one more sample beyond each seam, so that lines continue across it.
+/// Returns the potential at the centres of all cells, or of some cells if the grid is fine. On a circle, one more
+/// sample lies beyond each seam, so that lines continue across it.
 fn samples(cells: [usize; 2], potential: &[f64], topology: &Topology) -> Samples {
     const MAX_SAMPLES: usize = 256;
     let [x, y] = [0, 1].map(|k| {

@@ -1,24 +1,24 @@
-//! Payload states: they determine which motions share a panel.
+//! Payload states: the motions with one payload state share a panel.
 
 use super::steps::Order;
 use cplan_core::space::{Configuration, Topology};
 use cplan_tasks::Leg;
 use std::sync::Arc;
 
-/// Configurations nearer than this look the same, in radians or metres. It covers rounding.
+/// Two configurations nearer than this count as equal, in radians or metres. It covers rounding.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 /// Consecutive motions with the same payload in the same world.
 #[derive(Debug, Clone)]
 pub struct PayloadState<'a> {
-    /// Motions, each with its number among all motions; repeated motions only once.
+    /// Motions, each with its number among all motions of the task. Of repeated motions, only one is listed.
     pub motions: Vec<(usize, &'a Leg)>,
-    /// Number of repetitions.
+    /// Number of times that the motions are executed.
     pub times: usize,
 }
 
-/// Returns the payload states in the order of their first occurrence; repetitions that look the same are merged. In the
-/// worst case `O(n^2)` for `n` motions, and `O(n)` if the repetitions of a step look the same.
+/// Returns the payload states in the order of their first occurrence. Repetitions that look the same are merged.
+/// `O(n^2)` for `n` motions in the worst case, and `O(n)` if the repetitions of a step look the same.
 #[must_use]
 pub fn payload_states<'a>(legs: &'a [Leg], topology: &Topology) -> Vec<PayloadState<'a>> {
     let mut states: Vec<PayloadState> = Vec::new();
@@ -49,7 +49,7 @@ fn same_world(a: &Leg, b: &Leg) -> bool {
     Arc::ptr_eq(&a.scene, &b.scene) || same()
 }
 
-/// Returns true if both are the same step and move the joints in the same way.
+/// Returns true if both motions belong to the same step and move the joints in the same way.
 fn same_motion(a: &Leg, b: &Leg, topology: &Topology) -> bool {
     let paths = [a, b].map(|leg| leg.timed.curve.curve().path().waypoints());
     let same = || {
@@ -60,7 +60,7 @@ fn same_motion(a: &Leg, b: &Leg, topology: &Topology) -> bool {
 }
 
 impl PayloadState<'_> {
-    /// Returns the numbers of the steps, in the order of the motions, each once.
+    /// Returns the numbers of the steps, each once, in the order of the motions.
     #[must_use]
     pub fn numbers(&self, order: &Order) -> Vec<usize> {
         let mut numbers: Vec<usize> = Vec::new();

@@ -8,7 +8,7 @@ use cplan_tasks::{Leg, TaskAnswer};
 
 /// Largest number of rows that are shown.
 const MAX_ROWS: usize = 26;
-/// Largest number of lines that explain why a step fails.
+/// Largest number of lines with reasons why a step fails.
 const MAX_REASONS: usize = 4;
 
 /// A row: the step's number, its action, and its end time.
@@ -46,13 +46,13 @@ impl Order {
         self.0.iter().position(|&number| number == step.number).map_or(step.number, |place| place + 1)
     }
 
-    /// Describes the action of a step, with its number in the file if that differs.
+    /// Describes the action of a step. If its number in the file differs from its number in pictures, adds the former.
     pub fn describe(&self, step: &Step, objects: &[Object]) -> String {
         let what = step.action.describe(objects);
         if self.number(step) == step.number { what } else { format!("{what} ({} in the file)", step.number) }
     }
 
-    /// Returns number and description: `3. pick "part"`.
+    /// Returns a step's number and description: `3. pick "part"`.
     pub fn named(&self, step: &Step, objects: &[Object]) -> String {
         format!("{}. {}", self.number(step), self.describe(step, objects))
     }
@@ -64,7 +64,7 @@ pub fn rounds(legs: &[Leg]) -> usize {
     legs.iter().map(|leg| leg.step.cycle).max().unwrap_or(1)
 }
 
-/// Returns the names of the columns, then each step in the form of its first execution, then the failed one.
+/// Returns the rows of the list: the names of the columns, each step at its first execution, and the failed step.
 #[must_use]
 pub fn rows(picture: &TaskPicture) -> Vec<Row> {
     let objects = &picture.task.objects;

@@ -16,10 +16,10 @@ use cplan_handling::{Object, ObstacleTrajectory, Task, TimedScene};
 use cplan_tasks::{Event, FailedStep, Leg, Sequence};
 use std::sync::Arc;
 
-/// Poses nearer than this look the same, in metres or radians. It covers rounding.
+/// Two poses nearer than this count as equal, in metres or radians. It covers rounding.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
-/// Greatest number of times at which C-obstacles of moving obstacles are drawn, all worlds together.
+/// Largest number of times at which C-obstacles of moving obstacles are computed, for all worlds together.
 const MAX_MOMENTS: usize = 120;
 
 impl View {
@@ -31,7 +31,7 @@ impl View {
         let mut worlds = Worlds { picture, grain, scenes: Vec::new(), views: Vec::new() };
         let (mut paths, mut motions) = (Vec::new(), Vec::new());
         let mut from = 0.0;
-        // Interval of time in which each world is the current one.
+        // The interval of time during which each world is the current one.
         let mut spans: Vec<[f64; 2]> = Vec::new();
         for leg in legs {
             let name = order.named(&leg.step, &task.objects);
@@ -74,7 +74,7 @@ impl View {
             field_lines: FieldLines::default(),
             panels: panels(picture, &order, &paths, world, grain),
             placed: placed.collect(),
-            // An object that was released at the end lies there.
+            // An object that the last motion releases lies at its place in the final picture.
             end: last
                 .zip(paths.last())
                 .map(|((leg, world), path)| (path.goal().into(), if leg.event.is_some() { 0 } else { world })),
@@ -103,7 +103,7 @@ impl View {
     }
 }
 
-/// Returns a configuration space for each payload state, then that of the step that fails, in the world `last`.
+/// Returns a configuration space for each payload state, then one for the failed step, whose world is `last`.
 fn panels(
     picture: &TaskPicture,
     order: &Order,
@@ -141,14 +141,14 @@ fn panels(
 struct Worlds<'a> {
     picture: &'a TaskPicture<'a>,
     grain: RoundingSteps,
-    /// Each with the trajectories of its moving obstacles.
+    /// The scene of each world, with the trajectories of its moving obstacles.
     scenes: Vec<(Arc<Scene>, Vec<ObstacleTrajectory>)>,
     views: Vec<WorldView>,
 }
 
 impl Worlds<'_> {
-    /// Returns the number of a scene's world, in which these objects move. Repetitions often share one scene, or have
-    /// equal ones.
+    /// Returns the number of the world with this scene, in which the objects `moving` move; adds the world if it is
+    /// new. Repetitions of a step often share one scene, or have equal ones.
     fn of(&mut self, scene: &Arc<Scene>, moving: &[usize]) -> usize {
         let known = |(other, _): &(Arc<Scene>, Vec<ObstacleTrajectory>)| Arc::ptr_eq(other, scene) || other == scene;
         self.scenes.iter().position(known).unwrap_or_else(|| self.add(scene, moving))
@@ -165,7 +165,7 @@ impl Worlds<'_> {
         self.views.len() - 1
     }
 
-    /// Adds moving obstacles to the worlds, each for its interval of time.
+    /// Adds the C-obstacles of moving obstacles to the worlds, for the interval of time of each world.
     fn put_in_time(&mut self, spans: &[[f64; 2]]) {
         let legs = &self.picture.answer.legs;
         let picked = |name: &str| {
@@ -181,7 +181,8 @@ impl Worlds<'_> {
         }
     }
 
-    /// Returns the C-obstacles of the obstacles that link 2 may reach into, as if it were not allowed to.
+    /// Returns the C-obstacles that obstacles would have if link 2 were not allowed to reach into them. Only obstacles
+    /// that it may reach into are included.
     fn open(&self, scene: &Scene) -> Vec<ContourView> {
         let mut workspace = scene.workspace().clone();
         let whole = |workspace| {
@@ -205,7 +206,7 @@ impl Worlds<'_> {
         contours(all.iter().filter(|c| c.link == 1), self.grain)
     }
 
-    /// Returns the world of the failed step, with its proofs.
+    /// Adds the world of the failed step, with the proofs that it fails, and returns its number.
     fn failing(&mut self, fails: &FailedStep) -> usize {
         let world = self.add(&fails.scene, &fails.moving);
         let proofs = fails.ik_solutions.iter().filter_map(|to| to.proof.as_ref());
@@ -229,7 +230,7 @@ fn at_the_end(task: &Task, legs: &[Leg]) -> (Vec<Option<Pose>>, Vec<usize>) {
     (poses, moving)
 }
 
-/// Returns placed objects with their numbers. Each place occurs once; initial places do not occur.
+/// Returns placed objects with their numbers, each place once. Initial places are not included.
 fn placed(task: &Task, legs: &[Leg]) -> Vec<(usize, Obstacle)> {
     let mut seen: Vec<(usize, Pose)> = task.objects.iter().map(|object| object.at).enumerate().collect();
     let first = seen.len();

@@ -5,7 +5,7 @@ use cplan_core::model::{Scene, Status};
 use cplan_handling::{Task, TimedScene};
 use cplan_tasks::TaskAnswer;
 
-/// C-obstacles at some times.
+/// C-obstacles of moving obstacles at several times, in seconds.
 pub type Moments = Vec<(f64, Vec<CObstacle>)>;
 
 /// The content of a task's picture. Objects count as obstacles, numbered after the static ones: they have the same
@@ -14,7 +14,8 @@ pub type Moments = Vec<(f64, Vec<CObstacle>)>;
 pub struct TaskPicture<'a> {
     /// The first line is the title; the others follow in smaller type.
     pub title: Vec<String>,
-    /// The outcome, in a word or two. For a failed step, its number comes before, and the reason below the title.
+    /// The outcome, in a word or two. If a step fails, the status begins with the step's number, and the lines below
+    /// the title have the reason.
     pub status: String,
     /// The outcome, for colours and symbols.
     pub ending: Option<Status>,
@@ -24,9 +25,10 @@ pub struct TaskPicture<'a> {
     pub task: &'a Task,
     /// The answer.
     pub answer: &'a TaskAnswer,
-    /// Returns contours of a scene in joint space. Called for each world, and once more where link 2 reaches into an
-    /// object.
+    /// Computes contours of a scene's C-obstacles in joint space. It is called for each world, and once more if link 2
+    /// may reach into an object.
     pub c_obstacles: fn(&Scene) -> Vec<CObstacle>,
-    /// C-obstacles of moving obstacles at some times between two, with a greatest number of times.
+    /// Computes C-obstacles of moving obstacles at times between the two given ones. The last argument limits the
+    /// number of times.
     pub in_time: fn(TimedScene, [f64; 2], usize) -> Moments,
 }

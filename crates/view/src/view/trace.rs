@@ -8,10 +8,10 @@ use cplan_core::planner::{Trace, VisibilityGraph};
 use cplan_core::space::{Configuration, Topology};
 use serde::Serialize;
 
-/// Lines of equal value.
+/// Lines of one value of a field.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LevelView {
-    /// Place in the span: 0 at the goal, 1 at the far end.
+    /// Place of the value between that of the goal (0) and that at the far end (1).
     pub part: f64,
     pub lines: Vec<Chain>,
 }
@@ -21,7 +21,7 @@ pub struct LevelView {
 pub struct ScaleView {
     pub title: &'static str,
     pub ends: [String; 2],
-    /// True if the colours are those of surfaces, on which lines must stay legible.
+    /// True if the colours fill surfaces that have lines on them. Then they are paler, so that the lines stay legible.
     pub soft: bool,
 }
 
@@ -46,7 +46,7 @@ pub enum TraceView {
         /// Places that the search expanded, in order.
         #[serde(skip_serializing_if = "Chain::is_empty")]
         expanded: Chain,
-        /// Position of the sweep line over the cells, during the replay.
+        /// Value of joint 1 at which the sweep line is, during the replay.
         #[serde(skip)]
         sweep: Option<f64>,
     },
@@ -54,7 +54,7 @@ pub enum TraceView {
     Roads {
         edges: Chain,
         expanded: Chain,
-        /// Kind of visibility graph, if it is one.
+        /// Kind of the visibility graph. `None` for other roadmaps.
         #[serde(skip_serializing_if = "Option::is_none")]
         visibility: Option<&'static str>,
     },
@@ -63,13 +63,13 @@ pub enum TraceView {
         free: Chain,
         stuck: Chain,
         mixed: Chain,
-        /// Boxes that are undecided so far, during the replay; drawn without sides.
+        /// During the replay, the boxes that are undecided so far. They are drawn without sides.
         #[serde(skip)]
         rest: Chain,
     },
     /// Distances to the goal.
     Wavefront(Waves),
-    /// A field: its equipotentials, and lines of steepest ascent.
+    /// A field, with its equipotentials and its lines of steepest ascent.
     Field {
         levels: Vec<LevelView>,
         flow: Vec<Chain>,
@@ -77,7 +77,7 @@ pub enum TraceView {
         logarithmic: bool,
         /// Values at the far end and at the goal.
         span: [f64; 2],
-        /// Intermediate values, during the replay.
+        /// During the replay, the values after the current sweep.
         #[serde(skip)]
         values: Option<Waves>,
     },
@@ -99,12 +99,12 @@ impl TraceView {
         Some(ScaleView { title, ends, soft })
     }
 
-    /// Returns the trace; `None` if there is nothing to show.
+    /// Returns the trace for pictures and pages. `None` if there is nothing to show.
     pub fn new(trace: &Trace, topology: &Topology, grain: RoundingSteps) -> Option<Self> {
         let pairs = |pairs: &[[Configuration; 2]]| grain.configurations(pairs.iter().flatten());
         Some(match trace {
             Trace::Roadmap { edges, whole } => Self::Roadmap { edges: pairs(edges), whole: *whole },
-            // Without a path, there are no slices that it passes.
+            // The planner found no path, so there are no slices that a path passes.
             Trace::Slices { free } if free.is_empty() => return None,
             Trace::Slices { free } => Self::Slices { free: pairs(free) },
             Trace::Channel { cells, channel, points, expanded, .. } => Self::Channel {

@@ -1,39 +1,39 @@
-//! Wavefronts, coarse enough to be drawn and short enough to be sent.
+//! Wavefronts, coarse enough to be drawn and short enough to be sent to a page.
 
 use serde::{Serialize, Serializer};
 
-/// Largest number of blocks along an axis: each one is nearly one and a half pixels wide.
+/// Largest number of blocks of cells along an axis. A block is nearly one and a half pixels wide.
 const MAX_BLOCKS: usize = 192;
-/// Letters for the levels, one letter per block of cells. `NO_LEVEL` stands for no level.
+/// Letters for the levels, one letter per block of cells. `NO_LEVEL` is the letter of a block without a level.
 const LEVEL_LETTERS: &[u8; LEVELS] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 const NO_LEVEL: char = '.';
 
-/// Largest number of cells along either axis with which each cell shows its number.
+/// Largest number of cells along either axis for which each cell shows its number.
 const MAX_NUMBERED_CELLS: usize = 32;
 
-/// Number of different distances to the goal.
+/// Number of levels. Each stands for an interval of distances to the goal.
 pub const LEVELS: usize = 64;
 
-/// Distances to the goal in columns of joint 1, each from the least value of joint 2 on.
+/// Distances to the goal, one per block of cells, in columns of joint 1 from the least value of joint 2 upwards.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Waves {
     /// Number of blocks of cells along each axis.
     pub blocks: [usize; 2],
-    /// Part of the axis that the blocks cover, above 1 if blocks extend beyond the last cell.
+    /// Fraction of each axis that the blocks cover. It exceeds 1 if blocks extend beyond the last cell.
     pub extent: [f64; 2],
-    /// Least label of each block, as a fraction of the greatest label; `NO_LEVEL` if the wave did not reach the block.
+    /// One letter per block for its least label, as a fraction of the greatest label. `NO_LEVEL` if the wave did not
+    /// reach the block.
     levels: String,
-    /// Position of each block's first cell in the order of expansion, written in the same way; empty if there is no
-    /// order.
+    /// One letter per block for the position of its first cell in the order of expansion. Empty if there is no order.
     #[serde(skip_serializing_if = "String::is_empty")]
     order: String,
-    /// Greatest label.
+    /// Greatest label of a cell.
     pub farthest: u32,
     /// True if distances are measured from the start.
     #[serde(skip)]
     pub from_start: bool,
-    /// Label of each cell, if the grid is coarse enough to read it; `None` (-1 in JSON) if the wave did not reach the
-    /// cell.
+    /// Label of each cell, `None` (-1 in JSON) if the wave did not reach it. Empty if the grid is too fine for readable
+    /// labels.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "labels_or_minus_one")]
     pub numbers: Vec<Option<u32>>,
 }
@@ -91,7 +91,8 @@ impl Waves {
         }
     }
 
-    /// Returns this wavefront up to this part of the order of expansion, or of the levels if there is no order.
+    /// Returns the wavefront when `part` (0 to 1) of the cells have been expanded. Without an order of expansion,
+    /// returns the blocks up to that part of the levels.
     pub fn up_to(&self, part: f64) -> Self {
         let last = (part * LEVELS as f64).floor() as usize;
         let order = if self.order.is_empty() { &self.levels } else { &self.order };
@@ -108,7 +109,7 @@ impl Waves {
     }
 }
 
-/// Returns the letter of a value from 0 to 1.
+/// Returns the letter of the level of a value from 0 to 1; `NO_LEVEL` for `None`.
 pub fn letter(part: Option<f64>) -> char {
     part.map_or(NO_LEVEL, |part| char::from(LEVEL_LETTERS[(part * (LEVELS - 1) as f64).round() as usize]))
 }
@@ -120,7 +121,7 @@ mod tests {
     #[test]
     fn a_fine_wavefront_is_coarsened_and_keeps_narrow_passages() {
         let cells = [401, 390];
-        // The wave reached only one row of cells.
+        // Only one row of cells has been reached.
         let labels: Vec<u32> = (0..cells[0] * cells[1])
             .map(|k| if k % cells[1] == 200 { (k / cells[1]) as u32 } else { u32::MAX })
             .collect();

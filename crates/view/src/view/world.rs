@@ -21,18 +21,18 @@ pub struct ObstacleView {
     pub name: String,
     /// Colour, the same in both spaces.
     pub color: Rgb,
-    /// Shape in the world file; otherwise the union of the pieces.
+    /// Shape in the world file. If the file has none, this is the union of the pieces.
     #[serde(serialize_with = "outline")]
     pub outline: Shape,
-    /// Number of pieces that are the obstacle itself. The others replace them in the tests of a payload: for a level
-    /// payload, its Minkowski differences with the obstacle, which the tip must not enter; for supports, shapes that
-    /// may be nearer than the clearance.
+    /// Number of pieces that form the obstacle itself. The pieces after them are tested against a payload instead. For
+    /// a level payload they are its Minkowski differences with the obstacle, which the tip must not enter. For
+    /// supports, they are shapes that may be nearer than the clearance.
     own: usize,
     pieces: Vec<ShapeView>,
 }
 
 impl ObstacleView {
-    /// Returns obstacle `number` of its world.
+    /// Creates the view of obstacle `number` of its world.
     pub fn new(obstacle: &Obstacle, number: usize, grain: RoundingSteps) -> Self {
         Self {
             name: obstacle.name.clone(),
@@ -48,12 +48,12 @@ impl ObstacleView {
         Self { color: color::ROBOT, ..self }
     }
 
-    /// Returns the obstacle itself as convex pieces. It is empty for an object that is carried.
+    /// Returns the pieces that form the obstacle itself. Empty for an object that is carried.
     pub fn own(&self) -> impl Iterator<Item = &Convex> {
         self.pieces[..self.own].iter().map(|piece| &piece.0)
     }
 
-    /// Returns true if the obstacle has a place of its own.
+    /// Returns true unless the obstacle is an object that is carried.
     pub fn lies(&self) -> bool {
         self.own > 0
     }
@@ -69,7 +69,7 @@ pub struct MovingObstacleView {
     stops: Vec<[f64; 4]>,
     /// Velocity after the last stop, in m/s.
     velocity: [f64; 2],
-    /// Time at which it is picked, if it is.
+    /// Time at which the arm picks the obstacle, in seconds. `None` if it never does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub until: Option<f64>,
     #[serde(skip)]
@@ -100,7 +100,8 @@ impl MovingObstacleView {
         ObstacleView { name: name.clone(), color: *color, outline: outline.at(&pose), own: *own, pieces }
     }
 
-    /// Returns the times at which its trajectory changes, and the end of the motion or the time when it is picked.
+    /// Returns the times at which its trajectory changes, then the end of the motion, or the time when it is picked if
+    /// that is earlier.
     pub fn moments(&self, duration: f64) -> Vec<f64> {
         let duration = duration.min(self.until.unwrap_or(f64::INFINITY));
         let stops = self.course.stops().iter().map(|stop| stop.time).filter(|&time| 0.0 < time && time < duration);
@@ -117,18 +118,19 @@ impl MovingObstacleView {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PayloadView {
     pub object: String,
-    /// Colour of the obstacle that it is while it lies somewhere; otherwise the colour after all others.
+    /// Colour that the object has while it lies somewhere. If it never does, this is the colour after those of all
+    /// obstacles.
     pub color: Rgb,
     /// Shapes in its own frame.
     pub pieces: Vec<ShapeView>,
     #[serde(serialize_with = "grip")]
     pub grip: Grip,
-    /// Shapes in the frame of link 2. They continue the list of the link's own parts.
+    /// Shapes in the frame of link 2. In the numbering of the link's parts, they follow the link's own.
     parts: Vec<ShapeView>,
 }
 
-/// Serialises a grip. A rigid one has coordinates and angle in link 2's frame; a level one the angle in the plane, and
-/// the point at the tip.
+/// Serialises a grip. A rigid grip has the payload's coordinates and angle in the frame of link 2. A level grip has the
+/// payload's angle in the plane, and the point of the payload at the tip.
 fn grip<S: Serializer>(grip: &Grip, serializer: S) -> Result<S::Ok, S::Error> {
     let (index, name, numbers) = match *grip {
         Grip::Rigid(pose) => (0, "rigid", [pose.translation.x, pose.translation.y, pose.rotation.angle()]),
@@ -175,7 +177,8 @@ pub struct WorldView {
     pub movers: Vec<MovingObstacleView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub payload: Option<PayloadView>,
-    /// Shapes that can meet: link, part, obstacle, first piece, and the piece after the last.
+    /// Runs of pairs of shapes that can meet. Each has the link, its part, the obstacle, the obstacle's first piece,
+    /// and the piece after its last.
     pub pairs: Vec<[usize; 5]>,
     pub c_obstacles: Vec<ContourView>,
     /// C-obstacles of moving obstacles at some times.
@@ -183,8 +186,8 @@ pub struct WorldView {
     pub moments: Vec<MomentView>,
     /// Places for the names of C-obstacles.
     pub names: Vec<NameView>,
-    /// C-obstacles of the obstacles that link 2 may reach into, as if it were not allowed to. Pages show one world at a
-    /// time, and do not need them.
+    /// C-obstacles that obstacles would have if link 2 were not allowed to reach into them. Pages do not need these,
+    /// because they show one world at a time.
     #[serde(skip)]
     pub open: Vec<ContourView>,
     pub regions: Vec<RegionView>,
@@ -195,7 +198,7 @@ pub struct WorldView {
     pub scale: Option<ScaleView>,
     /// Boxes that prove that there is no path: least and greatest values of each.
     pub proof: Chain,
-    /// Configurations that should be reached and are not.
+    /// Goals that no motion reaches.
     pub unreached: Vec<[f64; 2]>,
 }
 
@@ -229,14 +232,14 @@ impl WorldView {
         }
     }
 
-    /// Adds the C-obstacles of moving obstacles at some times, by the number of the moving obstacle.
+    /// Adds the C-obstacles of moving obstacles at some times. `obstacle` is the number of the moving obstacle.
     pub fn timed(self, moments: &[(f64, Vec<CObstacle>)], grain: RoundingSteps) -> Self {
         let moment =
             |(time, all): &(f64, Vec<CObstacle>)| MomentView { time: number(*time), c_obstacles: contours(all, grain) };
         Self { moments: moments.iter().map(moment).collect(), ..self }
     }
 
-    /// Returns the last of the moments up to a time.
+    /// Returns the last moment up to this time. `None` if there is none.
     pub fn moment(&self, time: f64) -> Option<&MomentView> {
         let next = self.moments.partition_point(|moment| moment.time <= time);
         self.moments.get(next.saturating_sub(1))
@@ -273,15 +276,15 @@ pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Roundin
     all.into_iter().map(contour).collect()
 }
 
-/// Returns the number of an obstacle in the view's list. Links of the robot follow the obstacles of the workspace;
-/// moving obstacles have a list of their own.
+/// Returns the number of an obstacle in the view's list, where links of the robot follow the obstacles of the
+/// workspace. Moving obstacles have a list of their own.
 fn shown_number(scene: &Scene, number: usize) -> usize {
     let links = scene.self_obstacles();
     if links.contains(&number) { number - links.start + scene.workspace().obstacles.len() } else { number }
 }
 
-/// Returns an obstacle by its number in the scene and its number in the view. An obstacle that joint 1 carries has no
-/// fixed place.
+/// Creates the view of an obstacle from its number in the scene and its number in the view. An obstacle that joint 1
+/// carries has no fixed place.
 fn obstacle(scene: &Scene, number: usize, shown: usize, grain: RoundingSteps) -> ObstacleView {
     let mut view = ObstacleView::new(scene.obstacle(number), shown, grain);
     if scene.self_obstacle(number).is_some_and(|own| own.carrier == Carrier::FirstJoint) {
@@ -294,8 +297,8 @@ fn obstacle(scene: &Scene, number: usize, shown: usize, grain: RoundingSteps) ->
     view
 }
 
-/// Returns moving obstacles in the colours after those of the static ones; an object keeps the colour that it has when
-/// it lies.
+/// Returns the moving obstacles. Their colours follow those of the static obstacles; a moving object keeps the colour
+/// that it has when it lies.
 fn movers(TimedScene { scene, courses }: TimedScene, grain: RoundingSteps) -> Vec<MovingObstacleView> {
     let obstacles = &scene.workspace().obstacles;
     let view = |(number, (LooseObstacle { obstacle, .. }, course)): (usize, (&LooseObstacle, &ObstacleTrajectory))| {
@@ -319,7 +322,7 @@ fn payload(scene: &Scene, grain: RoundingSteps) -> Option<PayloadView> {
     })
 }
 
-/// Merges pairs with consecutive pieces.
+/// Merges pairs of one part with consecutive pieces of one obstacle.
 fn ranges(scene: &Scene) -> Vec<[usize; 5]> {
     let mut ranges: Vec<[usize; 5]> = Vec::new();
     for pair in scene.pairs() {

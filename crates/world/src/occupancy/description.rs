@@ -1,4 +1,4 @@
-//! The YAML beside a picture.
+//! The YAML file that describes a picture.
 
 use super::picture::{Occupancy, Shade};
 use crate::parsers::yaml_diagnostic;
@@ -8,7 +8,7 @@ use serde::de::IgnoredAny;
 use serde_saphyr::Spanned;
 use std::collections::BTreeMap;
 
-/// The contents of the file.
+/// The keys of the file.
 #[derive(Deserialize)]
 struct File {
     image: Spanned<String>,
@@ -20,14 +20,14 @@ struct File {
     mode: Option<Spanned<String>>,
 }
 
-/// The keys that are read; other programs add their own.
+/// The keys that are read. Other programs add keys of their own.
 const READ_KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
 
-/// Darkness that ROS's map savers give to cells that nobody has seen, of 255: the shade 205. They write it whatever
-/// `free_thresh` is, and write `free_thresh: 0.25` beside it, by which it would be free.
+/// Darkness (of 255) that ROS's map savers give to cells that nobody has seen: the shade 205. They write it for any
+/// `free_thresh`. With the `free_thresh: 0.25` that they usually write beside it, such a cell would count as free.
 const UNSEEN_DARKNESS: f64 = 50.0;
 
-/// ROS writes 0 or 1, people also false or true.
+/// The key `negate`. ROS writes 0 or 1, and people also write false or true.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Negate {
@@ -36,7 +36,7 @@ enum Negate {
     Neither(serde::de::IgnoredAny),
 }
 
-/// A valid description of how a picture becomes a map.
+/// A valid description of how to convert a picture to a map.
 pub(super) struct Description {
     pub image: Spanned<String>,
     pub resolution: f64,
@@ -44,7 +44,7 @@ pub(super) struct Description {
     negate: bool,
     occupied: f64,
     free: f64,
-    /// Keys that are not read.
+    /// Keys of the file that are not read.
     unused: Vec<String>,
 }
 
@@ -108,19 +108,18 @@ impl Description {
         Ok(Self { image: file.image, resolution, origin, negate, occupied, free, unused })
     }
 
-    /// Darkness of a shade, from 0 to that of white.
+    /// Returns the darkness of a shade: 0 for white, and the value of white for black; reversed with `negate`.
     fn dark(&self, Shade { value, white }: Shade) -> f64 {
         if self.negate { value } else { white - value }
     }
 
-    /// Returns true if a shade is the one of unknown cells. Uses integers, without rounding.
+    /// Returns true if a shade is that of cells that nobody has seen. Computes with integers, so nothing is rounded.
     fn is_unseen(&self, shade: Shade) -> bool {
         self.dark(shade) * 255.0 == UNSEEN_DARKNESS * shade.white
     }
 
-    /// Returns the occupancy of a cell by its shade, from 0 for black to that of white. A transparent pixel has no
-    /// shade. For integers, the quotient and the thresholds are rounded alike, so that a quotient equal to a threshold
-    /// compares as equal.
+    /// Returns the occupancy of a cell by its shade. A transparent pixel has no shade. Quotient and thresholds are
+    /// rounded alike, so that a quotient that equals a threshold also compares as equal.
     pub fn judge(&self, shade: Option<Shade>) -> Occupancy {
         match shade.map(|shade| (self.dark(shade) / shade.white, self.is_unseen(shade))) {
             Some((p, _)) if p > self.occupied => Occupancy::Occupied,
@@ -129,7 +128,7 @@ impl Description {
         }
     }
 
-    /// Returns the notes about a map, which may have unknown cells.
+    /// Returns notes for the user about the map. `has_unknown` is true if it has unknown cells.
     pub fn notes(&self, has_unknown: bool) -> Vec<String> {
         let mut notes = Vec::new();
         if !self.unused.is_empty() {
@@ -147,7 +146,7 @@ impl Description {
     }
 }
 
-/// Creates a diagnostic at the place of the value.
+/// Creates a diagnostic at the position of the value.
 fn diagnostic<T>(source: &Source, value: &Spanned<T>, message: impl Into<String>) -> Diagnostic {
     source.diagnostic_at_position(value.referenced.line() as usize, value.referenced.column() as usize, message)
 }

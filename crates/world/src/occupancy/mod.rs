@@ -33,7 +33,7 @@ pub struct OccupancyMap {
     pub resolution: f64,
     /// Pose of the lower left corner of the picture.
     pub pose: Pose,
-    /// Row by row as in the picture: from the top, from the left.
+    /// Cells row by row, as in the picture: from the top, and from the left in each row.
     pub cells: Vec<Occupancy>,
     /// Notes for the user about the description.
     pub notes: Vec<String>,
@@ -91,7 +91,7 @@ impl OccupancyMap {
         Ok(Self { size, resolution: description.resolution, pose, cells: picture.cells, notes, picture: Some(path) })
     }
 
-    /// Returns the occupancy at a place, or `None` outside the picture. A cell includes its lower and its left side.
+    /// Returns the occupancy at a point. `None` outside the picture. A cell includes its lower and its left side.
     #[must_use]
     pub fn at(&self, place: Point) -> Option<Occupancy> {
         let cell = self.pose.inverse_point(place) / self.resolution;
@@ -102,9 +102,9 @@ impl OccupancyMap {
         Some(self.cells[(height - 1 - cell.y as usize) * width + cell.x as usize])
     }
 
-    /// Returns the solid cells as rectangles with disjoint interiors: the occupied cells, and the unknown ones unless
-    /// `unknown_is_free`. Their number is that of [`rectangles`]; returns `None` if it exceeds `most`. Shared corners
-    /// are exactly equal.
+    /// Returns the solid cells as rectangles with disjoint interiors. Occupied cells are solid, and unknown ones too
+    /// unless `unknown_is_free`. [`rectangles`] bounds their number; returns `None` if it exceeds `most`. Corners that
+    /// rectangles share are exactly equal.
     #[must_use]
     pub fn pieces(&self, unknown_is_free: bool, most: usize) -> Option<Vec<Convex>> {
         let is_solid = |cell: usize| match self.cells[cell] {
@@ -115,7 +115,8 @@ impl OccupancyMap {
         self.rectangles_of(is_solid, most)
     }
 
-    /// Returns some cells as rectangles with disjoint interiors, like [`OccupancyMap::pieces`].
+    /// Returns the cells for which `is_among` is true as rectangles with disjoint interiors, like
+    /// [`OccupancyMap::pieces`].
     pub fn rectangles_of(&self, is_among: impl Fn(usize) -> bool, most: usize) -> Option<Vec<Convex>> {
         let [width, height] = self.size;
         let corner = |x: usize, y: usize| {
@@ -132,7 +133,7 @@ impl OccupancyMap {
     }
 }
 
-/// Reads a picture, whose format its first bytes tell.
+/// Reads a picture. Its first bytes determine the format.
 fn picture(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePicture> {
     const FORMAT_HINT: &str = "save it as PGM or PNG";
     match bytes {

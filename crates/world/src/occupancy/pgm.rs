@@ -17,7 +17,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
     if !(1..=65535).contains(&most) {
         return Err(UnusablePicture::new(format!("maxval is {most}, but must be from 1 to 65535"), SAVE_HINT));
     }
-    // Once for every shade, not for every pixel.
+    // Computed once for every shade instead of for every pixel.
     let shade = |value: usize| Shade { value: value as f64, white: most as f64 };
     let occupancies: Vec<_> = (0..=most).map(|value| judge(Some(shade(value)))).collect();
     let checked = |value: usize, index: usize| {
@@ -36,7 +36,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
         ended(header.at, bytes)?;
         cells
     } else {
-        // One white space ends the header, which may be the end of a comment's line.
+        // A single white space ends the header. It may be the end of a comment's line.
         header.skip_comment();
         let start = header.at + 1;
         let raster = bytes.get(start..).unwrap_or_default();
@@ -57,7 +57,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
     Ok(Picture { width, height, cells })
 }
 
-/// Checks that nothing follows the picture, which ends before byte `at`.
+/// Checks that the file ends with the picture, before byte `at`.
 fn ended(at: usize, bytes: &[u8]) -> Result<(), UnusablePicture> {
     if at >= bytes.len() {
         return Ok(());
@@ -69,14 +69,14 @@ fn ended(at: usize, bytes: &[u8]) -> Result<(), UnusablePicture> {
     ))
 }
 
-/// White space, comments and whole numbers.
+/// A reader of white space, comments and whole numbers.
 struct Words<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
 impl Words<'_> {
-    /// Passes over white space and comments.
+    /// Skips white space and comments.
     fn skip(&mut self) {
         loop {
             self.skip_comment();
@@ -87,7 +87,7 @@ impl Words<'_> {
         }
     }
 
-    /// Passes over a comment, if one begins here, up to the end of its line.
+    /// Skips a comment to the end of its line, if one begins here.
     fn skip_comment(&mut self) {
         let rest = &self.bytes[self.at..];
         if rest.first() == Some(&b'#') {
@@ -112,7 +112,7 @@ impl Words<'_> {
                 Ok(value)
             }
             _ => {
-                // Enough characters to recognise the word.
+                // This many characters are enough to recognise the word.
                 let shown: String = String::from_utf8_lossy(word).chars().take(20).collect();
                 Err(UnusablePicture::new(
                     format!("{what}: {shown:?} is not a whole number (byte {})", self.at + 1),

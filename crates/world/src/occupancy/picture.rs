@@ -1,28 +1,28 @@
-//! A picture of either format, and what makes one unusable.
+//! The pixels of a picture in any format, and the reasons why a picture cannot be used.
 
-/// What a map says of a cell.
+/// The state of a cell of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Occupancy {
-    /// Nothing is there.
+    /// There is no obstacle in the cell.
     Free,
-    /// Something is there.
+    /// There is an obstacle in the cell.
     Occupied,
-    /// Nobody has looked, or the picture does not say.
+    /// Nobody has seen the cell, or the picture does not show its state.
     Unknown,
 }
 
-/// Cells of the largest picture that is read.
+/// Largest number of cells of a picture.
 pub const MAX_CELLS: usize = 1 << 26;
 
-/// A picture's pixels, judged.
+/// The pixels of a picture, converted to cells.
 pub(super) struct Picture {
     pub width: usize,
     pub height: usize,
-    /// Cells from the top, from the left.
+    /// Cells row by row, from the top, and from the left in each row.
     pub cells: Vec<Occupancy>,
 }
 
-/// Why a picture cannot be used, and what to do about it.
+/// The reason why a picture cannot be used, and a hint.
 #[derive(Debug)]
 pub(super) struct UnusablePicture {
     pub message: String,
@@ -35,17 +35,20 @@ impl UnusablePicture {
     }
 }
 
-/// Brightness of a pixel, from 0 for black, as integers.
+/// Brightness of a pixel as a whole number, from 0 for black to `white`.
 #[derive(Clone, Copy)]
 pub(super) struct Shade {
     pub value: f64,
     pub white: f64,
 }
 
-/// A function from shades to occupancy. A pixel that is not opaque has no shade.
+/// Converts a shade to the state of a cell. A pixel that is not opaque has no shade.
 pub(super) type Judge<'a> = &'a dyn Fn(Option<Shade>) -> Occupancy;
 
-/// The number of pixels, if the program takes so many: before any memory is asked for.
+/// Returns the number of pixels, before memory for them is allocated.
+///
+/// # Errors
+/// No pixels, or more than [`MAX_CELLS`].
 pub(super) fn checked_size(width: usize, height: usize) -> Result<usize, UnusablePicture> {
     if width == 0 || height == 0 {
         return Err(UnusablePicture::new(format!("has no pixels: {width} x {height}"), "save the map again"));

@@ -9,7 +9,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
     let broken =
         |error: DecodingError| UnusablePicture::new(format!("is a broken PNG: {error}"), "save the picture again");
     let mut decoder = Decoder::new(Cursor::new(bytes));
-    // Palettes become colours, fewer than eight bits eight, a transparent colour an opacity.
+    // The decoder converts palettes to colours, fewer than eight bits to eight, and a transparent colour to an opacity.
     decoder.set_transformations(Transformations::EXPAND);
     let header = decoder.read_header_info().map_err(broken)?;
     let (width, height) = (header.width as usize, header.height as usize);
@@ -25,7 +25,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
     let mut samples = vec![0; size];
     let frame = reader.next_frame(&mut samples).map_err(broken)?;
     let channels = frame.color_type.samples();
-    // Grey or colour, and the opacity last if there is one.
+    // A pixel has one channel for grey or three for a colour. An opacity follows if there is one.
     let (shades, has_opacity) = (if channels < 3 { 1 } else { 3 }, channels % 2 == 0);
     let (bytes_each, most) = if frame.bit_depth == BitDepth::Sixteen { (2, 65535.0) } else { (1, 255.0) };
     let value = |sample: &[u8]| sample.iter().fold(0.0, |value, byte| 256.0 * value + f64::from(*byte));
@@ -42,7 +42,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
     Ok(Picture { width, height, cells })
 }
 
-/// Returns true if a pixel has a colour that is missing from the palette. The decoder would make it black.
+/// Returns true if the palette lacks the colour of a pixel. The decoder would make the pixel black.
 fn lacks_colors(bytes: &[u8]) -> Result<bool, DecodingError> {
     let mut reader = Decoder::new(Cursor::new(bytes)).read_info()?;
     let info = reader.info();

@@ -1,6 +1,6 @@
-//! Pixels as few rectangles.
+//! Divides pixels into few rectangles.
 
-/// A rectangle of pixels: columns and rows, the first one of it and the first one after it.
+/// A rectangle of pixels. Columns and rows are given by the first one inside and the first one beyond.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PixelRectangle {
     /// Columns, from left to right.
@@ -10,13 +10,14 @@ pub struct PixelRectangle {
 }
 
 /// Divides the solid pixels of a picture of `[width, height]` into rectangles with disjoint interiors. Linear in the
-/// number of pixels. Returns `None` if there are more than `most`.
+/// number of pixels. Returns `None` if there are more than `most` rectangles.
 ///
-/// Rows are cut into runs, and equal runs in successive rows form one rectangle. The same is done by columns, and the
-/// smaller result is returned. This cuts along one line through every concave corner of the outline. A minimal
-/// partition needs a cut for every two concave corners at least, so the result has at most twice the minimal number for
-/// an outline without holes, and at most three times with holes. The minimal number itself takes a matching of the
-/// lines that join two concave corners (Lipski et al. 1979, Ohtsuki 1982).
+/// Rows are cut into runs of solid pixels, and equal runs in successive rows form one rectangle. The same is done with
+/// columns, and the smaller result is returned. Each result cuts along one line through every concave corner of the
+/// outline. A minimal partition needs at least one cut for every two concave corners. So the result has at most twice
+/// the minimal number of rectangles for an outline without holes, and at most three times with holes. Computing the
+/// minimal number would require a matching of the lines that join two concave corners (Lipski et al. 1979, Ohtsuki
+/// 1982).
 #[must_use]
 pub fn rectangles(size: [usize; 2], solid: impl Fn(usize, usize) -> bool, most: usize) -> Option<Vec<PixelRectangle>> {
     let [width, height] = size;
@@ -30,21 +31,21 @@ pub fn rectangles(size: [usize; 2], solid: impl Fn(usize, usize) -> bool, most: 
     }
 }
 
-/// A run of solid pixels of one line that began in an earlier one.
+/// A run of solid pixels that began in an earlier line and may continue.
 struct Open {
     run: [usize; 2],
     since: usize,
 }
 
-/// Returns rectangles as lines and positions in the line, in the order in which they end. Returns `None` if there are
-/// more than `most`.
+/// Returns rectangles by lines and by positions in the line, in the order in which they end. Returns `None` if there
+/// are more than `most`.
 fn merged_runs(
     [lines, length]: [usize; 2],
     solid: impl Fn(usize, usize) -> bool,
     most: usize,
 ) -> Option<Vec<[[usize; 2]; 2]>> {
     let mut done = Vec::new();
-    // Both ascend.
+    // Both lists are in ascending order.
     let (mut open, mut next): (Vec<Open>, Vec<Open>) = (Vec::new(), Vec::new());
     for line in 0..=lines {
         let mut before = open.drain(..).peekable();

@@ -1,4 +1,4 @@
-//! The claims that a cplan result makes about its samples.
+//! The claims that a result of cplan makes about its samples.
 
 use crate::parsers::json_diagnostic;
 use cplan_core::space::Configuration;
@@ -6,13 +6,13 @@ use cplan_handling::{BlendsClaim, Claims, EventClaim, OptimumClaim, StepClaims, 
 use cplan_robot::{Diagnostic, InputError, Source};
 use serde::{Deserialize, Deserializer};
 
-/// Numbers beyond this are a mistake.
+/// Largest valid number. A larger one is a mistake.
 const MAX_NUMBER: f64 = 1e12;
 
-/// Members that are read elsewhere, or say how others are to be read.
+/// Members that make no claim here: they are read elsewhere, or state how to read others.
 const OTHER_MEMBERS: [&str; 5] = ["joints", "trajectory", "interpolation", "steps", "events"];
 
-/// The members that are judged.
+/// The members that make claims.
 #[derive(Deserialize)]
 struct Document {
     status: Option<String>,
@@ -97,16 +97,16 @@ struct PoseMember {
     angle: f64,
 }
 
-/// Deserialises a member that may be null, which differs from a missing one.
+/// Deserialises a member that may be null, so that null differs from a missing member.
 fn nullable<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<Option<T>>, D::Error> {
     Option::deserialize(deserializer).map(Some)
 }
 
-/// Reads the claims that a result makes about its samples. Returns `None` for a file that is not a result of cplan: results
-/// have a status.
+/// Reads the claims that a result makes about its samples. Returns `None` if the file is no result of cplan, which
+/// would have a status.
 ///
 /// # Errors
-/// Invalid members: of another type, numbers that are too large, or paths of other joints.
+/// Invalid members: of another type, with too large numbers, or with paths of other joints.
 pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, InputError> {
     let wrong = |error: serde_json::Error| json_diagnostic(source, &error).help("verify a result as cplan writes it");
     let members: serde_json::Map<String, serde_json::Value> = serde_json::from_str(source.text()).map_err(wrong)?;
@@ -116,7 +116,7 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
     let document: Document = serde_json::from_str(source.text()).map_err(wrong)?;
     let order = document.joints.as_deref().map_or(Some([0, 1]), |joints| order(joints, arm));
     let Some(order) = order else {
-        // The reader of samples reports defects of the names.
+        // The reader of samples reports invalid names.
         return Ok(None);
     };
     let unjudged = members
@@ -156,7 +156,7 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
     Ok(Some(claims))
 }
 
-/// Returns the positions of the arm's joints in the file.
+/// Returns the indices of the arm's joints among `joints`. `None` if they differ.
 fn order(joints: &[String], arm: [&str; 2]) -> Option<[usize; 2]> {
     let at = |name: &str| joints.iter().position(|joint| joint == name);
     Some([at(arm[0])?, at(arm[1])?])

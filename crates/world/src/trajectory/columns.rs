@@ -1,11 +1,11 @@
-//! The meaning of the columns in a table of joint values, by their names.
+//! The meaning of columns in a table of joint values, determined by their names.
 
 /// The meaning of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Meaning {
-    /// The time of the sample, seconds.
+    /// The time of the sample, in seconds.
     Time,
-    /// Values of the joint of this index.
+    /// A quantity of the joint with this index.
     Of(usize, Quantity),
 }
 
@@ -15,14 +15,14 @@ pub(super) enum Quantity {
     Position,
     Velocity,
     Acceleration,
-    /// Follows from the others.
+    /// Torque or force. It is not read, because it follows from the other quantities.
     Torque,
 }
 
-/// Names of columns that hold times, in lower case.
+/// Names of columns with times, in lower case.
 const TIME_COLUMNS: [&str; 5] = ["time", "t", "time_from_start", "time_s", "__time"];
 
-/// Words that go with a joint's name.
+/// Words that may precede or follow a joint's name, with their quantities.
 const QUANTITY_WORDS: [(Quantity, &[&str]); 4] = [
     (Quantity::Position, &["position", "positions", "pos"]),
     (Quantity::Velocity, &["velocity", "velocities", "vel"]),
@@ -30,9 +30,9 @@ const QUANTITY_WORDS: [(Quantity, &[&str]); 4] = [
     (Quantity::Torque, &["torque", "torques"]),
 ];
 
-/// Returns all meanings of a column's name: `elbow`, `elbow_velocity`, `elbow.velocity`, `velocities_elbow` and
-/// similar, also below a topic (`/joint_states/elbow/position`); or a time. The caller must refuse names with several
-/// meanings.
+/// Returns all possible meanings of a column's name. A joint's quantity is `elbow`, `elbow_velocity`, `elbow.velocity`,
+/// `velocities_elbow` or similar, also after a topic (`/joint_states/elbow/position`); other names stand for times. The
+/// caller must refuse names with several meanings.
 pub(super) fn meanings(column: &str, joints: &[&str]) -> Vec<Meaning> {
     let mut found = Vec::new();
     if TIME_COLUMNS.contains(&column.to_lowercase().as_str()) {

@@ -1,5 +1,5 @@
-//! Joint values as a table: a header of names, then one sample per line. Values are separated by commas, semicolons or
-//! tabs, as in the header. Lines that begin with `#` are comments, except the header.
+//! Joint values as a table: a header with names, then one sample per line. Commas, semicolons or tabs separate values,
+//! as in the header. Lines that begin with `#` are comments, except for the header.
 
 use super::columns::{Meaning, Quantity, meanings};
 use super::records::{Field, Records};
@@ -7,11 +7,11 @@ use super::samples::{Names, Samples, Series};
 use super::units::{self, Dimension, Unit};
 use cplan_robot::{Diagnostic, InputError, Source, quoted};
 
-/// Reads a table. See [`super::load_recording`] for the names of columns.
+/// Reads a table. [`super::load_recording`] describes the names of columns.
 pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError> {
     let separator = separator(source.text(), names);
     let mut records = Records::new(source.text(), separator);
-    // A comment may be the header.
+    // The header may look like a comment.
     let header = records.find(|record| !is_comment(record) || names_joints(record, names));
     let header = header.ok_or_else(|| {
         source.diagnostic("is empty").help("write a header of names, then the samples: time,joint1,joint2")
@@ -34,7 +34,7 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
         }
         let sample = (0..columns.used.len()).map(|k| columns.value(source, &header, k, &record));
         let sample = sample.collect::<Result<Vec<f64>, Diagnostic>>()?;
-        // The same line again, its time included, is the same sample.
+        // A line that equals the one before, including its time, repeats a sample.
         if columns.has_time()
             && !sample.is_empty()
             && values.iter().map(|column| column.last()).eq(sample.iter().map(Some))
@@ -61,7 +61,7 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
     Ok(samples)
 }
 
-/// Returns the separator: of comma, semicolon and tab the first for which a line names a joint.
+/// Returns the separator of a table: the first of comma, semicolon and tab with which a line names a joint.
 fn separator(text: &str, names: &Names) -> char {
     let names_some = |separator: &char| {
         let mut heads = Records::new(text, *separator).take(MAX_HEADER_LINES);
@@ -70,7 +70,7 @@ fn separator(text: &str, names: &Names) -> char {
     [',', ';', '\t'].into_iter().find(names_some).unwrap_or(',')
 }
 
-/// Number of lines searched for the header.
+/// Number of lines in which the header is sought.
 const MAX_HEADER_LINES: usize = 64;
 
 fn is_comment(record: &[Field]) -> bool {
@@ -105,20 +105,20 @@ fn number(source: &Source, name: &Field, field: &Field) -> Result<f64, Diagnosti
 
 /// A column that is read.
 struct Column {
-    /// Its position in each line.
+    /// Index of the column in each line.
     index: usize,
     meaning: Meaning,
-    /// Its unit. `None` for radians, metres and seconds.
+    /// Unit of the values. `None` for radians, metres and seconds.
     unit: Option<Unit>,
 }
 
 /// The columns to read.
 struct Columns {
-    /// Names of the joints that a meaning's index stands for.
+    /// Names of the joints, in the order of the indices in meanings.
     joints: Vec<String>,
-    /// Ordered as in the file.
+    /// The columns that are read, in the order of the file.
     used: Vec<Column>,
-    /// Whole seconds of the first time, subtracted from all times that are not relative to a start.
+    /// Whole seconds of the first time if times are dates. They are subtracted from all times.
     epoch: Option<i64>,
     notes: Vec<String>,
 }
@@ -128,7 +128,7 @@ impl Columns {
         let joints: Vec<&str> = names.all().collect();
         let (mut used, mut unknown): (Vec<Column>, Vec<&str>) = (Vec::new(), Vec::new());
         for (index, field) in header.iter().enumerate() {
-            // Some programs begin the header as a comment.
+            // Some programs write the header as a comment.
             let name = if index == 0 { field.text.trim_start_matches(['#', ' ']) } else { &field.text };
             let (known, unit) = meant(name, &joints);
             match known[..] {
@@ -153,7 +153,7 @@ impl Columns {
             return Err(source.diagnostic_at(whole(header), "there is no header").help(help));
         }
         let has = |index: usize| used.iter().any(|column| column.meaning == Meaning::Of(index, Quantity::Position));
-        // The arm's joints come first.
+        // The first indices are those of the arm's joints.
         if let Some(missing) = (0..names.arm.len()).find(|index| !has(*index)) {
             let columns = quoted(header.iter().map(|field| &field.text));
             let message = format!("holds no positions of joint \"{}\"; its columns are {columns}", names.arm[missing]);
@@ -176,7 +176,8 @@ impl Columns {
         self.used.iter().any(|column| column.meaning == Meaning::Time)
     }
 
-    /// Returns true if a line has no value of any joint, as in tables of several sources that log at different moments.
+    /// Returns true if a line has no joint values. Such lines occur in tables of several sources that log at different
+    /// times.
     fn is_blank(&self, record: &[Field]) -> bool {
         let mut joints = self.used.iter().filter(|column| column.meaning != Meaning::Time);
         joints.all(|column| record[column.index].text.is_empty())
@@ -193,7 +194,7 @@ impl Columns {
         if meaning != Meaning::Time {
             return Ok(value);
         }
-        // A double resolves a date to a quarter of a microsecond: the decimals are read without it.
+        // A double that holds a date resolves only a quarter of a microsecond, so the decimals are read separately.
         let parts = field.text.split_once('.').unwrap_or((&field.text, "0"));
         let Ok(seconds) = parts.0.parse::<i64>() else { return Ok(value) };
         if self.epoch.is_none() {
@@ -206,7 +207,7 @@ impl Columns {
         Ok(rest.and_then(|rest| format!("{rest}.{}", parts.1).parse().ok()).unwrap_or(value))
     }
 
-    /// Puts the columns' values where they belong.
+    /// Moves the values of all columns to the samples.
     fn fill(self, samples: &mut Samples, values: Vec<Vec<f64>>) {
         let mut series: Vec<[Option<Vec<f64>>; 4]> = self.joints.iter().map(|_| Default::default()).collect();
         for (column, values) in self.used.into_iter().zip(values) {
@@ -225,10 +226,10 @@ impl Columns {
     }
 }
 
-/// Times beyond this are dates and no times from a start: eleven days, in seconds.
+/// Largest time that counts as relative to a start, in seconds (eleven days). Larger ones are dates.
 const MAX_RELATIVE_TIME: f64 = 1e6;
 
-/// Returns the meaning of a column, and the unit after its name if there is one.
+/// Returns the possible meanings of a column, and the unit after its name if there is one.
 fn meant<'a>(name: &'a str, joints: &[&str]) -> (Vec<Meaning>, Option<&'a str>) {
     match (meanings(name, joints), units::split(name)) {
         (known, Some((base, unit))) if known.is_empty() => (meanings(base, joints), Some(unit)),
@@ -236,7 +237,7 @@ fn meant<'a>(name: &'a str, joints: &[&str]) -> (Vec<Meaning>, Option<&'a str>) 
     }
 }
 
-/// Returns the unit of a column, or `None` for torques, which are not read.
+/// Returns the unit of a column. `None` for torques, which are not read.
 ///
 /// # Errors
 /// Units that are unknown, or do not fit the joint.

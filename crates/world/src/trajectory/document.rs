@@ -7,22 +7,22 @@ use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-/// The members that are read; others may exist.
+/// The members that are read. Other members are ignored.
 #[derive(Deserialize)]
 struct Document {
-    /// cplan's result.
+    /// The status, which only a result of cplan has.
     status: Option<String>,
     joints: Option<Vec<String>>,
     path: Option<Vec<Vec<f64>>>,
     interpolation: Option<String>,
     trajectory: Option<Inner>,
-    /// A ROS message, alone or inside another.
+    /// The joints of a ROS message, which is the whole document or a member of it.
     joint_names: Option<Vec<String>>,
     points: Option<Vec<Point>>,
     joint_trajectory: Option<Inner>,
 }
 
-/// A trajectory: cplan's, or a ROS message.
+/// A trajectory of cplan, or a ROS message.
 #[derive(Deserialize)]
 struct Inner {
     time: Option<Vec<f64>>,
@@ -46,7 +46,7 @@ struct Point {
     time_from_start: Option<Stamp>,
 }
 
-/// A `builtin_interfaces/msg/Duration`, also as ROS 1 spells it, or plain seconds.
+/// A `builtin_interfaces/msg/Duration`, a duration with ROS 1's names of members, or plain seconds.
 #[derive(Deserialize)]
 #[serde(untagged, expecting = "a time is {sec: 1, nanosec: 500000000}, both whole numbers, or seconds")]
 enum Stamp {
@@ -60,7 +60,7 @@ enum Stamp {
 }
 
 impl Stamp {
-    /// Returns seconds, correctly rounded, so that the decimal has at most nine digits after the point.
+    /// Returns seconds, correctly rounded, so that their shortest decimal has at most nine digits after the point.
     fn seconds(&self) -> f64 {
         match *self {
             Stamp::Parts { sec, nanosec } => (sec as f64 * 1e9 + f64::from(nanosec)) / 1e9,
@@ -72,7 +72,7 @@ impl Stamp {
 /// Reads a result of cplan, or another program's JSON.
 pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
     let help = "write a result with cplan --output NAME.json, or a JointTrajectory; all numbers must be finite";
-    // A list would be taken for the members of an object in their order.
+    // Serde would take the elements of a list for the members of an object in their order.
     let begins = source.text().len() - source.text().trim_start().len();
     if source.text()[begins..].starts_with('[') {
         let message = "is a list, but must be an object { ... }";
@@ -83,16 +83,16 @@ pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
     Ok(samples(source, document)?)
 }
 
-/// Reads a JointTrajectory as ROS 2 prints it.
+/// Reads a JointTrajectory as ROS 2 prints it in YAML.
 pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
     let mut options = serde_saphyr::Options::default();
-    // The file is in memory already, and its size is bounded: so are the events and nodes that it can make.
+    // The parser needs no budget: the file is in memory, and its bounded size bounds the number of nodes.
     if let Some(budget) = &mut options.budget {
         budget.max_events = source.text().len().max(budget.max_events);
         budget.max_nodes = source.text().len().max(budget.max_nodes);
         budget.max_total_scalar_bytes = source.text().len().max(budget.max_total_scalar_bytes);
     }
-    // `ros2 topic echo` ends a message with a line of three dashes.
+    // `ros2 topic echo` prints three dashes after a message.
     let text = source.text().trim_end();
     let text = text.strip_suffix("\n---").unwrap_or(text);
     let document: Document = serde_saphyr::from_str_with_options(text, options).map_err(|error| {
@@ -137,7 +137,7 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
     })
 }
 
-/// Returns how accelerations join samples, by the member `interpolation` of a cplan result.
+/// Returns how accelerations join the samples, as the member `interpolation` of a cplan result states it.
 fn own_rule(stated: Option<&str>, notes: &mut Vec<String>) -> Option<Interpolation> {
     match stated {
         Some(INTERPOLATION) => Some(Interpolation::Quartic),
@@ -151,7 +151,7 @@ fn own_rule(stated: Option<&str>, notes: &mut Vec<String>) -> Option<Interpolati
 }
 
 impl Samples {
-    /// Adds rows of velocities or accelerations, if there are any, to the joints' positions.
+    /// Adds rows of velocities or accelerations to the joints, if there are any.
     fn add(
         &mut self,
         source: &Source,
@@ -200,7 +200,7 @@ fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> R
             .help(format!("give all points their {what}, or none")));
     }
     let mut samples = Samples { what: "points".into(), joined: Some(Interpolation::Quintic), ..Samples::default() };
-    // The controller goes to the first point from wherever the arm is.
+    // The controller moves to the first point from any configuration, so there is no motion before that point.
     if let Some(first) = time.first().filter(|first| **first > 0.0) {
         samples
             .notes
@@ -214,13 +214,13 @@ fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> R
     Ok(samples)
 }
 
-/// Rows of positions as a series a joint.
+/// Converts rows of positions to one series per joint.
 fn series(source: &Source, names: Vec<String>, rows: &[Vec<f64>], what: &str) -> Result<Vec<Series>, Diagnostic> {
     let columns = transposed(source, rows, names.len(), what)?;
     Ok(names.into_iter().zip(columns).map(|(name, position)| Series { name, position, ..Series::default() }).collect())
 }
 
-/// Rows as columns.
+/// Converts rows to columns.
 fn transposed(source: &Source, rows: &[Vec<f64>], width: usize, what: &str) -> Result<Vec<Vec<f64>>, Diagnostic> {
     if let Some(k) = rows.iter().position(|row| row.len() != width) {
         let message = format!("{what}[{k}] has {} values, but {width} joints are named", rows[k].len());

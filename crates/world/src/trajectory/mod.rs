@@ -1,7 +1,8 @@
 //! Joint paths and trajectories from files: cplan's own JSON and CSV, anyone's CSV, and ROS 2 messages in YAML.
 //!
-//! Names, not the order, decide which column belongs to which joint. Every reader makes [`Samples`]. Common conditions
-//! are checked once, here: the arm's joints are present, the motion of held joints can be judged, times increase.
+//! Names, not the order, decide which column belongs to which joint. Every reader returns [`Samples`]. This module
+//! checks their common conditions: the arm's joints are present, the motion of held joints can be judged, and times
+//! increase.
 
 mod claims;
 mod columns;
@@ -23,24 +24,24 @@ use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use samples::{Names, Samples, Series, misplaced};
 use std::path::Path;
 
-/// Note about accelerations that do not join samples.
+/// Note about accelerations that do not determine the motion between samples.
 const STATED_ACCELERATIONS_NOTE: &str = "accelerations in the file are held to the limits, but do not change the motion: positions and velocities \
                       imply it";
 
-/// A recorded motion and how it was read.
+/// A recorded motion, and how it was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadedRecording {
-    /// The arm's two joints, base to tip.
+    /// The motion of the arm's two joints, base to tip.
     pub recording: Recording,
-    /// Motions of joints that the world holds still, if they move.
+    /// Motions of joints that the world holds, if they move in the recording.
     pub held: Vec<HeldMotion>,
-    /// The steps of a task: of a result of cplan's for a world that has steps.
+    /// The steps of a task. `None` unless the file is cplan's result for a world with steps.
     pub steps: Option<Vec<RecordedStep>>,
     /// The claims that a cplan result makes about the samples.
     pub claims: Option<Claims>,
-    /// True if it has torques.
+    /// True if the recording has torques.
     pub has_torques: bool,
-    /// Notes for the user about ignored parts and the rule that joins the samples.
+    /// Notes for the user about ignored parts, and about how samples are joined.
     pub notes: Vec<String>,
 }
 
@@ -63,10 +64,10 @@ pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecordin
     load(path, None, scene)
 }
 
-/// Reads the recording on one topic of an MCAP file.
+/// Reads the messages on one topic of an MCAP file.
 ///
 /// # Errors
-/// Same as [`load_recording`], and files of other formats, which have no topics.
+/// The errors of [`load_recording`], and files of other formats, which have no topics.
 pub fn load_topic(path: &Path, topic: &str, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     load(path, Some(topic), scene)
 }
@@ -89,10 +90,10 @@ fn load(path: &Path, topic: Option<&str>, scene: &LoadedScene) -> Result<LoadedR
     read_recording(&Source::read_recording(path)?, scene)
 }
 
-/// Does the same with a text. Its name's extension gives the format, JSON by default.
+/// Reads a recording from a text. The extension of its name determines the format, by default JSON.
 ///
 /// # Errors
-/// Same as [`load_recording`].
+/// The errors of [`load_recording`].
 pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     let names = Names::of(scene);
     let extension = source.path().extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
@@ -108,7 +109,7 @@ pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedReco
     Ok(LoadedRecording { steps, claims, ..names.recording(source, samples)? })
 }
 
-/// Reads a recording of topics.
+/// Reads an MCAP file: the given topic, or the only suitable one.
 #[cfg(feature = "mcap")]
 fn recorded(path: &Path, topic: Option<&str>, names: &Names) -> Result<LoadedRecording, InputError> {
     let bytes = cplan_robot::read_recorded(path)?;
@@ -116,7 +117,7 @@ fn recorded(path: &Path, topic: Option<&str>, names: &Names) -> Result<LoadedRec
     Ok(names.recording(&source, mcap::read(&source, &bytes, topic, names)?)?)
 }
 
-/// Reads a recording of topics.
+/// Refuses MCAP files, because this build of the program cannot read them.
 #[cfg(not(feature = "mcap"))]
 fn recorded(path: &Path, _: Option<&str>, _: &Names) -> Result<LoadedRecording, InputError> {
     let diagnostic = Diagnostic::new(path.display().to_string(), "this program was built without MCAP");
@@ -134,7 +135,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The arm's two joints of what was read.
+    /// Returns the recording of the arm's two joints.
     fn recording(&self, source: &Source, mut samples: Samples) -> Result<LoadedRecording, Diagnostic> {
         let mut notes = std::mem::take(&mut samples.notes);
         let mut chosen = Vec::new();
@@ -182,7 +183,7 @@ impl<'a> Names<'a> {
     }
 }
 
-/// How the samples are joined, in words.
+/// Describes how the samples are joined.
 fn rule(recording: &Recording) -> &'static str {
     match (recording.interpolation(), recording.times()) {
         (Interpolation::Cubic, _) => "between samples: the cubic that positions and velocities imply",

@@ -6,11 +6,12 @@ use cplan_core::space::Configuration;
 use cplan_handling::{HeldEffect, HeldJoint, HeldMotion, Interpolation, Recording, RecordingError};
 use cplan_robot::{Diagnostic, Source};
 
-/// Largest deviation of a held joint's recorded value from its held value, radians or metres. It exceeds a controller's
-/// jitter and the rounding to six digits, and is too small to cause a collision.
+/// Largest deviation of a recorded value from the value at which the world holds the joint, in radians or metres, with
+/// which the joint counts as still. It exceeds a controller's jitter and the rounding to six digits, and is too small
+/// to cause a collision.
 const HELD_TOLERANCE: f64 = 1e-4;
 
-/// Returns the reason why motions of held joints cannot be judged in a scene, or `None`.
+/// Returns the reason why motions of held joints cannot be judged in a scene. `None` if they can.
 pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
     if scene.attachment().is_some() {
         return Some("the tool carries an object, which would move with the joint");
@@ -20,7 +21,7 @@ pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
 }
 
 impl Names<'_> {
-    /// Returns the motions of joints that the world holds still, and notes about all other joints.
+    /// Returns the motions of held joints that move, and notes about all other joints.
     ///
     /// # Errors
     /// Joints whose motion cannot be judged.
@@ -68,7 +69,7 @@ impl Names<'_> {
         Ok(moved)
     }
 
-    /// Returns the reason why the motion of a joint cannot be judged, as a clause about it.
+    /// Returns the reason why the motion of a joint cannot be judged, as a clause. `None` if it can.
     fn why_not(&self, joint: &HeldJoint, at_samples: bool, moved: &[HeldMotion]) -> Option<String> {
         let turns = |joint: &HeldJoint| matches!(joint.effect, HeldEffect::Turns { .. });
         let also_turns = |other: &&HeldMotion| {
@@ -86,7 +87,7 @@ impl Names<'_> {
     }
 }
 
-/// Describes a moving joint.
+/// Describes how a joint moves.
 fn described(joint: &HeldJoint, series: &Series) -> String {
     let least = series.position.iter().copied().fold(f64::INFINITY, f64::min);
     let most = series.position.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -103,7 +104,7 @@ fn described(joint: &HeldJoint, series: &Series) -> String {
     }
 }
 
-/// Returns a joint's values at the samples of a recording, joined in the same way.
+/// Returns the values of a joint at the samples of a recording, joined as in the recording.
 fn values(series: &Series, recording: &Recording, samples: &Samples) -> Result<Recording, RecordingError> {
     let single = |values: &Vec<f64>| values.iter().map(|value| Configuration::new(*value, 0.0)).collect::<Vec<_>>();
     let velocity = series.velocity.as_ref().filter(|_| recording.velocities().is_some());

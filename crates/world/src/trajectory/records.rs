@@ -1,17 +1,18 @@
-//! Comma-separated values (RFC 4180) with the place of every field; or separated by semicolons or tabs.
+//! Records of comma-separated values (RFC 4180), with the position of every field. Semicolons or tabs may separate
+//! fields instead.
 
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// A field and where it is, quotes included.
+/// A field, and its position including quotes.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Field<'a> {
     pub text: Cow<'a, str>,
     pub range: Range<usize>,
 }
 
-/// Iterates over the records of a text without blank lines. A quote that is never closed takes the rest of the text,
-/// which is then refused because it is not a number.
+/// Iterates over the records of a text, without blank lines. A quote that is never closed makes the rest of the text
+/// one field, which is then refused because it is not a number.
 pub(super) struct Records<'a> {
     text: &'a str,
     at: usize,
@@ -19,12 +20,12 @@ pub(super) struct Records<'a> {
 }
 
 impl<'a> Records<'a> {
-    /// Creates the iterator for values separated by this character.
+    /// Creates the iterator. `separator` separates fields.
     pub fn new(text: &'a str, separator: char) -> Self {
         Self { text, at: 0, separator }
     }
 
-    /// Returns the next field, and whether it ends its record.
+    /// Returns the next field, and true if it is the last one of its record.
     fn field(&mut self) -> (Field<'a>, bool) {
         let start = self.at;
         let rest = &self.text[start..];

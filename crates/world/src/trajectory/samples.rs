@@ -1,11 +1,11 @@
-//! What a file holds, whatever its format.
+//! The contents of a file with joint values, in any format.
 
 use cplan_handling::{HeldJoint, Interpolation, RecordingError};
 use cplan_robot::{Diagnostic, Source};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// What a file holds of one joint.
+/// The values of one joint.
 #[derive(Debug, Default)]
 pub(super) struct Series {
     pub name: String,
@@ -14,34 +14,35 @@ pub(super) struct Series {
     pub acceleration: Option<Vec<f64>>,
 }
 
-/// What a file holds.
+/// The samples of a file, and how it describes them.
 #[derive(Debug, Default)]
 pub(super) struct Samples {
     pub time: Option<Vec<f64>>,
     pub joints: Vec<Series>,
-    /// What the file holds of joints at other times than the samples', with positions alone.
+    /// Positions of joints at other times than those of the samples.
     pub aside: Vec<Series>,
-    /// How samples are joined that have accelerations, if these do it; see [`Interpolation`].
+    /// How samples with accelerations are joined. `None` if accelerations do not determine the motion between samples.
+    /// See [`Interpolation`].
     pub joined: Option<Interpolation>,
-    /// Samples after which nothing is joined: the arm stands until the next.
+    /// Indices of samples after which the arm stands still until the next sample.
     pub rests: Vec<usize>,
     pub has_torques: bool,
-    /// How the file calls sample `k`: this, with `k` in brackets.
+    /// The file's name for a sample. In messages, its index follows in brackets.
     pub what: Cow<'static, str>,
-    /// Where in the text each sample is, if the reader knows.
+    /// Position of each sample in the text. Empty if the reader does not know the positions.
     pub places: Vec<Range<usize>>,
     pub notes: Vec<String>,
 }
 
-/// The joints that a file can speak of.
+/// The joints that a file may name.
 pub(super) struct Names<'a> {
     pub arm: [&'a str; 2],
-    /// Whether each of the arm's joints turns, or slides.
+    /// For each of the arm's joints, true if it is revolute.
     pub turns: [bool; 2],
     pub held: &'a [HeldJoint],
-    /// Why no motion of the held joints can be judged, if so.
+    /// The reason why no motion of held joints can be judged. `None` if it can.
     pub rigid: Option<&'static str>,
-    /// Whether the world has steps, in which a wrist turns and a quill goes up and down.
+    /// True if the world has steps, during which a wrist turns and the tool's joint moves up and down.
     pub has_steps: bool,
 }
 
@@ -52,7 +53,7 @@ impl Names<'_> {
 }
 
 impl Samples {
-    /// A diagnostic of one sample.
+    /// Creates a diagnostic about one sample.
     pub fn diagnostic(&self, source: &Source, sample: usize, message: &str) -> Diagnostic {
         match self.places.get(sample) {
             Some(place) => source.diagnostic_at(place.clone(), message),
@@ -61,7 +62,7 @@ impl Samples {
     }
 }
 
-/// What is wrong with samples, at the one that it is about.
+/// Converts an error of a recording to a diagnostic at the sample that it concerns.
 pub(super) fn misplaced(source: &Source, samples: &Samples, diagnostic: &RecordingError) -> Diagnostic {
     let message = diagnostic.to_string();
     let placed = match diagnostic.sample() {

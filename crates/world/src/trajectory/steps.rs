@@ -6,16 +6,16 @@ use cplan_handling::{RecordedStep, RecordedTurn};
 use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 
-/// Largest valid angle (radians) or time (seconds), as in recordings. Doubles near it still resolve a nanoradian.
+/// Largest valid angle (radians) or time (seconds), as in recordings. Up to it, doubles resolve a nanoradian.
 const MAX_NUMBER: f64 = 1e6;
 
-/// The members that are read; others may exist.
+/// The members that are read. Other members are ignored.
 #[derive(Deserialize)]
 struct Document {
     steps: Option<Vec<StepMember>>,
 }
 
-/// A step: cplan's.
+/// A step of a cplan result.
 #[derive(Deserialize)]
 struct StepMember {
     step: usize,
@@ -32,11 +32,11 @@ struct TurnMember {
     seconds: f64,
 }
 
-/// Reads the steps of a JSON file, if it has any.
+/// Reads the steps of a JSON file. `None` if it has none.
 ///
 /// # Errors
-/// Invalid steps: missing members, values that are not numbers, samples that the file does not have, and steps beside
-/// samples without times and velocities.
+/// Missing members, values that are not numbers, samples that the file does not have, and steps together with samples
+/// that lack times or velocities.
 pub(super) fn json(source: &Source, samples: &Samples) -> Result<Option<Vec<RecordedStep>>, InputError> {
     let document: Document = serde_json::from_str(source.text()).map_err(|error| {
         let help = "write steps as in a task's result of cplan: step, cycle, first_sample and last_sample";

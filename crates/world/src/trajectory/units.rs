@@ -10,7 +10,8 @@ pub(super) enum Dimension {
     Time,
 }
 
-/// A unit as a multiple of radians, metres or seconds: a quotient, so that decimal ones are rounded once.
+/// A unit as a multiple of radians, metres or seconds. The factor is a quotient of two numbers, so that a decimal
+/// factor is rounded only once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unit {
     pub dimension: Dimension,
@@ -18,7 +19,7 @@ pub(super) struct Unit {
     divisor: f64,
 }
 
-/// Names of units, their dimension, and the factor as a quotient.
+/// Names of units, with their dimension and their factor as a quotient of two numbers.
 const KNOWN_UNITS: [(&[&str], Dimension, f64, f64); 8] = [
     (&["rad", "radian", "radians"], Dimension::Angle, 1.0, 1.0),
     (&["deg", "degree", "degrees", "\u{b0}"], Dimension::Angle, std::f64::consts::PI, 180.0),
@@ -30,7 +31,7 @@ const KNOWN_UNITS: [(&[&str], Dimension, f64, f64); 8] = [
     (&["ns"], Dimension::Time, 1.0, 1e9),
 ];
 
-/// The list of known units for messages.
+/// The known units, as listed in messages.
 pub(super) const KNOWN_UNITS_TEXT: &str =
     "rad, deg, m, cm, mm, s, ms or ns, with /s for velocities and /s^2 for accelerations";
 
@@ -39,13 +40,13 @@ pub(super) fn split(column: &str) -> Option<(&str, &str)> {
     let closed = [('[', ']'), ('(', ')')];
     closed.into_iter().find_map(|(open, close)| {
         let (name, unit) = column.trim_end().strip_suffix(close)?.rsplit_once(open)?;
-        // A number counts the elements of an array.
+        // A number in brackets is an index of an array, not a unit.
         let is_index = unit.trim().bytes().all(|byte| byte.is_ascii_digit());
         (!is_index).then(|| (name.trim_end(), unit.trim()))
     })
 }
 
-/// Returns the unit with this name for a quantity: for a velocity `deg/s`, for an acceleration `deg/s^2`.
+/// Returns the unit with this name for a column. A velocity has units such as `deg/s`, and an acceleration `deg/s^2`.
 pub(super) fn unit(name: &str, meaning: Meaning) -> Option<Unit> {
     let suffixes: &[&str] = match meaning {
         Meaning::Of(_, Quantity::Velocity) => &["/s"],
@@ -60,12 +61,12 @@ pub(super) fn unit(name: &str, meaning: Meaning) -> Option<Unit> {
 }
 
 impl Unit {
-    /// Returns true unless it is radians, metres or seconds.
+    /// Returns true unless the unit is radians, metres or seconds.
     pub fn is_converted(&self) -> bool {
         (self.multiple, self.divisor) != (1.0, 1.0)
     }
 
-    /// Radians, metres or seconds.
+    /// Converts a value to radians, metres or seconds.
     pub fn convert(&self, value: f64) -> f64 {
         value * self.multiple / self.divisor
     }

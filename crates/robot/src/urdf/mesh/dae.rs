@@ -6,13 +6,13 @@ use nalgebra::{Matrix4, Point3, Rotation3, Unit, Vector3};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::HashMap;
 
-/// Greatest depth of nested nodes, and greatest number of nodes of the scene.
+/// Largest depth of nested nodes (`MAX_NODE_DEPTH`), and largest number of nodes of the scene.
 const MAX_NODE_DEPTH: usize = 64;
 const MAX_NODES: usize = 1 << 16;
-/// Greatest number of vertices of all instances of geometries.
+/// Largest number of vertices of all instances of geometries together.
 const MAX_POINTS: usize = 1 << 24;
 
-/// Reads the vertices of all geometries of the scene, metres.
+/// Reads the vertices of all geometries of the scene, in metres.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "the file is not UTF-8 text".to_owned())?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
@@ -39,7 +39,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     if let Some(shown) = shown {
         scene.children(shown, &pose, 0)?;
     }
-    // Some programs write geometries without a scene; these use their own coordinates.
+    // Some programs write geometries without a scene. Their coordinates are then used as they are.
     if scene.points.is_empty() {
         named(root, "geometry").try_for_each(|geometry| scene.geometry(geometry, &pose))?;
     }
@@ -49,8 +49,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     Ok(scene.points)
 }
 
-/// Returns the text from its XML declaration on, if only comments precede it. XML forbids them there, but some programs
-/// write them.
+/// Returns the text from its XML declaration on, if only comments precede that. XML does not allow comments there, but
+/// some programs write them.
 fn from_declaration(text: &str) -> &str {
     let text = text.trim_start_matches('\u{feff}');
     let mut rest = text.trim_start();
@@ -77,13 +77,13 @@ struct Scene<'a, 'i> {
 }
 
 impl<'a, 'i> Scene<'a, 'i> {
-    /// Returns the element to which an element refers by `url` or `source`.
+    /// Returns the element to which the attribute `url` or `source` of an element refers.
     fn target(&self, node: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
         let id = node.attribute("url").or(node.attribute("source"))?.strip_prefix('#')?;
         self.ids.get(id).copied()
     }
 
-    /// Reads nodes and geometries of a node. `pose` maps its coordinates to those of the file.
+    /// Reads the nodes and geometries in a node. `pose` maps its coordinates to those of the file.
     fn children(&mut self, node: Node<'a, 'i>, pose: &Matrix4<f64>, depth: usize) -> Result<(), String> {
         self.nodes += 1;
         if depth > MAX_NODE_DEPTH || self.nodes > MAX_NODES {
@@ -110,7 +110,7 @@ impl<'a, 'i> Scene<'a, 'i> {
         Ok(())
     }
 
-    /// Returns the positions in the mesh of a geometry.
+    /// Reads the positions of a geometry's mesh.
     fn geometry(&mut self, geometry: Node<'a, 'i>, pose: &Matrix4<f64>) -> Result<(), String> {
         for vertices in named(geometry, "vertices") {
             let mut inputs = vertices.children().filter(|input| input.attribute("semantic") == Some("POSITION"));
@@ -140,7 +140,8 @@ fn numbers(node: Node) -> Result<Vec<f64>, String> {
     words.map(|word| word.parse().map_err(|_| format!("\"{word}\" is not a number"))).collect()
 }
 
-/// Returns the map from a node's coordinates to its parent's: its transformations, the first of them outermost.
+/// Returns the map from a node's coordinates to those of its parent: the product of its transformations, of which the
+/// last is applied first.
 fn transform(node: Node) -> Result<Matrix4<f64>, String> {
     let mut all = Matrix4::identity();
     for part in node.children() {

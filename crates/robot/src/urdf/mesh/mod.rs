@@ -1,4 +1,4 @@
-//! Mesh files: their search, vertices and edges.
+//! Mesh files: where they are sought, and how their vertices and edges are read.
 
 mod dae;
 mod obj;
@@ -16,13 +16,13 @@ use std::path::{Path, PathBuf};
 pub(super) struct Mesh {
     /// Vertices of its faces.
     pub points: Vec<Point3<f64>>,
-    /// Edges of its faces, as pairs of indices into `points`, possibly repeated; empty if the reader does not know the
-    /// faces.
+    /// Edges of the faces, as pairs of indices into `points`. An edge can occur more than once. Empty if the format's
+    /// reader does not read faces.
     pub edges: Vec<[u32; 2]>,
 }
 
 impl Mesh {
-    /// Adds the closed outline of a face whose corners are the points from number `first` on.
+    /// Adds the edges of a face. Its corners are the points from index `first` to the last one.
     fn close_face(&mut self, first: usize) {
         let corners = first as u32..self.points.len() as u32;
         let next = corners.clone().cycle().skip(1);
@@ -77,7 +77,7 @@ pub(super) fn read(filename: &str, scale: [f64; 3], document: &Document) -> Resu
     }
 }
 
-/// Returns the error about a vertex that is not finite after scaling, or too far for any arm.
+/// Returns the error about a vertex that is not finite after scaling, or too far away for any arm.
 fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> UnreadableMesh {
     let [x, y, z] = vertex.coords.into();
     let [a, b, c] = scale;
@@ -91,10 +91,10 @@ fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> UnreadableMesh
     UnreadableMesh { message, cure }
 }
 
-/// Returns the file of a mesh.
+/// Finds the file of a mesh.
 ///
 /// # Errors
-/// A message with the searched places.
+/// A message with the places where it was sought.
 pub fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
     if let Some(path) = candidates(filename, urdf).find(|path| path.is_file()) {
         return Ok(path);
@@ -107,7 +107,7 @@ pub fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
     })
 }
 
-/// Iterates over the possible places of a mesh, likeliest first.
+/// Iterates over the possible paths of a mesh, the likeliest first.
 fn candidates<'f>(filename: &'f str, urdf: &Path) -> Box<dyn Iterator<Item = PathBuf> + 'f> {
     let folder = urdf.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if let Some(path) = filename.strip_prefix("file://") {

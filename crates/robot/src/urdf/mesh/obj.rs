@@ -1,4 +1,4 @@
-//! Wavefront OBJ: lines of vertices, and of faces by the numbers of their vertices.
+//! Wavefront OBJ: lines with vertices, and lines with faces, which consist of numbers of vertices.
 
 use super::Mesh;
 use nalgebra::Point3;
@@ -16,7 +16,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
             piece = lines.next().map_or(&[], |(next, _)| next);
         }
         line.extend_from_slice(piece);
-        // Names may be in any encoding; the relevant parts are ASCII.
+        // Names may be in any encoding, but the parts that are read are ASCII.
         let line = String::from_utf8_lossy(&line);
         let mut words = line.split_whitespace();
         match words.next() {
@@ -28,7 +28,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
             Some("f") => {
                 let first = mesh.points.len();
                 for word in words {
-                    // Numbers of textures and normals follow after slashes; negative numbers count from the end.
+                    // Numbers of textures and normals follow after slashes. Negative numbers count from the end.
                     let vertex = word.split('/').next().and_then(|word| word.parse::<i64>().ok());
                     let index =
                         vertex.and_then(|k| if k < 0 { vertices.len() as i64 + k } else { k - 1 }.try_into().ok());
@@ -47,8 +47,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
     Ok(mesh)
 }
 
-/// Returns the content of a line that continues on the next by a final backslash. Comments end with their line, because
-/// they may contain folder names.
+/// Returns the content of a line that continues on the next line, which a final backslash announces. Comments end with
+/// their line, because they may contain Windows paths.
 fn continued(line: &[u8]) -> Option<&[u8]> {
     line.trim_ascii_end().strip_suffix(b"\\").filter(|begun| !begun.trim_ascii_start().starts_with(b"#"))
 }

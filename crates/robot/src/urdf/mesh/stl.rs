@@ -4,7 +4,7 @@ use super::Mesh;
 use nalgebra::Point3;
 use std::io::Cursor;
 
-/// Number of bytes of a binary STL before its triangles, and of each triangle.
+/// Number of bytes before the triangles of a binary STL (`HEADER_BYTES`), and of each triangle.
 const HEADER_BYTES: usize = 84;
 const TRIANGLE_BYTES: usize = 50;
 
@@ -14,8 +14,8 @@ pub(super) fn read(mut bytes: Vec<u8>) -> Result<Mesh, String> {
     let binary =
         count.is_some_and(|n| bytes.len() as u64 == HEADER_BYTES as u64 + TRIANGLE_BYTES as u64 * u64::from(n));
     let mesh = if binary {
-        // Exporters begin binary headers with "solid" too, by which readers recognise text; otherwise the header has no
-        // meaning.
+        // Some exporters begin the header of a binary file with "solid". Readers take this for text. The header has no
+        // other meaning, so the word is removed.
         bytes[..5].fill(0);
         let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|e| format!("the STL is broken: {e}"))?;
         let points =
@@ -30,13 +30,13 @@ pub(super) fn read(mut bytes: Vec<u8>) -> Result<Mesh, String> {
     if mesh.points.is_empty() { Err("the mesh has no triangle".into()) } else { Ok(mesh) }
 }
 
-/// Reads the triangles of a text STL: consecutive solids, each from `solid` to `endsolid`. (`stl_io` reads only the
-/// first one.)
+/// Reads the triangles of a text STL, which may contain several solids, each from `solid` to `endsolid`. (`stl_io`
+/// reads only the first solid.)
 fn text(text: &str) -> Result<Mesh, String> {
-    /// The lines of a facet.
+    /// The lines of a triangle, by their first words.
     const FACET_LINES: [&str; 7] = ["facet normal", "outer loop", "vertex", "vertex", "vertex", "endloop", "endfacet"];
     let mut mesh = Mesh::default();
-    // The next line of a facet; `None` outside of solids.
+    // Index of the expected line of a triangle. `None` outside of solids.
     let mut next: Option<usize> = None;
     for (number, line) in text.lines().enumerate() {
         let words: Vec<&str> = line.split_whitespace().collect();

@@ -1,7 +1,7 @@
-//! Messages in the bytes that ROS 2 sends: plain CDR, little endian (OMG DDSI-RTPS 2.5, section 10).
+//! Messages in the binary form that ROS 2 sends: plain CDR, little endian (OMG DDSI-RTPS 2.5, section 10).
 
-/// Reads values in sequence. Each is aligned to its own size, counted from the end of the four-byte header. Returns
-/// `None` if the bytes end before the value.
+/// Reads values in sequence. Each value is aligned to its own size, counted from the end of the four-byte header.
+/// Methods return `None` if the bytes end before the value.
 pub(super) struct Cdr<'a> {
     /// The bytes after the header.
     content: &'a [u8],
@@ -9,7 +9,7 @@ pub(super) struct Cdr<'a> {
 }
 
 impl<'a> Cdr<'a> {
-    /// Reads a message, or returns `None` if its header announces another encoding.
+    /// Creates a reader of a message. `None` if its header states another encoding.
     pub fn new(bytes: &'a [u8]) -> Option<Self> {
         let content = bytes.strip_prefix(&[0, 1])?.get(2..)?;
         Some(Self { content, at: 0 })
@@ -50,7 +50,7 @@ impl<'a> Cdr<'a> {
         self.sequence(8, Self::f64)
     }
 
-    /// Reads a sequence of elements of at least this many bytes each. Returns `None` for a length that exceeds the
+    /// Reads a sequence whose elements have at least `least` bytes each. Returns `None` if its length exceeds the
     /// remaining bytes.
     pub fn sequence<T>(&mut self, least: usize, mut element: impl FnMut(&mut Self) -> Option<T>) -> Option<Vec<T>> {
         let length = self.u32()? as usize;
@@ -65,7 +65,7 @@ impl<'a> Cdr<'a> {
         Some(i64::from(self.i32()?) * 1_000_000_000 + i64::from(self.u32()?))
     }
 
-    /// Reads the stamp of a `Header`, nanoseconds.
+    /// Reads a `Header`, and returns its stamp in nanoseconds.
     pub fn header(&mut self) -> Option<i64> {
         let stamp = self.nanoseconds()?;
         self.string()?;

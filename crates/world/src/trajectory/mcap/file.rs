@@ -1,4 +1,4 @@
-//! The messages of an MCAP file, those of compressed chunks included.
+//! Reads the messages of an MCAP file, also from compressed chunks.
 
 use mcap::read::{ChannelAccumulator, ChunkReader, LinearReader};
 use mcap::records::{ChunkHeader, Record};
@@ -6,8 +6,8 @@ use mcap::{Channel, McapError, McapResult};
 use std::borrow::Cow;
 use std::io::Read;
 
-/// Bytes of the largest chunk once it is decompressed. Recorders begin a new chunk after some megabytes; the bound stops files
-/// that claim more than fits into memory.
+/// Largest number of bytes of a decompressed chunk. Recorders begin a new chunk after some megabytes. The limit stops
+/// files that claim more than fits into memory.
 const MAX_CHUNK_BYTES: u64 = 256 << 20;
 
 /// Calls `visit` with the channel, the log time in nanoseconds and the content of each message, in the order of the file.
@@ -32,7 +32,7 @@ pub(super) fn each_message(bytes: &[u8], mut visit: impl FnMut(&Channel, u64, &[
     let mut is_summary = false;
     for record in LinearReader::new(bytes)? {
         match record? {
-            // What follows repeats schemas and channels; it is read on, so that a file that ends early is noticed.
+            // The summary repeats schemas and channels. It is still read, so that a file that ends early is noticed.
             Record::DataEnd(_) => is_summary = true,
             _ if is_summary => {}
             Record::Chunk { header, data } => {
@@ -47,7 +47,7 @@ pub(super) fn each_message(bytes: &[u8], mut visit: impl FnMut(&Channel, u64, &[
     Ok(())
 }
 
-/// Returns a chunk's records decompressed, with a matching header.
+/// Returns the decompressed records of a chunk, with a header that describes them.
 fn decompressed(header: ChunkHeader, data: &[u8]) -> McapResult<(ChunkHeader, Cow<'_, [u8]>)> {
     let wrong = |why: String| McapError::DecompressionError(why);
     let size = header.uncompressed_size;
@@ -66,7 +66,7 @@ fn decompressed(header: ChunkHeader, data: &[u8]) -> McapResult<(ChunkHeader, Co
         }
         "lz4" => {
             let mut decoder = lz4_flex::frame::FrameDecoder::new(data);
-            // Reading pauses at the end of each frame.
+            // The decompressor stops at the end of each frame, and a chunk may have several.
             while (content.len() as u64) < size {
                 let rest = size - content.len() as u64;
                 if decoder.by_ref().take(rest).read_to_end(&mut content)? == 0 {

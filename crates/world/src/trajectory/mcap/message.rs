@@ -1,4 +1,4 @@
-//! The two messages of ROS 2 that hold joint values.
+//! The two kinds of ROS 2 messages that contain joint values.
 
 use super::cdr::Cdr;
 use std::rc::Rc;
@@ -23,24 +23,25 @@ impl Kind {
     }
 }
 
-/// A sample: when, and positions, velocities and accelerations of all joints, the latter two perhaps empty.
+/// A sample: its time, and the positions, velocities and accelerations of all joints. Velocities and accelerations may
+/// be empty.
 pub(super) struct Row {
     pub nanoseconds: i64,
     pub values: [Vec<f64>; 3],
 }
 
-/// A message: when it was stamped and logged, nanoseconds, the joints' names, and its samples.
+/// A message: the times of its stamp and of its recording in nanoseconds, the names of the joints, and its samples.
 pub(super) struct Message {
-    /// 0 if it has no stamp.
+    /// Time of the stamp; 0 if the message has none.
     pub stamp: i64,
     pub logged: i64,
     pub joints: Rc<[String]>,
-    /// Times from the message's own, of a trajectory; 0 of a state.
+    /// The samples. The times of a trajectory count from the message's own time; that of a state is 0.
     pub rows: Vec<Row>,
 }
 
 impl Message {
-    /// Reads a message in CDR, or returns `None` if it is not of the kind.
+    /// Reads a message in CDR. `None` if it is not of this kind.
     pub fn read(kind: Kind, bytes: &[u8], logged: i64) -> Option<Self> {
         let mut cdr = Cdr::new(bytes)?;
         let stamp = cdr.header()?;
@@ -56,7 +57,7 @@ impl Message {
         Some(Self { stamp, logged, joints, rows })
     }
 
-    /// Returns true if it has positions of this joint.
+    /// Returns true if the message has positions of this joint.
     pub fn names(&self, joint: &str) -> bool {
         self.joints.iter().any(|name| name == joint)
     }

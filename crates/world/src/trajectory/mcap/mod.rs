@@ -1,4 +1,4 @@
-//! Joint values as recorded topics of ROS 2, in an MCAP file.
+//! Joint values from topics of ROS 2 that were recorded in an MCAP file.
 
 mod cdr;
 mod file;
@@ -11,12 +11,12 @@ use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use message::{Kind, Message, Row};
 use topics::Topic;
 
-/// Reads a recording: the motions on a topic in sequence, between which the arm stands still, or states. The topic is
-/// the `asked` one, or see [`topics::choose`].
+/// Reads a recording: consecutive motions, between which the arm stands still, or states. The topic is the `asked` one,
+/// or the one that [`topics::choose`] chooses.
 ///
 /// # Errors
-/// Files that are not MCAP, no topic or several with the arm's joints, invalid messages, and motions that do not fit
-/// together.
+/// Files that are not MCAP, no topic or several topics with the arm's joints, invalid messages, and motions that do not
+/// fit together.
 pub(super) fn read(source: &Source, bytes: &[u8], asked: Option<&str>, names: &Names) -> Result<Samples, InputError> {
     let topics = topics::all(bytes).map_err(|error| topics::unreadable(source, &error))?;
     let (topic, notes) = topics::choose(source, topics, asked, names.arm)?;
@@ -28,9 +28,10 @@ pub(super) fn read(source: &Source, bytes: &[u8], asked: Option<&str>, names: &N
     Ok(samples)
 }
 
-/// Returns the messages with both of the arm's joints and their times, sorted by time; and the other messages.
+/// Returns the messages that have both of the arm's joints, with their times and sorted by these, and the other
+/// messages.
 ///
-/// The time of a message is its stamp, or its log time if some messages have no stamp.
+/// The time of a message is that of its stamp, or that of its recording if any message lacks a stamp.
 fn in_time(topic: &mut Topic, arm: [&str; 2]) -> (Vec<(i64, Message)>, Vec<Message>) {
     let (messages, others): (Vec<Message>, Vec<Message>) = std::mem::take(&mut topic.messages)
         .into_iter()
@@ -42,7 +43,7 @@ fn in_time(topic: &mut Topic, arm: [&str; 2]) -> (Vec<(i64, Message)>, Vec<Messa
     (messages, others)
 }
 
-/// States, each a sample.
+/// Converts states to samples, one per message.
 fn states(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, Diagnostic> {
     let (messages, others) = in_time(&mut topic, names.arm);
     let mut table = Table::new(source, &topic.name, &messages);
@@ -64,7 +65,7 @@ fn states(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, D
     Ok(Samples { what: format!("message on {}", topic.name).into(), ..samples })
 }
 
-/// Motions that follow each other, each beginning at the time of its message.
+/// Converts consecutive motions to samples. Each motion begins at the time of its message.
 fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, Diagnostic> {
     let (messages, others) = in_time(&mut topic, names.arm);
     let name = &topic.name;
@@ -75,7 +76,7 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
         table.add(message, begin)?;
         let [end, first] = match table.rows.get(from.saturating_sub(1)..from + 1) {
             Some([end, first]) => [end, first],
-            // The first motion, or one without points.
+            // The first motion, or a motion without points.
             _ => {
                 count += usize::from(table.rows.len() > from);
                 continue;
@@ -88,7 +89,7 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
             let help = "record one motion after the other, or verify the recorded states instead: --topic NAME";
             return Err(source.diagnostic(what).help(help));
         }
-        // Samples need distinct times: a nanosecond is the least that messages tell apart.
+        // Times of samples must differ. The least difference that messages can express is a nanosecond.
         let earliest = end.nanoseconds + 1;
         let differing = table.joints.iter().enumerate().find(|(k, _)| end.values[0][*k] != first.values[0][*k]);
         if let Some((_, joint)) = differing {
@@ -99,7 +100,7 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
                 let help = "record all motions, or verify the recorded states instead: --topic NAME";
                 return Err(source.diagnostic(what).help(help));
             }
-            // The controller leads the arm from where it stands to the first point.
+            // The controller moves the arm from its current configuration to the first point.
             let still = |k: usize| end.values[k].iter().map(|_| 0.0).collect();
             let start = Row { nanoseconds: begin.max(earliest), values: [end.values[0].clone(), still(1), still(2)] };
             table.rows.insert(from, start);
@@ -116,22 +117,22 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
     Ok(Samples { what: format!("point on {name}").into(), joined: Some(Interpolation::Quintic), rests, ..samples })
 }
 
-/// Rows of values of the same joints.
+/// Rows of values of the same joints, collected from messages.
 struct Table<'a> {
     source: &'a Source,
     topic: &'a str,
     /// The joints that all messages have.
     joints: Vec<String>,
-    /// Joints that only some have.
+    /// The joints that only some messages have.
     others: Vec<String>,
     /// Values in the order of `joints`.
     rows: Vec<Row>,
-    /// Values of the other joints at any time.
+    /// All values of the other joints, at whatever times.
     aside: Vec<(String, Vec<f64>)>,
 }
 
 impl<'a> Table<'a> {
-    /// Creates a table without rows for these messages.
+    /// Creates a table for the joints of these messages, without rows.
     fn new(source: &'a Source, topic: &'a str, messages: &[(i64, Message)]) -> Self {
         let (mut joints, mut others): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
         if let Some((_, first)) = messages.first() {
@@ -149,7 +150,7 @@ impl<'a> Table<'a> {
         Self { source, topic, joints, others, rows: Vec::new(), aside: Vec::new() }
     }
 
-    /// Adds the rows of a message of this time.
+    /// Adds the rows of a message with this time.
     ///
     /// # Errors
     /// Rows without one value for each joint.
@@ -179,10 +180,10 @@ impl<'a> Table<'a> {
         Ok(())
     }
 
-    /// Returns all rows as one series per joint. Times are relative to the first row.
+    /// Returns the rows as one series per joint. Times are relative to the first row.
     ///
     /// # Errors
-    /// If only some rows have velocities or accelerations.
+    /// Velocities or accelerations in only some of the rows.
     fn samples(mut self, names: &Names, others: &[Message]) -> Result<Samples, Diagnostic> {
         let rows = std::mem::take(&mut self.rows);
         let given = [1, 2].map(|k: usize| rows.first().is_some_and(|row| !row.values[k].is_empty()));
@@ -216,7 +217,7 @@ impl<'a> Table<'a> {
         }
         let begin = rows.first().map_or(0, |row| row.nanoseconds);
         let column = |k: usize, joint: usize| rows.iter().map(|row| row.values[k][joint]).collect::<Vec<f64>>();
-        // Broadcasters publish unmeasured quantities of a joint as NaN.
+        // Broadcasters publish NaN for quantities of a joint that are not measured.
         let measured = |k: usize, joint: usize| {
             given[k - 1].then(|| column(k, joint)).filter(|values| !values.iter().all(|value| value.is_nan()))
         };
@@ -227,7 +228,7 @@ impl<'a> Table<'a> {
             acceleration: measured(2, joint),
         };
         Ok(Samples {
-            // Correctly rounded, so that as decimals they have no more than nine digits behind the point.
+            // Correctly rounded, so that the shortest decimal has at most nine digits after the point.
             time: Some(rows.iter().map(|row| (row.nanoseconds - begin) as f64 / 1e9).collect()),
             joints: self.joints.iter().enumerate().map(series).collect(),
             aside: self
@@ -241,7 +242,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Adds the value of a joint at some time.
+/// Adds a value of one of the other joints.
 fn aside(all: &mut Vec<(String, Vec<f64>)>, name: &str, value: f64) {
     match all.iter_mut().find(|(known, _)| known == name) {
         Some((_, values)) => values.push(value),

@@ -1,4 +1,4 @@
-//! The topics of a recording, and which of them is judged.
+//! The topics of a recording, and the choice of the one that is judged.
 
 use super::file::each_message;
 use super::message::{Kind, Message};
@@ -7,7 +7,7 @@ use mcap::{McapError, McapResult};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// Types that show a motion and do not state it, as cplan's own recordings have them.
+/// Message types that display a motion instead of stating joint values. Recordings that cplan writes have such topics.
 const DISPLAY_TYPES: [&str; 3] =
     ["tf2_msgs/msg/TFMessage", "visualization_msgs/msg/MarkerArray", "sensor_msgs/msg/PointCloud2"];
 
@@ -15,12 +15,13 @@ const DISPLAY_TYPES: [&str; 3] =
 #[derive(Default)]
 pub(super) struct Topic {
     pub name: String,
-    /// The type's name; empty if the file gives none.
+    /// Name of the message type; empty if the file does not state it.
     schema: String,
     pub kind: Option<Kind>,
-    /// Messages of a known kind, in the order of the file, except those without positions.
+    /// Messages of a known kind that have positions, in the order of the file.
     pub messages: Vec<Message>,
-    /// When the first message was logged that is not of the type, nanoseconds.
+    /// Time in nanoseconds at which the first message was recorded that does not fit the type. `None` if all messages
+    /// fit.
     broken: Option<u64>,
 }
 
@@ -30,7 +31,7 @@ impl Topic {
         self.messages.iter().any(|message| arm.iter().all(|joint| message.names(joint)))
     }
 
-    /// Formats name, type and joints for lists.
+    /// Formats name, type and joints of the topic for a list.
     fn described(&self) -> String {
         let schema = if self.schema.is_empty() { "no type" } else { &self.schema };
         let mut joints: Vec<&String> = Vec::new();
@@ -63,7 +64,7 @@ pub(super) fn all(bytes: &[u8]) -> McapResult<Vec<Topic>> {
             None => _ = topic.broken.get_or_insert(logged),
             Some(message) if message.rows.iter().all(|row| row.values[0].is_empty()) => {}
             Some(mut message) => {
-                // Names are the same in most messages: kept once.
+                // Consecutive messages mostly have the same names, which are stored once.
                 if let Some(last) = topic.messages.last().filter(|last| last.joints == message.joints) {
                     message.joints = Rc::clone(&last.joints);
                 }
@@ -74,11 +75,12 @@ pub(super) fn all(bytes: &[u8]) -> McapResult<Vec<Topic>> {
     Ok(topics.into_values().collect())
 }
 
-/// Chooses the topic to judge, and returns notes about the others. It is the requested topic. Otherwise it is the
-/// motion topic that has both of the arm's joints, or if there are no motions, the state topic that has them.
+/// Chooses the topic to judge, and returns notes about the others. If a topic is requested, it is chosen. Otherwise the
+/// only motion topic with both of the arm's joints is chosen; if there is none, the only state topic with them.
 ///
 /// # Errors
-/// If no topic or several topics qualify, or a message of the topic is damaged; with all topics and their types.
+/// No topic or several topics qualify, or a message of the topic is damaged. The error lists all topics with their
+/// types.
 pub(super) fn choose(
     source: &Source,
     mut topics: Vec<Topic>,
@@ -138,7 +140,7 @@ fn not_judged(other: &Topic, judged: &Topic) -> String {
         _ => "is judged",
     };
     let name = other.name.rsplit('/').next().unwrap_or_default();
-    // States are a plural already.
+    // The word "states" is a plural.
     let verb = if name.ends_with('s') { "are" } else { "is" };
     format!("{} {verb} not judged: {} {why}", other.name, judged.name)
 }
@@ -153,7 +155,7 @@ fn broken(source: &Source, topic: &Topic) -> Diagnostic {
     source.diagnostic(message).help("the recording is damaged, or of another type")
 }
 
-/// Returns the diagnostic of a file that is not a recording.
+/// Returns the diagnostic about a file that is not a recording.
 pub(super) fn unreadable(source: &Source, error: &McapError) -> Diagnostic {
     let help = match error {
         McapError::UnsupportedCompression(_) => {
