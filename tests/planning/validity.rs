@@ -112,9 +112,9 @@ fn no_scene_is_made_of_an_arm_that_cannot_be() {
         (|a| a.joints[0].velocity = 0.0, "joint \"shoulder\": its velocity must be positive and finite, is 0"),
         (|a| a.joints[0].acceleration = NAN, "its acceleration must be positive and finite, is NaN"),
         (|a| a.joints[1].jerk = Some(-1.0), "joint \"elbow\": its jerk must be positive and finite, is -1"),
-        (|a| a.base.x = NAN, "the arm's base is no place within 1e15 m"),
-        (|a| a.offset.y = INFINITE, "the arm's offset is no place"),
-        (|a| a.tip.x = NAN, "the arm's tip is no place"),
+        (|a| a.base.x = NAN, "the arm's base must be finite and within 1e15 m"),
+        (|a| a.offset.y = INFINITE, "the arm's offset must be finite"),
+        (|a| a.tip.x = NAN, "the arm's tip must be finite"),
         (|a| a.plane.normal = a.plane.u, "not of length 1 and at right angles"),
         (|a| a.plane.v *= 2.0, "not of length 1 and at right angles"),
         (

@@ -89,7 +89,10 @@ impl Explorer<'_> {
 
     fn too_coarse(&self) -> Ending {
         let [a, b] = self.settings.cells;
-        Ending::Unknown(format!("no centre of {a} x {b} cells near ({}) is known to be free", shown(self.at)))
+        Ending::Unknown(format!(
+            "on the grid of {a} x {b} cells, no cell near ({}) has a centre that is known to be free",
+            shown(self.at)
+        ))
     }
 
     /// Moves to a frontier configuration. Ends the exploration if none can be reached.

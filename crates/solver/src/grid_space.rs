@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridSpace {
-    /// Exact slices. Each size of cells is tried twice: the first time, free cells are free throughout, and the second
-    /// time, their centres are ([`Proves`](cplan_core::cspace::Proves) says which).
+    /// Exact slices. Each size of cells is tried twice. First, a cell counts as free only if all of it is free; then, if
+    /// its centre is free ([`Proves`](cplan_core::cspace::Proves) says which).
     #[default]
     Rows,
     /// Exact slices. Free cells are those with free centres, from the first attempt on, as usual in the literature.

@@ -45,10 +45,10 @@ pub(super) struct StepTable {
     /// A group; its speed and dwell are the defaults of its steps.
     #[schemars(with = "Option<Vec<StepTable>>", length(min = 1))]
     steps: Option<Vec<Spanned<StepTable>>>,
-    /// For a pick: the point of the object to which the tip moves, in the object's frame, m; by default the object's.
+    /// For a pick: the point of the object to which the tip moves, in the object's frame, m; by default the `grasp` of the object.
     #[schemars(with = "Option<NumberPair>")]
     grasp: Option<Numbers>,
-    /// For a pick: obstacles and objects that the object may touch; by default the object's.
+    /// For a pick: obstacles and objects that the object may touch; by default the `supports` of the object.
     #[schemars(with = "Option<Vec<String>>")]
     supports: Option<NameList>,
     /// For the pick of a moving object: position of its origin at the pick, m; by default the earliest one possible.

@@ -353,7 +353,7 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
     run(&place, "").refused(1, &["study.toml", "names no robot", "robot = \"arm.urdf\""]);
     study(&place, "", &format!("{x}steps = 2\n"));
     run(&place, "--output t.pdf").refused(2, &[".csv, .parquet, .html or .json"]);
-    run(&place, "--layout 2").refused(1, &["the study has 2 layouts, from 0 on"]);
+    run(&place, "--layout 2").refused(1, &["the study has 2 layouts, numbered from 0"]);
     run(&place, "--layout 1 --output t.csv").refused(2, &["a layout is written as .toml (world) or .urdf"]);
     run(&place, "--output study.toml").refused(1, &["is the input"]);
 }
@@ -381,11 +381,11 @@ fn obstacles_stand_in_nothing_but_what_the_world_lets_them() {
     let low = format!("{FREE}{WORLD}").replace("name = \"crate\"", "name = \"crate\"\nheight = [0.0, 0.1]");
     place.write("world.toml", low.replace("name = \"shelf\"", "name = \"shelf\"\nheight = [0.1, 0.3]"));
     assert_eq!(run(&place, "--output t.csv").code, 0);
-    assert!(!place.read("t.csv").contains("stands in"));
+    assert!(!place.read("t.csv").contains("overlaps"));
     // A study may want it.
     study(&place, "measure = [\"length\"]\noverlap = true", crate_about);
     assert_eq!(run(&place, "--output t.csv").code, 0);
-    assert!(!place.read("t.csv").contains("stands in"));
+    assert!(!place.read("t.csv").contains("overlaps"));
 }
 
 #[test]

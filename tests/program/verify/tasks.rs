@@ -273,7 +273,7 @@ fn a_turn_that_is_another() {
     let found = reversed(to, 0.0).refuted("task", &[1, 2]);
     assert_eq!(
         found["steps"][1]["faults"],
-        json!(["the wrist turns from an angle that is 1.570800 rad from the object's"])
+        json!(["the recorded turn of the wrist begins 1.570800 rad away from the object's orientation"])
     );
     // The turn has the other direction, in the time of the shorter one.
     let found = reversed(0.0, to - std::f64::consts::TAU).refuted("task", &[1]);

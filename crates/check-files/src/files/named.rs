@@ -16,7 +16,12 @@ impl Files {
     /// If only the text was given, without a path.
     pub fn path(&self, of: Input) -> Result<&Path, CheckError> {
         let path = self.given[usize::from(of == Input::World)].as_deref();
-        path.ok_or_else(|| CheckError::in_file(of, "it names other files, which only check_files reads"))
+        path.ok_or_else(|| {
+            CheckError::in_file(
+                of,
+                "it names other files, which are read only if the paths of URDF and world are given",
+            )
+        })
     }
 
     /// Reads a file that the URDF or the world refers to.

@@ -180,9 +180,10 @@ fn exactly(corner: Single) -> Option<Vector> {
     Some([x?, y?, z?])
 }
 
-/// Returns the paths at which a mesh may be: relative to the URDF, or in a package. A folder is the package if its
-/// `package.xml` has the package's name. Such folders are searched above the URDF, and below the folders above it.
-/// Folders with the package's name also count, there and in the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`.
+/// Returns the paths at which a mesh may be: relative to the URDF, or in a package. The package NAME of
+/// `package://NAME/...` is looked up in two ways. First: folders whose `package.xml` states NAME, among the folders above
+/// the URDF and those of `ROS_PACKAGE_PATH`, and below these. Then: folders that are called NAME in the same places and
+/// in `AMENT_PREFIX_PATH`.
 fn candidates(name: &str, urdf: &Path) -> Vec<PathBuf> {
     let Some(rest) = name.strip_prefix("package://") else {
         return vec![urdf.with_file_name(name.strip_prefix("file://").unwrap_or(name))];

@@ -47,8 +47,8 @@ pub struct AttachedPart {
     pub shape: Convex,
     /// Number of the attachment's piece that this shape is, or is a part of.
     pub number: usize,
-    /// True if the part can meet only the supports, without clearance. False if it can meet all obstacles except the
-    /// supports.
+    /// True for a copy of a piece that is shrunk, so that it may press slightly into the supports. It can meet only the
+    /// supports, without clearance. All other parts can meet all obstacles except the supports.
     pub on_supports: bool,
     /// False if the shape may be empty in exact arithmetic, so that its contacts prove no collision.
     pub proves_collisions: bool,
@@ -90,7 +90,7 @@ impl Grip {
 }
 
 impl Attachment {
-    /// Returns the attachment's pieces, without the smaller copies that are used with its supports.
+    /// Returns the attachment's pieces at full size, without the shrunk copies ([`AttachedPart::on_supports`]).
     pub fn pieces(&self) -> impl Iterator<Item = &Convex> {
         self.parts.iter().filter(|part| !part.on_supports).map(|part| &part.shape)
     }

@@ -84,7 +84,8 @@ impl<'a> Document<'a> {
         Ok(document)
     }
 
-    /// Records dictionaries and clips.
+    /// Reads the section OBJECTS: stores the entries of dictionaries, and the handles of the spatial filters (clips) that
+    /// are on.
     fn objects(&mut self, records: &[Record<'a>]) -> Result<(), Error> {
         for record in records {
             let Some(handle) = record.text(5) else { continue };

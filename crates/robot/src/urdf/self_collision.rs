@@ -103,8 +103,8 @@ impl<'a> SelfCollision<'a> {
         cuts
     }
 
-    /// Lists the links that others further along the chain can hit, layer by layer. Each has the links whose contact
-    /// with it is ignored.
+    /// Lists the robot's own links as obstacles for the links further along the chain: one obstacle per layer of a mesh.
+    /// Each names the links that may touch it.
     pub fn obstacles(&self, all: &[PlacedShape]) -> Vec<SelfObstacle> {
         if !self.bodies.settings.table.own_body_is_obstacle() {
             return Vec::new();

@@ -50,7 +50,7 @@ pub enum Fault {
         asked: f64,
     },
     /// The wrist turns from an orientation that the object does not have.
-    #[error("the wrist turns from an angle that is {off:.6} rad from the object's")]
+    #[error("the recorded turn of the wrist begins {off:.6} rad away from the object's orientation")]
     Turn {
         /// Difference from that orientation, radians.
         off: f64,
