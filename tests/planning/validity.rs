@@ -115,8 +115,8 @@ fn no_scene_is_made_of_an_arm_that_cannot_be() {
         (|a| a.base.x = NAN, "the arm's base must be finite and within 1e15 m"),
         (|a| a.offset.y = INFINITE, "the arm's offset must be finite"),
         (|a| a.tip.x = NAN, "the arm's tip must be finite"),
-        (|a| a.plane.normal = a.plane.u, "not of length 1 and at right angles"),
-        (|a| a.plane.v *= 2.0, "not of length 1 and at right angles"),
+        (|a| a.plane.normal = a.plane.u, "must have length 1 and be at right angles"),
+        (|a| a.plane.v *= 2.0, "must have length 1 and be at right angles"),
         (
             |a| a.links[0].parts[0].heights = Heights { lower: 1.0, upper: 0.0 },
             "\"upper\": the heights from 1 to 0 are invalid",
