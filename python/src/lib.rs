@@ -33,7 +33,7 @@ fn _cplan(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(plan::plan, module)?)?;
     module.add_function(wrap_pyfunction!(plan::restored, module)?)?;
     module.add_function(wrap_pyfunction!(study::rows_restored, module)?)?;
-    module.add_function(wrap_pyfunction!(plan::average_seconds, module)?)?;
+    module.add_function(wrap_pyfunction!(plan::seconds_in_rust, module)?)?;
     module.add_function(wrap_pyfunction!(findings::check, module)?)?;
     module.add_function(wrap_pyfunction!(findings::slices, module)?)?;
     module.add_function(wrap_pyfunction!(findings::verify, module)?)?;

@@ -159,7 +159,7 @@ pub fn plan(
 /// Returns the average time of `count` plans in seconds, without Python. The overhead of `plan` is measured against it.
 #[pyfunction]
 #[pyo3(signature = (problem, options = None, count = 1))]
-pub fn average_seconds(py: Python<'_>, problem: &Problem, options: Option<&Options>, count: u32) -> PyResult<f64> {
+pub fn seconds_in_rust(py: Python<'_>, problem: &Problem, options: Option<&Options>, count: u32) -> PyResult<f64> {
     let options = options.map_or_else(cplan::Options::default, |options| options.options);
     py.detach(|| {
         let begun = Instant::now();
