@@ -17,7 +17,7 @@ function begin() {
     stop() {
       throw STOPPED;
     },
-    tell: (at, bytes, isText) => (isText ? tell(text(at, bytes)) : self.postMessage({ data: read(at, bytes).slice().buffer })),
+    post_message: (at, bytes, isText) => (isText ? tell(text(at, bytes)) : self.postMessage({ data: read(at, bytes).slice().buffer })),
     panicked: (at, bytes) => {
       program.panic = text(at, bytes);
     },
