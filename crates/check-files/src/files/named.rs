@@ -17,10 +17,7 @@ impl Files {
     pub fn path(&self, of: Input) -> Result<&Path, CheckError> {
         let path = self.given[usize::from(of == Input::World)].as_deref();
         path.ok_or_else(|| {
-            CheckError::in_file(
-                of,
-                "it names other files, which are read only if the paths of URDF and world are given",
-            )
+            CheckError::in_file(of, "it names other files: `check_files` reads them, by the paths of URDF and world")
         })
     }
 
