@@ -1,12 +1,12 @@
 //! Scenes for planners with roadmaps, and checks of their answers that share no code with them.
 
 use super::dice::Dice;
-use cplan::cspace::{Polygon, Proves, Regions};
+use cplan::cspace::{PolygonWithHoles, Proves, Regions};
 use cplan::geometry::{Point, segments_cross};
 use cplan::space::{Configuration, JointRange, Metric, Path, Topology};
 
 /// Returns free space over a window of two intervals.
-pub fn regions(window: [(f64, f64); 2], free: Vec<Polygon>) -> Regions {
+pub fn regions(window: [(f64, f64); 2], free: Vec<PolygonWithHoles>) -> Regions {
     let axes = window.map(|(lower, upper)| JointRange::Interval { lower, upper });
     Regions { topology: Topology { ranges: axes }, proves: Proves::Exact, window, obstacles: Vec::new(), free }
 }
@@ -24,7 +24,7 @@ pub fn rectangle(x: (f64, f64), y: (f64, f64)) -> Vec<Point> {
 /// each other.
 pub fn window_with_holes(x: (f64, f64), y: (f64, f64), holes: Vec<Vec<Point>>) -> Regions {
     let reversed = holes.into_iter().map(|hole| hole.into_iter().rev().collect()).collect();
-    regions([x, y], vec![Polygon { outer: rectangle(x, y), holes: reversed }])
+    regions([x, y], vec![PolygonWithHoles { outer: rectangle(x, y), holes: reversed }])
 }
 
 /// Returns `side * side` disjoint convex polygons of `corners` corners each, within `[0, side]^2`.
@@ -118,8 +118,11 @@ impl Board {
             let ((a, b), (c, d)) = (left_square(p, d), right_square(p, d));
             of(a, b).is_some() && of(c, d).is_none()
         };
-        let mut free: Vec<Polygon> = Vec::new();
-        free.resize(component.iter().flatten().max().map_or(0, |k| k + 1), Polygon { outer: vec![], holes: vec![] });
+        let mut free: Vec<PolygonWithHoles> = Vec::new();
+        free.resize(
+            component.iter().flatten().max().map_or(0, |k| k + 1),
+            PolygonWithHoles { outer: vec![], holes: vec![] },
+        );
         let mut used = std::collections::BTreeSet::new();
         let mut linked = std::collections::BTreeMap::new();
         for x in 0..=n {

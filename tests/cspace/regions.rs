@@ -1,7 +1,7 @@
 //! Polygonal regions, compared with distances of sampled configurations.
 
 use crate::common::{convex, placed};
-use cplan::cspace::{Polygon, Proves, Regions, c_obstacles, inner_regions, regions};
+use cplan::cspace::{PolygonWithHoles, Proves, Regions, c_obstacles, inner_regions, regions};
 use cplan::geometry::{Convex, Point, Vector, cross};
 use cplan::model::{
     Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
@@ -132,7 +132,7 @@ fn is_free(regions: &Regions, q: Configuration) -> bool {
     regions.component(q).is_some()
 }
 
-fn points(polygon: &Polygon) -> impl Iterator<Item = (Point, Point)> + '_ {
+fn points(polygon: &PolygonWithHoles) -> impl Iterator<Item = (Point, Point)> + '_ {
     std::iter::once(&polygon.outer)
         .chain(&polygon.holes)
         .flat_map(|contour| (0..contour.len()).map(move |i| (contour[i], contour[(i + 1) % contour.len()])))
@@ -283,7 +283,7 @@ fn free_area_converges_from_below() {
     let scene = torus(0.0);
     let areas: Vec<f64> = [4e-3, 2e-3, 1e-3, 5e-4]
         .iter()
-        .map(|&margin| regions(&scene, margin, Configuration::zeros(), 1).free.iter().map(Polygon::area).sum())
+        .map(|&margin| regions(&scene, margin, Configuration::zeros(), 1).free.iter().map(PolygonWithHoles::area).sum())
         .collect();
     let gains: Vec<f64> = areas.windows(2).map(|w| w[1] - w[0]).collect();
     // The error is linear in the margin. So half the margin gives roughly half the gain.
@@ -337,7 +337,7 @@ fn a_gantry_without_margin_is_exact() {
     let scene = scene(joints, Vector::zeros(), [vec![], vec![tool]], vec![block], 0.0);
     let contours = c_obstacles(&scene, 0.0, 1e-3);
     assert_eq!(contours.len(), 1);
-    let exact = Polygon { outer: contours[0].contour.clone(), holes: vec![] };
+    let exact = PolygonWithHoles { outer: contours[0].contour.clone(), holes: vec![] };
     assert_eq!(exact.outer.len(), 7);
     assert!(exact.area() > 0.0);
     for q in lattice([(-2.0, 2.0), (-2.0, 2.0)], 150) {

@@ -10,7 +10,7 @@ use cplan::engine::task::{Event, Leg, TaskAnswer};
 use cplan::geometry::{Point, Pose, Vector};
 use cplan::model::{
     Action, Arm, Goal, Heights, Holding, Item, JointType, MovingObstacle, Object, Obstacle, ObstacleTrajectory, Scene,
-    Shape, Step, Stop, Task, TimedWorkspace,
+    Shape, Step, Stop, Task, TimedWorkspace, Workspace,
 };
 use cplan::space::Configuration;
 
@@ -197,7 +197,8 @@ impl Replayed<'_> {
     /// Returns the distance to shapes that must not be touched at a time, minus the clearance. Link 2 may touch the
     /// objects in `touched`.
     fn room(&self, q: V, time: f64, touched: [Option<usize>; 2]) -> (f64, String) {
-        let Task { arm, workspace: TimedWorkspace { obstacles, movers, clearance, .. }, objects, .. } = self.task;
+        let Task { arm, workspace: TimedWorkspace { fixed, movers }, objects, .. } = self.task;
+        let Workspace { obstacles, clearance, .. } = fixed;
         let frames = frames(arm, q);
         // Obstacles with their heights, and the number of the object.
         let moved: Vec<Obstacle> = movers.iter().map(|mover| at(mover, time)).collect();

@@ -30,7 +30,7 @@ impl Moving {
         let (start, goals) = (standing.start(), standing.goals().clone());
         let (arm, workspace) = standing.into_scene().into_parts();
         let mut workspace = TimedWorkspace::from(workspace);
-        workspace.obstacles.truncate(5);
+        workspace.fixed.obstacles.truncate(5);
         let reach = arm.reach();
         // Obstacles are most likely to block the motion halfway.
         let halfway = arm.tip_at((start + goals.pieces()[0].ends()[0]) / 2.0);
@@ -60,7 +60,7 @@ impl Moving {
 
     /// Returns the distance to the nearest obstacle at a time, minus the clearance.
     pub fn room(&self, q: Configuration, time: f64) -> f64 {
-        self.frozen(&self.workspace.obstacles, time).room(q)
+        self.frozen(&self.workspace.fixed.obstacles, time).room(q)
     }
 
     /// Returns the moving obstacles at a time, without the static ones.
@@ -71,7 +71,7 @@ impl Moving {
     fn frozen(&self, standing: &[Obstacle], time: f64) -> Oracle {
         let moved = self.workspace.movers.iter().map(|mover| at(mover, time));
         let obstacles = standing.iter().cloned().chain(moved);
-        let workspace = Workspace { clearance: self.workspace.clearance, ..Workspace::new(obstacles) };
+        let workspace = Workspace { clearance: self.workspace.fixed.clearance, ..Workspace::new(obstacles) };
         Oracle::new(&Scene::new(self.arm.clone(), workspace).expect("a scene"))
     }
 

@@ -187,7 +187,7 @@ fn is_free(task: &Task, to: V, [departs, lasts, moment]: [f64; 3]) -> bool {
         let frames = frames(&task.arm, q);
         let bar = |link: usize| task.arm.links[link].parts.iter().map(move |part| (link, Solid::new(&part.shape)));
         let mut bodies = bar(0).chain(bar(1)).map(|(link, body)| (link, body.placed(frames[link].0, frames[link].1)));
-        let posts: Vec<Solid> = task.workspace.obstacles.iter().map(|post| Solid::new(&post.pieces[0])).collect();
+        let posts: Vec<Solid> = task.workspace.fixed.obstacles.iter().map(|post| Solid::new(&post.pieces[0])).collect();
         let bottle = on_course(&task.objects[0], time);
         let bottle = Solid::new(&task.objects[0].pieces[0]).placed(bottle.0, bottle.1);
         let is_apart = k < (moment / STEP) as usize || posts.iter().all(|post| bottle.distance(post) > APART);
@@ -202,7 +202,7 @@ fn is_free(task: &Task, to: V, [departs, lasts, moment]: [f64; 3]) -> bool {
 #[test]
 fn proofs_for_tasks_among_moving_obstacles() {
     let mut task = single_pick(0);
-    task.workspace.obstacles.clear();
+    task.workspace.fixed.obstacles.clear();
     task.objects[0].course = Some(ObstacleTrajectory::conveyor([2.0, -3.0], [0.0, 0.5]).expect("a course"));
     task.objects[0].at = task.objects[0].course.as_ref().expect("a course").pose(0.0);
     let answer = plan(&task, &Options::default(), &mut |_| ());

@@ -1,6 +1,6 @@
 //! The visibility graph, compared with its definition in integers.
 
-use cplan::cspace::{Polygon, Proves, Regions};
+use cplan::cspace::{PolygonWithHoles, Proves, Regions};
 use cplan::geometry::Point;
 use cplan::planner::{GraphKind, Planner, Proposal, Query, Trace, Visibility, VisibilityGraph};
 use cplan::space::{Configuration, JointRange, Topology};
@@ -38,7 +38,7 @@ fn regions(rectangles: &[[Place; 4]]) -> Regions {
         proves: Proves::Exact,
         window,
         obstacles: Vec::new(),
-        free: vec![Polygon { outer: ring(&WINDOW), holes: rectangles.iter().map(hole).collect() }],
+        free: vec![PolygonWithHoles { outer: ring(&WINDOW), holes: rectangles.iter().map(hole).collect() }],
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::common::dice::Dice;
 use crate::common::roadmap::*;
-use cplan::cspace::{Polygon, Regions};
+use cplan::cspace::{PolygonWithHoles, Regions};
 use cplan::geometry::Point;
 use cplan::planner::{
     PathKind, Planner, Prm, Proposal, Query, RoadmapSearch, Run, SearchOrder, Size, Trace, Trapezoid, Triangles,
@@ -352,7 +352,7 @@ mod contract {
 
     #[test]
     fn another_component_is_no_path_even_if_it_touches_in_a_corner() {
-        let polygon = |outer| Polygon { outer, holes: vec![] };
+        let polygon = |outer| PolygonWithHoles { outer, holes: vec![] };
         let apart = vec![polygon(rectangle((0.0, 1.0), (0.0, 1.0))), polygon(rectangle((1.0, 2.0), (1.0, 2.0)))];
         let regions = regions([(0.0, 2.0); 2], apart);
         both(|plan| {
@@ -378,7 +378,7 @@ mod contract {
     fn copies_of_the_goal_on_a_circle_are_goals() {
         // The window has two turns. A band on the seam's side of the start leaves only the path through the seam.
         let band = |x: f64| rectangle((x - 0.1, x + 0.1), (-1.0, 1.0));
-        let free = |from: f64, to: f64| Polygon { outer: rectangle((from, to), (-1.0, 1.0)), holes: vec![] };
+        let free = |from: f64, to: f64| PolygonWithHoles { outer: rectangle((from, to), (-1.0, 1.0)), holes: vec![] };
         let bands = [band(1.0 - TAU), band(1.0)];
         let free = vec![free(-TAU, bands[0][0].x), free(bands[0][1].x, bands[1][0].x), free(bands[1][1].x, TAU)];
         let axes = [JointRange::Circle, JointRange::Interval { lower: -1.0, upper: 1.0 }];
@@ -409,7 +409,7 @@ fn around_a_square_the_length_is_known() {
 fn a_funnel_path_along_a_slanted_side_has_no_corners_between() {
     // From teeth above the slanted side, verticals lead down to its middle.
     let tooth = |x: f64| points(&[(x, 1.5 + x / 3.0), (x + 0.2, 2.9), (x - 0.2, 2.9)]);
-    let floor = Polygon {
+    let floor = PolygonWithHoles {
         outer: points(&[(0.0, 0.0), (0.1, 0.1), (3.1, 1.1), (3.2, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)]),
         holes: [0.7, 1.3, 1.9, 2.6].map(|x| tooth(x).into_iter().rev().collect()).to_vec(),
     };

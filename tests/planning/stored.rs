@@ -224,7 +224,7 @@ fn tasks_that_no_world_can_state_are_refused() {
     let mut step = valid.pointer(first).unwrap().clone();
     step["step"]["dwell"] = json!(1e300);
     assert!(refused(first, step).contains("its dwell from 0"));
-    let name = json!(task.workspace.obstacles[0].name);
+    let name = json!(task.workspace.fixed.obstacles[0].name);
     assert!(refused("/asked/task/objects/0/name", name).contains("has this name"));
 }
 

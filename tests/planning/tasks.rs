@@ -9,7 +9,7 @@ use cplan::Outcome;
 use cplan::engine::task::{TaskAnswer, plan};
 use cplan::engine::{Method, Options};
 use cplan::input::{self, Overrides};
-use cplan::model::{Action, Goal, Holding, Item, Object, Step, Task, TimedWorkspace, inverse, within};
+use cplan::model::{Action, Goal, Holding, Item, Object, Step, Task, TimedWorkspace, Workspace, inverse, within};
 use cplan::space::Configuration;
 use std::path::{Path, PathBuf};
 
@@ -71,9 +71,13 @@ fn every_task_gives_its_stated_outcome() {
 #[test]
 fn holding_level_or_rigid_makes_the_difference() {
     let [level, rigid] = ["slot_level", "slot_rigid"].map(shipped);
+    let unnamed = |workspace: &TimedWorkspace| TimedWorkspace {
+        fixed: Workspace { name: String::new(), ..workspace.fixed.clone() },
+        movers: workspace.movers.clone(),
+    };
     let differ = |task: &Task| Task {
         objects: task.objects.iter().map(|o| Object { holding: Holding::Rigid, ..o.clone() }).collect(),
-        workspace: TimedWorkspace { name: String::new(), ..task.workspace.clone() },
+        workspace: unnamed(&task.workspace),
         items: Vec::new(),
         ..task.clone()
     };

@@ -3,7 +3,7 @@
 
 use crate::common::dice::Dice;
 use crate::common::roadmap::*;
-use cplan::cspace::{Polygon, Proves, Regions};
+use cplan::cspace::{PolygonWithHoles, Proves, Regions};
 use cplan::geometry::Point;
 use cplan::planner::{PathKind, Planner, Proposal, Query, Run, Size, Trace, Voronoi};
 use cplan::space::{Configuration, JointRange, Measure, Metric, Path, Segment, Topology};
@@ -159,7 +159,7 @@ fn repeated_crowd(crowd: &[Vec<Point>], side: usize, circles: [bool; 2]) -> Regi
     let axis = |k: usize| {
         if circles[k] { JointRange::Circle } else { JointRange::Interval { lower: window[k].0, upper: window[k].1 } }
     };
-    let free = vec![Polygon { outer: rectangle(window[0], window[1]), holes }];
+    let free = vec![PolygonWithHoles { outer: rectangle(window[0], window[1]), holes }];
     let topology = Topology { ranges: [axis(0), axis(1)] };
     Regions { topology, proves: Proves::Exact, window, obstacles: Vec::new(), free }
 }

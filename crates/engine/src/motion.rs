@@ -4,7 +4,7 @@ use super::fastest::fastest;
 use cplan_core::model::{MotionProblem, Outcome};
 use cplan_handling::ObstacleTrajectory;
 use cplan_motion::{DurationOptimality, Objective, TimedMotion, TimingError};
-use cplan_movers::{TimedPath, Timing, TimingRequirements, in_time};
+use cplan_movers::{Timing, TimingRequirements, in_time};
 use cplan_solver::{Answer, BoundedPath, Options};
 
 /// A motion that is certified free of collision.
@@ -43,8 +43,7 @@ impl Motion {
             // The fastest motion may follow another path than the shortest one, to another goal.
             let taken = timed.curve.straight().clone();
             match in_time(problem, courses, &taken, timed, options, &TimingRequirements::UNCONSTRAINED)? {
-                Ok(found) => {
-                    let TimedPath { timed: waiting, figures } = found;
+                Ok((waiting, figures)) => {
                     // The bound is the same as before, but the duration now includes waits.
                     let duration = waiting.trajectory.duration();
                     fastest = fastest.map(|fastest| DurationOptimality::new(duration, fastest.lower_bound));

@@ -68,7 +68,7 @@ impl MotionRecord {
         let (arm, workspace) = scene.clone().into_parts();
         let movers = loose.into_iter().zip(courses.iter().cloned());
         let movers = movers.map(|(loose, course)| MovingObstacle { obstacle: loose.obstacle, course }).collect();
-        let workspace = TimedWorkspace { movers, ..workspace.into() };
+        let workspace = TimedWorkspace { fixed: workspace, movers };
         let scene = SceneRecord { arm, workspace, attachment, allowed_contacts };
         Self { scene, start: motion.start(), goals: motion.goals().clone() }
     }

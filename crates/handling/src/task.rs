@@ -149,7 +149,7 @@ impl Task {
     /// Returns the number of an object as an obstacle: objects follow the workspace's own obstacles.
     #[must_use]
     pub fn obstacle_number(&self, object: usize) -> usize {
-        self.workspace.obstacles.len() + object
+        self.workspace.fixed.obstacles.len() + object
     }
 
     /// Returns the workspace with the objects at their poses, as static obstacles. A carried object has no pose. It
@@ -158,6 +158,7 @@ impl Task {
     pub fn obstacles(&self, poses: &[Option<Pose>]) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
         workspace
+            .fixed
             .obstacles
             .extend(self.objects.iter().zip(poses).map(|(object, pose)| object.obstacle_at(pose.as_ref())));
         workspace

@@ -1,7 +1,7 @@
 //! Workspaces and scenes with moving obstacles.
 
 use super::{MovingObstacle, ObstacleTrajectory};
-use cplan_core::model::{Additions, Arm, Obstacle, Obstruction, Pair, Preference, Scene, SceneError, Workspace};
+use cplan_core::model::{Additions, Arm, Obstacle, Obstruction, Pair, Scene, SceneError, Workspace};
 use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
 use serde::{Deserialize, Serialize};
@@ -10,22 +10,17 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TimedWorkspace {
-    /// The title of the world.
-    pub name: String,
-    /// Static obstacles, in the order of the file.
-    pub obstacles: Vec<Obstacle>,
-    /// Least distance to keep from every obstacle, metres.
-    pub clearance: f64,
-    /// Regions that field planners may prefer or avoid.
-    pub preferences: Vec<Preference>,
+    /// The workspace without its moving obstacles.
+    #[serde(flatten)]
+    pub fixed: Workspace,
     /// Moving obstacles.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub movers: Vec<MovingObstacle>,
 }
 
 impl From<Workspace> for TimedWorkspace {
-    fn from(Workspace { name, obstacles, clearance, preferences }: Workspace) -> Self {
-        Self { name, obstacles, clearance, preferences, movers: Vec::new() }
+    fn from(fixed: Workspace) -> Self {
+        Self { fixed, movers: Vec::new() }
     }
 }
 
@@ -33,9 +28,8 @@ impl TimedWorkspace {
     /// Splits this into the static workspace, and the moving obstacles as additions to a scene.
     #[must_use]
     pub fn into_parts(self) -> (Workspace, Additions) {
-        let Self { name, obstacles, clearance, preferences, movers } = self;
-        let loose = movers.iter().map(MovingObstacle::loose).collect();
-        (Workspace { name, obstacles, clearance, preferences }, Additions { loose, ..Additions::default() })
+        let loose = self.movers.iter().map(MovingObstacle::loose).collect();
+        (self.fixed, Additions { loose, ..Additions::default() })
     }
 
     /// Returns the scene of an arm in this workspace.
@@ -64,14 +58,14 @@ impl TimedWorkspace {
     /// Returns all obstacles in the order of a scene's numbers: the static ones, then the moving ones in their own
     /// frames.
     pub fn all(&self) -> impl Iterator<Item = &Obstacle> {
-        self.obstacles.iter().chain(self.movers.iter().map(|mover| &mover.obstacle))
+        self.fixed.obstacles.iter().chain(self.movers.iter().map(|mover| &mover.obstacle))
     }
 
     /// Replaces the displayed shapes by the convex pieces that are judged. This is for workspaces that are read as
     /// data, in which the two may differ.
     pub fn restrict_shapes(&mut self) {
         let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);
-        self.obstacles.iter_mut().chain(moving).for_each(Obstacle::hold_shape);
+        self.fixed.obstacles.iter_mut().chain(moving).for_each(Obstacle::hold_shape);
     }
 }
 

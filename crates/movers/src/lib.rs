@@ -40,15 +40,6 @@ const PATH_GAP: f64 = 0.03;
 /// Two times that differ by at most this count as equal, in seconds. Times are whole nanoseconds.
 const TIME_ROUNDING: f64 = 1e-8;
 
-/// A motion that is certified in time.
-#[derive(Debug, Clone)]
-pub struct TimedPath {
-    /// The curve and the motion along it. Its clearance includes moving obstacles.
-    pub timed: TimedMotion,
-    /// Figures about the motion, for the result.
-    pub figures: Timing,
-}
-
 /// Figures about a motion among moving obstacles.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Timing {
@@ -66,7 +57,8 @@ pub struct Timing {
 
 /// Returns the earliest motion along the paths that are tried: the certified path, and then others. The loose obstacles
 /// of the problem's scene have the trajectories `courses`. `first` is the motion along the certified path without
-/// moving obstacles, at the required speed. If there is no motion, returns the reason in words.
+/// moving obstacles, at the required speed. The clearance of the motion includes moving obstacles. If there is no motion,
+/// returns the reason in words.
 ///
 /// # Errors
 /// A path that cannot be timed.
@@ -77,7 +69,7 @@ pub fn in_time(
     first: TimedMotion,
     options: &Options,
     demand: &TimingRequirements,
-) -> Result<Result<TimedPath, String>, TimingError> {
+) -> Result<Result<(TimedMotion, Timing), String>, TimingError> {
     let scene = problem.scene();
     let timed = TimedScene { scene, courses };
     let movers = MovingObstacles::new(timed, scene.workspace().clearance);
@@ -149,7 +141,7 @@ fn reason(ways: usize, refuted: usize, movers: usize) -> String {
 }
 
 /// Certifies a motion for both interpolations with which programs join its samples.
-fn certified_in_time(timed: TimedScene, found: ScheduledMotion, ways: usize) -> Option<TimedPath> {
+fn certified_in_time(timed: TimedScene, found: ScheduledMotion, ways: usize) -> Option<(TimedMotion, Timing)> {
     let ScheduledMotion { timed: TimedMotion { curve, trajectory }, waits, free_until } = found;
     let (mut clearance, mut nearest) = (f64::INFINITY, None);
     // Without rounded corners, both interpolations give the same motion.
@@ -167,7 +159,7 @@ fn certified_in_time(timed: TimedScene, found: ScheduledMotion, ways: usize) -> 
     let obstacles = timed.courses.len();
     let [clearance, free_until] = [clearance, free_until].map(|value| Some(value).filter(|value| value.is_finite()));
     let figures = Timing { obstacles, ways, waits, clearance, free_until };
-    Some(TimedPath { timed: TimedMotion { curve, trajectory }, figures })
+    Some((TimedMotion { curve, trajectory }, figures))
 }
 
 /// Returns a proven lower bound on the distance between moving obstacles and the arm while it stands at `q` for some

@@ -166,7 +166,8 @@ impl Study {
             false => cplan_world::scene_from(urdf, world)?,
         };
         if !self.may_overlap
-            && let Some(why) = overlap(&self.base.world.workspace.obstacles, &scene.world.workspace.obstacles)
+            && let Some(why) =
+                overlap(&self.base.world.workspace.fixed.obstacles, &scene.world.workspace.fixed.obstacles)
         {
             let source = self.world.source();
             return Err(source.diagnostic(why).help("if overlaps are allowed, set overlap = true in the study").into());

@@ -195,7 +195,7 @@ impl MotionCache {
     ) -> Result<CertifiedPath, Refusal> {
         let (q, to, picked) = (from.q, candidate.to, candidate.step.action.picked());
         let ends = [q[0], q[1], to[0], to[1]].map(f64::to_bits);
-        let own = task.workspace.obstacles.len();
+        let own = task.workspace.fixed.obstacles.len();
         let found = among_few(scene, own, |among| {
             let lies = |(object, pose): (usize, &Option<Pose>)| pose.filter(|_| among.contains(&object));
             let poses = from.poses.iter().enumerate().map(lies).collect();
@@ -265,7 +265,7 @@ impl MotionCache {
         let Some(wrist) = task.wrist else {
             return Err(unproven("the arm has no wrist that could turn the object"));
         };
-        let found = wrist_turn(task, &task.obstacles(&with.poses), held, *point, candidate.to, turn);
+        let found = wrist_turn(task, &task.obstacles(&with.poses).fixed, held, *point, candidate.to, turn);
         let path_key = found.ok_or_else(|| unproven("the object cannot be turned there, in either direction"))?;
         let turning = single((path_key.to - path_key.from).abs(), wrist.velocity, wrist.acceleration);
         Ok((path_key, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))

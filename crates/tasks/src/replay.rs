@@ -47,7 +47,7 @@ impl MotionReplay {
     fn new(task: &Task, options: &Options, leg: &Leg) -> Self {
         let path = leg.timed.curve.curve().path();
         let ends = [path.start(), task.arm.topology().wrap(path.goal())];
-        match planned_again(&leg.scene, task.workspace.obstacles.len(), ends, options) {
+        match planned_again(&leg.scene, task.workspace.fixed.obstacles.len(), ends, options) {
             Some((problem, answer)) => {
                 let mut replay = Replay::new(&problem, options, &answer);
                 let gone = problem.scene() != &*leg.scene;
@@ -99,7 +99,7 @@ mod tests {
             for leg in &answer.legs {
                 let path = leg.timed.curve.curve().path();
                 let ends = [path.start(), task.arm.topology().wrap(path.goal())];
-                let own = task.workspace.obstacles.len();
+                let own = task.workspace.fixed.obstacles.len();
                 let Some((problem, again)) = planned_again(&leg.scene, own, ends, &of_legs(&options)) else {
                     straight += 1;
                     assert_eq!(path.waypoints().len(), 2, "{world}");

@@ -71,7 +71,8 @@ impl LoadedScene {
         if let Some(stroke) = &stroke {
             InputError::check(too_deep(stroke, &world).collect())?;
         }
-        let workspace = TimedWorkspace { clearance: scene.workspace().clearance, ..world.workspace };
+        let mut workspace = world.workspace;
+        workspace.fixed.clearance = scene.workspace().clearance;
         let items = world.steps.map(|steps| steps.items).unwrap_or_default();
         let (wrist, note) = world.wrist.unzip();
         notes.extend(note.flatten());

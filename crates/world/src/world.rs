@@ -88,7 +88,7 @@ impl World {
     pub(super) fn initial_workspace(&self) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
         let lying = |object: &Object| object.obstacle_at(object.initial_static_pose().as_ref());
-        workspace.obstacles.extend(self.objects.iter().map(lying));
+        workspace.fixed.obstacles.extend(self.objects.iter().map(lying));
         workspace.movers.extend(self.objects.iter().filter_map(Object::moving));
         workspace
     }
@@ -218,9 +218,10 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         let (at, angle) = (place.translation, place.rotation.angle());
         format!("robot: its root frame stands at ({}, {}) m in the world, turned by {angle} rad", at.x, at.y)
     }));
+    let fixed = Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences };
     Ok(World {
         notes,
-        workspace: TimedWorkspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences, movers },
+        workspace: TimedWorkspace { fixed, movers },
         start,
         in_degrees: reader.in_degrees.take(),
         named_files: reader.files.take(),

@@ -138,7 +138,7 @@ fn refused(args: &ImportArgs, diagnostic: Diagnostic) -> Failure {
 }
 
 fn picture(args: &ImportArgs, world: &World, taken: &[ImportedObstacle]) -> String {
-    let obstacles = &world.workspace.obstacles;
+    let obstacles = &world.workspace.fixed.obstacles;
     let below = format!("{}: {}", args.drawing.display(), counted(obstacles.len(), "obstacle"));
     let layers: Vec<&str> = taken.iter().map(|taken| taken.shape.layer.as_deref().unwrap_or(&taken.name)).collect();
     draw::obstacles(&[args.title(), below], obstacles, &layers)
@@ -171,7 +171,7 @@ fn report(
 
 /// Describes how many obstacles were imported and left out, and the next command.
 fn summary(args: &ImportArgs, taken: &[ImportedObstacle], notes: &[String], world: &World) -> String {
-    let [x, y] = draw::extent(&world.workspace.obstacles);
+    let [x, y] = draw::extent(&world.workspace.fixed.obstacles);
     let size = |(low, high): (f64, f64)| format!("{low:.3} to {high:.3}");
     let mut lines = vec![
         ("drawing", format!("{}: {}", args.drawing.display(), counted(taken.len(), "obstacle"))),

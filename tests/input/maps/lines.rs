@@ -83,7 +83,7 @@ fn ends(preference: &Preference) -> [Point; 2] {
 #[test]
 fn a_world_has_the_walls_of_its_map_in_metres() {
     let world = world_in(&files(MAP, PREFERENCES, WORLD)).unwrap();
-    let obstacles = &world.workspace.obstacles;
+    let obstacles = &world.workspace.fixed.obstacles;
     let names: Vec<&str> = obstacles.iter().map(|o| o.name.as_str()).collect();
     assert_eq!(names, ["room, lines 1 to 2", "room, line 3", "room, frame"]);
     let first = vec![point(-0.5, -0.5), point(0.5, -0.5), point(0.5, 0.5)];
@@ -92,18 +92,18 @@ fn a_world_has_the_walls_of_its_map_in_metres() {
     assert_eq!(obstacles[2].pieces.len(), 4);
     assert_eq!(obstacles[2].pieces[1], wall(point(2.0, -1.0), point(2.0, 1.0)));
 
-    let epsilons: Vec<f64> = world.workspace.preferences.iter().map(|p| p.epsilon).collect();
+    let epsilons: Vec<f64> = world.workspace.fixed.preferences.iter().map(|p| p.epsilon).collect();
     assert_eq!(epsilons, [0.5, -0.25]);
-    assert_eq!(ends(&world.workspace.preferences[0]), [point(-0.2, 0.0), point(0.0, 0.1)]);
-    assert_eq!(world.workspace.preferences[1].name, "wishes, rectangle 2");
+    assert_eq!(ends(&world.workspace.fixed.preferences[0]), [point(-0.2, 0.0), point(0.0, 0.1)]);
+    assert_eq!(world.workspace.fixed.preferences[1].name, "wishes, rectangle 2");
 
     let world = WORLD.replace("file =", "scale = 1.0\noffset = [10, -20]\nframe = false\nheight = [0, 3]\nfile =");
     let world = world_in(&files(MAP, PREFERENCES, &world)).unwrap();
-    let obstacles = &world.workspace.obstacles;
+    let obstacles = &world.workspace.fixed.obstacles;
     assert_eq!(obstacles.len(), 2);
     assert_eq!(obstacles[1].pieces, [wall(point(-1490.0, -20.0), point(-990.0, -20.0))]);
     assert!(obstacles.iter().all(|o| o.heights.lower == 0.0 && o.heights.upper == 3.0));
-    assert_eq!(ends(&world.workspace.preferences[1]), [point(-990.0, -920.0), point(10.0, -620.0)]);
+    assert_eq!(ends(&world.workspace.fixed.preferences[1]), [point(-990.0, -920.0), point(10.0, -620.0)]);
 }
 
 #[test]

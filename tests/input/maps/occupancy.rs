@@ -84,13 +84,13 @@ fn a_world_has_the_picture_as_one_obstacle() {
     let files =
         |world: &str| folder(&[("room.pgm", PGM), ("room.yaml", YAML.as_bytes()), ("world.toml", world.as_bytes())]);
     let world = world_in(&files(&format!("{WORLD}height = [0, 1]\n"))).unwrap();
-    let [obstacle] = &world.workspace.obstacles[..] else { panic!("one obstacle") };
+    let [obstacle] = &world.workspace.fixed.obstacles[..] else { panic!("one obstacle") };
     assert_eq!((obstacle.name.as_str(), &obstacle.shape, obstacle.heights.upper), ("room", &Shape::Pieces, 1.0));
     let area = |pieces: &[Convex]| pieces.iter().map(Convex::area).sum::<f64>();
     // Unknown cells are solid unless the world states otherwise.
     assert_eq!(area(&obstacle.pieces), 3.0 * 0.25);
     let world = world_in(&files(&format!("{WORLD}unknown = \"free\"\n"))).unwrap();
-    let pieces = &world.workspace.obstacles[0].pieces;
+    let pieces = &world.workspace.fixed.obstacles[0].pieces;
     assert_eq!(area(pieces), 2.0 * 0.25);
     let lower_right = vec![(0.0, -2.0), (0.5, -2.0), (0.5, -1.5), (0.0, -1.5)];
     let corners = |p: &Convex| p.core().iter().map(|c| (c.x, c.y)).collect::<Vec<_>>();

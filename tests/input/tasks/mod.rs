@@ -97,7 +97,7 @@ move = { tip = [1.0, 1.0] }
     assert_eq!(cup.at.translation, nalgebra::Vector2::new(-0.5, 1.0));
     assert_eq!(cup.shape, Shape::Circle { center: Point::new(0.01, 0.0), radius: 0.03 });
     assert_eq!(task.wrist.map(|w| (w.velocity, w.acceleration)), Some((6.0, 60.0)));
-    assert_eq!(task.workspace.obstacles.len(), 1);
+    assert_eq!(task.workspace.fixed.obstacles.len(), 1);
     assert_eq!(task.start, Configuration::new(0.0, 0.5));
     let steps: Vec<&Step> = task.steps().collect();
     let actions: Vec<&Action> = steps.iter().map(|s| &s.action).collect();
@@ -122,7 +122,7 @@ fn objects_are_obstacles_where_they_lie_at_first() {
     let loaded = task("[[step]]\npick = \"part\"\n");
     let names = |obstacles: &[Obstacle]| obstacles.iter().map(|o| o.name.clone()).collect::<Vec<_>>();
     assert_eq!(names(&loaded.scene.workspace().obstacles), ["table", "part", "cup"]);
-    assert_eq!(names(&loaded.task.workspace.obstacles), ["table"]);
+    assert_eq!(names(&loaded.task.workspace.fixed.obstacles), ["table"]);
     assert_eq!(loaded.scene.workspace().obstacles[2].shape, {
         let (sin, cos) = 0.5f64.sin_cos();
         Shape::Circle { center: Point::new(-0.5 + 0.01 * cos, 1.0 + 0.01 * sin), radius: 0.03 }
@@ -200,7 +200,7 @@ fn options_replace_start_and_clearance() {
         Overrides { start: Some("10deg,0".parse().unwrap()), clearance: Some(0.01), ..Overrides::default() };
     let loaded = task_of(&format!("{CELL}[[step]]\npick = \"cup\"\n"), &overrides).unwrap();
     assert!((loaded.task.start[0] - 10f64.to_radians()).abs() < 1e-15);
-    assert_eq!((loaded.task.workspace.clearance, loaded.scene.workspace().clearance), (0.01, 0.01));
+    assert_eq!((loaded.task.workspace.fixed.clearance, loaded.scene.workspace().clearance), (0.01, 0.01));
 }
 
 #[test]

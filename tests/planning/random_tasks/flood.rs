@@ -91,7 +91,7 @@ fn payloads_are_judged_like_a_flood_fill() {
         let mut dice = Dice::new(seed.wrapping_add(1_000_000));
         // The object is attached to the arm as if picked at the start.
         let object = dice.below(task.objects.len());
-        let supports: Vec<usize> = (0..task.workspace.obstacles.len()).filter(|_| dice.chance(0.2)).collect();
+        let supports: Vec<usize> = (0..task.workspace.fixed.obstacles.len()).filter(|_| dice.chance(0.2)).collect();
         let mut at = task.objects.clone();
         let tip = task.arm.tip_at(task.start);
         at[object].at.translation = tip;

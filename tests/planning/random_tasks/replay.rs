@@ -78,8 +78,8 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
             _ => None,
         };
         let clearance = leg.clearance();
-        let keep = if clearance.is_finite() { clearance } else { task.workspace.clearance };
-        if keep < task.workspace.clearance {
+        let keep = if clearance.is_finite() { clearance } else { task.workspace.fixed.clearance };
+        if keep < task.workspace.fixed.clearance {
             return Err(say("keeps less than the clearance"));
         }
         let moves = t.time.len() > 1;
@@ -236,11 +236,11 @@ impl<'a> World<'a> {
     /// Returns all bodies that can be hit: number, body, heights.
     fn obstacles(&self) -> Vec<(usize, Solid, [f64; 2])> {
         let mut bodies = Vec::new();
-        for (number, obstacle) in self.task.workspace.obstacles.iter().enumerate() {
+        for (number, obstacle) in self.task.workspace.fixed.obstacles.iter().enumerate() {
             let heights = [obstacle.heights.lower, obstacle.heights.upper];
             bodies.extend(obstacle.pieces.iter().map(|piece| (number, Solid::new(piece), heights)));
         }
-        let fixed = self.task.workspace.obstacles.len();
+        let fixed = self.task.workspace.fixed.obstacles.len();
         for (index, object) in self.task.objects.iter().enumerate() {
             let Some((turn, place)) = self.lies[index] else { continue };
             let heights = [object.heights.lower, object.heights.upper];
@@ -259,7 +259,7 @@ impl<'a> World<'a> {
     /// Calls `f` with each moving body, an obstacle, their distance at `q`, and [`World::pressed`] if the body rests on
     /// the obstacle.
     fn distances(&self, q: V, target: Option<usize>, mut f: impl FnMut(&str, usize, f64, Option<f64>)) {
-        let fixed = self.task.workspace.obstacles.len();
+        let fixed = self.task.workspace.fixed.obstacles.len();
         let (frames, _) = self.frames(q);
         let allowed_contacts =
             |number: usize| [target, self.released].iter().flatten().any(|&object| number == fixed + object);
@@ -311,7 +311,7 @@ impl<'a> World<'a> {
     pub fn room(&self, q: V) -> [f64; 2] {
         let (mut surely, mut perhaps) = (f64::INFINITY, f64::INFINITY);
         self.distances(q, None, |_, _, distance, pressed| {
-            let room = distance - self.task.workspace.clearance;
+            let room = distance - self.task.workspace.fixed.clearance;
             surely = surely.min(if pressed.is_some() { distance } else { room });
             perhaps = perhaps.min(pressed.unwrap_or(room));
         });

@@ -68,9 +68,9 @@ pub fn task(seed: u64) -> Task {
     task.start = (0..500).map(|_| anywhere(&mut dice)).find(|q| scene.obstructions(*q).is_empty()).unwrap_or_default();
     if !scene.obstructions(task.start).is_empty() {
         // No start is free, so the task gets no obstacles.
-        task.workspace.obstacles.clear();
+        task.workspace.fixed.obstacles.clear();
     }
-    let fixed = task.workspace.obstacles.len();
+    let fixed = task.workspace.fixed.obstacles.len();
     let mut number = 0;
     let mut step = |action: Action, dice: &mut Dice| {
         number += 1;

@@ -28,14 +28,14 @@ const ARC_TOLERANCE: f64 = 1e-3;
 
 /// A simple polygon with holes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Polygon {
+pub struct PolygonWithHoles {
     /// The outer contour, counter-clockwise.
     pub outer: Vec<Point>,
     /// Contours of the holes, clockwise.
     pub holes: Vec<Vec<Point>>,
 }
 
-impl Polygon {
+impl PolygonWithHoles {
     /// Returns the area, without the holes.
     #[must_use]
     pub fn area(&self) -> f64 {
@@ -94,7 +94,7 @@ pub struct Regions {
     /// The contributions of all obstacles, each once and not clipped to the window.
     pub obstacles: Vec<CObstacle>,
     /// The window without all obstacles: one polygon per connected component.
-    pub free: Vec<Polygon>,
+    pub free: Vec<PolygonWithHoles>,
 }
 
 impl Regions {
@@ -208,7 +208,7 @@ fn periods(scene: &Scene) -> [Option<f64>; 2] {
 /// `contours` are the scene's [`c_obstacles`]. The regions are disjoint polygons per obstacle within the limits, on
 /// circles within `[-pi, pi]`, and are cut at the seams.
 #[must_use]
-pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<Polygon>> {
+pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<PolygonWithHoles>> {
     let window = scene.arm().topology().ranges.map(JointRange::domain);
     let of = |number: usize| contours.iter().filter(move |c| c.obstacle == number).map(|c| c.contour.as_slice());
     let obstacles = (0..scene.workspace().obstacles.len()).chain(scene.self_obstacles());

@@ -1,6 +1,6 @@
 //! Free space: a window of unwrapped joint values without all copies of the C-obstacles.
 
-use super::Polygon;
+use super::PolygonWithHoles;
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
 use i_overlay::core::fill_rule::FillRule;
@@ -21,7 +21,7 @@ pub(super) fn free_space<'a>(
     window: Window,
     periods: [Option<f64>; 2],
     contours: impl Iterator<Item = &'a [Point]>,
-) -> Vec<Polygon> {
+) -> Vec<PolygonWithHoles> {
     let mut free = parts(window, periods, contours, OverlayRule::Difference);
     free.retain(|polygon| polygon.area() > SLIVER_AREA);
     free
@@ -32,7 +32,7 @@ pub(super) fn blocked_space<'a>(
     window: Window,
     periods: [Option<f64>; 2],
     contours: impl Iterator<Item = &'a [Point]>,
-) -> Vec<Polygon> {
+) -> Vec<PolygonWithHoles> {
     parts(window, periods, contours, OverlayRule::Intersect)
 }
 
@@ -44,7 +44,7 @@ fn parts<'a>(
     periods: [Option<f64>; 2],
     contours: impl Iterator<Item = &'a [Point]>,
     rule: OverlayRule,
-) -> Vec<Polygon> {
+) -> Vec<PolygonWithHoles> {
     let [(left, right), (bottom, top)] = window;
     let subject = vec![[left, bottom], [right, bottom], [right, top], [left, top]];
     let mut blocked: Vec<Vec<[f64; 2]>> = Vec::new();
@@ -63,7 +63,7 @@ fn parts<'a>(
     let inside = |[x, y]: [f64; 2]| Point::new(x.clamp(left, right), y.clamp(bottom, top));
     let polygon = |shape: Contours| {
         let mut contours = shape.into_iter().map(|contour| contour.into_iter().map(inside).collect::<Vec<_>>());
-        Some(Polygon { outer: contours.next()?, holes: contours.collect() })
+        Some(PolygonWithHoles { outer: contours.next()?, holes: contours.collect() })
     };
     overlay.overlay(rule, FillRule::NonZero).into_iter().filter_map(polygon).collect()
 }
@@ -192,7 +192,7 @@ mod tests {
         let wall = vec![Point::new(0.9, -1.0), Point::new(1.1, -1.0), Point::new(1.1, 9.0), Point::new(0.9, 9.0)];
         let free = free_space([(0.0, 10.0), (0.0, 4.0)], [Some(2.0), None], [wall].iter().map(Vec::as_slice));
         assert_eq!(free.len(), 6);
-        assert!((free.iter().map(Polygon::area).sum::<f64>() - (40.0 - 5.0 * 0.2 * 4.0)).abs() < 1e-9);
+        assert!((free.iter().map(PolygonWithHoles::area).sum::<f64>() - (40.0 - 5.0 * 0.2 * 4.0)).abs() < 1e-9);
     }
 
     #[test]
@@ -225,7 +225,7 @@ mod tests {
             let side = (0.0, n as f64);
             let free = free_space([side, side], [None, None], squares.iter().map(Vec::as_slice));
             let open = covered.iter().flatten().filter(|c| !**c).count() as f64;
-            assert!((free.iter().map(Polygon::area).sum::<f64>() - open).abs() < 1e-6, "{count}: {open}");
+            assert!((free.iter().map(PolygonWithHoles::area).sum::<f64>() - open).abs() < 1e-6, "{count}: {open}");
             for (y, row) in covered.iter().enumerate() {
                 for (x, covered) in row.iter().enumerate() {
                     let middle = Point::new(x as f64 + 0.5, y as f64 + 0.5);

@@ -1,9 +1,9 @@
 //! A turn of a payload by a wrist while the arm is at rest.
 
-use cplan_core::model::Arm;
+use cplan_core::model::{Arm, Workspace};
 use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::{Features, Hits, Point, Pose, ROUNDING, Vector, turning_from};
-use cplan_handling::{Payload, Task, TimedWorkspace};
+use cplan_handling::{Payload, Task};
 use std::f64::consts::TAU;
 
 /// A turn of a payload about the tip, proven free.
@@ -41,7 +41,7 @@ pub(super) fn turn_resolution(arm: &Arm, clearance: f64) -> f64 {
 #[must_use]
 pub fn wrist_turn(
     task: &Task,
-    workspace: &TimedWorkspace,
+    workspace: &Workspace,
     payload: &Payload,
     point: Point,
     q: Configuration,
@@ -65,7 +65,7 @@ pub fn wrist_turn(
 /// The first place where it touches an obstacle, or comes closer than the workspace's clearance.
 pub fn judge_given_turn(
     task: &Task,
-    workspace: &TimedWorkspace,
+    workspace: &Workspace,
     payload: &Payload,
     point: Point,
     q: Configuration,
@@ -84,7 +84,7 @@ struct Turning {
 }
 
 impl Turning {
-    fn new(task: &Task, workspace: &TimedWorkspace, payload: &Payload, point: Point, q: Configuration) -> Self {
+    fn new(task: &Task, workspace: &Workspace, payload: &Payload, point: Point, q: Configuration) -> Self {
         let arm = &task.arm;
         let attachment = payload.attachment(task, arm, task.objects[payload.object].carried_heights());
         let about = Pose::translation(-point);

@@ -27,7 +27,7 @@ use cplan_geometry::OrderedF64;
 use cplan_handling::{Action, Item, Step, Task, TimedScene};
 use cplan_interrupt::checkpoint;
 use cplan_motion::{Limits, TimedMotion, after_pause, nanoseconds, round_up, seconds};
-use cplan_movers::{MovingObstacles, TimedPath, Timing, TimingRequirements, Wait, clearance_at_rest, in_time};
+use cplan_movers::{MovingObstacles, Timing, TimingRequirements, Wait, clearance_at_rest, in_time};
 use cplan_solver::Options;
 use passing::passages;
 use std::cmp::Reverse;
@@ -408,8 +408,7 @@ impl<'a> Search<'a> {
         let path = motion.timed.curve.straight();
         let planned = in_time(&problem, &courses, path, (*motion.timed).clone(), options, &demand);
         let planned = planned.map_err(|error| Refusal::new(error.to_string(), false))?;
-        let TimedPath { timed: TimedMotion { curve, trajectory }, figures } =
-            planned.map_err(|reason| Refusal::new(reason, false))?;
+        let (TimedMotion { curve, trajectory }, figures) = planned.map_err(|reason| Refusal::new(reason, false))?;
         let arrival = after_pause(time + trajectory.duration(), 0.0);
         if arrival > choice.moment.map_or(choice.arrival[1], |moment| moment.time) {
             return Err(Refusal::new("the arm cannot rest there for the required time", false));

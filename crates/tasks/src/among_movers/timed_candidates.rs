@@ -79,7 +79,7 @@ impl<'a> TimedState<'a, '_> {
     }
 
     fn movers<'m>(&self, scene: &'m Scene, courses: &'m [ObstacleTrajectory]) -> MovingObstacles<'m> {
-        MovingObstacles::new(TimedScene { scene, courses }, self.task.workspace.clearance)
+        MovingObstacles::new(TimedScene { scene, courses }, self.task.workspace.fixed.clearance)
     }
 
     /// Returns all candidates for the next step.

@@ -220,7 +220,7 @@ impl Group<'_> {
 
     /// Returns the pair that moves an obstacle.
     fn pair_of(&self, task: &Task, obstacle: usize) -> Option<usize> {
-        let object = obstacle.checked_sub(task.workspace.obstacles.len())?;
+        let object = obstacle.checked_sub(task.workspace.fixed.obstacles.len())?;
         self.pairs.iter().position(|[pick, _]| pick.action.picked() == Some(object))
     }
 

@@ -19,7 +19,7 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
     let (arm, trajectory) = (plan.arm(), plan.trajectory()?);
     let obstacles = match plan.detail() {
         Detail::Motion { problem, .. } => &problem.scene().workspace().obstacles,
-        Detail::Task { task, .. } => &task.workspace.obstacles,
+        Detail::Task { task, .. } => &task.workspace.fixed.obstacles,
     };
     let mut stage = Stage {
         plane: arm.plane,

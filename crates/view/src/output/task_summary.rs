@@ -15,10 +15,11 @@ pub(super) fn summary_lines(plan: &Plan, task: &Task, answer: &TaskAnswer) -> Su
         (0, 0) => String::new(),
         (obstacles, objects) => format!(", {} moving", obstacles + objects),
     };
-    let things = [counted(task.workspace.obstacles.len(), "obstacle"), counted(task.objects.len(), "object") + &moving];
+    let things =
+        [counted(task.workspace.fixed.obstacles.len(), "obstacle"), counted(task.objects.len(), "object") + &moving];
     let (motions, states) = (counted(answer.motions, "motion"), counted(answer.expanded, "state"));
     let mut asked = vec![
-        ("world", format!("{}, {}", non_empty(&task.workspace.name), things.join(", "))),
+        ("world", format!("{}, {}", non_empty(&task.workspace.fixed.name), things.join(", "))),
         ("start", configuration(&task.arm, task.start)),
     ];
     asked.extend(steps(task, answer).into_iter().map(|step| ("step", step)));

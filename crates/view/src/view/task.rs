@@ -60,7 +60,7 @@ impl View {
         let placed = placed(task, legs);
         let at_first: Vec<_> = task.objects.iter().map(Object::initial_static_pose).collect();
         let mut everything = task.obstacles(&at_first);
-        everything.obstacles.extend(placed.iter().map(|(_, obstacle)| obstacle.clone()));
+        everything.fixed.obstacles.extend(placed.iter().map(|(_, obstacle)| obstacle.clone()));
         let overview = everything.scene_trusted(task.arm.clone());
         let ends = legs.iter().map(|leg| leg.timed.curve.curve().path().goal());
         let shown: Vec<_> = [task.start].into_iter().chain(ends).collect();

@@ -125,7 +125,7 @@ pub fn previous(half_edge: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cspace::{Polygon, Proves, Regions};
+    use crate::cspace::{PolygonWithHoles, Proves, Regions};
     use crate::space::{JointRange, Topology};
     use cplan_geometry::{Orientation, in_circle, orientation};
     use proptest::prelude::*;
@@ -143,7 +143,7 @@ mod tests {
             hole.reverse();
             hole
         });
-        let free = vec![Polygon { outer: square(-1.0, -1.0, 7.0), holes: squares.collect() }];
+        let free = vec![PolygonWithHoles { outer: square(-1.0, -1.0, 7.0), holes: squares.collect() }];
         let window = [(-50.0, 50.0); 2];
         let axes = window.map(|(lower, upper)| JointRange::Interval { lower, upper });
         Regions { topology: Topology { ranges: axes }, proves: Proves::Exact, window, obstacles: Vec::new(), free }

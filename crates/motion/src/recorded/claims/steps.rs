@@ -101,7 +101,7 @@ impl Ledger {
     /// Checks a stated clearance of a turn of the wrist. The proven distance is a bound with a known resolution.
     fn turn(&mut self, task: &Task, replayed: &ReplayedStep, stated: Option<Option<f64>>, claim: &str) {
         let (Some(stated), Some(Ok(free))) = (stated, replayed.turn.map(|turn| turn.verdict)) else { return };
-        let most = free.clearance + turn_resolution(&task.arm, task.workspace.clearance);
+        let most = free.clearance + turn_resolution(&task.arm, task.workspace.fixed.clearance);
         match stated {
             Some(stated) if stated > most => {
                 let why = format!("stated as {stated} m, but the wrist turns the object as near as {most} m");

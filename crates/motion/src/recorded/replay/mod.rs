@@ -168,7 +168,7 @@ impl<'a> Iterator for Replay<'a> {
         let (mut scene, mut courses) = (self.state.scene(task, picked), self.state.courses(task, times[0]));
         let timed = TimedScene { scene: &scene, courses: &courses };
         let mut collision_check =
-            shifted(check_collision(timed, &motion, task.workspace.clearance), *recorded.samples.start());
+            shifted(check_collision(timed, &motion, task.workspace.fixed.clearance), *recorded.samples.start());
         let mut broken = limit_violations(&task.arm.joints, &motion);
         broken.extend(torque_violations(&scene, &motion));
         broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
@@ -214,7 +214,7 @@ impl<'a> Iterator for Replay<'a> {
         {
             let (stays, then) = (self.state.scene(task, released), self.state.courses(task, times[1]));
             let timed = TimedScene { scene: &stays, courses: &then };
-            let found = super::check_collision(timed, &standing, task.workspace.clearance);
+            let found = super::check_collision(timed, &standing, task.workspace.fixed.clearance);
             if !matches!(found, CollisionCheck::Free { .. }) {
                 (scene, courses, collision_check) = (stays, then, shifted(found, *recorded.samples.end()));
             }
@@ -222,7 +222,7 @@ impl<'a> Iterator for Replay<'a> {
         if let (Some(below), Some(standing)) = (lowered, standing()) {
             let then = task.workspace.courses();
             let timed = TimedScene { scene: &below, courses: &then };
-            let found = super::check_collision(timed, &standing, task.workspace.clearance);
+            let found = super::check_collision(timed, &standing, task.workspace.fixed.clearance);
             match (&mut collision_check, found) {
                 (CollisionCheck::Free { clearance, .. }, CollisionCheck::Free { clearance: least, .. }) => {
                     *clearance = clearance.min(least);
@@ -249,7 +249,7 @@ impl<'a> Iterator for Replay<'a> {
                 broken.extend(held);
             }
             let timed = TimedScene { scene: &after, courses: &then };
-            let found = super::check_collision(timed, &standing, task.workspace.clearance);
+            let found = super::check_collision(timed, &standing, task.workspace.fixed.clearance);
             if !matches!(found, CollisionCheck::Free { .. }) {
                 (scene, courses, collision_check) = (after, then, shifted(found, *recorded.samples.end()));
             }

@@ -143,7 +143,7 @@ impl State {
             faults.push(Fault::Nothing);
             return None;
         };
-        let verdict = judge_given_turn(task, &workspace, payload, point, q, [turn.from, turn.to]);
+        let verdict = judge_given_turn(task, &workspace.fixed, payload, point, q, [turn.from, turn.to]);
         let off = angle_between(turn.from, angle);
         if off > PLACE_TOLERANCE {
             faults.push(Fault::Turn { off });

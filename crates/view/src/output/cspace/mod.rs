@@ -10,7 +10,7 @@ pub use seen::{Boxes, Cells, FieldGrid, Roadmap};
 
 use super::picture::{PICTURE_TOLERANCE, contours};
 use cplan_core::check::CheckedProof;
-use cplan_core::cspace::{self, Polygon, Proves};
+use cplan_core::cspace::{self, PolygonWithHoles, Proves};
 use cplan_core::model::{Joint, MotionProblem, Scene, Status};
 use cplan_core::planner::{Trace, VisibilityGraph};
 use cplan_core::space::{Configuration, Path};
@@ -213,7 +213,8 @@ impl CSpace {
         let exact = if is_exact { cspace::exact_c_obstacles(scene) } else { None };
         let (contours, proves) = exact.unwrap_or_else(grown);
         let united = cspace::united(scene, &contours);
-        let region = |(obstacle, all): (String, Vec<Polygon>)| ObstacleRegion { obstacle, polygons: polygons(&all) };
+        let region =
+            |(obstacle, all): (String, Vec<PolygonWithHoles>)| ObstacleRegion { obstacle, polygons: polygons(&all) };
         Self {
             payload: scene.attachment().map(|payload| payload.name.clone()).unwrap_or_default(),
             proves,
@@ -346,7 +347,7 @@ fn boxes_of(proof: &CheckedProof) -> Vec<[Values; 2]> {
     proof.collision_boxes().iter().map(|stuck| [stuck.cell.lower, stuck.cell.upper]).collect()
 }
 
-fn polygons(polygons: &[Polygon]) -> Polygons {
+fn polygons(polygons: &[PolygonWithHoles]) -> Polygons {
     let closed = |ring: &Vec<Point>| ring.iter().chain(ring.first()).map(|p| [p.x, p.y]).collect();
     polygons.iter().map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes).map(closed).collect()).collect()
 }
