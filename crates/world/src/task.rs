@@ -6,7 +6,7 @@ use super::{LoadedScene, Overrides, World};
 use cplan_core::model::{Scene, inverse};
 use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
-use cplan_handling::{Payload, Stroke, Task, TimedWorkspace};
+use cplan_handling::{Payload, Stroke, Task};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError, RobotReport};
 use cplan_text::listed;
 
