@@ -168,11 +168,11 @@ impl Study {
 }
 
 /// Colour of a cell in which all layouts are proven infeasible.
-const INFEASIBLE_COLOR: &str = "#c25100";
+const INFEASIBLE_COLOR: &str = "var(--infeasible)";
 /// Colour of a cell in which some layouts have a motion, but none satisfies the conditions.
-const UNFIT_COLOR: &str = "#f2b8cf";
+const UNFIT_COLOR: &str = "var(--unknown)";
 /// Colour of a cell in which no layout has a motion, for various reasons.
-const NO_MOTION_COLOR: &str = "#9aa1a9";
+const NO_MOTION_COLOR: &str = "var(--undecided)";
 
 /// Meaning of the colours of a map, other than those of the objective.
 const MAP_LEGEND: [(&str, &str); 3] = [
@@ -211,7 +211,7 @@ fn scale(objective: Objective, least: f64, greatest: f64) -> String {
             number(left + shade_width * k as f64),
             // Rectangles overlap slightly, so that no seams are visible.
             number(shade_width + 0.3),
-            shade((k as f64 + 0.5) / SCALE_SHADES as f64)
+            cplan_theme::scale(1.0 - (k as f64 + 0.5) / SCALE_SHADES as f64)
         );
     }
     for (value, text) in axis.ticks() {
@@ -319,25 +319,12 @@ impl Cell {
             self.refused
         );
         let color = match self.cost {
-            Some(cost) if greatest > least => shade((cost - least) / (greatest - least)),
-            Some(_) => shade(0.0),
+            Some(cost) if greatest > least => cplan_theme::scale(1.0 - (cost - least) / (greatest - least)).to_string(),
+            Some(_) => cplan_theme::scale(1.0).to_string(),
             None if self.found > 0 => UNFIT_COLOR.to_owned(),
             None if self.infeasible == self.layouts => INFEASIBLE_COLOR.to_owned(),
             None => NO_MOTION_COLOR.to_owned(),
         };
         Some((color, text))
     }
-}
-
-/// Returns a colour from dark blue at 0 to yellow at 1. Its lightness increases, so that colour-blind readers and grey
-/// prints can tell the values apart.
-fn shade(share: f64) -> String {
-    const COLOR_STOPS: [[f64; 3]; 5] =
-        [[68.0, 1.0, 84.0], [59.0, 82.0, 139.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [253.0, 231.0, 37.0]];
-    let at = share.clamp(0.0, 1.0) * (COLOR_STOPS.len() - 1) as f64;
-    let first = (at as usize).min(COLOR_STOPS.len() - 2);
-    let mixed =
-        |k: usize| COLOR_STOPS[first][k] + (COLOR_STOPS[first + 1][k] - COLOR_STOPS[first][k]) * (at - first as f64);
-    let [r, g, b] = [0, 1, 2].map(|k| mixed(k).round() as u8);
-    format!("#{r:02x}{g:02x}{b:02x}")
 }

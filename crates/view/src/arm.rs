@@ -1,12 +1,12 @@
 //! The arm in one configuration, with its payload.
 
 use super::axes::Frame;
-use super::color::{self, ACCENT, BLOCKED, GRAY, INK, PALE, Rgb, WHITE};
 use super::figure::{Item, Step, Style};
 use super::shapes::union;
 use super::view::PayloadView;
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
+use cplan_theme::{ACCENT, GRAY, INFEASIBLE, INK, PALE, Rgb, WHITE};
 
 /// Colours and line widths with which an arm is drawn.
 pub struct ArmStyle {
@@ -22,11 +22,13 @@ pub const START_LOOK: ArmStyle = ArmStyle { fill: WHITE, line: INK, width: 1.4, 
 /// The arm at the goal.
 pub const GOAL_LOOK: ArmStyle = ArmStyle { fill: PALE, line: INK, width: 1.4, opacity: 0.9, joints: true };
 /// The arm at a goal that it cannot reach.
-pub const UNREACHED_LOOK: ArmStyle = ArmStyle { fill: WHITE, line: BLOCKED, width: 1.2, opacity: 0.6, joints: false };
+pub const UNREACHED_LOOK: ArmStyle =
+    ArmStyle { fill: WHITE, line: INFEASIBLE, width: 1.2, opacity: 0.6, joints: false };
 /// The arm at its current configuration.
 pub const CURRENT_LOOK: ArmStyle = ArmStyle { fill: WHITE, line: ACCENT, width: 2.0, opacity: 1.0, joints: true };
 /// The arm at a configuration along the path.
-pub const GHOST_LOOK: ArmStyle = ArmStyle { fill: color::GHOST, line: GRAY, width: 0.8, opacity: 0.7, joints: false };
+pub const GHOST_LOOK: ArmStyle =
+    ArmStyle { fill: cplan_theme::GHOST, line: GRAY, width: 0.8, opacity: 0.7, joints: false };
 
 /// Draws the arm at `q`: first its outline, then the payload over it in the colour of the object.
 #[must_use]

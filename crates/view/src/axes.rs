@@ -1,7 +1,7 @@
 //! Coordinate frames: they map values to places on the page, and draw ticks.
 
-use super::color::{FAINT, GRAY, INK, PALE};
 use super::figure::{Anchor, Item, Rect, Step, Style, label as text, upwards};
+use cplan_theme::{FAINT, GRAY, INK, PALE};
 
 /// Lower and upper value along an axis.
 pub type Range = (f64, f64);

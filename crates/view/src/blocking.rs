@@ -3,7 +3,6 @@
 use super::arm::{self, UNREACHED_LOOK};
 use super::axes::Frame;
 use super::chart::Chart;
-use super::color::{BLOCKED, WHITE};
 use super::figure::{Item, Pen, Step, Style};
 use super::key::{Key, Sign};
 use super::shapes;
@@ -11,6 +10,7 @@ use super::view::WorldView;
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 use cplan_geometry::Point;
+use cplan_theme::{INFEASIBLE, WHITE};
 use serde::{Serialize, Serializer};
 
 /// Dashes of the outlines of blocking obstacles, in pixels.
@@ -56,16 +56,16 @@ pub fn in_cspace(stuck: &BlockingView, chart: &Chart) -> Vec<Item> {
 /// Returns the legend of the marks.
 #[must_use]
 pub fn keys(stuck: &BlockingView) -> Vec<Key> {
-    let blocking = (!stuck.blockers.is_empty()).then(|| (Sign::Dashed(BLOCKED), "in the way".to_owned()));
+    let blocking = (!stuck.blockers.is_empty()).then(|| (Sign::Dashed(INFEASIBLE), "in the way".to_owned()));
     let place = stuck.at.map(|_| {
-        let pen = Pen { color: BLOCKED, width: 1.2, dash: &[] };
+        let pen = Pen { color: INFEASIBLE, width: 1.2, dash: &[] };
         (Sign::Line(pen), "x: where it gets stuck, and the arm there".to_owned())
     });
     blocking.into_iter().chain(place).collect()
 }
 
 fn pen() -> Style {
-    Style::line(BLOCKED, OUTLINE_WIDTH).dashed(BLOCKING_DASH)
+    Style::line(INFEASIBLE, OUTLINE_WIDTH).dashed(BLOCKING_DASH)
 }
 
 /// Draws a cross on white.
@@ -78,5 +78,8 @@ fn cross([x, y]: [f64; 2]) -> Vec<Item> {
             Step::Line([x + r, y - r]),
         ]
     };
-    vec![Item::Outline(strokes(7.5), Style::line(WHITE, 6.0)), Item::Outline(strokes(6.0), Style::line(BLOCKED, 2.6))]
+    vec![
+        Item::Outline(strokes(7.5), Style::line(WHITE, 6.0)),
+        Item::Outline(strokes(6.0), Style::line(INFEASIBLE, 2.6)),
+    ]
 }

@@ -1,11 +1,11 @@
 //! Boxes of configurations, of a subdivision or of a proof.
 
 use super::axes::Frame;
-use super::color::{EDGE, FREE, PROOF, UNDECIDED, WHITE};
 use super::figure::{Item, Rect, Step, Style, rectangle};
 use super::key::{Key, Sign};
 use super::view::Chain;
 use cplan_core::space::Configuration;
+use cplan_theme::{EDGE, FREE, PROOF, UNDECIDED, WHITE};
 
 /// Boxes narrower than this are drawn without sides, in pixels. The sides would hide the colours of such boxes.
 const MIN_OUTLINED_WIDTH: f64 = 2.0;

@@ -1,10 +1,10 @@
 //! The channel of a cell decomposition, and the points that paths through its middle visit.
 
 use super::chart::Chart;
-use super::color::{CHANNEL, EDGE, INK, WHITE};
 use super::figure::{Anchor, Item, Rect, Style, label, text_width};
 use super::key::{Key, Sign};
 use super::view::Chain;
+use cplan_theme::{CHANNEL, EDGE, INK, WHITE};
 
 /// Cells narrower than this are drawn with finer sides, in pixels. With normal sides, many such cells would make a
 /// moiré pattern.

@@ -2,11 +2,11 @@
 
 use super::axes::Frame;
 use super::chart::{self, Chart};
-use super::color::{ACCENT, INK, Rgb, WHITE};
 use super::figure::{Item, Pen, Rect, Step, Style, lines};
 use super::shapes::ABSENT_DASH;
 use super::view::{ContourView, NameView, PanelView, View, WorldView};
 use super::{blocking, boxes, labels, preferences, reach, tags, trace};
+use cplan_theme::{ACCENT, INK, Rgb, WHITE};
 
 /// Pen for goals along a segment.
 const GOAL_SEGMENT_PEN: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };

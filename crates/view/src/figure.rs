@@ -1,6 +1,6 @@
 //! The neutral figure: items and their places on the page, without a file format.
 
-use super::color::{Rgb, WHITE};
+use cplan_theme::{Rgb, WHITE};
 
 /// A rectangle of the page, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]

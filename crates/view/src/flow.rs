@@ -1,10 +1,10 @@
 //! The lines of a field in pictures.
 
 use super::chart::Chart;
-use super::color::{self, ACCENT, PALE};
 use super::figure::{Item, Pen, Step, Style, chain};
 use super::key::{Key, Sign};
 use super::view::{Chain, LevelView};
+use cplan_theme::{ACCENT, PALE};
 
 /// The lines of a field that pictures show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -30,7 +30,7 @@ impl FieldLines {
     /// Returns the legend of the lines.
     pub fn keys(self) -> Vec<Key> {
         let line = |color| Sign::Line(Pen { color, width: 1.0, dash: &[] });
-        let levels = self.has_levels().then(|| (line(color::scale(0.5)), "equipotentials".to_owned()));
+        let levels = self.has_levels().then(|| (line(cplan_theme::scale(0.5)), "equipotentials".to_owned()));
         let flow = self.has_flow().then(|| (line(ACCENT), "flow lines".to_owned()));
         levels.into_iter().chain(flow).collect()
     }
@@ -40,7 +40,7 @@ impl FieldLines {
         let line = |Chain(line): &Chain| chain(line.iter().map(|q| chart.frame.at(q[0], q[1])), false);
         let mut items = Vec::new();
         if self.has_levels() {
-            let style = |part| Style::line(color::scale(part).mixed(PALE.darker(0.4), 0.15), 1.1);
+            let style = |part| Style::line(cplan_theme::scale(part).mixed(PALE.darker(0.4), 0.15), 1.1);
             let set = |set: &LevelView| Item::Outline(set.lines.iter().flat_map(line).collect(), style(set.part));
             items.extend(levels.iter().map(set));
         }

@@ -1,10 +1,10 @@
 //! Coordinate frames of links, drawn by their axes.
 
 use super::axes::Frame;
-use super::color::{self, INK, WHITE};
 use super::figure::{Anchor, Item, Step, Style, label};
 use super::view::FrameView;
 use cplan_geometry::{Vector, perpendicular};
+use cplan_theme::{INK, WHITE};
 
 /// Length of an axis that lies in the plane, in pixels.
 const AXIS_LENGTH: f64 = 52.0;
@@ -23,7 +23,7 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
     let at = panel.at(frame.at[0], frame.at[1]);
     let mut items = Vec::new();
     for (k, &[u, v, w]) in frame.axes.iter().enumerate() {
-        let (color, _) = color::path(k);
+        let (color, _) = cplan_theme::path(k);
         // The page's y axis points down.
         let shadow = Vector::new(u, -v);
         let text = |at: [f64; 2]| label(at, AXIS_LETTERS[k], 14.0, Anchor::Middle, color);

@@ -249,8 +249,8 @@ fn encode(patches: &[Patch], [width, height]: [usize; 2]) -> Result<Vec<u8>, gif
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::Rgb;
     use crate::figure::Style;
+    use cplan_theme::Rgb;
 
     fn unit(x: f64) -> Unit {
         Unit { within: None, item: Item::Disc([x, 0.0], 1.0, Style::fill(Rgb(0, 0, 0))) }

@@ -1,11 +1,11 @@
 //! The configuration spaces, side by side.
 
 use super::chart::{self, Chart};
-use super::color::{GRAY, INK};
 use super::cspace;
 use super::figure::{Anchor, Item, Rect, label, shortened};
 use super::view::{PanelView, View};
 use cplan_core::model::Arm;
+use cplan_theme::{GRAY, INK};
 
 /// Gaps between columns (for the values at the ends of the axes) and between rows (for titles), in pixels.
 const PANEL_GAPS: [f64; 2] = [40.0, 36.0];

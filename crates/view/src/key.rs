@@ -1,7 +1,7 @@
 //! Signs and their meaning.
 
-use super::color::{self, Rgb};
 use super::figure::Pen;
+use cplan_theme::Rgb;
 use serde::Serialize;
 
 /// The sign before a name.
@@ -79,9 +79,9 @@ impl KeyView {
         let bare = Self { sign: name, color: None, width: None, dash: &[], part: None, text, layers, think };
         match sign {
             Sign::Line(Pen { color, width, dash }) => {
-                Self { color: Some(color::tint(color)), width: Some(width), dash, ..bare }
+                Self { color: Some(cplan_theme::role_or_hex(color)), width: Some(width), dash, ..bare }
             }
-            Sign::Swatch(color) | Sign::Dashed(color) => Self { color: Some(color::tint(color)), ..bare },
+            Sign::Swatch(color) | Sign::Dashed(color) => Self { color: Some(cplan_theme::role_or_hex(color)), ..bare },
             Sign::Shade(part) => Self { part: Some(part), ..bare },
             Sign::Start | Sign::Goal | Sign::Unreached | Sign::Hatched | Sign::Point { .. } => bare,
         }

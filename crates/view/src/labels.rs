@@ -1,12 +1,12 @@
 //! Names on their shapes, or beside shapes that are too small. No name covers another.
 
 use super::axes::Frame;
-use super::color::{INK, WHITE};
 use super::figure::{Anchor, Item, Rect, Style, label, rectangle, shortened, text_width};
 use super::tags::overlap;
 use super::view::around;
 use cplan_core::model::Shape;
 use cplan_geometry::Convex;
+use cplan_theme::{INK, WHITE};
 
 const NAME_SIZE: f64 = 12.0;
 /// Greatest width of a name, in pixels.

@@ -1,11 +1,11 @@
 //! The legend: the signs of a picture, with their meanings.
 
-use super::color::{self, BLOCKED, GRAY, INK, PALE};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
 use super::flow::FieldLines;
 use super::key::{Key, KeyView, Layered, Sign};
 use super::view::{MAX_NAMED_OBSTACLES, ObstacleView, PathView, TraceView, View};
 use super::{blocking, boxes, channel, cspace, preferences, reach, shapes, trace};
+use cplan_theme::{GRAY, INFEASIBLE, INK, PALE};
 
 /// Height of a row, in pixels.
 pub const ROW_HEIGHT: f64 = 21.0;
@@ -58,7 +58,7 @@ fn all(view: &View, still: bool) -> Vec<Layered> {
     }
     if view.unreached().next().is_some() {
         keys.push(always((Sign::Unreached, "not reached".to_owned())));
-        let pen = Pen { color: BLOCKED, width: 1.2, dash: &[] };
+        let pen = Pen { color: INFEASIBLE, width: 1.2, dash: &[] };
         keys.push(((Sign::Line(pen), "the arm there".to_owned()), &["poses"]));
     }
     let lines = if still { view.still.field_lines } else { FieldLines::default() };
@@ -151,7 +151,7 @@ fn sign(sign: &Sign, x: f64, y: f64) -> Vec<Item> {
             let style = Style { pen: Some(*pen), ..Style::line(pen.color, pen.width) };
             vec![Item::Outline(vec![Step::Move([x, y]), Step::Line([x + SIGN_WIDTH, y])], style)]
         }
-        Sign::Shade(part) => self::sign(&Sign::Swatch(color::scale(*part)), x, y),
+        Sign::Shade(part) => self::sign(&Sign::Swatch(cplan_theme::scale(*part)), x, y),
         Sign::Swatch(color) => {
             let style = Style::line(color.darker(0.25), 1.0).filled(color.lighter(0.25));
             vec![Item::Outline(rectangle(swatch(x, y)), style)]

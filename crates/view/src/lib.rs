@@ -21,7 +21,6 @@ mod axes;
 mod boxes;
 mod channel;
 mod chart;
-pub mod color;
 mod copies;
 mod cspace;
 mod exploration;

@@ -32,7 +32,7 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> S
     let areas: Vec<f64> =
         obstacles.iter().map(|obstacle| obstacle.pieces.iter().map(|piece| piece.area()).sum()).collect();
     order.sort_by(|&i, &j| areas[j].total_cmp(&areas[i]));
-    let keys = known.iter().enumerate().map(|(i, name)| (Sign::Swatch(color::obstacle(i)), (*name).to_owned()));
+    let keys = known.iter().enumerate().map(|(i, name)| (Sign::Swatch(cplan_theme::obstacle(i)), (*name).to_owned()));
     let keys: Vec<Key> = keys.take(MAX_KEYS).collect();
     svg_writer::write(&page::alone(title, keys, (y.1 - y.0) / (x.1 - x.0), |area| {
         let frame = Frame::filling(area, x, y);

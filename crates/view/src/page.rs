@@ -1,12 +1,12 @@
 //! The page: titles, the workspace, configuration spaces, the steps of a task, legend.
 
-use super::color::{GRAY, INK};
 use super::figure::{Anchor, Figure, Item, Rect, label, shortened, text_width};
 use super::grid::Grid;
 use super::key::Key;
 use super::legend;
 use super::view::{PanelView, View};
 use super::{cspace, steps, workspace};
+use cplan_theme::{GRAY, INK};
 
 /// Width of every picture, in pixels.
 const PAGE_WIDTH: f64 = 1400.0;

@@ -2,10 +2,10 @@
 
 use super::axes::Frame;
 use super::chart::Chart;
-use super::color::{AVOIDED, PREFERRED};
 use super::figure::{Item, Pen, Step, Style, chain};
 use super::key::{Key, Sign};
 use super::view::RegionView;
+use cplan_theme::{AVOIDED, PREFERRED};
 
 const OUTLINE_DASH: &[f64] = &[7.0, 4.0];
 

@@ -2,20 +2,20 @@
 
 use super::axes::Frame;
 use super::chart::Chart;
-use super::color::Rgb;
 use super::figure::{Item, Raster, Rect, Style};
 use super::key::{Key, Sign};
 use super::view::{Chain, RoundingSteps};
 use cplan_explain::{Access, Reach, Solution};
+use cplan_theme::{OCCUPIED, REACHED, REACHED_TWICE, Rgb, UNKNOWN, UNREACHABLE, role_or_hex};
 use serde::Serialize;
 
-/// Colour and meaning of each kind of cell: one free solution, several, proven unreachable, blocked, unknown.
+/// Colour and meaning of each kind of cell: one free solution, several, proven unreachable, colliding, unknown.
 const CELL_KINDS: [(Rgb, &str); 5] = [
-    (Rgb(0xb5, 0xd9, 0xc2), "the tip can get there, one way"),
-    (Rgb(0x5f, 0xae, 0x83), "with several solutions"),
-    (Rgb(0xe8, 0xa1, 0x6b), "free, but proven out of reach"),
-    (Rgb(0xe1, 0xe4, 0xe8), "not free"),
-    (Rgb(0xc9, 0xa7, 0xdc), "unknown"),
+    (REACHED, "reachable with one IK solution"),
+    (REACHED_TWICE, "reachable with several"),
+    (UNREACHABLE, "free, but proven out of reach"),
+    (OCCUPIED, "the arm would collide"),
+    (UNKNOWN, "unknown"),
 ];
 
 fn look(access: Access, count: usize) -> usize {
@@ -74,7 +74,8 @@ pub struct ReachView {
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct KindView {
-    color: Rgb,
+    /// Name of the colour's role.
+    color: String,
     solutions: Chain,
 }
 
@@ -86,7 +87,10 @@ impl ReachView {
         }
         let kind = |(number, &(color, _)): (usize, &(Rgb, &str))| {
             let solutions = free(reach).filter(|solution| look(solution.access, 2) == number);
-            KindView { color, solutions: grain.configurations(solutions.map(|solution| &solution.joints)) }
+            KindView {
+                color: role_or_hex(color),
+                solutions: grain.configurations(solutions.map(|solution| &solution.joints)),
+            }
         };
         Self {
             corner: reach.corner,

@@ -186,8 +186,8 @@ fn cells(raster: &Raster) -> Group {
 
 #[cfg(test)]
 mod tests {
-    use super::super::color::Rgb;
     use super::*;
+    use cplan_theme::Rgb;
 
     #[test]
     fn numbers_are_short() {

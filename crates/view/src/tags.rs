@@ -1,8 +1,8 @@
 //! Numbers beside places. As far as there is room, no number covers another.
 
-use super::color::{INK, WHITE};
 use super::figure::{Anchor, Item, Rect, Style, label, rectangle, shortened, text_width};
 use super::view::ranges;
+use cplan_theme::{INK, WHITE};
 
 const TEXT_SIZE: f64 = 12.0;
 /// Greatest width of a text, in pixels.

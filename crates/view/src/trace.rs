@@ -1,12 +1,12 @@
 //! The planner's trace: the part of the configuration space that it examined.
 
 use super::chart::Chart;
-use super::color::{self, ACCENT, CHANNEL, EDGE, GRAY, INK, Rgb};
 use super::figure::{Anchor, Item, Pen, Raster, Rect, Style, chain, label, upwards};
 use super::flow::FieldLines;
 use super::key::{Key, Sign};
 use super::view::{Chain, LEVELS, ScaleView, TraceView, Waves};
 use super::{boxes, channel, wave_numbers};
+use cplan_theme::{ACCENT, CHANNEL, EDGE, GRAY, INK, Rgb};
 
 /// Number of colours of a wavefront. Each colour stands for several of its levels.
 const WAVE_SHADES: usize = 32;
@@ -67,7 +67,7 @@ fn edges(lines: &Chain, chart: &Chart) -> Item {
 /// Draws the places that a search expanded. The earlier a place was expanded, the darker it is.
 fn places(expanded: &Chain, chart: &Chart) -> impl Iterator<Item = Item> {
     let last = expanded.0.len().saturating_sub(1).max(1) as f64;
-    let shade = move |k: usize| color::scale(k as f64 / last);
+    let shade = move |k: usize| cplan_theme::scale(k as f64 / last);
     expanded.0.iter().enumerate().map(move |(k, &q)| Item::Disc(chart.place(q), 2.2, Style::fill(shade(k)).faded(0.8)))
 }
 
@@ -124,7 +124,7 @@ pub fn color_bar(scale: &ScaleView, frame: &Rect) -> Vec<Item> {
 }
 
 fn palette(white: f64) -> Vec<Rgb> {
-    (0..WAVE_SHADES).map(|k| color::scale(k as f64 / (WAVE_SHADES - 1) as f64).lighter(white)).collect()
+    (0..WAVE_SHADES).map(|k| cplan_theme::scale(k as f64 / (WAVE_SHADES - 1) as f64).lighter(white)).collect()
 }
 
 fn shades(waves: &Waves, frame: &Rect) -> Raster {

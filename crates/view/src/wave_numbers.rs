@@ -1,8 +1,8 @@
 //! Numbers of a wavefront, written into its cells.
 
-use super::color::{INK, PALE, WHITE};
 use super::figure::{Anchor, Item, Rect, Step, Style, label, text_width};
 use super::view::{LEVELS, Waves};
+use cplan_theme::{INK, PALE, WHITE};
 
 /// Smallest legible height of digits, in pixels.
 const MIN_DIGIT_HEIGHT: f64 = 5.0;

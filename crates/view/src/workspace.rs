@@ -2,13 +2,13 @@
 
 use super::arm::{self, CURRENT_LOOK, GHOST_LOOK, GOAL_LOOK, START_LOOK, UNREACHED_LOOK};
 use super::axes::{Frame, Unit};
-use super::color::{BLOCKED, GRAY, INK, PALE, WHITE};
 use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines};
 use super::labels::{self, Named};
 use super::view::{ObstacleView, PathView, View, around, reach_shape, titles};
 use super::{blocking, frames, preferences, reach, shapes, tags};
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
+use cplan_theme::{GRAY, INFEASIBLE, INK, PALE, WHITE};
 
 /// Draws the panel, which fills this part of the page.
 #[must_use]
@@ -95,7 +95,7 @@ fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[[f64; 2]]) -> Ve
     for (q, number, reached) in view.still.panels.iter().flat_map(|panel| view.ends(panel)) {
         let tip = view.arm.tip_at(q);
         let spot = frame.at(tip.x, tip.y);
-        let (line, fill) = if reached { (Style::line(WHITE, 1.2), INK) } else { (Style::line(BLOCKED, 1.4), WHITE) };
+        let (line, fill) = if reached { (Style::line(WHITE, 1.2), INK) } else { (Style::line(INFEASIBLE, 1.4), WHITE) };
         items.push(Item::Disc(spot, 3.6, line.filled(fill)));
         tags::add(&mut tags, spot, number);
     }

@@ -150,9 +150,10 @@ pub fn head(title: &str, subtitle: &str) -> String {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <meta name=\"color-scheme\" content=\"light dark\"/>\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\"/>\n\
-         <title>{0}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<header><h1>{0}</h1>\n<p class=\"sub\">{1}</p></header>\n",
+         <title>{0}</title>\n<style>\n{2}{STYLE}</style>\n</head>\n<body>\n<main>\n<header><h1>{0}</h1>\n<p class=\"sub\">{1}</p></header>\n",
         markup(title),
-        markup(subtitle)
+        markup(subtitle),
+        cplan_theme::css()
     )
 }
 
@@ -164,6 +165,7 @@ pub fn foot(how: &str) -> String {
 /// If there are more problems than this, their list is folded.
 const MAX_UNFOLDED_PROBLEMS: usize = 40;
 
+/// The page's own style sheet, after the one of all pages.
 const STYLE: &str = include_str!("style.css");
 
 const METHOD_NOTE: &str = "Every run is a whole one, from the problem to a certificate or a proof. <em>Found</em>: the whole continuous \

@@ -389,8 +389,8 @@ class Editor {
     }
     for (const { at, hits } of this.blocked()) {
       Workspace.arm(context, panel, this.view, world, at, {
-        fill: theme.paper, touch: Theme.mixed(theme.barred, theme.paper, 0.25), touching: new Set(hits.map(({ link }) => link)),
-        line: theme.barred, width: 1.6, alpha: 0.85, joints: true,
+        fill: theme.paper, touch: Theme.mixed(theme.infeasible, theme.paper, 0.25), touching: new Set(hits.map(({ link }) => link)),
+        line: theme.infeasible, width: 1.6, alpha: 0.85, joints: true,
       });
     }
   }
@@ -438,7 +438,7 @@ class Editor {
 
   /** Draws a configuration that is not free: a cross in a ring. */
   drawBarred(context, panel, [x, y]) {
-    for (const [width, color] of [[6, panel.theme.paper], [3, panel.theme.barred]]) {
+    for (const [width, color] of [[6, panel.theme.paper], [3, panel.theme.infeasible]]) {
       [context.lineWidth, context.strokeStyle] = [width, color];
       context.beginPath();
       context.arc(x, y, 9, 0, 2 * Math.PI);

@@ -98,8 +98,8 @@ const drawWorkspace = (at) => {
     context.fillRect(x0 + (index % size[0]) * side, y0 + Math.floor(index / size[0]) * side, side + 0.5, side + 0.5);
   }
   context.globalAlpha = 0.35;
-  context.fillStyle = color("barred");
-  context.strokeStyle = color("barred");
+  context.fillStyle = color("infeasible");
+  context.strokeStyle = color("infeasible");
   data.obstacles.forEach((shape) => rounded(context, shape, place, scale));
   context.globalAlpha = 1;
   const frame = data.frames[at];
@@ -128,7 +128,7 @@ const drawWorkspace = (at) => {
     if (k) context.lineTo(x, y); else context.moveTo(x, y);
   });
   context.stroke();
-  context.fillStyle = color("probe");
+  context.fillStyle = color("found");
   context.beginPath();
   context.arc(cx, cy, 4, 0, 7);
   context.fill();
@@ -167,7 +167,7 @@ const drawSpace = (at) => {
     last = [x, y];
   });
   context.stroke();
-  context.fillStyle = color("probe");
+  context.fillStyle = color("found");
   context.beginPath();
   context.arc(last[0], last[1], 4, 0, 7);
   context.fill();
@@ -233,7 +233,7 @@ const drawChart = (at) => {
     if (k) context.lineTo(...point); else context.moveTo(...point);
   });
   context.stroke();
-  context.fillStyle = color("probe");
+  context.fillStyle = color("found");
   context.beginPath();
   context.arc(x(data.frames[at].length), y(known[at] / cells), 4, 0, 7);
   context.fill();

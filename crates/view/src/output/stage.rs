@@ -1,6 +1,5 @@
 //! The scene of a recording: the arm's links, obstacles and objects, and their places over time.
 
-use crate::color::{GRAY, INK, Rgb, obstacle as obstacle_color};
 use cplan_core::model::{Obstacle, Part};
 use cplan_core::space::Configuration;
 use cplan_engine::{Detail, Plan};
@@ -8,6 +7,7 @@ use cplan_geometry::Pose;
 use cplan_handling::{ObstacleTrajectory, Task};
 use cplan_motion::{Body, Solid, Stage};
 use cplan_tasks::{Event, Leg, TaskAnswer};
+use cplan_theme::{GRAY, INK, Rgb, obstacle as obstacle_color};
 
 /// Numbers of the first link (`FIRST_LINK`) and of the first object (`FIRST_OBJECT`) among the bodies of the recording.
 /// The workspace has number 0.

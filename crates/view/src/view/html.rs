@@ -1,7 +1,6 @@
 //! The HTML file around a view.
 
 use super::content::View;
-use crate::color::TINTS;
 use cplan_text::markup;
 
 const STYLE: &str = include_str!("assets/view.css");
@@ -24,12 +23,6 @@ const SCRIPTS: [&str; 11] = [
 /// Code that shows the view in the page.
 const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
 
-/// Returns the colours of pictures as variables of the style sheet. Dark mode replaces them by other colours.
-fn colors() -> String {
-    let variables: String = TINTS.iter().map(|(name, color)| format!(" --{name}: {color};")).collect();
-    format!(":root {{{variables} }}\n")
-}
-
 /// Returns the view as one self-contained HTML file.
 #[must_use]
 pub fn page(view: &View) -> String {
@@ -40,7 +33,8 @@ pub fn page(view: &View) -> String {
 /// Returns the scripts that draw a view, for pages that add their own code after them.
 #[must_use]
 pub fn drawing() -> String {
-    SCRIPTS.concat()
+    let roles: Vec<&str> = cplan_theme::ROLES.iter().map(|role| role.name).collect();
+    format!("/** Names of the colours in the style sheet. */\nconst ROLES = {roles:?};\n{}", SCRIPTS.concat())
 }
 
 /// Returns a self-contained page that loads nothing and that the browser does not allow to load anything. The element
@@ -59,11 +53,11 @@ pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> Str
 #[must_use]
 pub fn shell(title: &str, head: &str, style: &str, before: &str, code: &str) -> String {
     let title = markup(title);
-    let colors = colors();
+    let tokens = cplan_theme::css();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{head}\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
-         <style>\n{colors}{STYLE}{style}</style>\n</head>\n<body>\n<main><noscript>This page draws with JavaScript, which is switched \
+         <style>\n{tokens}{STYLE}{style}</style>\n</head>\n<body>\n<main><noscript>This page draws with JavaScript, which is switched \
          off here.</noscript></main>\n{before}<script>\n{code}</script>\n</body>\n</html>\n"
     )
 }

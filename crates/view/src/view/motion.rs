@@ -1,10 +1,10 @@
 //! Paths, and motions in time.
 
 use super::numbers::{Chain, RoundingSteps};
-use crate::color::{self, GRAY, INK, Rgb};
 use crate::figure::Pen;
 use cplan_core::space::{Configuration, Path};
 use cplan_motion::Trajectory;
+use cplan_theme::{GRAY, INK, Rgb};
 use serde::Serialize;
 
 /// Number of poses shown between the ends of a path.
@@ -44,7 +44,7 @@ fn is_none(step: &usize) -> bool {
 impl PathView {
     /// Creates path `index` out of `count`. A single path has the colour of ink.
     pub fn of_several(name: &str, path: &Path, [index, count]: [usize; 2], grain: RoundingSteps) -> Self {
-        let (color, dash) = color::path(index);
+        let (color, dash) = cplan_theme::path(index);
         let (color, dash) = if count > 1 { (Some(color), dash) } else { (None, &[][..]) };
         Self {
             name: name.to_owned(),

@@ -1,7 +1,6 @@
 //! Numbers rounded to visible precision, and their form in a document, where a list of places is a flat list of
 //! coordinates.
 
-use crate::color::Rgb;
 use cplan_core::model::{Arm, Shape};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point};
@@ -147,12 +146,6 @@ pub fn outline<S: Serializer>(shape: &Shape, serializer: S) -> Result<S::Ok, S::
         }
         Shape::Polyline(points) => serializer.serialize_newtype_variant(NAME, 2, "polyline", &flat(points)),
         Shape::Pieces => serializer.serialize_unit_variant(NAME, 3, "pieces"),
-    }
-}
-
-impl Serialize for Rgb {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
     }
 }
 

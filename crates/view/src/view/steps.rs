@@ -1,10 +1,10 @@
 //! The steps of a task, in words.
 
 use super::task_picture::TaskPicture;
-use crate::color::{BLOCKED, GRAY, INK, Rgb};
 use cplan_core::model::Outcome;
 use cplan_handling::{Object, Step};
 use cplan_tasks::{Leg, TaskAnswer};
+use cplan_theme::{GRAY, INFEASIBLE, INK, Rgb};
 
 /// Largest number of rows that are shown.
 const MAX_ROWS: usize = 26;
@@ -87,7 +87,7 @@ pub fn rows(picture: &TaskPicture) -> Vec<Row> {
             _ => "unknown",
         };
         let step = &failed.step;
-        rows.push(Row::new(order.number(step), order.describe(step, objects), time, BLOCKED));
+        rows.push(Row::new(order.number(step), order.describe(step, objects), time, INFEASIBLE));
     }
     rows
 }

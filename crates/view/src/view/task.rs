@@ -37,7 +37,7 @@ impl View {
             let name = order.named(&leg.step, &task.objects);
             let world = worlds.of(&leg.scene, &leg.moving);
             motions.push(MotionView { world, path: Some(paths.len()), from, label: name.clone(), replay: None });
-            let carried = leg.carried.map(|object| color::obstacle(task.obstacle_number(object)));
+            let carried = leg.carried.map(|object| cplan_theme::obstacle(task.obstacle_number(object)));
             let outline = leg.timed.curve.outline();
             paths.push(PathView::of_step(name, &outline, world, order.number(&leg.step), carried, grain));
             let until = leg.event_time().unwrap_or_else(|| leg.end());

@@ -3,13 +3,13 @@
 use super::names::{self, NameView};
 use super::numbers::{Chain, RoundingSteps, ShapeView, number, outline};
 use super::trace::{ScaleView, TraceView};
-use crate::color::{self, Rgb};
 use cplan_core::check::CheckedProof;
 use cplan_core::cspace::CObstacle;
 use cplan_core::model::{Carrier, Grip, LooseObstacle, Obstacle, Pair, Preference, Region, Scene, Shape};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point};
 use cplan_handling::{ObstacleTrajectory, TimedScene};
+use cplan_theme::Rgb;
 use serde::{Serialize, Serializer};
 
 /// Largest number of obstacles with names; if there are more, they are numbered.
@@ -36,7 +36,7 @@ impl ObstacleView {
     pub fn new(obstacle: &Obstacle, number: usize, grain: RoundingSteps) -> Self {
         Self {
             name: obstacle.name.clone(),
-            color: color::obstacle(number),
+            color: cplan_theme::obstacle(number),
             outline: grain.outline(&obstacle.shape),
             own: obstacle.pieces.len(),
             pieces: obstacle.pieces.iter().map(|piece| grain.shape(piece)).collect(),
@@ -45,7 +45,7 @@ impl ObstacleView {
 
     /// Returns the obstacle in the colour of the robot's own links.
     fn of_robot(self) -> Self {
-        Self { color: color::ROBOT, ..self }
+        Self { color: cplan_theme::ROBOT, ..self }
     }
 
     /// Returns the pieces that form the obstacle itself. Empty for an object that is carried.
@@ -315,7 +315,7 @@ fn payload(scene: &Scene, grain: RoundingSteps) -> Option<PayloadView> {
     let own = scene.own_parts(1).len();
     Some(PayloadView {
         object: payload.name.clone(),
-        color: color::obstacle(lying.unwrap_or(obstacles.len())),
+        color: cplan_theme::obstacle(lying.unwrap_or(obstacles.len())),
         pieces: payload.pieces().map(|piece| grain.shape(piece)).collect(),
         grip: payload.grip,
         parts: scene.arm().links[1].parts[own..].iter().map(|part| grain.shape(&part.shape)).collect(),

@@ -137,8 +137,8 @@ const CSpace = (() => {
     if (seen.kind === 'wavefront' && view.shows('wavefront')) wavefront(context, panel, seen);
     if (seen.kind === 'boxes' && view.shows('boxes')) {
       surfaces(context, panel, seen.free, theme.free);
-      surfaces(context, panel, seen.mixed, theme.mixed);
-      if (seen.rest) surfaces(context, panel, seen.rest, theme.mixed);
+      surfaces(context, panel, seen.mixed, theme.undecided);
+      if (seen.rest) surfaces(context, panel, seen.rest, theme.undecided);
     }
     if (seen.kind === 'channel' && view.shows('channel')) {
       context.beginPath();
@@ -347,7 +347,7 @@ const CSpace = (() => {
   /** Draws IK solutions with the tip at the centres of cells, by whether a motion leads there. */
   function solutions(context, panel, view, { kinds }) {
     for (const { color, solutions: flat } of kinds) {
-      context.fillStyle = panel.theme.obstacle(color).line;
+      context.fillStyle = panel.theme.tint(color);
       for (let i = 0; i < flat.length; i += 2) {
         const [x, y] = place(view, panel, flat.slice(i, i + 2));
         context.fillRect(x - 1, y - 1, 2, 2);
@@ -443,7 +443,7 @@ const CSpace = (() => {
     const { rect } = panel;
     context.setLineDash([3, 3]);
     context.lineWidth = 1;
-    context.strokeStyle = hit ? theme.barred : theme.probe;
+    context.strokeStyle = hit ? theme.infeasible : theme.found;
     line(context, [[px, rect.y], [px, rect.y + rect.height]]);
     line(context, [[rect.x, py], [rect.x + rect.width, py]]);
     context.setLineDash([]);

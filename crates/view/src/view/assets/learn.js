@@ -386,15 +386,15 @@ class Learn {
     }
     for (const obstacle of bands) Workspace.struck(context, panel, world.obstacles[obstacle]);
     const touching = new Set(bands.length ? [0] : []);
-    Workspace.arm(context, panel, view, world, this.q, { fill: theme.paper, touch: Theme.mixed(theme.barred, theme.paper, 0.45), touching, line: theme.ink, width: 1.4, joints: true });
+    Workspace.arm(context, panel, view, world, this.q, { fill: theme.paper, touch: Theme.mixed(theme.infeasible, theme.paper, 0.45), touching, line: theme.ink, width: 1.4, joints: true });
     if (contact) this.drawTouch(context, panel, contact);
   }
 
   /** Draws the touching features in bold. */
   drawTouch(context, panel, { value, features: [mine, i, other, k], shape, piece }) {
     const [, pose] = Geometry.poses(this.view.model.arm, [this.q1, value]);
-    context.strokeStyle = panel.theme.barred;
-    context.fillStyle = panel.theme.barred;
+    context.strokeStyle = panel.theme.infeasible;
+    context.fillStyle = panel.theme.infeasible;
     for (const [kind, index, { core }] of [[mine, i, Geometry.placed(shape, pose)], [other, k, piece]]) {
       const corners = [...Geometry.pointsOf(core)].map((p) => panel.at(p));
       context.lineWidth = 4;
@@ -418,7 +418,7 @@ class Learn {
       line(context, [panel.at([this.q1, from]), panel.at([this.q1, to])]);
     };
     stroke(theme.paper, 7, low, high);
-    stroke(bands.length ? theme.barred : theme.probe, 3, low, high);
+    stroke(bands.length ? theme.infeasible : theme.found, 3, low, high);
     for (const { obstacle, intervals } of bands.length ? [] : rows) {
       for (const [from, to] of intervals) stroke(theme.obstacle(view.world.obstacles[obstacle].color).line, 7, from.value, to.value);
     }
@@ -426,7 +426,7 @@ class Learn {
       const chosen = contact === this.contact;
       context.beginPath();
       context.arc(...panel.at([this.q1, contact.value]), chosen ? 7 : 4.5, 0, 2 * Math.PI);
-      context.fillStyle = chosen ? theme.barred : theme.paper;
+      context.fillStyle = chosen ? theme.infeasible : theme.paper;
       context.fill();
       context.lineWidth = 2;
       context.strokeStyle = theme.ink;
@@ -497,14 +497,14 @@ class Learn {
         const length = Math.hypot(x, y);
         const foot = Contact.plus(corners[i], [(y * depth) / length, (-x * depth) / length]);
         context.setLineDash([4, 3]);
-        context.strokeStyle = theme.barred;
+        context.strokeStyle = theme.infeasible;
         context.lineWidth = 1.6;
         line(context, [panel.at(corners[i]), panel.at(foot)]);
         context.setLineDash([]);
-        this.dot(context, panel, corners[i], theme.barred, 6);
+        this.dot(context, panel, corners[i], theme.infeasible, 6);
       });
     }
-    context.strokeStyle = theme.barred;
+    context.strokeStyle = theme.infeasible;
     context.lineWidth = 3.5;
     for (const [i, k] of crossings) for (const [polygon, index] of [[a, i], [b, k]]) line(context, Contact.sides(polygon)[index].map((p) => panel.at(p)));
   }
@@ -513,9 +513,9 @@ class Learn {
   drawStep(context, panel, a, b) {
     const { i, k, of } = this.steps[this.step];
     const { theme } = panel;
-    this.dot(context, panel, a[i], theme.barred, 7);
-    this.dot(context, panel, b[k], theme.barred, 7);
-    context.strokeStyle = theme.barred;
+    this.dot(context, panel, a[i], theme.infeasible, 7);
+    this.dot(context, panel, b[k], theme.infeasible, 7);
+    context.strokeStyle = theme.infeasible;
     context.lineWidth = 4;
     if (of !== 'b') line(context, Contact.sides(a)[i].map((p) => panel.at(p)));
     if (of !== 'a') line(context, Contact.sides(b)[k].map((p) => panel.at(p)));
@@ -542,7 +542,7 @@ class Learn {
         const [x, y] = panel.at(p);
         return [`b${steps[s].k + 1} \u2212 a${steps[s].i + 1}`, [x, y - 16], Infinity];
       }));
-      this.dot(context, panel, there[there.length - 1], theme.barred, 6);
+      this.dot(context, panel, there[there.length - 1], theme.infeasible, 6);
       this.drawDirections(context, panel, steps);
     }
     this.dot(context, panel, this.placeOf(this.pieces.at), theme.accent, 6);
@@ -563,7 +563,7 @@ class Learn {
     steps.forEach(({ direction: [u, v], of }, index) => {
       const length = Math.hypot(u, v);
       const next = index === this.step;
-      context.strokeStyle = next ? theme.barred : of === 'a' ? theme.ink : theme.obstacle(this.color).line;
+      context.strokeStyle = next ? theme.infeasible : of === 'a' ? theme.ink : theme.obstacle(this.color).line;
       context.lineWidth = next ? 4 : 2;
       line(context, [[x, y], [x + (r * u) / length, y - (r * v) / length]]);
     });
@@ -581,7 +581,7 @@ class Learn {
       const corners = Contact.difference(this.pieces.b, this.rotated(angle)).map((step) => lift(angle)(step.at));
       panel.faded(context, 0.55, (layer) => this.fill(layer, panel, corners, fill, edge, 1));
     }
-    this.fill(context, panel, this.steps.map((step) => lift(now)(step.at)), fill, theme.barred, 3);
+    this.fill(context, panel, this.steps.map((step) => lift(now)(step.at)), fill, theme.infeasible, 3);
     // All angles of the link with its origin at the current place: a row of the configuration space.
     context.strokeStyle = theme.accent;
     context.lineWidth = 2;

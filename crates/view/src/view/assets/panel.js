@@ -6,9 +6,7 @@ class Theme {
   constructor(root) {
     const style = getComputedStyle(root);
     const value = (name) => style.getPropertyValue(`--${name}`).trim();
-    for (const name of ['ink', 'grey', 'pale', 'faint', 'ghost', 'paper', 'accent', 'barred', 'proof', 'free', 'mixed', 'edge', 'channel', 'avoided', 'preferred', 'probe']) {
-      this[name] = value(name);
-    }
+    for (const name of ROLES) this[name] = value(name);
     this.dark = value('dark') === '1';
   }
 
@@ -326,7 +324,7 @@ function trace(context, panel, flat, closed, by = [0, 0]) {
 
 /** Draws a cross with a light ground: the place where the arm gets stuck. */
 function cross(context, theme, [x, y]) {
-  for (const [r, width, color] of [[7.5, 6, theme.paper], [6, 2.6, theme.barred]]) {
+  for (const [r, width, color] of [[7.5, 6, theme.paper], [6, 2.6, theme.infeasible]]) {
     [context.lineWidth, context.strokeStyle] = [width, color];
     for (const side of [1, -1]) line(context, [[x - r, y - r * side], [x + r, y + r * side]]);
   }

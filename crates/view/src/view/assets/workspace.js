@@ -217,7 +217,7 @@ const Workspace = (() => {
   /** Draws the reachable cells, coloured by their kind. */
   function cells(context, panel, { corner, cell, size: [columns], kinds, cells: all }) {
     const { theme } = panel;
-    const colors = kinds.map(({ color }) => theme.obstacle(color).fill);
+    const colors = kinds.map(({ color }) => theme.tint(color));
     for (const [place, kind] of [...all].entries()) {
       if (kind === '.') continue;
       const low = [corner[0] + cell * (place % columns), corner[1] + cell * Math.floor(place / columns)];
@@ -249,7 +249,7 @@ const Workspace = (() => {
       if (view.isMotion) arm(context, panel, view, world, view.beginning(), { ...look, fill: theme.paper });
       for (const q of view.ends()) arm(context, panel, view, world, q, { ...look, fill: theme.pale });
       for (const q of world.unreached) {
-        arm(context, panel, view, world, q, { fill: theme.paper, line: theme.barred, width: 0.9, alpha: 0.65 });
+        arm(context, panel, view, world, q, { fill: theme.paper, line: theme.infeasible, width: 0.9, alpha: 0.65 });
       }
     }
     if (model.stuck) stuck(context, panel, view, model.stuck);
@@ -262,10 +262,10 @@ const Workspace = (() => {
     const { theme } = panel;
     for (const number of blockers) {
       outline(context, panel, view.world.obstacles[number]);
-      dashed(context, [7, 3], 3, theme.barred);
+      dashed(context, [7, 3], 3, theme.infeasible);
     }
     if (!at) return;
-    arm(context, panel, view, view.world, at[0], { fill: theme.paper, line: theme.barred, width: 0.9, alpha: 0.65 });
+    arm(context, panel, view, view.world, at[0], { fill: theme.paper, line: theme.infeasible, width: 0.9, alpha: 0.65 });
     cross(context, theme, panel.at(at[1]));
   }
 
@@ -273,7 +273,7 @@ const Workspace = (() => {
   function struck(context, panel, obstacle) {
     outline(context, panel, obstacle);
     context.lineWidth = 4;
-    context.strokeStyle = panel.theme.barred;
+    context.strokeStyle = panel.theme.infeasible;
     context.stroke();
   }
 
@@ -296,9 +296,9 @@ const Workspace = (() => {
     const touching = new Set(hits.map((c) => (c.carried ? 'payload' : c.link)));
     arm(context, panel, view, view.world, q, {
       fill: theme.free,
-      touch: Theme.mixed(theme.barred, theme.paper, 0.45),
+      touch: Theme.mixed(theme.infeasible, theme.paper, 0.45),
       touching,
-      line: hits.length ? theme.barred : theme.probe,
+      line: hits.length ? theme.infeasible : theme.found,
       width: 1.6,
       alpha: 0.92,
       joints: true,

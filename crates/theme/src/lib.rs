@@ -1,0 +1,43 @@
+//! The design of all pages and pictures: colours by role, each for a light and a dark background, and sizes of type and
+//! spacing. Pages have it as a style sheet ([`css`]), pictures as constants. This crate uses no other crate.
+
+mod color;
+mod roles;
+
+pub use color::{PATH_COLORS, Rgb, obstacle, path, scale};
+pub use roles::*;
+
+/// Sizes of type, spacing and corners, which are the same for both backgrounds.
+const SIZES: &str = include_str!("tokens.css");
+
+/// Returns the style sheet that all pages begin with: the variables of `tokens.css`, and one variable `--NAME` for each
+/// role and `--path-0` to `--path-5`, light or dark as the reader's system asks.
+#[must_use]
+pub fn css() -> String {
+    let variables = |is_dark: bool| -> String {
+        let roles = ROLES.iter().map(|role| (role.name.to_owned(), role.light, role.dark));
+        let paths = (0..).zip(PATH_COLORS).map(|(index, (light, dark))| (format!("path-{index}"), light, dark));
+        let variable = |(name, light, dark)| format!(" --{name}: {};", if is_dark { dark } else { light });
+        roles.chain(paths).map(variable).collect()
+    };
+    let [light, dark] = [variables(false), variables(true)];
+    format!(
+        "{SIZES}:root {{ color-scheme: light dark; --dark: 0;{light} }}\n\
+         @media (prefers-color-scheme: dark) {{\n:root {{ --dark: 1;{dark} }}\n}}\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_style_sheet_has_both_colors_of_each_role() {
+        let sheet = css();
+        let (light, dark) = sheet.split_once("@media (prefers-color-scheme: dark)").unwrap();
+        for role in ROLES {
+            assert!(light.contains(&format!(" --{}: {};", role.name, role.light)), "{}", role.name);
+            assert!(dark.contains(&format!(" --{}: {};", role.name, role.dark)), "{}", role.name);
+        }
+    }
+}
