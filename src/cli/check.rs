@@ -5,14 +5,14 @@ use super::failure::Failure;
 use super::files::Files;
 use super::sinks::{self, Sink};
 use super::values::clearance;
-use crate::draw::{Picture, View};
+use crate::draw::{CheckedView, Picture, View};
 use crate::engine::findings::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
 use crate::grammar::number_in;
 use crate::input::{self, JointValues, LoadedScene, RobotReport};
 use crate::model::Scene;
 use crate::output::{configuration, contours, range};
 use crate::space::{Configuration, JointRange};
-use crate::text::{Columns, fixed, format_distinct, round_down};
+use crate::text::{Columns, fixed, format_distinct, length, length_down};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -71,32 +71,43 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let findings = check(scene, q);
     for sink in &sinks {
         if let Sink::Picture(format, path) = sink {
-            sinks::save_picture(*format, path, &view(scene, q, findings.free))?;
+            sinks::save_picture(*format, path, &view(&loaded, q, &findings))?;
         }
     }
     if args.json {
         sinks::print_json(&sinks::pretty(&findings)?)?;
     } else {
-        sinks::sum_up(&text(&loaded, q, &findings), if findings.free { DONE } else { REFUTED })?;
+        let mut columns = Columns::default();
+        report(&loaded, q, &findings).iter().for_each(|(key, value)| columns.add(key, value));
+        sinks::sum_up(&columns.into_text(), if findings.free { DONE } else { REFUTED })?;
     }
     Ok(DONE)
 }
 
-fn view(scene: &Scene, q: Configuration, free: bool) -> View {
-    View::of_picture(&Picture {
+fn view(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings) -> View {
+    let scene = &loaded.scene;
+    let facts = report(loaded, q, findings).into_iter().map(|(key, value)| [key.to_owned(), value]);
+    let view = View::of_picture(&Picture {
         title: vec![scene.arm().name.clone(), configuration(scene.arm(), q)],
-        status: if free { "free".into() } else { "not free".into() },
+        status: outcome(findings).to_owned(),
+        facts: facts.collect(),
         c_obstacles: &contours(scene),
         ..Picture::new(scene, q)
-    })
+    });
+    view.with_findings(CheckedView::from(findings))
 }
 
-fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings) -> String {
+fn outcome(findings: &ConfigurationFindings) -> &'static str {
+    if findings.free { "free" } else { "not free" }
+}
+
+/// Returns the lines of the report, with their keys. A line that continues the one before has an empty key.
+fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings) -> Vec<(&'static str, String)> {
     let scene = &loaded.scene;
     let arm = scene.arm();
-    let mut columns = Columns::default();
-    let mut line = |key: &str, value: String| columns.add(key, &value);
-    line("result", if findings.free { "free".into() } else { "not free".into() });
+    let mut lines = Vec::new();
+    let mut line = |key: &'static str, value: String| lines.push((key, value));
+    line("result", outcome(findings).to_owned());
     line("at", configuration(arm, q));
     let [x, y] = findings.tip.map(|c| fixed(c, 4));
     line("tip", format!("({x}, {y}) m"));
@@ -117,7 +128,7 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
         let PairFinding { link, body, obstacle, touching, depth, .. } = contact;
         let link = if body == link { format!("\"{link}\"") } else { format!("\"{link}\" (body \"{body}\")") };
         let how = match (touching, *depth > 0.0) {
-            (true, true) => format!("penetrates by {depth:.6} m"),
+            (true, true) => format!("penetrates by {}", length(*depth)),
             (true, false) => "touches".into(),
             (false, _) => {
                 let [distance, _] = format_distinct([-depth, findings.required], 6);
@@ -128,7 +139,7 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
         for (whose, corners) in [("link", &contact.link_corners_inside), ("obstacle", &contact.obstacle_corners_inside)]
         {
             for CornerFinding { at, depth } in corners {
-                line("", format!("  {whose} corner ({:.4}, {:.4}) is {depth:.6} m inside", at[0], at[1]));
+                line("", format!("  {whose} corner ({:.4}, {:.4}) is {} inside", at[0], at[1], length(*depth)));
             }
         }
         for [mine, other] in &contact.crossing_sides {
@@ -138,7 +149,7 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
     }
     if let Some(clearance) = findings.clearance.filter(|c| *c > 0.0) {
         let nearest = scene.closest(q).map(|c| scene.describe(c.pair)).unwrap_or_default();
-        line("distance", format!("{} m to the nearest obstacle: {nearest}", round_down(clearance, 6)));
+        line("distance", format!("{} to the nearest obstacle: {nearest}", length_down(clearance)));
     }
     match &findings.nearest_free {
         Some(NearestFinding { configuration: at, distance, resolution, .. }) => {
@@ -161,5 +172,5 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
     let RobotReport { geometry, notes, .. } = &loaded.robot;
     geometry.iter().for_each(|fact| line("", fact.clone()));
     notes.iter().chain(&loaded.world.notes).for_each(|note| line("note", note.clone()));
-    columns.into_text()
+    lines
 }

@@ -24,18 +24,18 @@ const LINE_WIDTH: usize = 78;
 enum ProgressMode {
     /// Prints nothing.
     Silent,
-    /// Prints each event on a line, for a single problem.
-    Reported,
     /// Redraws a bar.
     Bar,
-    /// Prints a line at intervals.
+    /// Prints a line at intervals, and at the end.
     Lines,
+    /// Prints a line at intervals. For work that is usually done at once.
+    LongLines,
 }
 
 /// Counts runs and shows their number.
 #[derive(Debug)]
 pub struct Progress {
-    manner: ProgressMode,
+    mode: ProgressMode,
     /// Plural name of the counted items: runs or layouts.
     things: &'static str,
     total: usize,
@@ -52,31 +52,24 @@ struct State {
 }
 
 impl Progress {
-    /// Creates a display for `total` runs, or other items named `things`. For a `single` problem, it prints each event
-    /// and each message of the planners on a line. For several problems, it shows a bar on a terminal, and otherwise
-    /// prints a line every ten seconds.
+    /// Creates a display for `total` runs, or other items named `things`. It shows a bar on a terminal,
+    /// which vanishes at the end. Otherwise it prints a line every ten seconds and, unless there is a `single` problem, a
+    /// last line.
     pub fn new(total: usize, things: &'static str, single: bool, quiet: bool) -> Self {
-        let manner = match (quiet, single) {
+        let mode = match (quiet, single) {
             (true, _) => ProgressMode::Silent,
-            (false, true) => ProgressMode::Reported,
-            (false, false) if std::io::stderr().is_terminal() => ProgressMode::Bar,
+            (false, _) if std::io::stderr().is_terminal() => ProgressMode::Bar,
+            (false, true) => ProgressMode::LongLines,
             (false, false) => ProgressMode::Lines,
         };
         let now = Instant::now();
-        Self {
-            manner,
-            things,
-            total,
-            started: now,
-            state: Mutex::new(State { done: 0, now: String::new(), shown: now }),
-        }
+        Self { mode, things, total, started: now, state: Mutex::new(State { done: 0, now: String::new(), shown: now }) }
     }
 
     /// Shows the beginning of a run.
     pub fn begin(&self, problem: &str, planner: &str) {
-        match self.manner {
-            ProgressMode::Silent | ProgressMode::Lines => {}
-            ProgressMode::Reported => sinks::print_status(&format!("{planner} ...")),
+        match self.mode {
+            ProgressMode::Silent | ProgressMode::Lines | ProgressMode::LongLines => {}
             ProgressMode::Bar => {
                 let mut state = self.state();
                 state.now = format!("{planner} on {problem}");
@@ -88,32 +81,25 @@ impl Progress {
         }
     }
 
-    /// Shows a planner's message.
-    pub fn print_status(&self, text: &str) {
-        if self.manner == ProgressMode::Reported {
-            sinks::print_status(text);
-        }
-    }
-
     /// Counts the end of a run.
     pub fn done(&self) {
         let mut state = self.state();
         state.done += 1;
-        match self.manner {
+        match self.mode {
             // The bar is drawn when the next run begins.
-            ProgressMode::Silent | ProgressMode::Reported | ProgressMode::Bar => {}
-            ProgressMode::Lines if state.shown.elapsed() >= LINE_INTERVAL => {
+            ProgressMode::Silent | ProgressMode::Bar => {}
+            ProgressMode::Lines | ProgressMode::LongLines if state.shown.elapsed() >= LINE_INTERVAL => {
                 state.shown = Instant::now();
                 sinks::print_status(&line(state.done, self.total, self.things, self.started.elapsed()));
             }
-            ProgressMode::Lines => {}
+            ProgressMode::Lines | ProgressMode::LongLines => {}
         }
     }
 
     /// Ends the display: removes the bar, or prints a last line.
     pub fn end(&self) {
-        match self.manner {
-            ProgressMode::Silent | ProgressMode::Reported => {}
+        match self.mode {
+            ProgressMode::Silent | ProgressMode::LongLines => {}
             ProgressMode::Bar => put(&format!("\r{:LINE_WIDTH$}\r", "")),
             ProgressMode::Lines => {
                 // A search may end before it has made all the runs that were allowed.

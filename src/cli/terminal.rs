@@ -69,12 +69,13 @@ fn narrowed(text: &str, width: usize) -> String {
     text.lines().map(narrowed).collect()
 }
 
-/// Colours the verdict, which ends at the first full stop, by the exit code.
+/// Colours the verdict, which ends at the first punctuation mark, by the exit code, and puts a sign before it: a green tick
+/// for what was found, a red cross for what is infeasible.
 fn painted(text: &str, code: u8) -> String {
-    let color = match code {
-        DONE => AnsiColor::Green,
-        INFEASIBLE => AnsiColor::Red,
-        UNKNOWN => AnsiColor::Yellow,
+    let (color, sign) = match code {
+        DONE => (AnsiColor::Green, '\u{2713}'),
+        INFEASIBLE => (AnsiColor::Red, '\u{2715}'),
+        UNKNOWN => (AnsiColor::Yellow, '?'),
         _ => return text.to_owned(),
     };
     let mut lines = text.split_inclusive('\n');
@@ -85,7 +86,7 @@ fn painted(text: &str, code: u8) -> String {
             let blanks = &result[..result.len() - verdict.len()];
             let (verdict, rest) = verdict.split_at(verdict.find([':', ';', ',', '\n']).unwrap_or(verdict.len()));
             let rest: String = std::iter::once(rest).chain(lines).collect();
-            return format!("{before}result {blanks}{}{rest}", in_color(verdict, color));
+            return format!("{before}result {blanks}{}{rest}", in_color(&format!("{sign} {verdict}"), color));
         }
         before.push_str(line);
     }
@@ -114,10 +115,10 @@ mod tests {
     fn only_the_verdict_is_colored() {
         let text = "shelf\nresult     free: proven\nresult     free\n";
         let green = painted(text, DONE);
-        assert_eq!(anstream::adapter::strip_str(&green).to_string(), text);
+        assert_eq!(anstream::adapter::strip_str(&green).to_string(), text.replacen("free", "\u{2713} free", 1));
         assert_eq!(green.matches("\u{1b}[32m").count(), 1);
         assert!(green.contains("free\u{1b}[0m: proven\nresult     free\n"), "{green:?}");
-        assert!(painted("result     free", INFEASIBLE).contains("\u{1b}[31mfree\u{1b}[0m"));
+        assert!(painted("result     free", INFEASIBLE).contains("\u{1b}[31m\u{2715} free\u{1b}[0m"));
         assert_eq!(painted("no verdict\n", DONE), "no verdict\n");
     }
 

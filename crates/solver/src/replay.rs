@@ -196,7 +196,7 @@ impl Phases {
             }
             Trace::Boxes { free, stuck, mixed } => {
                 let count = free.len() + stuck.len() + mixed.len();
-                let caption = format!("{}, coarse to fine: free ones green, undecided ones yellow", boxes(count));
+                let caption = format!("{}, coarse to fine: free, colliding and undecided", boxes(count));
                 self.add(count, caption, Shows::Boxes);
             }
             Trace::Wavefront { labels, expanded, forward, .. } => {
@@ -251,7 +251,7 @@ impl Phases {
             };
             kind.push([cell.lower.into(), cell.upper.into()]);
         }
-        let caption = "Slabs of joint 1, halved where it matters: free green, undecided yellow";
+        let caption = "Slabs of joint 1, halved where it matters: free, colliding and undecided";
         self.add(seen.len(), caption, Shows::Slabs(found));
     }
 

@@ -47,6 +47,37 @@ pub fn round_down(value: f64, decimals: usize) -> String {
     if value > 0.0 && text.parse() == Ok(0.0) { two_digits_below(value) } else { text }
 }
 
+/// Formats a length in metres with its unit: millimetres below one metre, with up to four significant digits and at most
+/// three decimals: `0.004 mm`, `20.43 mm`, `345.6 mm`, `1.234 m`. If another length than zero would look like zero, it
+/// gets two significant digits.
+#[must_use]
+pub fn length(metres: f64) -> String {
+    let (value, decimals, unit) = in_unit(metres);
+    format!("{} {unit}", nonzero(value, decimals))
+}
+
+/// Formats a positive length in metres as [`length`] does, but rounded down, so that a proven lower bound is still true
+/// as printed.
+#[must_use]
+pub fn length_down(metres: f64) -> String {
+    let (value, decimals, unit) = in_unit(metres);
+    let metres_per_unit = if unit == "mm" { 1e3 } else { 1.0 };
+    let text = shown(value, decimals, |shown| shown / metres_per_unit <= metres, -1.0);
+    let text = if metres > 0.0 && text.parse() == Ok(0.0) { two_digits_below(value) } else { text };
+    format!("{text} {unit}")
+}
+
+/// Returns a length in the unit in which it is displayed, the number of decimals, and the unit.
+fn in_unit(metres: f64) -> (f64, usize, &'static str) {
+    let millimetres = 1e3 * metres;
+    match millimetres.abs() {
+        mm if mm < 10.0 => (millimetres, 3, "mm"),
+        mm if mm < 100.0 => (millimetres, 2, "mm"),
+        mm if mm < 1000.0 => (millimetres, 1, "mm"),
+        _ => (metres, 3, "m"),
+    }
+}
+
 /// Formats a number with fixed decimals, rounded up.
 #[must_use]
 pub fn round_up(value: f64, decimals: usize) -> String {
@@ -68,18 +99,13 @@ fn two_digits_below(value: f64) -> String {
     }
 }
 
-/// Formats a fraction as a percentage, rounded up: `0.04 %`, `8.5e-3 %`. It does not take the rounding error of the
-/// quotient into account.
+/// Formats a fraction as a percentage, rounded up: `0.04 %`, and `0.009 %` with three decimals below a hundredth. It does
+/// not take the rounding error of the quotient into account.
 #[must_use]
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * (share - 2.0 * f64::EPSILON).max(0.0);
-    if percent == 0.0 || percent >= 0.01 {
-        return format!("{} %", round_up(percent, 2));
-    }
-    // Decimals for two significant digits.
-    let decimals = 1 - percent.log10().floor() as i32;
-    let shown = round_up(percent, decimals.unsigned_abs() as usize);
-    shown.parse().map_or(shown.clone(), |shown: f64| format!("{shown:.1e}")) + " %"
+    let decimals = if percent == 0.0 || percent >= 0.01 { 2 } else { 3 };
+    format!("{} %", round_up(percent, decimals))
 }
 
 /// Formats the nearest decimal for which `holds` is true, in the direction `towards`.
@@ -96,6 +122,17 @@ fn shown(value: f64, decimals: usize, holds: impl Fn(f64) -> bool, towards: f64)
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lengths_are_in_millimetres_below_a_metre() {
+        let lengths = [0.0, 4.2e-6, 0.020_434_9, 0.3456, 1.2344, -0.008_064, 4.2e-8];
+        assert_eq!(
+            lengths.map(length),
+            ["0.000 mm", "0.004 mm", "20.43 mm", "345.6 mm", "1.234 m", "-8.064 mm", "4.2e-5 mm"]
+        );
+        let bounds = [4.9e-6, 0.020_439_9, 0.345_69, 1.2349, 4.29e-8, f64::INFINITY];
+        assert_eq!(bounds.map(length_down), ["0.004 mm", "20.43 mm", "345.6 mm", "1.234 m", "4.2e-5 mm", "inf m"]);
+    }
     use proptest::prelude::*;
 
     #[test]
@@ -114,7 +151,7 @@ mod tests {
     #[test]
     fn shares_are_rounded_up_to_two_digits() {
         let shown = [0.0, 1e-16, 0.0004, 0.00040001, 8.41e-5, 9.96e-5, 1.0e-9, 1.01e-9, 0.25].map(percent);
-        let asked = ["0.00 %", "0.00 %", "0.04 %", "0.05 %", "8.5e-3 %", "1.0e-2 %", "1.0e-7 %", "1.1e-7 %", "25.00 %"];
+        let asked = ["0.00 %", "0.00 %", "0.04 %", "0.05 %", "0.009 %", "0.010 %", "0.001 %", "0.001 %", "25.00 %"];
         assert_eq!(shown, asked);
     }
 
@@ -157,7 +194,7 @@ mod tests {
         fn shares_are_no_less(exponent in -14.0..0.5_f64) {
             let share = 10_f64.powf(exponent);
             let shown: f64 = percent(share).trim_end_matches(" %").parse().unwrap();
-            let unit = if share < 1e-4 { share } else { 1e-4 };
+            let unit = if share < 1e-4 { 1e-5 } else { 1e-4 };
             prop_assert!((-1e-15..=1.001 * unit).contains(&(shown / 100.0 - share)), "{share} {shown}");
         }
 

@@ -5,7 +5,7 @@ use super::chart::{self, Chart};
 use super::figure::{Item, Pen, Rect, Step, Style, lines};
 use super::shapes::ABSENT_DASH;
 use super::view::{ContourView, NameView, PanelView, View, WorldView};
-use super::{blocking, boxes, labels, preferences, reach, tags, trace};
+use super::{blocking, boxes, checked, labels, preferences, reach, tags, trace};
 use cplan_theme::{ACCENT, INK, Rgb, WHITE};
 
 /// Pen for goals along a segment.
@@ -62,6 +62,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
         items.push(Item::Disc(chart.place(q.into()), 4.8, Style::line(WHITE, 1.2).filled(ACCENT)));
     }
     items.extend(view.still.stuck.iter().flat_map(|blocking| blocking::in_cspace(blocking, chart)));
+    items.extend(view.still.checked.iter().filter_map(|checked| checked::in_cspace(checked, chart)));
     if view.is_task() && numbers.len() > 1 {
         items.extend(tags::items(&numbers, frame.rect, &[], &[]));
     }

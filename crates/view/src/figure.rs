@@ -1,5 +1,6 @@
 //! The neutral figure: items and their places on the page, without a file format.
 
+use super::letter_widths::letter_width;
 use cplan_theme::{Rgb, WHITE};
 
 /// A rectangle of the page, in pixels.
@@ -236,17 +237,15 @@ pub fn rectangle(rect: Rect) -> Vec<Step> {
     ]
 }
 
-/// Estimates the width of a text in pixels from typical widths of letters, in units of the font's height. The true
-/// width is unknown, because viewers choose their fonts.
+/// Returns the width of a text in pixels in the built-in font, for a height of the font in pixels. The width of letters
+/// that are not Latin is an estimate.
 #[must_use]
 pub fn text_width(text: &str, size: f64) -> f64 {
-    let advance = |c: char| match c {
-        'i' | 'j' | 'l' | 'f' | 't' | 'r' | 'I' | ' ' | '.' | ',' | ':' | ';' | '\'' | '|' | '(' | ')' => 0.3,
-        'm' | 'w' | 'M' | 'W' | '@' => 0.82,
+    let advance = |c: char| match (letter_width(c), c) {
+        (Some(width), _) => width,
         // East Asian characters fill a square.
-        '\u{2e80}'.. => 1.0,
-        c if c.is_uppercase() => 0.64,
-        _ => 0.53,
+        (None, '\u{2e80}'..) => 1.0,
+        (None, _) => 0.56,
     };
     text.chars().map(advance).sum::<f64>() * size
 }

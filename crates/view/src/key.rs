@@ -23,6 +23,8 @@ pub enum Sign {
     Dashed(Rgb),
     /// The hatch of a proof.
     Hatched,
+    /// A place of contact.
+    Contact,
     /// A point of a channel: the middle of a portal, or the centre of a cell.
     Point {
         /// True for the middle of a portal.
@@ -73,6 +75,7 @@ impl KeyView {
             Sign::Shade(_) => "shade",
             Sign::Dashed(_) => "dashed",
             Sign::Hatched => "hatched",
+            Sign::Contact => "contact",
             Sign::Point { middle: true } => "middle",
             Sign::Point { middle: false } => "center",
         };
@@ -83,7 +86,7 @@ impl KeyView {
             }
             Sign::Swatch(color) | Sign::Dashed(color) => Self { color: Some(cplan_theme::role_or_hex(color)), ..bare },
             Sign::Shade(part) => Self { part: Some(part), ..bare },
-            Sign::Start | Sign::Goal | Sign::Unreached | Sign::Hatched | Sign::Point { .. } => bare,
+            Sign::Start | Sign::Goal | Sign::Unreached | Sign::Hatched | Sign::Contact | Sign::Point { .. } => bare,
         }
     }
 }

@@ -4,7 +4,7 @@ use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shor
 use super::flow::FieldLines;
 use super::key::{Key, KeyView, Layered, Sign};
 use super::view::{MAX_NAMED_OBSTACLES, ObstacleView, PathView, TraceView, View};
-use super::{blocking, boxes, channel, cspace, preferences, reach, shapes, trace};
+use super::{blocking, boxes, channel, checked, cspace, preferences, reach, shapes, trace};
 use cplan_theme::{GRAY, INFEASIBLE, INK, PALE};
 
 /// Height of a row, in pixels.
@@ -69,6 +69,7 @@ fn all(view: &View, still: bool) -> Vec<Layered> {
     let reach = view.still.reach.as_ref().map_or_else(Vec::new, reach::keys);
     keys.extend(reach.into_iter().map(|key| -> Layered { (key, &["access"]) }));
     keys.extend(view.still.stuck.as_ref().map_or_else(Vec::new, blocking::keys).into_iter().map(always));
+    keys.extend(view.still.checked.as_ref().map_or_else(Vec::new, checked::keys).into_iter().map(always));
     keys.push(always((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned())));
     keys.extend(obstacles(world.obstacles.iter().filter(|obstacle| obstacle.lies())).into_iter().map(always));
     let movers: Vec<ObstacleView> = world.movers.iter().map(|mover| mover.at(0.0)).collect();
@@ -160,6 +161,7 @@ fn sign(sign: &Sign, x: f64, y: f64) -> Vec<Item> {
             vec![Item::Outline(rectangle(swatch(x, y)), Style::line(*color, 1.4).dashed(shapes::ABSENT_DASH))]
         }
         Sign::Hatched => boxes::hatched(&[swatch(x, y)]),
+        Sign::Contact => vec![checked::contact_marker([x + SIGN_WIDTH - 8.0, y])],
         Sign::Point { middle } => vec![channel::sign([x + SIGN_WIDTH - 8.0, y], *middle)],
     }
 }

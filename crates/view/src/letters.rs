@@ -36,6 +36,13 @@ impl Font {
         pen.path.finish()
     }
 
+    /// Returns the width of a letter as a fraction of the font's height. `None` if the font lacks the letter.
+    #[cfg(test)]
+    pub fn letter_width(&self, letter: char) -> Option<f64> {
+        let glyph = self.0.glyph_index(letter)?;
+        Some(f64::from(self.0.glyph_hor_advance(glyph)?) / f64::from(self.0.units_per_em()))
+    }
+
     /// Returns the glyphs of a text. A letter that the font lacks becomes a box.
     fn glyphs(&self, text: &str) -> Vec<GlyphId> {
         text.chars().map(|letter| self.0.glyph_index(letter).unwrap_or_default()).collect()

@@ -21,6 +21,7 @@ mod axes;
 mod boxes;
 mod channel;
 mod chart;
+mod checked;
 mod copies;
 mod cspace;
 mod exploration;
@@ -33,6 +34,7 @@ mod grid;
 mod key;
 mod labels;
 mod legend;
+mod letter_widths;
 #[cfg(feature = "png")]
 mod letters;
 mod obstacles;
@@ -54,6 +56,7 @@ mod wave_numbers;
 mod workspace;
 
 pub use blocking::BlockingView;
+pub use checked::CheckedView;
 pub use exploration::exploration_page;
 pub use flow::FieldLines;
 pub use obstacles::{extent, obstacles, still_page};

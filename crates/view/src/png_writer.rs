@@ -31,11 +31,20 @@ impl Rasterizer {
     fn drawn(&self, svg: &str, scale: impl FnOnce(f64) -> f64) -> Result<Pixmap, DrawError> {
         let document = roxmltree::Document::parse(svg).map_err(|e| DrawError::Svg(e.to_string()))?;
         let root = document.root_element();
-        let units = [f64::from(number(root, "width")?), f64::from(number(root, "height")?)];
+        let units = view_size(root)?;
         let scale = scale(units[0]);
         let mut pixels = blank(units, scale)?;
         paint(&self.0, root, Transform::from_scale(scale as f32, scale as f32), &mut pixels)?;
         Ok(pixels)
+    }
+}
+
+/// Returns the width and the height of a document in its own units.
+fn view_size(root: roxmltree::Node) -> Result<[f64; 2], DrawError> {
+    let sides = root.attribute("viewBox").map(|text| text.split_whitespace().map(str::parse).collect());
+    match sides.and_then(|sides: Result<Vec<f64>, _>| sides.ok()).as_deref() {
+        Some(&[0.0, 0.0, width, height]) => Ok([width, height]),
+        _ => Err(DrawError::Svg("a picture needs a viewBox that begins at 0 0".into())),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Figures as SVG.
 
-use super::figure::{Anchor, Figure, Item, Label, Raster, Rect, Step, Style};
+use super::figure::{Anchor, Figure, Item, Label, Raster, Rect, Step, Style, text_width};
+use super::letter_widths::letter_width;
 use ::svg::Document;
 use ::svg::node::element::{Circle, ClipPath, Definitions, Group, Path, Rectangle, Text};
 use std::fmt::Write;
@@ -12,7 +13,8 @@ const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
 /// single precision are exact to a tenth of a pixel.
 const MAX_COORDINATE: f64 = 1e6;
 
-/// Writes the figure as an SVG document. The result is deterministic to the byte; coordinates have two decimals.
+/// Writes the figure as an SVG document without a size of its own: it fills the width that its reader gives it. Texts have
+/// the widths of the built-in font in any other font, too. The result is deterministic to the byte; coordinates have two decimals.
 #[must_use]
 pub fn write(figure: &Figure) -> String {
     let ground = Rectangle::new().set("width", number(figure.width)).set("height", number(figure.height));
@@ -37,8 +39,6 @@ fn document(figure: &Figure, ground: Group) -> String {
         definitions = definitions.add(ClipPath::new().set("id", clip_id(i)).add(rectangle(rect)));
     }
     Document::new()
-        .set("width", number(figure.width))
-        .set("height", number(figure.height))
         .set("viewBox", format!("0 0 {} {}", number(figure.width), number(figure.height)))
         .add(definitions)
         .add(page)
@@ -133,6 +133,11 @@ fn text(label: &Label) -> Text {
             Anchor::End => "end",
         },
     );
+    // A reader without this font fits its own letters into the same width.
+    if label.text.chars().all(|letter| letter_width(letter).is_some()) && !label.text.is_empty() {
+        text =
+            text.set("textLength", number(text_width(&label.text, label.size))).set("lengthAdjust", "spacingAndGlyphs");
+    }
     if label.upwards {
         text = text.set("transform", format!("rotate(-90 {x} {y})"));
     }

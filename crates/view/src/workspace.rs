@@ -5,7 +5,7 @@ use super::axes::{Frame, Unit};
 use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines};
 use super::labels::{self, Named};
 use super::view::{ObstacleView, PathView, View, around, reach_shape, titles};
-use super::{blocking, frames, preferences, reach, shapes, tags};
+use super::{blocking, checked, frames, preferences, reach, shapes, tags};
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 use cplan_theme::{GRAY, INFEASIBLE, INK, PALE, WHITE};
@@ -47,6 +47,9 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     }
     inside.extend(
         still.stuck.iter().flat_map(|blocking| blocking::in_workspace(blocking, arm, view.first_world(), &frame)),
+    );
+    inside.extend(
+        still.checked.iter().flat_map(|checked| checked::in_workspace(checked, arm, view.first_world(), &frame)),
     );
     inside.extend(hidden_note(&frame, lying()));
     let mut items = vec![Item::Clip(frame.rect, inside)];

@@ -173,9 +173,10 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
 }
 
 /// Returns the options for a planner. Bounds are computed separately, in the same way for all planners. Only a planner
-/// for which a gap is required computes its own bound.
+/// whose path depends on its bound computes its own: `shortest`, and planners for which a gap is required.
 fn options(args: &CompareArgs, planner: Planner, levels: usize) -> Options {
-    let (drive, jerk, bounded) = (args.motion.drive(), args.motion.jerk(), planner.gap().is_some());
+    let bounded = planner.method() == Method::Shortest || planner.gap().is_some();
+    let (drive, jerk) = (args.motion.drive(), args.motion.jerk());
     Options { planner, levels, bounded, drive, jerk, ..Options::default() }
 }
 

@@ -4,7 +4,7 @@ use super::cases::{Case, Cases};
 use crate::cli::memory::MemoryMeter;
 use crate::cli::progress::Progress;
 use crate::cli::sinks;
-use crate::engine::{Motion, Options, PlanError, Problem, bound, plan, plan_with};
+use crate::engine::{Motion, Options, PlanError, Problem, bound, plan};
 use crate::model::{MotionProblem, Outcome, Status};
 use crate::parallel::in_order;
 use crate::planner::PathKind;
@@ -114,8 +114,7 @@ impl Runner<'_> {
         if is_first {
             plan(&problem, &Options { levels: 1, boxes: WARM_UP_BOXES, ..*options })?;
         }
-        let mut report_progress = |text: &str| self.progress.print_status(text);
-        let mut work = || plan_with(&problem, options, &mut report_progress);
+        let mut work = || plan(&problem, options);
         let (made, memory) = match self.meter {
             Some(meter) => {
                 let (made, bytes) = meter.measure(work);

@@ -7,7 +7,7 @@ use crate::engine::findings::{
 use crate::model::Arm;
 use crate::output::{Line, StepLine, configuration, laid_out, step_lines};
 use crate::space::Recording;
-use crate::text::{counted, format_distinct, nonzero, round_down};
+use crate::text::{counted, format_distinct, length, length_down, nonzero};
 
 /// Depths below this, metres, count as rounding.
 const TOUCHING_DEPTH: f64 = 1e-9;
@@ -52,21 +52,17 @@ fn collisions(arm: &Arm, collisions: &CollisionFinding, verdict: Judgement) -> V
     };
     let depth = |e: &EncounterFinding| match e.depth {
         d if (0.0..TOUCHING_DEPTH).contains(&d) => "just touching".into(),
-        d if d >= 0.0 => format!("{} m deep", nonzero(d, 6)),
-        d => format!("{} m apart", nonzero(-d, 6)),
+        d if d >= 0.0 => format!("{} deep", length(d)),
+        d => format!("{} apart", length(-d)),
     };
     let mut lines = Vec::new();
     match (collisions.clearance, &collisions.nearest) {
         (Some(proven), Some(nearest)) => {
-            let seen = format!(
-                "{} m proven; least seen {} m: {}",
-                round_down(proven, 6),
-                nonzero(-nearest.depth, 6),
-                place(nearest)
-            );
+            let seen =
+                format!("{} proven; least seen {}: {}", length_down(proven), length(-nearest.depth), place(nearest));
             lines.push(("clearance", seen));
         }
-        (Some(clearance), None) => lines.push(("clearance", format!("{} m proven", round_down(clearance, 6)))),
+        (Some(clearance), None) => lines.push(("clearance", format!("{} proven", length_down(clearance)))),
         (None, None) if verdict != Judgement::Collision && collisions.undecided.is_none() => {
             lines.push(("clearance", "no obstacle within reach".into()));
         }

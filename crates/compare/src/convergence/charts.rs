@@ -24,7 +24,7 @@ impl Convergence {
             TITLE_HEIGHT + CHART_SIZE[1] * charts.len().div_ceil(CHARTS_PER_ROW) as f64,
         ];
         let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n\
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\">\n\
              <rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n\
              <g font-family=\"{FONTS}\" font-size=\"12\" fill=\"#22262b\">\n",
             number(width),

@@ -123,7 +123,7 @@ impl Joint {
         if self.joint_type.is_revolute() { "N m" } else { "N" }
     }
 
-    /// Returns a value with its unit, angles in radians and degrees: `0.3491 rad (20.00 deg)`.
+    /// Returns a value with its unit, angles in degrees and radians: `20.00 deg (0.3491 rad)`.
     #[must_use]
     pub fn shown(&self, value: f64) -> String {
         let [shown] = self.format_distinct([value]);
@@ -136,7 +136,7 @@ impl Joint {
         let mut texts = format_distinct(values, 4);
         if self.joint_type.is_revolute() {
             let degrees = format_distinct(values.map(f64::to_degrees), 2);
-            texts.iter_mut().zip(degrees).for_each(|(text, degrees)| *text += &format!(" rad ({degrees} deg)"));
+            texts.iter_mut().zip(degrees).for_each(|(text, degrees)| *text = format!("{degrees} deg ({text} rad)"));
         } else {
             texts.iter_mut().for_each(|text| *text += " m");
         }

@@ -9,7 +9,7 @@ use cplan_explain::{
     FoundExplanation, InfeasibleExplanation, OutOfReach, TIME_LIMIT, Target,
 };
 use cplan_solver::BoundedPath;
-use cplan_text::{fixed, listed, nonzero, percent, round_down, round_up, short};
+use cplan_text::{fixed, length_down, listed, nonzero, percent, round_down, round_up, short};
 
 /// If an explanation was stopped early, cplan suggests its time limit times this factor.
 const TIME_LIMIT_FACTOR: f64 = 12.0;
@@ -118,10 +118,7 @@ fn found(scene: &Scene, FoundExplanation { answer, savings }: &FoundExplanation)
     {
         let between = scene.describe(nearest.contact.pair);
         let at = configuration(scene.arm(), nearest.at);
-        lines.push((
-            "tightest",
-            format!("at least {} m, between {between} at {at}", round_down(certified.clearance(), 6)),
-        ));
+        lines.push(("tightest", format!("at least {}, between {between} at {at}", length_down(certified.clearance()))));
     }
     lines
 }

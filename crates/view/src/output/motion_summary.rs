@@ -10,7 +10,7 @@ use cplan_motion::CertifiedCurve;
 use cplan_motion::{DurationOptimality, TimedMotion};
 use cplan_movers::{Timing, Wait};
 use cplan_solver::{Answer, Bound, GridSpace, Space};
-use cplan_text::{counted, percent, round_down};
+use cplan_text::{counted, length_down, percent, round_down};
 
 /// Returns the lines of the summary: the planner's result and work, and the query.
 pub(super) fn summary_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> SummaryLines {
@@ -57,7 +57,8 @@ fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motio
     if problem.goals().pieces().iter().any(|goals| !goals.is_point()) {
         lines.push(("reached", configuration(arm, path.goal())));
     }
-    lines.extend(motion.path.bound.iter().map(|bound| ("optimum", optimum(bound))));
+    let is_timed = motion.timing.is_some();
+    lines.extend(motion.path.bound.iter().map(|bound| ("optimum", optimum(bound, is_timed))));
     let (samples, corners) = (trajectory.time.len(), corners(curve));
     lines.push(("motion", format!("{:.3} s, {samples} samples{corners}", trajectory.duration())));
     lines.extend(torque(arm, trajectory));
@@ -115,8 +116,8 @@ pub(super) fn blocked_by(problem: &MotionProblem, answer: &Answer<Motion>) -> Op
 fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
     match curve.nearest() {
         Some(nearest) => format!(
-            "{} m proven; closest: {} at {}",
-            round_down(curve.clearance(), 6),
+            "{} proven; closest: {} at {}",
+            length_down(curve.clearance()),
             scene.describe(nearest.contact.pair),
             configuration(scene.arm(), nearest.at)
         ),
@@ -128,7 +129,7 @@ fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
 pub(super) fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
     let Timing { obstacles, ways, waits, clearance, free_until } = timing;
     let kept =
-        clearance.map_or_else(|| "all of them out of reach".into(), |kept| format!("{} m proven", round_down(kept, 6)));
+        clearance.map_or_else(|| "all of them out of reach".into(), |kept| format!("{} proven", length_down(kept)));
     let stays = free_until.map_or_else(|| "for ever".into(), |until| format!("until {until:.3} s"));
     let tried = counted(*ways, "route");
     let mut lines = vec![(
@@ -163,8 +164,9 @@ fn least_time(fastest: &DurationOptimality) -> String {
     format!("proven: no motion takes less than {} s{longer}", round_down(lower_bound, 3))
 }
 
-/// Describes how near the path is to the optimum.
-fn optimum(bound: &Bound) -> String {
+/// Describes how near the path is to the optimum. The bound ignores moving obstacles, so that it says little about a path
+/// among them.
+fn optimum(bound: &Bound, is_among_movers: bool) -> String {
     let Bound { metric, lower, upper } = *bound;
     let measure = match metric {
         Metric::Euclidean => format!("length {upper:.4}"),
@@ -172,5 +174,8 @@ fn optimum(bound: &Bound) -> String {
         Metric::Time { .. } => format!("{upper:.4} s at top speed"),
     };
     let (lower, gap) = (round_down(lower, 4), percent(bound.gap()));
+    if is_among_movers {
+        return format!("{measure}; fastest not proven: none below {lower} without the moving obstacles");
+    }
     format!("{measure}; proven: none below {lower}, so at most {gap} longer than the shortest")
 }

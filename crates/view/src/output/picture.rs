@@ -8,7 +8,7 @@ use cplan_engine::{Detail, Motion, Plan};
 use cplan_handling::{Task, TimedScene};
 use cplan_solver::{Answer, Options};
 use cplan_tasks::TaskAnswer;
-use cplan_text::{counted, round_down};
+use cplan_text::{counted, length_down};
 use std::path::Path;
 use thiserror::Error;
 
@@ -222,7 +222,7 @@ pub fn status(status: Status) -> &'static str {
 
 /// Describes the proven clearance of a motion.
 fn kept(clearance: Option<f64>) -> String {
-    clearance.map_or("no obstacle within reach".into(), |c| format!("proven clearance {} m", round_down(c, 6)))
+    clearance.map_or("no obstacle within reach".into(), |c| format!("proven clearance {}", length_down(c)))
 }
 
 /// Returns the title of a scene: the names of the workspace and of the robot.

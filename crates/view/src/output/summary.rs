@@ -43,24 +43,33 @@ pub fn range(joint: &Joint) -> String {
     }
 }
 
-/// Returns the result in some ten lines for people, the verdict first. It includes the written files, and the times of
-/// the stages after planning, in milliseconds. If `is_verbose`, it also describes how the robot was read.
+/// Keys of the lines about the planner's work.
+const DETAIL_KEYS: [&str; 4] = ["planner", "cells", "exact", "field"];
+
+/// Returns the result in a few lines for people, the verdict first. It includes the written files, and notes about
+/// assumed values. If `is_verbose`, it also describes the planner's work, the times of all stages (those `after` planning
+/// included) in milliseconds, the problem, the arm, and how the robot was read.
 #[must_use]
 pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Duration)], is_verbose: bool) -> String {
     let SummaryLines { found: mut lines, asked } = summary_lines(plan);
     if let Some(blocked) = plan.motion().and_then(|(problem, answer)| motion_summary::blocked_by(problem, answer)) {
         lines.insert(1, blocked);
     }
+    lines.retain(|(key, _)| is_verbose || !DETAIL_KEYS.contains(key));
     lines.extend(files.iter().map(|file| ("file", file.clone())));
+    let robot = plan.problem().robot();
+    let notes = robot.notes.iter().chain(plan.problem().notes()).map(|note| ("note", note.clone()));
+    if !is_verbose {
+        lines.extend(notes);
+        return laid_out(&lines);
+    }
     let stages = plan.timings().iter().chain(after);
     let stages: Vec<String> = stages.map(|(name, time)| format!("{name} {:.1}", time.as_secs_f64() * 1e3)).collect();
     lines.push(("time", format!("{} ms", stages.join(", "))));
     lines.extend(asked);
     lines.extend(arm_lines(plan.arm()));
-    let robot = plan.problem().robot();
-    let geometry = robot.geometry.iter().filter(|_| is_verbose);
-    lines.extend(geometry.map(|fact| ("robot", fact.clone())));
-    lines.extend(robot.notes.iter().chain(plan.problem().notes()).map(|note| ("note", note.clone())));
+    lines.extend(robot.geometry.iter().map(|fact| ("robot", fact.clone())));
+    lines.extend(notes);
     laid_out(&lines)
 }
 

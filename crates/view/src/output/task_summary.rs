@@ -7,7 +7,7 @@ use cplan_core::model::{Arm, Outcome};
 use cplan_engine::Plan;
 use cplan_handling::Task;
 use cplan_tasks::{FailedStep, Leg, TaskAnswer, TaskMotion};
-use cplan_text::{counted, nonzero, percent, round_down};
+use cplan_text::{counted, length_down, percent, round_down};
 
 /// Returns the results of the steps, and the task.
 pub(super) fn summary_lines(plan: &Plan, task: &Task, answer: &TaskAnswer) -> SummaryLines {
@@ -47,7 +47,7 @@ fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
     let seconds = leg.timed.trajectory.duration();
     let turn = leg.turn.map_or(String::new(), |(_, seconds)| format!(", turn in {seconds:.3} s"));
     let clearance = match leg.clearance() {
-        clearance if clearance.is_finite() => format!("clearance {} m", nonzero(clearance, 4)),
+        clearance if clearance.is_finite() => format!("clearance {}", length_down(clearance)),
         _ => "no obstacle within reach".into(),
     };
     let number = format!("{}{cycle}", leg.step.number);
@@ -108,6 +108,6 @@ fn clearance(answer: &TaskAnswer) -> Option<Line> {
         (_, Some(nearest)) => least.scene.describe(nearest.contact.pair),
         (_, None) => return Some(("clearance", "no obstacle within reach".into())),
     };
-    let kept = round_down(least.clearance(), 6);
-    Some(("clearance", format!("{kept} m proven; closest: {closest} in step {step}{file}{cycle}")))
+    let kept = length_down(least.clearance());
+    Some(("clearance", format!("{kept} proven; closest: {closest} in step {step}{file}{cycle}")))
 }

@@ -8,6 +8,7 @@ use super::steps::Row;
 use super::trace::TraceView;
 use super::world::{ObstacleView, WorldView};
 use crate::blocking::BlockingView;
+use crate::checked::CheckedView;
 use crate::flow::FieldLines;
 use cplan_core::model::{Arm, Status};
 use cplan_core::space::Configuration;
@@ -83,6 +84,8 @@ pub(crate) struct StillContent {
     pub time: f64,
     /// The obstacles that block the motion.
     pub stuck: Option<BlockingView>,
+    /// The findings about a checked configuration.
+    pub checked: Option<CheckedView>,
     /// The arm's final configuration, and the index of the world at the end.
     pub end: Option<([f64; 2], usize)>,
     /// The steps of a task, below the names of the columns; empty for single motions.
@@ -153,6 +156,13 @@ impl View {
     #[must_use]
     pub fn with_blocking(mut self, stuck: BlockingView) -> Self {
         self.still.stuck = Some(stuck);
+        self
+    }
+
+    /// Returns the view with the findings about its configuration.
+    #[must_use]
+    pub fn with_findings(mut self, checked: CheckedView) -> Self {
+        self.still.checked = Some(checked);
         self
     }
 

@@ -1,14 +1,16 @@
 //! The document of a view for the page's code.
 
-use super::content::View;
+use super::content::{StillContent, View};
 use super::numbers::RoundingSteps;
 use crate::blocking::BlockingView;
+use crate::checked::CheckedView;
 use crate::key::KeyView;
 use crate::legend;
 use crate::reach::ReachView;
 use serde::Serialize;
 
-/// A view, the meaning of its signs, the obstacles that block a missing motion, and the places that the tip can reach.
+/// A view, the meaning of its signs, the obstacles that block a missing motion, the findings about a checked
+/// configuration, and the places that the tip can reach.
 #[derive(Serialize)]
 struct Document<'a> {
     #[serde(flatten)]
@@ -16,6 +18,8 @@ struct Document<'a> {
     legend: Vec<KeyView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     stuck: Option<&'a BlockingView>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    checked: Option<&'a CheckedView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<ReachView>,
 }
@@ -28,8 +32,9 @@ impl View {
     #[must_use]
     pub fn json(&self) -> String {
         let reach = self.still.reach.as_ref().map(|reach| ReachView::new(reach, RoundingSteps::of(&self.arm)));
-        let stuck = self.still.stuck.as_ref();
-        let document = Document { view: self, legend: legend::on_pages(self), stuck, reach };
+        let StillContent { stuck, checked, .. } = &self.still;
+        let (stuck, checked) = (stuck.as_ref(), checked.as_ref());
+        let document = Document { view: self, legend: legend::on_pages(self), stuck, checked, reach };
         serde_json::to_string(&document).expect("numbers and strings")
     }
 }
