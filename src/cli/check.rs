@@ -9,7 +9,6 @@ use crate::draw::{CheckedView, Picture, View};
 use crate::engine::findings::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
 use crate::grammar::number_in;
 use crate::input::{self, JointValues, LoadedScene, RobotReport};
-use crate::model::Scene;
 use crate::output::{configuration, contours, range};
 use crate::space::{Configuration, JointRange};
 use crate::text::{Columns, fixed, format_distinct, length, length_down};

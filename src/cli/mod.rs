@@ -144,9 +144,9 @@ struct Cli {
 }
 
 impl Cli {
-    /// Returns the grammar for parsing and help. Subcommands are in groups. Only `cplan planners` shows the options of
+    /// Returns the grammar for help and error messages. Subcommands are in groups. Only `cplan planners` shows the options of
     /// planners.
-    fn to_read() -> clap::Command {
+    fn for_messages() -> clap::Command {
         let grammar = Self::command();
         let template = commands::help_template(&grammar, GROUPS);
         let usage = "cplan [plan] [OPTIONS] <URDF> <WORLD>\n       cplan <COMMAND>";
@@ -187,7 +187,12 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
 pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     let in_json = arguments.iter().any(|argument| argument == "--json");
     let first = arguments.get(1).cloned();
-    let cli = match Cli::to_read().try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches)) {
+    // To arrange the help takes as long as to read the command line, so that is done only for messages.
+    let reread = |_| {
+        let matches = Cli::for_messages().try_get_matches_from(&arguments);
+        matches.and_then(|matches| Cli::from_arg_matches(&matches))
+    };
+    let cli = match Cli::try_parse_from(&arguments).or_else(reread) {
         Ok(cli) => cli,
         Err(error) => {
             let is_word = matches!(error.kind(), ErrorKind::ArgumentConflict | ErrorKind::MissingRequiredArgument);

@@ -1,7 +1,7 @@
 //! Pictures of obstacles alone, without an arm.
 
 use super::axes::{Frame, Range, Unit};
-use super::color;
+
 use super::figure::Item;
 use super::key::{Key, Sign};
 use super::view::{ObstacleView, RoundingSteps, around};

@@ -2,7 +2,7 @@
 
 use super::DrawError;
 use super::letters::Font;
-use super::svg_painter::{number, paint};
+use super::svg_painter::paint;
 use tiny_skia::{Pixmap, Transform};
 
 /// Greatest side of a picture, in pixels. It fits into 16 bits, and a picture of this size needs at most 1 GB.

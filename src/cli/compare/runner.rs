@@ -114,7 +114,7 @@ impl Runner<'_> {
         if is_first {
             plan(&problem, &Options { levels: 1, boxes: WARM_UP_BOXES, ..*options })?;
         }
-        let mut work = || plan(&problem, options);
+        let work = || plan(&problem, options);
         let (made, memory) = match self.meter {
             Some(meter) => {
                 let (made, bytes) = meter.measure(work);

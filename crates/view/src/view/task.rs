@@ -9,7 +9,7 @@ use super::states::{PayloadState, describe, payload_states};
 use super::steps::{Order, rounds, rows, words};
 use super::task_picture::TaskPicture;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
-use crate::{FieldLines, color};
+use crate::FieldLines;
 use cplan_core::model::{Additions, Obstacle, Scene};
 use cplan_geometry::Pose;
 use cplan_handling::{Object, ObstacleTrajectory, Task, TimedScene};
@@ -71,6 +71,7 @@ impl View {
             now: None,
             reach: None,
             stuck: None,
+            checked: None,
             field_lines: FieldLines::default(),
             panels: panels(picture, &order, &paths, world, grain),
             placed: placed.collect(),
