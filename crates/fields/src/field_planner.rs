@@ -204,7 +204,7 @@ fn why(stuck: &DeadEnd, domain: &Domain, equation: &Equation, on: Device) -> Str
     match stuck {
         _ if !equation.is_monotone_on(domain) => not_monotone(equation),
         DeadEnd { value: 0.0, .. } => format!("its values are too small for {}", on.precision()),
-        DeadEnd { value, .. } => format!("values around {value} differ by less than {} can tell", on.precision()),
+        DeadEnd { value, .. } => format!("values around {value} differ by less than {} can represent", on.precision()),
     }
 }
 

@@ -87,7 +87,7 @@ const KEPT_CELLS: usize = 32;
 pub enum MetricName {
     /// Square root of the sum of squares; a radian counts like a metre.
     Euclidean,
-    /// The same with the joints' values multiplied by --weights.
+    /// As euclidean, with the joints' values multiplied by --weights.
     Weighted,
     /// Time that the joints need at top speed, seconds.
     Time,

@@ -60,7 +60,7 @@ fn all_solutions_are_there_and_put_the_tip_at_the_centres() {
     }
     assert_eq!(all.len(), expected);
     let picture = place.read("r.svg");
-    for part in ["Workspace", "Configuration space", "the tip can get there, one way"] {
+    for part in ["Workspace", "Configuration space", "the tip can reach it, with one IK solution"] {
         assert!(picture.contains(part), "{part}");
     }
 }

@@ -105,7 +105,8 @@ impl<'a> Scene<'a> {
                 }
                 "instance_geometry" => {
                     let target = target()?;
-                    let mesh = self::child(target, "mesh").ok_or("the checker knows geometries that are a <mesh>")?;
+                    let mesh =
+                        self::child(target, "mesh").ok_or("the checker reads only geometries that are a <mesh>")?;
                     self.positions(mesh, to_file)?;
                 }
                 "instance_controller" => return Err("the checker does not read meshes that controllers deform".into()),

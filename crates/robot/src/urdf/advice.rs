@@ -79,8 +79,8 @@ fn length(arm: &Arm) -> Option<String> {
     let [first, second] = lengths(arm);
     (first + second > MAX_PLAUSIBLE_LENGTH).then(|| {
         format!(
-            "the arm is {} m and {} m long, joint to joint and joint to tip: URDF has lengths in metres, those in millimetres are to be \
-             divided by 1000",
+            "the arm is {} m and {} m long, joint to joint and joint to tip: a URDF has lengths in metres; divide \
+             lengths in millimetres by 1000",
             short(first),
             short(second)
         )

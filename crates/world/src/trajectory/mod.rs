@@ -25,8 +25,8 @@ use samples::{Names, Samples, Series, misplaced};
 use std::path::Path;
 
 /// Note about accelerations that do not determine the motion between samples.
-const STATED_ACCELERATIONS_NOTE: &str = "accelerations in the file are held to the limits, but do not change the motion: positions and velocities \
-                      imply it";
+const STATED_ACCELERATIONS_NOTE: &str = "accelerations in the file must keep the limits, but do not change the motion, \
+                                         which follows from positions and velocities";
 
 /// A recorded motion, and how it was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -145,7 +145,7 @@ impl<'a> Names<'a> {
                 None => {
                     let others = samples.joints.iter().chain(&chosen).map(|s| &s.name);
                     let message = format!("holds no positions of joint \"{name}\"; it holds {}", quoted(others));
-                    let help = format!("the arm's joints are {}: give the positions these names", quoted(self.arm));
+                    let help = format!("name the positions after the arm's joints: {}", quoted(self.arm));
                     return Err(source.diagnostic(message).help(help));
                 }
             }

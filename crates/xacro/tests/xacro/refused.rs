@@ -21,7 +21,7 @@ fn mistakes_are_named_with_file_line_and_hint() {
     for (text, parts) in [
         ("\n<v v=\"${nothing}\"/>", &["r.xacro:3:", "no property \"nothing\"", "xacro:property"][..]),
         ("<v v=\"${sin}\"/>", &["it is a function"]),
-        ("<v v=\"${1 +}\"/>", &["something is missing at its end"]),
+        ("<v v=\"${1 +}\"/>", &["its end is missing"]),
         ("<v v=\"${(1\"/>", &["\"${\" has no closing }"]),
         ("<v v=\"${1 / 0}\"/>", &["divides by zero"]),
         ("<v v=\"${'a' + 1}\"/>", &["'a' (text) and '1' (int)", "str(...)"]),
