@@ -270,7 +270,7 @@ def test_where_the_tip_can_get_is_seen_as_in_the_picture(program, show_file):
     legend = seen.page.locator(".legend li").all_inner_texts()
     assert "the tip can reach it, with one IK solution" in legend and all(text in picture.read_text() for text in legend)
     seen.shoot("reach")
-    seen.page.get_by_role("checkbox", name="where the tip can get").uncheck()
+    seen.page.get_by_role("checkbox", name="reachable tip positions").uncheck()
     assert pixels(seen, "workspace") != full[0] and pixels(seen, "cspace") != full[1]
     assert "the tip can reach it, with one IK solution" not in seen.page.locator(".legend li").all_inner_texts()
 
