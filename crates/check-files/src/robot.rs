@@ -57,7 +57,7 @@ impl<'a> Robot<'a> {
         let (mut tree, movable) = Tree::read(document, files)?;
         let (stated, implied) = (&world.robot.joints, implied.map(|names| names.to_vec()));
         if stated.is_some() && implied.is_some() && *stated != implied {
-            return CheckError::fails("it is about other joints than the world");
+            return CheckError::fails("it is for other joints than those that the world names");
         }
         let own = || movable.iter().map(|name| (*name).to_owned()).collect();
         let chosen: Vec<String> = stated.clone().or(implied).unwrap_or_else(own);
