@@ -545,7 +545,7 @@ fn worlds_with_unknown_requests() {
             "another object or obstacle",
         ),
         ("[[step]]\npick", "[task]\norder = \"free\"\n[[step]]\npick", "pick, place, pick, place"),
-        ("[[step]]\npick", "[task]\nrepeat = 0\n[[step]]\npick", "a whole number from 1 on"),
+        ("[[step]]\npick", "[task]\nrepeat = 0\n[[step]]\npick", "a whole number of at least 1"),
         ("[[step]]\npick", "[[step]]\nsteps = []\n[[step]]\npick", "there are no steps"),
     ] {
         is_wrong(with(old, new), part);

@@ -96,7 +96,7 @@ impl<'a> Scene<'a> {
         }
         for child in node.children().filter(Node::is_element) {
             let target =
-                || self.target(child).ok_or_else(|| "it refers to an element that it does not have".to_owned());
+                || self.target(child).ok_or_else(|| "it refers to an element that the file does not have".to_owned());
             match child.tag_name().name() {
                 "node" => self.show(child, &to_file.after(&placing(child)?), depth + 1)?,
                 "instance_node" => {

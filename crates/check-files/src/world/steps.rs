@@ -89,7 +89,7 @@ impl Reader<'_> {
             DeValue::Integer(_) => self.number(value)?.to_string().parse().ok(),
             _ => None,
         };
-        count.filter(|count| *count > 0).map_or_else(|| self.error(value, "expected a whole number from 1 on"), Ok)
+        count.filter(|count| *count > 0).map_or_else(|| self.error(value, "expected a whole number of at least 1"), Ok)
     }
 
     fn is_level(&self, value: &Value) -> ReadResult<bool> {

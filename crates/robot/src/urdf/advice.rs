@@ -40,7 +40,8 @@ pub(super) fn missing_axis(reduction: &Reduction, index: usize) -> Option<String
     let name = &reduction.document.robot.joints[index].name;
     reduction.document.joints[index].axis.is_none().then(|| {
         format!(
-            "joint \"{name}\" has no <axis>, which means the x axis of its frame: write <axis xyz=\"0 0 1\"/> if it is about z"
+            "joint \"{name}\" has no <axis>, which means the x axis of its frame: write <axis xyz=\"0 0 1\"/> if its \
+             axis is z"
         )
     })
 }

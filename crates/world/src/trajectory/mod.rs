@@ -75,7 +75,7 @@ pub fn load_topic(path: &Path, topic: &str, scene: &LoadedScene) -> Result<Loade
 fn load(path: &Path, topic: Option<&str>, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     if !matches!(extension.as_deref(), Some("json" | "csv" | "yaml" | "yml" | "mcap")) {
-        return Err(Diagnostic::new(path.display().to_string(), "cannot tell the format of this file")
+        return Err(Diagnostic::new(path.display().to_string(), "the format of this file is unknown")
             .help("name it .json (cplan), .csv, .yaml (ROS 2 JointTrajectory), or .mcap (ROS 2 recording)")
             .into());
     }
