@@ -27,7 +27,7 @@ fn mistakes_are_named_with_file_line_and_hint() {
         ("<v v=\"${'a' + 1}\"/>", &["'a' (text) and '1' (int)", "str(...)"]),
         ("<v v=\"${[x for x in [1]]}\"/>", &["comprehensions", "ROS's own xacro"]),
         ("<v v=\"${open('x')}\"/>", &["the function open() is unknown", "radians"]),
-        ("<v v=\"${[1][5]}\"/>", &["index 5 is beyond its 1 items"]),
+        ("<v v=\"${[1][5]}\"/>", &["index 5 is outside the sequence, which has 1 items"]),
         ("<v v=\"$(find nowhere_pkg)/a\"/>", &["the package \"nowhere_pkg\" is not found", "ROS_PACKAGE_PATH"]),
         ("<v v=\"$(arg x)\"/>", &["the argument \"x\" has no value", "--xacro-arg x=VALUE"]),
         ("<v v=\"$(env NO_SUCH_VARIABLE_HERE)\"/>", &["NO_SUCH_VARIABLE_HERE"]),
