@@ -130,9 +130,9 @@ pub struct FieldArgs {
     /// Apply tanh to each component of attraction and repulsion (khatib).
     #[arg(long)]
     pub saturated: bool,
-    /// Escape from local minima (khatib). wave fills the basin until it overflows into a lower cell. walk:SEED walks at
-    /// random and then descends, until it ends lower; walk is walk:1. The result reports escapes [default: a local minimum
-    /// ends the search].
+    /// Escape from local minima (khatib). wave fills the basin until it overflows into a lower cell. walk:SEED
+    /// alternates random walks and descents until it reaches a lower cell; walk is walk:1. The result reports escapes
+    /// [default: a local minimum ends the search].
     #[arg(long, value_name = "HOW", value_parser = escape)]
     pub escape: Option<Escape>,
 }
