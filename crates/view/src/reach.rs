@@ -11,7 +11,7 @@ use serde::Serialize;
 
 /// Colour and meaning of each kind of cell: one free solution, several, proven unreachable, blocked, unknown.
 const CELL_KINDS: [(Rgb, &str); 5] = [
-    (Rgb(0xb5, 0xd9, 0xc2), "the tip can get there, one way"),
+    (Rgb(0xb5, 0xd9, 0xc2), "the tip can reach it, with one IK solution"),
     (Rgb(0x5f, 0xae, 0x83), "with several solutions"),
     (Rgb(0xe8, 0xa1, 0x6b), "free, but proven out of reach"),
     (Rgb(0xe1, 0xe4, 0xe8), "not free"),
