@@ -28,8 +28,9 @@ class Axis:
 
 @dataclass(frozen=True)
 class Proves:
-    """The guarantee of free and blocked. `exact`: both are exact. `outer`: obstacles are grown by at most `margin`
-    metres, so free is free. `inner`: they are shrunk, so blocked is blocked. `sampled`: neither is proven.
+    """The guarantee of the C-obstacles. `exact`: equal to the truth. `outer`: obstacles are grown by at most `margin`
+    metres, so free configurations are free in truth. `inner`: obstacles are shrunk, so blocked configurations are blocked
+    in truth. `sampled`: no guarantee.
     """
 
     kind: str

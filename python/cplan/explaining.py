@@ -37,8 +37,7 @@ class Blocker:
     """A member of a blocking set: an "obstacle" by `name` and `number`, from 1; a "limit" of a `joint` at a `side`; or
     the "clearance".
 
-    `without` is "found" if a path is certified among the other members of the set, and "unknown" if nobody knows
-    whether there is one.
+    `without` is "found" if a path is certified among the other members of the set, and "unknown" if this is undecided.
     """
 
     kind: str
@@ -85,7 +84,7 @@ class Hit:
 
 @dataclass(frozen=True)
 class GivesWay:
-    """The distance by which everything must give way: with `opens` there is a path, with `closed` not yet; metres."""
+    """The distance by which everything must give way: with `opens` a path exists, with `closed` none does; metres."""
 
     opens: float
     closed: float

@@ -62,7 +62,7 @@ class Corner:
 
 @dataclass(frozen=True)
 class Contact:
-    """A link and an obstacle that touch, or are nearer than the distance to keep; lengths in metres.
+    """A link and an obstacle that touch, or are nearer than the required distance; lengths in metres.
 
     `depth` is the penetration depth; a negative value is a distance. For polygons, there are the corners of each in the
     other, and the sides that cross: the link's and the obstacle's.
@@ -95,8 +95,8 @@ class NearestFree:
 class Check(_Findings):
     """The reasons why a configuration is free or not.
 
-    `clearance` is the least signed distance to an obstacle, `required` the distance to keep, `tip` the tip's place:
-    metres.
+    `clearance` is the least signed distance to an obstacle, `required` the required distance, `tip` the position of the
+    tip; all in metres.
     """
 
     free: bool

@@ -56,13 +56,13 @@ def plan(
     progress: Callable[[str], object] | None = None,
     **more: Any,
 ) -> Found | Infeasible | Unknown:
-    """Plans: returns a certified motion, a proof that there is none, or neither within the effort.
+    """Plans a motion. Returns a certified motion, a proof that no motion exists, or neither if this stays unknown.
 
     The input is an arm and a world, or a `Problem` of both. `start`, `goal` (joint values), `goal_tip` (a place for the
     tip, metres) and `clearance` (metres) replace those of the world. All other options are those of the program, by
     name: see `options`. `progress` is called with lines of text during long work.
 
-    Other Python threads run meanwhile; Ctrl-C ends it.
+    Other Python threads run meanwhile; Ctrl-C ends the plan.
 
     Raises `InputError` with all defects of arm, world, start and goal, and `ValueError` for invalid options.
     """

@@ -47,7 +47,7 @@ class Study(_Study):
         batch: int = BATCH,
         progress: Progress | None = None,
     ) -> "Results":
-        """Plans in all layouts, then runs the search if the study has one.
+        """Plans all layouts, then runs the search if the study has one.
 
         It runs on this machine with `jobs` threads (by default one for each core), or with `engine="ray"` on the
         cluster that Ray is connected to, in tasks of `batch` layouts. The search, in which each layout depends on the
@@ -149,7 +149,7 @@ class Results:
         return f"<cplan.Results of {self.study!r}: {len(self)} rows>"
 
     def summary(self) -> str:
-        """Returns a summary of the rows in some lines for people."""
+        """Returns a summary of the rows as text."""
         return self.study.summary(self.rows)
 
     @cached_property

@@ -47,7 +47,8 @@ pub struct ConvergeArgs {
     pub files: Files,
     #[command(flatten)]
     pub query: QueryArgs,
-    /// Number of grid cells along each axis, 8 to 256. Except for SOR, sweeps grow with its square: 256 cells take minutes.
+    /// Number of grid cells along each axis, 8 to 256. Except for SOR, the number of sweeps grows with its square: 256
+    /// cells take minutes.
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(8..=256))]
     #[arg(help_heading = RELAXATION)]
     pub cells: u32,

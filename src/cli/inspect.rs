@@ -117,7 +117,7 @@ fn write_expanded(robot: &RobotFile, path: &Path) -> Result<(), Failure> {
     write_whole(path, source.text().as_bytes())?;
     for mesh in input::meshes_elsewhere(&source, path) {
         let [file, robot] = [path, &robot.path].map(|path| path.display().to_string());
-        sinks::print_status(&format!("warning: mesh \"{mesh}\" is not found from {file}; write that beside {robot}"));
+        sinks::print_status(&format!("warning: mesh \"{mesh}\" is not found from {file}; write {file} beside {robot}"));
     }
     Ok(())
 }

@@ -55,7 +55,7 @@ pub fn text(report: &Inspection) -> String {
         diagnostic.to_string().lines().for_each(|line| lines.add("defect", line));
     }
     if let Some(help) = &report.help {
-        lines.add("remedy", "with these entries in the world file the robot loads; the numbers are placeholders:");
+        lines.add("remedy", "the robot loads with these entries in the world file; the numbers are placeholders:");
         lines.add("remedy", "[robot]");
         help.lines().for_each(|line| lines.add("remedy", line));
     }

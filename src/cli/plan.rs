@@ -105,7 +105,7 @@ pub enum FieldLinesName {
     Equipotentials,
     /// Lines of steepest ascent, with arrows.
     Flow,
-    // Needs no help.
+    /// Both kinds of lines.
     Both,
 }
 

@@ -65,8 +65,11 @@ pub struct ReachArgs {
 /// # Errors
 /// Bad input and I/O.
 pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
-    let tables =
-        sinks::outputs(&args.output, &[("json", true), ("csv", false)], "a reach is written as .json or .csv")?;
+    let tables = sinks::outputs(
+        &args.output,
+        &[("json", true), ("csv", false)],
+        "the name of a reach file must end in .json or .csv",
+    )?;
     let pictures = args.picture.iter().map(|path| match PictureFormat::from_path(path)? {
         format if format.plays() && format != PictureFormat::Html => {
             Err(Failure::Usage(format!("{}: a reach is drawn as .svg, .png or .html", path.display())))

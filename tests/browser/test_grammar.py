@@ -76,7 +76,7 @@ def test_where_it_gets_stuck_is_marked_in_both_spaces(program, show_file):
     program.run("explain", *files, "--quiet", "--picture", "why.html", "--picture", "why.svg", code=3)
     seen = show_file(program.folder / "why.html")
     entries = seen.page.get_by_role("list", name="Legend").get_by_role("listitem").all_inner_texts()
-    assert {"in the way", "x: where it gets stuck, and the arm there"} <= set(entries)
+    assert {"in the way", "x: the narrowest place, and the arm there"} <= set(entries)
     drawn = (program.folder / "why.svg").read_text()
     assert all(entry in drawn for entry in entries)
     before = [pixels(seen, "workspace"), pixels(seen, "cspace")]

@@ -97,7 +97,7 @@ def test_wrong_text_is_told_beside_it_until_it_is_changed(serve):
     seen.page.locator(".world summary").click()
     text = seen.page.get_by_label("world as TOML")
     text.fill("[start]\njoints = [0.1]\n")
-    seen.page.get_by_role("button", name="take the text for the world").click()
+    seen.page.get_by_role("button", name="plan in the world that the text describes").click()
     seen.until("cplan.answered.error")
     assert list(notices(seen)) == ["text"] and "line 2" in notices(seen)["text"], "here there are lines"
     box = seen.page.locator(".notice.text").bounding_box()

@@ -268,11 +268,11 @@ def test_where_the_tip_can_get_is_seen_as_in_the_picture(program, show_file):
     # The cells are visible: hiding them changes both panels.
     full = pixels(seen, "workspace"), pixels(seen, "cspace")
     legend = seen.page.locator(".legend li").all_inner_texts()
-    assert "the tip can get there, one way" in legend and all(text in picture.read_text() for text in legend)
+    assert "the tip can reach it, with one IK solution" in legend and all(text in picture.read_text() for text in legend)
     seen.shoot("reach")
-    seen.page.get_by_role("checkbox", name="where the tip can get").uncheck()
+    seen.page.get_by_role("checkbox", name="reachable tip positions").uncheck()
     assert pixels(seen, "workspace") != full[0] and pixels(seen, "cspace") != full[1]
-    assert "the tip can get there, one way" not in seen.page.locator(".legend li").all_inner_texts()
+    assert "the tip can reach it, with one IK solution" not in seen.page.locator(".legend li").all_inner_texts()
 
 
 def test_steps_are_numbered_as_they_are_done(program, show_file):

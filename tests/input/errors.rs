@@ -130,7 +130,7 @@ fn trees_that_are_none() {
     bad_arm(
         "<link name=\"tool\"/>",
         "<link name=\"tool\"/><link name=\"stray\"/>",
-        &["line 21", "\"base\", \"stray\"", "one root"],
+        &["line 21", "\"base\", \"stray\"", "one root link"],
     );
     bad_arm("<link name=\"base\"/>", "<link/>", &["line 2", "has no name"]);
     bad_arm("<child link=\"upper\"/>", "", &["line 3", "<child> is missing"]);

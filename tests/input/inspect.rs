@@ -186,7 +186,7 @@ const PUBLISHED: [Expected; 18] = [
     ("gepetto_double_pendulum_simple", false, Some(["joint1", "joint2"]), &["has no range"]),
     ("icube_scara", true, Some(["joint1", "joint2"]), &["not perpendicular"]),
     ("kawasaki_duaro1", false, None, &["8 movable joints"]),
-    ("roma_scara", false, None, &["3 joints that can move", "mimics joint \"arm1_joint_Gelenk\""]),
+    ("roma_scara", false, None, &["3 movable joints", "mimics joint \"arm1_joint_Gelenk\""]),
     ("ros2_control_rrbot", true, Some(["joint1", "joint2"]), &[]),
     ("sorydi3_scara", true, Some(["theta1", "theta2"]), &[]),
     ("sorydi3_theta_rho_RP", true, None, &[]),

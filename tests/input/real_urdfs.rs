@@ -74,7 +74,7 @@ fn table() -> Vec<(&'static str, String, Outcome)> {
             "joints = [\"upper_joint1\", \"upper_joint2\"]\ntip = \"upper_link_j4\"\nbar = 0.06",
             Loads("RR", [Bar; 2], "upper_link_j4"),
         ),
-        row("roma_scara", "", Refused(&["3 joints that can move", "\"arm1_joint_Gelenk\" (revolute)"])),
+        row("roma_scara", "", Refused(&["3 movable joints", "\"arm1_joint_Gelenk\" (revolute)"])),
         row(
             "roma_scara",
             "joints = [\"arm1_joint_Gelenk\", \"arm2_joint\"]",

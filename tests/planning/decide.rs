@@ -86,7 +86,7 @@ fn exceeded_budgets_leave_the_answer_unknown() {
     std::fs::write(&world, closed.replace("0.03995", "0.04")).unwrap();
     let problem = input::load(root.join("robots/rail_arm.urdf"), &world, &Overrides::default()).unwrap().problem;
     for allowed in [5_000, 20_000] {
-        let Outcome::Unknown(reason) = decide(&problem, allowed) else { panic!("{allowed} boxes do not tell") };
+        let Outcome::Unknown(reason) = decide(&problem, allowed) else { panic!("{allowed} boxes do not decide") };
         let boxes: usize = reason.split(' ').next().and_then(|word| word.parse().ok()).expect(&reason);
         // All boxes are halved together, so the number may exceed the budget by the last round.
         assert!(boxes <= 2 * allowed + 100, "{reason}");

@@ -83,7 +83,7 @@ fn what_a_planner_does_not_have_is_refused() {
         ("--planner triangles --samples 5", "--samples needs --planner prm"),
         ("--planner prm --samples 0", "0 is not in 1..=100000"),
         ("--planner visibility --search bfs --gap 0.1", "--gap needs a search for the shortest path"),
-        ("--planner wavefront --cells 128x4", "nor two such numbers, as 128x512"),
+        ("--planner wavefront --cells 128x4", "nor two such numbers, one per joint, such as 128x512"),
     ] {
         let output = cplan(options);
         assert_eq!(output.status.code(), Some(2), "{options}");

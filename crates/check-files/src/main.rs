@@ -8,7 +8,8 @@ const USAGE: &str = "Checks a certificate of cplan in exact arithmetic.
 
 Usage: cplan-check URDF WORLD CERTIFICATE
 
-Exit codes: 0 it proves its answer, 3 it does not, 1 a file is wrong or says what the checker does not know, 2 wrong usage.";
+Exit codes: 0 the certificate proves its answer, 1 a file is wrong or contains something that the checker does not
+know, 2 wrong command line, 3 the certificate does not prove its answer.";
 
 /// Exit code if the certificate does not hold.
 const EXIT_INVALID: u8 = 3;

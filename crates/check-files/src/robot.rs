@@ -57,17 +57,20 @@ impl<'a> Robot<'a> {
         let (mut tree, movable) = Tree::read(document, files)?;
         let (stated, implied) = (&world.robot.joints, implied.map(|names| names.to_vec()));
         if stated.is_some() && implied.is_some() && *stated != implied {
-            return CheckError::fails("it is about other joints than the world");
+            return CheckError::fails("it is for other joints than those that the world names");
         }
         let own = || movable.iter().map(|name| (*name).to_owned()).collect();
         let chosen: Vec<String> = stated.clone().or(implied).unwrap_or_else(own);
         let [first, second] = &chosen[..] else {
-            let message = format!("{} joints can move: the world file must name two, as [robot] joints", chosen.len());
+            let message = format!(
+                "the robot has {} movable joints: the world file must name two of them, as [robot] joints",
+                chosen.len()
+            );
             return Err(CheckError::in_file(Input::Urdf, message));
         };
         let node = |name: &str| match tree.named.get(name) {
             Some(node) if movable.contains(&name) => Ok(*node),
-            _ => Err(CheckError::in_file(Input::Urdf, format!("there is no joint \"{name}\" that can move"))),
+            _ => Err(CheckError::in_file(Input::Urdf, format!("the robot has no movable joint \"{name}\""))),
         };
         let carried =
             |joint: Node<'a, 'a>| child(joint, "child").and_then(|c| c.attribute("link")).expect("has been read");

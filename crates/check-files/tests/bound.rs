@@ -85,7 +85,7 @@ fn paths_around_a_wall_are_bounded_by_its_corners() {
         let mut other = walls.clone();
         (other[k].0[0], other[k].1) = (x, [x, y]);
         let message = check(GANTRY, WORLD, &certificate(1.0, EUCLIDEAN, &other)).unwrap_err().to_string();
-        assert_eq!(message, format!("wall {k}: the shape does not touch the part all along it"));
+        assert_eq!(message, format!("wall {k}: the shape does not touch the part along the whole wall"));
     }
     // Only the limit of y blocks the path below the floor.
     let higher = GANTRY.replacen(r#"lower="0""#, r#"lower="-9""#, 2);

@@ -462,8 +462,8 @@ fn a_mesh_is_its_hull() {
         ),
         ("fore.stl", b"PK", "not an STL file"),
         ("fore.obj", b"v 1 2\nf 1", "three numbers"),
-        ("fore.obj", b"f 1 2 3\nv 1 2 3", "does not precede it"),
-        ("fore.obj", b"v 1 2 3\nf 1 -2", "does not precede it"),
+        ("fore.obj", b"f 1 2 3\nv 1 2 3", "does not state before it"),
+        ("fore.obj", b"v 1 2 3\nf 1 -2", "does not state before it"),
         ("fore.obj", b"v 1 2 3\n", "no corners"),
         ("fore.dae", b"<html/>", "not Collada"),
         ("fore.dae", b"<COLLADA/>", "no mesh"),
@@ -485,7 +485,7 @@ fn a_mesh_is_its_hull() {
         assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));
     }
     for (mesh, part) in [
-        ("fore.ply", "knows meshes as STL, OBJ and Collada"),
+        ("fore.ply", "reads only meshes in STL, OBJ and Collada"),
         ("none.stl", "does not exist"),
         ("package://none/a.stl", "does not exist"),
     ] {
@@ -519,7 +519,7 @@ fn pictures_that_are_none_are_refused() {
     place.write("map.yaml", YAML);
     for (picture, part) in [
         (&b"\x89PNG"[..], "unexpected end"),
-        (b"GIF89a", "as PGM"),
+        (b"GIF89a", "only PGM"),
         (b"P2 2 1 1 0", "ends early"),
         (b"P2 1 1 1 0 0", "bytes follow"),
         (b"P2 1 1 1 2", "exceeds the maxval"),

@@ -319,7 +319,7 @@ fn bad_input_is_named() {
     urdf("xyz=\"0 0 1\"", "xyz=\"0 0 0\"", Some(4), "the axis is zero");
     urdf("parent link=\"base\"", "parent link=\"fore\"", Some(10), "ring");
     urdf("parent link=\"upper\"", "parent link=\"base\"", Some(10), "carries");
-    urdf("type=\"revolute\"", "type=\"fixed\"", None, "0 joints can move");
+    urdf("type=\"revolute\"", "type=\"fixed\"", None, "0 movable joints");
     let worlds = |text: &str, at, part| bad(&arm, text, &good, Input::World, at, part);
     worlds("start = 3", Some(1), "table");
     worlds("start.joints = [1]", Some(1), "list of two");
@@ -350,7 +350,7 @@ fn bad_input_is_named() {
     certificates("-0.01", "\"-0.01\"", "decimal");
     certificates("-0.01", "1e9999", "digits");
     for (from, to, part) in
-        [("certificate 1", "certificate 2", "certificate 2"), ("infeasible", "found", "has a motion")]
+        [("certificate 1", "certificate 2", "certificate 2"), ("infeasible", "found", "needs a motion")]
     {
         bad(&arm, &place, &good.replace(from, to), Input::Certificate, None, part);
     }

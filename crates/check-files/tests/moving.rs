@@ -163,7 +163,7 @@ fn picks_of_moving_objects() {
     judged("window = [3.5, 4]\nat = [5, 4]", "5, 4", "5").unwrap();
     fails(judged("", "5.01, 4", "5"), "misses the target");
     fails(judged("window = [1, 3.9]", "5, 4", "5"), "outside its window");
-    fails(judged("at = [5.1, 4]", "5, 4", "5"), "not at the position of its pick then");
+    fails(judged("at = [5.1, 4]", "5, 4", "5"), "not at the position of its pick");
     // The second bottle hits the arm while it rests at the first one, unless the arm leaves in time: its square begins
     // at x = 5.5.
     let second = "[[object]]\nname = \"other\"\ncircle = { center = [0, 0], radius = 0.1 }\nat = [10.5, 4]\nmotion = { velocity = [-1, 0] }\n";

@@ -537,15 +537,15 @@ fn worlds_with_unknown_requests() {
         (
             "[[step]]\npick",
             "[[object]]\nname = \"block\"\nat = [5, 5]\ncircle = { center = [0, 0], radius = 1 }\n[[step]]\npick",
-            "a second object",
+            "another object or obstacle",
         ),
         (
             "[[step]]\npick",
             "[[obstacle]]\nname = \"block\"\npolyline = [[5, 5], [6, 6]]\n[[step]]\npick",
-            "an obstacle, of this name",
+            "another object or obstacle",
         ),
         ("[[step]]\npick", "[task]\norder = \"free\"\n[[step]]\npick", "pick, place, pick, place"),
-        ("[[step]]\npick", "[task]\nrepeat = 0\n[[step]]\npick", "a whole number from 1 on"),
+        ("[[step]]\npick", "[task]\nrepeat = 0\n[[step]]\npick", "a whole number of at least 1"),
         ("[[step]]\npick", "[[step]]\nsteps = []\n[[step]]\npick", "there are no steps"),
     ] {
         is_wrong(with(old, new), part);

@@ -54,7 +54,7 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     contacts.hold(arm, stuck, &boxes)?;
     for (number, wall) in bound.walls.iter().enumerate() {
         if !closes(arm, wall, &contacts.pair(wall.shape, wall.part, || format!("wall {number}"))?) {
-            return CheckError::fails(format!("wall {number}: the shape does not touch the part all along it"));
+            return CheckError::fails(format!("wall {number}: the shape does not touch the part along the whole wall"));
         }
     }
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);

@@ -134,8 +134,8 @@ pub fn read(text: &str) -> Result<Certificate, CheckError> {
         Answer::NoShorter => steps.is_none() && !evidence[0] && evidence[2] && (is_to_the_goal || !evidence[1]),
     };
     if !fits {
-        let message = "\"found\" has a motion, and may have steps or a bound; \"infeasible\" has boxes; \"no_shorter\" a bound; \
-                       with a bound there are boxes only if it does not say \"to\" where";
+        let message = "\"found\" needs a motion, and may have steps or a bound; \"infeasible\" needs boxes alone; \
+                       \"no_shorter\" needs a bound; boxes beside a bound need a bound without \"to\"";
         return Err(CheckError::in_file(Input::Certificate, message));
     }
     Ok(certificate)

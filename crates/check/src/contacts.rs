@@ -122,7 +122,7 @@ fn shape<'a>(arm: &'a Arm, name: &ShapeName) -> Result<&'a CollisionShape, Check
         (Some(number), None, None) => ("collision", number),
         (None, Some(number), None) => ("visual", number),
         (None, None, Some(0)) => ("bar", 0),
-        _ => return Err(CheckError::in_file(Input::Certificate, "a shape has a link and one number, of a bar 0")),
+        _ => return Err(CheckError::in_file(Input::Certificate, "a shape needs a link and one number (0 for a bar)")),
     };
     named(&arm.shapes, (&name.link, kind, number), name.height.as_ref())
 }

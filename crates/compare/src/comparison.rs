@@ -60,7 +60,7 @@ impl Comparison {
         let [found, proved, unknown] =
             Status::ALL.map(|outcome| self.rows.iter().filter(|row| row.outcome == outcome).count());
         match (found, proved) {
-            (0, 0) => format!("{unknown} of {all} left it open"),
+            (0, 0) => format!("{unknown} of {all} answered \"unknown\""),
             (0, _) => format!("{proved} of {all} proved infeasibility"),
             (_, 0) => format!("{found} of {all} found a certified path"),
             _ => format!("{found} of {all} found a certified path, {proved} proved infeasibility"),

@@ -79,7 +79,7 @@ fn outcomes(study: &Study) -> String {
         .map(|(name, n)| format!("{name} left {n} open"))
         .collect();
     if unknown.is_empty() {
-        text += " Every planner settled every one.";
+        text += " Every planner answered all of them.";
     } else {
         text += &format!(" Of them, {}.", unknown.join(", "));
     }
@@ -167,7 +167,7 @@ fn aspect(
         wins.count()
     };
     let figures = format!(
-        "Median {what}: {}; {} that all settled, each side by its best planner there.",
+        "Median {what}: {} (over {} that all sides answered, each with its best planner).",
         medians.join(", "),
         counted(values.len(), "problem")
     );
@@ -193,7 +193,7 @@ fn aspect(
         None => {
             let pairs = (0..sides.len()).flat_map(|i| (i + 1..sides.len()).map(move |k| (i, k)));
             let scores: Vec<String> = pairs.map(|(i, k)| format!("{}: {}.", name(i), score(i, k))).collect();
-            format!("These problems do not settle which side {word}. {figures} {}", scores.join(" "))
+            format!("These problems do not show which side {word}. {figures} {}", scores.join(" "))
         }
     })
 }
@@ -244,8 +244,8 @@ mod tests {
         );
         assert_eq!(
             words[2],
-            "Roadmaps found the shorter paths. Median length over the proven optimum: roadmaps 1.0100, fields 1.2000; \
-             9 problems that all settled, each side by its best planner there. Roadmaps: better than fields in 9, \
+            "Roadmaps found the shorter paths. Median length over the proven optimum: roadmaps 1.0100, fields 1.2000 \
+             (over 9 problems that all sides answered, each with its best planner). Roadmaps: better than fields in 9, \
              worse in 0 (p = 0.004)."
         );
         assert!(words[3].starts_with("Fields answered sooner."), "{}", words[3]);
@@ -258,13 +258,13 @@ mod tests {
         let mut six: Vec<Comparison> = (0..5).map(|_| problem([Some(1.0), Some(1.1)], [1.0, 1.0])).collect();
         six.push(problem([Some(1.0), Some(1.0)], [1.0, 1.0]));
         let conclusions = words(&study(six.clone()));
-        let claim = "These problems do not settle which side found the shorter paths.";
+        let claim = "These problems do not show which side found the shorter paths.";
         assert!(conclusions[2].starts_with(claim), "{}", conclusions[2]);
         assert!(conclusions[2].contains("better than fields in 5, worse in 0 (p = 0.062)"), "{}", conclusions[2]);
         assert!(conclusions[3].contains("in 0, worse in 0 (p = 1.000)"), "{}", conclusions[3]);
         six.pop();
-        let figures = "Median length over the proven optimum: roadmaps 1.0000, fields 1.1000; 5 problems that all \
-                       settled, each side by its best planner there.";
+        let figures = "Median length over the proven optimum: roadmaps 1.0000, fields 1.1000 (over 5 problems that \
+                       all sides answered, each with its best planner).";
         assert_eq!(words(&study(six))[2], figures, "too few problems: figures, and no claim");
     }
 

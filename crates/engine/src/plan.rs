@@ -159,8 +159,8 @@ fn plan_motion(
         && bound.gap() > gap
     {
         progress(&format!(
-            "warning: the gap of {} asked for is not reached: {} is proven at the finest level ({}); more --levels or a \
-             smaller --margin may do",
+            "warning: the requested gap of {} is not reached: {} is proven at the finest level ({}); more --levels or \
+             a smaller --margin may reach it",
             percent(gap),
             percent(bound.gap()),
             options.levels

@@ -75,7 +75,8 @@ impl Survey {
             let [width, height] = own.size;
             let at = self.origin();
             return Err(format!(
-                "has other cells than the {width} x {height} cells of {} m from ({}, {}) that the arm and its sensor need",
+                "does not have the cells that the arm and its sensor need: {width} x {height} cells of {} m, beginning \
+                 at ({}, {})",
                 own.resolution, at.x, at.y
             ));
         }

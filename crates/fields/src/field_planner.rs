@@ -193,7 +193,7 @@ fn not_monotone(equation: &Equation) -> String {
 /// Describes a relaxation that reached its largest number of sweeps, with a hint.
 fn unfinished(domain: &Domain, equation: &Equation, sweeps: usize) -> String {
     let help = match equation.is_monotone_on(domain) {
-        true => "allow more sweeps, a larger tolerance, or relax by sor".into(),
+        true => "allow more sweeps or a larger tolerance, or use the relaxation sor".into(),
         false => not_monotone(equation),
     };
     format!("the field is not converged after {sweeps} sweeps: {help}")
@@ -204,7 +204,7 @@ fn why(stuck: &DeadEnd, domain: &Domain, equation: &Equation, on: Device) -> Str
     match stuck {
         _ if !equation.is_monotone_on(domain) => not_monotone(equation),
         DeadEnd { value: 0.0, .. } => format!("its values are too small for {}", on.precision()),
-        DeadEnd { value, .. } => format!("values around {value} differ by less than {} can tell", on.precision()),
+        DeadEnd { value, .. } => format!("values around {value} differ by less than {} can represent", on.precision()),
     }
 }
 

@@ -162,7 +162,7 @@ impl MovingField {
         let discs = moment.obstacles.iter().chain(&moment.goals).map(|disc| (disc.center, disc.radius));
         let mut numbers = discs.chain(moment.robots.iter().map(|robot| (robot.center, robot.radius)));
         if numbers.any(|(center, radius)| center.iter().any(|x| !x.is_finite()) || radius.is_nan()) {
-            return Err(RelaxError::Refused("centres of discs are finite, and a radius is a number".into()));
+            return Err(RelaxError::Refused("centres of discs must be finite, and radii must be numbers".into()));
         }
         let kind = |&wall: &bool| if wall { Cell::Obstacle } else { Cell::Free };
         let mut kinds: Vec<Cell> = self.walls.iter().map(kind).collect();

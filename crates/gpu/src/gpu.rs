@@ -17,7 +17,9 @@ pub enum GpuError {
     #[error("{0}")]
     Refused(String),
     /// The adapter has no buffers of this size.
-    #[error("the GPU has buffers of {most} bytes, {needed} are needed\n  hint: fewer cells, or solve on the CPU")]
+    #[error(
+        "the buffers of the GPU have at most {most} bytes, but {needed} are needed\n  hint: use fewer cells, or solve on the CPU"
+    )]
     TooLarge {
         /// Size of the largest buffer needed, in bytes.
         needed: u64,
@@ -25,7 +27,7 @@ pub enum GpuError {
         most: u64,
     },
     /// The GPU ran out of memory, or the device was lost. Contains the driver's message.
-    #[error("the GPU failed: {0}\n  hint: fewer cells, or solve on the CPU")]
+    #[error("the GPU failed: {0}\n  hint: use fewer cells, or solve on the CPU")]
     Failed(String),
     /// Values grew without bound, or became NaN.
     #[error("the relaxation diverged: after {sweeps} sweeps cell ({}, {}) has the value {value:e}", cell[0], cell[1])]

@@ -66,7 +66,7 @@ impl GridEquations {
             return refused("there are more than 2^29 cells");
         };
         if values.len() != count || unknown.len() != count || given != count {
-            return refused("there must be one value, one flag and one stencil a cell");
+            return refused("there must be one value, one flag and one stencil per cell");
         }
         if !(fine && outside.is_finite() && values.iter().all(|v| v.is_finite())) {
             return refused("values, weights and strengths must be finite numbers");

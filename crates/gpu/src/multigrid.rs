@@ -63,7 +63,9 @@ impl Gpu {
             Stencil::Mean | Stencil::Altered(_) => [0.25; 4],
         };
         if let Stencil::Altered(_) = problem.stencil {
-            return Err(GpuError::Refused("multigrid is for linear equations; relax this one".into()));
+            return Err(GpuError::Refused(
+                "multigrid solves only linear equations; use a relaxation for this one".into(),
+            ));
         }
         let levels = Level::hierarchy(Level::finest(problem, weights));
         let residual = |values: &[f64]| residual(problem, &levels[0], &weights, values);

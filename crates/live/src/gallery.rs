@@ -63,7 +63,10 @@ const CHOICES: [Choice; 14] = [
         "1: close the gap",
         "rail_arm",
         include_str!("puzzles/slot.toml"),
-        Puzzle { text: "Close the gap until it proves impossible: move the walls.", ..Puzzle::of("infeasible") },
+        Puzzle {
+            text: "Close the gap: move the walls until it is proven that no path exists.",
+            ..Puzzle::of("infeasible")
+        },
     ),
     puzzle(
         "round",
@@ -71,7 +74,7 @@ const CHOICES: [Choice; 14] = [
         "planar_2r_continuous",
         include_str!("puzzles/round.toml"),
         Puzzle {
-            text: "Bar the short way, and leave the long one: the shortest path is to be proven longer than 5.5.",
+            text: "Block the short route, but not the long one: the shortest path must be proven longer than 5.5.",
             length: Some(5.5),
             ..Puzzle::of("found")
         },
@@ -82,7 +85,7 @@ const CHOICES: [Choice; 14] = [
         "planar_2r_continuous",
         include_str!("../../../workspaces/torus_open.toml"),
         Puzzle {
-            text: "Both joints turn without end: close both ways round with the two posts.",
+            text: "Both joints turn without limits: block both directions with the two posts.",
             ..Puzzle::of("infeasible")
         },
     ),
@@ -91,7 +94,7 @@ const CHOICES: [Choice; 14] = [
         "4: break the ring",
         "gantry",
         include_str!("../../../workspaces/annulus_closed.toml"),
-        Puzzle { text: "The head is shut in, as proven: let it out.", ..Puzzle::of("found") },
+        Puzzle { text: "It is proven that the head cannot leave the ring: open a path for it.", ..Puzzle::of("found") },
     ),
     puzzle(
         "pole",
@@ -99,7 +102,7 @@ const CHOICES: [Choice; 14] = [
         "planar_2r",
         include_str!("../../../workspaces/limits_closed.toml"),
         Puzzle {
-            text: "The elbow's limits keep the arm from passing the pole: put the pole where the arm gets round it.",
+            text: "The elbow's limits keep the arm from passing the pole: move the pole so that the arm can pass it.",
             ..Puzzle::of("found")
         },
     ),
@@ -109,7 +112,7 @@ const CHOICES: [Choice; 14] = [
         "planar_2r",
         include_str!("../../../workspaces/narrow_slot.toml"),
         Puzzle {
-            text: "Nothing moves: find the largest clearance that leaves a way, to a tenth of a millimetre.",
+            text: "Move nothing: find the largest clearance with which a path exists, to a tenth of a millimetre.",
             free: Free::Clearance,
             clearance: Some(NARROW_SLOT_CLEARANCE),
             ..Puzzle::of("found")

@@ -104,7 +104,7 @@ impl Host {
         let named = document.iter().flat_map(Document::files).find(|file| !self.files.contains(file));
         if let Some(file) = named {
             return Err(format!(
-                "the world names a file, \"{file}\", that the one to begin with does not\n  hint: cplan serve with this world"
+                "the world names the file \"{file}\", which the world that the server started with does not name\n  hint: start cplan serve with this world"
             ));
         }
         let scene = self.scene.edited(&self.urdf, self.world.with_text(text)).map_err(|error| error.to_string())?;

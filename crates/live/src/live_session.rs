@@ -251,7 +251,7 @@ impl LiveSession {
     /// Returns the text of the world that the page shows.
     fn text(&self, ask: &PlanRequest) -> Result<String, String> {
         if ask.base != self.base {
-            return Err(format!("the page shows world {}, but this is world {}", ask.base, self.base));
+            return Err(format!("the request is about world {}, but the server has world {}", ask.base, self.base));
         }
         match &ask.state {
             None => Ok(self.document.text().to_owned()),

@@ -34,7 +34,7 @@ pub fn quick_answer(problem: &Problem, options: &Options, contours: &Contours) -
     let plan = plan(problem, &Options { bounded: false, ..*options }).map_err(|error| error.to_string())?;
     let timed = problem.timed();
     let Some((problem, answer)) = plan.motion() else {
-        return Err("steps are not planned while something moves".into());
+        return Err("this page does not plan steps among moving obstacles".into());
     };
     let timed = TimedScene { scene: problem.scene(), ..timed };
     let contours = contours.of(timed.scene);

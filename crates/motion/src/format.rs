@@ -21,7 +21,7 @@ pub enum Format {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum FormatError {
     /// The extension is unknown.
-    #[error("cannot tell the format of {file:?}: its name must end in .json, .csv, .yaml, .yml or .mcap")]
+    #[error("the format of {file:?} is unknown: its name must end in .json, .csv, .yaml, .yml or .mcap")]
     Unknown {
         /// The name as given.
         file: String,

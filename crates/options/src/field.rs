@@ -22,11 +22,11 @@ pub enum FieldName {
     Oriented,
     /// In each [[preference]] region of the world, the region's drift.
     Local,
-    /// In each [[preference]] region, a drift of its epsilon along the slope of the harmonic field.
+    /// In each [[preference]] region of the world, a drift along the slope of the harmonic field.
     Bvp,
-    /// The same, along the field's own slope.
+    /// In each [[preference]] region of the world, a drift along the slope of the field itself.
     Bvp2,
-    /// Attraction by the goal, repulsion by the nearest obstacle or by all. May end in a local minimum, which is reported.
+    /// Attraction by the goal, repulsion by the nearest obstacle or by all. The result reports local minima.
     Khatib,
 }
 
@@ -39,7 +39,7 @@ pub enum RelaxationName {
     WeightedJacobi,
     /// One cell after the other.
     GaussSeidel,
-    /// One cell after the other, with a --factor above 1; by default the formula's factor.
+    /// One cell after the other, with a --factor above 1; by default a formula gives the factor.
     Sor,
 }
 
@@ -85,7 +85,7 @@ pub struct FieldArgs {
     /// (local).
     #[arg(long, value_name = "v1,v2", value_parser = direction, allow_hyphen_values = true)]
     pub direction: Option<Direction>,
-    /// Discretisation of slopes (oriented, local, bvp) [default: central].
+    /// Differences that replace slopes (oriented, local, bvp) [default: central].
     #[arg(long, value_parser = word::<Difference>(), value_name = "NAME")]
     pub difference: Option<Difference>,
     /// Relaxation of the equation, such as --relaxation sor --order corners [default: gauss-seidel, except for the plain
@@ -130,9 +130,9 @@ pub struct FieldArgs {
     /// Apply tanh to each component of attraction and repulsion (khatib).
     #[arg(long)]
     pub saturated: bool,
-    /// Escape from local minima (khatib). wave fills the basin until it overflows into a lower cell. walk:SEED walks at
-    /// random and then descends, until it ends lower; walk is walk:1. The result reports escapes [default: a local minimum
-    /// ends the search].
+    /// Escape from local minima (khatib). wave fills the basin until it overflows into a lower cell. walk:SEED
+    /// alternates random walks and descents until it reaches a lower cell; walk is walk:1. The result reports escapes
+    /// [default: a local minimum ends the search].
     #[arg(long, value_name = "HOW", value_parser = escape)]
     pub escape: Option<Escape>,
 }

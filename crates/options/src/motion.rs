@@ -15,8 +15,8 @@ pub struct MotionArgs {
     /// Time between two samples of the trajectory, seconds.
     #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds, allow_hyphen_values = true)]
     pub period: f64,
-    /// Greatest distance from a corner at which the motion may leave the path to round it, in joint space (a radian counts
-    /// like a metre). "none" stops at every corner; "auto" derives the distance from the clearance and the path.
+    /// Greatest distance from a corner within which the motion may leave the path to round it, in joint space (a radian
+    /// counts like a metre). "none" stops at every corner; "auto" derives the distance from the clearance and the path.
     #[arg(long, value_name = "RADIUS", default_value = "auto", value_parser = radius, allow_hyphen_values = true)]
     pub blend: f64,
     /// Greatest speed of the tip, metres per second [default: only the joints' speeds are limited].

@@ -90,7 +90,8 @@ impl Named for PathKind {
             PathKind::Own => "The path of the planner's method",
             PathKind::Taut => "The same path pulled taut: shorter, nearer to obstacles",
             PathKind::Middles => {
-                "For trapezoid: through the portals' middles alone; through a cell's centre only between portals on one vertical"
+                "For trapezoid: through the middles of portals; through a cell's centre only between portals on one \
+                 vertical"
             }
         }
     }
@@ -105,7 +106,7 @@ impl Named for VisibilityGraph {
 
     fn help(self) -> &'static str {
         match self {
-            VisibilityGraph::Reduced => "Only arcs that a shortest path can use: tangent to the obstacle at either end",
+            VisibilityGraph::Reduced => "Only arcs that a shortest path can use: tangent to the obstacles at both ends",
             VisibilityGraph::Full => {
                 "The textbook definition: an arc between any two corners that see each other, and every side"
             }
@@ -123,11 +124,15 @@ impl Named for GridSearch {
     fn help(self) -> &'static str {
         match self {
             GridSearch::Wave => "For grids: labels all cells, beginning at the goal; fewest moves",
-            GridSearch::BreadthFirst => "Breadth first, until the other end is met; fewest moves or edges",
-            GridSearch::DepthFirst => "Depth first, until the other end is met; any path",
+            GridSearch::BreadthFirst => {
+                "Breadth first from one end (start or goal) to the other; fewest moves or edges"
+            }
+            GridSearch::DepthFirst => "Depth first from one end to the other; any path",
             GridSearch::Dijkstra => "Least cost first: length, or on grids moves, where a diagonal move costs 1.414",
-            GridSearch::AStar => "The same cost, guided by the distance to the other end",
-            GridSearch::Greedy => "Nearest to the other end first; any path, found quickly",
+            GridSearch::AStar => {
+                "Least cost so far plus straight distance left first; the same path length, found sooner"
+            }
+            GridSearch::Greedy => "Least straight distance left first; any path, found quickly",
             GridSearch::IterativeDeepening => {
                 "For grids: depth first within a limit of moves, which grows by one each round; fewest moves"
             }
@@ -200,8 +205,9 @@ named!(Measure: GreatestRelativeChange "relative" "Greatest change relative to t
     SumOfChange "absolute" | "sum" "Sum of changes; alias: sum", SumOfSquares "squares" "Sum of squared changes",
     DifferenceOfSums "sums" "Difference between the sums of changes of this and the previous sweep");
 
-named!(Ties: Farthest "farthest" "The cell farthest from the beginning of the search, of equals the latest: the search goes straight ahead",
-    First "first" "The earliest cell: the search advances along all equally good routes together");
+named!(Ties: Farthest "farthest" "The cell farthest from the beginning of the search, and of these the one found last: \
+                                  goes straight ahead",
+    First "first" "The cell found first: advances along all equally good routes together");
 
 named!(NamedJoints: All "all" "Every movable joint of the robot", Planned "planned" "The two joints of the plan");
 

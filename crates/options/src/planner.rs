@@ -19,14 +19,15 @@ use std::sync::LazyLock;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Resolution")]
 pub struct EffortArgs {
-    /// Initial number of grid cells along each axis, from 8 to 2048, or one number per joint, such as 128x512. More than
-    /// 32 cells are doubled where needed, up to 2048; 32 or fewer only if --levels asks for it [default: 256; for planner
-    /// harmonic 65536 in total, square in joint space, where a radian counts like a metre].
+    /// Initial number of grid cells along each axis, from 8 to 2048, or one number per joint, such as 128x512. Grids of
+    /// more than 32 cells are doubled if needed, up to 2048; smaller grids only with --levels [default: 256; for
+    /// planner harmonic 65536 in total, square in joint space, where a radian counts like a metre].
     #[arg(long, value_name = "N|AxB", allow_hyphen_values = true)]
     pub cells: Option<CellCounts>,
-    /// Initial margin by which C-obstacles are grown, as a share of the arm's reach; quartered where needed. 0 is for
-    /// gantries: files and pictures then have the exact Minkowski differences, and the first attempt plans among them. If
-    /// its path touches one, the planner tries again with a small margin, because touching is contact [default: 0.001].
+    /// Initial margin by which C-obstacles are grown, as a share of the arm's reach; quartered if needed. 0 is for
+    /// gantries: files and pictures then have the exact Minkowski differences, and the first attempt plans among them.
+    /// If its path touches one, the planner tries again with a small margin, because touching is contact [default:
+    /// 0.001].
     #[arg(long, value_name = "SHARE", value_parser = margin, allow_hyphen_values = true)]
     pub margin: Option<f64>,
     /// Maximum number of attempts, each finer than the one before [default: 6].
@@ -87,7 +88,7 @@ const KEPT_CELLS: usize = 32;
 pub enum MetricName {
     /// Square root of the sum of squares; a radian counts like a metre.
     Euclidean,
-    /// The same with the joints' values multiplied by --weights.
+    /// As euclidean, with the joints' values multiplied by --weights.
     Weighted,
     /// Time that the joints need at top speed, seconds.
     Time,
@@ -126,8 +127,9 @@ pub struct PathArgs {
     /// Search of the grid or the roadmap.
     #[arg(long, value_parser = word::<GridSearch>(), value_name = "NAME", help = search_help())]
     pub search: Option<GridSearch>,
-    /// Neighbours of a cell (planner wavefront): 4 share a side with it, 8 a side or a corner. No move cuts the corner of
-    /// a blocked cell. wave and bfs count moves; for dijkstra and astar a diagonal move costs 1.414 [default: 4].
+    /// Neighbours of a cell (planner wavefront): 4 (those that share a side with it) or 8 (also those that share a
+    /// corner). No move cuts the corner of a blocked cell. wave and bfs count moves; for dijkstra and astar a diagonal
+    /// move costs 1.414 [default: 4].
     #[arg(long, value_name = "N", value_parser = neighbors())]
     pub neighbors: Option<Neighborhood>,
     /// Cell that A* expands next if several are equally promising (planner wavefront) [default: farthest].

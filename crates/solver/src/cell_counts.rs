@@ -62,7 +62,9 @@ impl FromStr for CellCounts {
     fn from_str(text: &str) -> Result<Self, String> {
         let cure = || {
             let (least, most) = (ALLOWED_CELLS.start(), ALLOWED_CELLS.end());
-            format!("{text} is not in {least}..={most}, nor two such numbers, as 128x512, for the joints in turn")
+            format!(
+                "{text} is neither a number from {least} to {most} nor two such numbers, one per joint, such as 128x512"
+            )
         };
         let count = |text: &str| text.parse::<usize>().ok().filter(|n| ALLOWED_CELLS.contains(n)).ok_or_else(cure);
         match text.split_once('x') {

@@ -161,7 +161,7 @@ where
     // Local minima of force fields remain on finer grids.
     let has_minima = options.planner.field().is_some_and(|planner| matches!(planner.field, FieldChoice::Khatib(_)));
     let is_coarse = options.planner.cells().is_some() && history.len() == options.levels && !has_minima;
-    let hint = if is_coarse && !sweeps_end { "; more --cells or --levels may show one" } else { "" };
+    let hint = if is_coarse && !sweeps_end { "; more --cells or --levels may find one" } else { "" };
     let finest = if sweeps_end { "the resolution that its sweeps allow" } else { "its finest resolution" };
     let unknown = || format!("{method} found no certified path at {finest} ({}){hint}", why());
     let outcome = match (path, known) {

@@ -47,7 +47,7 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
             (Proposal::NoPath, proof.map_or_else(refused, Outcome::Infeasible))
         }
         Connectivity::Undecided { boxes, .. } => {
-            let reason = format!("{boxes} boxes do not tell whether there is a path");
+            let reason = format!("{boxes} boxes do not decide whether a path exists");
             (Proposal::GaveUp(reason.clone()), Outcome::Unknown(reason.into()))
         }
     };

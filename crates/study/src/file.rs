@@ -327,7 +327,8 @@ impl Reader<'_> {
             )),
             (None, Some(number)) => {
                 let name = &file.parameter[number].get_ref().name;
-                let message = format!("parameter \"{}\" is drawn: how often?", name.get_ref());
+                let message =
+                    format!("parameter \"{}\" is drawn, but the study does not state how often", name.get_ref());
                 Err(self.wrong(name.span(), message, "write draws = 1000 above the first [[parameter]]"))
             }
         }

@@ -66,7 +66,7 @@ impl Study {
             return maps;
         }
         let what = self.objective.map_or_else(String::new, |objective| {
-            format!("The colour is the {objective} of the layouts in a cell that fit; ")
+            format!("The colour shows the {objective} of the layouts in a cell that meet the conditions; ")
         });
         let key = |(color, text): (&str, &str)| {
             format!(
@@ -232,9 +232,11 @@ const OUTCOME_HEADINGS: [&str; 3] = ["outcome", "layouts", "why"];
 /// Largest number of reasons that are listed.
 const MAX_REASONS: usize = 12;
 
-const METHOD_NOTE: &str = "Every layout was planned in as by itself. <em>Found</em>: the whole continuous motion is certified free of collision. \
-                   <em>Infeasible</em>: proven. <em>Refused</em>: there is nothing to plan, because start or goal is not free or out of \
-                   reach, or a value makes no sense. Numbers in reasons are left out, so that layouts that fail alike count together.";
+const METHOD_NOTE: &str = "Every layout was planned separately. <em>Found</em>: the whole continuous motion is \
+                           certified free of collision. <em>Infeasible</em>: proven. <em>Refused</em>: there is \
+                           nothing to plan, because start or goal is not free or out of reach, or a value is not \
+                           valid. Reasons are shown without their numbers, so layouts that fail for the same reason \
+                           count together.";
 
 fn figure(title: &str, svg: &str) -> String {
     format!("<figure class=\"card\"><figcaption>{}</figcaption>\n{svg}</figure>\n", markup(title))

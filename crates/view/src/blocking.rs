@@ -59,7 +59,7 @@ pub fn keys(stuck: &BlockingView) -> Vec<Key> {
     let blocking = (!stuck.blockers.is_empty()).then(|| (Sign::Dashed(INFEASIBLE), "in the way".to_owned()));
     let place = stuck.at.map(|_| {
         let pen = Pen { color: INFEASIBLE, width: 1.2, dash: &[] };
-        (Sign::Line(pen), "x: where it gets stuck, and the arm there".to_owned())
+        (Sign::Line(pen), "x: the narrowest place, and the arm there".to_owned())
     });
     blocking.into_iter().chain(place).collect()
 }

@@ -43,7 +43,7 @@ fn data(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration, timed: 
     let (status, text) = match &done.ending {
         Ending::Reached => ("found", "reached".to_owned()),
         Ending::Explored { configurations, .. } => {
-            ("found", format!("explored: {configurations} configurations show nothing new"))
+            ("found", format!("explored: none of the {configurations} reachable configurations shows anything new"))
         }
         Ending::Unreachable(why) => ("infeasible", format!("unreachable: {why}")),
         Ending::Unknown(why) => ("unknown", format!("unknown: {why}")),

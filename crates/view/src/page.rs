@@ -105,7 +105,7 @@ fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &
     items.extend(grid.items(view, &shown, left_out, [RIGHT_COLUMN.x, top]));
     items.extend(steps::items(&view.still.steps, list));
     items.push(heading(LEFT_COLUMN, top - 32.0, "Workspace"));
-    let note = "objects where they lie at first, and dashed where they are placed";
+    let note = "objects at their initial positions, and dashed where they are placed";
     items.push(label([LEFT_COLUMN.x + LEFT_COLUMN.width / 2.0, top - 9.0], note, 14.0, Anchor::Middle, GRAY));
     items.push(heading(RIGHT_COLUMN, top - 32.0, "Configuration space of each payload state"));
     items.extend(legend::items(keys, PAGE_WIDTH / 2.0, height - legend));

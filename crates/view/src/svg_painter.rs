@@ -24,7 +24,7 @@ pub fn paint(font: &Font, element: Node, transform: Transform, pixels: &mut Pixm
         "circle" => PathBuilder::from_circle(number(element, "cx")?, number(element, "cy")?, number(element, "r")?),
         "rect" => rectangle(element)?.map(PathBuilder::from_rect),
         "text" => text(font, element)?,
-        other => return Err(DrawError::Svg(format!("no picture of ours has an element <{other}>"))),
+        other => return Err(DrawError::Svg(format!("cplan draws no pictures with an element <{other}>"))),
     };
     // A path without length has no outline, so nothing is drawn.
     if let Some(path) = path {

@@ -352,7 +352,10 @@ fn course(
         Err(reader.source.diagnostic_at(motion.span(), format!("{what}, motion: {message}")).help(help))
     };
     if given.pallet.is_some() {
-        return refuse("objects on a pallet cannot move", "make each moving one an [[object]] with `at`");
+        return refuse(
+            "objects on a pallet cannot move",
+            "write each moving object as an [[object]] of its own, with `at`",
+        );
     }
     if given.renew {
         return refuse("a moving object cannot be renewed", "write a separate [[object]] for each one that arrives");

@@ -249,8 +249,8 @@ fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
             format!("the tip is at {at} for all values of joint \"{}\": any free value is accepted", name(joint))
         }
         Freedom::Share => format!(
-            "joints \"{}\" and \"{}\" turn about one axis: the tip is at {at} however they share the angle, and any free \
-             way to share it will do",
+            "joints \"{}\" and \"{}\" turn about one axis: the tip is at {at} whenever their turns add up to the same angle; \
+             any free pair that does so is accepted",
             name(0),
             name(1)
         ),

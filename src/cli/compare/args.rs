@@ -61,8 +61,8 @@ pub struct CompareArgs {
     #[arg(long, value_name = "N", conflicts_with_all = ["start", "goal", "goal_tip"],
           value_parser = clap::value_parser!(u32).range(1..=MAX_QUERIES), help_heading = COMPARISON)]
     pub queries: Option<u32>,
-    /// Seed of the random pairs. The same seed gives the same pairs in this and all later versions; fewer queries are the
-    /// first ones of more.
+    /// Seed of the random pairs. The same seed gives the same pairs in this and all later versions; a run with fewer
+    /// queries uses the first of them.
     #[arg(long, value_name = "S", default_value_t = 1, requires = "queries", help_heading = COMPARISON)]
     pub seed: u64,
     /// Number of runs at the same time. Several runs disturb each other's times; memory is reported only with --jobs 1.

@@ -197,7 +197,7 @@ fn drawn(name: &str, world: usize, base: Arc<MotionProblem>, sampling: Option<Sa
     };
     let Some(pairs) = free_pairs(base.scene(), queries, seed) else {
         return Err(format!(
-            "--queries: {name} has hardly a configuration that keeps the clearance of {} m; a smaller --clearance or \
+            "--queries: {name} has almost no configuration that keeps the clearance of {} m; a smaller --clearance or \
              other obstacles leave room for random queries",
             base.scene().workspace().clearance
         ));

@@ -89,7 +89,7 @@ fn invalid_relaxations_are_refused() {
     }
     let empty = Relaxation::JACOBI.clamped([1.0, 0.0]);
     assert!(refused(&Equation::Harmonic, empty, domain.start()).contains("range"));
-    assert!(refused(&Equation::Harmonic, sor(1.0), vec![0.0; 3]).contains("one value a cell"));
+    assert!(refused(&Equation::Harmonic, sor(1.0), vec![0.0; 3]).contains("one value per cell"));
     let short = Equation::AlteredPreference { epsilon: vec![0.0; 3] };
     assert!(refused(&short, sor(1.0), domain.start()).contains("3 cells"));
     assert!(refused(&oriented(f64::NAN, Difference::Upwind), sor(1.0), domain.start()).contains("finite"));

@@ -118,7 +118,7 @@ fn interpolated_motions_of_shipped_tasks_are_certified() {
         let objects = objects(&world);
         for format in FORMATS.into_iter().filter(|format| *format != "json") {
             let (code, report) = run.verified(&robot, &world, format);
-            assert!(report.contains("with all objects where they lie at first"), "{name}.{format}: {report}");
+            assert!(report.contains("with all objects at their initial positions"), "{name}.{format}: {report}");
             let contact = report.lines().find(|line| line.starts_with("contact "));
             let is_object =
                 |line: &str| objects.iter().any(|object| line.contains(&format!("and obstacle \"{object}\"")));

@@ -265,7 +265,7 @@ fn the_only_planar_pair_is_taken() {
         joint("y", "revolute", across, "l1", "l2"),
         joint("z", "revolute", "1 0 0", "l2", "l3"),
     ];
-    run(&none, "").refused(1, &["none of the robot's 3 joints", "hint"]);
+    run(&none, "").refused(1, &["no two of the robot's 3 movable joints", "hint"]);
     // The world names a pair that is not planar; the help names the planar one.
     place.write("world.toml", format!("[robot]\njoints = [\"a2\", \"quill\"]\n{TURN}"));
     run(&scara, "").refused(1, &["one common plane", "[robot] joints = [\"a1\", \"a2\"]"]);

@@ -84,7 +84,7 @@ fn pictures_show_where_it_gets_stuck() {
     let place = Place::new();
     let done = explain(&place, "planar_2r_continuous", "no_path", "--picture why.svg --picture why.html --quiet");
     assert_eq!((done.code, done.stdout.as_str()), (3, ""), "{}", done.stderr);
-    assert!(place.read("why.svg").contains("where it gets stuck"));
+    assert!(place.read("why.svg").contains("the narrowest place"));
     assert!(place.read("why.html").contains("opens a path (certified)"));
 }
 

@@ -88,7 +88,7 @@ fn a_known_map_is_taken_up() {
     moved.refused(1, &["rooms.yaml", "has occupied space near (0.6", "the world has free space", "hint"]);
     place.write("finer.toml", text.replace("cell = 0.025", "cell = 0.02"));
     let finer = place.run(&["explore", &robot, "finer.toml"], &format!("{COARSE} --known rooms.yaml"));
-    finer.refused(1, &["rooms.yaml", "has other cells"]);
+    finer.refused(1, &["rooms.yaml", "does not have the cells"]);
 }
 
 /// Checks a head that moves above all obstacles, so that its sensor can be above unknown places. One leg is longer than

@@ -57,7 +57,7 @@ fn limits_that_look_like_degrees_are_refused_with_both_readings() {
 #[test]
 fn robots_in_millimetres_are_noticed() {
     let lengths = [("xyz=\"1.0 0 0\"", "xyz=\"625 0 0\""), ("xyz=\"0.8 0 0\"", "xyz=\"425 0 0\"")];
-    hinted(&lengths, TO_A_TIP, &["the arm is 625 m and 425 m long", "divided by 1000"]);
+    hinted(&lengths, TO_A_TIP, &["the arm is 625 m and 425 m long", "divide lengths in millimetres by 1000"]);
     let shapes = [("size=\"1.0 0.1 0.1\"", "size=\"1000 100 100\"")];
     hinted(&shapes, FREE, &["the shape of link \"upper_arm\" reaches", "scale=\"0.001 0.001 0.001\""]);
     let slides = [

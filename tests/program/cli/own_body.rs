@@ -138,7 +138,7 @@ fn links_that_meet_in_every_configuration_are_named() {
 fn links_that_the_robot_does_not_have_are_refused() {
     for (robot, parts) in [
         ("ignore_contact = [[\"base\", \"quill\"]]", ["no link \"base\"", "\"base_link\", \"inner\""]),
-        ("ignore_contact = [[\"base_link\"]]", ["a pair of links is two names, not 1", "ignore_contact = [["]),
+        ("ignore_contact = [[\"base_link\"]]", ["a pair of links needs two names, not 1", "ignore_contact = [["]),
     ] {
         let (_, done) = run(&scara(0.39, ""), &world(robot, [0.0, -1.0]), "");
         done.refused(1, &parts);

@@ -60,7 +60,7 @@ fn all_solutions_are_there_and_put_the_tip_at_the_centres() {
     }
     assert_eq!(all.len(), expected);
     let picture = place.read("r.svg");
-    for part in ["Workspace", "Configuration space", "the tip can get there, one way"] {
+    for part in ["Workspace", "Configuration space", "the tip can reach it, with one IK solution"] {
         assert!(picture.contains(part), "{part}");
     }
 }
@@ -108,7 +108,7 @@ fn cells_and_homes_that_make_no_sense_are_refused() {
     reach(&place, &shelf(), "--cell 0.0001").refused(1, &["more than 4000000 cells", "choose a larger size"]);
     reach(&place, &shelf(), "--cell 0").refused(2, &["--cell"]);
     reach(&place, &shelf(), "--home 0,9").refused(1, &["elbow"]);
-    reach(&place, &shelf(), "--output r.yaml").refused(2, &["written as .json or .csv"]);
+    reach(&place, &shelf(), "--output r.yaml").refused(2, &["must end in .json or .csv"]);
     reach(&place, &shelf(), "--picture r.gif").refused(2, &["drawn as .svg, .png or .html"]);
     assert!(!place.path("r.yaml").exists());
 }

@@ -263,5 +263,9 @@ fn a_gap_that_cannot_be_reached_is_said() {
     let slot = ["robots/polar.urdf", "workspaces/thin_wall_open.toml"].map(shipped);
     let done = here.run(&slot, "--gap 1e-9 --levels 1 --json");
     assert_eq!(done.code, 0);
-    assert!(done.stderr.contains("warning: the gap of") && done.stderr.contains("--levels"), "{}", done.stderr);
+    assert!(
+        done.stderr.contains("warning: the requested gap of") && done.stderr.contains("--levels"),
+        "{}",
+        done.stderr
+    );
 }

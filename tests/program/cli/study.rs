@@ -317,7 +317,7 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
         ("", String::new(), &["the study has no parameters", "[[parameter]]"]),
         ("", x.into(), &["line 4, column 1", "parameter \"x\" does not define its values", "from, to and steps"]),
         ("", format!("{x}steps = 1\n"), &["line 9", "1 values from 0 to 1"]),
-        ("", format!("{x}draw = \"latin\"\n"), &["is drawn: how often?", "draws = 1000"]),
+        ("", format!("{x}draw = \"latin\"\n"), &["does not state how often", "draws = 1000"]),
         ("draws = 5", format!("{x}steps = 3\n"), &["line 3", "no parameter is drawn"]),
         ("", format!("{x}draw = \"sobol\"\n"), &["\"uniform\" or \"latin\", not \"sobol\""]),
         (

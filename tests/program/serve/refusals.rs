@@ -33,7 +33,7 @@ fn what_is_no_request_is_answered() {
     for nonsense in ["", "{", "[]", "{\"do\":\"stop\"}", "{\"do\":\"plan\"}", &"[".repeat(100_000)] {
         page.send(nonsense);
         let answer = page.next();
-        assert!(answer["kind"] == "failed" && error_of(&answer).starts_with("no request"), "{answer}");
+        assert!(answer["kind"] == "failed" && error_of(&answer).starts_with("not a valid request"), "{answer}");
     }
     assert_eq!(page.plan(None, "visibility")["verdict"], "found");
 }
@@ -115,7 +115,7 @@ fn states_that_make_no_sense_are_refused() {
     stale["clearance"] = json!(-1.0);
     assert!(error_of(&page.plan(Some(stale), "visibility")).contains("must not be negative"));
     page.base += 1;
-    assert!(error_of(&page.plan(None, "visibility")).contains("shows world 2"));
+    assert!(error_of(&page.plan(None, "visibility")).contains("about world 2"));
     page.base -= 1;
     assert_eq!(page.plan(None, "visibility")["verdict"], "found");
 }

@@ -118,7 +118,7 @@ fn messages_that_are_none() {
 
 #[test]
 fn files_of_other_kinds() {
-    refused("m.txt", "0 0\n", &["cannot tell the format", ".json", ".csv", ".yaml"]);
+    refused("m.txt", "0 0\n", &["is unknown", ".json", ".csv", ".yaml"]);
     let folder = tempfile::tempdir().unwrap();
     let at = |file: &str| folder.path().join(file);
     fs::write(at("arm.urdf"), ARM).unwrap();

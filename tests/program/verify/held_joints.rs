@@ -87,7 +87,7 @@ fn a_quill_is_judged_at_the_heights_that_it_has() {
     // Halfway down over the block its heights are those of the block.
     assert!(verdict == "collision" && (1.5 - 1e-6..1.6).contains(&time), "{json:#}");
     let notes = json["notes"].to_string();
-    assert!(notes.contains("moves, from 0 to 0.21 m") && notes.contains("at the heights that it has"), "{notes}");
+    assert!(notes.contains("moves, from 0 to 0.21 m") && notes.contains("at their heights of each moment"), "{notes}");
 }
 
 /// The arm stands over the block. The rod moves down at the first sample and up at the second, so the cubic between
@@ -118,7 +118,7 @@ fn a_wrist_sweeps_a_disc() {
     ] {
         let (found, json) = found(finger, &table(turn, j1));
         assert_eq!(found, verdict, "{turn} {j1}: {json:#}");
-        assert!(turn == 0.0 || json["notes"].to_string().contains("the disc that it sweeps"), "{json:#}");
+        assert!(turn == 0.0 || json["notes"].to_string().contains("the disc that they sweep"), "{json:#}");
         // The rod is round, so that its contacts are certain; those of the disc are not.
         let certain = json["first_contact"]["body"].as_str();
         assert_eq!(certain, (verdict == "collision").then_some("rod"), "{json:#}");

@@ -334,7 +334,7 @@ fn a_file_without_steps_is_one_motion() {
     tower.result.as_object_mut().unwrap().remove("steps");
     let found = tower.found();
     assert!(found["steps"].is_null());
-    assert!(found["notes"].to_string().contains("the world has steps, the file none"), "{found:#}");
+    assert!(found["notes"].to_string().contains("the world has steps, but the file has none"), "{found:#}");
     let (code, text, error) = tower.report(&["--start", "0,0"]);
     assert_eq!(code, 3, "{error}");
     assert!(text.contains("not at the start (0, 0)"), "{text}");

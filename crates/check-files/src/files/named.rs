@@ -39,7 +39,9 @@ impl Files {
         let is_said = |stated: &Vec<String>| stated.iter().any(|stated| stated.eq_ignore_ascii_case(&digest(&bytes)));
         match self.others.as_ref().is_none_or(is_said) {
             true => Ok(bytes),
-            false => CheckError::fails(format!("it is about another {name}, whose SHA-256 is not in \"others\"")),
+            false => {
+                CheckError::fails(format!("it is for another {name}: the SHA-256 of this one is not in \"others\""))
+            }
         }
     }
 }

@@ -96,7 +96,7 @@ impl<'a> Scene<'a> {
         }
         for child in node.children().filter(Node::is_element) {
             let target =
-                || self.target(child).ok_or_else(|| "it refers to an element that it does not have".to_owned());
+                || self.target(child).ok_or_else(|| "it refers to an element that the file does not have".to_owned());
             match child.tag_name().name() {
                 "node" => self.show(child, &to_file.after(&placing(child)?), depth + 1)?,
                 "instance_node" => {
@@ -105,7 +105,8 @@ impl<'a> Scene<'a> {
                 }
                 "instance_geometry" => {
                     let target = target()?;
-                    let mesh = self::child(target, "mesh").ok_or("the checker knows geometries that are a <mesh>")?;
+                    let mesh =
+                        self::child(target, "mesh").ok_or("the checker reads only geometries that are a <mesh>")?;
                     self.positions(mesh, to_file)?;
                 }
                 "instance_controller" => return Err("the checker does not read meshes that controllers deform".into()),

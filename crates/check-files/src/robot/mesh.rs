@@ -64,7 +64,7 @@ fn read(files: &Files, name: &str) -> Result<Mesh, CheckError> {
         Some((_, "stl")) => stl,
         Some((_, "obj")) => obj,
         Some((_, "dae")) => |bytes| Ok(Mesh { points: collada::vertices(bytes)?, edges: Vec::new() }),
-        _ => return Err(wrong("the checker knows meshes as STL, OBJ and Collada (.dae)")),
+        _ => return Err(wrong("the checker reads only meshes in STL, OBJ and Collada (.dae)")),
     };
     let path = candidates(name, files.path(Input::Urdf)?).into_iter().find(|path| path.is_file());
     let bytes = files.bytes(Input::Urdf, &path.ok_or_else(|| wrong("it does not exist"))?)?;
@@ -117,7 +117,7 @@ fn obj(bytes: &[u8]) -> Result<Mesh, String> {
                     let number = word.split('/').next().and_then(|number| number.parse::<i64>().ok());
                     let at = number.map(|n| if n < 0 { n.saturating_add(vertices.len() as i64) } else { n - 1 });
                     let at = at.and_then(|at| usize::try_from(at).ok()).filter(|at| *at < vertices.len());
-                    face.push(at.ok_or("a face has a vertex that does not precede it")?);
+                    face.push(at.ok_or("a face uses a vertex that the file does not state before it")?);
                 }
                 faces.push(face);
             }

@@ -25,7 +25,7 @@ impl<'a> Tree<'a> {
             return match self.values.get(self.text(joint, "name")?) {
                 Some(value) => Ok(value.clone()),
                 None if followed == 0 || !moves(&joint) => Ok(Interval::whole(0)),
-                None => self.error(joint, "another joint mimics this one, which moves"),
+                None => self.error(joint, "this joint moves, and another joint mimics it"),
             };
         };
         let number = |name: &str, else_: i32| match mimic.has_attribute(name) {

@@ -118,7 +118,10 @@ impl<'a> Tree<'a> {
         let parents = tree.named.values().map(|joint| tree.parent(*joint)).collect::<ReadResult<Vec<_>>>()?;
         let all: BTreeSet<&str> = tree.order.iter().copied().chain(parents).collect();
         if all.iter().filter(|link| !tree.joints.contains_key(**link)).count() > 1 {
-            return tree.error(robot, "several links have no joint above them: a robot has one root");
+            return tree.error(
+                robot,
+                "several links are not the child of any joint: a robot needs exactly one such root link",
+            );
         }
         Ok((tree, movable))
     }

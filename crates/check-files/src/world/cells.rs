@@ -73,7 +73,7 @@ impl Cells {
             _ => return Err(wrong(yaml, "negate is neither 0 nor 1")),
         };
         if !mode.is_none_or(|mode| ["trinary", "scale"].contains(&mode.as_str())) {
-            return Err(wrong(yaml, "the checker knows the modes trinary and scale"));
+            return Err(wrong(yaml, "the checker knows only the modes trinary and scale"));
         }
         let path = yaml.with_file_name(image);
         let Picture { size, white, shades } =

@@ -20,7 +20,7 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
     match bytes {
         [b'P', kind @ (b'2' | b'5'), rest @ ..] => greymap(rest, *kind == b'2'),
         [0x89, b'P', b'N', b'G', ..] => in_png(bytes),
-        _ => Err("the checker knows pictures as PGM (P2, P5) and PNG: save it as one".into()),
+        _ => Err("the checker reads only PGM (P2, P5) and PNG pictures: save it as one of these".into()),
     }
 }
 

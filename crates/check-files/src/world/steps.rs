@@ -54,7 +54,7 @@ impl Reader<'_> {
             let family = objects.last().map(|object: &Object| object.family.clone());
             let own: BTreeSet<String> = of_family.iter().filter_map(|one| one.name.clone()).chain(family).collect();
             if own.len() < of_family.len() || own.iter().any(|name| !taken.insert(name.clone())) {
-                return self.error(value, "a second object, or an obstacle, of this name");
+                return self.error(value, "another object or obstacle has this name");
             }
             for obstacle in of_family {
                 resting.push(self.table(value)?.get("supports"));
@@ -89,7 +89,7 @@ impl Reader<'_> {
             DeValue::Integer(_) => self.number(value)?.to_string().parse().ok(),
             _ => None,
         };
-        count.filter(|count| *count > 0).map_or_else(|| self.error(value, "expected a whole number from 1 on"), Ok)
+        count.filter(|count| *count > 0).map_or_else(|| self.error(value, "expected a whole number of at least 1"), Ok)
     }
 
     fn is_level(&self, value: &Value) -> ReadResult<bool> {
@@ -220,7 +220,7 @@ impl Steps<'_, '_> {
             matches!((&first.action, &second.action), (Action::Pick { .. }, Action::Place { .. }))
         };
         if is_free && !nodes.chunks(2).all(is_pair) {
-            return reader.error(list, "steps in free order are pick, place, pick, place, and so on");
+            return reader.error(list, "steps in free order must be pick, place, pick, place, and so on");
         }
         let mut renewed = Vec::new();
         for node in &nodes {

@@ -31,7 +31,8 @@ impl Convergence {
     }
 }
 
-const METHOD_NOTE: &str = "The error is the greatest of all cells against the solution by elimination, over the greatest before the first \
-                   sweep; the rate is what a sweep multiplies it by in the end. The formula is the best factor for Laplace's \
-                   equation in an empty rectangle; the factor by rate is Young's, of the rate of Jacobi's relaxation on this \
-                   very grid. What diverges or ends before it converges has no point in the charts.";
+const METHOD_NOTE: &str = "The error of a field is its greatest difference from the solution by elimination, relative \
+                           to that difference before the first sweep. The rate is the factor by which a late sweep \
+                           multiplies the error. The formula is the best factor for Laplace's equation in an empty \
+                           rectangle. The factor by rate is Young's, from the rate of Jacobi's relaxation on this \
+                           grid. The charts have no point for a relaxation that diverges, or ends before it converges.";

@@ -168,12 +168,13 @@ const MAX_UNFOLDED_PROBLEMS: usize = 40;
 /// The page's own style sheet, after the one of all pages.
 const STYLE: &str = include_str!("style.css");
 
-const METHOD_NOTE: &str = "Every run is a whole one, from the problem to a certificate or a proof. <em>Found</em>: the whole continuous \
-                   motion is certified free of collision. <em>Infeasible</em>: proven. Lengths are Euclidean in joint space; the \
-                   proven optimum is a lower bound that no motion is below. Clearance is the proven distance from obstacles \
-                   along the motion; its time keeps the joints' limits. Memory is what a run allocates at the same time, at the \
-                   most. Times and memory are of the machine that made this page; all other numbers are the same \
-                   everywhere, up to the rounding of its sine and cosine.";
+const METHOD_NOTE: &str = "Every run covers the whole work from the problem to a certificate or a proof. \
+                           <em>Found</em>: the whole continuous motion is certified free of collision. \
+                           <em>Infeasible</em>: proven. Lengths are Euclidean in joint space; no motion is shorter \
+                           than the proven lower bound on the optimum. Clearance is the proven distance from obstacles \
+                           along the motion. The motion keeps the joints' limits. Memory is the greatest amount that a \
+                           run has allocated at any one time. Times and memory depend on the machine; all other \
+                           numbers are the same everywhere, up to the rounding of sines and cosines.";
 
 /// Formats a paragraph whose first sentence, the conclusion, is emphasised.
 fn paragraph(text: &str) -> String {

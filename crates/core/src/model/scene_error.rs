@@ -102,7 +102,7 @@ pub enum SceneError {
         name: String,
     },
     /// The attachment's pose is not finite, or the attachment is too large.
-    #[error("payload \"{object}\": its grip and its shape must be finite and within 1e15 m")]
+    #[error("carried object \"{object}\": its position on link 2 and its shape must be finite and within 1e15 m")]
     Grip {
         /// The attachment's name.
         object: String,
@@ -117,7 +117,7 @@ pub enum SceneError {
     },
     /// The attachment is held level, but a loose obstacle turns.
     #[error(
-        "payload \"{object}\" is held level, but \"{moving_obstacle}\" turns; level payloads need moving obstacles that do not turn"
+        "carried object \"{object}\" keeps its orientation, but obstacle \"{moving_obstacle}\" turns; such objects need obstacles that do not turn"
     )]
     TurnsAboutLevel {
         /// The attachment's name.

@@ -67,7 +67,7 @@ fn attach_goals(grid: &Grid, goals: &Segment) -> Result<Attachment, String> {
         return attach(grid, from, "goal");
     }
     if !grid.topology.contains(from) || !grid.topology.contains(to) {
-        return Err(format!("the goals from {} to {} leave the configuration space", shown(from), shown(to)));
+        return Err(format!("the goals from {} to {} extend beyond the configuration space", shown(from), shown(to)));
     }
     let cells: Vec<usize> = cells_along(grid, goals).into_iter().filter(|&cell| !grid.blocked[cell]).collect();
     if cells.is_empty() {

@@ -355,8 +355,8 @@ impl std::fmt::Display for Note {
             Self::Continued { first, more } => {
                 write!(
                     f,
-                    "the measure was met after {first} sweeps; {more} more, by relative change, for the small values \
-                     about the path"
+                    "the measure was met after {first} sweeps; {more} more sweeps by relative change followed, because \
+                     values near the path are small"
                 )
             }
             Self::Escaped { how, minima, moves } => {
@@ -364,7 +364,7 @@ impl std::fmt::Display for Note {
                 write!(f, "escaped from {minima} {how}: {} that the forces do not make", counted(*moves, "move"))
             }
             Self::Floor { sweeps, change } => {
-                write!(f, "after {sweeps} sweeps single precision goes no further, at a change of {change:.1e}")
+                write!(f, "after {sweeps} sweeps single precision allows no more progress, at a change of {change:.1e}")
             }
         }
     }

@@ -32,7 +32,7 @@ impl Terminals {
     ) -> Result<Self, String> {
         let start = query.start;
         if parts_of(&Segment::point(query.start)).is_empty() {
-            return Err(format!("the start {} is not in the free space of the representation", shown(start)));
+            return Err(format!("the start {} is not in the free space that the planner searches", shown(start)));
         }
         let (Some(first), pieces) = (query.goals.pieces().first(), query.goals.pieces()) else {
             return Err("the query has no goal".to_owned());
@@ -48,7 +48,7 @@ impl Terminals {
         if goals.is_empty() {
             let goal = shown(first.ends()[0]);
             let others = if pieces.len() > 1 { format!(" (nor {} others)", pieces.len() - 1) } else { String::new() };
-            return Err(format!("the goal {goal}{others} is not in the free space of the representation"));
+            return Err(format!("the goal {goal}{others} is not in the free space that the planner searches"));
         }
         parts.sort_by_key(|part| part.0);
         Ok(Self { start, goals, parts })

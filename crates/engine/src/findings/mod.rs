@@ -54,8 +54,8 @@ fn judge_motion(
 ) -> Result<MotionFindings, InputError> {
     if loaded.has_steps() {
         notes.push(
-            "the world has steps, the file none: judged as one motion, empty-handed, with all objects where they lie at \
-             first; for the steps verify a task's result in .json"
+            "the world has steps, but the file has none: it is judged as one motion without a payload, with all \
+             objects at their initial positions; to judge the steps, verify a task's result in .json"
                 .into(),
         );
     }
@@ -109,8 +109,9 @@ fn judge_task(
 ) -> Result<MotionFindings, InputError> {
     let LoadedTask { task, scene, .. } = loaded.clone().recorded_task(overrides)?;
     notes.push(
-        "step by step: that the steps are the world's in an order that it allows, each motion with what is carried and \
-         objects where they lie then, limits, grasps, places, turns and rests; and what the file says of steps and events"
+        "judged step by step: whether the steps are the world's, in an order that it allows; each motion with its \
+         payload and the objects at their positions at that time; limits, grasps, places, turns and rests; and the \
+         file's statements about steps and events"
             .into(),
     );
     let replay = replay(&task, recording, steps);
@@ -128,8 +129,8 @@ fn turns(scene: &Scene, recording: &Recording) -> Option<String> {
         n => format!(" ({} such steps more)", n - 1),
     };
     Some(format!(
-        "from sample {sample} to {} joint \"{}\" turns by {} and is checked so{others}; if the file's angles are kept \
-         within one turn, say --unwrap",
+        "from sample {sample} to {} joint \"{}\" turns by {}, and is checked with that turn{others}; if the file keeps \
+         angles within one turn, use --unwrap",
         sample + 1,
         joint.name,
         joint.shown(step)

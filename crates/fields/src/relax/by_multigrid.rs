@@ -83,10 +83,11 @@ pub fn by_multigrid_in(
         return Err(RelaxError::Refused(refusal));
     }
     if stopping.measure != Measure::SumOfSquares {
-        return Err(refused("multigrid measures the sum of squared changes: stop by that"));
+        return Err(refused("multigrid measures the sum of squared changes: use that measure"));
     }
-    let (drift, difference) =
-        equation.drift().ok_or_else(|| refused("multigrid solves linear equations: relax preferences"))?;
+    let (drift, difference) = equation
+        .drift()
+        .ok_or_else(|| refused("multigrid solves only linear equations: use a relaxation for preferences"))?;
     if domain.kinds().is_empty() {
         let stage = Convergence { sweeps: 0, change: 0.0, converged: true };
         return Ok(RelaxedField { values: Vec::new(), stages: vec![stage] });
@@ -103,7 +104,7 @@ pub fn by_multigrid_in(
         stage.converged = stage.change < stopping.below || stage.change == 0.0;
         if !stage.change.is_finite() {
             let cell = values.iter().position(|value| !value.is_finite()).unwrap_or(0);
-            let hint = "the values to start from, or the drift, are too great".into();
+            let hint = "the initial values or the drift are too great".into();
             let place = [cell / domain.cells()[1], cell % domain.cells()[1]];
             return Err(RelaxError::Diverged { sweeps: stage.sweeps, cell: place, value: values[cell], hint });
         }

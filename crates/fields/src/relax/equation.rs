@@ -45,7 +45,9 @@ impl TryFrom<[f64; 2]> for Direction {
     /// Keeps a vector of length 1 unchanged, so that a written direction is read back the same.
     fn try_from(vector: [f64; 2]) -> Result<Self, &'static str> {
         let length = vector[0].hypot(vector[1]);
-        ((length - 1.0).abs() <= UNIT_ROUNDING).then_some(Self(vector)).ok_or("a direction is a vector of length 1")
+        ((length - 1.0).abs() <= UNIT_ROUNDING)
+            .then_some(Self(vector))
+            .ok_or("a direction must be a vector of length 1")
     }
 }
 
@@ -206,7 +208,7 @@ impl Equation {
             }
         };
         if count != cells {
-            return Some(format!("the equation has {count} cells, the domain {cells}"));
+            return Some(format!("the equation has {count} cells, but the domain has {cells}"));
         }
         (!finite).then(|| "epsilon must be a finite number".into())
     }

@@ -31,7 +31,7 @@ pub(super) fn relax(
         Scheme::Simultaneous { .. } => Sweep::Jacobi,
         Scheme::Successive { order: Order::RedBlack, .. } => Sweep::RedBlack,
         Scheme::Successive { order, .. } => {
-            let reason = format!("on a GPU cells go red-black, or all at once; the order {order} is for the CPU");
+            let reason = format!("a GPU relaxes cells red-black or all at once; use the CPU for the order {order}");
             return Err(RelaxError::Refused(reason));
         }
     };
@@ -89,7 +89,7 @@ impl Stages for Field<'_> {
 
     fn altered(&mut self, strengths: Vec<f64>) -> Result<(), RelaxError> {
         if self.domain.beta() != 1.0 {
-            return Err(RelaxError::Refused("altered preferences on cells that are not square are for the CPU".into()));
+            return Err(RelaxError::Refused("use the CPU for altered preferences on cells that are not square".into()));
         }
         self.stage(Stencil::Altered(strengths))
     }

@@ -197,7 +197,7 @@ pub(super) fn places_around(domain: &Domain, unknowns: &[u32]) -> Vec<[u32; 4]> 
 /// Returns the initial values of all cells, with obstacles and goals at their levels, and then the value beyond limits.
 pub(super) fn begun(domain: &Domain, start: Vec<f64>) -> Result<Vec<f64>, RelaxError> {
     if start.len() != domain.kinds().len() {
-        return Err(RelaxError::Refused("there must be one value a cell to start from".into()));
+        return Err(RelaxError::Refused("the initial field must have one value per cell".into()));
     }
     let fixed = start.into_iter().zip(domain.kinds()).map(|(value, &kind)| domain.fixed(kind).unwrap_or(value));
     Ok(fixed.chain([domain.levels().obstacle]).collect())
@@ -214,10 +214,10 @@ pub(super) fn hint(domain: &Domain, equation: &Equation, factor: f64) -> String 
     if equation.is_monotone_on(domain) {
         format!("the factor {factor:.4} is too great for this equation")
     } else if matches!(equation, Equation::AlteredPreference { .. }) {
-        "the altered equation is monotone only for an |epsilon| of less than 2 a cell: take a smaller one".into()
+        "the altered equation is monotone only for an |epsilon| of less than 2 per cell: use a smaller epsilon".into()
     } else {
-        "central differences are monotone only for an |epsilon| of less than 2 a cell: take upwind ones, or a smaller \
-         epsilon"
+        "central differences are monotone only for an |epsilon| of less than 2 per cell: use upwind differences, or a \
+         smaller epsilon"
             .into()
     }
 }

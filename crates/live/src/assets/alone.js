@@ -68,7 +68,7 @@ class Alone {
       return;
     }
     if (request.do === 'plan') this.waiting = this.waiting.filter((one) => one.do !== 'plan');
-    if (this.waiting.length >= MOST_WAITING) this.refuse(request, 'too many requests wait');
+    if (this.waiting.length >= MOST_WAITING) this.refuse(request, 'too many requests are waiting');
     else this.waiting.push(request);
     this.next();
   }
@@ -98,7 +98,7 @@ class Alone {
 
   restart(running) {
     this.end();
-    if (running.do === 'download') this.refuse(running, 'the file is not made: the page has changed since');
+    if (running.do === 'download') this.refuse(running, 'the file is not written: the page has changed since');
     this.start();
   }
 

@@ -16,7 +16,7 @@ class Controls {
     const button = (text, label, action) => element('button', { type: 'button', class: 'button', 'aria-label': label, title: label, onclick: action }, text);
     const { editor } = live;
     this.things = element('select', { class: 'things', 'aria-label': 'selected', autocomplete: 'off', onchange: (event) => this.choose(event.target.value) });
-    this.remove = button('Delete', 'delete what is selected', () => editor.remove());
+    this.remove = button('Delete', 'delete the selected object or corner', () => editor.remove());
     this.corner = button('+ corner', 'add a corner to the longest side', () => editor.insertCorner());
     this.undo = button('\u21b6', 'undo', () => live.turn('undo'));
     this.redo = button('\u21b7', 'redo', () => live.turn('redo'));
@@ -61,7 +61,7 @@ class Controls {
       element('summary', {}, 'World as text'),
       element('p', {}, element('label', {}, this.text)),
       live.notices.places.text,
-      button('Plan in this world', 'take the text for the world', () => live.load(this.text.value)),
+      button('Plan in this world', 'plan in the world that the text describes', () => live.load(this.text.value)),
     );
   }
 
@@ -75,7 +75,7 @@ class Controls {
     return element(
       'div', { class: 'group files' }, button('Open world\u2026', () => this.file.click()), this.file, this.format,
       button('Save', () => live.save(this.format.value)),
-      button('Start again', () => live.reset(), 'back to the world that cplan was started with'),
+      button('Start again', () => live.reset(), 'return to the initial world'),
       this.remarks, element('span', { class: 'command' }, 'as a command: ', this.command),
     );
   }

@@ -35,13 +35,13 @@ const Puzzles = {
   fault({ free }, scene) {
     const first = JSON.parse(scene.first);
     const same = (key) => JSON.stringify(first[key]) === JSON.stringify(scene[key]);
-    if (!same('start') || !same('goal')) return 'Start and goal have to stay.';
-    if (free === 'clearance') return same('obstacles') ? null : 'The obstacles have to stay: change the clearance.';
-    if (!same('clearance')) return 'The clearance has to stay.';
+    if (!same('start') || !same('goal')) return 'Do not change the start or the goal.';
+    if (free === 'clearance') return same('obstacles') ? null : 'Do not change the obstacles: change only the clearance.';
+    if (!same('clearance')) return 'Do not change the clearance.';
     const { obstacles } = scene;
     const areThere = obstacles.length === first.obstacles.length && obstacles.every(({ from }, i) => from === i);
-    if (!areThere) return 'No obstacle may come or go: move those that are there.';
-    return obstacles.every(({ shape }, i) => Puzzles.moved(first.obstacles[i].shape, shape)) ? null : 'Obstacles may be moved, not reshaped.';
+    if (!areThere) return 'Do not add or delete obstacles: only move them.';
+    return obstacles.every(({ shape }, i) => Puzzles.moved(first.obstacles[i].shape, shape)) ? null : 'Move the obstacles, but do not change their shapes.';
   },
 
   /** Returns true if an answer solves the puzzle. */
@@ -119,7 +119,7 @@ class Gallery {
 
   /** Returns the initial files with a remark, if the world in the address cannot be opened. */
   instead() {
-    this.live.remark('The address holds no world that can be read: this is the page\u2019s own.');
+    this.live.remark('The world in the address cannot be read: this is the page\u2019s own world.');
     return this.own();
   }
 
@@ -134,11 +134,11 @@ class Gallery {
     const packed = `#w=${await Packed.write(JSON.stringify({ urdf, world: toml, options: words }))}`;
     try {
       await navigator.clipboard.writeText(`${location.href.split('#', 1)[0]}${packed}`);
-      this.live.remark('The link is copied: it holds arm, world and options.');
+      this.live.remark('The link is copied: it contains the arm, the world and the options.');
     } catch {
       this.linked = packed;
       location.hash = packed;
-      this.live.remark('The address of this page is the link: it holds arm, world and options.');
+      this.live.remark('The address of this page is now the link: it contains the arm, the world and the options.');
     }
   }
 
@@ -146,7 +146,7 @@ class Gallery {
   say() {
     const isWhole = Boolean(this.live.first?.urdf);
     this.copy.disabled = !isWhole || !this.live.isCurrent;
-    this.copy.title = isWhole ? 'copy an address that holds arm, world and options' : 'arm or world name files beside them, which no address holds';
+    this.copy.title = isWhole ? 'copy an address that contains the arm, the world and the options' : 'the arm or the world names other files, which an address cannot contain';
     const { puzzle } = this.choice ?? {};
     const { scene, answered } = this.live;
     if (!puzzle || !scene) {
@@ -154,7 +154,7 @@ class Gallery {
       return;
     }
     if (this.live.isCurrent) {
-      this.fault = this.live.world.toml === this.choice.world ? Puzzles.fault(puzzle, scene) : 'The world is another one: start again.';
+      this.fault = this.live.world.toml === this.choice.world ? Puzzles.fault(puzzle, scene) : 'This is not the world of the puzzle: start again.';
       this.isSolved = !this.fault && Puzzles.isSolved(puzzle, answered, scene);
     }
     const state = this.fault ?? (this.isSolved ? '\u2714 Solved.' : '');

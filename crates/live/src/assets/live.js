@@ -72,10 +72,10 @@ class Live {
     this.root.querySelector('.help').before(this.controls.world);
     this.notices.over(this.view.panels.workspace);
     this.root.querySelector('.help dl').prepend(...[
-      ['drag an obstacle, the start\u2019s tip (ring) or the goal (target)', 'the configuration space follows, the plan when you let go'],
-      ['drag start (ring) or goal (diamond) in the configuration space', 'the same by joint values'],
+      ['drag an obstacle, the start\u2019s tip (ring) or the goal (target)', 'moves it; the configuration space follows, and the plan appears when you release it'],
+      ['drag start (ring) or goal (diamond) in the configuration space', 'moves the start or the goal in joint space'],
       ['click an obstacle, then drag a corner or the rim', 'changes its shape; a double click on a side adds a corner'],
-      ['arrow keys with something selected', 'move it (with Shift further)'],
+      ['arrow keys with something selected', 'moves it (with Shift further)'],
       ['c', 'selects the next corner'],
       ['Delete', 'deletes the corner or the obstacle'],
       ['Ctrl+Z, Ctrl+Y', 'undo, redo'],
@@ -139,8 +139,8 @@ class Live {
       const record = Keep.read(origin);
       this.words = record?.words ?? world.options;
       this.takeUp(world, record);
-      if (record) this.remark('Your edits of last time are back.');
-      else if (hadAnother && !this.gallery.hasMoved) this.remark('cplan now serves this other world. Your edits come back when it serves the one before again.');
+      if (record) this.remark('Your earlier edits are restored.');
+      else if (hadAnother && !this.gallery.hasMoved) this.remark('cplan now serves this other world. Your edits return when it serves the earlier world again.');
     } else if (this.scene) {
       // Send edits that were made without a connection.
       this.continued = true;
@@ -222,7 +222,7 @@ class Live {
         // This server cannot use the edits that were kept.
         this.restoring = null;
         this.adopt(this.fallback, null);
-        this.remark('Your edits of last time cannot be used any more.');
+        this.remark('Your earlier edits cannot be used any more.');
         this.plan(true);
       } else this.notices.say(this.opened ? 'files' : 'text', error);
     } else if (about.kind === 'download') this.notices.say('files', error);
@@ -356,7 +356,7 @@ class Live {
     clearTimeout(this.soon);
     this.latest = null;
     this.line.hidden = isUp || !this.view;
-    const lost = 'The connection to cplan is lost. You can go on editing: your changes are kept and sent as soon as it answers again.';
+    const lost = 'The connection to cplan is lost. You can continue to edit: the page keeps your changes, and sends them as soon as cplan answers again.';
     this.line.firstChild.textContent = this.line.hidden ? '' : lost;
     if (!this.view) this.waiting.textContent = isUp ? 'Connecting\u2026' : 'cplan does not answer; trying again\u2026';
     if (isUp) this.gallery.open();

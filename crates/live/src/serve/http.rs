@@ -97,17 +97,20 @@ async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next
 fn refusal(server: &Server, headers: &HeaderMap) -> Option<(StatusCode, &'static str)> {
     let named = headers.get(header::HOST).and_then(|value| value.to_str().ok());
     if !named.is_some_and(|named| is_ours(named, server.address)) {
-        return Some((StatusCode::MISDIRECTED_REQUEST, "this server goes by its address alone\n"));
+        return Some((
+            StatusCode::MISDIRECTED_REQUEST,
+            "this server answers only at its address, not at other host names\n",
+        ));
     }
     // Only WebSockets and requests of other pages have the header `Origin`.
     if let Some(origin) = headers.get(header::ORIGIN)
         && origin.to_str().ok().and_then(|origin| origin.strip_prefix("http://")) != named
     {
-        return Some((StatusCode::FORBIDDEN, "this server answers its own page alone\n"));
+        return Some((StatusCode::FORBIDDEN, "this server answers only its own page\n"));
     }
     let has_body = headers.get(header::CONTENT_LENGTH).is_some_and(|length| length != "0")
         || headers.contains_key(header::TRANSFER_ENCODING);
-    has_body.then_some((StatusCode::PAYLOAD_TOO_LARGE, "no request to this server has a body\n"))
+    has_body.then_some((StatusCode::PAYLOAD_TOO_LARGE, "this server accepts no request with a body\n"))
 }
 
 /// Returns true if a `Host` header names this server by its address or as `localhost`. Another name may be one that a
@@ -129,7 +132,7 @@ fn is_ours(named: &str, here: SocketAddr) -> bool {
 /// Opens the WebSocket. Browsers always send their origin, so a client that does not is refused.
 async fn upgrade(State(server): State<Arc<Server>>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
     if !headers.contains_key(header::ORIGIN) {
-        return (StatusCode::FORBIDDEN, "this server answers its own page alone\n").into_response();
+        return (StatusCode::FORBIDDEN, "this server answers only its own page\n").into_response();
     }
     let Ok(permit) = Arc::clone(&server.sessions).try_acquire_owned() else {
         return (StatusCode::SERVICE_UNAVAILABLE, "too many pages are open\n").into_response();

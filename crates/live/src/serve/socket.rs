@@ -58,7 +58,7 @@ pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaph
                 };
                 let wrong = match request {
                     Ok(request) => (!mailbox.post(request)).then(|| "too many requests wait".to_owned()),
-                    Err(error) => Some(format!("no request: {error}")),
+                    Err(error) => Some(format!("not a valid request: {error}")),
                 };
                 if let Some(error) = wrong && !send_message(&mut socket, failed(0, error)).await {
                     break;

@@ -40,7 +40,8 @@ pub(super) fn missing_axis(reduction: &Reduction, index: usize) -> Option<String
     let name = &reduction.document.robot.joints[index].name;
     reduction.document.joints[index].axis.is_none().then(|| {
         format!(
-            "joint \"{name}\" has no <axis>, which means the x axis of its frame: write <axis xyz=\"0 0 1\"/> if it is about z"
+            "joint \"{name}\" has no <axis>, which means the x axis of its frame: write <axis xyz=\"0 0 1\"/> if its \
+             axis is z"
         )
     })
 }
@@ -79,8 +80,8 @@ fn length(arm: &Arm) -> Option<String> {
     let [first, second] = lengths(arm);
     (first + second > MAX_PLAUSIBLE_LENGTH).then(|| {
         format!(
-            "the arm is {} m and {} m long, joint to joint and joint to tip: URDF has lengths in metres, those in millimetres are to be \
-             divided by 1000",
+            "the arm is {} m and {} m long, joint to joint and joint to tip: a URDF has lengths in metres; divide \
+             lengths in millimetres by 1000",
             short(first),
             short(second)
         )

@@ -203,7 +203,12 @@ impl Attributes<'_> {
     pub fn direction(&mut self, axis: Node) -> bool {
         let Some(xyz) = self.numbers(axis, "xyz", 3) else {
             if !axis.has_attribute("xyz") {
-                self.diagnostic(axis, None, "the <axis> has no xyz".into(), "write <axis xyz=\"0 0 1\"/> or the like");
+                self.diagnostic(
+                    axis,
+                    None,
+                    "the <axis> has no xyz".into(),
+                    "write an axis, such as <axis xyz=\"0 0 1\"/>",
+                );
             }
             return false;
         };

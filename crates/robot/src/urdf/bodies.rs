@@ -110,8 +110,8 @@ impl Bodies<'_> {
                 "neither link \"{}\" nor link \"{}\" has collision or visual geometry: the arm cannot collide with anything",
                 links[0].name, links[1].name
             );
-            let help = "add <collision> geometry to the URDF, or let bars between the joints stand in for the links, in the \
-                        world file: [robot] bar = 0.05 (their radius in metres)";
+            let help = "add <collision> geometry to the URDF, or replace the links by bars between the joints, in the \
+                        world file: [robot] bar = 0.05 (radius of the bars in metres)";
             return Err(self.document.source.diagnostic(message).help(help).into());
         }
         let geometry = links.iter().enumerate().map(|(index, link)| self.described(index, link)).collect();

@@ -235,7 +235,7 @@ impl Chooser<'_> {
         let list = list.join(", ");
         if planar.is_empty() {
             let message = format!(
-                "cplan plans for two joints that move in one plane; none of the robot's {count} joints that can move form \
+                "cplan plans for two joints that move in one plane; no two of the robot's {count} movable joints form \
                  such a pair: {list}{coupled}"
             );
             let help =

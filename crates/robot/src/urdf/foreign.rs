@@ -12,8 +12,8 @@ const XACRO_NAMESPACE: &str = "ros.org/wiki/xacro";
 /// Adds the hint for xacro, which must be expanded before it is read here.
 fn xacro(diagnostic: Diagnostic) -> Diagnostic {
     diagnostic.help(
-        "save it as a file, which is expanded: `cplan robot.urdf.xacro world.toml`; \
-         `cplan inspect robot.urdf.xacro --expanded robot.urdf` writes it as a plain URDF",
+        "save it as a file, which cplan expands: `cplan robot.urdf.xacro world.toml`; `cplan inspect robot.urdf.xacro \
+         --expanded robot.urdf` writes it as a plain URDF",
     )
 }
 

@@ -66,7 +66,7 @@ impl<'a> SelfCollision<'a> {
                 }
             }
             let [a, b] = found[..] else {
-                let message = format!("[robot] ignore_contact: a pair of links is two names, not {}", names.len());
+                let message = format!("[robot] ignore_contact: a pair of links needs two names, not {}", names.len());
                 let help = "ignore_contact = [[\"base_link\", \"forearm\"]]";
                 return Err(bodies.settings.source.diagnostic_at(pair.span(), message).help(help));
             };

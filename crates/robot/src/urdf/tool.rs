@@ -149,7 +149,7 @@ impl Reduction<'_> {
         let along = direction.dot(&plane.normal);
         if along.abs() < 1.0 - PARALLEL_TOLERANCE {
             let why = "is not parallel to the normal of the plane that the arm moves in";
-            return diagnostic(why, "name a joint of the tool whose axis is");
+            return diagnostic(why, "name a joint of the tool whose axis is parallel to the normal");
         }
         let tip = self.chain.tip;
         let tip_link = &self.tree.links[tip];

@@ -208,7 +208,8 @@ fn cycle(document: &Document, stray: usize, above: &[Option<usize>], parent: &[u
     }
     let from = joint.and_then(|j| seen.iter().position(|s| *s == j)).unwrap_or(0);
     let ring: Vec<&str> = seen[from..].iter().map(|j| document.robot.joints[*j].name.as_str()).collect();
-    let message = format!("the joints {} form a cycle: each one's parent link hangs from the next", quoted(&ring));
+    let message =
+        format!("the joints {} form a cycle: the parent link of each one is carried by the next", quoted(&ring));
     document
         .diagnostic_at(&document.joints[seen[from]].at, message)
         .help("give one of them another parent link, so that links form a tree")
@@ -216,7 +217,7 @@ fn cycle(document: &Document, stray: usize, above: &[Option<usize>], parent: &[u
 
 fn several_roots(document: &Document, links: &[String], roots: &[usize]) -> Diagnostic {
     let message = format!(
-        "the links {} have no joint above them: a robot has one root",
+        "the links {} are not the child of any joint: a robot needs exactly one root link",
         quoted(roots.iter().map(|r| &links[*r]))
     );
     let at = roots.iter().filter_map(|r| document.links.get(*r)).nth(1).or(document.links.first());

@@ -69,7 +69,7 @@ fn verdict(explanation: &Explanation) -> String {
             0 if explanation.is_stopped => {
                 "found: a path exists; the time was too short to find what lengthens it".into()
             }
-            0 => "found: a path exists, and nothing alone makes the shortest path longer".into(),
+            0 => "found: a path exists, and no single obstacle or limit makes the shortest path longer".into(),
             n => format!("found: a path exists; {} the shortest path longer", counted_makes(n)),
         },
         Outcome::Infeasible(closed) => match closed.sets.first().filter(|set| !set.blockers.is_empty()) {

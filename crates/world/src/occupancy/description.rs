@@ -136,8 +136,8 @@ impl Description {
         }
         if has_unknown && self.free > UNSEEN_DARKNESS / 255.0 {
             notes.push(format!(
-                "shade {} counts as unknown, as ROS's map savers mean it, though free_thresh {} would make it free; to take what \
-                 is unknown for free, write unknown = \"free\" in the world file",
+                "shade {} counts as unknown, as ROS's map savers mean it, though free_thresh {} would make it free; to \
+                 treat unknown cells as free, write unknown = \"free\" in the world file",
                 if self.negate { 50 } else { 205 },
                 self.free
             ));

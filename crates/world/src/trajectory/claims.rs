@@ -108,7 +108,7 @@ fn nullable<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> 
 /// # Errors
 /// Invalid members: of another type, with too large numbers, or with paths of other joints.
 pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, InputError> {
-    let wrong = |error: serde_json::Error| json_diagnostic(source, &error).help("verify a result as cplan writes it");
+    let wrong = |error: serde_json::Error| json_diagnostic(source, &error).help("verify an unchanged result of cplan");
     let members: serde_json::Map<String, serde_json::Value> = serde_json::from_str(source.text()).map_err(wrong)?;
     if !members.contains_key("status") {
         return Ok(None);

@@ -51,7 +51,7 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
     }
     if blank > 0 {
         let plural = if blank == 1 { " holds" } else { "s hold" };
-        columns.notes.push(format!("{blank} line{plural} no value of any joint: not used"));
+        columns.notes.push(format!("{blank} line{plural} no value of any joint; ignored"));
     }
     if separator != ',' {
         let name = if separator == ';' { "semicolons" } else { "tabs" };
@@ -157,7 +157,7 @@ impl Columns {
         if let Some(missing) = (0..names.arm.len()).find(|index| !has(*index)) {
             let columns = quoted(header.iter().map(|field| &field.text));
             let message = format!("holds no positions of joint \"{}\"; its columns are {columns}", names.arm[missing]);
-            let help = format!("the arm's joints are {}: give the columns of positions these names", quoted(names.arm));
+            let help = format!("name the columns of positions after the arm's joints: {}", quoted(names.arm));
             return Err(source.diagnostic_at(whole(header), message).help(help));
         }
         let mut notes = Vec::new();

@@ -48,7 +48,11 @@ struct Point {
 
 /// A `builtin_interfaces/msg/Duration`, a duration with ROS 1's names of members, or plain seconds.
 #[derive(Deserialize)]
-#[serde(untagged, expecting = "a time is {sec: 1, nanosec: 500000000}, both whole numbers, or seconds")]
+#[serde(
+    untagged,
+    expecting = "write a time as {sec: 1, nanosec: 500000000} with two whole numbers, or as a number of \
+                               seconds"
+)]
 enum Stamp {
     Parts {
         #[serde(alias = "secs", default)]

@@ -25,8 +25,8 @@ use samples::{Names, Samples, Series, misplaced};
 use std::path::Path;
 
 /// Note about accelerations that do not determine the motion between samples.
-const STATED_ACCELERATIONS_NOTE: &str = "accelerations in the file are held to the limits, but do not change the motion: positions and velocities \
-                      imply it";
+const STATED_ACCELERATIONS_NOTE: &str = "accelerations in the file must keep the limits, but do not change the motion, \
+                                         which follows from positions and velocities";
 
 /// A recorded motion, and how it was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,7 +75,7 @@ pub fn load_topic(path: &Path, topic: &str, scene: &LoadedScene) -> Result<Loade
 fn load(path: &Path, topic: Option<&str>, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     if !matches!(extension.as_deref(), Some("json" | "csv" | "yaml" | "yml" | "mcap")) {
-        return Err(Diagnostic::new(path.display().to_string(), "cannot tell the format of this file")
+        return Err(Diagnostic::new(path.display().to_string(), "the format of this file is unknown")
             .help("name it .json (cplan), .csv, .yaml (ROS 2 JointTrajectory), or .mcap (ROS 2 recording)")
             .into());
     }
@@ -145,7 +145,7 @@ impl<'a> Names<'a> {
                 None => {
                     let others = samples.joints.iter().chain(&chosen).map(|s| &s.name);
                     let message = format!("holds no positions of joint \"{name}\"; it holds {}", quoted(others));
-                    let help = format!("the arm's joints are {}: give the positions these names", quoted(self.arm));
+                    let help = format!("name the positions after the arm's joints: {}", quoted(self.arm));
                     return Err(source.diagnostic(message).help(help));
                 }
             }

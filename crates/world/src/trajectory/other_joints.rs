@@ -57,8 +57,8 @@ impl Names<'_> {
                 let message =
                     format!("joint \"{name}\" is at {value}, but the world holds it at {}, and it {why}", joint.value);
                 let help = format!(
-                    "a joint that stands still elsewhere: [robot] fixed = {{ {name} = {value} }} in the world file; a motion of \
-                     this one cannot be judged"
+                    "if the joint stands still at this value, write [robot] fixed = {{ {name} = {value} }} in the \
+                     world file; a motion of this joint cannot be judged"
                 );
                 return Err(samples.diagnostic(source, sample, &message).help(help));
             }
@@ -94,12 +94,12 @@ fn described(joint: &HeldJoint, series: &Series) -> String {
     let name = &joint.name;
     match joint.effect {
         HeldEffect::Turns { .. } => format!(
-            "joint \"{name}\" turns, from {least} to {most} rad: what it turns counts as the disc that it sweeps all round; its own \
-             limits are not judged"
+            "joint \"{name}\" turns, from {least} to {most} rad: the parts that it turns count as the disc that they \
+             sweep; its own limits are not judged"
         ),
         _ => format!(
-            "joint \"{name}\" moves, from {least} to {most} m: what it carries is judged at the heights that it has at each moment; \
-             its own limits are not judged"
+            "joint \"{name}\" moves, from {least} to {most} m: the parts that it carries are judged at their heights \
+             of each moment; its own limits are not judged"
         ),
     }
 }

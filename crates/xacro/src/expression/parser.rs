@@ -247,7 +247,7 @@ impl<'t> Parser<'t> {
     }
 
     fn atom(&mut self) -> Result<Expression, Fault> {
-        let token = self.peek().ok_or("something is missing at its end")?;
+        let token = self.peek().ok_or("it is incomplete: its end is missing")?;
         self.at += 1;
         Ok(match token {
             Token::Int(x) => Expression::Constant(Value::Int(*x)),

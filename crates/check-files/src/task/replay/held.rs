@@ -93,7 +93,7 @@ impl Replay<'_> {
         }
         let near = Interval::from(&Decimal::power_of_ten(PICK_TOLERANCE_DECIMALS)).lower;
         if passing.at.as_ref().is_some_and(|at| length(&minus(&lying.at, at)).upper > near) {
-            return CheckError::fails("the object is not at the position of its pick then");
+            return CheckError::fails("at that time, the object is not at the position of its pick");
         }
         let tip = self.chain.point_at(&Attachment::Link(1), &self.tip, at);
         self.misses(length(&minus(&tip, &lying.placed(&grasp.each_ref().map(Interval::from)))).upper)?;

@@ -81,14 +81,14 @@ impl Serialize for CheckedProof {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ProofError {
     /// The box names shapes that do not exist, or cannot meet.
-    #[error("stuck box {0} names a pair of shapes that the scene does not have")]
+    #[error("collision box {0} names two shapes that do not exist or cannot meet")]
     UnknownPair(usize),
     /// The box is empty, or extends beyond the domain.
-    #[error("stuck box {0} is no part of the configuration space")]
+    #[error("collision box {0} is empty or extends beyond the configuration space")]
     NotInDomain(usize),
     /// The shapes may come apart within the box.
     #[error(
-        "stuck box {index}: the shapes overlap by {depth:e} m in its middle, but can move by {motion:e} m within it"
+        "collision box {index}: the shapes overlap by {depth:e} m in its middle, but can move by {motion:e} m within it"
     )]
     NotColliding {
         /// Number of the box, from 0.
@@ -99,7 +99,7 @@ pub enum ProofError {
         motion: f64,
     },
     /// The start is connected with this piece of the goals outside the boxes.
-    #[error("the stuck boxes do not separate the start from goal {0}")]
+    #[error("the collision boxes do not separate the start from goal {0}")]
     NotSeparated(usize),
 }
 

@@ -28,8 +28,8 @@ impl VisibilityMap {
         if vertices.len() > MAX_VERTICES {
             let count = vertices.len();
             return Err(format!(
-                "the full visibility graph is made of up to {MAX_VERTICES} corners, and free space has {count}; \
-                 use --graph reduced, or a greater --margin"
+                "the full visibility graph can have at most {MAX_VERTICES} corners, but free space has {count}; use \
+                 --graph reduced, or a greater --margin"
             ));
         }
         let mut roadmap = Roadmap::new(measure);

@@ -107,7 +107,10 @@ impl Ledger {
         for (end, sample, what) in ends {
             let at = recording.positions()[sample];
             if (end - at).amax() > follow::PATH_TOLERANCE {
-                self.note("path", format!("{what} at ({}, {}), the motion at ({}, {})", end[0], end[1], at[0], at[1]));
+                self.note(
+                    "path",
+                    format!("{what} at ({}, {}), but the motion {what} at ({}, {})", end[0], end[1], at[0], at[1]),
+                );
             }
         }
         match certify(scene, path, scene.workspace().clearance) {

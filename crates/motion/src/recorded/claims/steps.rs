@@ -104,7 +104,9 @@ impl Ledger {
         let most = free.clearance + turn_resolution(&task.arm, task.workspace.fixed.clearance);
         match stated {
             Some(stated) if stated > most => {
-                let why = format!("stated as {stated} m, but the wrist turns the object as near as {most} m");
+                let why = format!(
+                    "stated as {stated} m, but during the turn of the wrist the object comes as near as {most} m"
+                );
                 self.note(claim, why);
             }
             None if free.clearance.is_finite() => {

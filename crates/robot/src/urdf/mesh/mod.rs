@@ -38,9 +38,9 @@ pub(super) struct UnreadableMesh {
 
 impl From<String> for UnreadableMesh {
     fn from(message: String) -> Self {
-        let cure = "correct the path, put the package folder beside the URDF or name its place in ROS_PACKAGE_PATH, and \
-                    convert other formats to STL; or let bars between the joints stand in for the links, in the world \
-                    file: [robot] bar = 0.05 (their radius in metres)";
+        let cure = "correct the path, put the package folder beside the URDF or name its place in ROS_PACKAGE_PATH, \
+                    and convert other formats to STL; or replace the links by bars between the joints, in the world \
+                    file: [robot] bar = 0.05 (radius of the bars in metres)";
         Self { message, cure }
     }
 }

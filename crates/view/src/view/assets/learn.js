@@ -285,7 +285,7 @@ class Learn {
     this.parts.panels.hidden = !active || !pair;
     this.parts.a.hidden = this.parts.b.hidden = !pair;
     if (!active || !pair) return;
-    const captions = { tests: 'The obstacle less the link', sweep: 'The obstacle less the link', stack: 'One difference for each angle of the link' };
+    const captions = { tests: 'Minkowski difference: obstacle minus link', sweep: 'Minkowski difference: obstacle minus link', stack: 'One difference for each angle of the link' };
     this.parts.panels.querySelectorAll('figcaption')[1].textContent = captions[this.lesson];
     this.frame();
     for (const panel of Object.values(this.panels)) panel.resize();
@@ -304,7 +304,7 @@ class Learn {
     if (this.isSlice) {
       const { contacts, bands } = this.slice;
       const names = bands.map((index) => this.view.world.obstacles[index].name).join(', ');
-      if (bands.length) return `Link 1 touches ${names}, whatever ${joints[1].name} is`;
+      if (bands.length) return `Link 1 touches ${names} for all values of ${joints[1].name}`;
       return `Contacts of ${joints[1].name} here: ${contacts.length || 'none'}`;
     }
     if (this.lesson === 'tests') {
@@ -312,7 +312,7 @@ class Learn {
       const inside = [...mine, ...others].filter((test) => test.inside).length;
       return meet ? `They meet. Corners within the other one: ${inside}; crossings of sides: ${crossings.length}` : 'They do not meet.';
     }
-    if (this.lesson === 'stack') return 'Where the origin of the link must not be, for each angle of the link';
+    if (this.lesson === 'stack') return 'Positions of the link\u2019s origin in which the link collides, for each angle of the link';
     const { steps } = this;
     const { i, k, of } = steps[this.step];
     const [mine, other] = [Learn.side('a', i, this.pieces.a.length), Learn.side('b', k, this.pieces.b.length)];
@@ -348,7 +348,7 @@ class Learn {
         element('td', {}, element('button', { type: 'button', class: 'button', onclick: () => this.pick(index) }, this.value(1, contact.value))),
         cell('td', this.touching(contact)),
       ));
-      told.replaceChildren(...(rows.length ? [table('Contacts of this slice', [this.view.model.arm.joints[1].name, 'what touches'], rows)] : []));
+      told.replaceChildren(...(rows.length ? [table('Contacts of this slice', [this.view.model.arm.joints[1].name, 'touching features'], rows)] : []));
     } else if (this.lesson === 'tests') {
       const { mine, others, crossings } = this.test();
       const distances = (letter, name, tests, count) => table(

@@ -15,7 +15,7 @@ function element(tag, attributes = {}, ...children) {
 /** Names of layers, and whether they are initially visible. The content determines which of them exist. */
 const LAYERS = [
   ['c-obstacles', 'C-obstacles', true],
-  ['access', 'where the tip can get', true],
+  ['access', 'reachable tip positions', true],
   ['path', 'path', true],
   ['roadmap', 'reduced visibility graph', true],
   ['roads', 'roadmap', true],
@@ -460,7 +460,7 @@ class View {
     const [path] = this.pathsHere();
     const goes = () => {
       const [n, end] = [path.points.length / 2, path.points.slice(-2)];
-      return `The path leads from ${this.valued(path.points.slice(0, 2))} to ${this.valued(end)}, over ${n - 2} places in between.`;
+      return `The path leads from ${this.valued(path.points.slice(0, 2))} to ${this.valued(end)}, through ${n - 2} waypoints in between.`;
     };
     const proven = this.world.proof.length ? ' Boxes of colliding configurations, hatched, prove that there is no path.' : '';
     this.parts.told.textContent = `${stands} ${path ? goes() : this.isMotion ? 'There is no path here.' : ''}${proven}`;
@@ -797,8 +797,8 @@ class View {
     const depth = (c) => `${(-c.distance * 1000).toPrecision(3)} mm deep`;
     if (hits.length) return `touches. ${hits.map((c) => `${pair(c)}, ${depth(c)}`).join('; ')}`;
     const [nearest] = contacts;
-    if (!nearest) return 'free; nothing can be hit';
-    const room = nearest.distance <= this.world.clearance ? 'nearer than the clearance asked for' : 'free';
+    if (!nearest) return 'free; no obstacle within reach';
+    const room = nearest.distance <= this.world.clearance ? 'nearer than the required clearance' : 'free';
     return `${room}; nearest: ${pair(nearest)}, ${(nearest.distance * 1000).toPrecision(3)} mm`;
   }
 
@@ -866,19 +866,19 @@ class View {
 
 function help() {
   const rows = [
-    ['point into the configuration space', 'the arm stands there; what it touches is named'],
-    ['click, tap', 'hold it there, or let go'],
-    ['arrow keys in the configuration space', 'move the cross by a degree (with Shift by ten)'],
-    ['Space or k', 'play, pause'],
-    ['arrow keys elsewhere', 'back and forth in time (with Shift further)'],
-    ['Home, End', 'to the start, to the end'],
-    ['t', 'the motion, or how the planner came to it'],
-    ['l', 'lessons: contact angles, the two tests of penetration, Minkowski differences'],
-    ['+, \u2212', 'faster, slower; in a panel that was clicked: zoom'],
-    ['wheel, two fingers, then drag', 'zoom where the pointer is, and move what is seen'],
-    ['Shift and arrow keys in a workspace that is magnified', 'move what is seen'],
-    ['0, double click', 'shows all again'],
-    ['Escape', 'takes the tried arm away'],
+    ['point into the configuration space', 'moves the arm there, and names its contacts'],
+    ['click, tap', 'holds the arm there, or releases it'],
+    ['arrow keys in the configuration space', 'moves the cross by a degree (with Shift by ten)'],
+    ['Space or k', 'plays, pauses'],
+    ['arrow keys elsewhere', 'moves back and forth in time (with Shift further)'],
+    ['Home, End', 'moves to the start, to the end'],
+    ['t', 'shows the motion, or the search of the planner'],
+    ['l', 'shows lessons: contact angles, the two tests of penetration, Minkowski differences'],
+    ['+, \u2212', 'plays faster, slower; in a panel that was clicked, zooms'],
+    ['wheel, two fingers, then drag', 'zooms at the pointer, and moves the view'],
+    ['Shift and arrow keys in a magnified workspace', 'moves the view'],
+    ['0, double click', 'shows everything again'],
+    ['Escape', 'removes the arm that was put there'],
   ];
   const list = element('dl', {}, ...rows.flatMap(([keys, what]) => [element('dt', {}, keys), element('dd', {}, what)]));
   return element('details', { class: 'help' }, element('summary', {}, 'Keys and pointer'), list);

@@ -77,7 +77,7 @@ fn decompressed(header: ChunkHeader, data: &[u8]) -> McapResult<(ChunkHeader, Co
         other => return Err(McapError::UnsupportedCompression(other.to_owned())),
     }
     if content.len() as u64 != size {
-        return Err(wrong(format!("a chunk has {} bytes of {size}", content.len())));
+        return Err(wrong(format!("a chunk has {} bytes instead of {size}", content.len())));
     }
     Ok((ChunkHeader { compression: String::new(), compressed_size: size, ..header }, Cow::Owned(content)))
 }
