@@ -11,10 +11,10 @@ use serde::Serialize;
 
 /// Colour and meaning of each kind of cell: one free solution, several, proven unreachable, colliding, unknown.
 const CELL_KINDS: [(Rgb, &str); 5] = [
-    (REACHED, "reachable with one IK solution"),
-    (REACHED_TWICE, "reachable with several"),
+    (REACHED, "the tip can reach it, with one IK solution"),
+    (REACHED_TWICE, "with several solutions"),
     (UNREACHABLE, "free, but proven out of reach"),
-    (OCCUPIED, "the arm would collide"),
+    (OCCUPIED, "not free"),
     (UNKNOWN, "unknown"),
 ];
 
