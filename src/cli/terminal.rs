@@ -2,6 +2,7 @@
 
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use crate::text::{SECOND_COLUMN, wrapped};
+use anstream::{AutoStream, ColorChoice};
 use clap::builder::styling::{AnsiColor, Style};
 use std::io::IsTerminal;
 
@@ -21,13 +22,13 @@ fn width(is_terminal: bool, size: Option<(Width, Height)>) -> Option<usize> {
     width.map(|width| width.max(MIN_WIDTH))
 }
 
-/// Returns a summary wrapped to the terminal's width. The exit code determines the colour of its verdict. Colours are
-/// escape sequences, which [`anstream`] removes for other outputs.
+/// Returns a summary wrapped to the terminal's width. If the output shows colours, the exit code determines the colour and
+/// the sign of the verdict.
 pub fn summary(text: &str, code: u8) -> String {
     let stdout = std::io::stdout();
     let width = width(stdout.is_terminal(), terminal_size_of(&stdout));
     let text = width.map_or_else(|| text.to_owned(), |width| narrowed(text, width));
-    painted(&text, code)
+    if AutoStream::choice(&stdout) == ColorChoice::Never { text } else { painted(&text, code) }
 }
 
 /// Returns a message for stderr with a coloured label. On a terminal, its lines are wrapped.
