@@ -71,8 +71,8 @@ impl CarriedPart {
     }
 }
 
-/// Calls `f` with each copy, by whole turns, of the intervals, clipped to the joint's range. For [`Hits::Always`]
-/// calls `f` once, with the whole range.
+/// Calls `f` with every copy of the intervals, by whole turns, that meets the joint's range, clipped to the range. For
+/// [`Hits::Always`] calls `f` once, with the whole range.
 pub fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl FnMut([f64; 2])) {
     let (lower, upper) = joint.range.domain();
     match hits {

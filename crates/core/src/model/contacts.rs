@@ -20,8 +20,7 @@ pub struct Contacts<'a> {
     pairs: Vec<PairIndices>,
     parts: Vec<PreparedPart>,
     pieces: Vec<PreparedPiece>,
-    /// Numbers of the first part and of the first pair of link 2. Pairs of link 2 relative to link 1 count among
-    /// them.
+    /// Index of the first part of link 2, and of its first pair. Pairs of link 2 with link 1 count as pairs of link 2.
     second: (usize, usize),
     /// Position of joint 2 and direction of link 1's x axis, both with joint 1 at zero.
     at_zero: (Point, Vector),
@@ -189,10 +188,10 @@ impl<'a> Contacts<'a> {
         self.at_elbow(index, elbow, heading, grow, out)
     }
 
-    /// Appends the values of joint 1 at which pair `index`, of link 2, may be within `grow` of contact for some
-    /// value of joint 2. At all other values the pair is farther apart. The intervals are those at which the part's
-    /// sweep meets the piece. For a revolute joint 2 the sweep is the disc about the elbow that contains the part at
-    /// every angle. For a prismatic one it is a capsule that contains the part over the joint's whole range.
+    /// Appends values of joint 1 at which pair `index`, of link 2, may be within `grow` of contact for some value of
+    /// joint 2. At all other values the pair is farther apart. The intervals are those at which the part's sweep meets
+    /// the piece. For a revolute joint 2 the sweep is the disc about the elbow that contains the part at every angle.
+    /// For a prismatic one it is a capsule that contains the part over the joint's whole range.
     ///
     /// # Panics
     /// If the pair is of link 1, or there is no pair of that number.

@@ -198,8 +198,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(2000))]
 
-        /// Compares with the shortest of all paths from one portal end to another that cross the portals in between.
-        /// On a coarse lattice many ends are collinear.
+        /// Compares the result with the shortest path through the ends of portals. All paths from one portal end to
+        /// another are tried that cross the portals in between. On a coarse lattice many ends are collinear.
         #[test]
         fn no_path_from_end_to_end_is_shorter(
             ends in prop::collection::vec((-4..4i32, 0..4i32), 0..12), start in -4..4i32, goal in -4..4i32,

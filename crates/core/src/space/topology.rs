@@ -4,12 +4,12 @@ use super::Configuration;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
-/// Exact 2 pi less the double [`TAU`], to double precision. Over 80 000 turns (half a million radians) the
-/// difference adds up to 2e-11 rad, far more than the margins of certificates.
+/// The difference between the exact value of 2 pi and the double [`TAU`], to double precision. Over 80 000 turns (half
+/// a million radians) it adds up to 2e-11 rad, far more than the margins of certificates.
 const TAU_REMAINDER: f64 = 2.449_293_598_294_706_4e-16;
 
-/// Returns the angle of `turns` whole turns as the sum of two doubles. The error is far below a rounding of the
-/// second. `turns` must be an integer.
+/// Returns the angle of `turns` whole turns as the sum of two doubles. The error is far below one rounding of the
+/// second double. `turns` must be an integer.
 fn whole_turns(turns: f64) -> [f64; 2] {
     let high = turns * TAU;
     // The multiplication's rounding error, exactly.

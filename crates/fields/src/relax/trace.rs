@@ -32,9 +32,9 @@ pub struct Sample {
 /// Measurements of a whole relaxation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
-    /// Samples after each of the first hundred sweeps. Later, the number of sweeps grows by one percent from sample to
-    /// sample. There are also samples after the first and the last sweep of each stage. Sweeps whose squares or error
-    /// are not finite are omitted.
+    /// Samples after each of the first hundred sweeps, and then less often: from sample to sample, the number of sweeps
+    /// grows by one percent. There are also samples after the first and the last sweep of each stage. Sweeps whose
+    /// squares or error are not finite are omitted.
     pub samples: Vec<Sample>,
     /// Number of sweeps of all stages together.
     pub sweeps: usize,

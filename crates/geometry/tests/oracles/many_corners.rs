@@ -5,7 +5,8 @@ use crate::lattice::{Corner, cross, meet, points};
 use cplan_geometry::{Convex, MAX_CORNERS, Point, PolygonError, SimplePolygon, decompose};
 use proptest::prelude::*;
 
-/// Returns a ring around the origin on the lattice, with one corner in each of `count` directions; `radius` of each.
+/// Returns a ring around the origin on the lattice, with one corner in each of `count` directions. `radius` returns the
+/// distance of a corner.
 fn around(count: usize, radius: impl Fn(usize) -> f64) -> Vec<Corner> {
     let corner = |k: usize| {
         let angle = k as f64 / count as f64 * std::f64::consts::TAU;

@@ -16,7 +16,7 @@ pub struct TorqueSample {
     pub torque: Configuration,
     /// Torques that hold the arm at rest there.
     pub holding: Configuration,
-    /// Bound on the increase of each torque before the next sample.
+    /// Bound on the increase of each torque until the next sample.
     pub off: [f64; 2],
 }
 

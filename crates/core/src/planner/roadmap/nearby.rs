@@ -96,8 +96,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares with a sort of all distances. The points are on a small lattice, where many distances are equal,
-        /// or in a slender box.
+        /// Compares the result with a sort of all distances. The points are on a small lattice, where many distances
+        /// are equal, or in a slender box.
         #[test]
         fn are_those_of_all_that_are_nearest(
             places in proptest::collection::vec([0i8..9, 0i8..9], 0..60), from in [-4i8..13, -4i8..13], count in 0usize..12,
