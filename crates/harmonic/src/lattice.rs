@@ -105,7 +105,7 @@ impl Lattice {
         [framed - self.stride, framed + self.stride, framed - 1, framed + 1]
     }
 
-    /// Returns the free cell that a place is or represents. `None` for walls.
+    /// Returns the free cell that a place is or represents. Returns `None` for walls.
     pub(super) fn resolve(&self, framed: usize) -> Option<usize> {
         match self.sites[framed] {
             Site::Free => Some(framed),

@@ -234,7 +234,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares with exact arithmetic, for angles of any size that worlds allow.
+        /// Tests that whole turns are taken off exactly: compares with exact arithmetic, for angles of any size that
+        /// worlds allow.
         #[test]
         fn turns_are_taken_off_exactly(
             mantissa in -10.0..10.0_f64, decade in 0..6_i32, other in -10.0..10.0_f64, far in -1e6..1e6_f64,
