@@ -9,7 +9,8 @@ use cplan::space::{Configuration, JointRange};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-/// Largest number of pieces of an obstacle that are traced one by one; others are covered by larger shapes.
+/// Largest number of pieces of an obstacle that are traced one by one. More pieces are replaced by larger shapes that
+/// cover them.
 const PLAIN: usize = 512;
 
 /// Returns the `k`-th random number of the seed `choice`, in `[0, 1)` (SplitMix64).

@@ -253,8 +253,8 @@ proptest! {
     }
 }
 
-/// A case that the property tests found: the only shapes are a thin wall across link 2 and a point. The wall's ends
-/// begin and end to touch the point at the same place.
+/// Checks a case that the property tests found. The only shapes are a thin wall across link 2, and a point. At one
+/// place, one end of the wall begins to touch the point, and the other stops touching it.
 #[test]
 fn a_wall_that_meets_a_point_keeps_its_margin() {
     let turning = |name| joint(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle);
