@@ -14,8 +14,9 @@ pub(super) struct SeamlessOperator<'a, O> {
     fine: Frame,
     even: Frame,
     odd: [bool; 2],
-    /// The row before the current one, and finally the last row with its new column.
+    /// The row before the current one.
     before: Line,
+    /// The last row, with its new column.
     last: Line,
     /// The diagonal of the first row, with its new column.
     first: Vec<f32>,

@@ -26,7 +26,8 @@ const CLEARANCE_FRACTIONS: [f64; 4] = [0.25, 0.06, 0.015, 0.004];
 /// Largest extra clearance, as a fraction of the arm's reach, for any gap.
 const MAX_EXTRA_CLEARANCE: f64 = 0.01;
 
-/// Number of pairs of shapes up to which all extra clearances are tried. With more, only the first is.
+/// Largest number of pairs of shapes with which all extra clearances are tried. With more pairs, only the first extra
+/// clearance is tried.
 const MAX_PAIRS_FOR_RETRIES: usize = 1000;
 
 /// Number of pairs of shapes up to which slices look for a shorter path. With more, a visibility graph does.

@@ -119,7 +119,7 @@ pub fn altered(domain: &Domain, published: &[f64], epsilon: &[f64], cell: usize)
     h + epsilon[cell] / sum * d
 }
 
-/// Returns the field that solves an equation, computed without relaxation as far as possible.
+/// Returns the field that solves an equation, by elimination where the equation allows it.
 pub fn solution(domain: &Domain, equation: &Equation) -> Vec<f64> {
     match equation {
         Equation::Harmonic => solve(domain, |_| [0.0; 2], Difference::Central),

@@ -122,8 +122,8 @@ pub(super) struct Search<'s, 'a> {
     /// Range of joint 2 for paths shorter than the limit.
     range: [f64; 2],
     roots: Vec<Root>,
-    /// Least cost so far of each end of a portal. The key is the slice, the value of joint 2, and whether joint 1 grows
-    /// from there.
+    /// Least cost so far at each end of a portal. The key has the slice and whether joint 1 grows from there (first
+    /// number), and the value of joint 2 (second number).
     least: HashMap<(i64, u64), f64, BuildHasherDefault<MixingHasher>>,
     open: OpenList<usize>,
     entries: Vec<Entry>,
