@@ -118,7 +118,8 @@ fn is_free(regions: &Regions, at: Configuration) -> bool {
 proptest! {
     #![proptest_config(cplan_cases::cases(4))]
 
-    /// Checks that free places keep a quarter of the margin, and that places which keep three margins are free.
+    /// Checks how tight the displayed free space is. Free places in it keep a quarter of the margin, and places that
+    /// keep three margins are free in it.
     #[test]
     fn displayed_free_space_is_tight(
         kind in 0..3_usize, choice in any::<u64>(), margin in prop_oneof![Just(2e-3), 2e-3..0.05f64],

@@ -138,8 +138,8 @@ fn graph(grid: &Grid, sources: &[usize], neighborhood: Neighborhood) -> (UnGraph
     (graph, origin)
 }
 
-/// Checks that each expanded cell is labelled and is expanded once, that breadth-first orders expand by distance, and
-/// that the target is the last, if it is reached.
+/// Checks that each expanded cell is labelled and is expanded once. Also checks that breadth-first orders expand by
+/// distance, and that the target is expanded last if it is reached.
 fn check_order(search: &Search, order: Order, target: usize) -> Result<(), TestCaseError> {
     let (labels, expanded) = (search.labels(), &search.expanded);
     let once: BTreeSet<u32> = expanded.iter().copied().collect();

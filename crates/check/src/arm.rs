@@ -50,7 +50,7 @@ pub struct Arm {
     pub bases: Vec<CollisionShape>,
     /// Obstacles made from [`Self::bases`], in the same order.
     pub own: Vec<Obstacle>,
-    /// Sentences for messages that state assumptions which differ from the robot's file.
+    /// Sentences for messages. They state assumptions that differ from the robot's file.
     pub notes: String,
 }
 

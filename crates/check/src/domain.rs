@@ -4,7 +4,7 @@ use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval};
 use num_bigint::BigInt;
 
-/// Negative binary logarithm of a margin, radians. Enclosures of half a turn exceed the known digits of pi by it.
+/// Enclosures of half a turn exceed the known digits of pi by `2^-SEAM_BITS` radians.
 const SEAM_BITS: u32 = 100;
 
 /// All numbers from the first to the second, ends included.

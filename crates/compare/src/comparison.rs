@@ -31,9 +31,9 @@ impl Comparison {
         self.rows.iter().filter_map(|r| r.length).filter(|l| l.is_finite()).min_by(f64::total_cmp)
     }
 
-    /// Returns the ratio of this row's length to the least length; 1 for the shortest path. If the least length is zero
-    /// (the goal is the start), returns 1 for paths of length zero, and `None` for longer ones. Also `None` if there is
-    /// no path.
+    /// Returns the ratio of this row's length to the least length, which is 1 for the shortest path. If the least
+    /// length is zero (the goal is the start), returns 1 for paths of length zero, and `None` for longer ones. Returns
+    /// `None` if there is no path.
     #[must_use]
     pub fn ratio(&self, row: &Row) -> Option<f64> {
         quotient(row.length?, self.best()?)

@@ -12,15 +12,15 @@ use cplan_text::{counted, percent};
 /// Greatest p-value of the sign test with which a side is called better.
 const SIGNIFICANCE_LEVEL: f64 = 0.05;
 
-/// Greatest difference of two values that count as equal, as a fraction of them.
+/// Greatest difference of two values that count as equal, as a fraction of the values.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 /// Least number of problems for a conclusion. With five problems even five wins have a p-value of 1/16, which is not
 /// significant.
 const MIN_PROBLEMS: usize = 6;
 
-/// The compared measures. An entry has the measure, the phrases for the better of two and the best of several sides,
-/// the measure in words, and a flag that is true if a greater value is better.
+/// The measures by which planners are compared. An entry has the measure, two phrases (for the better of two sides, and
+/// for the best of several), the measure in words, and a flag that is true if a greater value is better.
 const COMPARED_MEASURES: [(Measure, [&str; 2], &str, bool); 5] = [
     (
         Measure::OverOptimum,

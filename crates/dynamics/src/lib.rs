@@ -290,8 +290,8 @@ fn is_turned(arm: &Arm, link: usize) -> [f64; 2] {
 
 /// Upper bounds on magnitudes along a part of a curve, for a point of a link.
 struct Bounds {
-    /// For each joint: bounds on the point's derivative by the joint, and on the first two derivatives of that along
-    /// the curve.
+    /// For each joint, bounds for the derivative of the point's position by the joint's value, and for the first two
+    /// derivatives of that along the curve.
     column: [[f64; 3]; 2],
     /// Bounds on the first four derivatives of the point along the curve. The fourth is valid if the curve has no third
     /// derivative.

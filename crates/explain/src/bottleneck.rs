@@ -23,7 +23,7 @@ pub struct Bottleneck {
     pub hits: Vec<Obstruction>,
 }
 
-/// Tolerance of the amount of shrinking, as a fraction of that amount.
+/// Tolerance of the amount by which shapes are shrunk, as a fraction of the amount.
 const RELATIVE_TOLERANCE: f64 = 1e-2;
 
 /// Least tolerance of the amount of shrinking, as a fraction of the tolerance of changes. Decisions closer to the

@@ -3,9 +3,9 @@
 use super::{Convex, Point, cross, inset};
 
 impl Convex {
-    /// Returns the points that lie at least `distance` inside this shape: the centres of discs of that radius that
-    /// fit into it. Returns `None` if no disc fits. A rounded outline first loses radius, exactly; then every side
-    /// of the core moves inwards. Correct up to rounding; `O(n^2)`.
+    /// Returns the points that lie at least `distance` inside this shape. These are the centres of the discs of radius
+    /// `distance` that fit into it. Returns `None` if no disc fits. A rounded outline first loses radius, exactly; then
+    /// every side of the core moves inwards. Correct up to rounding; `O(n^2)`.
     #[must_use]
     pub fn eroded(&self, distance: f64) -> Option<Self> {
         if distance <= self.radius() {

@@ -21,8 +21,8 @@ pub struct Payload {
 /// rounding of coordinates in files, and less than the compliance of any gripper.
 const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
-/// Share of the penetration allowance by which corners are moved inwards. It is a little less than 1, so that a checker
-/// that moves corners by the whole allowance still accepts the motion.
+/// Fraction of the penetration allowance by which corners are moved inwards. It is a little less than 1, so that a
+/// checker that moves corners by the whole allowance still accepts the motion.
 const ALLOWANCE_SHARE: f64 = 1.0 - 1e-3;
 
 impl Payload {

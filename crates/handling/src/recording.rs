@@ -63,7 +63,7 @@ pub enum RecordingError {
     Time {
         /// Index of the later of two samples.
         sample: usize,
-        /// The time of that sample, seconds.
+        /// The time of the sample, seconds.
         time: f64,
         /// The time of the sample before it, seconds.
         before: f64,

@@ -96,7 +96,7 @@ pub struct Step {
     pub cycle: usize,
     /// Position in the world file, for messages: `cell.toml:12:1`.
     pub place: String,
-    /// Share of the joints' top speeds to use, greater than 0 and at most 1.
+    /// Fraction of the joints' top speeds to use, greater than 0 and at most 1.
     pub speed: f64,
     /// Time that the arm rests at the end, seconds.
     pub dwell: f64,

@@ -58,9 +58,9 @@ pub fn estimated_harmonic(component: &Component) -> Potential {
     Potential::from_log2(&log2)
 }
 
-/// Returns by how much the potential falls per cell along the middle of a straight corridor of this clearance, as a
-/// natural logarithm: `theta` with `cosh theta = 2 - cos(pi / w)`, where `w` is the width of the corridor, twice the
-/// clearance.
+/// Returns by how much the potential falls per cell, as a natural logarithm, along the middle of a straight corridor.
+/// `clearance` is half the width of the corridor. The result is `theta` with `cosh theta = 2 - cos(pi / w)`, where `w`
+/// is the width.
 pub(super) fn decay(clearance: u32) -> f64 {
     (2.0 - (PI / (2.0 * f64::from(clearance.max(1)))).cos()).acosh()
 }

@@ -16,7 +16,8 @@ pub type Pair = [f64; 2];
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Request {
-    /// Opens these files, or the program's initial ones. The program replies with the world.
+    /// Opens these files. Without files, opens the ones with which the program started. The program replies with the
+    /// world.
     Open {
         /// Number of the request, which its answers repeat.
         id: u64,

@@ -7,8 +7,9 @@ use cplan_core::model::Scene;
 use cplan_core::space::Path;
 use cplan_handling::Piece;
 
-/// Share of the excess of the clearance over the required one that must remain when corners are rounded. It is one
-/// half, so that a motion on blends is proven to keep at least half the distance of the straight path.
+/// Fraction of the excess clearance that must remain when corners are rounded. The excess is the difference between the
+/// clearance of the straight path and the required one. It is one half, so that a motion on blends is proven to keep at
+/// least half the distance of the straight path.
 const KEPT_CLEARANCE_SHARE: f64 = 0.5;
 
 /// Greatest share of an inner leg that a blend at one of its ends may take. The part between the two blends stays

@@ -44,8 +44,8 @@ const MAX_ACCELERATION_STEP: f64 = 0.1;
 /// further. If acceleration turns into deceleration within a span, half of the change is lost.
 const MAX_SPEED_STEP: f64 = 0.1;
 
-/// Share of the limits that stays unused on a blend, so that cubics through the positions and velocities of samples,
-/// which many controllers use, are also within the limits. [`reserve`] adds a little.
+/// Fraction of the limits that stays unused on a blend. Many controllers use cubics through the positions and
+/// velocities of samples; because of this fraction, the cubics are also within the limits. [`reserve`] adds a little.
 const LIMIT_RESERVE: f64 = 1e-3;
 
 /// Largest number of spans if torques are limited.

@@ -98,7 +98,7 @@ impl Times {
         Self { grow: self.grow * longer, hold: self.hold * longer, cruise: self.cruise * longer }
     }
 
-    /// Lengthens each time to whole nanoseconds.
+    /// Lengthens every duration to whole nanoseconds.
     fn whole(self) -> Self {
         let Self { grow, hold, cruise } = self;
         Self { grow: whole_nanoseconds(grow), hold: whole_nanoseconds(hold), cruise: whole_nanoseconds(cruise) }

@@ -107,7 +107,7 @@ struct Place<'a> {
     basis: &'a [[f64; 3]; 3],
     /// `z` and its derivatives.
     values: [f64; 3],
-    /// Share of the time.
+    /// Fraction of the time.
     time: f64,
     conditions: &'a [Condition],
 }

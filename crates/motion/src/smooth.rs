@@ -20,7 +20,7 @@ use std::collections::BTreeSet;
 /// Factor by which the speed at a corner is reduced if the motion near it is not shown to be free.
 const SLOWDOWN_FACTOR: f64 = 0.7;
 
-/// Share of a corner's full speed below which the arm stops at the corner instead of passing it.
+/// Fraction of a corner's full speed below which the arm stops at the corner instead of passing it.
 const MIN_SPEED_SHARE: f64 = 1.0 / 128.0;
 
 /// Number of rounds in which the speeds at corners are reduced. After that, the arm stops at all corners.

@@ -37,14 +37,14 @@ const MIN_INTERVALS: usize = 800;
 /// Greatest number of intervals of a motion that is retimed. Longer motions gain less and less.
 const MAX_INTERVALS: usize = 20_000;
 
-/// Share of the original speed with which retiming begins. It satisfies all limits with some slack.
+/// Fraction of the original speed with which retiming begins. At this speed, all limits are satisfied with some slack.
 const INITIAL_SPEED_SHARE: f64 = 0.97;
 
 /// Number of steps of a retimed motion, unless other reasons require shorter or longer steps. The motion takes two
 /// steps longer.
 const RETIMED_STEPS: f64 = 800.0;
 
-/// Share of the limits on torques and on the tip's speed that a retimed motion uses. The rest allows for excesses
+/// Fraction of the limits on torques and on the tip's speed that a retimed motion uses. The rest allows for excesses
 /// between the positions at which the limits are imposed.
 const USED_LIMIT_SHARE: f64 = 0.995;
 
@@ -141,7 +141,7 @@ impl Spline {
         self.step * (self.window + 1) / 2
     }
 
-    /// Returns position, velocity, acceleration and jerk in a piece between knots, at a fraction of it.
+    /// Returns position, velocity, acceleration and jerk in a piece between knots, at the fraction `u` of the piece.
     fn within(&self, piece: usize, u: f64) -> [Configuration; 4] {
         let h = seconds(self.step);
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.control[piece + i]);

@@ -8,7 +8,7 @@ use cplan_core::space::{Configuration, Path};
 use cplan_dynamics::{Curvature, Rates, Torques};
 use cplan_handling::Piece;
 
-/// Share of an effort by which the torque may be overestimated on a part of a curve. It determines how finely curves
+/// Fraction of an effort by which the torque may be overestimated on a part of a curve. It determines how finely curves
 /// are cut.
 const TORQUE_STEP: f64 = 0.01;
 
@@ -20,16 +20,18 @@ const TORQUE_ROWS: usize = 24;
 /// it.
 const PARTS_PER_STRETCH: u32 = 64;
 
-/// Share of the effort that gravity leaves, used for acceleration on such a part. The rest is used for speed.
+/// Fraction of the effort for acceleration on such a part. The effort that gravity does not need counts as 1, and the
+/// rest of it is for speed.
 const ACCELERATION_SHARE: f64 = 0.5;
 
 /// Least effort that gravity leaves, as a share of the whole effort. If gravity leaves less, this share is assumed.
 const MIN_REMAINING_EFFORT: f64 = 1e-12;
 
-/// Share of an effort by which a torque may be greater between two samples of a motion.
+/// Fraction of an effort by which a torque may be greater between two samples of a motion than at the samples.
 const SAMPLED_TORQUE_TOLERANCE: f64 = 2e-4;
 
-/// Share of an effort by which a torque may be greater between two samples, during the search for a motion.
+/// Fraction of an effort by which a torque may be greater between two samples than at the samples, during the search
+/// for a motion.
 const SEARCHED_TORQUE_TOLERANCE: f64 = 2e-3;
 
 /// Greatest number of parts into which a leg is cut to check that the arm can be held everywhere on it.
@@ -40,7 +42,7 @@ const MAX_LEG_PARTS: f64 = 1e5;
 pub struct TorqueLimit<'a> {
     /// Torques of the arm with its payload, and its efforts.
     pub torques: Torques<'a>,
-    /// Share of the effort that gravity leaves which motions may use.
+    /// Fraction of the effort that motions may use, where the effort that gravity does not need counts as 1.
     pub share: f64,
 }
 

@@ -85,8 +85,8 @@ impl TemporaryFile {
     }
 }
 
-/// Checks whether a file of that name could be written, as far as possible without writing. For long computations whose
-/// result could otherwise not be saved.
+/// Checks whether a file of that name could be written, as far as possible without writing it. This is for long
+/// computations whose result could otherwise not be saved.
 ///
 /// # Errors
 /// [`WriteError`].

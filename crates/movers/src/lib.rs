@@ -183,8 +183,8 @@ fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
     Some([cubic, quartic])
 }
 
-/// Returns the problem in which the first moving obstacle that the motion meets is static, at the place where it is
-/// met. `None` if the motion meets none, or if this obstacle blocks the start or all goals.
+/// Returns the problem in which one moving obstacle is static. It is the first one that the motion meets, at the place
+/// of that meeting.
 fn around_what_is_met(
     problem: &MotionProblem,
     courses: &[ObstacleTrajectory],

@@ -23,7 +23,7 @@ pub struct Answer<F = BoundedPath> {
     pub history: Vec<String>,
     /// The planner's last run, including its trace.
     pub run: Run,
-    /// The space of that run.
+    /// The space of the run.
     pub space: Space,
     /// Time spent in each stage.
     pub stages: Stages,

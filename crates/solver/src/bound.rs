@@ -55,7 +55,7 @@ const MIN_POLYGON_LOSS: f64 = 1e-9;
 /// [`POLYGON_LOSS`], this many pairs take some tenths of a second. A few times as many overlapping pairs take a minute.
 pub(super) const MAX_UNITED_PAIRS: usize = 512;
 
-/// Share of a length by which rounding may change it.
+/// Fraction of a length by which rounding may change it.
 const ROUNDING: f64 = 1e-9;
 
 /// Computes a lower bound on the lengths of motions. For gantries it is the length of the shortest path past the exact

@@ -16,8 +16,8 @@ const MAX_CELLS: usize = 2048;
 /// that needs more has no grid.
 const MAX_CHECKS: usize = 1 << 30;
 
-/// Share of a prismatic joint's stroke that replaces the arm's reach if the reach is smaller, as for a gantry with a
-/// slender tool.
+/// If the reach is smaller than this fraction of a prismatic joint's stroke, the fraction replaces it. This is so for a
+/// gantry with a slender tool.
 const STROKE_SHARE: f64 = 0.1;
 
 /// Number of whole turns of continuous joints, on either side of the start, that polygons cover.

@@ -30,7 +30,8 @@ const MAX_EXTRA_CLEARANCE: f64 = 0.01;
 /// clearance is tried.
 const MAX_PAIRS_FOR_RETRIES: usize = 1000;
 
-/// Number of pairs of shapes up to which slices look for a shorter path. With more, a visibility graph does.
+/// Largest number of pairs of shapes with which slices look for a shorter path. With more pairs, a visibility graph
+/// does.
 const MAX_PAIRS: usize = 20_000;
 
 /// Fraction of the requested gap that the lower bound may use up: it is refined until it is this close to the path's

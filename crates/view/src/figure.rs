@@ -159,7 +159,7 @@ pub struct Raster {
     pub levels: Vec<Option<usize>>,
 }
 
-/// A page; later items cover earlier ones.
+/// A page. Items that are added later cover earlier ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Width of the page, in pixels.

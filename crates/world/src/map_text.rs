@@ -201,7 +201,7 @@ impl MapText {
     }
 }
 
-/// Limit on the number of lines that a file may announce. No file of the greatest size has so many lines.
+/// Limit on the number of lines that a file may announce. Even the largest file that can be read has fewer lines.
 const MAX_COUNT: f64 = 1e9;
 
 fn counted(n: usize) -> String {

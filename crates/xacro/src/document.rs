@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// Largest number of elements and texts in one file. No robot has as many.
+/// Largest number of elements and texts in one file. Descriptions of robots have far fewer.
 const MAX_NODES: u32 = 1_000_000;
 
 /// A file that was read.

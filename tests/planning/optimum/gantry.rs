@@ -67,7 +67,7 @@ fn through_a_slot() {
     assert_is(&square(turned.collect(), q(0.0, -1.0), q(0.0, 1.0)), length);
 }
 
-/// Checks two slots in walls behind one another, far apart: the path leads to one, and back to the other.
+/// Checks two slots in walls behind one another, far apart. The path leads to one slot, and then back to the other.
 #[test]
 fn through_two_slots() {
     let wall = |x: f64, slot: f64| [rectangle(x, x + 0.1, -3.0, slot), rectangle(x, x + 0.1, slot + 0.01, 3.0)];

@@ -322,7 +322,7 @@ fn shortest_paths_past_what_is_a_thousand_times_as_large_have_certificates_that_
     }
 }
 
-/// Checks goal areas: a path ends on the rim of one, and a proof covers all of them. The checker accepts both.
+/// Checks goal areas: a path ends on the rim of one area, and a proof covers all areas. The checker accepts both.
 #[test]
 fn goal_areas_have_certificates_that_hold() {
     let robot = shipped("robots/room_gantry.urdf");

@@ -234,8 +234,8 @@ impl<'a> Posture<'a> {
         })
     }
 
-    /// Returns a bound on all lengths that occur in the computation of a distance. The rounding error of the distance
-    /// is relative to it.
+    /// Returns a bound for all lengths that occur in the computation of a distance. The rounding error of the distance
+    /// is a fraction of this bound.
     pub fn scale(&self, corners: &[Point], radius: f64, piece: &Convex) -> f64 {
         let base = self.scene.arm().base;
         base.norm() + reach(corners, base) + radius.max(0.0) + piece.reach_from(base)

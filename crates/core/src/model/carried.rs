@@ -38,12 +38,8 @@ impl CarriedPart {
         self.features.shape()
     }
 
-    /// Appends to `out` the values of the joint at which the part is within `grow` of the piece, with the joint at
-    /// `pivot` on a link whose x axis points along `heading` (a unit vector). Exact up to
-    /// [`cplan_geometry::ROUNDING`]. `O(n m)`.
-    ///
-    /// Returns whether they meet never, always, or within the intervals in `out`. Angles are wrapped as in
-    /// [`Hits::Within`]. A prismatic joint yields at most one interval. The joint's limits are not applied.
+    /// Appends to `out` the values of the joint at which the part is within `grow` of the piece. The joint is at
+    /// `pivot`, on a link whose x axis points along the unit vector `heading`.
     pub fn hits(&self, pivot: Point, heading: Vector, piece: &Features, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         match self.joint_type {
             JointType::Revolute { sign } => {

@@ -113,10 +113,10 @@ const MAX_CURVE_DISTANCE: f64 = 0.05;
 /// curve's direction.
 const BLENDED_CELLS: f64 = 12.0;
 
-/// Returns the path from the exact start along a field ([`follow`]) to the exact goal. For [`PathKind::Taut`] the path
-/// is pulled taut. Otherwise it stays within `MAX_CURVE_DISTANCE` of the curve, except in the last `BLENDED_CELLS`. The
-/// path stays in free cells, with one exception: the segment between a configuration and a cell that does not contain
-/// it. `home` is the cell joined to the start.
+/// Returns the path from the exact start to the exact goal, between which it goes along a field ([`follow`]). For
+/// [`PathKind::Taut`] the path is pulled taut. Otherwise it stays within `MAX_CURVE_DISTANCE` of the curve, except in
+/// the last `BLENDED_CELLS`. The path stays in free cells, except at an end that is not in the cell to which it is
+/// joined: the segment between the two may leave the free cells. `home` is the cell joined to the start.
 ///
 /// # Errors
 /// If the field does not lead to a goal.

@@ -93,7 +93,7 @@ const LEFT_SIDE: usize = 1;
 struct Funnel {
     apex: Point,
     chains: [VecDeque<Turn>; 2],
-    /// The turns of the path up to the apex, which is the last of them.
+    /// The turns of the path up to the apex, which is the last turn.
     path: Vec<Turn>,
 }
 

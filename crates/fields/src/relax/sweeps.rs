@@ -48,7 +48,7 @@ pub enum RelaxError {
         sweeps: usize,
         /// The first cell with such a value, as row and column.
         cell: [usize; 2],
-        /// The value of that cell.
+        /// The value of the cell.
         value: f64,
         /// Possible reason, and advice.
         hint: String,
@@ -222,8 +222,8 @@ pub(super) fn hint(domain: &Domain, equation: &Equation, factor: f64) -> String 
     }
 }
 
-/// Returns the direction in which each free cell's value rises towards that of obstacles, by central differences; 0
-/// where values are level.
+/// Returns, for each free cell, the unit direction in which its value rises towards that of obstacles, by central
+/// differences. It is 0 where values are level.
 pub(super) fn normalized_gradient(domain: &Domain, values: &[f64]) -> Vec<[f64; 2]> {
     let levels = domain.levels();
     let at = |cell: usize| {

@@ -58,7 +58,7 @@ pub struct Leap {
 /// Distance from a sampled sweep to the next one, as a share of the number of sweeps so far.
 const SAMPLE_SPACING: f64 = 0.01;
 
-/// Share of the sweeps, counted from the end, over which [`Trace::rate`] is measured.
+/// Fraction of the sweeps, counted from the end, over which [`Trace::rate`] is measured.
 const RATE_WINDOW: f64 = 0.5;
 
 /// Error below which only rounding remains, so that no rate can be measured.

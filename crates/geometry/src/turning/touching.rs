@@ -20,7 +20,8 @@ const DIRECTION_TOLERANCE: f64 = 1e-13;
 /// Two circles graze each other if the gap between their radii equals the contact distance up to this fraction.
 const CIRCLE_GRAZING_TOLERANCE: f64 = 1e-6;
 
-/// Largest number of arcs of one pair of convex shapes. With more, which is rare, the exhaustive method takes over.
+/// Largest number of arcs of one pair of convex shapes. For the rare pairs with more arcs, an exhaustive method is used
+/// instead.
 const MAX_ARCS: usize = 8;
 
 /// The error of a comparison whose values are too close for the result to be certain.

@@ -98,7 +98,8 @@ fn one_crossing_among_20_000_sides_is_found() {
     assert!((8_998..=9_001).contains(&first) && (9_000..=9_003).contains(&second), "{error}");
 }
 
-/// Returns the first side in the list that meets an earlier side which is not its neighbour, and that side.
+/// Returns two sides that meet but are not neighbours: the first such side in the list, and the earlier side that it
+/// meets.
 fn first_meeting(ring: &[Corner]) -> Option<(usize, usize)> {
     let n = ring.len();
     let side = |i: usize| [ring[i], ring[(i + 1) % n]];

@@ -301,7 +301,8 @@ fn half_planes(core: &[Point]) -> Vec<(Vector, f64)> {
         .collect()
 }
 
-/// Returns the greatest distance of a point from the half-planes; negative if it is inside all of them.
+/// Returns the greatest distance of a point from the half-planes. The result is negative if the point is inside all of
+/// them.
 fn outside(p: Point, sides: &[(Vector, f64)]) -> f64 {
     sides.iter().map(|(normal, offset)| normal.dot(&p) - offset).fold(f64::NEG_INFINITY, f64::max)
 }

@@ -46,14 +46,14 @@ const SETTLED_GROWTH: f64 = 1e-6;
 /// Maximum product of the number of refused certificates and the number of pairs. It corresponds to some seconds.
 const MAX_REFUSAL_WORK: usize = 500_000;
 
-/// Number of pairs that are added where a path collides with a pair that is not in use.
+/// Number of pairs that are added where a path collides with a pair that was not used so far.
 const PAIRS_PER_COLLISION: usize = 256;
 
 /// Number of consecutive rounds with hardly any improvement after which the search ends.
 const MAX_IDLE_ROUNDS: usize = 3;
 
-/// Share of the extra clearance `kept` by which paths may enter the grown obstacles within strips. The rest suffices
-/// for a certificate. With a greater share, fewer slices are needed.
+/// Fraction of the extra clearance `kept` by which paths may enter the grown obstacles within strips. The rest suffices
+/// for a certificate. With a greater fraction, fewer slices are needed.
 const STRIP_CLEARANCE_SHARE: f64 = 0.9;
 
 /// Number of pairs up to which [`STRIP_CLEARANCE_SHARE`] applies. Among more pairs, a path passes many small pieces,

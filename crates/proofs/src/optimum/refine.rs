@@ -16,7 +16,7 @@ use std::hash::BuildHasherDefault;
 /// Distance between the configurations at which a path is tested for obstacles thinner than a strip, radians or metres.
 const TEST_STEP: f64 = 0.01;
 
-/// Ratio of distances from the end of a path's piece: that of a tested configuration to that of the one before. The
+/// Factor by which the distance from the end of a path's piece decreases from one tested configuration to the next. The
 /// tested configurations approach the end.
 const TEST_STEP_RATIO: f64 = 0.1;
 

@@ -147,7 +147,7 @@ impl<'a> Strips<'a> {
         self.strips.iter().map(|strip| strip.from).collect()
     }
 
-    /// Returns true if there are so many strips that no more are made.
+    /// Returns true if the largest number of strips is reached, so that no more are made.
     pub fn are_too_many(&self) -> bool {
         self.strips.len() > MAX_STRIPS.min(self.closed.most_slices())
     }

@@ -265,7 +265,8 @@ impl Attributes<'_> {
         values
     }
 
-    /// Returns the soft limits, by default 0. `None` if both are 0, because exporters write that for missing ones.
+    /// Returns the soft limits. A limit that is not given is 0. Returns `None` if both are 0, because exporters write 0
+    /// for missing limits.
     pub fn soft_limits(&mut self, safety: Node) -> Option<[f64; 2]> {
         let [lower, upper] = ["soft_lower_limit", "soft_upper_limit"].map(|name| self.number(safety, name));
         let [lower, upper] = [lower, upper].map(|limit| limit.unwrap_or(0.0));

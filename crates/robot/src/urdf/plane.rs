@@ -4,9 +4,9 @@ use cplan_core::model::{JointType, Plane};
 use cplan_geometry::{Point, Vector};
 use nalgebra::Vector3;
 
-/// Largest angle between directions, in radians, that count as parallel (or difference from a right angle of
-/// perpendicular ones). Exported files have axes like `-1.19e-5 0 0.9999` and angles like 1.57. Over a length of a
-/// metre, the angle is a deviation of a millimetre.
+/// Largest angle, in radians, between directions that count as parallel. Also the largest difference from a right angle
+/// of directions that count as perpendicular. Exported files have axes like `-1.19e-5 0 0.9999` and angles like 1.57.
+/// Over a length of a metre, the angle is a deviation of a millimetre.
 pub(super) const ALIGNMENT_TOLERANCE: f64 = 1e-3;
 
 /// A joint's axis in the root frame.

@@ -165,7 +165,8 @@ impl<'a> TimedState<'a, '_> {
         all.flat_map(|candidates| candidates.ways).collect()
     }
 
-    /// Returns the candidates for picking a passing object at a moment. The arm arrives before and waits for it.
+    /// Returns the candidates for picking a passing object at a moment. The arm arrives before that moment and waits
+    /// for the object.
     fn passing(&self, movers: &MovingObstacles, step: &Step, object: usize, moment: Moment) -> Vec<TimedCandidate<'a>> {
         let choice = |(branch, candidate): (usize, Candidate<'a>)| {
             let [safe, stays] = self.safe(movers, &candidate);

@@ -224,8 +224,8 @@ impl Group<'_> {
         self.pairs.iter().position(|[pick, _]| pick.action.picked() == Some(object))
     }
 
-    /// Replaces the order by one that violates fewer conditions, or as many and is faster. Returns true if it satisfies
-    /// all.
+    /// Replaces the order by another one: one that violates fewer conditions, or one that violates as many and is
+    /// faster. Returns true if it satisfies all conditions.
     fn propose(&mut self) -> bool {
         let Some(tour) = &self.tour else { return false };
         let (order, (broken, _)) = tour.improved(self.order.clone(), &self.conditions);
@@ -262,7 +262,7 @@ struct OrderBuilder<'a, 'g> {
     group: &'a mut Group<'g>,
     legs: &'a mut MotionCache,
     most: usize,
-    /// Dead ends of the search. Each is given by the set of pairs that are done, and the last of them.
+    /// Dead ends of the search. Each is given by the set of pairs that are done, and by the pair that was done last.
     dead: BTreeSet<(Vec<bool>, Option<usize>)>,
     /// A task with a single pair, and another step after it.
     alone: Task,

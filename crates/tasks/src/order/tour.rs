@@ -34,7 +34,7 @@ pub(super) struct Tour {
     /// `carry` the planned motion takes.
     carry_more: Vec<f64>,
     /// Learned times, in seconds. They state, for the motion between two pairs, how much longer than in `transfer` the
-    /// planned motion takes. An unknown one counts as half the mean of the known ones.
+    /// planned motion takes. A time that is not known counts as half the mean of the known times.
     way_more: Vec<Vec<Option<f64>>>,
     unknown_more: f64,
 }
@@ -85,7 +85,8 @@ impl Tour {
         })
     }
 
-    /// Records that the motion which carries a pair's object takes `more` seconds longer than without obstacles.
+    /// Records that a motion takes `more` seconds longer than without obstacles. It is the motion that carries a pair's
+    /// object.
     pub fn learn_carry(&mut self, pair: usize, more: f64) {
         self.carry_more[pair] = more;
     }

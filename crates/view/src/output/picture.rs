@@ -263,7 +263,7 @@ fn contours_of(options: &Options) -> fn(&Scene) -> Vec<CObstacle> {
     if options.planner.is_exact() { exact_contours } else { contours }
 }
 
-/// Returns the exact C-obstacles for pictures if the arm has exact ones; otherwise the same as [`contours`].
+/// Returns the exact C-obstacles for pictures if the arm has exact ones. Otherwise does the same as [`contours`].
 fn exact_contours(scene: &Scene) -> Vec<CObstacle> {
     exact_c_obstacles(scene).map_or_else(|| contours(scene), |(exact, _)| exact)
 }

@@ -61,7 +61,7 @@ impl Nearby {
         [0, 1].map(|k| (((p[k] - self.lower[k]) / self.side) as usize).min(self.shape[k] - 1))
     }
 
-    /// Returns the `count` points nearest to `p`, nearest first; equally near ones in their original order. About
+    /// Returns the `count` points nearest to `p`, nearest first. Equally near points have their original order. About
     /// `O(count)` if points are spread evenly.
     pub fn nearest(&self, p: Point, count: usize) -> Vec<usize> {
         let mut found: Vec<(OrderedF64, usize)> = Vec::new();
