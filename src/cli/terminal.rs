@@ -47,8 +47,8 @@ pub fn message(text: &str) -> String {
 /// Beginning of a command. A line that begins so is not wrapped, so that it can be copied.
 const COMMAND: &str = "cplan ";
 
-/// Wraps the lines of a message. Does not wrap commands, and lines quoted from files, because carets below them point
-/// at a column.
+/// Wraps the lines of a message. Does not wrap commands. Does not wrap lines quoted from files either, because carets
+/// below such a line point at a column of it.
 fn folded(text: &str, width: usize) -> String {
     let folded = |line: &str| {
         let blanks = line.chars().take_while(|c| *c == ' ').count();

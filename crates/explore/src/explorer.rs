@@ -190,9 +190,9 @@ impl Explorer<'_> {
         self.frontier.contains(&self.survey, self.sensor, cell)
     }
 
-    /// Moves along a path and takes readings on it. If `until` is a cell, the purpose of the motion is a reading there;
-    /// the arm stops as soon as that reading would show nothing new. Otherwise it stops at the first reading that shows
-    /// something new.
+    /// Moves along a path and takes readings on it. If `until` is a cell, the arm moves in order to take a reading
+    /// there. Then it stops as soon as that reading would show nothing new. If `until` is `None`, it stops at the first
+    /// reading that shows something new.
     ///
     /// # Errors
     /// The reason why a part of the path cannot be certified or timed.

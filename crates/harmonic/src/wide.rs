@@ -28,8 +28,9 @@ pub(super) struct WideSystem {
     loss: f64,
     /// True at the places in the box that are unknowns.
     free: Vec<bool>,
-    /// The known values that enter the equations. For each unknown beside them, it has the sum over these neighbours:
-    /// in the first list of the potential, in the second of 1 for each neighbour beyond the cut of the window.
+    /// The known values that enter the equations. An entry has an unknown beside known values, and a sum over these
+    /// neighbours. In the first list, it is the sum of the potential. In the second, each neighbour beyond the cut of
+    /// the window counts 1.
     sources: [Vec<(u32, f64)>; RIGHT_SIDES],
 }
 

@@ -74,7 +74,8 @@ impl Corners {
         }
     }
 
-    /// Computes row `i` of `inverse` times the residual plus `P` times a coarse vector with its frame.
+    /// Computes row `i` of the sum of two vectors: `inverse` times the residual, and `P` times a coarse vector whose
+    /// frame is set.
     #[inline(always)]
     pub fn prolong<M: Machine>(
         &self,

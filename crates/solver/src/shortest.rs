@@ -90,13 +90,13 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     best
 }
 
-/// Largest first margin of a gantry's polygons, as a fraction of the gap. The margin itself is a share of the arm's
-/// reach. The planner's own margin applies if it is smaller. Paths farther from corners give faster motions. If the
-/// margin is too large for the gap, it is quartered.
+/// Limit on the margin by which a gantry's polygons are grown at first. The margin is a fraction of the arm's reach,
+/// and the limit on it is this multiple of the gap. With a greater margin, paths are farther from corners, which makes
+/// motions faster. If the margin is too large for the gap, it is quartered.
 const MARGIN_FRACTION: f64 = 0.4;
 
-/// Answers for a gantry, whose C-obstacles are polygons: finds the shortest path among slightly grown polygons. `None`
-/// if no path is proven to be within the gap.
+/// Answers for a gantry, whose C-obstacles are polygons: finds the shortest path among slightly grown polygons. Returns
+/// `None` if no path is proven to be within the gap.
 fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) -> Option<Answer> {
     let (scene, gap) = (problem.scene(), options.planner.gap().unwrap_or(CLOSE_GAP));
     let planner =

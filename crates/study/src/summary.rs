@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 /// Largest number of reasons that are listed.
 const MAX_REASONS: usize = 6;
 
-/// Distance from the end of a range within which a value counts as at the end, as a fraction of the range.
+/// A value counts as being at the end of a range if its distance from the end is at most this fraction of the range.
 const RANGE_END_SHARE: f64 = 0.05;
 
 /// Indentation of tables.

@@ -70,8 +70,8 @@ pub(super) struct Search<'a, 'l> {
     /// Number of motions that were planned before this search.
     planned: usize,
     nodes: Vec<Node<'a>>,
-    /// Nodes, ordered by their least total time. Among equal ones, the node with more steps comes first, then the one
-    /// that was found earlier.
+    /// Nodes, ordered by their least total time. If several have the same time, the node with more steps comes first,
+    /// then the node that was found earlier.
     open: OpenList<(Reverse<usize>, usize)>,
     closed: BTreeSet<Vec<i64>>,
     /// Weight of the heuristic. Above 1, the search is weighted A*.

@@ -72,8 +72,8 @@ pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
     Figure { width: PAGE_WIDTH, height, items }
 }
 
-/// Composes a page with a single panel and a legend below it. The panel has this ratio of height to width, unless the
-/// page has too little room.
+/// Composes a page with a single panel and a legend below it. The panel's height is `aspect` times its width, unless
+/// the page has too little room.
 #[must_use]
 pub fn alone(title: &[String], keys: Vec<Key>, aspect: f64, panel: impl FnOnce(Rect) -> Vec<Item>) -> Figure {
     const PAGE_HEIGHTS: [f64; 2] = [300.0, 960.0];

@@ -49,8 +49,8 @@ pub(super) struct Replay<'a> {
     keeps: String,
     /// Depth to which the carried object may press into its supports.
     pressed: Interval,
-    /// Obstacles and objects in their current state, then moving obstacles, then links of the robot. `None` stands for
-    /// the carried object.
+    /// Obstacles and objects in their current state, then moving obstacles, then links of the robot. An entry is `None`
+    /// for the carried object.
     present: Vec<Option<PlacedObstacle>>,
     /// The same obstacles and links, in their initial state.
     all: Vec<&'a Obstacle>,

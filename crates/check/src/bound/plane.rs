@@ -20,8 +20,8 @@ pub(super) struct Corner {
     at: Place,
     /// Lower bound on the length of paths from the corner to a goal.
     rest: BigInt,
-    /// Claimed lower bound on the length of paths from the start to the corner. `None` stands for the certified length
-    /// minus `rest`.
+    /// Claimed lower bound on the length of paths from the start to the corner. If it is `None`, the bound is the
+    /// certified length minus `rest`.
     potential: Option<BigInt>,
 }
 

@@ -280,7 +280,7 @@ pub enum Trace {
         /// The potential; `None` if the start is in none of these cells.
         potential: Option<Potential>,
     },
-    /// A potential that paths descend, for each cell. Infinite where there is no potential.
+    /// A potential, with one value for each cell. Paths descend it. It is infinite in cells without a potential.
     Potential {
         /// Number of cells along each axis.
         cells: [usize; 2],

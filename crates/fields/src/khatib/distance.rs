@@ -39,8 +39,8 @@ pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
     nearest
 }
 
-/// Returns, for each cell of a row, the number of steps to the nearest blocked cell in the row. Of two that are equally
-/// near, it takes the one with the lower index. `None` if no cell of the row is blocked.
+/// Returns, for each cell of a row, the number of steps to the nearest blocked cell in the row. If two are equally
+/// near, takes the one with the lower index. Returns `None` if no cell of the row is blocked.
 fn in_row(row: &[bool], wraps: bool, solid: bool) -> Vec<Option<i64>> {
     let n = row.len() as i64;
     let blocked = |j: i64| match (0..n).contains(&j) {

@@ -72,8 +72,8 @@ struct Envelope<'a> {
 }
 
 impl<'a> Envelope<'a> {
-    /// Returns the bisector of least value right after a parameter; the one with the least slope if several are
-    /// equal. `None` if there is none.
+    /// Returns the bisector of least value right after a parameter. If several have the least value, returns the one
+    /// with the least slope. Returns `None` if there is no bisector.
     fn lowest(&self, at: f64) -> Option<&'a Bisector> {
         let here = || self.bisectors.iter().filter(|b| self.is_after(b, at));
         let least = here().map(|b| b.value(at)).fold(f64::INFINITY, f64::min);

@@ -190,8 +190,8 @@ struct ExecutedStep {
     timing: Timing,
 }
 
-/// Rank of a node in the search. Until a solution is known, nodes with more steps come first. Among equal ones, the
-/// node with the earliest end of the task comes first, then the one with the lowest index.
+/// Rank of a node in the search. Until a solution is known, nodes with more steps come first. If several have as many,
+/// the node with the earliest end of the task comes first, then the node with the lowest index.
 type Rank = (Reverse<usize>, OrderedF64, usize);
 
 struct Search<'a> {

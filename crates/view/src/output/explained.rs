@@ -11,7 +11,7 @@ use cplan_explain::{
 use cplan_solver::BoundedPath;
 use cplan_text::{fixed, listed, nonzero, percent, round_down, round_up, short};
 
-/// Factor between the time limit of an explanation that was stopped early and the one that cplan suggests instead.
+/// If an explanation was stopped early, cplan suggests a time limit that is longer by this factor.
 const TIME_LIMIT_FACTOR: f64 = 12.0;
 
 /// Returns the verdict, and then the reasons.
