@@ -9,8 +9,8 @@ use cplan_check::polygon::{Corner, edges, is_convex, side, surrounds};
 use cplan_check::{CheckError, Input};
 use num_bigint::Sign;
 
-/// Negative binary logarithm of two lower limits for objects that press into supports: on the sine of half the angle at
-/// each corner, and on the length of each side, metres.
+/// Two lower limits for objects that press into supports: on the sine of half the angle at each corner, and on the
+/// length of each side, metres. Each limit is 2 to the power of minus this number.
 const MIN_SINE_BITS: u64 = 30;
 
 /// Negative binary logarithm of a share. Corners that turn inwards are moved by this share less than other corners.

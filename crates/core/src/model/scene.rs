@@ -391,8 +391,8 @@ impl Scene {
         pair.link > 0 && pair.part >= self.own_parts
     }
 
-    /// Returns the piece of the obstacle in a pair, in plane coordinates, even if the pair uses a shape derived from
-    /// it for an attachment.
+    /// Returns the obstacle's piece of a pair, in plane coordinates. For an attachment, a pair may use a shape that is
+    /// derived from this piece; this function still returns the piece itself.
     #[must_use]
     pub fn obstacle_piece(&self, pair: Pair) -> &Convex {
         let pieces = &self.obstacle(pair.obstacle).pieces;

@@ -250,8 +250,8 @@ enum OpenCells {
     Stack(Vec<(usize, Cost)>),
     /// The cell of least estimate first. The number counts the cells that were added.
     Least(OpenList<WaitingCell>, Ties, u64),
-    /// The cell of least remaining cost first, and the latest of equal ones. The number counts the cells that were
-    /// added.
+    /// The cell of least remaining cost comes first. If several are equal, the latest comes first. The number counts
+    /// the cells that were added.
     Nearest(OpenList<WaitingCell>, u64),
 }
 
