@@ -43,7 +43,7 @@ pub struct LineChart {
 /// A line with its name.
 pub struct Line {
     pub name: String,
-    /// Indices into [`COLORS`] and [`DASHES`].
+    /// Indices into `COLORS` and `DASHES`.
     pub pen: [usize; 2],
     pub points: Vec<[f64; 2]>,
     /// True to draw a dot at each point.
