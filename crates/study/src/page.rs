@@ -21,7 +21,7 @@ const MAX_LISTED_CELLS: usize = 48;
 const MAX_CHART_POINTS: usize = 4000;
 
 impl Study {
-    /// Returns the page of these rows, with pictures of some layouts. The same rows give the same bytes.
+    /// Returns the page for these rows, with pictures of some layouts. The same rows give the same bytes.
     #[must_use]
     pub fn html(&self, rows: &[Row], pictures: &[Picture]) -> String {
         let summary = Summary::new(self, rows);
@@ -181,7 +181,7 @@ const MAP_LEGEND: [(&str, &str); 3] = [
     (NO_MOTION_COLOR, "nothing to plan, or unknown"),
 ];
 
-/// Largest distance at which dots of two charts count as equal, as a fraction of the chart.
+/// Largest distance at which two dots of a chart count as one, as a fraction of the chart.
 const DOT_DISTANCE: f64 = 0.01;
 
 fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
@@ -331,8 +331,8 @@ impl Cell {
     }
 }
 
-/// Returns a colour from dark blue at 0 to yellow at 1. Its lightness increases, so that colour-blind readers and grey
-/// prints can tell the values apart.
+/// Returns a colour from dark blue at 0 to yellow at 1. Its lightness increases, so that the values remain distinct for
+/// colour-blind readers and in grey prints.
 fn shade(share: f64) -> String {
     const COLOR_STOPS: [[f64; 3]; 5] =
         [[68.0, 1.0, 84.0], [59.0, 82.0, 139.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [253.0, 231.0, 37.0]];

@@ -33,35 +33,35 @@ impl std::fmt::Display for Rgb {
 
 /// The colour of the paper.
 pub const WHITE: Rgb = Rgb(255, 255, 255);
-/// Text, paths and the arm.
+/// Colour of text, paths and the arm.
 pub const INK: Rgb = Rgb(0x22, 0x26, 0x2b);
-/// Less important text.
+/// Colour of less important text.
 pub const GRAY: Rgb = Rgb(0x5c, 0x63, 0x6b);
-/// Marks for orientation: the reach, ticks.
+/// Colour of marks for orientation: the reach and ticks.
 pub const PALE: Rgb = Rgb(0xa3, 0xaa, 0xb2);
-/// Blocking obstacles, and goals out of reach.
+/// Colour of blocking obstacles, and of goals out of reach.
 pub const BLOCKED: Rgb = Rgb(0xc2, 0x2e, 0x2e);
-/// Boxes of proofs that there is no path.
+/// Colour of the boxes of a proof that there is no path.
 pub const PROOF: Rgb = Rgb(0xd9, 0x5f, 0x02);
-/// The arm at its current configuration, and lines of steepest ascent.
+/// Colour of the arm at its current configuration, and of lines of steepest ascent.
 pub const ACCENT: Rgb = Rgb(0x00, 0x72, 0xb2);
-/// Grid lines behind a chart.
+/// Colour of grid lines behind a chart.
 pub const FAINT: Rgb = Rgb(0xe9, 0xeb, 0xee);
-/// The arm along its path.
+/// Colour of the arm along its path.
 pub const GHOST: Rgb = Rgb(0xd8, 0xdc, 0xe1);
-/// Edges of roadmaps, sides of cells.
+/// Colour of edges of roadmaps, and of sides of cells.
 pub const EDGE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
-/// Cells of the channel: a yellow that no obstacle has.
+/// Colour of the cells of the channel: a yellow that no obstacle has.
 pub const CHANNEL: Rgb = Rgb(0xff, 0xf0, 0x70);
-/// Boxes of free configurations.
+/// Colour of boxes of free configurations.
 pub const FREE: Rgb = Rgb(0xd3, 0xee, 0xda);
-/// Undecided boxes: grey, which no obstacle is.
+/// Colour of undecided boxes: grey, which no obstacle has.
 pub const UNDECIDED: Rgb = Rgb(0xae, 0xb3, 0xbb);
-/// Fixed links of the robot.
+/// Colour of fixed links of the robot.
 pub const ROBOT: Rgb = Rgb(0x8a, 0x90, 0x98);
-/// Regions that fields avoid.
+/// Colour of regions that fields avoid.
 pub const AVOIDED: Rgb = Rgb(0xc4, 0x6a, 0x1d);
-/// Regions that fields prefer.
+/// Colour of regions that fields prefer.
 pub const PREFERRED: Rgb = Rgb(0x2b, 0x7a, 0x78);
 
 /// The colours that have a meaning, with their names in the style sheet of pages.
@@ -90,8 +90,8 @@ pub fn tint(color: Rgb) -> String {
     named.map_or_else(|| color.to_string(), |(name, _)| (*name).to_owned())
 }
 
-/// Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), ordered so that neighbours in the list differ
-/// strongly.
+/// Colours of obstacles: Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), ordered so that
+/// neighbours in the list differ strongly.
 const OBSTACLE_COLORS: [Rgb; 9] = [
     Rgb(0x88, 0xcc, 0xee),
     Rgb(0xcc, 0x66, 0x77),
@@ -104,8 +104,8 @@ const OBSTACLE_COLORS: [Rgb; 9] = [
     Rgb(0x11, 0x77, 0x33),
 ];
 
-/// Returns the colour of obstacle `index`. There are nine hues. After nine obstacles the hues repeat, alternately paler
-/// and deeper, so that the first 63 obstacles have different colours.
+/// Returns the colour of the obstacle with this index. There are nine hues. After nine obstacles the hues repeat,
+/// alternately paler and deeper, so that the first 63 obstacles have different colours.
 #[must_use]
 pub fn obstacle(index: usize) -> Rgb {
     let hue = OBSTACLE_COLORS[index % OBSTACLE_COLORS.len()];
@@ -120,9 +120,9 @@ pub fn obstacle(index: usize) -> Rgb {
     }
 }
 
-/// Returns the colour and the dashes of path `index` of a comparison: the strong half of Okabe and Ito's scheme (2008).
-/// Dashes distinguish paths that lie on top of each other. When the colours repeat, the dashes change, so that the
-/// first 36 paths differ.
+/// Returns the colour and the dashes of the path with this index in a comparison. The colours are the strong half of
+/// Okabe and Ito's scheme (2008). Dashes distinguish paths that lie on top of each other. When the colours repeat, the
+/// dashes change, so that the first 36 paths differ.
 #[must_use]
 pub fn path(index: usize) -> (Rgb, &'static [f64]) {
     const PATH_COLORS: [Rgb; 6] = [
@@ -137,8 +137,8 @@ pub fn path(index: usize) -> (Rgb, &'static [f64]) {
     (PATH_COLORS[index % PATH_COLORS.len()], PATH_DASHES[(index + index / PATH_COLORS.len()) % PATH_DASHES.len()])
 }
 
-/// Returns the colour for `value` from 0 (light) to 1 (dark) on a perceptually uniform scale: seaborn's "mako" without
-/// its darkest third, reversed, so that a dark path stays legible on it.
+/// Returns the colour for `value` from 0 (light) to 1 (dark) on a perceptually uniform scale. The scale is seaborn's
+/// "mako" without its darkest third, reversed, so that a dark path stays legible on it.
 #[must_use]
 pub fn scale(value: f64) -> Rgb {
     const SCALE_STOPS: [Rgb; 8] = [
@@ -160,7 +160,7 @@ pub fn scale(value: f64) -> Rgb {
 mod tests {
     use super::*;
 
-    /// Relative luminance (WCAG), a measure that is independent of the mixing code.
+    /// Returns the relative luminance (WCAG) of a colour. It does not depend on the code that mixes colours.
     fn luminance(c: Rgb) -> f64 {
         let linear = |v: u8| {
             let v = f64::from(v) / 255.0;
@@ -186,7 +186,8 @@ mod tests {
         assert_eq!(obstacle(63), obstacle(0));
     }
 
-    /// Compares with the paler colours of configuration spaces. One obstacle once had nearly the colour of the channel.
+    /// Compares obstacles with the paler colours of configuration spaces. One obstacle once had nearly the colour of
+    /// the channel.
     #[test]
     fn no_obstacle_has_the_colour_of_the_channel() {
         for index in 0..63 {

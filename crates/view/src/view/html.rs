@@ -24,7 +24,7 @@ const SCRIPTS: [&str; 11] = [
 /// Code that shows the view in the page.
 const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
 
-/// Returns the colours of pictures as variables of the style sheet. Dark mode replaces them by other colours.
+/// Returns the colours of pictures as variables of the style sheet. In dark mode, other colours replace them.
 fn colors() -> String {
     let variables: String = TINTS.iter().map(|(name, color)| format!(" --{name}: {color};")).collect();
     format!(":root {{{variables} }}\n")
@@ -43,7 +43,7 @@ pub fn drawing() -> String {
     SCRIPTS.concat()
 }
 
-/// Returns a self-contained page that loads nothing and that the browser does not allow to load anything. The element
+/// Returns a self-contained page. It loads nothing, and the browser does not allow it to load anything. The element
 /// `id` contains `json`, which `code` reads.
 #[must_use]
 pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> String {
@@ -54,8 +54,8 @@ pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> Str
     shell(title, &policy, style, &format!("<script id=\"{id}\" type=\"application/json\">{data}</script>\n"), code)
 }
 
-/// Returns a page on which code draws within the element `main`. `head` has further elements of the page's head,
-/// `style` its own styles, and `before` the elements before the code.
+/// Returns a page on which code draws within the element `main`. `head` has further elements for the page's head,
+/// `style` its own styles, and `before` the elements that precede the code.
 #[must_use]
 pub fn shell(title: &str, head: &str, style: &str, before: &str, code: &str) -> String {
     let title = markup(title);
