@@ -22,7 +22,7 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Number of random worlds, and of moving obstacles in each.
+/// Number of random worlds (`WORLDS`), and number of moving obstacles in each.
 const WORLDS: usize = 100;
 const MOVERS: u64 = 10;
 

@@ -12,8 +12,8 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::path::Path;
 
-/// Returns the program's initial polygons: obstacles grown by a thousandth of the reach, one turn to either side of the
-/// start.
+/// Returns the polygons with which the program begins. Obstacles are grown by a thousandth of the reach, and the window
+/// extends one turn to either side of the start.
 fn polygons(problem: &MotionProblem) -> Regions {
     regions(problem.scene(), 1e-3 * problem.scene().arm().reach(), problem.start(), 1)
 }
@@ -22,7 +22,8 @@ fn cells(problem: &MotionProblem, n: usize) -> Grid {
     outer_grid(problem.scene(), [n, n], problem.scene().workspace().clearance)
 }
 
-/// Returns the number of cells along each axis at which the program finds a path: 256, doubled until a path exists.
+/// Returns the number of cells along each axis with which the program finds a path. It begins with 256, and doubles
+/// until there is a path.
 fn sufficient(problem: &MotionProblem) -> usize {
     let query = Query { start: problem.start(), goals: problem.goals().clone() };
     let planner = Wavefront::default();

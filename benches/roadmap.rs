@@ -15,13 +15,13 @@ use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_ma
 use roadmap::{configuration, sides, star_crowd};
 use std::hint::black_box;
 
-/// Corners in all.
+/// Total numbers of corners of the scenes.
 const SIZES: [usize; 5] = [100, 1_000, 10_000, 20_000, 50_000];
 
-/// Largest number of corners for the naive graph.
+/// Largest number of corners for which the naive graph is measured.
 const NAIVE: usize = 1_000;
 
-/// Number of queries between free places in the window.
+/// Returns queries between free places in the window.
 fn queries(regions: &Regions) -> Vec<Query> {
     let (mut random, planner) = (Dice::new(7), Trapezoid::default());
     let map = planner.build(regions);
@@ -61,7 +61,7 @@ fn measure<P: Planner<Space = Regions>>(criterion: &mut Criterion, name: &str, p
     group.finish();
 }
 
-/// Computes the visibility graph by definition: `O(n^3)`.
+/// Computes the visibility graph by its definition, in `O(n^3)`.
 fn naive_graph(regions: &Regions) -> usize {
     let sides = sides(regions);
     let corners: Vec<Point> = sides.iter().map(|side| side.0).collect();

@@ -13,7 +13,7 @@ use std::hint::black_box;
 
 const SIZES: [usize; 3] = [1_000, 10_000, 100_000];
 
-/// Returns a ring of corners around a place within reach, alternately at these two distances.
+/// Returns a ring of corners around a place within reach. The corners are alternately at these two distances.
 fn ring(count: usize, [inner, outer]: [f64; 2]) -> Vec<Point> {
     let corner = |k: usize| {
         let (angle, radius) = (k as f64 / count as f64 * TAU, if k.is_multiple_of(2) { outer } else { inner });
@@ -24,7 +24,7 @@ fn ring(count: usize, [inner, outer]: [f64; 2]) -> Vec<Point> {
 
 const SHAPES: [(&str, [f64; 2]); 2] = [("disc", [0.15, 0.15]), ("star", [0.1, 0.2])];
 
-/// Returns a polyline of points around that place: a noisy zigzag that crosses itself.
+/// Returns a polyline around the same place: a noisy zigzag that crosses itself.
 fn zigzag(count: usize) -> Vec<Point> {
     let noise = |k: usize| (k as f64 * 0.618_033_988_749 + (k as f64 * 0.013).sin() * 17.0).rem_euclid(1.0) - 0.5;
     let point =
@@ -32,7 +32,7 @@ fn zigzag(count: usize) -> Vec<Point> {
     (0..count).map(point).collect()
 }
 
-/// Measures the check of a polygon and its decomposition.
+/// Measures how long it takes to check a polygon and to decompose it.
 fn reading(c: &mut Criterion) {
     let mut group = c.benchmark_group("a polygon is read");
     group.sample_size(10);
@@ -48,7 +48,7 @@ fn reading(c: &mut Criterion) {
     group.finish();
 }
 
-/// Measures the configuration space with a margin of a thousandth of the reach.
+/// Measures how long it takes to compute the configuration space with a margin of a thousandth of the reach.
 fn spaces(c: &mut Criterion) {
     let mut group = c.benchmark_group("its configuration space");
     group.sample_size(10);

@@ -14,7 +14,7 @@ use std::hint::black_box;
 
 const PROBLEMS: [Benchmark; 4] = [Benchmark::A, Benchmark::B, Benchmark::Inf, Benchmark::T];
 
-/// Measures a certified path, or a proof that has passed the independent check.
+/// Measures the time until there is a certified path, or a proof that has passed the independent check.
 fn answers(c: &mut Criterion) {
     let mut group = c.benchmark_group("slabs");
     for which in PROBLEMS {
@@ -31,7 +31,7 @@ fn answers(c: &mut Criterion) {
     group.finish();
 }
 
-/// Measures the certified shortest path with its proven gap, on the problems that have one.
+/// Measures the time until there is a certified shortest path with a proven gap, on the problems that have one.
 fn optima(c: &mut Criterion) {
     let mut group = c.benchmark_group("shortest");
     for which in [Benchmark::A, Benchmark::B] {

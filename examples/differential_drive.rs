@@ -25,17 +25,17 @@ use std::path::{Path, PathBuf};
 /// clearance, where the planned path never goes.
 const LAW: Tanh = Tanh { pull: 10.0, push: 1.0, range: 0.26 };
 
-/// Constants of the controller without a plan, which must react to obstacles earlier.
+/// Constants of the controller without a plan. It must react to obstacles earlier than the other one.
 const ALONE: Tanh = Tanh { pull: 1.0, push: 1.0, range: 1.0 };
 
-/// Constants of the controller that follows cells. The gain is that of the source.
+/// Constants of the controller that follows the cells of a grid path. The gain is that of the source.
 const ALONG_CELLS: Tracking = Tracking { gain: 1.0, speed: 0.5 };
 
-/// A robot and its world, the number of cells and how they are tested for collisions, start and goal.
+/// A problem on a grid: robot, world, number of cells, how cells are tested for collisions, start and goal.
 type Gridded = (&'static str, &'static str, [usize; 2], GridSpace, [f64; 2], [f64; 2]);
 
-/// Two grids: the rooms of the mission, in which a wall is thinner than a cell, and the source's own map with its
-/// cells, start and goal.
+/// Problems on grids: the two rooms of the mission, in which a wall is thinner than a cell, and the source's own map
+/// with its cells, start and goal.
 const GRIDS: [Gridded; 3] = [
     ("mobile_robot", "explore/hall.toml", [40, 20], GridSpace::Rows, START, TARGETS[0].1),
     ("mobile_robot", "explore/house.toml", [40, 20], GridSpace::Rows, START, TARGETS[0].1),

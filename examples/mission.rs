@@ -83,7 +83,7 @@ fn harmonic(floor: &Floor, map: &Occupancy, below: f64) -> Vec<Leg> {
     by_fields(floor, &|leg| Some(alves::harmonic(TARGETS[leg].1, &is_solid, &stopping)?.values))
 }
 
-/// Describes a leg.
+/// Describes a leg of the mission.
 fn output(leg: &Leg) -> String {
     let how = match leg.ending {
         Ending::Reached => "reached".to_owned(),

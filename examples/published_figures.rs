@@ -28,7 +28,8 @@ use cplan::report::{Setup, convergence};
 use silva::Kind;
 use std::error::Error;
 
-/// Sweeps for which the error is printed: those with which the figures of the first source begin, and later ones.
+/// Numbers of sweeps for which the error is printed: those with which the figures of the first source begin, and later
+/// ones.
 const SHOWN: [usize; 8] = [1, 20, 40, 100, 200, 500, 1000, 1400];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -36,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     factors()
 }
 
-/// Prints figures 39 to 47: the error on map 1, with 100 x 100 cells, by sweep.
+/// Prints figures 39 to 47: the error after each number of sweeps, on map 1 with 100 x 100 cells.
 fn errors() -> Result<(), Box<dyn Error>> {
     let scene = deicu::scene(&deicu::TABLES[0])?;
     let domain = scene.domain(100);
@@ -76,7 +77,7 @@ fn errors() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Prints figures 6.1 to 6.4: sweeps against the factor of SOR, and against epsilon.
+/// Prints figures 6.1 to 6.4: the number of sweeps for factors of SOR, and for values of epsilon.
 fn factors() -> Result<(), Box<dyn Error>> {
     let domain = silva::state(0.0);
     let kinds = [

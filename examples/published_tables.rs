@@ -75,7 +75,7 @@ fn print_notes(notes: &[&str]) {
     println!();
 }
 
-/// For each claim, the number of counts.
+/// The number of published counts for each claim.
 #[derive(Default)]
 struct Claims {
     matching: usize,

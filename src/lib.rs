@@ -71,7 +71,8 @@ pub use nalgebra;
 pub use output::PlanOutput;
 pub use space::Configuration;
 
-/// The arm, its workspace, and the scene of both; tasks, the robot's other joints, masses and torques, and a sensor.
+/// Data of a problem: the arm, its workspace, and the scene of both; also tasks, the robot's other joints, masses and
+/// torques, and a sensor.
 pub mod model {
     pub use cplan_core::model::*;
     pub use cplan_dynamics::{Torques, TorquesAt, keep_efforts};
@@ -94,7 +95,7 @@ pub mod space {
     pub use cplan_motion::{BLEND_TOLERANCE, Blend, BlendedPath, Stretch};
 }
 
-/// The judge: it certifies paths, and checks proofs, bounds and recorded motions.
+/// Independent checks: certifies paths, and checks proofs, bounds and recorded motions.
 pub mod check {
     pub use cplan_core::check::*;
     pub use cplan_motion::recorded::*;

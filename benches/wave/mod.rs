@@ -8,7 +8,7 @@ use criterion::{Criterion, Throughput};
 use std::collections::VecDeque;
 use std::hint::black_box;
 
-/// Random number generator whose quality does not matter (xorshift, Marsaglia 2003): scenes are the same in every run.
+/// A simple generator of pseudorandom numbers (xorshift, Marsaglia 2003), so that scenes are the same in every run.
 struct Numbers(u64);
 
 impl Numbers {
@@ -25,7 +25,7 @@ fn square(n: usize, blocked: Vec<bool>) -> Grid {
     Grid { topology, proves: Proves::Sampled, cells: [n, n], blocked }
 }
 
-/// Builds rooms of `room x room` cells; three walls of four have a door.
+/// Returns a grid of rooms of `room x room` cells. Of four walls, three have a door.
 fn rooms(n: usize, room: usize, door: usize) -> Grid {
     let mut numbers = Numbers(987_654_321_987);
     let is_wall = |c: usize| (c / n).is_multiple_of(room) || (c % n).is_multiple_of(room);
@@ -43,7 +43,7 @@ fn rooms(n: usize, room: usize, door: usize) -> Grid {
     square(n, blocked)
 }
 
-/// Builds boxes of 8 to 32 cells, a fifth of the area.
+/// Returns a grid with boxes of 8 to 32 cells, which cover a fifth of the area.
 fn clutter(n: usize) -> Grid {
     let mut numbers = Numbers(88_172_645_463_325_252);
     let mut blocked = vec![false; n * n];
@@ -61,7 +61,8 @@ fn noise(n: usize, percent: usize) -> Grid {
     square(n, (0..n * n).map(|_| numbers.below(100) < percent).collect())
 }
 
-/// Returns a perfect maze made by a depth-first walk: corridors of some width between walls one cell thick.
+/// Returns a maze in which any two cells are connected by exactly one way. It is made by a random depth-first walk.
+/// Corridors have this width, and walls are one cell thick.
 fn maze(n: usize, width: usize) -> Grid {
     let (size, pitch) = (n / (width + 1), width + 1);
     let mut numbers = Numbers(5_555_555);
@@ -87,8 +88,8 @@ fn maze(n: usize, width: usize) -> Grid {
     square(n, blocked)
 }
 
-/// Labels computed with a plain queue, on a grid with a frame so that no step needs a test for a limit. The labels are
-/// prepared beforehand, like the bits of the library's wave: 0 blocked, [`UNREACHED`] free.
+/// The labels that a plain queue computes, on a grid with a frame so that no step needs a test for a limit. The labels
+/// are prepared beforehand, like the bits of the library's wave: 0 if blocked, [`UNREACHED`] if free.
 struct Plain {
     stride: usize,
     columns: usize,
@@ -96,7 +97,7 @@ struct Plain {
     is_torus: bool,
 }
 
-/// Labels of blocked cells, and of copies. The labels of the plain queue begin above them.
+/// Label of blocked cells and of copies. The labels of the plain queue begin above it.
 const WALL: u32 = 0;
 const TWIN: u32 = 1;
 
@@ -144,7 +145,7 @@ impl Plain {
     }
 }
 
-/// A grid of so many cells along each axis.
+/// A function that returns a grid with this number of cells along each axis.
 type Scene = fn(usize) -> Grid;
 
 /// Measures reached cells per second; 1000 Melem/s are 1 ns per cell.

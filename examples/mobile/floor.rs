@@ -9,7 +9,7 @@ use cplan::space::Path;
 use cplan::{Configuration, Point};
 use std::path::Path as File;
 
-/// A world of cplan, with the sides of its obstacles.
+/// A world of cplan, with the sides of its obstacles for the simulated sensors.
 pub struct Floor {
     /// The obstacles, and a gantry (`robots/mobile_robot.urdf`) whose configurations are the positions of the robot.
     pub scene: Scene,

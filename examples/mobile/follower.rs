@@ -5,8 +5,9 @@ use super::occupancy::Occupancy;
 use super::robot::{Pose, Robot};
 use cplan::nalgebra::{Rotation2, Vector2};
 
-/// The sonars of a Pioneer 3-DX: metres ahead of its middle and to its left, and the direction of each, degrees to the
-/// left. (From its handbook; the source counts them from 0 and states only that there are 16.)
+/// The sonars of a Pioneer 3-DX, from its handbook. For each, the distances ahead of the robot's middle and to the left
+/// of it, metres, and the direction, degrees to the left. (The source counts the sonars from 0, and states only that
+/// there are 16.)
 pub const SONARS: [(f64, f64, f64); 16] = [
     (0.069, 0.136, 90.0),
     (0.114, 0.119, 50.0),

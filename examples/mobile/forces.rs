@@ -19,7 +19,7 @@ const PATIENCE: f64 = 60.0;
 /// Least decrease of the distance to the target that counts as progress, in metres.
 const NEARER: f64 = 0.01;
 
-/// How a leg ends.
+/// The way in which a leg ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ending {
     /// The robot is at the target.
@@ -35,26 +35,27 @@ pub enum Ending {
 pub struct Manner {
     /// True to fill the map while driving (algorithm 11), false for a fixed map (algorithm 9).
     pub maps: bool,
-    /// True to follow the text instead of the program. By the text, the robot stands still while it faces more than 10
-    /// degrees away from the force; the program tests whether the error is less than `degrees(10)`, which is 573,
-    /// radians, so it never stands still. By the text, a reached target is not an obstacle; the program marks the bin
-    /// while the robot stands at it.
+    /// True to follow the source's text, false to follow its program. They differ in two respects. In the text, the
+    /// robot stands still while it faces more than 10 degrees away from the force. The program tests whether the error
+    /// is less than `degrees(10)`, which is 573, radians, so its robot never stands still. In the text, a reached
+    /// target is not an obstacle. The program marks the bin as an obstacle while the robot stands at it.
     pub mended: bool,
 }
 
-/// Checks whether a robot still makes progress.
+/// Detects whether a robot no longer makes progress.
 pub struct Patience {
     best: f64,
     since: f64,
 }
 
 impl Patience {
-    /// Begins at the robot's current time.
+    /// Begins to observe a robot at its current time.
     pub fn new(robot: &Robot) -> Self {
         Self { best: f64::INFINITY, since: robot.time }
     }
 
-    /// Returns the least distance to the target if the robot has made no progress for too long, otherwise `None`.
+    /// Returns the least distance to the target so far if the robot has made no progress for too long. Otherwise
+    /// returns `None`.
     pub fn lost(&mut self, robot: &Robot, distance: f64) -> Option<f64> {
         if distance < self.best - NEARER {
             *self = Self { best: distance, since: robot.time };

@@ -55,7 +55,7 @@ fn legs(floor: &Floor, mut drive: impl FnMut(&mut Robot, usize) -> Ending) -> Ve
     (0..TARGETS.len()).map(leg).collect()
 }
 
-/// Drives by forces, in an unknown room or with a known map. `mended` is as in [`Manner`].
+/// Drives the mission by forces, in an unknown room or with a known map. `mended` is explained at [`Manner`].
 pub fn by_forces(floor: &Floor, known: Option<&Occupancy>, mended: bool) -> Vec<Leg> {
     let mut map = known.cloned().unwrap_or_else(Occupancy::unknown);
     let manner = Manner { maps: known.is_none(), mended };
@@ -70,7 +70,7 @@ pub fn by_forces(floor: &Floor, known: Option<&Occupancy>, mended: bool) -> Vec<
     })
 }
 
-/// Drives along fields that are relaxed on a map. A field that does not converge gives no path.
+/// Drives the mission along fields that are relaxed on a map. A field that does not converge gives no path.
 pub fn by_fields(floor: &Floor, field: &dyn Fn(usize) -> Option<Vec<f64>>) -> Vec<Leg> {
     legs(floor, |robot, leg| match field(leg) {
         Some(values) => fields::drive(robot, &values, TARGETS[leg].1.into()),
@@ -116,8 +116,8 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
     ]
 }
 
-/// The sensor of cplan's robot. That robot is a gantry without a heading. The source's robot turns its scanner of 180
-/// degrees, so this sensor sees in all directions. The cells are those of the source.
+/// The sensor of cplan's robot. That robot is a gantry without a heading, while the source's robot turns its scanner of
+/// 180 degrees. So this sensor sees in all directions. The cells are those of the source.
 pub const SENSOR: Sensor = Sensor {
     mount: Mount::Tip,
     turn: 0.0,

@@ -4,7 +4,7 @@ use super::floor::Floor;
 use super::robot::Pose;
 use cplan::Point;
 
-/// Numbers of rows, counted from the north, and of columns, counted from the west.
+/// Numbers of rows, from the north, and of columns, from the west.
 pub const CELLS: [usize; 2] = [40, 80];
 
 /// Side of a cell, metres.
@@ -63,8 +63,8 @@ impl Occupancy {
     }
 
     /// Records a scan of 180 rays, a degree apart, from right to left (algorithm 3). The cell at the end of a ray is
-    /// occupied, or free if the ray met nothing. Unknown cells before it become free. (By its printed indentation, the
-    /// source does that for one ray only. Its text and figures do it for all.)
+    /// occupied, or free if the ray met nothing. Unknown cells before it become free. (By the indentation in the
+    /// source, the last step is done for one ray only. By the source's text and figures, it is done for all rays.)
     pub fn scan(&mut self, floor: &Floor, pose: Pose) {
         for ray in 0..180 {
             let angle = pose.heading + f64::from(ray - 90).to_radians();

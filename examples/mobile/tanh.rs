@@ -7,13 +7,13 @@ use cplan::field::Repulsion;
 use cplan::nalgebra::{Rotation2, Vector2};
 use std::f64::consts::TAU;
 
-/// Distance of the controlled point ahead of the wheels' middle, metres (the source's `d`).
+/// Distance of the controlled point ahead of the middle between the wheels, metres (`d` in the source).
 pub const AHEAD: f64 = 0.1;
 
 /// Time between two commands, in seconds.
 pub const CYCLE: f64 = 0.01;
 
-/// Range of the scanner in metres (`RANGE`), and its number of rays. The source states neither.
+/// Range of the scanner in metres (`RANGE`), and the number of its rays. The source states neither of them.
 const RANGE: f64 = 8.0;
 const RAYS: u32 = 360;
 
@@ -61,7 +61,7 @@ impl Tanh {
     }
 }
 
-/// Returns the linear and angular speed that move the controlled point at a velocity (equation 4).
+/// Returns the linear and the angular speed with which the controlled point moves at a velocity (equation 4).
 pub fn speeds(velocity: Vector2<f64>, heading: f64) -> [f64; 2] {
     let own = Rotation2::new(-heading) * velocity;
     [own.x, own.y / AHEAD]
@@ -73,12 +73,11 @@ pub const SPACING: f64 = 0.2;
 /// A waypoint is passed when the controlled point is at most this far from it, in metres.
 pub const PASSED: f64 = 0.01;
 
-/// Greatest distance of the robot's middle from the line that it follows, metres, without repulsion.
-///
-/// Each component of the controlled point approaches that of the waypoint without overshooting, so the point stays in
+/// Greatest distance of the robot's middle from the line that it follows, metres, if nothing repels it.
+/// Each component of the controlled point approaches that of the waypoint without overshooting. So the point stays in
 /// the rectangle between its last position and the waypoint. No point of that rectangle is farther from the diagonal
-/// than half of it, and the start of the diagonal is at most [`PASSED`] off the line. The middle is [`AHEAD`] behind.
-/// (Plus a margin for steps of finite length.)
+/// than half the diagonal, and the start of the diagonal is at most [`PASSED`] off the line. The middle is [`AHEAD`]
+/// behind the point. The last term is a margin for steps of finite length.
 pub const DEVIATION: f64 = 0.5 * (SPACING + PASSED) + PASSED + AHEAD + 0.01;
 
 /// Returns the corners of a line, and points between them.

@@ -16,8 +16,8 @@ pub struct Tracking {
 }
 
 impl Tracking {
-    /// Returns the velocity of the controlled point: `k (xd - x) + xd'`. So the distance to the desired point decreases
-    /// by `exp(-k t)` for any motion of that point.
+    /// Returns the velocity of the controlled point: `k (xd - x) + xd'`. With it, the distance to the desired point
+    /// decreases by the factor `exp(-k t)`, however that point moves.
     pub fn velocity(&self, point: Point, desired: Desired) -> Vector2<f64> {
         self.gain * (desired.at - point) + desired.velocity
     }

@@ -12,7 +12,8 @@ use std::path::Path;
 pub enum Subject {
     /// A planner's answer in a workspace: robot, workspace, planner.
     Answer(&'static str, &'static str, Method),
-    /// The field of a constant attraction and of repulsion by all obstacle cells: robot, workspace, charge of a cell.
+    /// The potential field of a constant attraction and of repulsion by all obstacle cells: robot, workspace, charge of
+    /// a cell.
     Forces(&'static str, &'static str, f64),
     /// The result of a task: robot, and workspace in the folder `tasks`.
     Task(&'static str, &'static str),
@@ -63,7 +64,7 @@ impl Subject {
     }
 }
 
-/// Returns options for one attempt by attraction and repulsion, on 80 x 80 cells.
+/// Returns options for the planner with attraction and repulsion, with one attempt on 80 x 80 cells.
 fn by_forces(charge: f64) -> Options {
     let laws = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(charge), saturated: false };
     let (limits, path) = (Limits::High, PathKind::Own);

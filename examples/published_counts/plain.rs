@@ -5,12 +5,12 @@ use cplan::field::{Cell, Domain};
 use std::f64::consts::PI;
 use std::fmt;
 
-/// What happens to values above 1. Over-relaxation produces such values, and the source does not mention them.
+/// Treatment of values above 1. Over-relaxation produces such values, and the source does not say what happens to them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Beyond {
     /// The value stays.
     Kept,
-    /// The value becomes 1. A value below 0 becomes 0.
+    /// The value becomes 1. A value below 0 becomes 0 in the same way.
     Clamped,
     /// The value becomes this number below 1, possibly so that free cells are not taken for obstacles.
     Reset(f64),
@@ -36,7 +36,7 @@ pub enum Rule {
 pub struct Choice {
     /// True if values are stored as `f32`.
     pub single: bool,
-    /// What happens to values above 1.
+    /// Treatment of values above 1.
     pub beyond: Beyond,
     /// The rule by which the relaxation ends.
     pub rule: Rule,
@@ -70,7 +70,7 @@ pub struct Plain<'a> {
     values: Vec<f64>,
 }
 
-/// Numbers of sweeps after which a relaxation is given up: for each stage.
+/// Largest number of sweeps of a relaxation: of Gauss-Seidel, and of over-relaxation.
 const MOST: [usize; 2] = [30_000, 1_500];
 
 impl<'a> Plain<'a> {
@@ -80,9 +80,9 @@ impl<'a> Plain<'a> {
         Self { n: domain.cells()[0], domain, values: values.collect() }
     }
 
-    /// Relaxes until the rule is satisfied, by one of the four relaxations of the tables, and returns the number of
-    /// sweeps, or `None` if it does not end. `drift` returns the term added to a cell's value, from its neighbours'
-    /// `-x, +x, -y, +y`.
+    /// Relaxes until the rule is satisfied, and returns the number of sweeps. Returns `None` if that takes too many.
+    /// `of` is one of the four relaxations of the tables. `drift` returns the term that is added to a cell's value. It
+    /// gets the cell and its neighbours' values in the order `-x, +x, -y, +y`.
     pub fn relax(&mut self, of: usize, choice: &Choice, drift: impl Fn(usize, [f64; 4]) -> f64) -> Option<usize> {
         let n = self.n;
         let over = of >= 2;
@@ -151,7 +151,7 @@ impl<'a> Plain<'a> {
     }
 }
 
-/// Returns the factor by the formula of the source's text, for as many rows and columns as cells.
+/// Returns the factor of over-relaxation by the formula of the source's text, for `n` rows and columns.
 fn best_factor(n: usize) -> f64 {
     let c = 2.0 * (PI / n as f64).cos();
     4.0 / (2.0 + (4.0 - c * c).sqrt())

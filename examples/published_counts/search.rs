@@ -6,7 +6,8 @@ use super::plain::{Beyond, Choice, Plain, Rule};
 use std::error::Error;
 use std::fmt;
 
-/// Pairs of a published count and the count of a choice. The latter is `None` if the relaxation does not converge.
+/// Published counts of sweeps, each paired with the count that an interpretation of the source gives. The latter is
+/// `None` if the relaxation does not converge.
 #[derive(Debug, Clone, Default)]
 pub struct Tally(pub Vec<(usize, Option<usize>)>);
 
@@ -15,22 +16,22 @@ impl Tally {
         self.0.iter().filter(|(printed, found)| found.is_some_and(|f| near(*printed as f64, f as f64))).count()
     }
 
-    /// Returns the number of counts equal to the published ones.
+    /// Returns how many counts equal the published ones.
     pub fn exact(&self) -> usize {
         self.count(|printed, found| found == printed)
     }
 
-    /// Returns the number of counts within 2 sweeps.
+    /// Returns how many counts differ from the published ones by at most 2 sweeps.
     pub fn within_2(&self) -> usize {
         self.count(|printed, found| (found - printed).abs() <= 2.0)
     }
 
-    /// Returns the number of counts within five per cent.
+    /// Returns how many counts differ from the published ones by at most five per cent.
     pub fn within_5_per_cent(&self) -> usize {
         self.count(|printed, found| (found / printed - 1.0).abs() <= 0.05)
     }
 
-    /// Returns the rank of a tally: more exact matches come first, then more close ones.
+    /// Returns a rank by which tallies are compared. More exact matches are better, then more close ones.
     fn rank(&self) -> [usize; 3] {
         [self.exact(), self.within_2(), self.within_5_per_cent()]
     }
@@ -47,7 +48,7 @@ impl fmt::Display for Tally {
     }
 }
 
-/// The tables with their maps.
+/// The published tables with their maps.
 pub struct Maps(Vec<(&'static Table, Scene)>);
 
 impl Maps {
@@ -59,7 +60,7 @@ impl Maps {
         TABLES.iter().map(|table| Ok((table, deicu::scene(table)?))).collect::<Result<_, _>>().map(Self)
     }
 
-    /// Tallies each table's counts of the harmonic stage, at one scale, by these relaxations.
+    /// Counts the sweeps of the harmonic stage, at one scale, for each table and for these relaxations.
     pub fn harmonic(&self, relaxations: [usize; 2], choice: &Choice, scale: usize) -> Vec<Tally> {
         let of_table = |(table, scene): &(&Table, Scene)| {
             let domain = scene.domain(SCALES[scale]);
@@ -69,7 +70,8 @@ impl Maps {
         self.0.iter().map(of_table).collect()
     }
 
-    /// Tallies each table's counts of all stages, in the order of the source.
+    /// Counts the sweeps of all stages, at one scale, for each table and for these relaxations. The order is that of
+    /// the source.
     pub fn all(&self, relaxations: [usize; 2], choice: &Choice, scale: usize) -> Vec<Tally> {
         let n = SCALES[scale];
         let of_table = |(table, scene): &(&Table, Scene)| {
@@ -97,8 +99,8 @@ impl Maps {
     }
 }
 
-/// Returns the interpretations of Gauss-Seidel. Its values never leave 0..1, so only the rule and the precision are
-/// open.
+/// Returns the interpretations of the source that are tried for Gauss-Seidel relaxation. Its values never leave 0..1,
+/// so only the stopping rule and the precision are unknown.
 pub fn gauss_seidel() -> Vec<Choice> {
     let mut choices = Vec::new();
     for single in [true, false] {
@@ -123,8 +125,8 @@ pub fn gauss_seidel() -> Vec<Choice> {
     choices
 }
 
-/// Returns the interpretations of over-relaxation. Their rule is the one that Gauss-Seidel determined, or one of the
-/// two nearest to it.
+/// Returns the interpretations of the source that are tried for over-relaxation. Their stopping rule is the one that
+/// was found for Gauss-Seidel relaxation, or one of the two nearest to it.
 pub fn over_relaxation() -> Vec<Choice> {
     let mut choices = Vec::new();
     for single in [true, false] {
@@ -138,14 +140,14 @@ pub fn over_relaxation() -> Vec<Choice> {
     choices
 }
 
-/// The interpretation that explains most counts of Gauss-Seidel.
+/// The interpretation that explains most counts of Gauss-Seidel relaxation.
 pub const OF_GAUSS_SEIDEL: Choice =
     Choice { single: true, beyond: Beyond::Kept, rule: Rule::SumOfChanges, tolerance: 0.01 };
 
 /// The interpretation that explains most counts of over-relaxation.
 pub const OF_SOR: Choice = Choice { beyond: Beyond::Reset(0.999_999), ..OF_GAUSS_SEIDEL };
 
-/// Adds the tallies of all tables.
+/// Joins the tallies of all tables.
 pub fn together(tallies: Vec<Tally>) -> Tally {
     tallies.into_iter().fold(Tally::default(), |mut all, tally| {
         all.add(tally);
@@ -153,7 +155,7 @@ pub fn together(tallies: Vec<Tally>) -> Tally {
     })
 }
 
-/// Returns the interpretation that explains most counts. Of several such ones, it is the first.
+/// Returns the interpretation that explains most counts. If several explain as many, returns the first.
 pub fn best(tried: &[(Choice, Tally)]) -> Option<&Choice> {
     let mut best: Option<&(Choice, Tally)> = None;
     for candidate in tried {

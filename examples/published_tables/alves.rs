@@ -7,10 +7,10 @@ use cplan::field::{
     Scan, Stopping, relax,
 };
 
-/// Numbers of rows and columns: 20 m / 0.5 m and 40 m / 0.5 m. Row 0 is the north wall.
+/// Numbers of rows and columns: 20 m and 40 m, divided by 0.5 m. Row 0 is the north wall.
 const CELLS: [usize; 2] = [40, 80];
 
-/// Bound on the sum of squared changes in a sweep, and the greatest number of sweeps to reach it.
+/// The stopping rule: a bound for the sum of squared changes in a sweep, and the greatest number of sweeps.
 pub const STOPPING: Stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-8, max_sweeps: 1000 };
 
 /// A goal, the direction of arrival, and the published count.
@@ -24,15 +24,16 @@ struct Goal {
     oriented: usize,
 }
 
-/// Goals in the order of the source's figures 7 and 8. Its `v` counts the first component upwards: (0, -1) and (-1, 0).
+/// Goals in the order of the source's figures 7 and 8. In the source, the first component of `v` counts upwards: (0,
+/// -1) and (-1, 0).
 const GOALS: [Goal; 3] = [
     Goal { name: "bin (-19, 2)", at: [-19.0, 2.0], direction: [0.0, -1.0], harmonic: 114, oriented: 424 },
     Goal { name: "object 1 (2, 4)", at: [2.0, 4.0], direction: [0.0, -1.0], harmonic: 104, oriented: 419 },
     Goal { name: "object 2 (9, -7)", at: [9.0, -7.0], direction: [1.0, 0.0], harmonic: 111, oriented: 323 },
 ];
 
-/// Returns the room with a goal. Outer walls are solid, and so are the cells, counted row by row, for which `is_solid`
-/// is true. The source's rule gives the row and column of a place.
+/// Returns the room with a goal. Outer walls are solid. So are the cells for which `is_solid` is true; their numbers
+/// count row by row. The row and column of a place follow from the source's rule.
 fn room(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Domain {
     let [rows, columns] = CELLS;
     let row = (rows as f64 / 2.0 - at[1] / 0.5) as usize;
@@ -62,7 +63,7 @@ pub fn oriented(at: [f64; 2], direction: [f64; 2], is_solid: &dyn Fn(usize) -> b
     relax(&room(at, is_solid), &equation, &relaxation, &STOPPING).ok().filter(RelaxedField::converged)
 }
 
-/// Returns name, field and count of every published number, in an empty room.
+/// Returns name and count of every published number, in an empty room.
 pub fn rows() -> Vec<(String, Count)> {
     rows_among(&|_| false)
 }

@@ -17,7 +17,7 @@ pub struct Table {
     pub title: &'static str,
     /// The world of the map, in `workspaces/maps`.
     world: &'static str,
-    /// The obstacle that was left out, if any.
+    /// The obstacle that was left out. `None` if all were used.
     without: Option<&'static str>,
     before: [[(usize, Claim); 2]; 4],
     /// Counts with preferences, and with altered ones ("BVP 2").
@@ -29,9 +29,9 @@ pub struct Table {
 /// The names of the relaxations. The source calls them "simples" and "simultâneo".
 pub const RELAXATIONS: [&str; 4] = ["GS simple", "GS simultaneous", "SOR simple", "SOR simultaneous"];
 
-/// Returns the settings of a relaxation. Lines have increasing `x`. Gauss-Seidel's values are kept as `float`s: in
-/// doubles, the counts on 250 x 250 cells are 8928, 8931, 5572, 5575. Over-relaxed `float`s never settle among
-/// preferences. Over-relaxed values must be brought back into 0..1; otherwise the first stage takes 230 sweeps on map 1
+/// Returns the settings of a relaxation. Lines have increasing `x`. Values of Gauss-Seidel are `float`s; with doubles,
+/// the counts on 250 x 250 cells are 8928, 8931, 5572, 5575. Over-relaxed values are doubles, because `float`s never
+/// settle among preferences. They must be brought back into 0..1; otherwise the first stage takes 230 sweeps on map 1
 /// instead of 147.
 fn relaxation(of: usize) -> Relaxation {
     let order = if of.is_multiple_of(2) { Order::Lines(Scan::ROWS) } else { Order::Corners(Lines::Rows) };
@@ -42,7 +42,7 @@ fn relaxation(of: usize) -> Relaxation {
 }
 
 /// Returns the stopping rule: the sum of all changes in a sweep must fall below 0.01. Every published count is below
-/// these limits; over-relaxation with preferences may not converge at all.
+/// the limits on the number of sweeps. Over-relaxation with preferences may not converge at all.
 fn stopping(of: usize) -> Stopping {
     Stopping { measure: Measure::SumOfChange, below: 0.01, max_sweeps: if of < 2 { 30_000 } else { 3_000 } }
 }
@@ -50,7 +50,8 @@ fn stopping(of: usize) -> Stopping {
 /// Numbers of sweeps of the harmonic stage and of both stages. `None` if a stage does not converge.
 pub type Sweeps = [Option<usize>; 2];
 
-/// Relaxes the fields behind one line of a table; `of` is one of [`RELAXATIONS`].
+/// Relaxes the fields for one line of a table, and returns the numbers of sweeps. `of` is an index into
+/// [`RELAXATIONS`].
 pub fn measure(scene: &Scene, cells: usize, of: usize, altered: bool) -> Sweeps {
     let relaxation = relaxation(of);
     // Over-relaxation adds the preference without the factor. The sign of the altered form is that of the source's
@@ -69,8 +70,9 @@ pub fn measure(scene: &Scene, cells: usize, of: usize, altered: bool) -> Sweeps 
 }
 
 impl Table {
-    /// Returns the printed number of sweeps of one of [`RELAXATIONS`] at one of [`SCALES`]: of stage 0 before
-    /// preferences, of stages 1 and 2 in total with preferences and with altered ones.
+    /// Returns the printed number of sweeps for a relaxation (an index into [`RELAXATIONS`]) and a scale (an index into
+    /// [`SCALES`]). Stage 0 is that before preferences. The numbers of stages 1 and 2 are totals, with preferences and
+    /// with altered ones.
     pub fn published(&self, of: usize, stage: usize, scale: usize) -> usize {
         match stage {
             0 => self.before[of][scale].0,

@@ -7,7 +7,7 @@ use cplan::model::{MotionProblem, Obstacle, Preference, Region, Shape};
 use std::error::Error;
 use std::path::Path;
 
-/// A line map with a goal and preferences, in millimetres as in the source, ready to be cut into cells.
+/// A line map with a goal and preferences, in millimetres as in the source. It can be divided into cells.
 pub struct Scene {
     /// Lower left and upper right corner.
     bounds: [Point; 2],
@@ -20,8 +20,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Reads a world of `workspaces/maps`, in which the gantry's limits are the bounds of the map, without one of its
-    /// obstacles.
+    /// Reads a world of `workspaces/maps`, in which the gantry's limits are the bounds of the map. Leaves out the
+    /// obstacle `without`.
     ///
     /// # Errors
     /// Defects of the files, and a preference that is not a region of the tip.
@@ -42,9 +42,9 @@ impl Scene {
         })
     }
 
-    /// Returns `n x n` cells: first index `x`, second `y`, both ascending. Walls are the cells of the lines and the
-    /// outermost ones. The goal, which may lie on a wall, has all cells from that of its lower left to that of its
-    /// upper right corner.
+    /// Returns `n x n` cells. The first index is that of `x`, the second that of `y`, both ascending. Walls are the
+    /// cells of the lines and the outermost cells. The goal, which may lie on a wall, has all cells from that of its
+    /// lower left corner to that of its upper right corner.
     pub fn domain(&self, n: usize) -> Domain {
         let mut kinds = vec![Cell::Free; n * n];
         for &[a, b] in &self.lines {
@@ -78,7 +78,7 @@ impl Scene {
     }
 }
 
-/// Converts a point to millimetres, without rounding errors of metres.
+/// Converts a point from metres to millimetres, without the rounding errors of metres.
 fn millimetres(point: Point) -> Point {
     point.map(|metres| (1000.0 * metres).round())
 }
@@ -88,7 +88,7 @@ fn bounds(problem: &MotionProblem) -> [Point; 2] {
     [Point::new(x.0, y.0), Point::new(x.1, y.1)].map(millimetres)
 }
 
-/// Returns the segments of a wall; empty if it is not a polyline.
+/// Returns the segments of a wall. Returns none if the obstacle is not a polyline.
 fn segments(obstacle: &Obstacle) -> Vec<[Point; 2]> {
     match &obstacle.shape {
         Shape::Polyline(points) => points.windows(2).map(|ends| [ends[0], ends[1]].map(millimetres)).collect(),

@@ -9,7 +9,7 @@ pub enum Claim {
     Match,
     /// The measured number differs from the published one by at most this many per cent.
     Close(f64),
-    /// The measured number differs, or need not be equal. A note below the table states the reason.
+    /// The measured number may differ from the published one. A note below the table states the reason.
     Unmatched,
 }
 
@@ -25,12 +25,13 @@ pub struct Count {
 }
 
 impl Count {
-    /// Creates the count of sweeps beside the published one.
+    /// Pairs a published number of sweeps with the measured one.
     pub fn of_sweeps(published: usize, measured: Option<usize>, claim: Claim) -> Self {
         Self { published: published as f64, measured: measured.map(|sweeps| sweeps as f64), claim }
     }
 
-    /// Returns the relative deviation of the measured number in per cent. Infinite if there is no measured number.
+    /// Returns the relative deviation of the measured number in per cent. Returns infinity if there is no measured
+    /// number.
     fn deviation(&self) -> f64 {
         self.measured.map_or(f64::INFINITY, |measured| 100.0 * (measured / self.published - 1.0))
     }

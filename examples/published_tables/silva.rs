@@ -17,7 +17,7 @@ use std::f64::consts::TAU;
 const CELLS: [usize; 2] = [85, 65];
 /// Depth of a goal, in cells.
 const DEPTH: usize = 5;
-/// Cells of a goal's mouth across the field (40 cm).
+/// Range of the cells of a goal's mouth, across the field (40 cm).
 const MOUTH: std::ops::Range<usize> = 22..42;
 /// Number of states of play per second.
 const RATE: f64 = 30.0;
@@ -30,8 +30,8 @@ const RADIUS: f64 = 10.0;
 /// The sum of squared changes in a sweep must fall below this.
 pub const STOPPING: Stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-6, max_sweeps: 5000 };
 
-/// The curves of three robots of our team, three of the other team, and the ball: middle, amplitude, and periods in
-/// seconds.
+/// The curves on which objects move: three robots of our team, three of the other team, and the ball. Each has a
+/// middle, an amplitude, and periods in seconds.
 const CURVES: [([f64; 2], [f64; 2], [f64; 2]); 7] = [
     ([15.0, 32.0], [4.0, 8.0], [7.0, 5.0]),
     ([35.0, 20.0], [14.0, 10.0], [9.0, 6.0]),
@@ -70,7 +70,7 @@ pub fn state(seconds: f64) -> Domain {
     Domain::new(CELLS, kinds, [Boundary::High; 2], Levels::PUBLISHED)
 }
 
-/// The source's three fields; drifts point along the field.
+/// The three fields of the source. Their drifts point along the field of play.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Kind {
     /// Laplace's equation.
@@ -116,8 +116,8 @@ fn mean_sweeps(kind: Kind, relaxation: &Relaxation) -> Option<f64> {
     Some(total as f64 / STATES as f64)
 }
 
-/// A table of numbers of sweeps. `published` has those of JR and WJR in parallel, GS and SOR in sequence, and GS and
-/// SOR in parallel.
+/// A table of numbers of sweeps. `published` has the numbers of JR and WJR in parallel, then of GS and SOR in sequence,
+/// and of GS and SOR in parallel.
 pub struct Table {
     /// Number of the table, and its field.
     pub title: &'static str,

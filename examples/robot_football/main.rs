@@ -15,7 +15,7 @@ mod play;
 use std::error::Error;
 use std::process::ExitCode;
 
-/// The options of the command line.
+/// The options on the command line.
 struct QueryGraph {
     frames: usize,
     seed: u64,

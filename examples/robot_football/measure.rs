@@ -11,7 +11,7 @@ use std::time::Instant;
 
 /// Tolerance of the source: the sum of squared changes in a sweep must fall below this.
 pub const PUBLISHED_BELOW: f64 = 1e-6;
-/// Of this many frames, one is also solved from the initial field.
+/// One in this many frames is also solved from the initial field.
 const STANDING: usize = 30;
 
 /// The kinds of fields.
@@ -26,7 +26,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Returns the input of the field in a frame.
+    /// Returns the input from which the field is computed in a frame.
     pub fn moment(self, frame: &Frame) -> Moment {
         match self {
             Self::Harmonic => Moment { robots: Vec::new(), ..frame.moments[frame.seekers[0]].clone() },
@@ -67,7 +67,7 @@ pub fn cases() -> Vec<Case> {
     cases
 }
 
-/// Returns SOR row by row. With factor 1, it is Gauss-Seidel.
+/// Returns the settings of SOR row by row. With factor 1, this is Gauss-Seidel relaxation.
 pub fn sor(factor: f64) -> Solver {
     Solver::Relaxation(Relaxation::sor(Factor::Given(factor), Order::Lines(Scan::ROWS)))
 }
@@ -77,8 +77,8 @@ pub fn standing(difference: Difference) -> Result<MovingField, RelaxError> {
     MovingField::new(CELLS, walls(), [Boundary::High; 2], difference)
 }
 
-/// A clock of this thread's CPU time, if the system reports it, so that other load on the machine does not count.
-/// Otherwise it uses the time of day.
+/// A clock that measures the CPU time of this thread, so that other load on the machine does not count. If the system
+/// does not report that time, the clock measures the time of day.
 struct Clock {
     day: Instant,
     core: Option<f64>,
@@ -89,7 +89,8 @@ impl Clock {
         Self { day: Instant::now(), core: Self::core() }
     }
 
-    /// Reads nanoseconds on a core, as Linux reports them.
+    /// Returns the nanoseconds that this thread has run on a processor, as Linux reports them. Returns `None` on other
+    /// systems.
     fn core() -> Option<f64> {
         std::fs::read_to_string("/proc/thread-self/schedstat").ok()?.split(' ').next()?.parse().ok()
     }
@@ -193,8 +194,8 @@ impl fmt::Display for Row {
     }
 }
 
-/// Solves the fields of the red robots if the strategy needs them `times` times per frame, although the camera sees a
-/// change only once.
+/// Solves the fields of the red robots as if the strategy needed them `times` times per frame, although the camera sees
+/// a change only once.
 pub fn asked(frames: &[Frame], times: usize, case: &Case) -> Result<Run, RelaxError> {
     let moments: Vec<&Moment> = frames.iter().flat_map(|frame| std::iter::repeat_n(&frame.moments[3], times)).collect();
     run(moments.into_iter(), case, PUBLISHED_BELOW, false)
@@ -221,7 +222,7 @@ pub struct Exact {
     direction: [f64; 2],
 }
 
-/// Of this many frames, one is also solved by elimination.
+/// One in this many frames is also solved by elimination.
 const ELIMINATED: usize = 20;
 /// A field counts as level if it differs from the obstacles' value by less than this. Its goal is then unreachable.
 const LEVEL: f64 = 1e-12;
@@ -246,8 +247,8 @@ pub fn exact(frames: &[Frame]) -> Result<Vec<Exact>, RelaxError> {
     Ok(found)
 }
 
-/// Returns the angles between the directions of the seeker of the blue team in its relaxed and in its exact field, in
-/// degrees, in ascending order.
+/// Returns the angles between two directions of the seeker of the blue team, in degrees, in ascending order: the
+/// direction in its relaxed field and that in its exact field.
 pub fn astray(frames: &[Frame], exact: &[Exact], solver: &Solver, below: f64) -> Result<Vec<f64>, RelaxError> {
     let mut field = standing(Difference::Upwind)?;
     let mut angles = Vec::new();

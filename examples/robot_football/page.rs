@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 /// Number of frames from one picture of the fields to the next (`EVERY`), and of cells from one arrow to the next.
 const EVERY: usize = 4;
 const APART: usize = 3;
-/// Of a curve, one point is shown, and then this many are left out.
+/// Number of points of a curve that are left out between two that are shown.
 const SPARSE: usize = 6;
-/// Letters for the directions of arrows, as equal steps of a turn. A dot stands for no direction.
+/// Letters for the directions of arrows. Each stands for an equal step of a turn. A dot stands for no direction.
 const TURN: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-";
 /// Number of letters per power of ten for the values of a field, which are from 0 to 1. A letter stands for the
 /// logarithm of a value's distance from 1.
@@ -23,7 +23,7 @@ pub struct Film {
 }
 
 impl Film {
-    /// Adds a frame. `fields` are those that guide the robots in it, and `score` is the score after it.
+    /// Adds a frame. `fields` are the fields that guide the robots in the frame, and `score` is the score after it.
     pub fn see(&mut self, frame: &Frame, fields: &[MovingField], score: [usize; 2]) {
         let places = frame.robots.iter().chain([&frame.ball]).flatten().map(|&x| rounded(x));
         self.frames.push(json!([places.collect::<Vec<_>>(), frame.seekers, score]));

@@ -31,7 +31,7 @@ pub const REACH: f64 = STEPS as f64 * STEP_LENGTH;
 /// Distance at which a robot pushes the ball, and radius of the seeker's goal around the ball, in cells.
 const CONTACT: f64 = BODY + BALL + 0.6;
 const SOUGHT: f64 = CONTACT - 0.3;
-/// Speed of a pushed ball in cells per frame (`PUSHED`), and the factors by which it decreases per frame and per
+/// Speed of a pushed ball in cells per frame (`PUSHED`), and the factors by which it decreases per frame and at each
 /// bounce.
 const PUSHED: f64 = 1.6;
 const ROLLS: f64 = 0.985;
@@ -49,8 +49,8 @@ const BELOW: f64 = 1e-12;
 const FACTOR: f64 = 1.7;
 /// Largest number of sweeps for a field of the match.
 pub const MOST: usize = 2000;
-/// A ball that stays within a distance (the second number, in cells) for a number of frames (the first) is moved to a
-/// mark of the field.
+/// A ball that stays within a distance for a number of frames is moved to a mark of the field. The first value is the
+/// number of frames, the second the distance in cells.
 const STALE: (usize, f64) = (120, 12.0);
 /// The marks of the field, as in the league: four, each 37.5 cm from the middle and 40 cm from the middle line.
 const MARKS: [[f64; 2]; 4] = [[23.25, 12.0], [23.25, 52.0], [60.75, 12.0], [60.75, 52.0]];
@@ -84,7 +84,7 @@ struct State {
     robots: [[f64; 2]; 6],
     ball: [f64; 2],
     rolls: [f64; 2],
-    /// A position of the ball, and the frame since which it has stayed near that.
+    /// A position of the ball, and the frame since which the ball has stayed near it.
     left: ([f64; 2], usize),
     seekers: [usize; 2],
     frame: usize,
@@ -230,8 +230,8 @@ impl Match {
     }
 }
 
-/// Least distance between robots at the end of a step, in cells. On straight lines, two robots may come slightly nearer
-/// to each other in between.
+/// Least distance that robots must have at the end of a step, in cells. On straight lines, two robots may come slightly
+/// nearer to each other in between.
 const CLOSE: f64 = 0.25;
 
 impl State {
@@ -239,8 +239,8 @@ impl State {
         (0..6).filter(|&other| other != robot).map(|other| self.robots[other]).collect()
     }
 
-    /// Chooses the seekers: the nearest robot except the keeper. The current seeker stays unless another robot is much
-    /// nearer.
+    /// Chooses the seeker of each team: the robot nearest to the ball, except the keeper. The current seeker stays
+    /// unless another robot is much nearer.
     fn choose_seekers(&mut self) {
         for (team, first) in [(0, 1), (1, 3)] {
             let distance = |robot: usize| {

@@ -10,7 +10,7 @@ Made from [the schema](world.schema.json) by `cargo run --example world_referenc
 by examples. Unknown keys are errors. Where an angle or a length is asked for, radians or metres, an angle may be written `\"30deg\"`.
 ";
 
-/// Returns the whole page: the file itself, then all its tables by name.
+/// Returns the whole page. It describes the file itself first, and then all its tables, sorted by name.
 pub fn page(schema: &Value) -> String {
     let tables = schema["definitions"].as_object().expect("a schema with definitions");
     let mut page = format!("{HEAD}\n## The file\n\n{}", table(schema, tables));
@@ -92,7 +92,7 @@ fn kind(value: &Value, number: Number) -> String {
     }
 }
 
-/// Returns the name of the table to which a value refers.
+/// Returns the name of the table to which a value refers. Returns `None` if it refers to none.
 fn refers_to(value: &Value) -> Option<&str> {
     let reference = [&value["$ref"], &value["allOf"][0]["$ref"]].into_iter().find_map(Value::as_str);
     reference.and_then(|path| path.strip_prefix("#/definitions/"))
@@ -120,7 +120,7 @@ fn range(value: &Value) -> String {
     [above, from, to].into_iter().flatten().collect()
 }
 
-/// Returns the description on one line. A bar would end a cell of the table.
+/// Returns the description on one line. Escapes bars, which would otherwise end a cell of the table.
 fn described(value: &Value) -> String {
     let own = value["description"].as_str().unwrap_or_default();
     own.replace('\n', " ").replace('|', "\\|")

@@ -11,7 +11,7 @@ impl Files {
         Self(tempfile::tempdir().expect("a temporary folder"))
     }
 
-    /// Writes a file and says where it is.
+    /// Writes a file and returns its path.
     pub fn write(&self, name: &str, bytes: &[u8]) -> PathBuf {
         let path = self.0.path().join(name);
         std::fs::write(&path, bytes).expect("a file in a temporary folder");

@@ -18,10 +18,10 @@ use std::sync::LazyLock;
 
 static FILES: LazyLock<Files> = LazyLock::new(Files::new);
 
-/// Longer tasks are only loaded.
+/// Largest number of steps of tasks that are planned. Longer tasks are only loaded.
 const MAX_STEPS: usize = 4;
 
-/// Reads the task of a world with steps: it is refused with a message, or can be planned and reported.
+/// Reads the task of a world with steps. It must be refused with a message, or it can be planned and reported.
 fn task(scene: LoadedScene) {
     let task = match scene.task(&Overrides::default()) {
         Ok(loaded) => loaded.task,

@@ -89,7 +89,7 @@ pub struct ConvergeArgs {
     pub print: PrintArgs,
 }
 
-/// Measures, and prints the result.
+/// Measures how fast relaxation converges, and prints the result.
 ///
 /// # Errors
 /// Bad input and I/O.

@@ -2,7 +2,7 @@
 
 use std::process::exit;
 
-/// The exit code of a process that Ctrl-C ends, as in shells.
+/// The exit code of a process that Ctrl-C ends. It is the same as in shells.
 const EXIT_STOPPED: i32 = 130;
 
 /// Runs `last` before Ctrl-C ends the process. On systems that cannot handle Ctrl-C, it ends the process as usual.

@@ -10,7 +10,7 @@ use crate::output::laid_out;
 use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
 
-/// The robot of the cell.
+/// The robot of the demonstration.
 pub const DEMO_ROBOT: &str = include_str!("../../robots/scara.urdf");
 /// The world of the demonstration: the SCARA cell.
 pub const DEMO_WORLD: &str = include_str!("../../workspaces/scara_cell.toml");
@@ -67,7 +67,7 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
     Ok(code)
 }
 
-/// Returns the path of a file in the folder, as people would write it.
+/// Returns the path of a file in the folder. If the folder is the current one, leaves it out.
 pub fn in_folder(folder: &Path, name: &str) -> PathBuf {
     if folder == Path::new(".") { name.into() } else { folder.join(name) }
 }

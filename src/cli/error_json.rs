@@ -8,10 +8,10 @@ use serde::Serialize;
 /// diagnostics.
 #[derive(Debug, Serialize)]
 pub struct ErrorJson {
-    /// Always `error`, which no result has as its status.
+    /// The status, which is always `error`. No result has this status.
     status: &'static str,
     /// The kind of error: `usage` for a wrong command line; `start` or `goal` for one that is missing, out of range or
-    /// not free; otherwise `input`.
+    /// not free; `input` for everything else.
     kind: &'static str,
     #[serde(flatten)]
     first: DiagnosticJson,

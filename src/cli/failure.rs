@@ -45,7 +45,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Returns true if stdout already has the failure.
+    /// Returns true if the failure is already part of the report on stdout.
     pub fn is_reported(&self) -> bool {
         matches!(self, Self::Reported(_))
     }

@@ -15,7 +15,7 @@ const ROBOT_FILE: &str = "arm.urdf";
 const WORLD_FILE: &str = "world.toml";
 const SCHEMA_FILE: &str = "world.schema.json";
 
-/// Text of the world, with `{{marks}}` where worlds of different arms differ.
+/// Text of the world file, in which `{{marks}}` stand where worlds of different arms differ.
 const WORLD_TEMPLATE: &str = include_str!("starter/world.toml");
 
 /// Write a robot and a world with comments, as a start.
@@ -202,7 +202,7 @@ impl Kind {
 /// Writes the files, and prints further commands to try.
 ///
 /// # Errors
-/// Existing files, and I/O. Then no file is written.
+/// Files that exist already, and I/O. If there is an error, no file is written.
 pub fn run(args: &InitArgs) -> Result<u8, Failure> {
     let [robot, world, schema_file] = [ROBOT_FILE, WORLD_FILE, SCHEMA_FILE].map(|name| in_folder(&args.dir, name));
     spare(&[robot.clone(), world.clone(), schema_file.clone()], args.force, "`cplan init DIR` writes elsewhere")?;
@@ -217,7 +217,7 @@ pub fn run(args: &InitArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// Returns the list of written files, and the next commands.
+/// Describes the written files and the next commands.
 fn description(robot: &Path, world: &Path, schema: &Path) -> String {
     let both = format!("{} {}", word(robot), word(world));
     laid_out(&[

@@ -107,7 +107,8 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     }
 }
 
-/// Writes the URDF to which a xacro robot expands. Warns about meshes that would not be found from there.
+/// Writes the URDF to which a xacro robot expands. Warns about meshes that would not be found from the folder of the
+/// new file.
 fn write_expanded(robot: &RobotFile, path: &Path) -> Result<(), Failure> {
     let source = robot.read()?;
     if !source.is_expanded() {

@@ -71,7 +71,7 @@ fn page(command: &Command) -> io::Result<Vec<u8>> {
     Ok(page)
 }
 
-/// Returns the texts that the help has below the options as sections in roff: examples, exit codes, and notes.
+/// Returns sections in roff of the texts that the help has below the options: examples, exit codes, and notes.
 fn sections(text: &str) -> String {
     let mut found: [(&str, &str, Vec<&str>); 3] =
         [("", "NOTES", Vec::new()), ("Exit codes:", "EXIT STATUS", Vec::new()), ("Examples:", "EXAMPLES", Vec::new())];
@@ -84,7 +84,7 @@ fn sections(text: &str) -> String {
     found.iter().filter(|f| !f.2.is_empty()).map(|(_, title, paragraphs)| section(title, paragraphs)).collect()
 }
 
-/// Formats a section. Indented lines stay separate lines, which examples need.
+/// Formats a section. Indented lines, such as examples, are not joined to paragraphs.
 fn section(title: &str, paragraphs: &[&str]) -> String {
     let mut roff = format!(".SH \"{title}\"\n");
     for (i, paragraph) in paragraphs.iter().enumerate() {
@@ -107,7 +107,7 @@ fn section(title: &str, paragraphs: &[&str]) -> String {
     roff
 }
 
-/// Escapes text for roff: it contains no escapes and no requests, and its hyphens can be copied.
+/// Returns text in which roff finds no escapes and no requests, and from which hyphens can be copied.
 fn escaped(line: &str) -> String {
     let text = line.replace('\\', "\\e").replace('-', "\\-").replace('\'', "\\(aq");
     if text.starts_with('.') { format!("\\&{text}") } else { text }

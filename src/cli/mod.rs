@@ -218,8 +218,8 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     })
 }
 
-/// Returns an error if the first word is neither a subcommand nor a file. Otherwise, clap would take the third of
-/// several words for a subcommand, and report a conflict with two files.
+/// Returns an error if the first word is neither a subcommand nor a file. Without this check, clap would take the third
+/// of several words for a subcommand, and report a conflict with two files.
 fn misspelled(first: OsString) -> Option<clap::Error> {
     let word = first.to_string_lossy();
     let is_meant = Path::new(&first).extension().is_none() && !word.starts_with('-');
@@ -228,7 +228,8 @@ fn misspelled(first: OsString) -> Option<clap::Error> {
     (is_meant && !is_known).then(|| Cli::command().error(ErrorKind::InvalidSubcommand, message()))
 }
 
-/// Reports a wrong command line, or prints help or version if they are requested. Returns the exit code.
+/// Reports a command line that cannot be parsed. Prints help or version if the line requests them. Returns the exit
+/// code.
 fn unread(error: &clap::Error, in_json: bool) -> u8 {
     if error.use_stderr() {
         if in_json {

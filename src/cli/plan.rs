@@ -127,7 +127,7 @@ pub fn run(PlanCommand { files, plan }: &PlanCommand) -> Result<u8, Failure> {
     answer(plan, Some(files), || input::load_scene(files.robot(), &files.world))
 }
 
-/// Plans in a scene that `load` returns, which may come from files or not. Calls it only if the command line is valid.
+/// Plans in the scene that `load` returns. Calls `load` only if the command line is valid.
 ///
 /// # Errors
 /// Bad input and I/O.
@@ -196,7 +196,8 @@ fn blocked(error: InputError, hint: impl FnOnce() -> Option<String>) -> Failure 
     }
 }
 
-/// Returns the overrides. If the files do not state start and goal as joint values, adds those that were found.
+/// Returns the overrides. If the files do not state start and goal as joint values, adds the joint values that were
+/// found for them.
 pub fn with_ends(
     asked: Overrides,
     stated_ends: [Option<Configuration>; 2],
@@ -210,7 +211,7 @@ pub fn with_ends(
     }
 }
 
-/// Refuses a CSV file of a grid's values if the planner has no grid.
+/// Refuses to write a grid's values as CSV if the planner has no grid.
 fn require_grid(sinks: &[Sink], planner: &Planner) -> Result<(), Failure> {
     let matrix = sinks.iter().find(|sink| matches!(sink, Sink::CSpace(CSpaceFormat::Csv, _)));
     match matrix {
@@ -273,7 +274,7 @@ fn written(
     Ok(written)
 }
 
-/// Describes where a certificate is written: a file, or a member of one.
+/// Describes the place of a certificate: a file of its own, or a member of another file.
 fn shown(path: &Path, sinks: &[Sink]) -> String {
     let is_file = sinks.iter().any(|sink| matches!(sink, Sink::Certificate(own) if own == path));
     if is_file { path.display().to_string() } else { format!("the certificate in {}", path.display()) }

@@ -34,7 +34,7 @@ pub struct PlannersArgs {
     pub options: PlannerArgs,
 }
 
-/// Prints the options. Other arguments are only checked.
+/// Prints the options. The other arguments of the command line have no effect.
 ///
 /// # Errors
 /// I/O.

@@ -16,7 +16,8 @@ const REDRAW_INTERVAL: Duration = Duration::from_millis(50);
 /// Width of the bar, in characters.
 const BAR_WIDTH: usize = 16;
 
-/// Width of a line, in characters. It is less than the width of any terminal, because a wrapped line cannot be redrawn.
+/// Width of a line, in characters. It is less than the width of usual terminals, because a line that is wrapped cannot
+/// be drawn again.
 const LINE_WIDTH: usize = 78;
 
 /// The form in which progress is shown.
@@ -47,7 +48,7 @@ pub struct Progress {
 struct State {
     done: usize,
     now: String,
-    /// Time at which the display was last changed.
+    /// Time at which the display last changed.
     shown: Instant,
 }
 
@@ -124,7 +125,8 @@ fn put(text: &str) {
     let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
 
-/// Returns the number of runs per second, and the remaining time at this rate. `None` if that is not known.
+/// Returns the number of runs per second, and the remaining time at this rate. The remaining time is `None` if it is
+/// not known yet.
 fn rate(done: usize, total: usize, elapsed: Duration) -> (f64, Option<String>) {
     let rate = done as f64 / elapsed.as_secs_f64().max(1e-3);
     (rate, (done > 0 && done < total).then(|| time((total - done) as f64 / rate)))
@@ -148,8 +150,8 @@ fn line(done: usize, total: usize, things: &str, elapsed: Duration) -> String {
     format!("{done} of {total} {things}, {rate:.1} a second{left}")
 }
 
-/// Returns a bar with the same numbers, and with the name of the current run if there is room. It always has the same
-/// width.
+/// Returns a progress bar with the numbers of [`line`]. It includes the name of the current run if there is room. The
+/// bar always has the same width.
 fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
     let full = (BAR_WIDTH * done).checked_div(total).unwrap_or(BAR_WIDTH).min(BAR_WIDTH);
     let (rate, left) = rate(done, total, elapsed);
@@ -160,8 +162,8 @@ fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
     format!("{cut:LINE_WIDTH$}")
 }
 
-/// Returns a function that reports how many frames of an animation are done. It reports at intervals, and only if the
-/// animation takes long.
+/// Returns a function that reports how many frames of an animation are drawn. The function prints at intervals, and
+/// only if the animation takes long.
 pub fn pictures_done(path: &Path, print: &PrintArgs) -> impl FnMut(usize, usize) {
     const PICTURE_INTERVAL: Duration = Duration::from_secs(5);
     let begun = Instant::now();

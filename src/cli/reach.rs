@@ -18,7 +18,7 @@ use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Default number of cells per length of the arm's reach.
+/// Default number of cells along a length that equals the arm's reach.
 const DEFAULT_CELLS: f64 = 60.0;
 
 /// Report where the tip can go, and with which IK solutions.

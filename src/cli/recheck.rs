@@ -18,10 +18,10 @@ use serde::de::IgnoredAny;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-/// Fraction of a bound that may be lost when its evidence is computed again, because walls are found at finitely many
-/// points.
+/// Fraction of a bound that may be lost when the bound is computed again from its evidence. Some is lost because walls
+/// are found at finitely many points.
 const EVIDENCE_LOSS: f64 = 1e-3;
-/// If at most this fraction of a bound is lost, the loss is rounding and is not reported.
+/// If at most this fraction of a bound is lost, the loss is only rounding, so it is not reported.
 const UNREPORTED_LOSS: f64 = 1e-6;
 
 /// Check a proof, a bound or a certificate independently.
@@ -96,7 +96,7 @@ struct Evidence {
 }
 
 impl Evidence {
-    /// Reads the names of the members of a JSON object. Any other text has no evidence.
+    /// Returns which evidence a text has, from the names of the members of its JSON object. Any other text has none.
     fn of(text: &str) -> Self {
         #[derive(Deserialize)]
         struct Members {
@@ -135,14 +135,15 @@ fn judged(args: &RecheckArgs, what: &str, certificate: &str) -> Result<String, F
     })
 }
 
-/// Returns the overrides, completed by start and goal if the world does not state them as joint values.
+/// Returns the overrides. If the world does not state start and goal as joint values, adds the joint values that were
+/// found for them.
 fn in_full(problem: &MotionProblem, scene: &LoadedScene, asked: Overrides) -> Overrides {
     let stated_ends = scene.resolved_ends();
     let goal = stated_ends[1].map(|_| problem.goals().pieces()[0].ends()[0]);
     with_ends(asked, stated_ends, [Some(problem.start()), goal])
 }
 
-/// Reads the bound of a result file. `None` if it has none.
+/// Reads the lower bound that a result file states. Returns `None` if there is none.
 fn stated(args: &RecheckArgs, scene: &LoadedScene) -> Result<Option<Bound>, Failure> {
     let claims = input::load_recording(&args.proof, scene)?.claims.unwrap_or_default();
     let speeds = scene.scene.arm().joints.each_ref().map(|joint| joint.velocity);

@@ -9,7 +9,8 @@ use crate::output::PlanOutput as _;
 use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 
-/// Least number of digits of a step's number in a file name. With it, names sort in the order of the steps.
+/// Least number of digits of a step's number in a file name. Numbers are padded with zeros, so that names sort in the
+/// order of the steps.
 const MIN_STEP_DIGITS: usize = 3;
 
 /// The result files that are requested.
@@ -47,8 +48,8 @@ impl ResultFiles {
         Ok(files)
     }
 
-    /// Writes all files, or none if a problem can be foreseen. If a format cannot represent a result without a
-    /// trajectory, says so on stderr. If a certificate is given, makes it a member of one of the files. Returns the
+    /// Writes all files. If a problem can be foreseen, writes none. Warns on stderr about formats that cannot represent
+    /// a result without a trajectory. If a certificate is given, makes it a member of one of the files. Returns the
     /// names of the written files.
     ///
     /// # Errors
@@ -97,13 +98,14 @@ impl ResultFiles {
         path.with_file_name(name)
     }
 
-    /// Describes the files of all steps: the first and the last.
+    /// Describes the files of all steps by the names of the first and the last one.
     fn span(&self, path: &Path) -> String {
         let first = self.part(path, 1).display().to_string();
         if self.steps == 1 { first } else { format!("{first} to {}", self.part(path, self.steps).display()) }
     }
 
-    /// Warns about files with higher numbers, from a longer task, which could be mistaken for files of this one.
+    /// Warns about files with higher numbers. They come from an earlier, longer task, and could be mistaken for files
+    /// of this one.
     fn warn_of_more(&self, path: &Path) {
         let next = self.part(path, self.steps + 1);
         if next.exists() {

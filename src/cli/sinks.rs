@@ -61,8 +61,8 @@ pub fn sinks_with(results: &[PathBuf], pictures: &[PathBuf], certificate: Option
     Ok(sinks)
 }
 
-/// Returns the content of each file, which its extension determines. Names are checked before any work is done. `ends`
-/// has the known extensions with their contents, and `expected` is the message that lists them.
+/// Returns each file with its content, which its extension determines. Names are checked before any work is done.
+/// `ends` has the known extensions with their contents, and `expected` is the message that lists the extensions.
 ///
 /// # Errors
 /// Unknown extensions, and files that cannot be written.
@@ -121,7 +121,7 @@ pub fn spare_inputs<'a>(mut outputs: impl Iterator<Item = &'a Path>, inputs: &[P
     })
 }
 
-/// Says on stderr that nothing is written to a file, because the result has no `content`: no trajectory, or no grid.
+/// Warns on stderr that a file is not written, because the result lacks `content` (a trajectory or a grid).
 pub fn warn_unwritten(path: &Path, content: &str) {
     let is_old = if path.exists() { "; the existing file is from an earlier run" } else { "" };
     print_status(&format!("warning: {} is not written: the result has no {content}{is_old}", path.display()));
@@ -140,7 +140,8 @@ pub fn print_status(text: &str) {
     let _ = writeln!(anstream::stderr(), "{}", terminal::message(&plain(text)));
 }
 
-/// Prints text on stdout. Shows control characters in names instead of sending them to the terminal.
+/// Prints text on stdout. Control characters in the text are shown as visible characters, so that they do not affect
+/// the terminal.
 ///
 /// # Errors
 /// I/O.

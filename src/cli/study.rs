@@ -157,7 +157,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// Returns the content of each output, which its name determines. Names are checked before any work is done.
+/// Returns each output with its content, which the file name determines. Names are checked before any work is done.
 fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Vec<(PathBuf, Content)>, Failure> {
     let layout = [("toml", Content::World), ("urdf", Content::Robot)];
     let whole = [
@@ -215,7 +215,7 @@ fn write_layout(study: &Study, layout: usize, files: &[(PathBuf, Content)]) -> R
     Ok(DONE)
 }
 
-/// Prints a note if only the world of a layout is written although its robot differs from the study's, too.
+/// Prints a note if the robot of a layout differs from that of the study, but only the world of the layout is written.
 fn note_robot(study: &Study, files: &[(PathBuf, Content)]) {
     let of = |wanted: Content| files.iter().find(|(_, content)| *content == wanted);
     if let (Some((world, _)), None, true) = (of(Content::World), of(Content::Robot), study.varies_robots()) {
@@ -227,7 +227,7 @@ fn note_robot(study: &Study, files: &[(PathBuf, Content)]) {
     }
 }
 
-/// Returns the content of a file. `None` for the best layout if there is none.
+/// Returns the bytes of a file. Returns `None` for the best layout if there is none.
 fn bytes(
     study: &Study,
     rows: &[Row],
@@ -250,7 +250,8 @@ fn bytes(
     })
 }
 
-/// Returns world and robot of a layout. The world begins with a comment: the command that plans in it.
+/// Returns the world and the robot of a layout as texts. The world begins with a comment that contains the command that
+/// plans in it.
 fn texts(study: &Study, layout: usize, values: &[f64], files: &[(PathBuf, Content)]) -> [String; 2] {
     let [world, urdf] = study.layout(values);
     let command = command(study, files).unwrap_or_else(|| command_of(study, "world.toml", files));
@@ -279,7 +280,7 @@ fn command_of(study: &Study, world: &str, files: &[(PathBuf, Content)]) -> Strin
     words.map(for_a_shell).collect::<Vec<_>>().join(" ")
 }
 
-/// Shortens a path that goes into a folder and out again, if the short path leads to the same file.
+/// Shortens a path that leads into a folder and out again, if the short path leads to the same file.
 fn short(name: &str) -> String {
     let mut short = PathBuf::new();
     for part in Path::new(name).components() {
@@ -315,12 +316,14 @@ impl SharedRows {
         rows.journal.as_mut().map_or(Ok(()), |journal| journal.add(row))
     }
 
-    /// Removes the journal. All rows are in the output files, so there is nothing to continue.
+    /// Removes the journal. This is for a finished study: all rows are in the output files, so nothing remains to be
+    /// continued.
     fn remove(&self) -> Result<(), JournalError> {
         self.rows().journal.take().map_or(Ok(()), Journal::remove)
     }
 
-    /// Writes all rows to disk, and returns a message with their number and that of all layouts, `total`.
+    /// Writes all rows to disk. Returns a message that states how many rows there are, and how many layouts the study
+    /// has (`total`).
     fn stopped(&self, total: usize) -> String {
         let mut rows = self.rows();
         let count = rows.count;

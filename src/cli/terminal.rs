@@ -8,13 +8,14 @@ use std::io::IsTerminal;
 
 use terminal_size::{Height, Width, terminal_size_of};
 
-/// Least width of wrapped lines, in characters. Narrower lines would have a single word each.
+/// Least width of wrapped lines, in characters. In narrower lines there would be hardly more than a word.
 const MIN_WIDTH: usize = 40;
 
 /// Greatest width of messages and help, in characters. Longer lines are hard to read.
 pub const WIDEST: usize = 80;
 
-/// Returns the number of characters per line of a terminal: `COLUMNS`, or its size. `None` for other outputs.
+/// Returns the number of characters per line of a terminal: the variable `COLUMNS`, or the terminal's size. Returns
+/// `None` for other outputs.
 fn width(is_terminal: bool, size: Option<(Width, Height)>) -> Option<usize> {
     let stated = || std::env::var("COLUMNS").ok()?.parse().ok();
     let seen = || size.map(|(Width(width), _)| usize::from(width));
@@ -44,10 +45,11 @@ pub fn message(text: &str) -> String {
     text
 }
 
-/// Beginning of a command. A line with a command is not wrapped, so that it can be copied.
+/// Beginning of a command. A line that begins so is not wrapped, so that it can be copied.
 const COMMAND: &str = "cplan ";
 
-/// Wraps the lines of a message. Leaves out commands, and quoted lines of files, below which carets point at a column.
+/// Wraps the lines of a message. Does not wrap commands. Does not wrap lines quoted from files either, because carets
+/// below such a line point at a column of it.
 fn folded(text: &str, width: usize) -> String {
     let folded = |line: &str| {
         let blanks = line.chars().take_while(|c| *c == ' ').count();

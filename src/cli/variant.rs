@@ -35,7 +35,8 @@ impl Variant {
         Ok(Self { label: words.join(" "), planner: options.planner(planner)?, options })
     }
 
-    /// Returns the planner and its number of attempts. Settings that the variant leaves open are those of `base`.
+    /// Returns the planner, and the number of attempts with it. `base` has the settings that the variant does not
+    /// state.
     pub fn or_from(&self, base: &EffortArgs) -> (Planner, usize) {
         let effort = self.options.effort.or_from(base);
         let planner = effort.apply_to(self.planner);
@@ -47,7 +48,8 @@ impl Variant {
         self.options.ignored(self.planner.method())
     }
 
-    /// Returns the reason, with a hint, if the device for the field is not available.
+    /// Returns the reason why the device that the options select is not available, with a hint. Returns `None` if it is
+    /// available.
     pub fn missing(&self) -> Option<String> {
         self.options.missing()
     }

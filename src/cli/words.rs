@@ -54,7 +54,7 @@ pub(super) fn asked(words: &[String]) -> Result<ParsedWords, Failure> {
     Ok(ParsedWords { options, overrides: query.overrides() })
 }
 
-/// Returns a message for options that concern files and printing instead of planning. `None` for other errors.
+/// Returns a message if an option concerns files and printing instead of planning. Returns `None` for other errors.
 fn misplaced(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else { return None };
     let main_job = PlanArgs::augment_args(Files::augment_args(Command::new("cplan")));

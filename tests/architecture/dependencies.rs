@@ -68,8 +68,8 @@ impl Build {
         package.split(' ').next().unwrap_or_default()
     }
 
-    /// Removes the packages that the crate `features` names. Other crates use these packages; `features` only turns on
-    /// features of them.
+    /// Removes the packages that the crate `features` uses. Other crates use these packages too; `features` only turns
+    /// on features of them.
     fn forget_features(&mut self) {
         let features = self.uses.iter_mut().find(|(package, _)| Self::name(package) == "cplan-features");
         features.expect("the crate").1.clear();
@@ -82,7 +82,7 @@ impl Build {
         used.map(|package| Self::name(package)).collect()
     }
 
-    /// Returns the packages that remain if no crate of ours uses those in `names`.
+    /// Returns the packages that the build would still have if no crate of ours used those in `names`.
     fn without(&self, names: &[&str]) -> BTreeSet<&str> {
         let root = self.uses.keys().find(|package| Self::name(package) == "cplan").expect("the program");
         let (mut left, mut next) = (BTreeSet::from([root.as_str()]), vec![root]);

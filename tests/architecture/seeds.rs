@@ -4,19 +4,19 @@
 use crate::rust_files;
 use std::path::{Path, PathBuf};
 
-/// Files that may choose seeds and numbers of cases: the crate that does so, and this file.
+/// Files that may choose seeds and numbers of cases: the crate `cplan_cases`, which does so for all tests, and this
+/// file.
 const HERE: [&str; 2] = ["crates/cases/src/lib.rs", "tests/architecture/seeds.rs"];
 
 /// Folders with tests.
 const FOLDERS: [&str; 3] = ["crates", "src", "tests"];
 
-/// Code that chooses its own seed, or a random one.
+/// Patterns of code that chooses its own seed, or a random one.
 const ELSEWHERE: [&str; 7] =
     ["ProptestConfig", "with_cases", "test_runner::Config", "TestRunner::", "RngSeed", "from_entropy", "rand::"];
 
-/// Environment variables that tests may read besides the two variables of `cplan_cases`. They are those of long
-/// campaigns, which are separate runs (`tests/planning/random_worlds`), of published data, and of a folder for
-/// pictures.
+/// Environment variables that tests may read besides the two variables of `cplan_cases`. They configure long campaigns,
+/// which are separate runs (`tests/planning/random_worlds`), and name folders for published data and for pictures.
 const VARIABLES: [&str; 8] = [
     "CPLAN_WORLDS",
     "CPLAN_FIRST",
@@ -32,7 +32,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Returns the numbers of lines in which random cases differ from run to run.
+/// Returns the numbers of the lines that choose random cases which differ from run to run.
 fn left_to_chance(text: &str) -> Vec<usize> {
     let code: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
     let wrong = |at: usize| {

@@ -10,8 +10,9 @@ fn documentation(line: &str) -> Option<&str> {
     line.strip_prefix("///").or(line.strip_prefix("//!")).map(str::trim_start)
 }
 
-/// Returns true if the documentation has an example that rustdoc would run: a fence that opens without a language, or
-/// with Rust. A closing fence has no language either, so each fence with another language accounts for one plain fence.
+/// Returns true if the documentation has an example that rustdoc would run, which is one that opens with a fence
+/// without a language or with Rust. A closing fence has no language either, so each fence with another language
+/// accounts for one plain fence.
 fn has_example(text: &str) -> bool {
     let fences = text.lines().filter_map(|line| documentation(line)?.strip_prefix("```"));
     let (plain, of_rust): (Vec<&str>, Vec<&str>) =

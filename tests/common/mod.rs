@@ -24,7 +24,7 @@ pub fn q(a: f64, b: f64) -> Configuration {
     Configuration::new(a, b)
 }
 
-/// Returns the judge's verdict on boxes that are claimed to separate the start from all goals.
+/// Checks the claim that boxes separate the start from all goals, and returns the verdict.
 pub fn recheck(
     stuck: &[CollisionBox],
     scene: &Scene,
@@ -74,7 +74,7 @@ pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> 
     }
 }
 
-/// Returns an arm with bars of 1.0 and 0.8 m that are 0.1 m wide. Its joints have these ranges.
+/// Returns an arm with two bars, 1.0 and 0.8 m long and 0.1 m wide. Its joints have the ranges `axes`.
 pub fn rr(axes: [JointRange; 2]) -> Arm {
     let turn = JointType::Revolute { sign: 1.0 };
     arm(
@@ -126,12 +126,12 @@ pub fn obstacle(name: &str, piece: Convex) -> Obstacle {
     Obstacle { name: name.into(), shape, pieces: vec![piece], heights: Heights::ALL }
 }
 
-/// Returns the scene of an arm in a workspace; panics if either is invalid.
+/// Returns the scene of an arm in a workspace. Panics if either is invalid.
 pub fn placed(arm: Arm, workspace: Workspace) -> Scene {
     Scene::new(arm, workspace).expect("a scene")
 }
 
-/// Returns a problem; panics if it is invalid.
+/// Returns the problem of a motion in a scene. Panics if it is invalid.
 pub fn asked(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> MotionProblem {
     MotionProblem::new(scene, start, goals).expect("a problem")
 }
@@ -150,7 +150,7 @@ pub enum Benchmark {
     B,
     /// Start and goal are proven to be disconnected.
     Inf,
-    /// There is no path: two walls of link 1 are 0.0066 rad wide.
+    /// There is no path: two walls, which block link 1, are 0.0066 rad wide.
     T,
 }
 
@@ -202,7 +202,7 @@ pub fn problem(which: Benchmark) -> MotionProblem {
     asked(scene, start, goal)
 }
 
-/// Returns the configuration at these fractions of the joints' ranges.
+/// Returns the configuration at these fractions `u` and `v` of the joints' ranges.
 pub fn inside(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
     let at = |k: usize, t: f64| {
         let (lower, upper) = scene.arm().topology().ranges[k].domain();
@@ -211,7 +211,7 @@ pub fn inside(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
     q(at(0, u), at(1, v))
 }
 
-/// Returns the shipped workspaces that state that there is a path, with their robots; by name.
+/// Returns the name and problem of each shipped workspace that states that there is a path.
 pub fn shipped_feasible() -> Vec<(String, MotionProblem)> {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files: Vec<_> =

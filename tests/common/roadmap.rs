@@ -104,9 +104,9 @@ impl Board {
         component
     }
 
-    /// Returns the free squares as polygons, mapped by the integer matrix `map` (of positive determinant). If two
-    /// squares of one component touch in a corner, `link` decides whether a contour continues along the other square
-    /// there.
+    /// Returns the free squares as polygons, mapped by the integer matrix `map` (of positive determinant). Where two
+    /// squares of one component touch only in a corner, `link` decides whether a contour continues along the other
+    /// square.
     pub fn regions(&self, map: [[i32; 2]; 2], mut link: impl FnMut() -> bool) -> Regions {
         let n = self.size as i32;
         let component = self.components();
@@ -193,8 +193,8 @@ pub fn area(contours: impl IntoIterator<Item = Vec<Point>>) -> f64 {
     contours.into_iter().map(|c| twice(&c) / 2.0).sum()
 }
 
-/// Returns all arcs of the reduced visibility graph of obstacles in general position, left end first, by plain
-/// arithmetic.
+/// Returns all arcs of the reduced visibility graph of obstacles in general position, each with its left end first.
+/// Uses plain arithmetic.
 pub fn bitangents(regions: &Regions) -> Vec<[Configuration; 2]> {
     let turn = |a: Point, b: Point, c: Point| (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     let sides = sides(regions);

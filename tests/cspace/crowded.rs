@@ -9,7 +9,8 @@ use cplan::space::{Configuration, JointRange};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-/// Largest number of pieces of an obstacle that are traced one by one; others are covered by larger shapes.
+/// Largest number of pieces of an obstacle that are traced one by one. More pieces are replaced by larger shapes that
+/// cover them.
 const PLAIN: usize = 512;
 
 /// Returns the `k`-th random number of the seed `choice`, in `[0, 1)` (SplitMix64).
@@ -117,7 +118,8 @@ fn is_free(regions: &Regions, at: Configuration) -> bool {
 proptest! {
     #![proptest_config(cplan_cases::cases(4))]
 
-    /// Checks that free places keep a quarter of the margin, and that places which keep three margins are free.
+    /// Checks how tight the displayed free space is. Free places in it keep a quarter of the margin, and places that
+    /// keep three margins are free in it.
     #[test]
     fn displayed_free_space_is_tight(
         kind in 0..3_usize, choice in any::<u64>(), margin in prop_oneof![Just(2e-3), 2e-3..0.05f64],

@@ -22,8 +22,8 @@ fn planned(robot: &str, world: &str, planner: &str) -> (Problem, CSpaces) {
     (problem, spaces)
 }
 
-/// Returns the distance between the arm and obstacle `number`. The numbers after those of the obstacles are links of
-/// the robot, which links further along the chain can hit.
+/// Returns the distance between the arm and obstacle `number`. Numbers beyond those of the obstacles stand for links of
+/// the robot, which later links of the chain can hit.
 fn distance(scene: &Scene, q: Values, number: usize) -> f64 {
     let arm = scene.arm();
     let own = number.checked_sub(scene.workspace().obstacles.len()).map(|link| &arm.self_obstacles[link]);
@@ -53,7 +53,7 @@ fn free(scene: &Scene, q: Values) -> f64 {
     (0..scene.workspace().obstacles.len()).map(|o| distance(scene, q, o)).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns true if a point is within the polygons: an odd number of sides crosses a ray from it.
+/// Returns true if a point is within the polygons, that is, if a ray from it crosses an odd number of sides.
 fn within(polygons: &Polygons, [x, y]: Values) -> bool {
     let sides = polygons.iter().flatten().flat_map(|ring| ring.windows(2));
     sides

@@ -9,7 +9,8 @@ use cplan::space::{Configuration, JointRange};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// A centre within this distance of contact may have either verdict, in metres. The tolerance of parry2d is some 1e-10.
+/// If a cell's centre is this close to contact, in metres, either verdict about it is accepted. The tolerance of
+/// parry2d is some 1e-10.
 const BOUNDARY: f64 = 1e-7;
 
 fn revolute() -> impl Strategy<Value = (JointType, JointRange)> {
@@ -79,9 +80,9 @@ fn at(range: JointRange, t: f64) -> f64 {
     range.domain().0 + t * range.extent()
 }
 
-/// Returns by how many turns a value of joint 1 must be shifted to lie in a range of reach. `None` if no shift does so.
-/// Ranges begin within half a turn of zero and are up to a turn long, but limits can be anywhere. So a value may be two
-/// turns away.
+/// Returns by how many turns a value of joint 1 must be shifted to lie in a range of reach. Returns `None` if no shift
+/// does so. Ranges begin within half a turn of zero and are up to a turn long, but the joint's limits can be anywhere.
+/// So a value may be two turns away.
 fn turn_within(scene: &Scene, ranges: &[[f64; 2]], value: f64) -> Option<i32> {
     let turns = if scene.arm().joints[0].joint_type.is_revolute() { -2..=2 } else { 0..=0 };
     let is_within = |r: &[f64; 2], value: f64| r[0] <= value && value <= r[1];

@@ -163,8 +163,8 @@ fn lattice(window: [(f64, f64); 2], n: usize) -> impl Iterator<Item = Configurat
     })
 }
 
-/// Checks that places which are free in the regions are free, and that places with three times the margin are free in
-/// the regions.
+/// Checks the margin of the regions. Places that are free in the regions must be free. Places with three times the
+/// margin must be free in the regions.
 fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
     let keep = scene.workspace().clearance;
     let regions = regions(scene, margin, Configuration::new(0.3, -0.8), 1);
@@ -185,8 +185,8 @@ fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Checks that places which are blocked in the regions are blocked, and that places which are too near to an obstacle
-/// by more than the margin are blocked in the regions.
+/// Checks regions that overestimate free space. Places that are blocked in the regions must be blocked. Places that are
+/// too near to an obstacle by more than the margin must be blocked in the regions.
 fn loses_no_more_than_its_margin(scene: &Scene, regions: &Regions, margin: f64) -> Result<(), TestCaseError> {
     let keep = scene.workspace().clearance;
     prop_assert_eq!(regions.proves, Proves::Inner { margin });
@@ -253,8 +253,8 @@ proptest! {
     }
 }
 
-/// A case that the property tests found: the only shapes are a thin wall across link 2 and a point. The wall's ends
-/// begin and end to touch the point at the same place.
+/// Checks a case that the property tests found. The only shapes are a thin wall across link 2, and a point. At one
+/// place, one end of the wall begins to touch the point, and the other stops touching it.
 #[test]
 fn a_wall_that_meets_a_point_keeps_its_margin() {
     let turning = |name| joint(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle);

@@ -56,8 +56,8 @@ fn kinds(walls: &[bool], columns: usize, moment: &Moment) -> Vec<Cell> {
     kinds
 }
 
-/// Returns the drift of each cell. It is that of the nearest robot whose disc contains the cell; of equally near ones,
-/// that of the first.
+/// Returns the drift of each cell. It is that of the nearest robot whose disc contains the cell. If several are equally
+/// near, the first of them counts.
 fn drift(cells: usize, columns: usize, robots: &[Influence]) -> Vec<[f64; 2]> {
     let of = |cell: usize| {
         let mut best: Option<&Influence> = None;

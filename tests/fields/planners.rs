@@ -62,7 +62,8 @@ fn random_problem() -> impl Strategy<Value = (Grid, usize, usize)> {
     })
 }
 
-/// Returns the steps between all pairs of free cells, by Floyd-Warshall with adjacency from coordinates.
+/// Returns the numbers of steps between all pairs of free cells, by the algorithm of Floyd and Warshall. Two cells are
+/// neighbours if their coordinates say so.
 fn all_steps(grid: &Grid) -> Vec<Vec<u32>> {
     let n = grid.blocked.len();
     let apart = |a: usize, b: usize, k: usize| {
@@ -124,7 +125,7 @@ fn field(grid: &Grid, goal: usize) -> (Component, Field) {
     (component, field)
 }
 
-/// Both planners: true stands for the wavefront, false for the harmonic field.
+/// The two kinds of planners: true stands for the wavefront, false for the harmonic field.
 const BOTH: [bool; 2] = [true, false];
 
 fn run(is_wavefront: bool, grid: &Grid, query: &Query, path: PathKind) -> Run {

@@ -3,8 +3,8 @@
 use serde_json::Value;
 use std::process::Command;
 
-/// Both environment variables that tell Vulkan's loader where to look for drivers. The tests set them to a place
-/// without drivers.
+/// The two environment variables that state where Vulkan looks for drivers. The tests set them to a place without
+/// drivers.
 const DRIVERS: [&str; 2] = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"];
 const NOWHERE: &str = "/nowhere/driver.json";
 

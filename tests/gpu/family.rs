@@ -6,7 +6,7 @@ use cplan::field::{
 };
 use proptest::prelude::*;
 
-/// Number of sweeps per stage before fields are compared. They satisfy no stopping rule earlier.
+/// Number of sweeps per stage before fields are compared. No stopping rule ends a stage earlier.
 const SWEEPS: usize = 25;
 
 /// Tolerance for single precision. Each update of a sweep is off by some units in the last place of the greatest value,

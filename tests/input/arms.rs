@@ -174,8 +174,8 @@ proptest! {
 }
 
 const RADIUS: f64 = 0.2;
-/// Largest error of the samples, in metres: the sagitta of 96 samples round a circle of radius 0.2, and of 48 down to
-/// the pole, with room for both together.
+/// Largest error, in metres, of samples of a circle of radius 0.2: the distance of the chords between 96 samples round
+/// a circle, and between 48 down to the pole, with room for both together.
 const SAMPLING: f64 = 6e-4;
 
 const CYLINDER: usize = 1;
@@ -267,7 +267,7 @@ fn stl_meshes_count_by_their_convex_hull_in_text_and_binary() {
     assert!(load_scene(&path, &world).unwrap_err().to_string().contains("does not fit its number of triangles"));
 }
 
-/// A triangle in centimetres, in a node that is turned and moved within another node: (x, y, z) -> (1 - y, x, z)
+/// A triangle in centimetres. Its node is turned and moved within another node, which maps (x, y, z) to (1 - y, x, z)
 /// metres.
 const COLLADA: &str = r##"<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
@@ -324,8 +324,8 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
     }
 }
 
-/// Checks files of exporters that omit some elements and write others first. Without a scene that shows anything,
-/// geometries keep their coordinates, in centimetres.
+/// Checks files of exporters that omit some elements and write others first. Such a file has no scene that shows
+/// anything. Then geometries keep their coordinates, in centimetres.
 #[test]
 fn collada_without_a_scene_and_with_a_comment_first() {
     let folder = tempfile::tempdir().unwrap();

@@ -14,7 +14,7 @@ fn robot(table: &str) -> String {
     with(WORLD, "[start]", &format!("[robot]\n{table}\n[start]"))
 }
 
-/// Checks that files are refused with a hint, and that they load after each change that the hint suggests.
+/// Checks that files are refused with a hint. Also checks that they load after each change that the hint suggests.
 fn holds([urdf, world]: [&str; 2], hint: &str, mended: &[[&str; 2]]) {
     let refused = load_files("arm.urdf", urdf, world, &Overrides::default()).expect_err(hint).to_string();
     let hints = refused.split("hint: ").skip(1).collect::<Vec<_>>().join("\n");

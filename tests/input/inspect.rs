@@ -141,7 +141,7 @@ fn links_that_form_no_tree_are_listed_all_the_same() {
     assert!(messages(&no_world).contains("cannot be read") && no_world.outlines.len() == 2);
 }
 
-/// Checks that the suggested table works: the robot loads if the world has it.
+/// Checks that the robot loads if the world has the table that the report suggests.
 fn help_works(urdf: &Path, found: &Inspection) {
     let Some(help) = &found.help else { return };
     let folder = tempfile::tempdir().unwrap();
@@ -169,8 +169,8 @@ fn shipped_robots_can_be_planned_with_or_have_help() {
     assert!(checked >= 8);
 }
 
-/// Expected result: the file, true if planning works without changes, the pair that the report describes, and parts of
-/// diagnostics and pairs.
+/// Expected result: the file, whether planning works without changes, the pair of joints that the report describes, and
+/// parts of diagnostics and pairs.
 type Expected = (&'static str, bool, Option<[&'static str; 2]>, &'static [&'static str]);
 const PUBLISHED: [Expected; 18] = [
     ("bullet_pantilt", false, Some(["pan_joint", "tilt_joint"]), &["these axes are not parallel"]),

@@ -24,7 +24,8 @@ fn urdf(mesh: &str) -> String {
     )
 }
 
-/// Creates a repository with a package, one beside it, and one in a subfolder. No package has the name of its folder.
+/// Creates a repository with packages in it, one beside another and one in a subfolder. No package has the name of its
+/// folder.
 fn repository() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let root = folder.path();

@@ -8,7 +8,7 @@ use cplan::{Options, Problem, plan};
 
 const ROBOTS: [&str; 5] = ["planar_2r", "slide_arm", "polar", "gantry", "l_forearm"];
 
-/// A translation (`AT`) and a turn. The turn has a closed form.
+/// A translation (`AT`, metres) and a turn (`ANGLE`, radians) by which robots and worlds are moved.
 const AT: [f64; 2] = [0.4, -1.3];
 const ANGLE: f64 = 0.7;
 

@@ -10,9 +10,9 @@ use cplan_check_files::check_files;
 use std::path::Path;
 
 enum Outcome {
-    /// The robot loads: kind of the arm, sources of the two outlines, and the tip's link.
+    /// Outcome of a robot that loads: kind of the arm, sources of the two outlines, and the tip's link.
     Loads(&'static str, [OutlineSource; 2], &'static str),
-    /// The robot is refused: parts of the message.
+    /// Outcome of a robot that is refused: parts of the message.
     Refused(&'static [&'static str]),
 }
 use Outcome::{Loads, Refused};

@@ -159,8 +159,8 @@ fn plans_in_random_worlds_are_followed() {
     assert!(plans >= 8 || !usual(), "only {plans} plans");
 }
 
-/// Checks that the controller without a plan passes free-standing obstacles, and is trapped in others, as the source
-/// reports of a room.
+/// Checks that the controller without a plan passes free-standing obstacles, and that corners of a room trap it, as the
+/// source reports.
 #[test]
 fn without_a_plan_the_controller_arrives_in_the_open_and_is_trapped_in_corners() {
     let law = Tanh { pull: 1.0, push: 1.0, range: 1.0 };

@@ -15,8 +15,8 @@ fn floor(name: &str) -> Floor {
     Floor::load(&format!("explore/{name}.toml")).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Checks two sonars that look to the right, 7 and 8, one ahead of the other, and sonar 6 ahead of them. Along a wall,
-/// angle and distance determine their readings.
+/// Checks sonars 7 and 8, which look to the right, one ahead of the other, and sonar 6 ahead of them. Along a straight
+/// wall, their readings follow from the angle to the wall and the distance.
 #[test]
 fn sonars_read_what_a_straight_wall_asks_for() {
     let floor = floor("hall");
@@ -35,7 +35,8 @@ fn sonars_read_what_a_straight_wall_asks_for() {
     }
 }
 
-/// Checks that the angle to the wall decays and the distance stays: `turn = -10 (s7 - s8)` is about `-2.3 tan(angle)`.
+/// Checks that the robot turns until it is parallel to the wall, and keeps its distance: `turn = -10 (s7 - s8)` is
+/// about `-2.3 tan(angle)`.
 #[test]
 fn it_lines_up_with_a_wall() {
     let floor = floor("hall");

@@ -80,8 +80,8 @@ fn a_scan_frees_what_rays_cross_and_marks_what_they_meet() {
     }
 }
 
-/// Checks forces of a single cell, computed by hand, and the force of a long wall, whose sum is close to the integral
-/// `2 / D`.
+/// Checks the forces of a single cell, which are computed by hand. Also checks the force of a long wall, whose sum is
+/// close to the integral `2 / D`.
 #[test]
 fn forces_add_up() {
     let (at, target) = (Point::new(0.0, 0.0), Point::new(3.0, 4.0));

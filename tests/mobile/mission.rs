@@ -14,7 +14,8 @@ fn floor(name: &str) -> Floor {
     Floor::load(&format!("explore/{name}.toml")).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Checks that reported goals are reached, and that the reported distance of a trapped robot is its least one.
+/// Checks that the robot is at each goal that is reported as reached. If a robot was trapped, its reported distance
+/// from the goal must be the least one on its way.
 fn check(floor: &Floor, legs: &[Leg], stop: f64, what: &str) {
     assert_eq!(legs.len(), TARGETS.len());
     for (leg, (name, target)) in legs.iter().zip(TARGETS) {

@@ -59,7 +59,8 @@ fn off_line(p: Point, corners: &[[f64; 2]]) -> f64 {
     corners.windows(2).map(side).fold(f64::INFINITY, f64::min)
 }
 
-/// Checks the rooms of the mission, and the source's own map, cells, start and goal.
+/// Checks the tracking controller on paths of the wave and of A*, in the rooms of the mission, and with the map, cells,
+/// start and goal of the source.
 #[test]
 fn cells_of_the_wave_and_of_a_star_are_followed() {
     for (robot, world, cells, space, start, goal) in [

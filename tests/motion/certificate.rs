@@ -63,7 +63,8 @@ proptest! {
     }
 }
 
-/// Checks a post that the straight path passes closely: the blend is as large as the room allows, and no larger.
+/// Checks a post that the straight path passes closely. The blend is as large as the distance from the post allows, and
+/// no larger.
 #[test]
 fn the_clearance_bounds_the_radius() {
     // A tool of radius 0.1 at (x, y), and a post inside the right angle of its path.

@@ -14,7 +14,7 @@ use cplan::model::Scene;
 use cplan::motion::{Drive, Trajectory};
 use cplan::space::Configuration;
 
-/// Limits of velocity, acceleration and jerk of each joint.
+/// Limits of each joint: velocity, acceleration and jerk.
 type Most = [[f64; 2]; 3];
 
 fn room([velocity, acceleration, jerk]: Most) -> Scene {
@@ -23,7 +23,7 @@ fn room([velocity, acceleration, jerk]: Most) -> Scene {
     placed(arm, workspace)
 }
 
-/// Returns the motion about the corners of a path, as a user gets it.
+/// Returns the motion along a path with blended corners, as a user of the library gets it.
 fn driven(waypoints: &[[f64; 2]], most: Most) -> Trajectory {
     let scene = room(most);
     Drive::default().along(&scene, &certified(&scene, waypoints), 1.0).unwrap().trajectory
@@ -47,8 +47,8 @@ fn derivatives(motion: &Trajectory, steps: usize) -> Vec<[Configuration; 3]> {
     (0..=steps).map(at).collect()
 }
 
-/// A condition on three neighbouring nodes: `1 - root(z_i) (w . (z_(i-1), z_i, z_(i+1))) > 0`, or the same without the
-/// root.
+/// A condition on the values `z` of three neighbouring nodes: `1 - root(z_i) (w . (z_(i-1), z_i, z_(i+1))) > 0`, or the
+/// same without the root.
 struct Condition {
     at: usize,
     weights: [f64; 3],
@@ -109,8 +109,8 @@ fn conditions(nodes: &[[Configuration; 3]], step: f64, [v, a, j]: Most) -> Vec<C
     all
 }
 
-/// Solves `A x = b` for a symmetric matrix `A` with five diagonals. `beside` are those one and two places beside the
-/// middle one. Returns `None` unless `A` is positive definite.
+/// Solves `A x = b` for a symmetric matrix `A` with five diagonals: `middle`, and in `beside` the two diagonals above
+/// it. Returns `None` if `A` is not positive definite.
 fn solved(middle: &[f64], beside: [&[f64]; 2], b: &[f64]) -> Option<Vec<f64>> {
     let n = middle.len();
     let (mut d, mut l, mut x) = (vec![0.0; n], [vec![0.0; n], vec![0.0; n]], b.to_vec());
@@ -141,13 +141,14 @@ fn solved(middle: &[f64], beside: [&[f64]; 2], b: &[f64]) -> Option<Vec<f64>> {
     Some(x)
 }
 
-/// Returns the time, by the trapezoidal rule.
+/// Returns the duration of the motion, by the trapezoidal rule.
 fn time(z: &[f64], step: f64) -> f64 {
     let half = |i: usize| if i == 0 || i + 1 == z.len() { 0.5 } else { 1.0 };
     z.iter().enumerate().map(|(i, z)| half(i) * step / z.sqrt()).sum()
 }
 
-/// Returns the time plus a barrier of this height before the limits. Infinite if a limit is violated.
+/// Returns the duration plus a barrier that grows towards the limits. `height` is the barrier's factor. Returns
+/// infinity if a limit is violated.
 fn merit(z: &[f64], step: f64, conditions: &[Condition], height: f64) -> f64 {
     if z.iter().any(|&z| z.is_nan() || z <= 0.0) {
         return f64::INFINITY;
@@ -250,8 +251,8 @@ const PATHS: [Case; 12] = [
     ),
 ];
 
-/// Largest relative difference between results with one number of steps and with twice that number. Limits hold at the
-/// steps and may be exceeded in between, so the steps are halved until the difference is below this.
+/// Largest relative difference that is accepted between the result with one number of steps and that with twice as
+/// many. Limits hold at the steps but may be exceeded in between, so the steps are halved until the difference is less.
 const OFF: f64 = 5e-3;
 
 /// Largest number of steps.
@@ -287,8 +288,8 @@ fn the_least_time_is_the_same_from_anywhere() {
     }
 }
 
-/// Checks the closed form for a long segment: `L / v + v / a + a / j`, with top speed between complete ramps. The
-/// motions of the library are gentler.
+/// Checks long segments, for which the least time is known: `L / v + v / a + a / j`, with top speed between complete
+/// ramps. The motions of the library are gentler.
 #[test]
 fn along_straight_lines_the_least_time_is_known() {
     let motion = driven(&[[0.0, 0.0], [1.0, 0.5]], [[0.7, 0.7], [3.0, 3.0], [20.0, 20.0]]);

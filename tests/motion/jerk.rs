@@ -15,8 +15,8 @@ fn room(velocity: [f64; 2], acceleration: [f64; 2], jerk: [Option<f64>; 2]) -> S
     placed(arm, workspace)
 }
 
-/// Returns the shortest duration from rest to rest in closed form, by the limits that are reached (Biagiotti,
-/// Melchiorri, *Trajectory planning for automatic machines and robots*, 2008, section 3.4), and the duration of the
+/// Returns two durations in closed form: that of the shortest motion from rest to rest, by the limits that are reached
+/// (Biagiotti, Melchiorri, *Trajectory planning for automatic machines and robots*, 2008, section 3.4), and that of its
 /// shortest phase.
 fn closed_form(length: f64, v: f64, a: f64, j: f64) -> (f64, f64) {
     let ramp = if v * j >= a * a { v / a + a / j } else { 2.0 * (v / j).sqrt() };
@@ -34,7 +34,7 @@ fn closed_form(length: f64, v: f64, a: f64, j: f64) -> (f64, f64) {
 }
 
 /// Returns the shortest duration of a motion that stops at each corner. Also returns by how much the least interval
-/// between samples may lengthen it.
+/// between samples may lengthen this duration.
 fn shortest(points: &[Configuration], joints: &[Joint; 2]) -> (f64, f64) {
     let (mut sum, mut floor) = (0.0, 0.0);
     for leg in points.windows(2).map(|pair| pair[1] - pair[0]).filter(|leg| leg.norm() > 0.0) {
@@ -205,7 +205,7 @@ proptest! {
 proptest! {
     #![proptest_config(cplan_cases::cases(2000))]
 
-    /// Checks one joint, with limits from those of an arm to far beyond.
+    /// Checks motions of one joint, with limits from those of an arm to far beyond.
     #[test]
     fn as_fast_as_in_closed_form(
         length in -12.0..2.0_f64, speed in -3.0..4.0_f64, acceleration in -3.0..6.0_f64, jerk in -3.0..9.0_f64,

@@ -7,7 +7,7 @@ use mcap_reader::read::{LinearReader, MessageStream, Summary};
 use mcap_reader::records::Record;
 use proptest::prelude::*;
 
-/// The crate needs another name than the function.
+/// The crate `mcap`, under another name than that of the function `mcap`.
 use ::mcap as mcap_reader;
 
 /// A reader that takes values off the front of a message.

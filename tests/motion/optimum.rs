@@ -8,7 +8,7 @@ use cplan::motion::{Limits, TipSpeed, time};
 use cplan::space::Configuration;
 use proptest::prelude::*;
 
-/// A path with its first and second derivative by a parameter, at equal steps of that parameter.
+/// A path with its first and second derivative with respect to a parameter, at equal steps of that parameter.
 struct Grid {
     step: f64,
     nodes: Vec<[Configuration; 3]>,
@@ -47,8 +47,8 @@ fn grids(curve: &CertifiedCurve, per_unit: f64) -> Vec<Vec<Grid>> {
     runs
 }
 
-/// Returns the range of accelerations of the parameter at a node, for a squared speed `z`. `None` if the joints cannot
-/// follow the path at that speed.
+/// Returns the possible accelerations of the parameter at a node, as a range, for a squared speed `z`. Returns `None`
+/// if the joints cannot follow the path at that speed.
 fn allowed([at, first, second]: [Configuration; 3], z: f64, limits: &Limits) -> Option<[f64; 2]> {
     let mut range = [f64::NEG_INFINITY, f64::INFINITY];
     if let Some(tip) = limits.tip {
@@ -76,7 +76,8 @@ fn allowed([at, first, second]: [Configuration; 3], z: f64, limits: &Limits) -> 
     (range[0] <= range[1]).then_some(range)
 }
 
-/// Returns by bisection the greatest value for which `good` is true. It must be true up to some limit.
+/// Returns by bisection the greatest value for which `good` is true. `good` must be true below some limit, and false
+/// above it.
 fn bisected(good: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, 1e6);
     for _ in 0..80 {
@@ -119,7 +120,8 @@ fn duration(scene: &Scene, curve: impl Into<CertifiedCurve>) -> f64 {
     time(curve, &Limits::from(&scene.arm().joints), 0.01).unwrap().trajectory.duration()
 }
 
-/// Largest ratio of the time of a random motion to the least time. The worst of 20 480 motions has 1.019.
+/// Largest accepted ratio of the time of a random motion to the least time. The worst of 20 480 motions has the ratio
+/// 1.019.
 const MOST: f64 = 1.03;
 
 /// Waypoints, limits of velocity and of acceleration, and radius of blends.
@@ -172,8 +174,8 @@ fn straight_motions_are_bang_bang() {
     assert!(duration(&scene, certified(&scene, &[[0.0, 0.0], [0.4, 0.0], [1.0, 0.0]])) > 2.49);
 }
 
-/// Checks a limit on the tip's speed. It bounds each part of the curve separately, which loses a little on straight
-/// pieces.
+/// Checks a limit on the tip's speed. The program applies the limit to each part of the curve separately, which loses a
+/// little time on straight pieces.
 #[test]
 fn a_slow_tip_is_as_fast_as_it_may() {
     for (kind, arm) in crate::common::all_kinds().into_iter().enumerate() {

@@ -9,7 +9,8 @@ use cplan::motion::{Limits, MIN_INTERVAL, TimedMotion, Trajectory, time};
 use cplan::space::{BLEND_TOLERANCE, Configuration, Recording};
 use proptest::prelude::*;
 
-/// Largest distance of a sample from the beginning of its phase, in seconds, because samples lie at whole nanoseconds.
+/// Largest difference between the time of a sample and the beginning of its phase, in seconds. Samples lie at whole
+/// nanoseconds.
 const HALF_A_NANOSECOND: f64 = 0.5e-9;
 
 pub fn as_vector(row: [f64; 2]) -> Configuration {

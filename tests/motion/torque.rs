@@ -33,7 +33,7 @@ fn placed(arm: &Arm, link: usize, center: Point, q: [f64; 2]) -> ([f64; 2], f64)
     (at, angle)
 }
 
-/// Returns the torques that move the bodies, by the principle of virtual work. It uses differences instead of
+/// Returns the torques that move the bodies as requested, by the principle of virtual work. Uses differences instead of
 /// derivatives.
 fn by_steps(arm: &Arm, dynamics: &Dynamics, q: [f64; 2], v: [f64; 2], a: [f64; 2]) -> [f64; 2] {
     let (h, small) = (1e-4, 1e-5);
@@ -58,7 +58,7 @@ fn by_steps(arm: &Arm, dynamics: &Dynamics, q: [f64; 2], v: [f64; 2], a: [f64; 2
     torque
 }
 
-/// Draws bodies of up to some kilograms, and efforts that can hold them.
+/// Draws an arm with bodies of up to some kilograms, and with efforts that can hold them.
 fn drawn(dice: &mut Dice, mut arm: Arm, strength: f64) -> Arm {
     let body = |dice: &mut Dice| Body {
         mass: dice.within(0.5, 4.0),
@@ -113,8 +113,8 @@ fn torques_move_the_bodies() {
     assert_eq!(seen, 50 * all_kinds().len());
 }
 
-/// Returns position, velocity and acceleration at a fraction `u` of the interval after sample `i`. The first result is
-/// by the cubic through positions and velocities. The second is by the polynomial of the fourth degree that also has
+/// Returns position, velocity and acceleration at a fraction `u` of the interval after sample `i`, in two ways. The
+/// first is the cubic through positions and velocities. The second is the polynomial of the fourth degree that also has
 /// the acceleration.
 fn between(trajectory: &Trajectory, i: usize, u: f64) -> [[[f64; 2]; 3]; 2] {
     let h = trajectory.time[i + 1] - trajectory.time[i];
@@ -139,8 +139,8 @@ fn between(trajectory: &Trajectory, i: usize, u: f64) -> [[[f64; 2]; 3]; 2] {
     })
 }
 
-/// Checks the torques along the whole motion, for both interpolations of the samples. Returns the greatest torque as a
-/// fraction of the effort.
+/// Checks that torques are within the efforts along the whole motion, for both interpolations of the samples. Returns
+/// the greatest torque as a fraction of the effort.
 fn kept(arm: &Arm, dynamics: &Dynamics, trajectory: &Trajectory, what: &str) -> f64 {
     let mut greatest = 0.0_f64;
     for i in 0..trajectory.time.len() - 1 {
@@ -162,7 +162,7 @@ fn kept(arm: &Arm, dynamics: &Dynamics, trajectory: &Trajectory, what: &str) -> 
     greatest
 }
 
-/// Returns the least time along a straight piece, by small steps in the plane of place and squared speed.
+/// Returns the least time along a straight piece, by small steps in the plane of position and squared speed.
 fn least_time(arm: &Arm, dynamics: &Dynamics, from: [f64; 2], to: [f64; 2]) -> f64 {
     const STEPS: usize = 4000;
     let offset = [0, 1].map(|k| to[k] - from[k]);

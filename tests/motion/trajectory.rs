@@ -84,7 +84,8 @@ fn planned(obstacle: bool) -> Plan {
 
 const WAYPOINTS: [[f64; 2]; 3] = [[-0.9, 0.4], [0.1, 1.7 + 1e-8], [1.55, 1.0 / 3.0]];
 
-/// The reader prefers speed, so it may miss the nearest double by one unit in the last place. The writer does not.
+/// Asserts that the numbers in a JSON text are close to these. The reader of JSON prefers speed, so it may miss the
+/// nearest double by one unit in the last place. The writer does not.
 fn assert_close(json: &Value, rows: &[[f64; 2]]) {
     let json = json.as_array().expect("a list");
     assert_eq!(json.len(), rows.len());

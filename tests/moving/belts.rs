@@ -51,7 +51,7 @@ pub fn drawn(kind: &str, seed: u64) -> Option<Task> {
     task.check().ok().map(|_| task)
 }
 
-/// Returns a place that the tip can reach. In most cases, the arm is free of static obstacles there.
+/// Returns a place that the tip can reach. In most cases, it also is one where the arm is free of static obstacles.
 fn somewhere(dice: &mut Dice, still: &Scene) -> Point {
     let axes = still.arm().topology().ranges.map(|range| range.domain());
     let mut draw = || {
@@ -62,7 +62,7 @@ fn somewhere(dice: &mut Dice, still: &Scene) -> Point {
     still.arm().tip_at(*tries.iter().find(|q| still.clearance(**q) > 0.1).unwrap_or(&tries[0]))
 }
 
-/// Returns an object that passes a place within reach, or lies there.
+/// Returns an object that passes a place within reach, or that lies there.
 fn object(dice: &mut Dice, still: &Scene, number: usize, level: bool) -> Object {
     let size = dice.within(0.02, 0.06);
     let piece =
@@ -139,8 +139,8 @@ pub struct Replayed<'a> {
     task: &'a Task,
     lies: Vec<Option<Frame>>,
     moving: Vec<bool>,
-    /// The carried object, the index of the body with which it moves (link 2 or the tip), and its frame relative to
-    /// that.
+    /// The carried object, the index of the body that carries it (link 2 or the tip), and the object's frame relative
+    /// to that body.
     held: Option<(usize, usize, Frame)>,
     released: Option<usize>,
 }
@@ -194,7 +194,7 @@ pub fn replayed(task: &Task, answer: &TaskAnswer, looks: usize) -> Result<(f64, 
 }
 
 impl Replayed<'_> {
-    /// Returns the distance to shapes that must not be touched at a time, minus the clearance. Link 2 may touch the
+    /// Returns the distance at a time to shapes that must not be touched, minus the clearance. Link 2 may touch the
     /// objects in `touched`.
     fn room(&self, q: V, time: f64, touched: [Option<usize>; 2]) -> (f64, String) {
         let Task { arm, workspace: TimedWorkspace { fixed, movers }, objects, .. } = self.task;

@@ -22,8 +22,8 @@ pub struct Moving {
 }
 
 impl Moving {
-    /// Returns a world for a kind of arm and a seed. `None` if this seed gives no free start. `movers` is the number of
-    /// moving obstacles; `None` for a random number.
+    /// Returns a world for a kind of arm and a seed. Returns `None` if this seed gives no free start. `movers` is the
+    /// number of moving obstacles; with `None` it is random.
     pub fn drawn(kind: &str, seed: u64, movers: Option<u64>) -> Option<Self> {
         let standing = world(kind, seed)?;
         let mut dice = Dice::new(seed.wrapping_mul(0x9e37_79b9).wrapping_add(u64::from(kind.as_bytes()[1])));
@@ -75,7 +75,7 @@ impl Moving {
         Oracle::new(&Scene::new(self.arm.clone(), workspace).expect("a scene"))
     }
 
-    /// Returns the world in which obstacles move faster between their stops, by this factor.
+    /// Returns the same world with obstacles that move faster between their stops, by the factor `times`.
     pub fn hurried(mut self, times: f64) -> Self {
         for mover in &mut self.workspace.movers {
             let first = mover.course.stops()[0].time;
@@ -86,8 +86,8 @@ impl Moving {
         self
     }
 
-    /// Returns, for each interval between stops of each moving obstacle, its beginning, its end, and the greatest speed
-    /// of a point of it, in m/s.
+    /// Returns, for each moving obstacle and each interval between its stops, the beginning, the end, and the greatest
+    /// speed of a point of it, in m/s.
     pub fn speeds(&self) -> Vec<[f64; 3]> {
         let of = |mover: &MovingObstacle| {
             let pieces = mover.obstacle.pieces.iter();
@@ -104,7 +104,7 @@ impl Moving {
         self.workspace.movers.iter().flat_map(of).collect()
     }
 
-    /// Returns the time after which nothing moves, or no moving obstacle is near.
+    /// Returns the time after which nothing moves near the arm.
     pub fn horizon(&self) -> f64 {
         self.workspace.movers.iter().flat_map(|m| m.course.stops()).map(|stop| stop.time).fold(0.0, f64::max) + 8.0
     }
@@ -171,8 +171,8 @@ pub fn at(mover: &MovingObstacle, time: f64) -> Obstacle {
     Obstacle { pieces: pieces.collect(), ..mover.obstacle.clone() }
 }
 
-/// Returns time and configuration at a fraction `share` of the interval after a sample, by the polynomial of the fourth
-/// degree that the JSON states.
+/// Returns the time and the configuration at a fraction `share` of the interval after a sample. The configuration
+/// follows from the polynomial of the fourth degree that the JSON states.
 pub fn position(trajectory: &Trajectory, sample: usize, share: f64) -> (f64, Configuration) {
     let (a, b) = (sample, sample + 1);
     let h = trajectory.time[b] - trajectory.time[a];

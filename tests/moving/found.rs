@@ -10,7 +10,8 @@ const BETWEEN: usize = 3;
 /// Step between the waiting times at the start that brute force tries, in seconds.
 const STEP: f64 = 0.02;
 
-/// Distance that brute force keeps from moving obstacles, in metres. It is nearly the largest movement in a step.
+/// Distance that brute force keeps from moving obstacles, in metres. It is nearly the greatest distance that anything
+/// moves in one step.
 const APART: f64 = 2e-2;
 
 #[test]

@@ -30,7 +30,7 @@ fn shipped_worlds_have_the_stated_outcome() {
     assert!(files.len() >= 5);
 }
 
-/// Checks that the printed duration includes the waits if the motion is optimised for time.
+/// Checks that the printed duration is that of the whole motion, including waits, if the motion is optimised for time.
 #[test]
 fn the_duration_beside_its_bound_is_that_of_the_motion() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

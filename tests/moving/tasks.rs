@@ -59,7 +59,7 @@ fn task_motions_are_free_and_pick_present_objects() {
 /// Step between the departures and moments that brute force tries, in seconds.
 const STEP: f64 = 0.02;
 
-/// Distance that brute force keeps from all obstacles, in metres. It is more than the tip moves in half a step.
+/// Distance that brute force keeps from all obstacles, in metres. The tip moves less in half a step.
 const APART: f64 = 3e-2;
 
 /// Returns a task with a single pick from a belt by an arm of two bars, with some posts nearby.
@@ -117,8 +117,8 @@ fn a_pick_is_hardly_later_than_brute_force_finds() {
     assert!(!usual() || compared > 1, "{compared} compared");
 }
 
-/// Returns the earliest pick after a straight motion that begins at some time, and a wait for the object. `None` if
-/// there is no such pick within ten seconds.
+/// Returns the time of the earliest pick. The arm departs at some time, moves straight, and waits for the object.
+/// Returns `None` if there is no such pick within ten seconds.
 fn soonest(task: &Task) -> Option<f64> {
     (1..500).map(|k| f64::from(k) * STEP).find(|&moment| {
         let place = on_course(&task.objects[0], moment).1;
@@ -130,7 +130,7 @@ fn soonest(task: &Task) -> Option<f64> {
     })
 }
 
-/// Returns both IK solutions of a place, by the law of cosines. Joint 1 takes the shorter direction from the start.
+/// Returns both IK solutions at a place, by the law of cosines. From the start, joint 1 takes the shorter direction.
 fn postures(task: &Task, [x, y]: V) -> Vec<V> {
     let (a, b) = (task.arm.offset.norm(), task.arm.tip.norm());
     let cosine = (x * x + y * y - a * a - b * b) / (2.0 * a * b);

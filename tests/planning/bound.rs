@@ -9,7 +9,7 @@ use cplan::search::{MotionQuery, least_length};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path};
 use std::f64::consts::TAU;
 
-/// Planners that look for the optimum.
+/// Planners that search for the optimum.
 const PLANNERS: [Method; 2] = [Method::Shortest, Method::Visibility];
 
 const CRITERIA: [Criterion; 3] = [Criterion::Euclidean, Criterion::Weighted([1.0, 0.3]), Criterion::Time];
@@ -113,7 +113,7 @@ fn without_obstacles_the_bound_is_the_shortest_displacement() {
     assert!((time.lower - slower).abs() < 1e-8 && (time.upper - slower).abs() < 1e-8, "{time:?}");
 }
 
-/// If there are several goals, the nearest one counts.
+/// Checks that the bound is that of the nearest goal if there are several.
 #[test]
 fn the_bound_covers_all_goals() {
     let interval = JointRange::Interval { lower: -3.0, upper: 3.0 };
@@ -123,7 +123,8 @@ fn the_bound_covers_all_goals() {
     assert!((found.lower - 1.0).abs() < 1e-8, "{found:?}");
 }
 
-/// Checks a gantry whose tool passes a block, around its corner, on two straight pieces of known length.
+/// Checks the bound for a gantry whose tool moves around the corner of a block. The shortest path has two straight
+/// pieces of known length.
 #[test]
 fn around_a_block_the_bound_is_the_shortest_path() {
     let tool = disc(Point::zeros(), 0.0);
@@ -139,8 +140,8 @@ fn around_a_block_the_bound_is_the_shortest_path() {
     assert!(found.lower <= string && string <= found.upper && found.gap() <= 1e-5, "{found:?} {string}");
 }
 
-/// Checks a path to the middle of a square spiral of walls. It is proven within the default gap, and its bound does not
-/// exceed that of the strips.
+/// Checks a path to the middle of a square spiral of walls. Its length is proven within the default gap, and the stated
+/// bound does not exceed the one that strips give.
 #[test]
 fn gantries_find_paths_into_spirals() {
     let slide = |angle: f64| cplan::model::JointType::Prismatic { direction: Point::new(angle.cos(), angle.sin()) };
@@ -172,7 +173,7 @@ fn gantries_find_paths_into_spirals() {
     }
 }
 
-/// Checks that the bound refers to the given path, whichever planner found it.
+/// Checks that the gap is that between the bound and the given path, whichever planner found the path.
 #[test]
 fn a_detour_has_a_gap() {
     let problem = common::problem(Benchmark::A);

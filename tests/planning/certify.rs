@@ -227,8 +227,8 @@ fn false_proofs_are_refused() {
     assert_eq!(wrong(|b| b.pair.obstacle = 17), Err(ProofError::UnknownPair(7)));
 }
 
-/// Returns true if the boxes leave a path from `start` to `goal` on the torus: flood fill over the grid of all their
-/// coordinates.
+/// Returns true if boxes leave a path from `start` to `goal` on the torus. Uses a flood fill over the grid that
+/// consists of all coordinates of the boxes.
 fn flooded(boxes: &[CollisionBox], start: Configuration, goal: Configuration) -> bool {
     let ends: [Vec<f64>; 2] = [0, 1].map(|k| {
         let sides = boxes.iter().flat_map(|b| [b.cell.lower[k], b.cell.upper[k]]);

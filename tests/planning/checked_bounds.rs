@@ -12,19 +12,19 @@ use cplan::model::MotionProblem;
 /// points. It is that of `cplan recheck`.
 const MISSED: f64 = 1e-3;
 
-/// Returns the bound that accompanies a path close to the shortest.
+/// Returns the bound that the program states for a path close to the shortest.
 fn stated(problem: &MotionProblem, criterion: Criterion) -> Option<Bound> {
     let planner = Planner::named(Method::Shortest).with_criterion(criterion);
     let answer = solve(problem, &planner.into(), &mut |_| {});
     answer.bound().filter(|_| matches!(answer.outcome, Outcome::Found(_)))
 }
 
-/// Returns the certificate of a bound. `None` if it has none.
+/// Returns the certificate of a bound. Returns `None` if the bound has none.
 fn seen(problem: &MotionProblem, stated: &Bound) -> Option<BoundCertificate> {
     certificate_of_bound(problem, stated, &Overrides::default())
 }
 
-/// Returns the number of bounds, and a description of each bound that its evidence does not confirm.
+/// Returns the number of bounds, and a description of each bound that its certificate does not confirm.
 fn unseen(problems: impl IntoIterator<Item = (String, MotionProblem, Criterion)>) -> (usize, Vec<String>) {
     let (mut count, mut unseen) = (0, Vec::new());
     for (name, problem, criterion) in problems {

@@ -18,14 +18,14 @@ use cplan::planner::{
 use cplan::space::{Configuration, JointRange, Metric, Path};
 use std::f64::consts::TAU;
 
-/// Plans in a scene, in the planner's representation.
+/// A function that plans in a scene, in the representation that a planner needs.
 type Plan = fn(&Spaces, &Query) -> Run;
 
 /// The representations of a scene, which all planners share.
 struct Spaces {
-    /// Polygons grown by a margin far below the room in the scenes here.
+    /// Free space as polygons. Obstacles are grown by a margin far below the room in the scenes here.
     polygons: Regions,
-    /// Cells whose slabs are narrower than the passages in the scenes here.
+    /// Cells from slabs that are narrower than the passages in the scenes here.
     cells: Grid,
     /// The same number of cells, by collision checks at their centres. The obstacles are grown by the arm's motion
     /// within a cell.
@@ -126,8 +126,8 @@ const PLANNERS: [(&str, Plan); 26] = [
 /// Search for a shortest path with settings that differ from all defaults.
 const BACKWARD: RoadmapSearch = RoadmapSearch { order: SearchOrder::Dijkstra, backward: true };
 
-/// Returns true if a run reports that there is no path. Samples that find none prove nothing, and a planner that draws
-/// samples says so.
+/// Returns true if a run reports that there is no path. A planner that draws samples gives up instead, because samples
+/// prove nothing.
 fn is_no_path(name: &str, run: &Run) -> bool {
     match &run.outcome {
         Proposal::NoPath => !name.starts_with(Prm::NAME),
@@ -150,7 +150,7 @@ fn relaxed(equation: EquationChoice) -> FieldPlanner {
     FieldPlanner { field, limits: Limits::High, escape: None, path: PathKind::Taut }
 }
 
-/// Returns the run, which must depend only on the input.
+/// Returns the run of a planner. Checks that it depends only on the input.
 fn answered<P: Planner>(planner: &P, space: &P::Space, query: &Query) -> Run {
     let map = planner.build(space);
     let run = planner.query(space, &map, query);
@@ -159,7 +159,7 @@ fn answered<P: Planner>(planner: &P, space: &P::Space, query: &Query) -> Run {
     run
 }
 
-/// Returns the path of a run that must have one, after the checks that hold for every path.
+/// Returns the path of a run that must have one, after checks that hold for every path.
 fn path(name: &str, scene: &Scene, query: &Query, run: &Run) -> Path {
     let Proposal::Found(path) = &run.outcome else { panic!("{name}: {:?}", run.outcome) };
     let topology = scene.arm().topology();

@@ -12,8 +12,8 @@ use cplan::space::JointRange;
 use std::f64::consts::TAU;
 use std::path::Path;
 
-/// Returns a problem with `count` short walls on a circle. The outstretched arm reaches through the circle in two
-/// places, and must move from one to the other. It can do so only if it can fold.
+/// Returns a problem with `count` short walls on a circle around the base. The outstretched arm reaches beyond the
+/// circle between walls in two places, and must move from one to the other. It can do so only if it can fold.
 fn ring(count: usize, folding: f64) -> MotionProblem {
     let at = |k: usize| {
         let angle = TAU * k as f64 / count as f64;

@@ -23,13 +23,13 @@ use std::time::{Duration, Instant};
 /// Number of boxes for each decision.
 const BOXES: usize = 20_000;
 
-/// Number of boxes for the cases that `explain` would otherwise leave unknown.
+/// Number of boxes with which `explain` decides the cases that it would otherwise leave unknown.
 const BOXES_AT_LAST: usize = 1_000_000;
 
 /// A range of values that exceeds the needs of all slides in the random worlds, in metres.
 const FAR: f64 = 20.0;
 
-/// Returns the problem with only some of the blocking elements, built by the test.
+/// Returns the problem with only those blocking elements that are in `there`. The test builds it independently.
 fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
     let (mut arm, mut workspace) = problem.scene().clone().into_parts();
     let mut number = 0;
@@ -173,7 +173,7 @@ fn bar(name: &str, lower: f64, upper: f64) -> Obstacle {
     Obstacle::polygon(name, [[-0.05, lower], [0.05, lower], [0.05, upper], [-0.05, upper]]).expect("a rectangle")
 }
 
-/// Returns a wall with a gap of this width. The slides do not reach beyond the ends of the wall.
+/// Returns a wall with a gap of this width. The slides end before the outer ends of the wall.
 fn wall(gap: f64) -> Vec<Obstacle> {
     vec![bar("above", gap / 2.0, 3.0), bar("below", -3.0, -gap / 2.0)]
 }
@@ -203,7 +203,7 @@ fn the_missing_width_of_a_gap_is_reported() {
     assert!(stuck.at[1].abs() < lacking && stuck.at[0].abs() < HALF + 0.06, "{stuck:?}");
 }
 
-/// Checks a gap that is too narrow only because of the clearance of 0.05 m on either side.
+/// Checks a gap that is too narrow only because of the required clearance of 0.05 m on either side.
 #[test]
 fn clearance_is_lowered_to_half_the_gap() {
     let explanation = explain(&gantry(wall(2.0 * HALF + 0.06), 0.05), &Options::default());
@@ -260,7 +260,7 @@ fn a_blocked_start_names_the_obstacle_to_change() {
     assert_eq!(closed.changes().count(), 2);
 }
 
-/// Checks a world with one bar, without which the path is straight.
+/// Checks a world with one bar. Without the bar, the path would be straight.
 #[test]
 fn obstacles_that_lengthen_the_path_are_reported_with_their_cost() {
     let (across, corner) = (0.15, [0.15_f64, 0.3]);

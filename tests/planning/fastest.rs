@@ -15,7 +15,7 @@ use cplan::motion::{BlendReport, Drive, Objective, Trajectory};
 use cplan::space::{Configuration, Path};
 use cplan::{Options, Plan, Planner, Problem, plan};
 
-/// Tolerance between two computations of one distance, in metres.
+/// Largest difference between two computations of the same distance, in metres.
 const ROUNDING: f64 = 1e-9;
 
 /// Number of parts of each interval between samples at which a motion is checked.

@@ -79,7 +79,7 @@ fn tray(count: usize) -> Vec<[[f64; 2]; 2]> {
     picks.into_iter().zip(places).map(|(pick, place)| [spot(pick), mirrored(spot(place))]).collect()
 }
 
-/// Returns the result of the main job in a world, after a check that a found plan is free.
+/// Returns the result that the program prints for a world. Checks that the motion is free if a plan was found.
 fn asked(world: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let (file, result) = (folder.path().join("world.toml"), folder.path().join("result.json"));
@@ -167,7 +167,7 @@ fn planned(task: &Task) -> TaskAnswer {
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
 /// Returns the task with nine more pairs in its group. Their objects collide with nothing, and lie at the tip's initial
-/// position. The new task is feasible exactly if the old one is, but is too large to try all orders.
+/// position. The new task is feasible exactly if the old one is, but it has too many pairs to try all orders.
 fn among_many(task: &Task, pairs: &[[Step; 2]]) -> Task {
     let mut many = task.clone();
     let mut group = pairs.to_vec();

@@ -58,8 +58,8 @@ fn between(a: Place, b: Place, p: Place) -> bool {
     turn(a, b, p) == 0 && within(a.0, b.0, p.0) && within(a.1, b.1, p.1)
 }
 
-/// Returns true if an edge joins two nodes: a side, or a segment that meets rectangles only at its ends, and leads away
-/// from them there.
+/// Returns true if an edge joins two nodes. An edge is a side, or a segment that meets rectangles only at its ends and
+/// leads away from them there.
 fn joined(rectangles: &[[Place; 4]], a: Place, b: Place) -> bool {
     let all = || rectangles.iter().chain([&WINDOW]);
     let is_side = |ring: &[Place; 4]| {

@@ -11,10 +11,10 @@ use cplan::model::{MotionProblem, Scene};
 use cplan::space::{Configuration, GoalSet, JointRange, Path, Segment};
 use std::f64::consts::PI;
 
-/// Number of goals of a set for which the test plans one by one.
+/// Number of single goals of a set for which the test plans one by one.
 const TRIED: u32 = 12;
 
-/// Goals with less room than this, in metres, may be missing in a planner's space.
+/// Goals whose distance from obstacles is less than this, in metres, may be missing in a planner's space.
 const ROOMY: f64 = 0.01;
 
 /// Draws a value at a seam, beside it, or anywhere.

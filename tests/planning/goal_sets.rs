@@ -15,8 +15,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// Number of values of the free joint for which the test plans one by one.
 const TRIED: usize = 13;
 
-/// If an answer took at most this many levels, its path must be within 5 % of the shortest. At later levels it may be
-/// longer.
+/// If an answer took at most this many levels, its path must be within 5 % of the shortest. At later levels the path
+/// may be longer.
 const LOOKED_AT: usize = 2;
 
 /// Draws an arm whose tip goal leaves a joint free, and the target of the tip.

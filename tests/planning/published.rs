@@ -42,7 +42,7 @@ fn the_unfurnished_room_takes_the_same_multiple_of_the_published_sweeps_for_ever
     assert!(ratios[3..].iter().all(|ratio| (1.21..1.24).contains(ratio)), "{ratios:?}");
 }
 
-/// Checks the tally of docs/convergence.md on 100 x 100 cells.
+/// Checks the statistics that docs/convergence.md states for 100 x 100 cells.
 #[test]
 fn the_tally_of_the_published_counts_holds() {
     let maps = Maps::read().unwrap_or_else(|e| panic!("{e}"));

@@ -24,7 +24,7 @@ fn replayed(plan: &Plan) -> Vec<Phase> {
     phases
 }
 
-/// Returns how many items of the trace a phase shows. `None` if the trace has none for it.
+/// Returns how many items of the trace a phase shows. Returns `None` if the trace has no items for it.
 fn there(shows: &Shows, trace: &Trace) -> Option<usize> {
     Some(match (shows, trace) {
         (Shows::Nodes | Shows::Edges, Trace::Roadmap { edges, .. } | Trace::Roads { edges, .. }) => edges.len(),

@@ -43,8 +43,8 @@ fn checked_path<P: Planner<Space = Regions>>(planner: &P, regions: &Regions, que
     }
 }
 
-/// Returns the lengths of the paths by visibility, through trapezoids pulled taut, and through trapezoids as they are.
-/// Checks their order.
+/// Returns the lengths of three paths: by visibility, through trapezoids pulled taut, and through trapezoids as they
+/// are. Checks that they are in ascending order.
 fn lengths(regions: &Regions, query: &Query) -> Option<[f64; 3]> {
     let shortest = checked_path(&VISIBILITY, regions, query);
     let taut = checked_path(&TAUT, regions, query);
@@ -167,9 +167,9 @@ proptest! {
         }
     }
 
-    /// Checks squares of one and two units that touch along sides and in corners. They are in place, mirrored exactly,
-    /// or turned. If they are turned, rounding moves corners slightly to either side of the sides that they lie on, and
-    /// leaves tiny gaps.
+    /// Checks squares of one and two units that touch along sides and in corners. The squares are in place, mirrored
+    /// exactly, or turned. Turning rounds corners slightly to either side of the sides on which they lie, and leaves
+    /// tiny gaps.
     #[test]
     fn touching_obstacles_equal_brute_force(
         seed: u64, size in 2usize..6, density in 0.1..0.5, turn in prop_oneof![Just(None), (0.0..1.6_f64).prop_map(Some)],

@@ -19,7 +19,7 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     Grid { topology: Topology { ranges: axes }, proves: Proves::Sampled, cells, blocked }
 }
 
-/// Returns the cell at the offset `by` from `cell`, computed by coordinates. `None` if there is none.
+/// Returns the cell at the offset `by` from `cell`, computed from coordinates. Returns `None` if there is no such cell.
 fn beside(grid: &Grid, cell: usize, by: [i64; 2]) -> Option<usize> {
     let at = [cell / grid.cells[1], cell % grid.cells[1]];
     let to = [0, 1].map(|k| {
@@ -138,8 +138,8 @@ fn graph(grid: &Grid, sources: &[usize], neighborhood: Neighborhood) -> (UnGraph
     (graph, origin)
 }
 
-/// Checks that each expanded cell is labelled and is expanded once, that breadth-first orders expand by distance, and
-/// that the target is the last, if it is reached.
+/// Checks that each expanded cell is labelled and is expanded once. Also checks that breadth-first orders expand by
+/// distance, and that the target is expanded last if it is reached.
 fn check_order(search: &Search, order: Order, target: usize) -> Result<(), TestCaseError> {
     let (labels, expanded) = (search.labels(), &search.expanded);
     let once: BTreeSet<u32> = expanded.iter().copied().collect();
@@ -293,8 +293,8 @@ fn a_star_goes_straight_in_the_open() {
     assert_eq!(expanded(Neighborhood::Four, Order::Greedy), 49 + 69 + 1);
 }
 
-/// Fig. 6.14 of the chapter on task planning ("Planejamento de Tarefas", 6.3.3), where the goal is labelled `q_fin` and
-/// the start, `q_ini`, 9. The test also checks the text's statements about the labels.
+/// Checks Fig. 6.14 of the chapter on task planning ("Planejamento de Tarefas", 6.3.3), where the goal is labelled
+/// `q_fin` and the start, `q_ini`, has the label 9. Also checks what the text states about the labels.
 #[test]
 fn the_published_8_by_8_example_and_its_text() {
     let table = "2 1 2 3 4 5 # #
@@ -343,7 +343,7 @@ fn table(name: &str) -> Vec<u32> {
     labels
 }
 
-/// Gonçalves da Silva, Fig. 2: labels of the wave on 20 x 12 cells. The goal's label is 2.
+/// Checks Fig. 2 of Gonçalves da Silva: labels of the wave on 20 x 12 cells. The goal's label is 2.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_published_20_by_12_wavefront() {
@@ -354,9 +354,10 @@ fn the_published_20_by_12_wavefront() {
     assert_eq!(wave.labels().iter().map(|&label| label.saturating_add(2)).collect::<Vec<_>>(), expected);
 }
 
-/// Gonçalves da Silva, Fig. 3: costs so far of A* on the same cells, 1 at the start, 0 in cells without a label. In the
-/// text, A* goes "through each of the positions" of least estimate, so ties are first come, first served. Then every
-/// cell is as published: also the visited dead ends beside the path, and the unvisited ones.
+/// Checks Fig. 3 of Gonçalves da Silva: the costs so far of A* on the same cells, with 1 at the start and 0 in cells
+/// without a label. In the text, A* goes "through each of the positions" of least estimate, so among equal cells the
+/// first one found comes first. With that rule, every cell is as published, including the visited dead ends beside the
+/// path, and the unvisited cells.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_published_20_by_12_a_star() {

@@ -12,9 +12,9 @@ use cplan::space::Metric;
 /// Number of worlds of each kind of arm.
 const WORLDS: u64 = 12;
 
-/// Checks that a path is within 1e-4 of two proven bounds: its own, and that of an independent run for another
-/// planner's path. It is never longer than another planner's path by more than that. All planners agree on whether
-/// there is a path.
+/// Checks that a path is within 1e-4 of two proven bounds: its own, and the bound that an independent run gives for
+/// another planner's path. The path is never longer than another planner's path by more than that. All planners agree
+/// on whether there is a path.
 #[test]
 fn it_is_within_a_ten_thousandth_of_the_optimum_in_random_worlds() {
     let (mut found, mut wide) = (0, 0);

@@ -21,8 +21,8 @@ const SLABS: usize = 20_000;
 /// Number of boxes for cases that slabs do not decide.
 const BOXES: usize = 200_000;
 
-/// Checks an answer by code that shares nothing with the slabs. The judge checks paths, the check of boxes checks
-/// proofs, and samples check both. Returns true for a path, false for a proof, and `None` for neither.
+/// Checks an answer by code that shares nothing with the slabs. Paths are certified, proofs are checked as boxes, and
+/// samples check both. Returns true for a path, false for a proof, and `None` for neither.
 fn check(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: f64) -> Option<bool> {
     match slab_connectivity(scene, start, goals, clearance, SLABS, BOXES) {
         Connectivity::Connected(channel) => {
@@ -124,8 +124,8 @@ fn a_proof_across_the_seam() {
     agrees_with_the_boxes(&scene, start, goal, 0.0);
 }
 
-/// Checks two segments without thickness, from which nothing can be eroded. So the only answers are a path, and a proof
-/// that joint 1 alone closes the space.
+/// Checks two segments without thickness. A shape without area contains no smaller shape, so only two answers are
+/// possible: a path, or a proof that joint 1 alone closes the space.
 #[test]
 fn thin_links_among_thin_walls() {
     let turn = JointType::Revolute { sign: 1.0 };
@@ -194,8 +194,8 @@ fn odd_links_and_elbows_on_obstacles() {
     assert!(decided == answers.len(), "{decided} of {}", answers.len());
 }
 
-/// Checks limits that are longer than a turn. Poses of the arm repeat, but configurations do not, and the path between
-/// two of them can be closed.
+/// Checks limits that are longer than a turn. The same pose of the arm occurs at several configurations, and there may
+/// be no path between two of them.
 #[test]
 fn limits_longer_than_a_turn() {
     let long = JointRange::Interval { lower: -5.0, upper: 5.0 };

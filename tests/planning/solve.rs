@@ -10,7 +10,7 @@ fn answer(which: Benchmark, method: Method) -> Answer {
     solve(&problem(which), &method.into(), &mut |_| {})
 }
 
-/// Returns the length of the path. Panics if none is found.
+/// Returns the length of the path that a method finds for a benchmark problem. Panics if it finds none.
 fn length(which: Benchmark, method: Method) -> f64 {
     let answer = answer(which, method);
     let Outcome::Found(certified) = &answer.outcome else {
@@ -57,7 +57,7 @@ fn narrow_passages_are_found_by_subdivision() {
     }
 }
 
-/// Checks that grids with collision checks only make proposals. Paths found through them are certified, and they prove
+/// Checks that grids with collision checks only make proposals. Paths that they propose are certified, and they prove
 /// no infeasibility.
 #[test]
 fn sampled_grids_lead_to_the_verdicts_of_exact_rows() {
@@ -80,8 +80,8 @@ fn sampled_grids_lead_to_the_verdicts_of_exact_rows() {
     }
 }
 
-/// Checks coarse cells, which may contain obstacles although their centres are free. With one pass, no world is
-/// reported infeasible, and the judge accepts each path.
+/// Checks coarse cells, which may contain obstacles although their centres are free. With a single pass, no world is
+/// reported as infeasible, and each path is certified.
 #[test]
 fn coarse_samples_are_never_the_last_word() {
     let planner = Planner::named(Method::Wavefront).with_space(GridSpace::Sampled).with_cells(16);
@@ -111,7 +111,8 @@ fn infeasible_problems_are_proven_infeasible() {
     }
 }
 
-/// Checks an outstretched arm that points at a wall a micrometre away, far less than the margin of the grown polygons.
+/// Checks an outstretched arm that points at a wall a micrometre away. That is far less than the margin by which
+/// polygons are grown.
 #[test]
 fn ends_with_little_room_are_answered_at_the_first_level() {
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(1.8 + 1e-6, 2.0, -0.5, 0.5)]);

@@ -34,7 +34,7 @@ fn value(data: &impl serde::Serialize) -> Value {
     serde_json::from_str(&serde_json::to_string(data).unwrap()).unwrap()
 }
 
-/// Returns the error for a plan that differs from a valid one at `pointer`.
+/// Returns the error for a plan in which the value at `pointer` is replaced.
 fn refusal(valid: &Value, pointer: &str, other: Value) -> String {
     let mut tampered = valid.clone();
     *tampered.pointer_mut(pointer).unwrap_or_else(|| panic!("there is no {pointer}")) = other;

@@ -14,7 +14,7 @@ use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::intersection_test;
 use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
 
-/// What closes each workspace, and the robot.
+/// For each pair of workspaces, the name, which states what closes the infeasible one, and the robot.
 const TWINS: [(&str, &str); 6] = [
     ("limits", "planar_2r"),
     ("annulus", "gantry"),
@@ -24,7 +24,7 @@ const TWINS: [(&str, &str); 6] = [
     ("singular", "planar_2r"),
 ];
 
-/// Number of boxes that decides each workspace.
+/// Number of boxes that suffices to decide each workspace.
 const BOXES: usize = 200_000;
 
 /// Greatest change of a joint between two samples.
@@ -62,8 +62,8 @@ fn infeasible_twins_are_proven_and_proofs_can_be_read_back() {
     }
 }
 
-/// Returns parry2d's shape of a rounded polygon's core. The radius is a disc's; all other shapes here have sharp
-/// corners.
+/// Returns parry2d's shape for the core of a rounded polygon. Only discs have a radius here; all other shapes have
+/// sharp corners.
 fn shape(convex: &Convex) -> Box<dyn Shape> {
     let corners: Vec<Vector> = convex.core().iter().map(|p| Vector::new(p.x, p.y)).collect();
     assert!(corners.len() == 1 || convex.radius() == 0.0);
@@ -74,7 +74,7 @@ fn shape(convex: &Convex) -> Box<dyn Shape> {
     }
 }
 
-/// Returns parry2d's pose of a disc's centre.
+/// Returns parry2d's pose for a shape. Only discs need one, which is that of the centre.
 fn place(convex: &Convex) -> Pose {
     match convex.core() {
         [center] => Pose::from_translation(Vector::new(center.x, center.y)),

@@ -69,7 +69,7 @@ fn invalid_polygons_are_refused() {
     assert_eq!(Polygon::new(square, vec![outside]), Err(RingError::Misplaced { hole: 1 }));
 }
 
-/// Returns the arm of the tests with a change.
+/// Returns the usual arm of these tests with a change.
 fn arm(change: impl Fn(&mut Arm)) -> Arm {
     let mut arm = rr([JointRange::Circle, JointRange::Interval { lower: -2.0, upper: 2.0 }]);
     change(&mut arm);
@@ -236,8 +236,8 @@ fn problems_without_a_true_answer_are_refused() {
     assert!(touched.contains("nearer than the clearance of 0.7 m"), "{touched}");
 }
 
-/// The corners are in convex position by construction: on an ellipse, in the order of their angles. The test also uses
-/// integers, judged by the sign of an exact determinant.
+/// Checks corners that are in convex position by construction: on an ellipse, in the order of their angles. Also checks
+/// integer corners, whose convexity an exact determinant decides.
 #[test]
 fn valid_input_is_accepted() {
     let (mut refused, mut taken) = (0, 0);
@@ -312,7 +312,7 @@ fn random_problems_are_taken() {
     assert!(!usual() || made > 250, "{made}");
 }
 
-/// Checks corners that differ from a straight wall by the last bit. They are judged exactly.
+/// Checks corners that differ from a straight line by the last bit. They are judged exactly.
 #[test]
 fn rounding_decides_at_the_limit() {
     let tip = 1.0 / 3.0;

@@ -24,8 +24,8 @@ fn path(run: &Run) -> Option<&Path> {
     }
 }
 
-/// Returns the sides that an arm can hit: those of free space, without the window's sides on circles, with copies
-/// around.
+/// Returns the sides that an arm can hit: those of free space, without the window's sides on circles. Includes their
+/// copies on other turns.
 fn obstacles(regions: &Regions) -> Vec<(Point, Point)> {
     let circle = |k: usize| regions.topology.ranges[k].is_circle();
     let on_seam = |a: Point, b: Point| {
@@ -90,7 +90,8 @@ fn assert_is_diagram(regions: &Regions, run: &Run, ends: &[Point]) {
     }
 }
 
-/// Returns the greatest least clearance of a path from cell to cell of a grid that begins and ends next to the ends.
+/// Returns the greatest clearance that a path can keep along its whole length. The path goes from cell to cell of a
+/// grid, and begins and ends next to `start` and `goal`.
 fn widest_on_grid(regions: &Regions, within: [(f64, f64); 2], n: usize, start: Point, goals: &[Point]) -> (f64, f64) {
     let (sides, obstacles) = (sides(regions), obstacles(regions));
     let step = within.map(|(lower, upper)| (upper - lower) / n as f64);
@@ -303,8 +304,7 @@ fn a_start_at_a_goal_up_to_rounding_stays() {
     assert!(rounded > 5, "{rounded} of 40");
 }
 
-/// Checks corners that nearly touch a side. No path leads between them and the side, so the diagram needs few arcs
-/// there.
+/// Checks corners that nearly touch a side. The gap is too narrow for a path, so the diagram needs few arcs there.
 #[test]
 fn corners_that_all_but_touch_a_side_make_few_arcs() {
     for gap in [1e-12, 1e-11, 1e-10, 1e-9, 2e-9, 4e-9, 7e-9, 1e-8, 1e-7, 1e-6] {

@@ -14,7 +14,7 @@ struct Shipped {
     name: String,
     problem: MotionProblem,
     expect: String,
-    /// Names of the planners that may answer unknown.
+    /// Names of the planners whose answer may be unknown.
     unknown: Vec<String>,
 }
 

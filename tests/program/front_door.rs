@@ -14,7 +14,7 @@ fn shipped(file: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
 }
 
-/// Robots and worlds: motions, a proof, tasks.
+/// Robots, worlds, and the expected status of each: motions, a proof, tasks.
 const WORLDS: [(&str, &str, Status); 5] = [
     ("robots/planar_2r.urdf", "workspaces/shelf.toml", Status::Found),
     ("robots/scara.urdf", "workspaces/scara_cell.toml", Status::Found),

@@ -20,8 +20,8 @@ fn pictures_are_up_to_date() {
     assert!(drawn::PICTURES.iter().any(|(name, _)| *name == drawn::MOVING.1), "what moves has a still picture");
 }
 
-/// Checks that the animated picture ends with the still one. Drawing it takes seconds, so its other frames are not
-/// compared.
+/// Checks that the animated picture ends with the still one. Drawing all frames takes seconds, so the other frames are
+/// not compared.
 #[cfg(feature = "png")]
 #[test]
 fn the_picture_that_moves_is_up_to_date() {

@@ -1,7 +1,7 @@
 //! Compares texts up to the last digit of each number, which may differ on a machine whose sine differs in the last
 //! bit.
 
-/// Splits a text into numbers and the text between them. Numbers are marked by `true`.
+/// Splits a text into numbers and the text between them. The second value is true for numbers.
 fn parts(text: &str) -> Vec<(bool, &str)> {
     let in_number = |c: char| c.is_ascii_digit() || c == '.' || c == '-';
     let mut parts = Vec::new();
@@ -21,7 +21,8 @@ fn decimals(number: &str) -> i32 {
     number.split_once('.').map_or(0, |(_, digits)| i32::try_from(digits.len()).expect("a short number"))
 }
 
-/// Returns true if two numbers differ by at most one unit of the last decimal of either. Integers must be equal.
+/// Returns true if two numbers differ by at most one unit of the last decimal of either of them. Integers must be
+/// equal.
 fn near(a: &str, b: &str) -> bool {
     let unit = match decimals(a).max(decimals(b)) {
         0 => 0.0,

@@ -13,7 +13,7 @@ fn shipped(file: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
 }
 
-/// Returns the program's result in a world; it must be a path.
+/// Returns the program's result in a world. Fails if it is not a path.
 fn planned(robot: &str, world: &str, options: &str) -> Value {
     let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
     command.args([&shipped(robot), world, "--json", "--planner", "harmonic"]).args(options.split_whitespace());
@@ -28,7 +28,7 @@ fn waypoints(result: &Value) -> Vec<[f64; 2]> {
     result["path"].as_array().unwrap().iter().map(pair).collect()
 }
 
-/// Returns places along a path at this spacing, each with the direction there.
+/// Returns places along a path, `apart` from each other, each with the direction of the path there.
 fn along(path: &[[f64; 2]], apart: f64) -> Vec<([f64; 2], [f64; 2])> {
     let mut places = Vec::new();
     for piece in path.windows(2) {
@@ -48,8 +48,8 @@ fn angle(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs().to_degrees()
 }
 
-/// The configuration space as square cells, and Laplace's equation on them. A cell is free if the arm at its centre
-/// touches nothing.
+/// The configuration space, divided into square cells, and the solution of Laplace's equation on them. A cell is free
+/// if the arm at its centre touches nothing.
 struct Oracle<'a> {
     scene: &'a Scene,
     cells: [usize; 2],
@@ -118,7 +118,7 @@ impl<'a> Oracle<'a> {
         Some(on(0)? * self.cells[1] + on(1)?)
     }
 
-    /// Returns the direction of the gradient, bilinearly interpolated from central differences; `None` beside
+    /// Returns the direction of the gradient, bilinearly interpolated from central differences. Returns `None` beside
     /// obstacles.
     fn gradient(&self, q: [f64; 2]) -> Option<[f64; 2]> {
         let at = [0, 1].map(|k| (q[k] - self.scene.arm().topology().ranges[k].domain().0) / self.step[k] - 0.5);
@@ -188,7 +188,7 @@ fn harmonic_paths_follow_the_gradient_of_an_equation_solved_elsewhere() {
     }
 }
 
-/// Writes a room of 2 m x 1.5 m without obstacles.
+/// Writes a world: a room of 2 m x 1.5 m without obstacles.
 fn room(place: &tempfile::TempDir, start: [f64; 2], goal: [f64; 2], rest: &str) -> String {
     let file = place.path().join("room.toml");
     let text = format!("[start]\njoints = {start:?}\n[goal]\njoints = {goal:?}\n{rest}");

@@ -19,23 +19,23 @@ use std::time::Duration;
 // reads the memory, and before it returns.
 #[link(wasm_import_module = "page")]
 unsafe extern "C" {
-    /// Milliseconds since some moment.
+    /// Returns the milliseconds since a fixed moment.
     safe fn elapsed() -> f64;
-    /// Throws, through all that runs.
+    /// Throws an exception in JavaScript, which ends everything that runs in this instance.
     safe fn stop() -> !;
-    /// Takes a message to the page: text or a file.
+    /// Sends a message to the page: a text or a file.
     safe fn post_message(at: *const u8, bytes: usize, is_text: bool);
-    /// Takes what a panic says.
+    /// Reports the message of a panic.
     safe fn panicked(at: *const u8, bytes: usize);
 }
 
 thread_local! {
     static PAGE_PROGRAM: RefCell<Option<StandalonePage>> = const { RefCell::new(None) };
-    /// The order that the worker writes.
+    /// The buffer into which the worker writes an order.
     static ORDER_BUFFER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Where an order of so many bytes is to be written.
+/// Returns the place where an order of so many bytes is to be written.
 // The name is used once: there is no other library in the instance.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(bytes: usize) -> *mut u8 {
@@ -45,7 +45,7 @@ pub extern "C" fn room(bytes: usize) -> *mut u8 {
     })
 }
 
-/// Does what the order says.
+/// Executes the order in the buffer.
 // As above.
 #[unsafe(no_mangle)]
 pub extern "C" fn take() {
@@ -53,7 +53,7 @@ pub extern "C" fn take() {
     PAGE_PROGRAM.with_borrow_mut(|alone| alone.get_or_insert_with(begun).take(&order, &mut send));
 }
 
-/// A program whose time and end the worker gives.
+/// Returns the program. The worker provides its clock, and the function that ends it.
 fn begun() -> StandalonePage {
     Host { elapsed: || Duration::from_secs_f64(elapsed() / 1e3), stop: || stop() }.serve();
     panic::set_hook(Box::new(|panic| {

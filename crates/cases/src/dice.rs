@@ -2,7 +2,8 @@
 
 use std::fmt::Debug;
 
-/// SplitMix64 (Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, 2014).
+/// A generator of pseudorandom numbers: SplitMix64 (Steele, Lea, Flood, *Fast splittable pseudorandom number
+/// generators*, 2014).
 pub struct Dice(u64);
 
 impl Dice {

@@ -39,7 +39,7 @@ pub fn maze(n: usize, openings: u64) -> Vec<bool> {
     blocked
 }
 
-/// Returns a corridor that winds inwards, and its inner end. The outer end is cell 0.
+/// Returns the blocked cells of a corridor that winds inwards, and the cell at its inner end. The outer end is cell 0.
 #[must_use]
 pub fn spiral(n: usize) -> (Vec<bool>, usize) {
     let n = n as i64;

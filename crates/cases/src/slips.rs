@@ -71,7 +71,8 @@ pub fn slipped(dice: &mut Dice, text: &str) -> String {
     text.into_iter().collect()
 }
 
-/// Swaps two random pieces of the text, which the separator delimits. They may be the same piece.
+/// Returns the text after a swap of two random pieces. Pieces are separated by `separator`. The two may be the same
+/// piece.
 fn swapped(dice: &mut Dice, text: &[char], separator: char) -> Vec<char> {
     let mut pieces: Vec<&[char]> = text.split(|c| *c == separator).collect();
     let (a, b) = (dice.below(pieces.len()), dice.below(pieces.len()));

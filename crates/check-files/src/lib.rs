@@ -71,11 +71,11 @@ pub fn check_files(urdf: &Path, world: &Path, certificate: &Path) -> Result<Stri
     check_beside(texts.each_ref().map(String::as_str), [urdf, world])
 }
 
-/// Checks a certificate, given the texts of the three files. `beside` has the paths of the URDF and the world, relative
-/// to which other files are looked up.
+/// Checks a certificate, given the texts of the three files. `beside` has the paths of the URDF and the world. Other
+/// files are looked up relative to these paths.
 ///
 /// # Errors
-/// Same as [`check`], and if a file cannot be read.
+/// The errors of [`check`], and if a file cannot be read.
 pub fn check_beside(texts: [&str; 3], beside: [&Path; 2]) -> Result<String, CheckError> {
     judged(texts, beside.map(|path| Some(path.to_owned())))
 }

@@ -14,7 +14,7 @@ use num_bigint::Sign;
 use order::{Order, stands};
 use replay::Replay;
 
-/// Tolerance of rest times: the arm may rest for `10^-6` s less than required.
+/// Number of decimals of the tolerance of rest times: the arm may rest for `10^-6` s less than required.
 const REST_TOLERANCE_DECIMALS: u32 = 6;
 
 /// Checks that a motion executes all steps of a task.

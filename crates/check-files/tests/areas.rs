@@ -17,7 +17,7 @@ fn sliding() -> String {
     slides(&slides(TWO_BARS, first), second)
 }
 
-/// Judges a certificate, and returns the exit code and the message.
+/// Checks a certificate, and returns the exit code and the message.
 fn judged(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
     match check(urdf, world, certificate) {
         Ok(report) => (0, report),

@@ -16,8 +16,8 @@ const BARS: [[[f64; 2]; 4]; 2] =
 const START: [f64; 2] = [-1.0, 0.2];
 const GOAL: [f64; 2] = [1.0, -0.3];
 
-/// A wall from `from` to 2.5 on the x axis. Each box states which of the bars touches it, or touches a second wall out
-/// of reach.
+/// A claim about a wall from `from` to 2.5 on the x axis. Each box states which of the bars touches this wall, or
+/// touches a second wall out of reach.
 #[derive(Clone, Debug)]
 struct Claim {
     from: f64,
@@ -33,7 +33,8 @@ struct Stuck {
 }
 
 impl Claim {
-    /// Slices that overlap or share an end, each cut in two at some value near 0.
+    /// Returns a true claim. Its boxes are slices that overlap or have a common end, each cut in two at some value near
+    /// 0.
     fn honest(random: &mut Dice) -> Self {
         let mut boxes = Vec::new();
         let mut bottom = -LIMIT;
@@ -116,7 +117,8 @@ impl Claim {
         })
     }
 
-    /// Returns true if a flood of the cells between the boxes' ends, from the start's cell, does not reach the goal's.
+    /// Returns true if the boxes separate start and goal. A flood over the cells between the boxes' ends must not reach
+    /// the goal's cell from the start's cell.
     fn separates(&self) -> bool {
         let ends = [0, 1].map(|k| {
             let inside = |x: &f64| x.abs() < LIMIT;

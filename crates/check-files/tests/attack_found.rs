@@ -16,7 +16,7 @@ const GOAL: [f64; 2] = [1.0, -0.3];
 /// Number of samples per piece.
 const SAMPLES: u32 = 200;
 
-/// Number of samples per piece where the motion between them matters.
+/// Number of samples per piece in tests where the motion between samples matters.
 const FINE: u32 = 4_000;
 
 type P = [f64; 2];
@@ -24,7 +24,7 @@ type P = [f64; 2];
 /// A time, followed by values, velocities and accelerations.
 type Knot = [f64; 7];
 
-/// The obstacles are a ring, a bent wall and a disc.
+/// A claim that a motion is free of the obstacles: a ring, a bent wall and a disc.
 #[derive(Clone, Debug)]
 struct Claim {
     way: usize,
@@ -39,7 +39,7 @@ struct Claim {
 const WAYS: [&str; 4] = ["linear", "cubic", "quartic", "quintic"];
 
 impl Claim {
-    /// Makes a motion with some knots, of a slow and a swinging joint, among obstacles that it avoids.
+    /// Returns a true claim: a motion with some knots, of a slow and a swinging joint, among obstacles that it avoids.
     fn honest(random: &mut Dice) -> Self {
         loop {
             let count = 2 + random.below(5);

@@ -17,7 +17,7 @@ type P = [f64; 2];
 /// Number of samples of a motion or a turn.
 const SAMPLES: u32 = 300;
 
-/// Margin within which the oracle does not distinguish right from wrong.
+/// Greatest margin, in either direction, at which the oracle does not decide whether a claim is true.
 const HAIR: f64 = 2e-3;
 
 /// Maximum error at the ends, and maximum penetration of supports: 1e-4 of a reach of 1.8 m, measured to the corners of
@@ -96,8 +96,8 @@ impl Shape {
     }
 }
 
-/// Returns the signed distance of convex shapes: the best over the normals of their sides and the directions from
-/// corner to corner.
+/// Returns the signed distance of convex shapes. It is the greatest gap over the normals of their sides and the
+/// directions from corner to corner.
 fn distance(a: &Shape, b: &Shape) -> f64 {
     let mut normals = Vec::new();
     for shape in [a, b] {
@@ -205,7 +205,7 @@ struct Claim {
     start: P,
     actions: Vec<Action>,
     is_free: bool,
-    /// The executed steps: number, path of some knots to the end of the motion, and the turn after it.
+    /// The executed steps. Each has its number, the knots of its path to the end of the motion, and the turn after it.
     steps: Vec<(usize, Vec<P>, Option<f64>)>,
 }
 
@@ -223,8 +223,8 @@ fn bar(length: f64) -> Shape {
 }
 
 impl Claim {
-    /// Makes objects with random starts and targets, carried straight in joint space or past a knot or two beside the
-    /// line.
+    /// Returns a claim with random starts and targets of objects. They are carried straight in joint space, or past a
+    /// knot or two beside the line.
     fn any(dice: &mut Dice) -> Claim {
         let q = |dice: &mut Dice| [dice.within(-2.0, 2.0), dice.within(-2.5, 2.5)];
         let start = q(dice);
@@ -279,7 +279,8 @@ impl Claim {
         self.steps.iter().map(begin).collect()
     }
 
-    /// Makes some objects arrive on their own trajectories, and adds moving obstacles. The wrist turns nothing then.
+    /// Makes some objects arrive on their own trajectories, and adds moving obstacles. In such a world the wrist turns
+    /// nothing.
     fn set_in_motion(&mut self, dice: &mut Dice) {
         let picked: Vec<f64> =
             self.begins().iter().zip(&self.steps).map(|(begin, (_, way, _))| begin + way.len() as f64 - 1.0).collect();
@@ -410,8 +411,8 @@ impl Claim {
         )
     }
 
-    /// Returns the least distance in excess of the required one, metres. If it is negative, the claim is wrong. It is
-    /// minus infinity if an object is missing or misses its place.
+    /// Returns the least distance in excess of the required one, metres. If it is negative, the claim is false. It is
+    /// minus infinity if an object is missing or not at its place.
     fn margin(&self) -> f64 {
         let wrong = f64::NEG_INFINITY;
         let mut margin = f64::INFINITY;

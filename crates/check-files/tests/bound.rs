@@ -9,7 +9,7 @@ use cplan_cases::dice::Dice;
 use cplan_check_files::check;
 use std::fmt::Write as _;
 
-/// A square of 1 m that slides over 10 m by 10 m.
+/// URDF of a square of 1 m that slides over 10 m by 10 m.
 const GANTRY: &str = r#"<robot name="g">
   <link name="base"/>
   <joint name="x" type="prismatic">
@@ -22,7 +22,7 @@ const GANTRY: &str = r#"<robot name="g">
   <link name="tool"> <collision> <geometry> <box size="1 1 1"/> </geometry> </collision> </link>
 </robot>"#;
 
-/// A wall from below the floor up to y = 7. The square passes it where y >= 7.5, for x from 3.5 to 6.5.
+/// World with a wall from below the floor up to y = 7. The square passes it where y >= 7.5, for x from 3.5 to 6.5.
 const WORLD: &str = "start.joints = [1, 1]\ngoal.joints = [9, 1]\n\
                      obstacle = [{ polygon = [[4, -1], [6, -1], [6, 7], [4, 7]] }]";
 
@@ -49,7 +49,8 @@ fn certificate(length: f64, metric: &str, walls: &Walls) -> String {
 
 const EUCLIDEAN: &str = r#""euclidean""#;
 
-/// Returns the length over the corners (3.6, 7.4) and (6.4, 7.4), reduced slightly, and the walls that prove it.
+/// Returns a bound and the walls that prove it. The bound is the length of the path over the corners (3.6, 7.4) and
+/// (6.4, 7.4), reduced slightly.
 fn over_the_wall() -> (f64, Walls) {
     let rise = 2.6_f64.hypot(6.4);
     let walls = vec![([3.6, -1.0], [3.6, 7.4], Some(rise - 1e-9)), ([6.4, -1.0], [6.4, 7.4], Some(rise + 2.8 - 2e-9))];
@@ -113,8 +114,8 @@ fn other_metrics_measure_their_own_lengths() {
     assert_eq!(of(1.0, r#""taxi""#, &walls), 1);
 }
 
-/// A bar of 1 m on a continuous joint, and a rod that slides out of its end: on the circle, paths lead around both
-/// sides.
+/// Tests a bar of 1 m on a continuous joint, and a rod that slides out of its end. On the circle, paths lead around
+/// both sides.
 #[test]
 fn paths_on_a_circle_lead_round_both_sides() {
     let arm = r#"<robot name="p">
@@ -151,8 +152,8 @@ fn paths_on_a_circle_lead_round_both_sides() {
     }
 }
 
-/// Random walls, potentials and lengths: a bound that holds must not exceed the true optimum, over the two corners of
-/// the C-obstacle.
+/// Tests random walls, potentials and lengths. A bound that the checker accepts must not exceed the true optimum, which
+/// leads over the two corners of the C-obstacle.
 #[test]
 fn bounds_above_the_optimum_are_refused() {
     let optimum = 2.0 * 2.5_f64.hypot(6.5) + 3.0;
@@ -175,7 +176,7 @@ fn bounds_above_the_optimum_are_refused() {
     assert!(held > random::times(10) && longest > 0.9 * optimum, "{held} {longest}");
 }
 
-/// Two bars of 1 m. The second collides.
+/// URDF of two bars of 1 m. The second collides.
 const ARM: &str = r#"<robot name="r">
   <link name="base"/>
   <joint name="a" type="revolute">
@@ -190,7 +191,8 @@ const ARM: &str = r#"<robot name="r">
   <link name="tip"/>
 </robot>"#;
 
-/// The tip is at (1, 1) with the elbow at (1, 0) or at (0, 1): joint values (0, pi/2) and (pi/2, -pi/2).
+/// Tests a goal for the tip at (1, 1). The elbow is at (1, 0) or at (0, 1), with the joint values (0, pi/2) or (pi/2,
+/// -pi/2).
 #[test]
 fn to_wherever_the_tip_is_at_a_place() {
     let world = |place: &str| {

@@ -7,7 +7,7 @@ use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, Input, check, check_files};
 use std::path::{Path, PathBuf};
 
-/// Two bars of 1 m and 0.8 m. Their geometry replaces `{upper}` and `{fore}`.
+/// URDF of two bars of 1 m and 0.8 m. Their geometry replaces `{upper}` and `{fore}`.
 const ARM: &str = r#"<robot name="r">
   <link name="base"/>
   <joint name="a" type="revolute">
@@ -24,7 +24,7 @@ const ARM: &str = r#"<robot name="r">
   </link>
 </robot>"#;
 
-/// A gantry with the tip at the joints' values.
+/// URDF of a gantry with the tip at the joints' values.
 const GANTRY: &str = r#"<robot name="g">
   <link name="base"/>
   <joint name="x" type="prismatic">
@@ -43,7 +43,7 @@ fn arm([upper, fore]: [&str; 2]) -> String {
     ARM.replace("{upper}", upper).replace("{fore}", fore)
 }
 
-/// A folder of its own for each test.
+/// A separate folder for each test.
 struct Place(PathBuf);
 
 impl Place {
@@ -99,7 +99,7 @@ fn motion(dice: &mut Dice) -> String {
 const YAML: &str = "# a map\nimage: \"map.pgm\"\nresolution: 0.4 # metres\norigin: [-1.2, -1, 0.3]\nnegate: 0\noccupied_thresh: 0.65\n\
                     free_thresh: 0.196\n";
 
-/// Pictures with random pixels allow the same motions as individual squares.
+/// Tests that pictures with random pixels allow the same motions as individual squares.
 #[test]
 fn a_picture_is_its_dark_squares() {
     let place = Place::new("picture");
@@ -150,8 +150,8 @@ fn a_picture_is_its_dark_squares() {
     assert!((random::times(8)..random::times(76)).contains(&free), "{free}");
 }
 
-/// Map savers write 205 for unseen cells, together with a threshold that would make them free. They also add keys of
-/// their own.
+/// Tests maps of map savers. They write 205 for unseen cells, together with a threshold that would make them free. They
+/// also add keys of their own.
 #[test]
 fn unseen_cells_are_solid_for_any_free_thresh() {
     let place = Place::new("unseen");
@@ -169,7 +169,7 @@ fn unseen_cells_are_solid_for_any_free_thresh() {
     }
 }
 
-/// Boxes among pictures: parts are rectangles of solid squares.
+/// Tests boxes among pictures. The parts are rectangles of solid squares.
 #[test]
 fn a_part_of_a_picture_is_a_rectangle_of_solid_squares() {
     let place = Place::new("part");
@@ -210,7 +210,8 @@ fn a_part_of_a_picture_is_a_rectangle_of_solid_squares() {
     }
 }
 
-/// The walls of a line map are polylines in metres, and so is its frame. The goal is in the middle of its rectangle.
+/// Tests that the walls of a line map are polylines in metres, and so is its frame. The goal is in the middle of its
+/// rectangle.
 #[test]
 fn a_line_map_is_its_walls() {
     let place = Place::new("walls");
@@ -290,7 +291,7 @@ fn a_line_map_is_its_walls() {
     assert!(place.refused("[map]\nscale = 1").contains("the map has no file"));
 }
 
-/// The order of numbers: the file's own obstacles, the walls of the map, then the objects at their initial poses.
+/// Tests the order of indices: the file's own obstacles, the walls of the map, then the objects at their initial poses.
 #[test]
 fn numbers_are_those_of_obstacles_then_walls_then_objects() {
     let place = Place::new("numbers");
@@ -318,7 +319,7 @@ fn numbers_are_those_of_obstacles_then_walls_then_objects() {
     }
 }
 
-/// An object given as an image collides exactly where the polygon of its solid squares does.
+/// Tests that an object given as an image collides exactly where the polygon of its solid squares does.
 #[test]
 fn a_picture_is_carried_as_its_squares_are() {
     let place = Place::new("carried");
@@ -413,7 +414,8 @@ fn block(size: [f32; 3], format: Format) -> Vec<u8> {
     format!("solid block\n{}endsolid block\n", triangles.iter().map(facet).collect::<String>()).into_bytes()
 }
 
-/// A mesh is replaced by its convex hull: the hull of a box is the box. The sizes are exact in single precision.
+/// Tests that a mesh is replaced by its convex hull. The hull of a box is the box. The sizes are exact in single
+/// precision.
 #[test]
 fn a_mesh_is_its_hull() {
     let place = Place::new("mesh");
@@ -545,7 +547,7 @@ fn pictures_that_are_none_are_refused() {
     assert!(matches!(one(nothing), Err(CheckError::Fails(_))));
 }
 
-/// Digests bind a certificate to its files. The digests here were computed by `sha256sum`.
+/// Tests that digests bind a certificate to its files. The digests here were computed by `sha256sum`.
 #[test]
 fn digests_are_of_the_files_themselves() {
     let of = |digests: &str| {

@@ -44,7 +44,7 @@ fn certificate(extra: &str, interpolation: &str, knots: &str) -> String {
 
 const LINEAR: &str = r#""linear""#;
 
-/// Judges a certificate, and returns the exit code and the message.
+/// Checks a certificate, and returns the exit code and the message.
 fn judged(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
     match check(urdf, world, certificate) {
         Ok(report) => (0, report),
@@ -53,7 +53,7 @@ fn judged(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
     }
 }
 
-/// Judges a straight motion from the start to the goal among obstacles.
+/// Checks a straight motion from the start to the goal among obstacles.
 fn straight(urdf: &str, obstacles: &str) -> (i32, String) {
     judged(urdf, &world(obstacles), &certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]"))
 }
@@ -68,7 +68,8 @@ fn fails(urdf: &str, obstacles: &str, part: &str) {
     assert!(code == 3 && report.contains(part), "{obstacles}: {code} {report}");
 }
 
-/// Both bars turn about the origin together, up to 1.8 m and sqrt(1.8^2 + 0.05^2) at the corners.
+/// Tests distances in closed form. Both bars turn about the origin together, up to 1.8 m and sqrt(1.8^2 + 0.05^2) at
+/// the corners.
 #[test]
 fn distances_are_those_of_the_closed_form() {
     let reach = (1.8f64 * 1.8 + 0.05 * 0.05).sqrt();
@@ -147,7 +148,7 @@ fn falsified_parts_are_named() {
     assert_eq!(judge("[-1e9, -1, 0], [1, -1, 2.90], [2, 1, 2.9], [3e9, 1, 0]").0, 0);
 }
 
-/// An arm inside an obstacle does not touch its sides, and still collides.
+/// Tests an arm inside an obstacle. It does not touch the obstacle's sides, but collides.
 #[test]
 fn inside_is_not_off() {
     let ring = "polygon = [[-9, -9], [9, -9], [9, 9], [-9, 9]]\n";
@@ -168,7 +169,7 @@ fn inside_is_not_off() {
     );
 }
 
-/// All combinations of joint types: the tip passes a wall at a distance known in closed form.
+/// Tests all combinations of joint types. The tip passes a wall at a distance known in closed form.
 #[test]
 fn all_kinds_of_joints() {
     for (first, second, farthest) in [
@@ -196,7 +197,7 @@ fn all_kinds_of_joints() {
     }
 }
 
-/// Heights that are certainly disjoint exclude a pair. Touching heights do not.
+/// Tests that a pair with disjoint heights cannot collide. If heights touch, it can.
 #[test]
 fn heights() {
     let at = |height: &str| {
@@ -207,7 +208,7 @@ fn heights() {
     assert_eq!(at("[0.2, 0.06]"), 1);
 }
 
-/// Between knots the interpolation matters: cubics with these velocities make the arm swing out, lines do not.
+/// Tests interpolations. Between knots, cubics with these velocities make the arm swing out, and lines do not.
 #[test]
 fn interpolations_are_those_of_their_readers() {
     // q2 is 2.5 at both knots. With slopes 4 and -4 over a second the cubic rises by 1; with (4, 0) by 8 / 27 = 0.296.
@@ -238,7 +239,7 @@ fn interpolations_are_those_of_their_readers() {
     assert_eq!(limits.each_ref().map(|limit| code(r#""quintic""#, knots, limit)), [0, 3]);
 }
 
-/// A continuous joint has no limits. Whole turns do not matter at its goal.
+/// Tests a continuous joint, which has no limits. Whole turns are ignored at its goal.
 #[test]
 fn joints_without_end() {
     let urdf = arm().replacen("revolute", "continuous", 1);
@@ -253,7 +254,7 @@ fn joints_without_end() {
     assert_eq!((code("-11.566370614359172", "-5.283185307179586"), code("1.1", "-5.283185307179586")), (0, 3));
 }
 
-/// A goal that is a tip position: the message states the distance from it.
+/// Tests a goal that is a tip position. The message states the distance from it.
 #[test]
 fn places_of_the_tip() {
     let urdf = arm().replace(
@@ -289,7 +290,7 @@ fn places_of_the_tip() {
     assert_eq!((at(1.901), at(1.899)), (0, 3));
 }
 
-/// A single knot is an arm at rest.
+/// Tests a single knot, which means an arm at rest.
 #[test]
 fn standing_still() {
     let post =
@@ -298,7 +299,7 @@ fn standing_still() {
     assert_eq!(judged(&arm(), &post.replace("-1, 0", "0, 0"), &certificate("", r#""cubic""#, "[0, 0, 0, 0, 0]")).0, 3);
 }
 
-/// The checker refuses unknown input, and never ignores it.
+/// Tests that the checker refuses unknown input, and never ignores it.
 #[test]
 fn bad_input_is_named() {
     let place = world("[[obstacle]]\npolyline = [[3, 0], [4, 0]]\n");
@@ -352,8 +353,8 @@ fn bad_input_is_named() {
     certificates(good.replace("certificate 1", "certificate 2"), "certificate 2");
 }
 
-/// Visual shapes are used if there are no others, separately for each part of the arm. Solids have the orientations of
-/// the file.
+/// Tests that visual shapes are used if there are no others, separately for each part of the arm. Solids have the
+/// orientations of the file.
 #[test]
 fn every_shape_counts() {
     let visual = arm().replacen("collision", "visual", 2);

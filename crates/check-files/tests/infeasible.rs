@@ -60,8 +60,8 @@ const FORE: &str = r#"{"link": "fore", "collision": 0}"#;
 const WALL: &str = "[[obstacle]]\npolyline = [[0.5, 0], [2.5, 0]]\n";
 const WALL_PART: &str = r#"{"obstacle": 0, "corners": [[0.5, 0], [2.5, 0]]}"#;
 
-/// The bar overlaps a wall along the x axis by 0.05 / cos q in the wall's direction. A box of half-width `w` around 0
-/// holds as long as the farthest corner, at sqrt(1 + 0.05^2), moves by less than that.
+/// Tests a bar that overlaps a wall along the x axis, by 0.05 / cos q in the wall's direction. A box of half-width `w`
+/// around 0 holds as long as the farthest corner, at sqrt(1 + 0.05^2), moves by less than that.
 #[test]
 fn a_box_holds_up_to_the_closed_form() {
     let arm = robot("revolute", "revolute");
@@ -154,7 +154,7 @@ fn heights_that_do_not_meet_are_no_contact() {
     assert_eq!(at("[0.0, 0.2]", 2), 3);
 }
 
-/// Both elbow solutions reach the position. Behind the wall there must be neither.
+/// Tests a tip position that both elbow solutions reach. Neither must be free behind the wall.
 #[test]
 fn a_place_of_the_tip_is_all_configurations_that_reach_it() {
     let arm = robot("revolute", "revolute");
@@ -184,7 +184,7 @@ fn a_place_of_the_tip_is_all_configurations_that_reach_it() {
     assert_eq!(code(&arm, &world(WALL), &certificate(both, UPPER, WALL_PART, &wall)), 1);
 }
 
-/// A goal that leaves a joint free is a curve. All of it must be beyond the boxes.
+/// Tests a goal that leaves a joint free, which is a curve. All of it must be beyond the boxes.
 #[test]
 fn a_place_of_the_tip_that_leaves_a_joint_free() {
     // The tip on the second axis, at q1 = 1, with any q2.
@@ -239,7 +239,7 @@ fn a_robot_stands_where_the_world_puts_it() {
     assert_eq!(code(&arm, &format!("{ENDS}{place}"), &certificate("", UPPER, disc, &boxes)), 0);
 }
 
-/// Visual shapes replace collision shapes for a link without any.
+/// Tests that visual shapes replace collision shapes for a link without any.
 #[test]
 fn visual_shapes_replace_missing_collision_shapes() {
     let arm = robot("revolute", "revolute");
@@ -285,7 +285,7 @@ fn visual_shapes_replace_missing_collision_shapes() {
     }
 }
 
-/// Unknown or wrong content of each file is bad input. The message names the file and the place.
+/// Tests that unknown or wrong content of each file is bad input. The message names the file and the place.
 #[test]
 fn bad_input_is_named() {
     let arm = robot("revolute", "revolute");
@@ -356,7 +356,8 @@ fn bad_input_is_named() {
     }
 }
 
-/// Earlier versions of cplan wrote proofs that a task is infeasible, case by case, on their own or within a result.
+/// Tests proofs of earlier versions of cplan that a task is infeasible. They were written case by case, in a file of
+/// their own or within a result.
 #[test]
 fn proofs_about_tasks_are_not_judged() {
     let old = r#"{"format": "cplan certificate 1", "answer": "infeasible", "joints": ["a", "b"],
@@ -371,7 +372,7 @@ fn proofs_about_tasks_are_not_judged() {
     }
 }
 
-/// A wall of boxes, each as wide as possible. Any change to one of them opens a gap or makes a box too large, so
+/// Tests a wall of boxes, each as wide as possible. Any change to one of them opens a gap or makes a box too large, so
 /// falsified certificates must be refused.
 #[test]
 fn falsified_certificates_are_refused() {
@@ -413,8 +414,8 @@ fn falsified_certificates_are_refused() {
     }
 }
 
-/// Compares random boxes with the closed form: a box that holds must be true. The bar overlaps the wall as long as its
-/// long side is not beyond the wall's near end.
+/// Compares random boxes with the closed form. The claim of an accepted box must be true. The bar overlaps the wall as
+/// long as its long side is not beyond the wall's near end.
 #[test]
 fn accepted_certificates_are_true() {
     let arm = robot("revolute", "revolute");
@@ -433,7 +434,7 @@ fn accepted_certificates_are_true() {
     assert!(held > random::times(20), "{held}");
 }
 
-/// Extremely large numbers and deep nests are refused.
+/// Tests that extremely large numbers and deep nests are refused.
 #[test]
 fn hostile_input_is_refused() {
     let arm = robot("revolute", "revolute");

@@ -7,7 +7,7 @@ use cplan_check_files::check_files;
 use scara::{LIMITS, QUILL, fails, folded, holds, output, scara, shut, world};
 use std::path::{Path, PathBuf};
 
-/// A folder of its own for each test.
+/// A separate folder for each test.
 struct Place(PathBuf);
 
 /// Blocks, each by its corners with the least and the greatest coordinates.
@@ -75,7 +75,7 @@ fn of_mesh(lowest: f64, file: &str) -> String {
     urdf.replacen("<origin xyz=\"0 0 0.15\"/>", "", 1)
 }
 
-/// The quill passes above the foot, beside the column. The convex hull of the whole base would block it.
+/// Tests that the quill passes above the foot, beside the column. The convex hull of the whole base would block it.
 #[test]
 fn meshes_are_cut_in_layers() {
     let place = Place::new("layers");
@@ -98,7 +98,7 @@ fn meshes_are_cut_in_layers() {
     assert!(code == 3 && why.contains("do not overlap"), "{why}");
 }
 
-/// Proofs name a layer by a height in it.
+/// Tests that proofs name a layer by a height in it.
 #[test]
 fn proofs_name_layers() {
     let place = Place::new("named");
@@ -117,7 +117,7 @@ fn proofs_name_layers() {
     holds(shut(-0.1, &own(r#", "height": 0.1"#)));
 }
 
-/// Moving links are cut at the heights of the base. The layers also apply to obstacles of the world.
+/// Tests that moving links are cut at the heights of the base. The layers also apply to obstacles of the world.
 #[test]
 fn layers_are_those_for_obstacles_too() {
     let place = Place::new("moving");
@@ -141,7 +141,7 @@ fn layers_are_those_for_obstacles_too() {
     fails(among("", &post.replace("0.25]", "0.31]")), &["layer 1", "obstacle 0"]);
 }
 
-/// Moving links are also cut at each other's heights: the upper arm at the lower end of the quill.
+/// Tests that moving links are also cut at each other's heights: the upper arm at the lower end of the quill.
 #[test]
 fn links_that_move_cut_each_other() {
     let place = Place::new("each_other");
@@ -163,7 +163,7 @@ fn links_that_move_cut_each_other() {
     fails(among(0.36, "own_body = false"), &hit);
 }
 
-/// Faces scaled to other units give the same layers.
+/// Tests that faces scaled to other units give the same layers.
 #[test]
 fn layers_are_scaled() {
     let place = Place::new("scaled");

@@ -3,7 +3,7 @@
 
 use cplan_check_files::{CheckError, Input, check};
 
-/// A gantry with a square of 1 m at its tip.
+/// URDF of a gantry with a square of 1 m at its tip.
 const GANTRY: &str = r#"<robot name="g">
   <link name="base"/>
   <joint name="x" type="prismatic">
@@ -48,7 +48,7 @@ fn boxes() -> String {
     format!(r#""boxes": [{}]"#, (0..9).map(stuck).collect::<Vec<_>>().join(", "))
 }
 
-/// Parts use the numbers of static obstacles, regardless of moving obstacles before them in the file.
+/// Tests that parts use the indices of static obstacles, regardless of moving obstacles before them in the file.
 #[test]
 fn tasks_infeasible_among_static_obstacles_stay_infeasible() {
     for motion in MOTIONS {
@@ -64,10 +64,10 @@ fn tasks_infeasible_among_static_obstacles_stay_infeasible() {
     }
 }
 
-/// From the start to the goal in eight seconds, at a metre per second.
+/// A motion from the start to the goal in eight seconds, at a metre per second.
 const DRIVEN: &str = r#""motion": {"interpolation": ["linear"], "knots": [[0, 1, 1], [8, 9, 1]]}"#;
 
-/// Judges a motion as given, among some obstacles.
+/// Checks a motion as given, among some obstacles.
 fn judged(obstacles: &str, evidence: &str) -> Result<String, CheckError> {
     let text = format!(r#"{{"format": "cplan certificate 1", "answer": "found", {evidence}}}"#);
     check(GANTRY, &format!("{ENDS}{obstacles}"), &text)
@@ -77,8 +77,8 @@ fn fails(judged: Result<String, CheckError>, with: &str) {
     assert!(matches!(&judged, Err(CheckError::Fails(why)) if why.contains(with)), "{judged:?}");
 }
 
-/// The left side of the square is at `0.5 + t`, its right side at `1.5 + t`, its upper side at 1.5. A disc of radius
-/// 0.1 moves down along x = 5.
+/// Tests a motion that can be computed by hand. The left side of the square is at `0.5 + t`, its right side at `1.5 +
+/// t`, and its upper side at 1.5. A disc of radius 0.1 moves down along x = 5.
 #[test]
 fn in_time_by_hand() {
     let disc = |motion: &str| {
@@ -124,7 +124,7 @@ fn in_time_by_hand() {
     judged(&falling("7"), &format!("{DRIVEN}, {BOUND}")).unwrap();
 }
 
-/// A bar, 2 m to each side of a pivot above the square's path.
+/// Tests a bar that extends 2 m to each side of a pivot above the square's path.
 #[test]
 fn turning_obstacles() {
     let bar = |stops: &str| {
@@ -141,7 +141,7 @@ fn turning_obstacles() {
     fails(judged(&bar("{ time = 3 }, { time = 4, angle = \"180deg\" }"), DRIVEN), "obstacle 0");
 }
 
-/// Bottles on a belt along y = 4. The tip picks each at the corner of its frame, and carries it to its target.
+/// Tests bottles on a belt along y = 4. The tip picks each at the corner of its frame, and carries it to its target.
 #[test]
 fn picks_of_moving_objects() {
     let world = |step: &str| {

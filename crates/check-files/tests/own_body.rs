@@ -20,7 +20,7 @@ fn judged(urdf: &str, robot: &str, certificate: &str) -> (i32, String) {
 
 const HIT: [&str; 3] = ["from knot 0", "link \"quill\", collision 0", "link \"base\", collision 0"];
 
-/// Links of a robot may touch each other above and below; links and obstacles may not.
+/// Tests that links of a robot may touch each other above and below. Links and obstacles must not.
 #[test]
 fn a_base_is_hit_and_passed_over() {
     let fold = |lowest: f64| judged(&scara(lowest), "", &folded(""));
@@ -42,7 +42,7 @@ fn a_base_is_hit_and_passed_over() {
     fails(turned(r#""goal": [-1, 2.2], "clearance": 0.3,"#), &HIT);
 }
 
-/// The base moves with the robot.
+/// Tests that the base moves with the robot.
 #[test]
 fn a_base_stands_where_the_world_puts_the_robot() {
     for at in ["", "at = [3, -2]", "at = [3, -2]\nangle = \"70deg\""] {
@@ -71,7 +71,7 @@ fn the_world_excludes_pairs_of_links() {
     }
 }
 
-/// A cylinder that leans is an obstacle, too: its outline is at most 0.5 mm wider than 0.1 m.
+/// Tests that a cylinder that leans is an obstacle as well. Its outline is at most 0.5 mm wider than 0.1 m.
 #[test]
 fn a_leaning_base_is_as_wide_as_it_is() {
     let leaning = |turn: &str| {
@@ -84,7 +84,7 @@ fn a_leaning_base_is_as_wide_as_it_is() {
     fails(judged(&leaning("1.2 0 0"), "", &folded(r#""clearance": 0.0485,"#)), &HIT);
 }
 
-/// Neighbours may overlap. A link without a shape does not separate neighbours.
+/// Tests that neighbours may overlap. A link without a shape does not separate neighbours.
 #[test]
 fn neighbours_may_meet() {
     let sunk = scara(0.31).replacen("size=\"0.4 0.3 0.3\"", "size=\"0.4 0.3 0.6\"", 1);
@@ -105,8 +105,8 @@ fn neighbours_may_meet() {
     holds(judged(&beside(&scara(0.31), "prismatic", shape), "joints = [\"a\", \"b\"]", &folded("")));
 }
 
-/// The visual shapes of a link count if it has no collision shapes, regardless of other links. An unreadable mesh of
-/// the base is reported.
+/// Tests that the visual shapes of a link are used if it has no collision shapes, regardless of other links. An
+/// unreadable mesh of the base is reported.
 #[test]
 fn each_link_has_its_visual_shapes_by_itself() {
     let of = |link: &str, urdf: &str| {
@@ -137,7 +137,7 @@ fn each_link_has_its_visual_shapes_by_itself() {
     assert!(code == 1 && why.contains("other files"), "{why}");
 }
 
-/// A certificate may ignore links that always overlap. They have to overlap where its motion begins.
+/// Tests that a certificate may ignore links that always overlap. They have to overlap where its motion begins.
 #[test]
 fn a_pair_that_does_not_meet_is_not_ignored() {
     let ignored = r#""ignored": [["base", "quill"]],"#;
@@ -197,7 +197,7 @@ fn proofs_name_fixed_links() {
     fails(judged(&small, LIMITS, &certificate), &["does not touch"]);
 }
 
-/// A carried object must not hit static links.
+/// Tests that a carried object must not hit static links.
 #[test]
 fn payloads_avoid_the_base() {
     let base = r#"<link name="base"> <collision> <origin xyz="2 0.87 0"/> <geometry> <sphere radius="0.04"/> </geometry> </collision> </link>"#;
@@ -229,7 +229,7 @@ fn payloads_avoid_the_base() {
     fails(carried("0.1", "ignore_contact = [[\"base\", \"head\"]]"), &["the payload"]);
 }
 
-/// A bar replaces a link.
+/// Tests a bar that replaces a link.
 #[test]
 fn bars_must_not_collide() {
     let bare = scara(0.2).replacen("<collision>", "<lamp>", 4).replacen("</collision>", "</lamp>", 4);
@@ -249,7 +249,7 @@ fn turning(lowest: f64, wide: f64) -> String {
     upper.replacen("name=\"b\" type=\"revolute\"", "name=\"b\" type=\"continuous\"", 1)
 }
 
-/// Folded back, the quill is in the middle of the upper arm. It passes above if it is high enough.
+/// Tests an arm that is folded back. The quill is in the middle of the upper arm. It passes above if it is high enough.
 #[test]
 fn the_upper_arm_is_hit_and_passed_over() {
     let fold = |urdf: &str, robot: &str, knots: &str, extra: &str| {
@@ -284,7 +284,8 @@ fn the_upper_arm_is_hit_and_passed_over() {
     assert!(report.contains("\"quill\" and \"upper\" is ignored"), "{report}");
 }
 
-/// If joint 1 slides, the carriage is an obstacle for everything that the elbow moves, at any carriage position.
+/// Tests a joint 1 that slides. The carriage is an obstacle for everything that the elbow moves, at any carriage
+/// position.
 #[test]
 fn a_carriage_is_hit_wherever_it_slides() {
     let slides = turning(0.35, 0.1).replacen("name=\"a\" type=\"revolute\"", "name=\"a\" type=\"prismatic\"", 1);
@@ -301,7 +302,8 @@ fn a_carriage_is_hit_wherever_it_slides() {
 
 const UPPER: &str = r#"{"own": "upper", "collision": 0}"#;
 
-/// Contact with a part of the upper arm depends on the elbow alone, so a box may be as wide as the shoulder's range.
+/// Tests that contact with a part of the upper arm depends on the elbow alone. So a box may be as wide as the
+/// shoulder's range.
 #[test]
 fn proofs_name_links_that_joint_1_carries() {
     let proof = |boxes: &[f64], shape: &str, part: &str| {
@@ -344,8 +346,8 @@ fn proofs_name_links_that_joint_1_carries() {
     fails(judged(&turning(0.35, 0.5), LIMITS, &ignored), &["may meet link \"upper\""]);
 }
 
-/// A rigidly held object turns with the forearm. A level object turns relative to the upper arm, and needs space all
-/// around.
+/// Tests that a rigidly held object turns with the forearm. A level object turns relative to the upper arm, and needs
+/// space all around.
 #[test]
 fn payloads_avoid_the_upper_arm() {
     let carried = |long: f64, elbow: f64, robot: &str| {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Maximum number of lines of code on which an answer about one motion may depend. A person can read them in a few
+/// Maximum number of lines of code on which an answer about one motion may depend. A person can read so many in a few
 /// days.
 const MOST: usize = 3300;
 
@@ -31,8 +31,8 @@ fn sources(folder: &Path, root: &Path) -> BTreeSet<String> {
     found
 }
 
-/// Returns the numbers of a table, and the number of lines of each file. The table must name each file of a crate once,
-/// and its numbers must be right to within a twentieth.
+/// Returns the numbers of a table, and the number of lines of each file. Checks that the table names each file of a
+/// crate once, and that its numbers are right to within a twentieth.
 fn numbers(section: &str, folder: &str) -> (Vec<usize>, usize) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder).join("src");
     let heading = format!("| subject | files in `crates/{folder}/src` | lines |\n");

@@ -210,7 +210,7 @@ fn robots_are_where_their_kinematics_have_them() {
     assert!(free > 0 && hit > 0, "{free} {hit}");
 }
 
-/// Axes that differ by more than the tolerance of equal directions form no plane.
+/// Tests that axes that differ by more than the tolerance of equal directions form no plane.
 #[test]
 fn joints_without_a_common_plane_are_refused() {
     let arm = |second: &str, kind: &str| {

@@ -2,7 +2,7 @@
 
 use cplan_check_files::{CheckError, check};
 
-/// A gantry with the tip at the joints' values. It has a small head, on an even smaller bridge.
+/// URDF of a gantry with the tip at the joints' values. It has a small head, on an even smaller bridge.
 const GANTRY: &str = r#"<robot name="g">
   <link name="base"/>
   <joint name="x" type="prismatic">
@@ -35,7 +35,7 @@ fn certificate(knots: &str, steps: &str) -> String {
     )
 }
 
-/// Judges a certificate, and returns the exit code and the message.
+/// Checks a certificate, and returns the exit code and the message.
 fn judged(urdf: &str, world: &str, knots: &str, steps: &str) -> (i32, String) {
     match check(urdf, world, &certificate(knots, steps)) {
         Ok(report) => (0, report),
@@ -44,7 +44,7 @@ fn judged(urdf: &str, world: &str, knots: &str, steps: &str) -> (i32, String) {
     }
 }
 
-/// Judges the block that is carried from (1, 1) to (3, 1), in a world with additional content.
+/// Checks a certificate for the block that is carried from (1, 1) to (3, 1), in a world with additional content.
 fn carried(more: &str) -> (i32, String) {
     judged(GANTRY, &format!("{HEAD}{BLOCK}{more}{STEPS}"), KNOTS, DONE)
 }
@@ -160,7 +160,8 @@ fn only_the_second_link_may_touch_the_target() {
     fails(placed(0.1), "step 2");
 }
 
-/// The bridge reaches 1.01 m, so 0.101 mm are allowed, and 0.0714 mm beside right angles.
+/// Tests the allowed penetration. The bridge reaches 1.01 m, so 0.101 mm are allowed, and 0.0714 mm beside right
+/// angles.
 #[test]
 fn supported_objects_press_within_the_allowance() {
     let on = |deep: f64, supports: &str| {
@@ -240,8 +241,8 @@ fn bars() -> String {
     )
 }
 
-/// Stretched out, the arm picks an object at (1.8, 0), and turns by a quarter. The object ends up at (0, 1.8), turned
-/// by a quarter.
+/// Tests an arm that picks an object at (1.8, 0) when it is stretched out, and turns by a quarter. The object ends up
+/// at (0, 1.8), turned by a quarter.
 #[test]
 fn rigid_payloads_turn_with_the_arm() {
     let world = |angle: &str, post: f64| {
@@ -264,7 +265,7 @@ fn rigid_payloads_turn_with_the_arm() {
     holds(with(&world("", 2.105).replacen("start", "robot.payload = \"level\"\nstart", 1)));
 }
 
-/// Three discs on a pallet are moved to another, in any order, by pairs.
+/// Tests three discs that are moved from one pallet to another, in any order, by pairs.
 #[test]
 fn pairs_in_free_order() {
     let pallet = |name: &str, y: f64| {
@@ -339,7 +340,7 @@ fn repetitions_find_a_new_object_where_it_is_renewed() {
     ));
 }
 
-/// The head passes through the new object, which has the number of the object that was just released.
+/// Tests a head that passes through a new object. The new object has the index of the object that was just released.
 #[test]
 fn a_new_object_is_not_the_one_that_was_let_go_of() {
     let side = "[[object]]\nname = \"pin\"\nat = [6, 5]\ncircle = { center = [0, 0], radius = 0.01 }\n";
@@ -356,7 +357,7 @@ fn a_new_object_is_not_the_one_that_was_let_go_of() {
     fails(judged(GANTRY, &world("renew = true\n"), knots, steps), "link \"head\"");
 }
 
-/// The bridge overlaps the object after it is placed, before a new one appears elsewhere.
+/// Tests a bridge that overlaps an object after it is placed, and before a new one appears elsewhere.
 #[test]
 fn renewed_objects_stay_until_the_next_motion() {
     let head = HEAD.replace("wrist =", "own_body = false, wrist =");
@@ -368,7 +369,7 @@ fn renewed_objects_stay_until_the_next_motion() {
     fails(judged(GANTRY, &world, knots, steps), "steps[2], step 1: link \"bridge\", collision 0 is inside obstacle 0");
 }
 
-/// Read as a cubic, a motion that continues at the end of a step does not rest there.
+/// Tests a motion that, read as a cubic, continues at the end of a step. It does not rest there.
 #[test]
 fn the_arm_rests_where_a_step_ends() {
     let played = |speed: &str| {
@@ -382,8 +383,8 @@ fn the_arm_rests_where_a_step_ends() {
     assert!(fails("0.5") && fails("1e-300"));
 }
 
-/// The wrist turns the carried object about the tip, and the stroke lowers it: both carry the tip, and the wrist's axis
-/// passes through it.
+/// Tests a wrist that turns the carried object about the tip, and a stroke that lowers it. Both carry the tip, and the
+/// wrist's axis passes through it.
 #[test]
 fn the_tool_carries_the_tip() {
     let with = |wrist: &str, tip: &str| {
@@ -436,7 +437,7 @@ fn a_stroke_takes_the_tool_through_all_heights() {
     is_wrong(with("stroke = { joint = \"y\" },", "[0.1, 0.2]"), "does not move the tool along the normal");
 }
 
-/// However the object is lowered, its target must be free. Things beside it are allowed.
+/// Tests that the target of an object must be free, however the object is lowered. Things beside it are allowed.
 #[test]
 fn placed_objects_are_free_without_a_stroke() {
     let lying = |at: f64, height: &str| {
@@ -482,8 +483,8 @@ fn objects_that_are_not_convex() {
     holds(with("[[obstacle]]\ncircle = { center = [1.05, 1.4], radius = 0.01 }\n"));
 }
 
-/// A block like a C, open to the right, over a rail that fits into its slot. The arm reaches 1.01 m, so sides beside
-/// right angles yield by 0.0714 mm.
+/// Tests a block like a C, open to the right, over a rail that fits into its slot. The arm reaches 1.01 m, so sides
+/// beside right angles yield by 0.0714 mm.
 #[test]
 fn nonconvex_objects_press_within_the_allowance() {
     let slotted =

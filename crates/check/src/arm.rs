@@ -8,7 +8,7 @@ use crate::mover::{Cell, MovingBody};
 use crate::obstacle::Obstacle;
 use crate::shapes::{Body, CollisionShape, Outline};
 
-/// Planar motion that a joint gives to the links beyond it.
+/// Planar motion that a joint gives to the links that it carries.
 #[derive(Debug, Clone)]
 pub enum Motion {
     /// Rotation by the joint's value. The sign is 1 if positive values turn to the left, and -1 if to the right.
@@ -21,11 +21,11 @@ pub enum Motion {
 pub struct Joint {
     /// Name in the robot's file.
     pub name: String,
-    /// Motion that the joint gives to the links beyond it.
+    /// Motion that the joint gives to the links that it carries.
     pub motion: Motion,
     /// Set of the joint's values: an interval or a circle.
     pub axis: Axis,
-    /// A range of values that certainly lie within the limits; `None` if the joint has no limits.
+    /// A range of values that certainly lies within the limits. `None` if the joint has no limits.
     pub within: Option<Range>,
 }
 
@@ -50,7 +50,7 @@ pub struct Arm {
     pub bases: Vec<CollisionShape>,
     /// Obstacles made from [`Self::bases`], in the same order.
     pub own: Vec<Obstacle>,
-    /// Sentences for messages that state assumptions which differ from the robot's file.
+    /// Sentences for messages. They state assumptions that differ from the robot's file.
     pub notes: String,
 }
 

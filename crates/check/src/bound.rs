@@ -26,8 +26,8 @@ const MAX_OVERLAP_TESTS: usize = 20_000;
 /// Maximum number of times that a wall is halved.
 const MAX_WALL_HALVINGS: u32 = 60;
 
-/// Checks that no motion is shorter than the certificate's length. Motions lead from the start to the goal, or to the
-/// configuration that the certificate states.
+/// Checks that no motion is shorter than the certificate's length. The motions lead from the start to the goal, or to
+/// the configuration that the certificate states.
 pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     let Some(bound) = &certificate.bound else {
         return Err(CheckError::in_file(Input::Certificate, "it has no bound"));
@@ -65,8 +65,8 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     ))
 }
 
-/// Returns true if a shape and a part provably overlap all along a wall. The wall is halved until the overlap is shown
-/// for a box around each piece, or until there were too many tests.
+/// Returns true if a shape and a part are proven to overlap along a whole wall. The wall is halved until the overlap is
+/// proven for a box around each piece, or until there were too many tests.
 ///
 /// If the joints move a shape along the wall without turning it, the configurations in which the shape overlaps the
 /// part form a convex set. Then tests at the ends of the wall suffice.

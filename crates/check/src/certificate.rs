@@ -18,7 +18,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::value::RawValue;
 
-/// Value of `format` in certificates of this form.
+/// Value of the key `format` in certificates of this form.
 pub const FORMAT: &str = "cplan certificate 1";
 
 /// A certificate: the query, and the evidence for the answer. Numbers are exact.
@@ -57,8 +57,8 @@ pub struct Certificate {
     /// Parts of obstacles to which the evidence refers by their indices.
     #[serde(default)]
     pub parts: Vec<PartName>,
-    /// Evidence for "infeasible": collision boxes that separate start and goal. With a bound: configurations that are
-    /// excluded from the goal because they are not free.
+    /// Evidence for "infeasible": collision boxes that separate start and goal. With a bound, the boxes have another
+    /// meaning: their configurations are not free, so they are no goals.
     pub boxes: Option<Vec<CollisionBox>>,
     /// Evidence that no motion is shorter than a length.
     pub bound: Option<Bound>,
@@ -90,7 +90,7 @@ pub enum Answer {
     NoShorter,
 }
 
-/// A result of cplan, of which only the certificate is read.
+/// A result of cplan. Only its certificate is read.
 #[derive(Deserialize)]
 struct EnclosingResult<'a> {
     #[serde(borrow)]

@@ -16,10 +16,10 @@ mod own;
 /// A part before it is grown by the clearance: its link if it belongs to the robot, its shape, and its heights.
 type Evident = (Option<Owner>, Shape, Option<Range>);
 
-/// Hint for parts that refer to nothing, or to more than one thing.
+/// Hint for parts whose name matches nothing, or more than one thing.
 const PART_HINT: &str = "a part names an obstacle, or by \"own\" a link of the robot and one of its shapes";
 
-/// A part of an obstacle or a link of the robot that evidence refers to, grown by the clearance.
+/// A part of an obstacle or of the robot to which evidence refers, grown by the clearance.
 struct Part {
     /// The link, if the part belongs to the robot.
     link: Option<Owner>,
@@ -31,21 +31,21 @@ struct Part {
 pub struct Pair<'a> {
     pub body: &'a Body,
     pub part: &'a Shape,
-    /// The link, if the part belongs to the robot. Then overlap is tested in the box that [`Cell::beside`] returns.
+    /// The link, if the part belongs to the robot. Overlap is then tested in the box that [`Cell::beside`] returns.
     pub beside: Option<&'a Owner>,
 }
 
-/// All shapes and parts that a certificate refers to.
+/// All shapes and parts to which a certificate refers.
 pub struct Contacts<'a> {
     shapes: Vec<&'a CollisionShape>,
     parts: Vec<Part>,
 }
 
 impl<'a> Contacts<'a> {
-    /// Finds all shapes and parts that a certificate refers to.
+    /// Finds all shapes and parts to which a certificate refers.
     ///
     /// # Errors
-    /// Names the first reference that matches nothing.
+    /// The first reference that matches nothing.
     pub fn new(
         arm: &'a Arm,
         world: &World,
@@ -64,11 +64,11 @@ impl<'a> Contacts<'a> {
         Ok(Self { shapes, parts })
     }
 
-    /// Checks for each box that its shape touches its part, or is nearer to the part than the clearance, in all
-    /// configurations of the box.
+    /// Checks each box: in all its configurations, the shape must touch the part, or be nearer to it than the
+    /// clearance.
     ///
     /// # Errors
-    /// Names the first box for which this is not shown.
+    /// The first box for which this is not shown.
     pub fn hold(&self, arm: &Arm, stuck: &[CollisionBox], boxes: &[Rectangle]) -> Result<(), CheckError> {
         for (number, (stuck, ranges)) in stuck.iter().zip(boxes).enumerate() {
             let Pair { body, part, beside } = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
@@ -82,7 +82,7 @@ impl<'a> Contacts<'a> {
     /// Finds a shape and a part that can collide. `who` names the box or wall in messages.
     ///
     /// # Errors
-    /// If an index is too large, if the heights of shape and part do not overlap, or if the two may touch.
+    /// If an index is too large, if the heights of shape and part do not overlap, or if the two are allowed to touch.
     pub fn pair(&self, shape: usize, part: usize, who: impl Fn() -> String) -> Result<Pair<'_>, CheckError> {
         let fails = |why: &str| CheckError::fails(format!("{}{why}", who()));
         let (Some(shape), Some(part)) = (self.shapes.get(shape), self.parts.get(part)) else {

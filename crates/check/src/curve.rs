@@ -7,7 +7,8 @@ use num_bigint::BigInt;
 /// Binary digits after the point of joint values in this module: values are multiples of `2^-FRACTION_BITS`.
 pub const FRACTION_BITS: u32 = 72;
 
-/// Binary digits before the point: joint values are below `2^INTEGER_BITS`, so that no sum or product overflows.
+/// Binary digits before the point of joint values: they are below `2^INTEGER_BITS`, so that no sum or product
+/// overflows.
 pub const INTEGER_BITS: u32 = 28;
 
 /// Binary digits of a fraction of a chord: fractions are multiples of `2^-SHARE_BITS`.
@@ -16,8 +17,8 @@ const SHARE_BITS: u32 = 20;
 /// Maximum number of times that curves are halved.
 pub const MAX_HALVINGS: u32 = 40;
 
-/// Bound on the rounding error of a control point, in units of `2^-FRACTION_BITS`: less than two units initially, at
-/// most five for each halving (one for each of its steps), and less than one for the computations of a tube.
+/// Bound on the rounding error of a control point, in units of `2^-FRACTION_BITS`. Initially it is less than two units.
+/// Each halving adds at most five, one for each of its steps. The computations of a tube add less than one.
 const ROUNDING_UNITS: i128 = 3 + 5 * MAX_HALVINGS as i128;
 
 /// Both joints' values, in units of `2^-FRACTION_BITS`.
@@ -79,8 +80,9 @@ pub struct Tube {
 }
 
 impl Tube {
-    /// Makes a tube that contains consecutive pieces. It contains all their control points exactly, and so the convex
-    /// hull of these. Its direction, along the chord from the first point to the last, affects only its width.
+    /// Returns a tube that contains consecutive pieces. It contains exactly all their control points, and so the convex
+    /// hull of these. Its direction is along the chord from the first point to the last; it affects only the width of
+    /// the tube.
     pub fn around(pieces: &[Piece]) -> Self {
         let points = || pieces.iter().flat_map(|piece| piece.curves.iter().flatten());
         let end = |curve: &Vec<Values>| *curve.last().expect("a curve has points");

@@ -8,12 +8,12 @@ use std::fmt;
 use std::ops::{Add, Mul, Neg, Sub};
 use std::str::FromStr;
 
-/// Maximum number of digits of a number, and maximum of its decimal exponent. A double needs fewer, and numbers of this
-/// size are still fast to compute with.
+/// Maximum number of digits of a number, and maximum of its decimal exponent. Doubles need fewer, and computations with
+/// numbers of this size are still fast.
 const MAX_DIGITS: usize = 1100;
 
-/// Maximum number of digits before the point, for numbers of robots and worlds: they must be below `10^15`. Larger ones
-/// have no meaning, and could make computations slow.
+/// Maximum number of digits before the point, for numbers of robots and worlds: they must be below `10^15`. Larger
+/// numbers have no meaning, and could make computations slow.
 const MAX_NUMBER_DIGITS: u32 = 15;
 
 /// The number `mantissa * 10^-scale`. Every decimal and every dyadic number has this form. Sums and products are exact.

@@ -4,7 +4,7 @@ use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval};
 use num_bigint::BigInt;
 
-/// Negative binary logarithm of the margin, radians, by which enclosures of half a turn exceed the known digits of pi.
+/// Enclosures of half a turn exceed the known digits of pi by `2^-SEAM_BITS` radians.
 const SEAM_BITS: u32 = 100;
 
 /// All numbers from the first to the second, ends included.
@@ -27,7 +27,7 @@ pub enum Axis {
     Circle,
 }
 
-/// The configuration space as a rectangle of the plane, with the identification of opposite borders.
+/// The configuration space as a rectangle of the plane whose opposite borders may be identified.
 #[derive(Debug)]
 pub struct Domain {
     /// A range that contains all values. The range of a circle reaches from slightly below -pi to slightly above pi.
@@ -51,8 +51,8 @@ impl Domain {
         }
     }
 
-    /// Shifts a value's enclosure into the domain: by whole turns for a continuous joint, not at all otherwise. Returns
-    /// `None` if the result does not lie within the domain.
+    /// Shifts the enclosure of a value into the domain: by whole turns for a continuous joint, not at all otherwise.
+    /// Returns `None` if the result does not lie within the domain.
     pub fn wrapped(&self, axis: usize, value: &Range) -> Option<Range> {
         let within = |[low, high]: &Range| self.ranges[axis][0] <= *low && *high <= self.ranges[axis][1];
         if within(value) {

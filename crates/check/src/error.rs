@@ -32,7 +32,7 @@ pub enum CheckError {
 }
 
 impl CheckError {
-    /// Makes an error for input that is wrong at byte `at` of the text.
+    /// Returns an error for input that is wrong at byte `at` of the text.
     pub fn at(input: Input, text: &str, at: usize, message: impl Into<String>) -> Self {
         let line = text.as_bytes()[..at.min(text.len())].iter().filter(|b| **b == b'\n').count() + 1;
         Self::Input { input, line: Some(line), message: message.into() }

@@ -23,8 +23,8 @@ pub fn guard() -> BigInt {
     BigInt::from(1) << (BITS - 96)
 }
 
-/// Number of binary digits of a separating direction: as many as a double has. A rounded direction separates a little
-/// less, in proportion to the size of an obstacle relative to its distance.
+/// Number of binary digits of a separating direction: as many as a double has. A rounded direction separates slightly
+/// less, in proportion to the ratio of an obstacle's size to its distance.
 const DIRECTION_BITS: u32 = 52;
 
 /// Number of tested parts of a motion after which the checker gives up. This takes some minutes.
@@ -39,7 +39,7 @@ pub struct Solid {
     corners: Vec<Terms>,
     center: Terms,
     extent: BigInt,
-    /// Indices of the corners of its convex hull, in order, for guesses of directions.
+    /// Indices of the corners of its convex hull, in order. They serve to guess directions.
     ring: Vec<usize>,
 }
 
@@ -66,7 +66,7 @@ struct Moving {
     at: Point,
     /// Derivatives of the position by each joint's value.
     rates: [Point; 2],
-    /// Upper bound on the difference between the motion and its linear part, which the rates describe.
+    /// Upper bound on the difference between the point's displacement and its linear part, which the rates describe.
     bend: Interval,
 }
 
@@ -97,13 +97,13 @@ enum Stretch {
     Part(Piece, u32),
 }
 
-/// A stretch of a motion on which a shape is not proven to keep away from an edge.
+/// A stretch of a motion on which a shape is not proven to keep its distance from an edge.
 pub struct EvidenceGap {
-    /// Number of the knot before the stretch.
+    /// Index of the knot before the stretch.
     pub knot: usize,
-    /// Number of the shape.
+    /// Index of the shape.
     pub solid: usize,
-    /// Number of the edge.
+    /// Index of the edge.
     pub edge: usize,
 }
 
@@ -126,7 +126,7 @@ impl Solid {
         }
     }
 
-    /// Returns the position of its first corner in a configuration.
+    /// Returns the position of the shape's first corner in a configuration.
     pub fn corner_at(&self, chain: &Chain, values: &Point) -> Point {
         chain.still(&self.corners[0], values)
     }
@@ -185,7 +185,8 @@ impl<'a> Posture<'a> {
         Self { chain, tube, turns: [first, second, both], deviations, each }
     }
 
-    /// Returns the index in [`Self::turns`] of the angle by which a vector turns. `None` if no joint turns the vector.
+    /// Returns the index in [`Self::turns`] of the angle by which a vector turns, given which joints turn it. `None` if
+    /// no joint does.
     fn angle(by: [bool; 2]) -> Option<usize> {
         match by {
             [false, false] => None,
@@ -241,7 +242,7 @@ impl<'a> Posture<'a> {
         (&length(&across) + &moving.bend).upper
     }
 
-    /// Returns true if lines perpendicular to `n` separate the moving points from the still ones all over the tube,
+    /// Returns true if lines perpendicular to `n` separate the moving points from the still ones in the whole tube,
     /// with a gap of more than `apart`.
     fn separates(&self, n: &Point, moving: &[Moving], still: &[Point], apart: &BigInt) -> bool {
         let size = length(n);
@@ -260,7 +261,7 @@ impl<'a> Posture<'a> {
         Placed { solid, motion: self.motion(&center), center, corners: OnceCell::new() }
     }
 
-    /// Returns true if a shape provably keeps its required distance from a side all over the tube.
+    /// Returns true if a shape is proven to keep its required distance from a side in the whole tube.
     fn keeps_off(&self, placed: &Placed, side: &Side) -> bool {
         let solid = placed.solid;
         let apart = &solid.kept + &solid.shape.radius.upper + &side.shape.radius.upper;

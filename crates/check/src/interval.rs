@@ -5,11 +5,11 @@ use num_bigint::{BigInt, Sign};
 use std::ops::{Add, Mul, Neg, Sub};
 use std::sync::OnceLock;
 
-/// Binary digits after the point: the ends of enclosures are multiples of the *unit* `2^-BITS`.
+/// Number of binary digits after the point. The ends of enclosures are multiples of the *unit* `2^-BITS`.
 pub const BITS: u32 = 192;
 
-/// All numbers from `lower` to `upper`, in units of `2^-BITS`. The result of an operation on enclosures encloses the
-/// results of the operation on all numbers in them.
+/// An enclosure: all numbers from `lower` to `upper`, in units of `2^-BITS`. The result of an operation on enclosures
+/// contains the results of the operation on all numbers in them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Interval {
     /// The least number of the enclosure.
@@ -43,7 +43,7 @@ impl Interval {
         Self::exactly(BigInt::from(n) << BITS)
     }
 
-    /// Makes the enclosure of `n` units, which is exact.
+    /// Returns the enclosure of `n` units, which is exact.
     pub fn exactly(n: BigInt) -> Self {
         Self { lower: n.clone(), upper: n }
     }
@@ -127,12 +127,12 @@ impl Interval {
         Self { lower: self.lower.max(least), upper: self.upper.min(most) }
     }
 
-    /// Computes enclosures of sine and cosine.
+    /// Returns enclosures of sine and cosine.
     ///
     /// Sine and cosine change by at most as much as the angle. So their values at the middle of the enclosure, widened
     /// by its radius, enclose all values. The angle at the middle is halved until it is below 1/16. Then Taylor's
     /// series, whose terms alternate and decrease, gives its sine and cosine. Formulas for double angles undo the
-    /// halvings. Numbers are truncated after each step, and `error` counts their maximum deviation in units.
+    /// halvings. Numbers are truncated after each step, and `error` bounds their deviation in units.
     pub fn sin_cos(&self) -> [Self; 2] {
         let (middle, radius) = self.middle();
         if middle.sign() == Sign::NoSign {

@@ -51,8 +51,8 @@ use world::World;
 /// Checks a certificate about one motion. Returns the proven statement as a sentence.
 ///
 /// # Errors
-/// [`CheckError::Fails`] names the first part that does not hold. [`CheckError::Input`] reports input that the checker
-/// does not know.
+/// [`CheckError::Fails`] names the first part of the certificate that does not hold. [`CheckError::Input`] reports
+/// input that the checker does not know.
 pub fn judge(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     match &certificate.answer {
         Answer::Found if certificate.bound.is_some() => {

@@ -16,7 +16,7 @@ use crate::world::World;
 /// Maximum number of times that a piece of a motion is halved to check the joints' limits.
 const MAX_PIECE_HALVINGS: u32 = 40;
 
-/// Factor by which control points are multiplied, so that they are exact decimals: a common multiple of the
+/// Factor by which control points are multiplied, so that they are exact decimals. It is a common multiple of the
 /// denominators in all interpolations.
 pub const CONTROL_POINT_FACTOR: i32 = 60;
 
@@ -159,8 +159,8 @@ pub fn fine(sixty: &Decimal) -> Option<i128> {
     (fine.bits() < u64::from(FRACTION_BITS + INTEGER_BITS)).then(|| i128::try_from(fine).ok()).flatten()
 }
 
-/// Returns true if a curve stays between `low` and `high`, ends included. The test uses the control points of the
-/// curve, and if these do not decide, those of its halves, up to `halvings` times.
+/// Returns true if a curve stays between `low` and `high`, ends included. First tests the control points of the curve.
+/// If these do not decide, tests those of its halves, up to `halvings` times.
 fn stays_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings: u32) -> bool {
     let is_within = |value: &Decimal| low <= value && value <= high;
     if control.iter().all(is_within) {

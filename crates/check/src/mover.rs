@@ -17,8 +17,8 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// Returns the box in which to test contact with a link of the robot: the same box, but with joint 1 at zero if
-    /// joint 1 carries the link. `None` stands for an obstacle of the world.
+    /// Returns the box in which contact with an obstacle is tested. If joint 1 carries `link`, it is the same box with
+    /// joint 1 at zero; otherwise it is the same box. `None` stands for an obstacle of the world.
     pub fn beside(mut self, link: Option<&Owner>) -> Self {
         if link.is_some_and(|link| link.is_carried) {
             (self.middle[0], self.half[0]) = (Interval::whole(0), Interval::whole(0));
@@ -41,7 +41,7 @@ impl From<&Rectangle> for Cell {
     }
 }
 
-/// Returns an upper bound on the displacement of a point at distance 1 from the axis that turns by up to an angle. It
+/// Returns an upper bound on the displacement of a point at distance 1 from an axis when it turns by up to an angle. It
 /// is the length of the chord, which grows with the angle up to half a turn.
 fn chord(angle: &Interval) -> Interval {
     if angle.upper >= Interval::pi().lower {
@@ -68,11 +68,11 @@ impl Arm {
     }
 }
 
-/// A body with everything about its position and displacement that does not depend on the box.
+/// A body, with all data about its position and displacement that do not depend on the box.
 pub struct MovingBody<'a> {
     arm: &'a Arm,
     body: &'a Body,
-    /// Corners of the body in floating point, for guesses.
+    /// Corners of the body in floating point, for quick guesses.
     rough: Vec<[f64; 2]>,
     /// Latest value of joint 1, and the motion by joint 1 at that value. Many consecutive boxes share it.
     first: RefCell<(Interval, [Point; 2])>,
@@ -117,7 +117,8 @@ impl<'a> MovingBody<'a> {
     /// Returns an upper bound on the displacement of the body's points from their positions in the middle of a box,
     /// while the joints stay within the box.
     ///
-    /// It suffices to bound the displacement of corners: in a convex hull, no point moves farther than all corners.
+    /// It suffices to bound the displacement of corners, because no point of a convex hull moves farther than all
+    /// corners.
     pub fn farthest(&self, cell: &Cell) -> BigInt {
         let Self { arm, body, offset, reach: own, .. } = self;
         let half = &cell.half;
@@ -143,7 +144,7 @@ impl<'a> MovingBody<'a> {
         bound.upper
     }
 
-    /// Returns true if the body provably overlaps a shape all over a box.
+    /// Returns true if the body is proven to overlap a shape in the whole box.
     pub fn overlaps(&self, shape: &Shape, cell: &Cell) -> bool {
         let farthest = self.farthest(cell);
         self.seems_to_overlap(shape, cell, &farthest) && overlap_by_more_than(&self.placed(cell), shape, &farthest)
@@ -175,8 +176,8 @@ impl<'a> MovingBody<'a> {
 }
 
 impl Arm {
-    /// Returns rectangles that contain all configurations which put the tip at a position, except for configurations in
-    /// rectangles that `is_left_out` excludes.
+    /// Returns rectangles that contain all configurations which put the tip at a position. Configurations in rectangles
+    /// that `is_left_out` excludes need not be contained.
     ///
     /// The domain is cut into four rectangles again and again. A rectangle is dropped if it is excluded. It is also
     /// dropped if the tip, at its middle, is farther from the position than it can move within the rectangle. Cutting

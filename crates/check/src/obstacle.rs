@@ -50,15 +50,14 @@ pub trait ObstacleTrajectory {
     /// Returns the frame's origin at a time, and the sine and cosine of its orientation.
     fn place(&self, time: &Decimal) -> [Point; 2];
 
-    /// Returns a shape, in plane coordinates, that contains a shape of the frame at all times of a span.
+    /// Returns a shape in plane coordinates. It contains a shape of the frame at all times of a span.
     fn during(&self, shape: &Shape, span: [&Decimal; 2]) -> Shape;
 }
 
-/// Squares of a picture, in the frame of its obstacle.
+/// The solid squares of a picture, in the frame of its obstacle. A picture is an occupancy map.
 pub trait Squares {
-    /// Returns the corners of the rectangle of solid squares whose corners are nearest to the four given points.
-    /// Returns
-    /// `None` if there is no such rectangle.
+    /// Returns the corners of the rectangle of solid squares that is meant by four points: its corners are those
+    /// nearest to them. Returns `None` if there is no such rectangle.
     fn part(&self, given: &[Point]) -> Option<Vec<Point>>;
 
     /// Returns the border between solid and free squares, as straight pieces.
@@ -109,12 +108,12 @@ impl Obstacle {
         })
     }
 
-    /// Converts a point of its frame to plane coordinates.
+    /// Converts a point of the obstacle's frame to plane coordinates.
     pub fn placed(&self, p: &Point) -> Point {
         sum(&self.at, &turned(p, &self.turn))
     }
 
-    /// Converts a point of the plane to coordinates of its frame.
+    /// Converts a point of the plane to coordinates of the obstacle's frame.
     fn own(&self, p: &Point) -> Point {
         let [sine, cosine] = &self.turn;
         turned(&minus(p, &self.at), &[-sine, cosine.clone()])
@@ -178,9 +177,10 @@ impl Obstacle {
     }
 
     /// Returns the sides from which shapes must keep away: the segments of the obstacle's border, its disc, or the
-    /// link's shape. They are in plane coordinates for a static obstacle, and in its own frame for a moving one. If a
-    /// connected set does not touch the sides, and one of its points is not inside the obstacle, it does not touch the
-    /// obstacle.
+    /// link's shape. They are in plane coordinates for a static obstacle, and in its own frame for a moving one.
+    ///
+    /// The sides suffice for this reason: a connected set that does not touch them is either inside the obstacle as a
+    /// whole or outside as a whole.
     ///
     /// # Errors
     /// If the obstacle could not be read, or if it has too few points.

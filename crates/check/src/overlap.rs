@@ -93,7 +93,7 @@ fn is_near<T: Integer>(p: &[T; 2], q: &[T; 2], distance: &T) -> bool {
     }
 }
 
-/// Returns true if a convex hull reaches beyond the origin by more than `needed` in every direction. Its corners are
+/// Returns true if a convex hull extends beyond the origin by more than `needed` in every direction. Its corners are
 /// given in order, turning left. `needed` may be negative.
 fn reaches<T: Integer>(ring: &[[T; 2]], needed: &T) -> bool {
     let zero = T::default();
@@ -146,8 +146,8 @@ pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
     reaches(&ring, &(about - 2)) && reaches(&hull(differences(&b_middles, &a_middles)), &needed)
 }
 
-/// Returns true if the convex hulls of some points seem to overlap by more than a depth. The test uses leading digits
-/// only, and returns true if these do not decide.
+/// Returns true if the convex hulls of some points seem to overlap by more than a depth. The test uses only leading
+/// digits, and returns true if these do not decide.
 pub fn seem_to_overlap(a: &[[f64; 2]], b: &[[f64; 2]], depth: f64) -> bool {
     let all = || a.iter().chain(b).flatten().chain([&depth]);
     let most = all().fold(0.0_f64, |most, c| most.max(c.abs()));
@@ -178,7 +178,7 @@ mod tests {
         Shape { points: numbers.chunks(2).map(|p| [p[0].clone(), p[1].clone()]).collect(), radius: of(radius) }
     }
 
-    /// Asserts that the overlap depth is `depth`: slightly less is proven, slightly more is not.
+    /// Asserts that the overlap depth is `depth`: the test succeeds for slightly less, and fails for slightly more.
     fn has_depth(a: &Shape, b: &Shape, depth: &str) {
         let little = of("1e-50").upper;
         for (a, b) in [(a, b), (b, a)] {

@@ -38,8 +38,8 @@ pub fn surrounds(rings: &[Vec<Corner>], point: &Corner) -> bool {
 /// Returns true if `part`, whose corners turn left, is convex and lies within the region that the rings surround.
 ///
 /// The test shows that no ring enters the interior of the part. For each side of a ring, a line must separate that side
-/// from the interior: a line along a side of the part, or along the side of the ring. Then the interior belongs to the
-/// region entirely or not at all, and one of its points decides which.
+/// from the interior. It may be a line along a side of the part, or along the side of the ring. Then the region
+/// contains the interior entirely or not at all, and one of its points decides which.
 pub fn holds(rings: &[Vec<Corner>], part: &[Corner]) -> bool {
     let misses = |u: &Corner, v: &Corner| {
         let outside = |a, b| [u, v].iter().all(|p| side(a, b, p) != Sign::Plus);

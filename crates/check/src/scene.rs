@@ -47,7 +47,7 @@ impl PlacedObstacle {
 /// `from` is the first configuration. An obstacle that is `None` is absent during these pieces.
 ///
 /// # Errors
-/// Names the first stretch, part and obstacle for which this is not shown.
+/// The first stretch, part and obstacle for which this is not shown.
 pub fn stay_off(
     chain: &Chain,
     pieces: &[Piece],

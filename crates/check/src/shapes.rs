@@ -9,23 +9,23 @@ use crate::overlap::Shape;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Least overlap of the heights of two links that can collide: `10^-9` m. Links often rest on one another, and rounded
-/// heights then overlap slightly.
+/// Number of decimals of the least overlap of the heights of two links that can collide: `10^-9` m. Links often rest on
+/// one another, and rounded heights then overlap slightly.
 const MIN_OVERLAP_DECIMALS: u32 = 9;
 
 /// Approximation of a link's shape, projected into the plane.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Outline {
-    /// A subset of the projection.
+    /// A subset of the link's projection, for proofs that it collides.
     Within,
-    /// A superset of the projection.
+    /// A superset of the link's projection, for proofs that it is free.
     Around,
 }
 
 /// A collision shape in the plane, relative to the origin of its joint.
 #[derive(Clone)]
 pub struct Body {
-    /// The last joint that moves it, 0 or 1. Meaningless for static links.
+    /// The last joint that moves the shape, 0 or 1. It has no meaning for static links.
     pub link: usize,
     /// The region that it covers.
     pub shape: Shape,
@@ -49,9 +49,9 @@ impl Body {
         self.beside(heights).is_some_and(|(own, [low, high])| own[1].upper < low.lower || high.upper < own[0].lower)
     }
 
-    /// Returns this body's heights less the minimum overlap at both ends: other links can collide with it there.
-    /// [`Outline::Around`] gives a superset of these heights, [`Outline::Within`] a subset. `None` if the heights are
-    /// unlimited.
+    /// Returns the heights at which other links can collide with this body: its own heights, reduced by the minimum
+    /// overlap at both ends. [`Outline::Around`] gives a superset of these heights, [`Outline::Within`] a subset.
+    /// `None` if the heights are unlimited.
     pub fn kept(&self, outline: Outline) -> Option<Range> {
         let by = Interval::from(&Decimal::power_of_ten(MIN_OVERLAP_DECIMALS));
         let [low, high] = self.heights.as_ref()?;
@@ -60,14 +60,14 @@ impl Body {
     }
 }
 
-/// A shape that is considered for collisions, or a layer of one.
+/// A shape, or a layer of one, that is checked for collisions.
 #[derive(Clone)]
 pub struct CollisionShape {
-    /// Name of the link that it belongs to.
+    /// Name of the link to which the shape belongs.
     pub link: String,
     /// Kind of the shape: `collision`, `visual`, or `bar` for a bar that the world defines.
     pub kind: &'static str,
-    /// Number among the link's shapes of that kind, not counting those without size.
+    /// Index among the link's shapes of that kind that have a size.
     pub number: usize,
     /// The last joint that moves the shape, 0 or 1; `None` if the shape is static.
     pub last: Option<usize>,
@@ -98,8 +98,8 @@ impl CollisionShape {
         Owner { link: self.link.clone(), is_carried: self.last.is_some() }
     }
 
-    /// Returns true if `body` must keep away from an obstacle: the obstacle is at its height, and is no link that this
-    /// shape may touch. `body` is this shape, or the region that the shape sweeps as the tool turns.
+    /// Returns true if `body` must keep away from an obstacle. This is so if the obstacle is at its height, and is not
+    /// a link that this shape may touch. `body` is this shape, or the region that the shape sweeps as the tool turns.
     pub fn meets(&self, body: &Body, obstacle: &Obstacle) -> bool {
         let is_free = obstacle.own.as_ref().is_some_and(|own| self.ignored.contains(&own.link));
         !is_free && !body.passes(obstacle.heights.as_ref())

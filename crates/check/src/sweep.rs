@@ -4,25 +4,26 @@ use crate::decimal::Decimal;
 use crate::domain::{Domain, Range, Rectangle};
 use std::collections::BTreeSet;
 
-/// Maximum number of gaps between boxes. This many need some hundred megabytes of memory.
+/// Maximum number of gaps between boxes. So many gaps need some hundred megabytes of memory.
 const MAX_GAPS: usize = 1 << 22;
 
-/// Maximum number of strips within a seam's enclosure. Each of them is compared with each strip at the other end.
+/// Maximum number of strips within the enclosure of a seam. Each of them is compared with each strip at the other end.
 const MAX_SEAM_STRIPS: usize = 100;
 
-/// The domain without the boxes. It is cut into strips at each value of joint 1 where a box begins or ends. In each
-/// strip, the *gaps* are the intervals of joint 2 that no box covers.
+/// The part of the domain outside the boxes. The domain is cut into strips at each value of joint 1 where a box begins
+/// or ends. In each strip, the *gaps* are the intervals of joint 2 that no box covers.
 struct Gaps {
     /// The strips, one between each value of joint 1 and the next, ascending.
     strips: Vec<Strip>,
-    /// For each gap, a gap that represents its group of connected gaps. While groups are being joined, this may be a
-    /// gap on the way to the representative (union-find).
+    /// For each gap, a gap that represents its group of connected gaps. While groups are being joined, it may be a gap
+    /// on the path to the representative (union-find).
     group: Vec<usize>,
     /// For each joint, the values at which boxes or the domain begin or end, ascending.
     values: [Vec<Decimal>; 2],
 }
 
-/// The gaps within one strip: the indices of their ends in the values of joint 2, and the number of the first gap.
+/// The gaps within one strip. They are given by the indices of their ends in the values of joint 2, and the index of
+/// the first gap.
 struct Strip {
     first: usize,
     gaps: Vec<[usize; 2]>,

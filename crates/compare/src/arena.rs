@@ -10,7 +10,7 @@ use super::study::Study;
 use super::{Comparison, Family};
 use cplan_core::model::Status;
 
-/// OMPL's words for the state of a planner, in the order of its `PlannerStatus`.
+/// Words of OMPL for the state of a planner, in the order of its `PlannerStatus`.
 const OMPL_STATUS_WORDS: [&str; 10] = [
     "Unknown status",
     "Invalid start",
@@ -28,7 +28,7 @@ const OMPL_STATUS_WORDS: [&str; 10] = [
 type Value = fn(usize, &Comparison, &Row) -> Option<String>;
 
 /// The properties of each run. First come those that OMPL's planners also have, with OMPL's names and units (seconds,
-/// megabytes of a million bytes), then those of cplan.
+/// megabytes of a million bytes). Those of cplan follow.
 const RUN_PROPERTIES: [(&str, Value); 18] = [
     ("time REAL", |_, _, row| real(row.total)),
     ("memory REAL", |_, _, row| real(row.memory.map(|bytes| bytes as f64 / 1e6))),
@@ -67,8 +67,9 @@ fn status(outcome: Status) -> usize {
 }
 
 impl Study {
-    /// Writes the log. `started` is date and time for people, `seconds` the total duration. The log states limits of 0
-    /// for time and memory, because planners had none, and does not name the machine.
+    /// Writes the log of a benchmark in OMPL's format. `started` is date and time in words, `seconds` the total
+    /// duration. The log states limits of 0 for time and memory, because planners had none, and does not name the
+    /// machine.
     #[must_use]
     pub fn to_arena_log(&self, started: &str, seconds: f64) -> String {
         let mut log = format!("cplan version {}\n", env!("CARGO_PKG_VERSION"));
@@ -108,7 +109,7 @@ impl Study {
     }
 }
 
-/// Returns the text on one line, changed so that it cannot be taken for a mark of the format.
+/// Returns the text on one line, changed so that readers of the format cannot confuse it with a mark of the format.
 fn line(text: &str) -> String {
     let clean: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let clean = clean.trim();
@@ -142,7 +143,8 @@ mod tests {
         runs: Vec<Vec<Option<f64>>>,
     }
 
-    /// A reader of the grammar in OMPL's documentation. It refuses whatever `ompl_benchmark_statistics.py` refuses.
+    /// A reader for the grammar in OMPL's documentation. It refuses everything that `ompl_benchmark_statistics.py`
+    /// refuses.
     struct Reader<'a>(std::str::Lines<'a>);
 
     impl<'a> Reader<'a> {
@@ -150,7 +152,7 @@ mod tests {
             self.0.next().expect("the log ends too early")
         }
 
-        /// Reads a line that ends in `end`, and returns the part before that.
+        /// Reads a line that ends in `end`, and returns the text before that.
         fn before(&mut self, end: &str) -> &'a str {
             let line = self.line();
             line.strip_suffix(end).unwrap_or_else(|| panic!("{line:?} does not end in {end:?}"))

@@ -16,7 +16,7 @@ pub struct Comparison {
     pub problem: String,
     /// Unit of the lengths: `rad`, `m`, or both for an arm with a joint of each kind.
     pub length_unit: String,
-    /// Start and goal, if they differ from the world's.
+    /// Start and goal. `None` if they are those of the world file.
     pub query: Option<[Configuration; 2]>,
     /// Proven lower bound on the length of every motion from start to goal, in the unit of lengths; `None` if unknown.
     pub bound: Option<f64>,
@@ -31,8 +31,9 @@ impl Comparison {
         self.rows.iter().filter_map(|r| r.length).filter(|l| l.is_finite()).min_by(f64::total_cmp)
     }
 
-    /// Returns the ratio of this row's length to the least length; 1 for the shortest path. If the least length is zero
-    /// (the goal is the start), returns 1 for other paths of length zero, and `None` for longer ones.
+    /// Returns the ratio of this row's length to the least length, which is 1 for the shortest path. If the least
+    /// length is zero (the goal is the start), returns 1 for paths of length zero, and `None` for longer ones. Returns
+    /// `None` if there is no path.
     #[must_use]
     pub fn ratio(&self, row: &Row) -> Option<f64> {
         quotient(row.length?, self.best()?)
@@ -93,7 +94,7 @@ impl Comparison {
         self.table().of_columns(&LEADING_COLUMNS).to_text_within(MAX_TABLE_WIDTH) + &remarks.collect::<String>()
     }
 
-    /// Returns the table with all columns, however wide.
+    /// Returns the table with all columns, without a limit on its width.
     #[must_use]
     pub fn to_wide_text(&self) -> String {
         self.table().to_text() + &self.remarks().map(|line| line + "\n").collect::<String>()

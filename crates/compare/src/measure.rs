@@ -16,11 +16,11 @@ pub enum Measure {
     Build,
     /// Computing time to answer the query.
     Query,
-    /// Computing time of the certificate.
+    /// Computing time to certify the path.
     Certify,
-    /// Computing time from the problem to the verdict.
+    /// Computing time from the problem to the outcome.
     Total,
-    /// Greatest memory in use.
+    /// Greatest memory in use at a time.
     Memory,
 }
 

@@ -13,7 +13,7 @@ pub struct OtherPath {
     pub clearance: Option<f64>,
 }
 
-/// The result of one planner. A value is `None` if the planner did not get that far.
+/// The result of one planner. A value is `None` if the planner did not get as far as that.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Name of the planner with its options, as on the command line.
@@ -45,14 +45,14 @@ pub struct Row {
     pub certify: Option<f64>,
     /// Computing time spent looking for a proof that there is no path, seconds.
     pub prove: Option<f64>,
-    /// Computing time from the problem to the verdict, in seconds. It includes the times above and everything between
+    /// Computing time from the problem to the outcome, in seconds. It includes the times above and everything between
     /// them.
     pub total: Option<f64>,
-    /// Greatest number of bytes allocated at the same time before the verdict.
+    /// Greatest number of bytes allocated at the same time before the outcome was known.
     pub memory: Option<u64>,
     /// A note of the planner.
     pub note: Option<Note>,
-    /// Why the outcome is unknown, in words.
+    /// The reason why the outcome is unknown, in words.
     pub reason: Option<String>,
 }
 

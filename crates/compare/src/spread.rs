@@ -40,8 +40,8 @@ impl Spread {
     }
 }
 
-/// Returns the value below which this fraction (0 to 1) of the values lies, with linear interpolation: the default
-/// definition of R (type 7) and NumPy. The values are ascending, and there is at least one.
+/// Returns the quantile `share` (0 to 1) of the values, with linear interpolation. This is the default definition of R
+/// (type 7) and NumPy. The values are ascending, and there is at least one.
 fn quantile(sorted: &[f64], share: f64) -> f64 {
     let at = share * (sorted.len() - 1) as f64;
     let below = at.floor() as usize;

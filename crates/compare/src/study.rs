@@ -65,8 +65,8 @@ impl Study {
         Spread::of(self.runs(planner).filter_map(|(comparison, row)| measure.of(comparison, row)))
     }
 
-    /// Counts problems by what all planners together found out, in the order of [`Status::ALL`]: a path, a proof that
-    /// there is none, neither. A contradictory problem counts as one with a path.
+    /// Counts problems by the outcome that all planners together found, in the order of [`Status::ALL`]: a path, a
+    /// proof that there is none, or neither. A contradictory problem counts as one with a path.
     #[must_use]
     pub fn settled(&self) -> [usize; 3] {
         let mut counts = [0; 3];

@@ -10,21 +10,21 @@ use cplan_core::model::Status;
 use cplan_text::{plain_line, wrapped};
 use serde_json::{Value, json};
 
-/// Tables list the problems one by one up to this number. CSV, JSON and the page list all of them.
+/// Number of problems up to which tables list the problems one by one. CSV, JSON and the page list all of them.
 const MAX_LISTED_PROBLEMS: usize = 60;
 
-/// Largest number of planners' remarks below the tables.
+/// Largest number of remarks of planners below the tables.
 const MAX_REMARKS: usize = 12;
 
 impl Study {
-    /// Returns tables for a terminal: outcomes, the distribution of each measure, each problem if they differ in more
-    /// than start and goal, and the summary in words. The text ends in a newline.
+    /// Returns tables for a terminal: outcomes, the distribution of each measure, and the summary in words. Lists the
+    /// problems one by one if they differ in more than start and goal. The text ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
         self.text(|table| table.to_text_within(MAX_TABLE_WIDTH))
     }
 
-    /// Returns the same as [`Study::to_text`], with tables of any width.
+    /// Does the same as [`Study::to_text`], with tables of any width.
     #[must_use]
     pub fn to_wide_text(&self) -> String {
         self.text(Table::to_text)
@@ -40,7 +40,7 @@ impl Study {
         text + &self.footnotes().map(|line| wrapped(&line, MAX_TABLE_WIDTH, 2) + "\n").collect::<String>()
     }
 
-    /// Returns the same content in Markdown.
+    /// Returns the same content as [`Study::to_text`] in Markdown.
     #[must_use]
     pub fn to_markdown(&self) -> String {
         let mut text = format!("# {}\n", escaped(&self.title));
@@ -54,8 +54,8 @@ impl Study {
         if notes.is_empty() { text } else { format!("{text}\n{notes}") }
     }
 
-    /// Returns one line per run in CSV, in SI units with full precision: the problem, start and goal if they were
-    /// drawn, and the columns of [`Comparison::to_csv`].
+    /// Returns one line per run in CSV, in SI units with full precision. A line has the problem, start and goal if they
+    /// were drawn, and the columns of [`Comparison::to_csv`].
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut text = format!("problem,start_1,start_2,goal_1,goal_2,{CSV_HEADER}\n");

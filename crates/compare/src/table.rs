@@ -50,14 +50,15 @@ pub struct Table {
 }
 
 impl Table {
-    /// Returns the table with columns two spaces apart, a rule under the header, and no trailing spaces.
+    /// Returns the table as text. Columns are two spaces apart, the header is underlined, and there are no trailing
+    /// spaces.
     pub fn to_text(&self) -> String {
         let table = self.with_cells(|cell| plain_line(cell).into_owned());
         table.text_under(&[table.header()])
     }
 
     /// Returns the table in lines of at most `width` characters. If it is too wide, splits headers into two lines. If
-    /// that does not suffice, splits the table into parts below each other, each with the first column.
+    /// that does not suffice, splits the table into several, one below the other, each with the first column.
     pub fn to_text_within(&self, width: usize) -> String {
         let text = self.to_text();
         if self.columns.len() < 2 || text.lines().all(|line| line.chars().count() <= width) {
@@ -90,7 +91,7 @@ impl Table {
         parts.into_iter().map(part).collect::<Vec<_>>().join("\n")
     }
 
-    /// Returns a table with the columns of these indices only.
+    /// Returns a table with only the columns of these indices.
     pub(super) fn of_columns(&self, columns: &[usize]) -> Self {
         let row = |row: &Vec<Option<String>>| columns.iter().map(|&k| row[k].clone()).collect();
         Self {

@@ -9,18 +9,18 @@ use cplan_core::model::Status;
 use cplan_core::planner::PathKind;
 use cplan_text::{counted, percent};
 
-/// A side is called better only if the sign test's p-value is at most this.
+/// Greatest p-value of the sign test with which a side is called better.
 const SIGNIFICANCE_LEVEL: f64 = 0.05;
 
-/// Two values count as equal if they differ by at most this fraction of them.
+/// Greatest difference of two values that count as equal, as a fraction of the values.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 /// Least number of problems for a conclusion. With five problems even five wins have a p-value of 1/16, which is not
 /// significant.
 const MIN_PROBLEMS: usize = 6;
 
-/// The compared measures: the measure, the phrases for the better of two and the best of several sides, the measure in
-/// words, and true if a greater value is better.
+/// The measures by which planners are compared. An entry has the measure, two phrases (for the better of two sides, and
+/// for the best of several), the measure in words, and a flag that is true if a greater value is better.
 const COMPARED_MEASURES: [(Measure, [&str; 2], &str, bool); 5] = [
     (
         Measure::OverOptimum,
@@ -45,10 +45,10 @@ struct Side {
     planners: Vec<usize>,
 }
 
-/// Returns the conclusions, one paragraph each: how many problems were settled, how close the proven optimum is, and
+/// Returns the conclusions, one paragraph each: how many problems have an outcome, how close the proven optimum is, and
 /// for each pair of families the lengths, clearances, times and sizes.
 ///
-/// Each planner represents its family by its usual path; the effect of pulling paths taut is reported separately. With
+/// Each planner represents its family by its usual path. The effect of pulling paths taut is reported separately. With
 /// a single family, planners are compared instead. A side is called better only if the sign test supports it at 5 %.
 /// The test counts the problems in which all sides have values.
 #[must_use]
@@ -128,7 +128,7 @@ fn sides(study: &Study) -> Vec<Side> {
     sides
 }
 
-/// Compares sides by one measure, or returns `None` if no problem has values for all.
+/// Compares sides by one measure. `None` if there is no problem for which all sides have values.
 fn aspect(
     study: &Study,
     sides: &[Side],
@@ -208,7 +208,8 @@ mod tests {
     use super::*;
     use crate::{Comparison, OtherPath, Row};
 
-    /// Returns a problem with a roadmap and a field: lengths over a bound of 1, and times.
+    /// Returns a problem with a roadmap planner and a field planner, with these lengths over a bound of 1 and these
+    /// times.
     fn problem(lengths: [Option<f64>; 2], totals: [f64; 2]) -> Comparison {
         let row = |i: usize, name: &str, family| Row {
             length: lengths[i],

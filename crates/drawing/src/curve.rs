@@ -15,7 +15,8 @@ const MAX_CHORDS: f64 = 1e5;
 #[derive(Debug)]
 pub(crate) struct TooFineCurve;
 
-/// Returns the number of chords for a step of `range` of the parameter.
+/// Returns the number of chords for a step of `range` of the parameter. `bend` is an upper bound of the curve's second
+/// derivative.
 fn chords(bend: f64, range: f64, tolerance: f64) -> Result<usize, TooFineCurve> {
     let count = (range * (bend / (8.0 * tolerance)).sqrt()).ceil().max(1.0);
     if count <= MAX_CHORDS { Ok(count as usize) } else { Err(TooFineCurve) }
@@ -56,7 +57,7 @@ impl Ellipse {
         (square / 2.0 + ((square * square / 4.0 - cross * cross).max(0.0)).sqrt()).sqrt()
     }
 
-    /// Returns the points of the arc from parameter `from` over the range `by`, without the first.
+    /// Returns points of the arc that begins at parameter `from` and covers the range `by`, without the first point.
     pub fn arc(self, from: f64, by: f64, tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFineCurve> {
         let count = chords(self.longest(), by.abs(), tolerance)?.max((by.abs() / FRAC_PI_2).ceil() as usize);
         Ok(along(count, move |part| self.at(from + by * part)))
@@ -96,8 +97,8 @@ impl CircularArc {
         })
     }
 
-    /// Returns the curve beside the arc, at a distance outwards that changes linearly from `first` to `last`. A
-    /// negative distance is inwards, and at most the radius. The chords are within the tolerance after `map` is
+    /// Returns the curve whose distance from the arc changes linearly from `first` to `last`. A positive distance is
+    /// outwards; a negative one is inwards, and at most the radius. The chords are within the tolerance after `map` is
     /// applied.
     pub fn spiral(self, first: f64, last: f64, map: &Map, tolerance: f64) -> Result<Vec<Point>, TooFineCurve> {
         let Self { center, radius, from, by } = self;

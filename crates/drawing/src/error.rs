@@ -8,7 +8,7 @@ pub struct Error {
     pub line: Option<usize>,
     /// Description of the defect.
     pub message: String,
-    /// Hint that says what to do.
+    /// Hint how to correct the file.
     pub cure: String,
 }
 

@@ -15,7 +15,7 @@ pub(crate) struct Chain {
     pub gap: f64,
 }
 
-/// Places where curves end. Ends nearer than `reach` share a place.
+/// The places where curves end. Two ends that are nearer than `reach` have the same place.
 struct Places {
     reach: f64,
     cells: HashMap<[i64; 2], Vec<usize>>,
@@ -44,8 +44,8 @@ fn apart(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Joins curves at places where exactly two of them end. Where three or more end, it is ambiguous which belong
-/// together. Each curve has at least two points.
+/// Joins curves at places where exactly two of them end. Where three or more curves end, it is ambiguous which ones
+/// belong together. Each curve has at least two points.
 pub(crate) fn joined(curves: &[Vec<Point>], reach: f64) -> Vec<Chain> {
     let mut places = Places { reach, cells: HashMap::new(), at: Vec::new() };
     let ends: Vec<[usize; 2]> =

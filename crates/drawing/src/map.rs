@@ -37,18 +37,18 @@ impl Map {
         [0, 1].map(|k| moved[k] + self.o[k])
     }
 
-    /// Returns the composition that applies `inner` first.
+    /// Returns the map that applies `inner` first, and then this map.
     pub fn after(&self, inner: &Map) -> Map {
         Map { u: self.vector(inner.u), v: self.vector(inner.v), o: self.point(inner.o) }
     }
 
-    /// Returns the image of the origin, and the rotation of a map that does not distort shapes. The rotation is that of
-    /// the y axis, because x may be mirrored.
+    /// Returns the frame of a map that does not distort shapes: the image of the origin, and the rotation. The rotation
+    /// is that of the y axis, because x may be mirrored.
     pub fn frame(&self) -> Frame {
         Frame { at: self.o, angle: (-self.v[0]).atan2(self.v[1]) }
     }
 
-    /// Returns the scale factor, if it is the same in all directions.
+    /// Returns the scale factor. Returns `None` if it is not the same in all directions.
     pub fn similarity(&self) -> Option<f64> {
         const EQUALITY_TOLERANCE: f64 = 1e-9;
         let [u, v] = [self.u, self.v].map(|[x, y]| x.hypot(y));

@@ -6,7 +6,7 @@ use std::fmt;
 /// A remark about elements that were omitted or changed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
-    /// Kind of the note, such as `TEXT: left out`.
+    /// Kind of element and what was done to it, such as `TEXT: left out`.
     pub message: String,
     /// Number of occurrences.
     pub count: usize,
@@ -26,14 +26,15 @@ impl fmt::Display for Note {
     }
 }
 
-/// Greatest number of different notes. All further ones are counted together, because nobody would read them.
+/// Greatest number of different notes that are listed. All further ones are counted together, because nobody would read
+/// them.
 const MAX_KINDS: usize = 48;
 
-/// Notes with the elements that they are about, counted by both.
+/// Notes, counted for each pair of element and message.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Notes {
     counted: Vec<(Vec<String>, Note)>,
-    /// Index of each note, by the words that select its element and by its message.
+    /// Index of each note, by the words that select its element and by the message.
     places: HashMap<(Vec<String>, String), usize>,
 }
 
@@ -43,7 +44,7 @@ impl Notes {
         self.add_of(Vec::new(), message, line);
     }
 
-    /// Adds a note about an element with a layer or name. `whose` lists all words that select the element.
+    /// Adds a note about an element that has a layer or name. `whose` lists all words that select the element.
     pub fn add_of(&mut self, whose: Vec<String>, message: impl Into<String>, line: Option<usize>) {
         let message = message.into();
         let place = *self.places.entry((whose.clone(), message.clone())).or_insert_with(|| {

@@ -14,7 +14,7 @@ pub const MAX_POINTS: usize = 1 << 21;
 /// Greatest coordinate, metres. Beyond it, the rounding of doubles exceeds tolerances.
 const MAX_COORDINATE: f64 = 1e12;
 
-/// Greatest distance of ends that meet up to the rounding of rotations and scales, metres.
+/// Greatest distance, metres, between two ends that coincide except for the rounding of rotations and scales.
 const ROUNDING: f64 = 1e-9;
 
 /// The origin of a shape in the file.
@@ -64,7 +64,7 @@ impl Sheet {
         self.note(format!("{what}: left out"), origin);
     }
 
-    /// Returns the error that a curve needs too many chords.
+    /// Returns the error that a curve needs too many chords to be within the tolerance.
     pub fn too_fine(&self, origin: &Origin) -> Error {
         let (kind, tolerance) = (&origin.kind, self.tolerance);
         let message = format!("{kind}: a tolerance of {tolerance} m needs too many chords");
@@ -94,7 +94,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// Adds the region that several rings surround by a fill rule.
+    /// Adds the region that several rings enclose under a fill rule.
     pub fn region(&mut self, rings: Vec<Ring>, rule: FillRule, origin: &Origin) -> Result<(), Error> {
         if let [_] = &rings[..] {
             return rings.into_iter().try_for_each(|ring| self.closed(ring, origin));
@@ -149,7 +149,8 @@ impl Sheet {
         self.closed(ring, origin)
     }
 
-    /// Checks the range of coordinates, and their total number.
+    /// Checks that the coordinates of points are within range, and adds the points to the total number, which has a
+    /// limit.
     fn counted<'a>(&mut self, points: impl Iterator<Item = &'a Point>, origin: &Origin) -> Result<(), Error> {
         for point in points {
             self.points += 1;

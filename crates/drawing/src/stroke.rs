@@ -55,8 +55,8 @@ fn beside(p: Point, direction: Point, distance: f64) -> Point {
     [0, 1].map(|k| p[k] + direction[k] * distance)
 }
 
-/// Returns rings that cover the same area as the pieces, counter-clockwise after `map`. Each piece must start where the
-/// previous one ends, have a length, and be wider than 0 somewhere.
+/// Returns rings that cover the same area as the pieces, counter-clockwise after `map` is applied. Each piece must
+/// start where the previous one ends, have a length above 0, and be wider than 0 somewhere.
 pub(crate) fn covered(pieces: &[Piece], is_closed: bool, map: &Map, tolerance: f64) -> Result<Vec<Ring>, TooFineCurve> {
     let mut edges = pieces.iter().map(|piece| piece.edges(map, tolerance)).collect::<Result<Vec<_>, _>>()?;
     let closing = (is_closed && pieces.len() > 1).then_some((pieces.len() - 1, 0));
@@ -88,7 +88,7 @@ pub(crate) fn covered(pieces: &[Piece], is_closed: bool, map: &Map, tolerance: f
     Ok(rings)
 }
 
-/// Returns twice the area that a ring surrounds, positive if it is counter-clockwise.
+/// Returns twice the area that a ring encloses, positive if the ring is counter-clockwise.
 fn doubled_area(ring: &[Point]) -> f64 {
     let from_first = |p: &Point| [p[0] - ring[0][0], p[1] - ring[0][1]];
     let cross = |w: &[Point]| {

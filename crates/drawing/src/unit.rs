@@ -50,7 +50,8 @@ impl Unit {
         self.metres
     }
 
-    /// Returns the unit for a value of DXF's `$INSUNITS`. Returns `None` for 0, "unitless", and for astronomical units.
+    /// Returns the unit for a value of DXF's `$INSUNITS`. Returns `None` for the value 0 ("unitless"), and for
+    /// astronomical units.
     pub(crate) fn of_dxf(code: i64) -> Option<Unit> {
         let named = |name: &str| name.parse().ok();
         match code {

@@ -15,7 +15,7 @@ use cplan_core::model::{Arm, Body, Dynamics, JointType, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, Vector, perpendicular};
 
-/// Greatest magnitudes of each joint's derivatives by the parameter of a curve, over a part of the curve.
+/// Greatest magnitudes of derivatives over a part of a curve: of each joint's value by the parameter of the curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rates {
     /// Greatest magnitude of the first derivative, for each joint.
@@ -26,19 +26,19 @@ pub struct Rates {
     pub third: [f64; 2],
 }
 
-/// Each joint's torque along a curve is a sum of three parts. These are upper bounds on the second derivatives of the
-/// parts by the parameter of the curve.
+/// Upper bounds that say how much torques bend along a curve. Each joint's torque is a sum of three parts, and these
+/// are bounds on the second derivatives of the parts by the parameter of the curve.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Curvature {
-    /// Bound for the torque of an acceleration equal to the curve's first derivative.
+    /// Bound for the first part: the torque that accelerates the joints along the curve's first derivative.
     pub inertial: [f64; 2],
-    /// Bound for the torque of the curve's second derivative and the square of its first.
+    /// Bound for the second part: the torque that the curve's second derivative and the square of its first require.
     pub bent: [f64; 2],
-    /// Bound for the torque that holds the arm at rest.
+    /// Bound for the third part: the torque that holds the arm at rest.
     pub holding: [f64; 2],
 }
 
-/// Returns the body that two bodies form if they are joined rigidly. All are in the same frame.
+/// Returns the body that two bodies form if they are joined rigidly. All three have the same frame.
 #[must_use]
 pub fn joined(a: &Body, b: &Body) -> Body {
     let mass = a.mass + b.mass;
@@ -80,8 +80,8 @@ fn sheet(piece: &Convex) -> Body {
     triangles.fold(Body::NONE, |sum, triangle| joined(&sum, &triangle))
 }
 
-/// Makes motions of an arm respect the joints' efforts. These also replace limits of acceleration that are not
-/// specified. Changes nothing if masses or efforts are unknown.
+/// Sets the dynamics of an arm so that its motions respect the joints' efforts. The efforts also replace limits of
+/// acceleration that are not specified. Changes nothing if masses or efforts are unknown.
 pub fn keep_efforts(arm: &mut Arm) {
     let Some(mut dynamics) = arm.dynamics else { return };
     dynamics.limits = true;
@@ -283,15 +283,15 @@ fn turns(arm: &Arm, link: usize) -> [Option<f64>; 2] {
     })
 }
 
-/// Returns 1 for each joint that turns a link, else 0.
+/// Returns 1 for each joint that turns a link, and 0 for any other joint.
 fn is_turned(arm: &Arm, link: usize) -> [f64; 2] {
     turns(arm, link).map(|turn| f64::from(u8::from(turn.is_some())))
 }
 
 /// Upper bounds on magnitudes along a part of a curve, for a point of a link.
 struct Bounds {
-    /// For each joint: bounds on the point's derivative by the joint, and on the first two derivatives of that along
-    /// the curve.
+    /// For each joint, bounds for the derivative of the point's position by the joint's value, and for the first two
+    /// derivatives of that along the curve.
     column: [[f64; 3]; 2],
     /// Bounds on the first four derivatives of the point along the curve. The fourth is valid if the curve has no third
     /// derivative.

@@ -4,7 +4,8 @@ use cplan_interrupt::Instant;
 use cplan_solver::Stages;
 use std::time::Duration;
 
-/// Stages in the order in which they ended. Each has the time from the end of the stage before.
+/// The stages of a computation, in the order in which they ended. The time of a stage is that since the end of the
+/// stage before.
 #[derive(Debug, Clone)]
 pub struct Clock {
     last: Instant,
@@ -12,13 +13,13 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// Starts the clock. `stages` have ended before.
+    /// Starts the clock. `stages` are stages that have already ended.
     #[must_use]
     pub fn after(stages: Vec<(&'static str, Duration)>) -> Self {
         Self { last: Instant::now(), stages }
     }
 
-    /// Ends a stage, whose time is that since the end of the stage before.
+    /// Ends a stage. Its time is that since the end of the stage before.
     pub fn stage(&mut self, name: &'static str) {
         self.stages.push((name, self.last.elapsed()));
         self.last = Instant::now();

@@ -5,11 +5,13 @@ use cplan_core::space::Metric;
 use cplan_motion::{DurationOptimality, Limits, TimedMotion, TimingError, least_duration};
 use cplan_solver::{BoundedPath, Criterion, Options, bound, solve};
 
-/// Gap of the lower bound on path length from which a lower bound on the time is derived, as a fraction.
+/// Gap to which a lower bound on the path's length is refined, as a fraction. A lower bound on the time is derived from
+/// it.
 const LENGTH_BOUND_GAP: f64 = 1e-3;
 
 /// Returns the fastest motion that was found, and a lower bound on the duration of every motion. Tries the planner's
-/// path and, if the planner minimises a length, the shortest paths by Euclidean length and by time at top speed.
+/// path. If the planner minimises a length, also tries the shortest path by Euclidean length and the shortest by time
+/// at top speed.
 pub(super) fn fastest(
     problem: &MotionProblem,
     path: &BoundedPath,

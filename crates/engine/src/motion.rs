@@ -14,7 +14,8 @@ pub struct Motion {
     pub path: BoundedPath,
     /// The path with rounded corners, and its timing.
     pub timed: TimedMotion,
-    /// The fastest possible duration, as far as it is proven. `None` if it was not requested.
+    /// The duration in comparison with a proven lower bound on the duration of every motion. `None` if it was not
+    /// requested.
     pub fastest: Option<DurationOptimality>,
     /// How the motion passes moving obstacles. `None` if there are none.
     pub timing: Option<Timing>,
@@ -58,7 +59,7 @@ impl Motion {
     }
 }
 
-/// Times the motion along the path of an answer. Without a path, the answer stays as it is.
+/// Times the motion along the path of an answer. An answer without a path is returned unchanged.
 ///
 /// # Errors
 /// A motion that lasts too long, or has too many samples.

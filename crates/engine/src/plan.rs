@@ -21,13 +21,13 @@ pub enum PlanError {
     /// Options that are invalid, or unsuitable for this problem.
     #[error("{0}")]
     Options(String),
-    /// Options that need properties of the robot that its file does not state.
+    /// The robot's file does not state properties that the options need.
     #[error("{0}")]
     Robot(String),
     /// The trajectory cannot be made as requested.
     #[error(transparent)]
     Timing(#[from] TimingError),
-    /// Joints that messages cannot name as requested, or accelerations that would mislead programs that read them.
+    /// Messages cannot name the joints as requested, or would have accelerations that mislead programs that read them.
     #[error(transparent)]
     Joints(#[from] MessageError),
 }
@@ -37,7 +37,7 @@ pub enum PlanError {
 pub enum Refutation<'a> {
     /// For a motion: boxes of colliding configurations separate the start from the goals.
     Motion(&'a CheckedProof),
-    /// For a task: a step that cannot be done. The same holds for every other choice in the task.
+    /// For a task: a step that cannot be done. It cannot be done with any other choice in the earlier steps either.
     Step(&'a FailedStep),
 }
 
@@ -76,7 +76,7 @@ pub struct Plan {
     clock: Clock,
 }
 
-/// The planned problem and its answer. Limits that options override are those of the options.
+/// The planned problem and its answer. Limits that the options override have the options' values.
 #[derive(Debug, Clone)]
 #[expect(clippy::large_enum_variant, reason = "a plan has one, in a box")]
 pub enum Detail {
@@ -96,8 +96,8 @@ pub enum Detail {
     },
 }
 
-/// Plans a problem. The result is a certified motion, a proof that no motion exists, or neither within the options'
-/// effort. It usually takes milliseconds.
+/// Plans a problem. The result is a certified motion, a proof that no motion exists, or neither if the effort that the
+/// options allow does not suffice. It usually takes milliseconds.
 ///
 /// # Errors
 /// Invalid options, a motion that lasts too long for its samples, and requested accelerations that jump.
@@ -278,22 +278,22 @@ impl Plan {
         &self.detail
     }
 
-    /// Returns the replay of how the planner found its answer. `None` for tasks. Some data is computed only for the
-    /// replay.
+    /// Returns the replay of how the planner found its answer. `None` for tasks. Computes some data that only the
+    /// replay needs.
     #[must_use]
     pub fn replay(&self) -> Option<Replay> {
         self.motion().map(|(problem, answer)| Replay::new(problem, &self.options, answer))
     }
 
-    /// Returns the replay of how the planner found the motions of a task. They are planned again for it. `None` for
-    /// single motions and with moving obstacles.
+    /// Returns the replay of how the planner found the motions of a task. To do so, plans them again. `None` for single
+    /// motions and with moving obstacles.
     #[must_use]
     pub fn task_replay(&self) -> Option<TaskReplay> {
         let standing = self.task().filter(|(task, _)| !task.has_moving_obstacles());
         standing.map(|(task, answer)| TaskReplay::new(task, &self.options, answer))
     }
 
-    /// Returns the arm. Limits that options override are those of the options.
+    /// Returns the arm. Limits that the options override have the options' values.
     #[must_use]
     pub fn arm(&self) -> &Arm {
         match &*self.detail {

@@ -12,8 +12,8 @@ use std::time::Duration;
 use thiserror::Error;
 
 /// A robot, its world, and its task: a motion from a start to a goal, or a sequence of steps. A problem has been
-/// checked, and is cheap to clone. Serde stores it as its model. A deserialised problem is checked like one that was
-/// made in code, and its numbers keep all bits.
+/// checked, and is cheap to clone. Serde stores the objects that it consists of, not the files. A deserialised problem
+/// is checked like one that was created in code, and its numbers keep all bits.
 #[derive(Debug, Clone)]
 pub struct Problem {
     content: Arc<MotionOrTask>,
@@ -21,11 +21,11 @@ pub struct Problem {
     courses: Arc<[ObstacleTrajectory]>,
     robot: Arc<RobotReport>,
     notes: Arc<[String]>,
-    /// Time that reading the files took. `None` if the problem was made in code.
+    /// Time that reading the files took. `None` if the problem was created in code.
     read_in: Option<Duration>,
 }
 
-/// Reason why arm, workspace, start and goals do not form a problem.
+/// Reason why an arm, a workspace, a start and goals do not form a valid problem.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ProblemError {
     /// The arm or the workspace is invalid.
@@ -36,7 +36,7 @@ pub enum ProblemError {
     Ends(#[from] MotionProblemError),
 }
 
-/// The problem of a single motion, or a task. A task comes with the scene in which the arm is empty-handed and objects
+/// The problem of a single motion, or a task. A task comes with its initial scene: the gripper is empty, and objects
 /// are at their initial places.
 #[derive(Debug)]
 #[expect(clippy::large_enum_variant, reason = "a problem shares one")]
@@ -71,7 +71,7 @@ impl Problem {
     /// Returns the problem of a scene that has been read.
     ///
     /// # Errors
-    /// A start or goal that is missing, out of reach or not free, and a step that an arm like this one cannot do.
+    /// A start or goal that is missing, out of reach or not free, and a step that an arm of this kind cannot do.
     pub fn of_scene(loaded: LoadedScene, overrides: &Overrides) -> Result<Self, InputError> {
         Ok(if loaded.has_steps() { loaded.task(overrides)?.into() } else { loaded.problem(overrides)?.into() })
     }
@@ -136,13 +136,14 @@ impl Problem {
         &self.robot
     }
 
-    /// Returns notes for the user on how the world was read: defaults, and IK solutions of the goal that are blocked.
+    /// Returns notes for the user on how the world was read: defaults that apply, and IK solutions of the goal that are
+    /// blocked.
     #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// Returns the scene with its trajectories.
+    /// Returns the scene with the trajectories of its loose obstacles.
     #[must_use]
     pub fn timed(&self) -> TimedScene<'_> {
         TimedScene { scene: self.scene(), courses: &self.courses }

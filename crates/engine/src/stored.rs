@@ -23,7 +23,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 use std::borrow::Cow;
 
-/// The stored form of a problem.
+/// A problem as serde stores it.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ProblemRecord<'a> {
@@ -40,7 +40,7 @@ enum TargetRecord<'a> {
     Task(Cow<'a, Task>),
 }
 
-/// The stored form of a motion.
+/// A motion problem as serde stores it.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MotionRecord {
@@ -49,7 +49,7 @@ struct MotionRecord {
     goals: GoalSet,
 }
 
-/// The stored form of a scene with its trajectories.
+/// A scene with its trajectories, as serde stores it.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SceneRecord {
@@ -134,7 +134,7 @@ fn are_joints(robot: &RobotJoints) -> bool {
         && robot.stroke.iter().all(|stroke| stroke.joint.is_sound())
 }
 
-/// The stored form of a plan. The result is only used for comparison.
+/// A plan as serde stores it. When a plan is read, its result is only compared with the result of planning again.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PlanRecord<P, O, R> {
@@ -197,7 +197,7 @@ fn difference(at: &str, stated: &Value, planned: &Value) -> Option<String> {
     }
 }
 
-/// Largest number of characters of a value that a message shows.
+/// Largest number of characters of a value that a message prints.
 const MAX_SHOWN_CHARACTERS: usize = 60;
 
 fn shown(value: &Value) -> String {

@@ -7,10 +7,10 @@ use cplan_core::check::{CertifiedPath, CheckedProof, CollisionBox, Disconnection
 use cplan_core::model::{Outcome, Scene, Status};
 use cplan_interrupt::checkpoint;
 
-/// Largest number of blocking sets. Each is computed after removing the obstacles of the sets before it.
+/// Largest number of blocking sets. Each set is computed in a world without the obstacles of the sets before it.
 const MAX_SETS: usize = 8;
 
-/// An element that blocks the motion and cannot be left out of its set.
+/// An element that blocks the motion and is needed in its set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blocker {
     /// The element.
@@ -21,12 +21,12 @@ pub struct Blocker {
     pub changes: Vec<Change>,
 }
 
-/// A set of elements that block all motions even if the world contains nothing else. Without any one of them, there is
-/// a motion, or it is not known whether there is one.
+/// A set of elements that block all motions even if the world contains nothing else. If any one of them is removed from
+/// the set, there is a motion, or it is not known whether there is one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockingSet {
-    /// Limits, then the clearance, then obstacles in the order of the file. Empty if no change can open a path, as for
-    /// a tip goal out of reach.
+    /// The elements: first limits, then the clearance, then obstacles in the order of the file. Empty if no change can
+    /// open a path, as for a tip goal out of reach.
     pub blockers: Vec<Blocker>,
     /// Proof that these elements alone block all motions. `None` if the start or every goal is blocked by them, which
     /// needs no proof.
@@ -59,7 +59,8 @@ impl BlockingSet {
         self.blockers.iter().all(|blocker| blocker.without.is_some())
     }
 
-    /// Returns [`Status::Found`] if a motion past the other elements is certified, otherwise [`Status::Unknown`].
+    /// Returns [`Status::Found`] if a motion past the other elements of the set is certified, otherwise
+    /// [`Status::Unknown`].
     #[must_use]
     pub fn without(&self, element: Element) -> Status {
         let blocker = self.blockers.iter().find(|blocker| blocker.element == element);
@@ -69,14 +70,14 @@ impl BlockingSet {
 
 /// Returns an irreducible blocking set for an infeasible question, starting from its proof.
 ///
-/// This is a deletion filter. Elements that the proof does not name are removed at once. Each of the others is removed
-/// if there is still no motion without it. An element that stays is needed: a motion is certified without it. That
-/// remains true when other elements are removed later, since fewer obstacles, wider limits and less clearance only free
-/// more configurations.
+/// This is a deletion filter. Elements that the proof does not name are removed at once. Then each of the others is
+/// removed if there is still no motion without it. An element that stays is needed: a motion is certified without it.
+/// That remains true when other elements are removed later, since fewer obstacles, wider limits and less clearance can
+/// only free more configurations.
 ///
 /// Decisions are made by slabs and boxes, without computing an optimum. `boxes` limits the number of boxes per
-/// decision: the first number applies to each element, the second to the few remaining ones whose result would
-/// otherwise be unknown. Makes `O(n)` decisions for the `n` elements that the proof names.
+/// decision. The first number applies to each element. The second applies to the few elements that stay and for which
+/// the first gave no result. Makes `O(n)` decisions for the `n` elements that the proof names.
 #[must_use]
 pub fn blocking_set(question: &MotionQuestion, proof: Option<CheckedProof>, boxes: [usize; 2]) -> BlockingSet {
     let mut filter =
@@ -115,8 +116,8 @@ pub fn blocking_set(question: &MotionQuestion, proof: Option<CheckedProof>, boxe
     BlockingSet { blockers: kept, proof: filter.proof }
 }
 
-/// Returns blocking sets that have no obstacle in common. After each set, its obstacles are removed, until the
-/// remaining world has a motion.
+/// Returns blocking sets that have no obstacle in common. After each set is found, its obstacles are removed from the
+/// world. This continues until the remaining world has a motion.
 #[must_use]
 pub fn blocking_sets(question: &MotionQuestion, proof: Option<CheckedProof>, boxes: [usize; 2]) -> Vec<BlockingSet> {
     let mut sets = vec![blocking_set(question, proof, boxes)];
@@ -192,7 +193,7 @@ impl Filter<'_> {
     }
 }
 
-/// Returns the proof that consists of these boxes, if it is shown to be valid before the time is up.
+/// Returns the proof that consists of these boxes. `None` if it is not shown to be valid before the time is up.
 fn held(question: &MotionQuestion, stuck: Vec<CollisionBox>) -> Option<CheckedProof> {
     let scene = question.scene();
     let clearance = scene.workspace().clearance;

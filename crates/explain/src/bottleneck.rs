@@ -8,33 +8,34 @@ use cplan_core::model::{Contact, Obstruction};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, separation};
 
-/// The narrowest place of the path that opens first. First the clearance is reduced, and then all obstacles shrink by
-/// one distance.
+/// The narrowest place of the path that is the first to open. To open it, the clearance is reduced first, and then all
+/// obstacles shrink by one distance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bottleneck {
-    /// Reduction of the clearance plus the distance by which obstacles shrink, in metres, at which the path opens.
+    /// Amount at which the path opens, in metres: the reduction of the clearance plus the distance by which obstacles
+    /// shrink.
     pub by: Threshold,
-    /// The configuration at which the path that opens comes nearest to the shrunk obstacles.
+    /// The configuration on the opened path that is nearest to the shrunk obstacles.
     pub at: Configuration,
-    /// The same place in the plane, where the arm is deepest in an obstacle.
+    /// The point of the plane at which the arm is deepest in an obstacle in this configuration.
     pub point: Point,
     /// Collisions of the arm at that configuration: for each link and obstacle, the deepest pair of shapes.
     pub hits: Vec<Obstruction>,
 }
 
-/// Tolerance of the amount of shrinking, as a fraction of that amount.
+/// Tolerance of the amount by which shapes are shrunk, as a fraction of the amount.
 const RELATIVE_TOLERANCE: f64 = 1e-2;
 
-/// Least tolerance of the amount of shrinking, as a fraction of the tolerance of changes. Nearer to the threshold,
-/// decisions take long.
+/// Least tolerance of the amount of shrinking, as a fraction of the tolerance of changes. Decisions closer to the
+/// threshold take long.
 const MIN_TOLERANCE_SHARE: f64 = 1.0 / 16.0;
 
-/// Number of configurations along the path at which the missing distance is measured.
+/// Number of configurations along the path at which the missing distance is computed.
 const PATH_SAMPLES: usize = 1024;
 
 impl Bottleneck {
-    /// Returns the distance that is missing at the narrowest place, in metres: the sum over all sides, clearance
-    /// included.
+    /// Returns the distance that is missing at the narrowest place, in metres. It is the sum over all obstacles that
+    /// the arm hits, clearance included.
     #[must_use]
     pub fn missing_distance(&self, clearance: f64) -> f64 {
         missing_distance(&self.hits, clearance)
@@ -82,7 +83,7 @@ pub fn bottleneck(question: &MotionQuestion, boxes: usize) -> Option<Bottleneck>
     Some(Bottleneck { by, at, point, hits })
 }
 
-/// Returns the configuration on the opened path at which the largest distance is missing in the true scene, and the
+/// Returns the configuration on the opened path at which the most distance is missing in the true scene, and the
 /// collisions there.
 fn narrowest(question: &MotionQuestion, by: &Threshold) -> Option<(Configuration, Vec<Obstruction>)> {
     let (scene, path) = (question.scene(), by.path.path());
@@ -95,8 +96,8 @@ fn narrowest(question: &MotionQuestion, by: &Threshold) -> Option<(Configuration
     hits.max_by(|a, b| missing_distance(&a.1, clearance).total_cmp(&missing_distance(&b.1, clearance)))
 }
 
-/// Returns the question with the clearance reduced by this distance. If the distance exceeds the clearance, the
-/// obstacles shrink by the rest.
+/// Returns the question with the clearance reduced by the distance `by`. If `by` exceeds the clearance, the obstacles
+/// shrink by the rest.
 fn giving_way(question: &MotionQuestion, by: f64) -> MotionQuestion {
     question.rebuilt(|_, workspace| {
         let beyond = by - workspace.clearance;
@@ -109,7 +110,7 @@ fn giving_way(question: &MotionQuestion, by: f64) -> MotionQuestion {
     })
 }
 
-/// Returns the corner of either shape that lies deepest in the other shape.
+/// Returns the corner of one of the two shapes that lies deepest in the other shape.
 fn place(question: &MotionQuestion, at: Configuration, Contact { pair, .. }: Contact) -> Point {
     let scene = question.scene();
     let (part, piece) = (scene.part(pair).at(&scene.arm().pose(pair.link, at)), scene.piece(pair));

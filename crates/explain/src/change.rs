@@ -8,17 +8,17 @@ use cplan_geometry::{Convex, Point, Pose, Vector};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Tolerance of changes, in metres or radians. For arms that reach less than a metre, lengths have this fraction of the
-/// reach as their tolerance.
+/// Tolerance of changes, in metres or radians. If the arm reaches less than a metre, changes of lengths have this
+/// fraction of the reach as their tolerance.
 const CHANGE_TOLERANCE: f64 = 1e-3;
 
-/// Largest tolerance, as a fraction of the largest possible change.
+/// Largest tolerance of a change, as a fraction of the largest possible change.
 const MAX_TOLERANCE_SHARE: f64 = 1e-2;
 
 /// Number of directions in which an obstacle is moved.
 const MOVE_DIRECTIONS: usize = 16;
 
-/// Number of refinements of the best direction. Each tries the two directions beside it, at half the angle of the
+/// Number of refinements of the best direction. Each tries one direction on either side of it, at half the angle of the
 /// refinement before.
 const DIRECTION_REFINEMENTS: u32 = 3;
 
@@ -45,13 +45,13 @@ pub enum ChangeKind {
     Lowered,
 }
 
-/// The elements that are in the world when a change is tried.
+/// The other elements that are in the world when a change is tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ChangeContext {
     /// All elements of the world.
     World,
-    /// Only the other blockers of the set. It is used if another set blocks all paths as well.
+    /// Only the other blockers of the set. This applies if another set blocks all paths as well.
     Set,
 }
 
@@ -68,8 +68,8 @@ pub struct Change {
     pub by: Threshold,
 }
 
-/// Returns the smallest changes of a blocker for an infeasible `question`: one for each kind of change that applies to
-/// it. The amount of a move is an upper bound on the least one, because only 16 directions and some between them are
+/// Returns the smallest changes of a blocker for an infeasible `question`, one for each kind of change that applies to
+/// it. The amount of a move is an upper bound on the least amount, because only 16 directions and some between them are
 /// tried.
 #[must_use]
 pub fn changes(question: &MotionQuestion, element: Element, among: ChangeContext, boxes: usize) -> Vec<Change> {
@@ -100,12 +100,12 @@ pub fn changes(question: &MotionQuestion, element: Element, among: ChangeContext
     }
 }
 
-/// Returns the tolerance of changes that are lengths, in metres.
+/// Returns the tolerance for changes of lengths, in metres.
 pub(super) fn fineness(question: &MotionQuestion) -> f64 {
     CHANGE_TOLERANCE * question.scene().arm().reach().min(1.0)
 }
 
-/// Finds the least shrinking of an obstacle that opens a path.
+/// Finds the least amount of shrinking an obstacle that opens a path.
 fn shrinking(
     question: &MotionQuestion,
     obstacle: &Obstacle,

@@ -29,8 +29,8 @@ pub enum Element {
         /// Index of its first layer, as in [`cplan_core::model::Pair::obstacle`].
         number: usize,
     },
-    /// One end of a joint's range. Without its limits, a revolute joint still does not count whole turns as equal: a
-    /// goal that is a whole turn away remains a different goal.
+    /// One end of a joint's range. Removing limits does not make whole turns of a revolute joint equal: a goal that is
+    /// a whole turn away remains a different goal.
     Limit {
         /// Index of the joint, 0 or 1.
         joint: usize,

@@ -7,7 +7,7 @@ use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
 use serde::Serialize;
 
-/// Number of values of each joint from which the search for the tip's nearest place starts.
+/// Number of values of each joint in the lattice with which the search for the tip's nearest place starts.
 const SAMPLES_PER_JOINT: usize = 128;
 
 /// Smallest step of the search for the tip's nearest place, as a fraction of a joint's range.
@@ -30,7 +30,7 @@ pub struct BlockedEnd {
     pub end: End,
     /// The configuration. For a tip goal, an IK solution.
     pub at: Configuration,
-    /// Distance of each joint's value from its range, in radians or metres; 0 inside the range.
+    /// Distance of each joint's value outside its range, in radians or metres; 0 inside the range.
     pub beyond: [f64; 2],
     /// Obstacles that the arm hits there, or that it comes too near to.
     pub hits: Vec<Obstruction>,
@@ -39,7 +39,8 @@ pub struct BlockedEnd {
 }
 
 impl BlockedEnd {
-    /// Returns the distance of the tip at the blocked configuration from the tip at the nearest free one, in metres.
+    /// Returns the distance, in metres, between the tip at the blocked configuration and the tip at the nearest free
+    /// one. `None` if no configuration is free.
     #[must_use]
     pub fn tip_moves(&self, arm: &Arm) -> Option<f64> {
         self.nearest.map(|nearest| (arm.tip_at(nearest.configuration) - arm.tip_at(self.at)).norm())
@@ -99,8 +100,8 @@ fn of(question: &MotionQuestion, end: End, at: Configuration) -> BlockedEnd {
     BlockedEnd { end, at, beyond, hits: scene.obstructions(at), nearest: nearest_free(scene, at) }
 }
 
-/// Finds the place nearest to a goal that the tip reaches within the limits. Starts with the best of a lattice of
-/// configurations, and improves it by steps that are halved.
+/// Finds the place nearest to a goal that the tip reaches within the limits. Starts at the best configuration of a
+/// lattice. Then improves it by steps that become smaller and smaller.
 fn nearest_tip(arm: &Arm, tip: Point) -> OutOfReach {
     let ranges = arm.topology().ranges;
     let at = |share: [f64; 2]| {

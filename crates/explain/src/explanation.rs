@@ -21,7 +21,7 @@ const BOXES_FOR_LAST_DECISIONS: usize = 1_000_000;
 pub struct Explanation {
     /// The question.
     pub question: MotionQuestion,
-    /// For a motion that exists, what makes it longer. Otherwise, the reasons why there is none.
+    /// If there is a motion: the elements that make it longer. Otherwise, the reasons why there is none.
     pub outcome: Outcome<FoundExplanation, InfeasibleExplanation>,
     /// True if the time limit was reached. Then sets may contain needless elements, and changes and savings may be
     /// missing.

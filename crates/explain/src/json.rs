@@ -118,7 +118,7 @@ fn of_closed(scene: &Scene, closed: &InfeasibleExplanation) -> Value {
 }
 
 impl InfeasibleExplanation {
-    /// Returns the names of the obstacles, and of links of the robot, in the first set.
+    /// Returns the names of the obstacles and links of the robot in the first blocking set.
     #[must_use]
     pub fn blocking<'a>(&self, scene: &'a Scene) -> Vec<&'a str> {
         let elements = self.sets.first().map(|set| set.elements()).unwrap_or_default();

@@ -11,13 +11,13 @@ use std::f64::consts::TAU;
 use std::time::Duration;
 
 /// Least clearance in a world without some of its elements, in metres. It applies if the world requires less, or if the
-/// clearance itself is removed. A path through a narrower gap would exist by luck only. Without any clearance, boxes
+/// clearance itself is removed. A path through a narrower gap would exist only by chance. Without any clearance, boxes
 /// could neither prove nor refute a path that passes an obstacle as thin as a line. For arms that reach less than a
-/// metre, it is this fraction of their reach.
+/// metre, the least clearance is this fraction of their reach.
 pub const MIN_CLEARANCE: f64 = 1e-6;
 
-/// Default time limit of an explanation, from the moment when it is known whether there is a motion. Most explanations
-/// take tenths of a second.
+/// Default time limit of an explanation. It begins when it is known whether there is a motion. Most explanations take
+/// tenths of a second.
 pub const TIME_LIMIT: Duration = Duration::from_secs(5);
 
 /// The target of a motion.
@@ -25,7 +25,8 @@ pub const TIME_LIMIT: Duration = Duration::from_secs(5);
 pub enum Target {
     /// Any of these configurations.
     Goals(GoalSet),
-    /// Any configuration that puts the tip at this place. In a world with fewer elements, there may be more of them.
+    /// Any configuration that puts the tip at this place. In a world with fewer elements, more configurations may do
+    /// so.
     Tip(Point),
 }
 
@@ -52,11 +53,11 @@ pub struct MotionQuestion {
     scene: Scene,
     start: Configuration,
     target: Target,
-    /// Distance that each joint may go beyond a removed limit, in radians or metres. It does not depend on which other
+    /// Distance that each joint may go beyond a removed limit, in radians or metres. It is the same whichever other
     /// elements are removed.
     beyond: [f64; 2],
-    /// Least clearance when an element is removed: [`MIN_CLEARANCE`], or 0 if start and goals are nearer to obstacles
-    /// than that.
+    /// Least clearance in a world without some elements: [`MIN_CLEARANCE`], or 0 if start and goals are nearer to
+    /// obstacles than that.
     least_clearance: f64,
     /// Time limit for all decisions together. `None` for no limit.
     time_limit: Option<Duration>,
@@ -196,16 +197,17 @@ impl MotionQuestion {
         }
     }
 
-    /// Returns how far a joint may go beyond a removed limit, in radians or metres: at least a whole turn for a
-    /// revolute joint; past all obstacles for a prismatic one; and far enough for start and goals.
+    /// Returns how far a joint may go beyond a removed limit, in radians or metres. This is at least a whole turn for a
+    /// revolute joint, and past all obstacles for a prismatic one. It also suffices for start and goals.
     #[must_use]
     pub fn beyond(&self, joint: usize) -> f64 {
         self.beyond[joint]
     }
 
     /// Returns the question without some of its elements. A removed limit is replaced by a wider one, see
-    /// [`MotionQuestion::beyond`]. The clearance stays at least [`MIN_CLEARANCE`], if start and goals keep that. The
-    /// other elements keep their indices, so a proof that names no removed element is valid for both questions.
+    /// [`MotionQuestion::beyond`]. The clearance is at least [`MIN_CLEARANCE`], unless start or goals are nearer to
+    /// obstacles. The other elements keep their indices, so a proof that names no removed element is valid for both
+    /// questions.
     #[must_use]
     pub fn without(&self, elements: &[Element]) -> Self {
         self.without_at_clearance(elements).rebuilt(|_, workspace| {
@@ -213,8 +215,8 @@ impl MotionQuestion {
         })
     }
 
-    /// Returns the same as [`MotionQuestion::without`], but with the world's own clearance, however small. Use it for
-    /// statements about lengths: a larger clearance makes paths longer, so a lower bound for a question with a larger
+    /// Does the same as [`MotionQuestion::without`], but with the world's own clearance, however small. Use it for
+    /// statements about lengths. A larger clearance makes paths longer, so a lower bound for a question with a larger
     /// clearance would not be valid for this one.
     #[must_use]
     pub fn without_at_clearance(&self, elements: &[Element]) -> Self {
@@ -274,12 +276,12 @@ fn beyond(scene: &Scene, start: Configuration, target: &Target) -> [f64; 2] {
     })
 }
 
-/// Two prismatic joints move along one line if their directions differ by less than this angle, in radians.
+/// Angle between the directions of two prismatic joints, in radians, below which they count as moving along one line.
 const PARALLEL_ANGLE: f64 = 1e-3;
 
 /// Returns the sine of the angle between two prismatic joints. The smaller it is, the farther each joint must go to
-/// move the arm past an obstacle beside the other joint's line. Returns 1 for other arms, and for joints along one
-/// line, which cannot move the arm sideways.
+/// move the arm past an obstacle beside the other joint's line. Returns 1 for other arms. Also returns 1 for joints
+/// along one line, which cannot move the arm sideways.
 fn crossing(arm: &Arm) -> f64 {
     let across = match arm.joints.each_ref().map(|joint| joint.joint_type) {
         [JointType::Prismatic { direction: a }, JointType::Prismatic { direction: b }] => a.perp(&b).abs(),

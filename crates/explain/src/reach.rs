@@ -10,13 +10,13 @@ use cplan_solver::decide;
 use petgraph::unionfind::UnionFind;
 use serde::{Serialize, Serializer};
 
-/// Largest number of square cells whose centres are examined.
+/// Largest number of square cells that are examined.
 pub const MAX_PLACES: usize = 4_000_000;
 
-/// Largest number of boxes for each set of solutions that small motions connect.
+/// Largest number of boxes for the decision about one set of connected solutions.
 const BOXES_PER_SET: usize = 20_000;
 
-/// Number of values of each joint in the sample that bounds the places of the tip.
+/// Number of values of each joint in the sample of configurations that bounds the places of the tip.
 const SAMPLES_PER_JOINT: usize = 256;
 
 /// Reachability of a configuration from the home configuration.
@@ -74,7 +74,7 @@ pub struct Reach {
     pub cell: f64,
     /// Least coordinates of the first cell, metres.
     pub corner: [f64; 2],
-    /// Cells along x, and along y.
+    /// Number of cells along x and along y.
     pub size: [usize; 2],
     /// For each cell, the solutions that put the tip at its centre, row by row from the lowest row. Empty if the centre
     /// is out of reach.
@@ -82,15 +82,15 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// Returns the centre of the cell with this number.
+    /// Returns the centre of the cell with this index.
     #[must_use]
     pub fn center(&self, place: usize) -> Point {
         let at = [place % self.size[0], place / self.size[0]];
         Point::from([0, 1].map(|k| self.corner[k] + self.cell * (at[k] as f64 + 0.5)))
     }
 
-    /// Returns, for each cell with solutions, its number, the best reachability of its solutions, and how many
-    /// solutions have that.
+    /// Iterates over the cells with solutions. For each, returns its index, the best reachability of its solutions, and
+    /// how many of them have that reachability.
     pub fn best(&self) -> impl Iterator<Item = (usize, Access, usize)> {
         self.places.iter().enumerate().filter_map(|(number, solutions)| {
             let best = solutions.iter().map(|solution| solution.access).min()?;
@@ -167,7 +167,7 @@ fn is_free(scene: &Scene, q: Configuration) -> bool {
     certify(scene, Path::new(vec![q]), scene.workspace().clearance).is_ok()
 }
 
-/// Decides for all free solutions whether they can be reached.
+/// Decides for all free solutions whether a motion from home leads to them.
 fn decide_places(scene: &Scene, reach: &mut Reach) {
     // All free solutions, and for each cell the index of its first one.
     let mut firsts = Vec::with_capacity(reach.places.len() + 1);

@@ -10,15 +10,15 @@ use cplan_solver::{Answer, Bound, Options, solve};
 pub struct Saving {
     /// The element.
     pub element: Element,
-    /// Length of a path that was found without the element.
+    /// Length of a path that is found when the element is removed.
     pub length: f64,
-    /// Lower bound on the amount by which the shortest path becomes shorter without the element.
+    /// Lower bound on how much shorter the shortest path is without the element.
     pub at_least: f64,
-    /// Upper bound on that amount.
+    /// Upper bound on how much shorter the shortest path is without the element.
     pub at_most: f64,
 }
 
-/// Returns the elements without which the shortest path is proven to be shorter than that of `answer`, the greatest
+/// Returns the elements whose removal is proven to make the shortest path shorter than that of `answer`, the greatest
 /// saving first. Plans a shortest path without each element in turn, until the question's time is up.
 #[must_use]
 pub fn savings(question: &MotionQuestion, answer: &Answer, options: &Options) -> Vec<Saving> {

@@ -7,17 +7,17 @@ use cplan_interrupt::checkpoint;
 /// Bounds on the amount of a change at which a path opens.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Threshold {
-    /// An amount with which there is a certified path.
+    /// The amount of a change with which there is a certified path.
     pub opens: f64,
     /// A certified path with the amount `opens`.
     pub path: CertifiedPath,
-    /// An amount with which it is proven that there is no path. If it differs from `opens` by more than the tolerance,
-    /// nothing is known about the amounts between them.
+    /// A smaller amount with which it is proven that there is no path. If it differs from `opens` by more than the
+    /// tolerance, nothing is known about the amounts between the two.
     pub closed: f64,
 }
 
-/// Finds the threshold between `closed` and `most`, to `tolerance`. `None` if it is not proven that `closed` leaves no
-/// path, or if no path is found with `most`.
+/// Finds the threshold between `closed` and `most`, to `tolerance`. `ask` decides whether an amount opens a path.
+/// Returns `None` if it is not proven that `closed` leaves no path, or if no path is found with `most`.
 ///
 /// Doubles the step until a path is found, then bisects: `O(log((most - closed) / tolerance))` calls of `ask`.
 pub(super) fn threshold(

@@ -16,8 +16,8 @@ use cplan_solver::{Options, Unknown, solve};
 use cplan_text::{counted, listed};
 use std::collections::{BTreeSet, HashSet};
 
-/// Number of configurations of an optimistic path, counted from the first one not known to be free, whose unknown map
-/// cells are sought. An optimistic path counts unknown space as free.
+/// Number of configurations of an optimistic path that are examined for unknown map cells. They are counted from the
+/// first one that is not known to be free. (An optimistic path counts unknown space as free.)
 const PLACES_AHEAD: usize = 8;
 
 /// Largest number of configurations that are examined for a better view. Examining them takes several milliseconds.
@@ -30,8 +30,8 @@ const WALL_SMOOTHING_CELLS: usize = 4;
 /// The next action.
 pub enum Decision {
     Done(Ending),
-    /// Follow a certified path. If the arm goes there to take a reading, the second value is the cell of the grid at
-    /// which it is taken.
+    /// Follow a certified path. The second value is the cell of the grid at which a reading is to be taken; `None` if
+    /// that is not the purpose.
     Go(CertifiedPath, Option<usize>),
 }
 
@@ -45,8 +45,8 @@ impl Explorer<'_> {
         if joined.is_empty() { self.back() } else { self.exploring(&joined) }
     }
 
-    /// Returns to the start of the last leg, because no centre of a cell is reachable from here by a straight motion.
-    /// Ends the exploration if the last leg was such a return.
+    /// Returns to the start of the last leg, because from here no straight motion reaches the centre of a cell. Ends
+    /// the exploration if the last leg was already such a return.
     fn back(&mut self) -> Decision {
         let last = self.legs.last().filter(|_| !self.is_back).map(|leg| leg.curve.curve().path().waypoints());
         let reversed = last.map(|waypoints| Path::new(waypoints.iter().rev().copied().collect()));
@@ -55,9 +55,10 @@ impl Explorer<'_> {
         certified.map_or_else(|| Decision::Done(self.too_coarse()), |path| Decision::Go(path, None))
     }
 
-    /// Returns to the last visited place from which something new can be reached. It is called if nothing new can be
-    /// seen from the configurations reachable here: cells that no steps of the grid connect may be connected by the
-    /// path taken so far. If there is no such place, returns the number of configurations reachable from anywhere.
+    /// Returns to the last visited place from which something new can be reached. It is called if the configurations
+    /// that are reachable from here show nothing new. Cells that no steps of the grid connect may be connected by the
+    /// path so far. If there is no such place, returns the number of configurations that are reachable from any visited
+    /// place.
     fn where_it_was(&mut self, reach: &Reach) -> Result<Decision, usize> {
         let mut is_reached = vec![false; self.known.grid.blocked.len()];
         reach.cells.iter().for_each(|&cell| is_reached[cell] = true);
@@ -144,8 +145,9 @@ impl Explorer<'_> {
         (reach.cells.last() == Some(&end)).then(|| reach.route(end))
     }
 
-    /// Marks as free in `side` the cells that are reachable from a cell without crossing the frontier, and the frontier
-    /// cells among them. Returns the latter. The region behind the frontier does not affect the potential before it.
+    /// Marks as free in `side` the cells that are reachable from a cell without crossing the frontier. Also marks the
+    /// frontier cells beside them, and returns these. Cells behind the frontier have no effect on the potential before
+    /// it.
     fn up_to_frontier(&mut self, from: usize, side: &mut Grid) -> Vec<usize> {
         let is_new = std::mem::replace(&mut side.blocked[from], false);
         let (mut open, mut goals) = (if is_new { vec![from] } else { Vec::new() }, Vec::new());
@@ -165,7 +167,7 @@ impl Explorer<'_> {
     }
 
     /// Moves to the nearest wall, and along it to the first frontier configuration. Returns `None` if the walk returns
-    /// to its beginning without one.
+    /// to its beginning and has found none.
     fn along_wall(&mut self, joined: &[usize]) -> Option<Vec<usize>> {
         let KnownSpace { grid, closed, .. } = &self.known;
         let mut begin = None;
@@ -233,11 +235,11 @@ impl Explorer<'_> {
     }
 
     /// Returns the path to the best view. The candidates show everything that the nearest frontier configuration shows,
-    /// if no unknown obstacle hides it, so that nothing is left behind that would require a return. Of the candidates,
-    /// the one with the greatest [`worth`] is the best view, and of several the nearest one.
+    /// unless an unknown obstacle hides it. So nothing is left behind for which the arm would have to return. The best
+    /// view is the candidate with the greatest [`worth`]; if several are equal, the nearest of them.
     ///
     /// The search stops at the distance beyond which no candidate can be better, and after [`MAX_VIEWS`] candidates.
-    /// Farther away, fewer configurations are examined, but never fewer than one per distance between readings.
+    /// Farther away, fewer configurations are examined, but at least one per distance between readings.
     fn best_view(&mut self, joined: &[usize]) -> Result<Vec<usize>, Reach> {
         let Self { survey, sensor, known, frontier, .. } = self;
         let grid = &known.grid;
@@ -313,7 +315,7 @@ impl Explorer<'_> {
     }
 
     /// Moves to the nearest configuration from which one of the cells `in_the_way` is visible. If there is none, moves
-    /// to the best view, and if there is none, to the goal within known space.
+    /// to the best view. If there is no view either, moves to the goal within known space.
     fn detour(&mut self, goals: &GoalSet, in_the_way: &BTreeSet<usize>) -> Decision {
         let joined = join(&self.solid, &self.known.grid, self.at);
         if joined.is_empty() {
@@ -348,7 +350,7 @@ impl Explorer<'_> {
         showing.map(|cell| reach.route(cell))
     }
 
-    /// Plans a path to the goal within known space. It is called if nothing new can be seen.
+    /// Plans a path to the goal within known space. Called if nothing new can be seen.
     fn within_known(&self, goals: &GoalSet) -> Decision {
         let problem = match problem(self.solid.clone(), self.at, goals) {
             Ok(problem) => problem,
@@ -367,8 +369,9 @@ impl Explorer<'_> {
     }
 }
 
-/// Returns the problem of moving to the goals that are not known to be blocked. If all are blocked, returns the ending.
-/// The goals are free in the true world, so the blocking cells are unknown, or the map is too coarse.
+/// Returns the problem of moving to those goals that are not known to be blocked. If all are blocked, returns the
+/// ending of the exploration. The goals are free in the true world, so the blocking cells are unknown, or the map is
+/// too coarse.
 fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<MotionProblem, Ending> {
     let is_blocked = |piece: &&Segment| piece.is_point() && !scene.obstructions(piece.ends()[0]).is_empty();
     let (blocked, open): (Vec<&Segment>, Vec<&Segment>) = goals.pieces().iter().partition(is_blocked);
@@ -383,7 +386,7 @@ fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<Motion
     MotionProblem::new(scene, start, open).map_err(|error| Ending::Unknown(error.to_string()))
 }
 
-/// Returns the value of moving this far in order to see this many cells for the first time.
+/// Returns how much a view is worth. It shows `seen` cells for the first time, at the distance `length`.
 ///
 /// Short distances have priority: a configuration at twice the distance must show 64 times as many cells. Experiments
 /// led to this ratio (CPLAN_WORLDS of `planning exploring`).

@@ -17,18 +17,18 @@ use cplan_solver::{Options, solve};
 use cplan_text::counted;
 use cplan_world::Sensor;
 
-/// Greatest distance from a goal, in joint space, at which the arm counts as being at it. It covers the rounding of
-/// whole turns that were added to the goal.
+/// Greatest distance from a goal, in joint space, at which the arm counts as being at the goal. It covers rounding when
+/// whole turns are added to the goal.
 const GOAL_TOLERANCE: f64 = 1e-9;
 
 /// Explores the world of `scene` from `start`. The explorer knows only what the sensor's readings show. Calls
 /// `progress` regularly.
 ///
-/// The exploration is deterministic, except for the times of decisions. A decision costs a shortest-path search over
-/// the grid of configurations, and certificates; with a goal, also a plan.
+/// The exploration is deterministic, except for the measured times of decisions. A decision costs a shortest-path
+/// search over the grid of configurations, and certificates. With a goal, it also costs a plan.
 ///
 /// # Errors
-/// A map with too many cells, a known map of another world, or a strategy that needs a goal without one.
+/// A map with too many cells, a known map of another world, or a strategy that needs a goal if there is none.
 pub fn explore(
     scene: &Scene,
     sensor: &Sensor,
@@ -118,7 +118,7 @@ pub fn explore(
     })
 }
 
-/// Returns the length of the shortest motion that is found in the true world.
+/// Returns the length of the shortest motion that is found in the true world. `None` if none is found.
 fn length_if_known(scene: &Scene, start: Configuration, goals: &GoalSet, settings: &Settings) -> Option<f64> {
     let problem = MotionProblem::new(scene.clone(), start, goals.clone()).ok()?;
     let options = Options { bounded: false, levels: settings.options.levels, ..Options::default() };
@@ -138,7 +138,8 @@ pub struct Explorer<'a> {
     pub known: KnownSpace,
     pub frontier: Frontier,
     pub at: Configuration,
-    /// True if the last leg along an optimistic path showed nothing new. Then a part of the next one would not, either.
+    /// True if the last leg along an optimistic path showed nothing new. A part of the next such path would show
+    /// nothing new either.
     pub is_stalled: bool,
     /// True if the last leg returned to where the arm had been.
     pub is_back: bool,
@@ -165,7 +166,7 @@ impl Explorer<'_> {
         is_new
     }
 
-    /// Updates grid, frontier and known obstacles with everything seen since the last decision.
+    /// Updates the grid, the frontier and the known obstacles with everything that was seen since the last decision.
     fn take_note(&mut self) {
         let fresh = std::mem::take(&mut self.fresh);
         let (arm, clearance) = (self.scene.arm(), self.scene.workspace().clearance);
@@ -189,9 +190,9 @@ impl Explorer<'_> {
         self.frontier.contains(&self.survey, self.sensor, cell)
     }
 
-    /// Moves along a path and takes readings on it. If the purpose of the motion is a reading at the cell `until`, the
-    /// arm stops as soon as that reading would show nothing new. Otherwise it stops at the first reading that shows
-    /// something new.
+    /// Moves along a path and takes readings on it. If `until` is a cell, the arm moves in order to take a reading
+    /// there. Then it stops as soon as that reading would show nothing new. If `until` is `None`, it stops at the first
+    /// reading that shows something new.
     ///
     /// # Errors
     /// The reason why a part of the path cannot be certified or timed.

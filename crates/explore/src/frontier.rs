@@ -18,33 +18,34 @@ pub struct Frontier {
     /// Pose of the sensor at each configuration.
     stands: Vec<SensorPose>,
     /// The unknown cells next to free ones. A ray reaches one of these before any other unknown cell. `None` if
-    /// something new has been seen since they were computed.
+    /// something new has been seen since they were last computed.
     edges: Option<Edges>,
     /// Upper bound on the number of new cells that are visible from any configuration.
     max_gain_anywhere: u32,
-    /// For each cell of the map, the number of the last count (`count`) that included it.
+    /// For each cell of the map, the value of the counter (`count`) when the cell was last counted.
     counted: Vec<u32>,
     count: u32,
     /// Index of the configuration that [`Frontier::evaluate_ahead`] examines next.
     ahead: usize,
-    /// Number of configurations that promised new cells, but whose reading showed none.
+    /// Number of configurations from which new cells were expected to be visible, but whose reading showed none.
     pub given_up: usize,
 }
 
-/// Number of configurations that are examined in advance at each decision. This takes a fraction of a millisecond.
+/// Number of configurations that are examined in advance at each decision. They take a fraction of a millisecond.
 const CONFIGURATIONS_AHEAD: usize = 256;
 
-/// Knowledge about a reading that has not been taken.
+/// What is known about a reading that has not been taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct ExpectedReading {
-    /// A cell of the map that the reading shows if the cell is still unknown. `None` if no such cell has been computed.
+    /// A cell of the map that the reading shows, as long as the cell is unknown. `None` if no such cell has been
+    /// computed.
     witness: Option<usize>,
     /// Upper bound on the number of new cells that the reading shows. If it is 0, it stays 0.
     most: u32,
 }
 
 impl Frontier {
-    /// Creates the frontier over the configurations of a grid. Before anything is examined, only the range of the
+    /// Creates the frontier over the configurations of a grid. Nothing has been examined yet, so only the range of the
     /// sensor bounds the number of visible cells.
     #[must_use]
     pub fn new(survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid) -> Self {
@@ -89,8 +90,8 @@ impl Frontier {
         prospect.most > 0
     }
 
-    /// Examines some of the configurations that may be on the frontier, in turn, so that no decision has to examine all
-    /// of them. The result is permanent for those at which a reading shows nothing new.
+    /// Examines some of the configurations that may be on the frontier, in turn. So no decision has to examine all of
+    /// them. If a reading there would show nothing new, that result is permanent.
     pub fn evaluate_ahead(&mut self, survey: &Survey, sensor: &Sensor, grid: &Grid) {
         let mut asked = 0;
         for _ in 0..self.configurations.len() {
@@ -138,8 +139,8 @@ impl Frontier {
         self.configurations[cell].most
     }
 
-    /// Records that a reading at a cell of the grid showed nothing new. Random errors of distances can cause this
-    /// although new cells were expected. The cell then leaves the frontier.
+    /// Records that a reading at a cell of the grid showed nothing new, although new cells were expected. Random errors
+    /// of distances can be the cause. The cell then leaves the frontier.
     pub fn record_nothing_new(&mut self, cell: usize) {
         if self.configurations[cell].most > 0 {
             self.configurations[cell].most = 0;

@@ -5,11 +5,11 @@ use cplan_world::Sensor;
 use serde_json::{Value, json};
 
 impl Exploration {
-    /// Returns everything except the picture of the map: the ending, the map's counts, every reading, every leg, the
-    /// motion.
+    /// Returns the exploration as JSON, without the picture of the map: the ending, the map's counts, every reading,
+    /// every leg, and the motion.
     ///
     /// `readings` are rows of both joints' values, the length of the path until then and the number of new cells.
-    /// `decisions_ms` is present only if `timed`, so that the same input gives the same text.
+    /// `decisions_ms` is present only if `timed`, so that otherwise the same input gives the same text.
     #[must_use]
     pub fn to_json(&self, joints: [&str; 2], sensor: &Sensor, timed: bool) -> Value {
         let map = self.survey.map();

@@ -11,8 +11,8 @@ use cplan_interrupt::checkpoint;
 /// that is not known to be free.
 ///
 /// For each blocked configuration, one such map cell is recorded as its witness. The configuration is examined again
-/// only when its witness becomes known. So all updates of an exploration together cost a few examinations per
-/// configuration, and reading the map.
+/// only when its witness becomes known. So all updates of an exploration together cost only a few examinations per
+/// configuration, plus reading the map.
 #[derive(Debug)]
 pub struct KnownSpace {
     /// The grid; the centres of its cells are the configurations.
@@ -47,8 +47,8 @@ impl KnownSpace {
         self.look_at(survey, arm, waiting)
     }
 
-    /// Closes a step that is not free, and the blocked steps connected to it. If a passage is too narrow for one step,
-    /// it is too narrow for many others. Without this, each of them would cost a path that ends there.
+    /// Closes a step that is not free, and the blocked steps connected to it. A passage that is too narrow for one step
+    /// is too narrow for many others. If these stayed open, each of them would cost a path that ends there.
     pub fn close(&mut self, solid: &Scene, step: [usize; 2]) {
         let (free, motions) = (FreeCells::new(&self.grid), straight_motions(solid));
         let mut found = vec![step];

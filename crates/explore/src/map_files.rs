@@ -3,11 +3,11 @@
 use super::survey::Survey;
 use cplan_world::Occupancy;
 
-/// Shades of free, unknown and occupied cells. With the thresholds of [`map_description`], a reader gets back the same
-/// kinds of cells.
+/// Shades of free, unknown and occupied cells. With the thresholds of [`map_description`], a reader classifies the
+/// cells in the same way.
 const CELL_SHADES: [u8; 3] = [254, 205, 0];
 
-/// Returns the YAML description of the picture in the file `picture` in the same folder.
+/// Returns the YAML description of a picture. `picture` is the file name of the picture in the same folder.
 #[must_use]
 pub fn map_description(survey: &Survey, picture: &str) -> String {
     let map = survey.map();

@@ -21,7 +21,7 @@ pub struct Reach {
     pub cells: Vec<usize>,
 }
 
-/// Open cells, in one queue for each length of a step and one for the start.
+/// Cells that are still to be examined, in one queue for each length of a step and one for the start.
 ///
 /// The search takes costs in ascending order, and each queue adds the same length to them. So each queue is sorted
 /// without a heap.
@@ -40,7 +40,7 @@ impl OpenQueues {
     }
 }
 
-/// Stands for no cell.
+/// Marks that there is no cell.
 const NO_CELL: u32 = u32::MAX;
 
 impl Reach {
@@ -98,7 +98,7 @@ impl Reach {
         route
     }
 
-    /// Returns the path to a cell. Without a cell, returns the reachable cells as the error.
+    /// Returns the path to a cell. If `cell` is `None`, returns the reachable cells as the error.
     pub fn route_to(self, cell: Option<usize>) -> Result<Vec<usize>, Self> {
         cell.map(|cell| self.route(cell)).ok_or(self)
     }
@@ -114,8 +114,7 @@ pub fn unwrapped(grid: &Grid, start: Configuration, route: &[usize]) -> Vec<Conf
     at
 }
 
-/// Returns the cells near a configuration whose centres can be reached from it by a free straight motion, the nearest
-/// first.
+/// Returns the cells near a configuration to whose centres a free straight motion leads, the nearest first.
 pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Vec<usize> {
     let motions = straight_motions(scene);
     let mut near = free_around(grid, q);
@@ -138,13 +137,16 @@ pub fn free_around(grid: &Grid, q: Configuration) -> Vec<usize> {
     near
 }
 
-/// Returns the test for straight motions that keep the scene's clearance.
+/// Returns a test whether straight motions keep the scene's clearance.
 pub fn straight_motions(scene: &Scene) -> StraightMotions<'_> {
     StraightMotions::new(scene, scene.workspace().clearance)
 }
 
-/// Removes waypoints. From each kept waypoint, a galloping search among the next `most` finds a far one that a free
-/// straight motion reaches. If not even the next waypoint can be reached, returns the number of that step as the error.
+/// Removes waypoints. From each waypoint that is kept, a galloping search looks for a far one among the next `most`
+/// that a free straight motion reaches.
+///
+/// # Errors
+/// The index of the first step, if no free straight motion leads even to the next waypoint.
 pub fn tightened(scene: &Scene, waypoints: &[Configuration], most: usize) -> Result<Path, usize> {
     let motions = straight_motions(scene);
     let mut kept = vec![waypoints[0]];

@@ -7,7 +7,7 @@ use cplan_motion::CertifiedCurve;
 use cplan_motion::Trajectory;
 use std::time::Duration;
 
-/// Reasons for which an exploration ends.
+/// Reason for which an exploration ended.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ending {
     /// The arm is at a goal.
@@ -16,11 +16,11 @@ pub enum Ending {
     Explored {
         /// Number of reachable configurations of the grid.
         configurations: usize,
-        /// Number of configurations whose readings were expected to show something new, but showed nothing. Distance
-        /// errors can cause this; without errors it is 0.
+        /// Number of configurations whose readings were expected to show something new, but did not. Errors of
+        /// distances can cause this; without errors it is 0.
         given_up: usize,
     },
-    /// It is proven that no path leads to the goal in the known space, in which occupied cells are solid as a whole.
+    /// It is proven that no path leads to the goal in the known space, in which an occupied cell is solid as a whole.
     /// Contains the reason.
     Unreachable(String),
     /// No other ending applies. Contains the reason.
@@ -45,7 +45,7 @@ impl Ending {
 pub struct SensorReading {
     /// Configuration of the arm.
     pub at: Configuration,
-    /// Length of the path until then, in joint space.
+    /// Length of the path up to the reading, in joint space.
     pub length: f64,
     /// The cells of the map that became known, in the order in which they were seen.
     pub new: Vec<usize>,
@@ -82,8 +82,8 @@ pub struct Exploration {
     pub trajectory: Option<Trajectory>,
     /// Length of the whole path, in joint space.
     pub length: f64,
-    /// Length in joint space of the shortest path to the goal that is found in the true world. An arm that knew the
-    /// world would take it. `None` unless the goal was reached.
+    /// Length, in joint space, of the shortest path to the goal that is found in the true world. An arm that knew the
+    /// world would take this path. `None` unless the goal was reached.
     pub known_length: Option<f64>,
     /// Computing time of each decision.
     pub decisions: Vec<Duration>,

@@ -7,13 +7,13 @@ use cplan_world::OccupancyMap;
 use serde::Serialize;
 use thiserror::Error;
 
-/// Strategies that choose the next destination.
+/// Strategy that chooses the next destination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Strategy {
-    /// Follows the optimistic path to the goal, as far as space is known to be free. The planner of the options finds
-    /// this path with unknown space counted as free. If following it shows nothing new, moves to a view of the unknown
-    /// cells on it, or as [`Strategy::View`] does.
+    /// Follows an optimistic path to the goal, as far as space is known to be free. The planner of the options finds
+    /// this path; it counts unknown space as free. If following it shows nothing new, moves to a place from which its
+    /// unknown cells are visible, or as [`Strategy::View`] does.
     #[default]
     Goal,
     /// Moves to a frontier configuration that shows everything that the nearest one shows, and more than others at a
@@ -24,7 +24,7 @@ pub enum Strategy {
     /// Follows the harmonic potential whose goals are all frontier configurations (Prestes et al. 2002).
     Harmonic,
     /// Follows the boundary of the known free space, which stays to the right, up to the first frontier configuration.
-    /// If there is none on the boundary, moves to the nearest one.
+    /// If there is none on the boundary, moves to the nearest frontier configuration.
     Wall,
 }
 
@@ -35,7 +35,8 @@ pub struct Settings {
     pub strategy: Strategy,
     /// Number of cells of the grid of configurations along each axis.
     pub cells: [usize; 2],
-    /// Distance around the arm within which the world is known initially, in metres. `None` for two cells of the map.
+    /// Distance around the arm within which the world is known initially, in metres. With `None`, it is two cells of
+    /// the map.
     pub surveyed: Option<f64>,
     /// Map that is known initially, from an earlier exploration of the same world.
     pub known: Option<OccupancyMap>,

@@ -9,19 +9,19 @@ use std::f64::consts::SQRT_2;
 #[derive(Debug)]
 pub struct Edges {
     pub rows: CellsByRow,
-    /// For each cell, true if a ray from it may reach an unknown cell, and for unknown cells themselves.
+    /// For each cell, true if a ray from it may reach an unknown cell, or if the cell is itself unknown.
     within_sight: Vec<bool>,
 }
 
-/// Stands for a cell from which no path leads to an unknown cell.
+/// Marks a cell from which no path leads to an unknown cell.
 const NO_EDGE: u32 = u32::MAX;
 
 impl Edges {
-    /// Computes the cells for the current map and rays no longer than `range`.
+    /// Computes the cells for the current map and for rays no longer than `range`.
     ///
     /// A ray moves from cell to cell across their sides, always across the same two of the four sides, and through free
-    /// cells. If no path that crosses only two of the sides leads from a cell to an unknown one, no ray does. Linear in
-    /// the number of cells.
+    /// cells. If no path that crosses only two of the sides leads from a cell to an unknown one, then no ray does.
+    /// Linear in the number of cells.
     #[must_use]
     pub fn new(survey: &Survey, range: f64) -> Self {
         let rows = survey.edges();
@@ -71,7 +71,7 @@ mod tests {
     use cplan_world::Sensor;
     use proptest::prelude::*;
 
-    /// Returns a map around an arm, whose cells `label` determines by column and row.
+    /// Returns a map around an arm, and a sensor. `label` determines each cell by its column and row.
     fn survey(label: impl Fn(usize, usize) -> Occupancy) -> (Survey, Sensor) {
         let arm = Arm::rr([1.0, 0.5], 0.05).expect("a good arm");
         let sensor = Sensor { cell: 0.1, range: 0.8, rays: 90, ..Sensor::usual(&arm) };
@@ -104,7 +104,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(96))]
 
-        /// Compares with tracing all rays.
+        /// Compares the result with tracing all rays.
         #[test]
         fn cells_seen_by_rays_are_visible(seed: u64, unknown in 0.0..0.1, occupied in 0.0..0.4, cells in 1.0..9.0) {
             let labels = std::cell::RefCell::new(SplitMix64::new(seed));

@@ -6,7 +6,7 @@ use cplan_core::space::{Configuration, SplitMix64};
 use cplan_geometry::{Convex, Point, Pose, Vector, shapes_meet};
 use cplan_world::{Occupancy, OccupancyMap, Sensor};
 
-/// Number of cells of the largest map.
+/// Largest number of cells of a map.
 pub const MAX_CELLS: usize = 1 << 22;
 
 /// Width of the margin between the arm's reach and the sides of the map, in cells.
@@ -15,8 +15,8 @@ const MAP_MARGIN: f64 = 2.0;
 /// A map that a sensor fills in. A known cell never changes.
 ///
 /// The sensor's rays are as wide as the cells that they cross. A ray ends at the first occupied cell, and the cells
-/// before it are empty. So a cell that is known to be free is free as a whole, and the result of a reading is known in
-/// advance up to the first unknown cell of each ray.
+/// before it are empty. So a cell that is known to be free is free as a whole. The result of a reading can be predicted
+/// up to the first unknown cell of each ray.
 #[derive(Debug, Clone)]
 pub struct Survey {
     pub(super) known: OccupancyMap,
@@ -132,10 +132,10 @@ impl Survey {
         (self.known.size[1] - 1 - y) * self.known.size[0] + x
     }
 
-    /// Iterates over the cells for which `asked` is true and that a shape, grown by a margin, touches.
+    /// Iterates over the cells that a shape, grown by a margin, touches and for which `asked` is true.
     ///
     /// It works row by row. In a row, the cells farther beyond a side of the shape than a cell's radius are all those
-    /// before one column, or all those after one.
+    /// before some column, or all those after some column.
     fn touched(&self, shape: &Convex, margin: f64, asked: impl Fn(usize) -> bool) -> impl Iterator<Item = usize> {
         let cell = self.known.resolution;
         let grown = Convex::trusted(shape.core().to_vec(), shape.radius() + margin);
@@ -178,7 +178,8 @@ impl Survey {
         Convex::trusted(vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)], 0.0)
     }
 
-    /// Iterates over those of the arm's shapes at `q` that are at the height of any obstacle, with their heights.
+    /// Iterates over the arm's shapes at `q`, with their heights. Omits shapes that are not at the height of any
+    /// obstacle.
     fn parts(&self, arm: &Arm, q: Configuration) -> impl Iterator<Item = (Convex, Heights)> {
         let poses = arm.poses(q);
         let parts = (0..2).flat_map(|link| arm.links[link].parts.iter().map(move |part| (link, part)));
@@ -206,8 +207,8 @@ impl Survey {
         })
     }
 
-    /// Returns the heights at which a cell counts as solid, and `None` if it is free. An unknown cell has the heights
-    /// of everything in the world; a cell that has been seen has those of its contents.
+    /// Returns the heights at which a cell counts as solid; `None` if it is free. An unknown cell has the heights of
+    /// everything in the world. A cell that has been seen has the heights of its contents.
     fn solid(&self, cell: usize) -> Option<Heights> {
         match self.known.cells[cell] {
             Occupancy::Free => None,
@@ -237,10 +238,11 @@ impl Survey {
         is_inside.then(|| self.index(local.x as usize, local.y as usize))
     }
 
-    /// Records the result of a reading at `q`. Returns the new cells in the order in which they were seen.
+    /// Records the result of a reading at `q`. Returns the cells that became known, in the order in which they were
+    /// seen.
     ///
-    /// If distances have errors, only facts are recorded that hold for every possible error. Cells that the ray crosses
-    /// before all cells in which it may have ended are free. If it can have ended in one cell only, that cell is
+    /// If distances have errors, only facts are recorded that hold for every possible error. A cell is free if the ray
+    /// crosses it before all cells in which it may have ended. If it can have ended in one cell only, that cell is
     /// occupied.
     pub fn look(&mut self, sensor: &Sensor, arm: &Arm, q: Configuration, errors: &mut SplitMix64) -> Vec<usize> {
         let (from, ahead) = sensor.pose(arm, q.into());
@@ -273,7 +275,7 @@ impl Survey {
     }
 
     /// Records the contents of the cells that the arm, grown by `margin`, touches at `q`. They count as known, because
-    /// the user who placed the arm has seen the place.
+    /// the user who placed the arm there has seen them.
     pub fn survey_around(&mut self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
         let mut new = self.under(arm, q, margin);
         new.retain(|&cell| self.is_unknown(cell));

@@ -7,7 +7,8 @@ use cplan_world::{Occupancy, Sensor};
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-/// Radius of a disc that contains a cell, in cells. It is larger than half a diagonal, which leaves room for rounding.
+/// Radius of a disc that contains a cell, in units of a cell's side. It is larger than half a diagonal, to allow for
+/// rounding.
 pub(super) const CELL_RADIUS: f64 = 0.75;
 
 /// Allowance for the rounding of distances, in cells.
@@ -16,11 +17,11 @@ const DISTANCE_SLACK: f64 = 1e-6;
 /// Position of a sensor, and the angle of its forward direction in radians, as from [`Sensor::pose`].
 pub type SensorPose = (Point, f64);
 
-/// Cells of a map by rows, from the top. Each row has its number and its columns in ascending order; rows without cells
-/// are left out.
+/// Cells of a map by rows, from the top. Each row has its index, and its columns in ascending order. Rows without cells
+/// are omitted.
 pub type CellsByRow = Vec<(usize, Vec<usize>)>;
 
-/// Returns those rows that have any columns.
+/// Returns the rows that have at least one column.
 fn rows(height: usize, columns: impl Fn(usize) -> Vec<usize>) -> CellsByRow {
     (0..height).map(|row| (row, columns(row))).filter(|(_, columns)| !columns.is_empty()).collect()
 }
@@ -63,8 +64,8 @@ impl Survey {
         })
     }
 
-    /// Returns an unknown cell that a reading would show. `None` if it would show nothing new. With `edges`, traces
-    /// only rays that may reach an unknown cell.
+    /// Returns an unknown cell that a reading would show. `None` if it would show nothing new. If `edges` are given,
+    /// traces only rays that may reach an unknown cell.
     #[must_use]
     pub fn reachable_unknown(&self, sensor: &Sensor, sensor_pose: SensorPose, edges: Option<&Edges>) -> Option<usize> {
         match edges {
@@ -85,8 +86,8 @@ impl Survey {
         self.first_towards(sensor, sensor_pose, wanted, is_wanted).is_some()
     }
 
-    /// Returns the first unknown cell of a ray for which `is_asked` is true. Traces only rays that may cross one of
-    /// some cells, unless the sensor itself is in an unknown cell.
+    /// Returns the first unknown cell of a ray for which `is_asked` is true. Traces only rays that may cross one of the
+    /// given cells, unless the sensor itself is in an unknown cell.
     fn first_towards(
         &self,
         sensor: &Sensor,
@@ -116,7 +117,7 @@ impl Survey {
         rows(self.known.size[1], |y| cells.range(y * width..(y + 1) * width).map(|cell| cell % width).collect())
     }
 
-    /// Iterates over the numbers of the rays that may cross a cell.
+    /// Iterates over the indices of the rays that may cross a cell.
     fn rays_to(&self, sensor: &Sensor, from: Point, ahead: f64, cell: usize) -> impl Iterator<Item = usize> + use<> {
         let [width, height] = self.known.size;
         let middle = Vector::new((cell % width) as f64 + 0.5, (height - 1 - cell / width) as f64 + 0.5);
@@ -125,7 +126,7 @@ impl Survey {
         sensor.rays_about(ahead, direction.y.atan2(direction.x), if sine < 1.0 { sine.asin() } else { PI })
     }
 
-    /// Iterates over the first unknown cell of each ray of a reading. Skips rays that an occupied cell ends before
+    /// Iterates over the first unknown cell of each ray of a reading. Skips rays that end at an occupied cell before
     /// that.
     fn first_unknown(&self, sensor: &Sensor, sensor_pose: SensorPose) -> impl Iterator<Item = usize> {
         self.views(sensor, sensor_pose).filter_map(|mut view| {
@@ -143,7 +144,7 @@ impl Survey {
         cells
     }
 
-    /// Returns true if, for each of some cells, a ray of a reading crosses it before any known obstacle.
+    /// Returns true if the rays of a reading cross all given cells before any known obstacle.
     #[must_use]
     pub fn shows_all(&self, sensor: &Sensor, (from, ahead): SensorPose, cells: &[usize]) -> bool {
         cells.iter().all(|&wanted| {

@@ -16,7 +16,7 @@ pub struct Place {
     pub heading: Heading,
 }
 
-/// Returns true if a blocked cell or the end of the grid is next to a free cell, at a side or a corner.
+/// Returns true if a free cell touches a blocked cell or the end of the grid, at a side or a corner.
 pub fn is_beside_wall(grid: &Grid, cell: usize) -> bool {
     (0..8).any(|heading| is_wall(grid, cell, heading))
 }

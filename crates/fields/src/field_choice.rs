@@ -6,8 +6,8 @@ use cplan_core::planner::PathKind;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// An equation as the user chooses it, before there is a grid. On a grid, the zones of the workspace become arrays with
-/// one entry per cell.
+/// An equation as the user chooses it, before there is a grid. On a grid it becomes an [`Equation`], in which the zones
+/// of the workspace are arrays with one entry per cell.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EquationChoice {
@@ -22,23 +22,23 @@ pub enum EquationChoice {
         /// Discretisation of slopes.
         difference: Difference,
     },
-    /// In each zone the drift of that zone, and no drift elsewhere.
+    /// A separate drift in each zone, and no drift elsewhere.
     LocallyOriented {
         /// Direction of the drift in zones that have no direction of their own.
         direction: Option<Direction>,
         /// Discretisation of slopes.
         difference: Difference,
     },
-    /// Preferences: the drift is along the slope of the harmonic field.
+    /// Preferences. The drift follows the slope of the harmonic field.
     Preference {
-        /// Strength outside all zones.
+        /// Strength of the drift outside all zones.
         elsewhere: f64,
         /// Discretisation of slopes.
         difference: Difference,
     },
-    /// Altered preferences: the drift is along the slope of the field itself.
+    /// Altered preferences. The drift follows the slope of the field itself.
     AlteredPreference {
-        /// Strength outside all zones.
+        /// Strength of the drift outside all zones.
         elsewhere: f64,
     },
 }
@@ -53,19 +53,19 @@ pub enum FieldChoice {
         equation: EquationChoice,
         /// The relaxation that solves it.
         relaxation: Relaxation,
-        /// Measure of a sweep's changes, which must fall below the tolerance. Only the relative measure notices changes
-        /// of small values. With another measure, the path may get stuck where values are small. Then relaxation
-        /// continues with the relative measure.
+        /// Measure of the changes in a sweep, which must fall below the tolerance. Only the relative measure notices
+        /// changes of small values. With another measure, values around the path may be too small when relaxation ends,
+        /// so that the path gets stuck. Then relaxation continues with the relative measure.
         #[serde(default, skip_serializing_if = "Measure::is_relative")]
         measure: Measure,
-        /// Value below which the measure must fall. Then relaxation ends.
+        /// Tolerance: relaxation ends when the measure falls below it.
         tolerance: f64,
         /// Largest number of sweeps in each stage.
         max_sweeps: usize,
         /// The device that relaxes the field.
         #[serde(default, skip_serializing_if = "Device::is_cpu")]
         on: Device,
-        /// Whether the equation takes the shape of cells into account.
+        /// Rule for cells that are not square: whether the equation takes their shape into account.
         #[serde(default, skip_serializing_if = "Stencil::is_square")]
         stencil: Stencil,
     },
@@ -73,12 +73,11 @@ pub enum FieldChoice {
     Khatib(Khatib),
 }
 
-/// A planner that computes a field on the cells of a grid and follows it from the start to a goal. Levels are
-/// [`Levels::PROBABILITY`](crate::Levels::PROBABILITY), and small values have the same relative precision as large
-/// ones.
+/// A planner that computes a field on the cells of a grid and follows it from the start to a goal. The fixed values are
+/// [`Levels::PROBABILITY`](crate::Levels::PROBABILITY), so small values have the same relative precision as large ones.
 ///
 /// The field may not lead to a goal: there may be a local minimum, values may differ by less than the precision of
-/// doubles (on a GPU, of single precision), or relaxation may diverge. Then the planner gives up and says where and
+/// doubles (on a GPU, of single precision), or relaxation may diverge. Then the planner gives up and reports where and
 /// why. Only [`Proposal::NoPath`](cplan_core::planner::Proposal::NoPath) means that no path leads through free cells.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -87,7 +86,8 @@ pub struct FieldPlanner {
     pub field: FieldChoice,
     /// Boundary condition at the limits of intervals.
     pub limits: Limits,
-    /// Method for leaving local minima of attraction and repulsion. `None` to give up there.
+    /// Method for leaving local minima of attraction and repulsion. With `None`, the planner gives up in a local
+    /// minimum.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub escape: Option<Escape>,
     /// Kind of the path. [`PathKind::Own`] is the curve along the gradient or the force.

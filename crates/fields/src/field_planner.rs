@@ -11,8 +11,8 @@ use cplan_core::planner::{Note, PathKind, Planner, Proposal, Query, Run, Size, T
 use cplan_core::space::{Configuration, Path};
 use cplan_harmonic::Place;
 
-/// Default tolerance of relaxation: relative change of values in a sweep. Directions of ascent are then final, except
-/// in cells where two directions are almost equal.
+/// Default tolerance of relaxation: relative change of values in a sweep. At this tolerance, directions of ascent no
+/// longer change, except in cells where two directions are almost equal.
 pub const RELATIVE_TOLERANCE: f64 = 1e-6;
 
 /// The result of following a field.
@@ -29,7 +29,7 @@ impl Planner for FieldPlanner {
     type Space = ZonedGrid;
     type Map = ();
 
-    /// Builds nothing before the query, because a field depends on the goals.
+    /// Does nothing, because a field depends on the goals of the query.
     fn build(&self, _: &ZonedGrid) {}
 
     fn query(&self, space: &ZonedGrid, (): &(), query: &Query) -> Run {
@@ -92,7 +92,7 @@ struct FieldQuery<'a> {
 }
 
 impl FieldQuery<'_> {
-    /// Follows attraction and repulsion.
+    /// Follows the forces of attraction and repulsion.
     fn follow_forces(&self, laws: Khatib, escape: Option<Escape>, goals: &[usize], limits: Limits) -> FollowResult {
         let grid = &self.space.grid;
         let centers: Vec<Configuration> = goals.iter().map(|&cell| grid.center(cell)).collect();
@@ -168,7 +168,7 @@ impl FieldQuery<'_> {
     }
 }
 
-/// Describes, as an addition to a message, that the attempt to leave a local minimum failed.
+/// Returns an addition to a message: the attempt to leave a local minimum failed.
 fn stayed(escape: Option<Escape>) -> &'static str {
     match escape {
         None => "",
@@ -177,12 +177,12 @@ fn stayed(escape: Option<Escape>) -> &'static str {
     }
 }
 
-/// Describes the place where a climb is stuck.
+/// Describes the place at which the path along a field is stuck.
 fn what(stuck: &DeadEnd) -> &'static str {
     if stuck.flat { "the field is flat" } else { "the field has a local maximum" }
 }
 
-/// Explains that an equation is not monotone, with a hint.
+/// Returns the explanation that an equation is not monotone, with a hint.
 fn not_monotone(equation: &Equation) -> String {
     match equation {
         Equation::AlteredPreference { .. } => "the equation is not monotone; take a smaller epsilon".into(),
@@ -199,7 +199,7 @@ fn unfinished(domain: &Domain, equation: &Equation, sweeps: usize) -> String {
     format!("the field is not converged after {sweeps} sweeps: {help}")
 }
 
-/// Explains why a climb is stuck, as far as possible.
+/// Explains why the path along a field is stuck, as far as that is known.
 fn why(stuck: &DeadEnd, domain: &Domain, equation: &Equation, on: Device) -> String {
     match stuck {
         _ if !equation.is_monotone_on(domain) => not_monotone(equation),

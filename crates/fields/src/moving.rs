@@ -23,8 +23,8 @@ pub struct Disc {
 
 impl Disc {
     /// Returns the disc that the centre of another disc, of radius `own`, must avoid so that the two do not touch. It
-    /// is this disc, grown by `own` and by half a cell's diagonal, because the other centre may be anywhere in a free
-    /// cell.
+    /// is this disc, grown by `own` and by half of a cell's diagonal, because the other centre may be anywhere in a
+    /// free cell.
     #[must_use]
     pub fn grown_for(self, own: f64) -> Self {
         Self { radius: self.radius + own + FRAC_1_SQRT_2, ..self }
@@ -48,8 +48,8 @@ impl Disc {
 /// The obstacles, goals and robots at one moment.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Moment {
-    /// Moving obstacles, such as other robots. They block the cells of these discs, which the caller must grow by the
-    /// size of the robot ([`Disc::grown_for`]).
+    /// Moving obstacles, such as other robots. They block the cells of these discs. The caller must grow the discs by
+    /// the size of the robot that follows the field ([`Disc::grown_for`]).
     pub obstacles: Vec<Disc>,
     /// Goal discs. Their cells are goals, except those that obstacles cover.
     pub goals: Vec<Disc>,
@@ -133,11 +133,12 @@ impl MovingField {
         Ok(Self { walls, difference, values: domain.start(), domain, memory: Memory::default() })
     }
 
-    /// Computes the field of the next moment. Sweeps or steps of the solver end when the sum of squared changes is less
-    /// than `below`, or when their number is `most`. Their number is in the result.
+    /// Computes the field of the next moment. The solver's sweeps or steps end when the sum of squared changes is less
+    /// than `below`, or when there are `most` of them. The result has their number.
     ///
-    /// # Errors Same as [`relax_from`] and [`by_multigrid`](super::by_multigrid), and if the moment contains NaN. The
-    /// field is then unchanged.
+    /// # Errors
+    /// Those of [`relax_from`] and [`by_multigrid`](super::by_multigrid), and a moment that contains NaN. The field is
+    /// then unchanged.
     pub fn next(
         &mut self,
         moment: &Moment,
@@ -202,7 +203,8 @@ impl MovingField {
     }
 
     /// Returns the unit direction in which the field leads from a point: see [`direction()`]. Returns `None` in
-    /// obstacles and goals, and where the field is level, as in regions from which no goal is reachable.
+    /// obstacles and goals. Also returns `None` where the field is level, as in regions from which no goal is
+    /// reachable.
     #[must_use]
     pub fn direction(&self, at: LatticePoint) -> Option<[f64; 2]> {
         direction(&self.guide(), SQUARE_SIDES, at)

@@ -5,7 +5,7 @@ use super::Point;
 /// A box parallel to the axes, as its least and its greatest coordinates.
 pub type Bounds = [Point; 2];
 
-/// Largest number of boxes in a leaf. So few are tested fastest one by one.
+/// Largest number of boxes in a leaf. Testing this few boxes one by one is fastest.
 const MAX_LEAF_BOXES: usize = 8;
 
 /// A tree of boxes. Each node splits its boxes in two at the median centre, along the longer side of their common
@@ -15,7 +15,7 @@ const MAX_LEAF_BOXES: usize = 8;
 #[derive(Debug, Clone, Default)]
 pub struct BoxTree {
     boxes: Vec<Bounds>,
-    /// Numbers of the boxes. A node is a range of this list, and its children are the two halves of that range.
+    /// Indices of the boxes. A node is a range of this list, and its children are the two halves of that range.
     order: Vec<u32>,
     /// For each node, in preorder: the bounds of its boxes, and the index of the next node outside its subtree.
     nodes: Vec<(Bounds, u32)>,

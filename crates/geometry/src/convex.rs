@@ -74,8 +74,8 @@ impl From<Convex> for Corners {
 impl TryFrom<Corners> for Convex {
     type Error = ConvexError;
 
-    /// Does the same as [`Convex::new`], but accepts corners that the rounding of a transformation has bent, because
-    /// [`Convex::at`] makes such shapes.
+    /// Does the same as [`Convex::new`], with one exception: a corner may be bent slightly by the rounding of a
+    /// transformation. [`Convex::at`] makes such shapes.
     fn try_from(Corners { core, radius }: Corners) -> Result<Self, ConvexError> {
         match Self::new(core.clone(), radius) {
             Err(ConvexError::NotConvex { .. }) if is_hull_up_to_rounding(&core) => Ok(Self { core, radius }),
@@ -87,8 +87,8 @@ impl TryFrom<Corners> for Convex {
 /// Largest bend of a corner that counts as rounding, as a fraction of the greatest coordinate.
 const BEND_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Returns true if the corners go once around their convex hull. Corners that are not on the hull may be off its sides
-/// by rounding.
+/// Returns true if the corners go once around their convex hull. Corners that are not corners of the hull must lie on
+/// its sides, up to rounding.
 fn is_hull_up_to_rounding(core: &[Point]) -> bool {
     let hull = hull(core);
     let bent = BEND_ROUNDING * core.iter().fold(0.0_f64, |most, p| most.max(p.amax()));
@@ -173,14 +173,14 @@ impl Convex {
         Self { core, radius }
     }
 
-    /// Returns the shape with mapped corners and another radius, for pictures. The radius of pieces in a scene may be
-    /// negative.
+    /// Returns the shape with mapped corners and another radius, for pictures. Unlike in [`Convex::new`], the radius
+    /// may be negative, as that of pieces in a scene.
     #[must_use]
     pub fn mapped(&self, corner: impl Fn(Point) -> Point, radius: f64) -> Self {
         Self { core: self.core.iter().copied().map(corner).collect(), radius }
     }
 
-    /// Does the same as [`Convex::segment`], for points that are known to be finite.
+    /// Does the same as [`Convex::segment`], for points that are known to be finite, so it cannot fail.
     #[must_use]
     pub fn between(a: Point, b: Point) -> Self {
         Self::trusted(if a == b { vec![a] } else { vec![a, b] }, 0.0)
@@ -216,10 +216,11 @@ impl Convex {
         Self { core: self.core.clone(), radius }
     }
 
-    /// Returns the shape with every signed distance from it increased by `distance`, exactly, by lowering the radius.
+    /// Returns a shape with every signed distance from it increased by `distance`, exactly. To do so, it lowers the
+    /// radius, which may become negative.
     ///
-    /// With a negative radius, the shape is met only by a core that penetrates its own core by more than that radius. A
-    /// smaller polygon could not express this, because its corners would differ.
+    /// A shape with a negative radius is met only by a core that penetrates its own core by more than the radius'
+    /// magnitude. A smaller polygon could not express this, because its corners would differ.
     #[must_use]
     pub fn receding(&self, distance: f64) -> Self {
         debug_assert!(distance >= 0.0 && distance.is_finite());

@@ -5,19 +5,19 @@ use super::polygon::without_straight_corners;
 use super::{Convex, Orientation, Point, SimplePolygon, orientation};
 use cplan_interrupt::checkpoint;
 
-/// Largest number of corners of a piece. Queries take time that grows with the corners of a piece, and with many small
-/// pieces only those nearby are queried.
+/// Largest number of corners of a piece. A query takes time that grows with the corners of the pieces that it examines.
+/// Of many small pieces it examines only those nearby.
 pub const MAX_CORNERS: usize = 64;
 
 /// Decomposes a polygon into strictly convex polygons (of radius 0) with disjoint interiors, each of at most
 /// [`MAX_CORNERS`] corners. Their union is `polygon`. `O(n log n)`.
 ///
-/// A sweep triangulates the polygon, then every diagonal is removed that no reflex corner needs (S. Hertel, K.
-/// Mehlhorn, *Fast Triangulation of Simple Polygons*, 1983). The number of pieces is at most four times the least
+/// A sweep triangulates the polygon. Then every diagonal is removed that is not needed at a reflex corner (S. Hertel,
+/// K. Mehlhorn, *Fast Triangulation of Simple Polygons*, 1983). The number of pieces is at most four times the least
 /// possible. Pieces with too many corners are cut further by `cut_up`.
 ///
-/// All corners are corners of the polygon and the predicates are exact, so the union has no rounding. Straight corners,
-/// of the polygon and of pieces, are removed.
+/// All corners are corners of the polygon and the predicates are exact, so the union has no rounding. Straight corners
+/// of the polygon and of the pieces are removed.
 #[must_use]
 pub fn decompose(polygon: &SimplePolygon) -> Vec<Convex> {
     // Straight corners must not become ends of diagonals.

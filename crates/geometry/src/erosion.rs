@@ -3,9 +3,9 @@
 use super::{Convex, Point, cross, inset};
 
 impl Convex {
-    /// Returns the points that lie at least `distance` inside this shape: the centres of discs of that radius that
-    /// fit into it. Returns `None` if no disc fits. A rounded outline first loses radius, exactly; then every side
-    /// of the core moves inwards. Correct up to rounding; `O(n^2)`.
+    /// Returns the points that lie at least `distance` inside this shape. These are the centres of the discs of radius
+    /// `distance` that fit into it. Returns `None` if no disc fits. A rounded outline first loses radius, exactly; then
+    /// every side of the core moves inwards. Correct up to rounding; `O(n^2)`.
     #[must_use]
     pub fn eroded(&self, distance: f64) -> Option<Self> {
         if distance <= self.radius() {
@@ -14,8 +14,8 @@ impl Convex {
         inset(self.core(), distance - self.radius()).map(|core| Self::trusted(core, 0.0))
     }
 
-    /// Returns a lower bound on the greatest distance by which this shape can be eroded: the depth of the mean of its
-    /// corners.
+    /// Returns a lower bound on the greatest distance by which this shape can be eroded. The bound is the depth of the
+    /// mean of its corners.
     #[must_use]
     pub fn depth(&self) -> f64 {
         let core = self.core();
@@ -76,7 +76,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(2000))]
 
-        /// A receding shape is farther away by `by`, also at its corners. Growing it again restores it.
+        /// Tests that a receding shape is farther away by `by`, also at its corners. Growing it again restores it.
         #[test]
         fn receding_increases_every_distance(shape in shapes(), other in shapes(), by in 0.0..0.5f64) {
             let (near, far) = (separation(&other, &shape), separation(&other, &shape.receding(by)));

@@ -1,10 +1,11 @@
 //! Galloping search for the last number that satisfies a condition.
 
-/// Returns the greatest number up to `last` for which `holds`, starting from `first`, which is assumed to satisfy it.
+/// Returns the greatest number from `first` to `last` for which `holds` is true. `holds` is assumed to be true for
+/// `first`, and is not called for it.
 ///
-/// Doubles the step, then bisects. For the answer `first + n` it calls `holds` about `2 log2(n)` times, and for no
-/// number beyond `first + 2 n + 1`. If `holds` is not monotone, it returns some number that satisfies the condition and
-/// whose successor does not.
+/// Doubles the step, then bisects. If the answer is `first + n`, this calls `holds` about `2 log2(n)` times, and for no
+/// number beyond `first + 2 n + 1`. If `holds` is not monotone, returns some number for which it is true and for whose
+/// successor it is false.
 pub fn farthest(first: usize, last: usize, holds: impl Fn(usize) -> bool) -> usize {
     let (mut good, mut step) = (first, 1);
     while good + step <= last && holds(good + step) {
@@ -45,7 +46,8 @@ mod tests {
             prop_assert!(greatest.get() <= first + 2 * (found - first) + 1);
         }
 
-        /// With a condition that holds here and there, the search returns the end of one stretch.
+        /// Tests a condition that is true on several separate stretches. The search then returns the end of one of
+        /// them.
         #[test]
         fn ends_where_it_does_not_hold(holding in proptest::collection::vec(any::<bool>(), 0..60)) {
             let last = holding.len();

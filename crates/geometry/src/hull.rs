@@ -2,8 +2,8 @@
 
 use super::{Orientation, Point, orientation};
 
-/// Returns the convex hull, counter-clockwise from the leftmost corner (the lowest of these), without collinear
-/// corners.
+/// Returns the convex hull, counter-clockwise and without collinear corners. It starts at the leftmost corner; if
+/// several are leftmost, at the lowest of these.
 ///
 /// Points that coincide give one corner, collinear points give two, and no points give none. Andrew's monotone chain
 /// with the exact predicate, so the result is exactly strictly convex. `O(n log n)`. The coordinates must be finite.

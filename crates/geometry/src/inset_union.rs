@@ -13,12 +13,13 @@ use std::collections::BTreeMap;
 /// Smallest bend that counts as a corner, radians. Rounding bends the corners that users place on straight sides.
 const MIN_BEND: f64 = 1e-7;
 
-/// Returns what remains of each piece when each corner of the union moves inwards by `distance`, as convex shapes.
+/// Moves each corner of the union of the pieces inwards by `distance`. Returns, for each piece, the convex shapes that
+/// remain of it.
 ///
 /// A corner moves along the bisector of its sides, so a side moves by `distance` times the sine of half the angle at
 /// its ends. A corner that would leave the union stays where it is. A part so thin that it would turn over is replaced
-/// by the hull of its corners. In both cases, all points deeper than `distance` remain. Rounded outlines lose radius
-/// first.
+/// by the hull of its corners. In both cases, all points deeper than `distance` remain. Rounded outlines first lose
+/// radius.
 #[must_use]
 pub fn inset_union(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
     let (all, together) = within(pieces, distance);
@@ -33,7 +34,8 @@ pub fn inset_union(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
     all.iter().map(|parts| parts.iter().flat_map(left).collect()).collect()
 }
 
-/// Returns true if every corner stays inside the union and no corner belongs to two rings or to one ring twice.
+/// Returns true if [`inset_union`] can move every corner: each stays inside the union, and none belongs to two rings or
+/// twice to one ring.
 #[must_use]
 pub fn can_inset_union(pieces: &[Convex], distance: f64) -> bool {
     let (_, together) = within(pieces, distance);
@@ -61,7 +63,7 @@ fn is_sharp(piece: &&Convex) -> bool {
     piece.radius() == 0.0
 }
 
-/// Cuts each piece so that no corner of one piece lies within a side of another. Adds no corners.
+/// Cuts each piece so that no corner of one piece lies between the ends of another piece's side. Adds no corners.
 fn corner_to_corner(pieces: &[Convex]) -> Vec<Vec<Convex>> {
     let has_sides = |piece: &&Convex| is_sharp(piece) && piece.core().len() > 2;
     let mut corners: Vec<Point> = pieces.iter().filter(has_sides).flat_map(Convex::core).copied().collect();
@@ -117,7 +119,7 @@ fn with_corners(core: &[Point], corners: &[Point]) -> Vec<Point> {
     (0..core.len()).flat_map(side).collect()
 }
 
-/// Returns the next and the previous corner of a ring.
+/// Returns the corner after corner `k` of a ring, and the one before it.
 fn beside(ring: &[Point], k: usize) -> [Point; 2] {
     [1, ring.len() - 1].map(|by| ring[(k + by) % ring.len()])
 }
@@ -131,8 +133,8 @@ fn key(p: Point) -> Key {
 
 /// New positions of the corners of pieces.
 struct MovedCorners {
-    /// New positions, by a corner and its successor in the piece. Corners that pieces surround completely stay, and
-    /// are not listed.
+    /// New positions of corners that move. The key has a corner and its successor in the piece. Corners that pieces
+    /// surround completely do not move, and are not listed.
     to: BTreeMap<[Key; 2], [Point; 2]>,
     /// True if some corner would have left the union. Such a corner stays where it is.
     leaves: bool,
@@ -158,7 +160,7 @@ impl Corner {
 }
 
 impl MovedCorners {
-    /// Computes the moves for pieces that are cut from corner to corner.
+    /// Computes the new positions for pieces that are cut from corner to corner.
     fn new<'a>(pieces: impl IntoIterator<Item = &'a Convex>, distance: f64) -> Self {
         let mut sectors: BTreeMap<[Key; 2], [Point; 3]> = BTreeMap::new();
         for ring in pieces.into_iter().map(Convex::core) {
@@ -280,7 +282,7 @@ mod tests {
         assert_eq!(radii, [0.3 - 0.1, 0.0]);
     }
 
-    /// Uses a bar with another bar on top. A side of the first continues beyond the second at both ends.
+    /// Tests a bar with another bar on top. A side of the first continues beyond the second at both ends.
     #[test]
     fn pieces_go_on_adjoining() {
         let left = inset_union(&[rectangle([0., 0.], [4., 1.]), rectangle([1., 1.], [2., 2.])], 0.1 * 2f64.sqrt());
@@ -308,7 +310,7 @@ mod tests {
         }
     }
 
-    /// A hole so close to the outer ring that moved sides cross.
+    /// Tests a hole so close to the outer ring that moved sides cross.
     #[test]
     fn thin_pieces_do_not_turn_over() {
         let outer = points(&[[1.34375, 0.0], [-0.58984375, 1.0224609375], [-0.818359375, -1.4169921875]]);
@@ -348,7 +350,7 @@ mod tests {
         (0..ring.len()).flat_map(|k| std::iter::once(ring[k]).chain(halfway(k))).collect()
     }
 
-    /// Moves the corners of a ring by the angles of its sides.
+    /// Moves the corners of a ring inwards. Uses the angles of its sides.
     fn by_angles(ring: &[Point], distance: f64) -> Vec<Point> {
         let angle = |v: Vector| v.y.atan2(v.x);
         let corner = |k: usize| {
@@ -362,8 +364,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(600))]
 
-        /// For a polygon with a hole, the result is the polygon whose rings are moved. However thin the polygon, its
-        /// deep points remain.
+        /// Tests that, for a polygon with a hole, the result is the polygon whose rings are moved. However thin the
+        /// polygon, its deep points remain.
         #[test]
         fn the_inset_equals_the_moved_rings(
             outer in star([1.0, 3.0]), hole in star([0.2, 0.7]), some in any::<[u8; 2]>(), by in 0.0..0.03f64,
@@ -410,7 +412,7 @@ mod tests {
         all.iter().flatten().all(|part| together.of(part.core()).is_some())
     }
 
-    /// A comb has teeth on a straight side. The root of each tooth is a corner on the side of the piece below.
+    /// Tests a comb with teeth on a straight side. The root of each tooth is a corner on the side of the piece below.
     #[test]
     fn combs_have_parts_for_each_tooth() {
         let teeth = 4000;

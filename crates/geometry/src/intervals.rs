@@ -28,7 +28,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(500))]
 
-        /// The ends of intervals are integers. Half-integers then test both the ends and the points between them.
+        /// Tests intervals whose ends are integers. Half-integers then test both the ends and the points between them.
         #[test]
         fn merging_keeps_the_set(list in prop::collection::vec((-10..10i32, 0..4i32), 0..12)) {
             let list: Vec<Interval> = list.into_iter().map(|(lower, n)| [lower.into(), (lower + n).into()]).collect();

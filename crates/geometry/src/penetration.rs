@@ -31,8 +31,8 @@ pub enum Location {
 /// Penetration of a point in a convex polygon.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointPenetration {
-    /// Signed distance to the line through each side, metres: positive on the polygon's side of it.
-    ///
+    /// Signed distance of the point to the line through each side, metres. It is positive on the polygon's side of the
+    /// line.
     /// Side `i` starts at corner `i`. A segment has two sides, there and back; a point has none.
     pub distances: Vec<f64>,
     /// Least of the distances, metres. Inside, it is the distance to the nearest side. Outside, its absolute value is a

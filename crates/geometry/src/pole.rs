@@ -8,11 +8,11 @@ use std::collections::BinaryHeap;
 /// improve it.
 const MAX_CELLS: usize = 4096;
 
-/// Finds the pole of inaccessibility (Garcia-Castellanos and Lombardo 2007) of a polygon, and its distance from the
-/// outline. No point inside is farther from the outline by more than `precision`. Returns `None` if the polygon has no
-/// inside.
+/// Finds the point of a polygon that is farthest from its outline, and its distance from the outline. This is the pole
+/// of inaccessibility (Garcia-Castellanos and Lombardo 2007). No point inside is farther from the outline by more than
+/// `precision`. Returns `None` if the polygon has no inside.
 ///
-/// The outline may touch itself. The inside is where its winding number is odd. Squares that may hold a better point
+/// The outline may touch itself. The inside is where its winding number is odd. Squares that may contain a better point
 /// are divided into four, the most promising first, as polylabel does (Agafonkin 2016).
 #[must_use]
 pub fn pole_of_inaccessibility(corners: &[Point], precision: f64) -> Option<(Point, f64)> {
@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(pole_of_inaccessibility(&polygon(&[(0.0, 0.0), (1.0, 1.0)]), 0.1), None);
     }
 
-    /// Returns the depth of a point, by winding angles and by points along the sides.
+    /// Returns the depth of a point. Uses winding angles, and distances from points along the sides.
     fn sampled_depth(corners: &[Point], p: Point) -> f64 {
         const FINE: u32 = 100;
         let (mut turns, mut least) = (0.0, f64::INFINITY);
@@ -107,7 +107,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(24))]
 
-        /// No point of a fine grid is deeper than the pole, and the pole is as deep as stated.
+        /// Tests that no point of a fine grid is deeper than the pole, and that the pole is as deep as stated.
         #[test]
         fn no_point_of_a_grid_is_deeper(radii in prop::collection::vec(0.1..1.0f64, 3..12), stretch in 0.2..3.0f64) {
             let angle = |i: usize| i as f64 / radii.len() as f64 * std::f64::consts::TAU;

@@ -50,14 +50,14 @@ impl Pose {
         Self { rotation: UnitComplex::identity(), translation: by }
     }
 
-    /// Returns a point after the motion, which rotates and translates it.
+    /// Returns the image of a point under the motion, which rotates and translates it.
     #[inline]
     #[must_use]
     pub fn point(&self, p: Point) -> Point {
         self.rotation * p + self.translation
     }
 
-    /// Returns a displacement after the motion, which only rotates it.
+    /// Returns the image of a displacement under the motion, which only rotates it.
     #[inline]
     #[must_use]
     pub fn direction(&self, v: Vector) -> Vector {
@@ -141,7 +141,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// All results are bitwise equal to those of nalgebra's isometries.
+        /// Tests that all results are bitwise equal to those of nalgebra's isometries.
         #[test]
         fn computes_what_nalgebra_does(v in prop::array::uniform8(-10.0..10.0_f64)) {
             let [a, b, p] = [0, 2, 4].map(|k| Vector::new(v[k], v[k + 1]));

@@ -118,13 +118,14 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Returns the side of `c` in integers, without rounding and without shared code.
+    /// Returns the side of the line from `a` to `b` on which `c` lies: positive on the left. Computed in integers,
+    /// without rounding and without code of the library.
     fn side(a: (i64, i64), b: (i64, i64), c: (i64, i64)) -> i64 {
         ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)).signum()
     }
 
-    /// Tests whether segments meet by solving for the parameters in integers (Cramer's rule), and parallel ones by
-    /// projection.
+    /// Returns whether two segments meet, computed in integers. Solves for the parameters of the common point (Cramer's
+    /// rule); parallel segments are compared by projection.
     fn meet_by_parameters(a: (i64, i64), b: (i64, i64), c: (i64, i64), d: (i64, i64)) -> bool {
         let (u, v, w) = ((b.0 - a.0, b.1 - a.1), (d.0 - c.0, d.1 - c.1), (c.0 - a.0, c.1 - a.1));
         let cross = |p: (i64, i64), q: (i64, i64)| p.0 * q.1 - p.1 * q.0;
@@ -148,7 +149,8 @@ mod tests {
         t(a).min(t(b)) <= t(c).max(t(d)) && t(c).min(t(d)) <= t(a).max(t(b))
     }
 
-    /// Computes the determinant of lifted points in integers.
+    /// Returns whether `p` is in the circle through the corners, computed in integers: the sign of the determinant of
+    /// the points lifted to a paraboloid.
     fn in_circle_by_determinant(corners: [(i64, i64); 3], p: (i64, i64)) -> bool {
         let [a, b, c] = corners.map(|q| (q.0 - p.0, q.1 - p.1));
         let lift = |q: (i64, i64)| q.0 * q.0 + q.1 * q.1;

@@ -157,9 +157,9 @@ const SIDE_MARGIN: f64 = 1e-12;
 /// Looks for a corner closer to a side than the best so far. `best` holds the squared distance, and the offset from the
 /// nearest point of the side to the corner, times `sign`.
 ///
-/// The line of a side is at least as close as the side, so most sides are skipped. Sides of a core with area are also
-/// skipped if the corner lies inside them by more than `error`: the nearest point of the core is on another side,
-/// outside of which the corner lies.
+/// The line of a side is at least as close as the side, so most sides are skipped. If the core has an area, a side is
+/// also skipped if the corner lies inside it by more than `error`. Then the core's nearest point is on another side,
+/// and the corner lies outside that one.
 fn nearest_to_sides(corners: &[Point], core: &[Point], error: f64, sign: f64, best: &mut Separation) {
     let mut look = |p: &Point, q: &Point, is_one_sided: bool| {
         let along = q - p;

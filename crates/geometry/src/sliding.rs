@@ -31,9 +31,9 @@ pub fn along_and_across<'a>(
 
 /// Does the same as [`sliding`] for cores given along and across the direction.
 ///
-/// The values of `s` are those on the line of motion within the Minkowski difference of piece and part, grown by
-/// `radius`. Its outline consists of differences of a corner of one core and a side of the other, and all such
-/// differences belong to it. So the interval extends from the least to the greatest crossing of any of them.
+/// The values of `s` are those at which the line of motion is within the Minkowski difference of piece and part, grown
+/// by `radius`. The outline of that difference consists of differences of a corner of one core and a side of the other.
+/// All such differences belong to it. So the interval extends from the least to the greatest crossing of any of them.
 pub fn sliding_tracks(part: &[Vector], piece: &[Vector], radius: f64) -> Option<[f64; 2]> {
     debug_assert!(radius >= 0.0, "shapes that overlap do not touch: {radius}");
     let mut interval: Option<[f64; 2]> = None;
@@ -75,7 +75,8 @@ fn sides(core: &[Vector]) -> impl Iterator<Item = (Vector, Vector)> + '_ {
     (0..count).map(|i| (core[i], core[(i + 1) % core.len()]))
 }
 
-/// Reports where the segment from `p` to `q`, moved by `radius` to either side, crosses the first axis.
+/// Calls `include` with the places where the segment from `p` to `q`, moved by `radius` to either side, crosses the
+/// first axis.
 fn cross_line(p: Vector, q: Vector, radius: f64, include: &mut impl FnMut(f64)) {
     let along = q - p;
     // A segment along the axis crosses it at its ends, which are tested separately.

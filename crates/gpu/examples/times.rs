@@ -11,7 +11,7 @@ use std::time::Instant;
 /// Rows and columns of the source's field.
 const FIELD_SIZE: [usize; 2] = [65, 85];
 
-/// Runs of each row; the fastest counts.
+/// Number of runs of each benchmark. The fastest run counts.
 const RUNS_PER_ROW: usize = 10;
 
 /// The drift of a cell, by its row and column.
@@ -25,13 +25,13 @@ fn along(_: usize, _: usize) -> [f64; 2] {
     [0.0, 0.5]
 }
 
-/// Returns a drift around ten robots, within six cells.
+/// Returns the drift of a cell if it applies only within six cells of ten robots.
 fn local(i: usize, j: usize) -> [f64; 2] {
     let near = (0..10).any(|k| i.abs_diff(6 + 13 * (k % 5)).pow(2) + j.abs_diff(20 + 40 * (k / 5)).pow(2) < 36);
     if near { [0.0, 0.8] } else { [0.0; 2] }
 }
 
-/// Walls of value 1 around, a goal of value 0.
+/// Returns a problem with walls of value 1 around it and a goal of value 0.
 fn problem([rows, columns]: [usize; 2], drift: Drift, is_upwind: bool) -> Result<GridEquations, GpuError> {
     let side = |b: f64| if is_upwind { 1.0 + b.max(0.0) } else { 1.0 + 0.5 * b };
     let weights = |cell: usize| {
@@ -47,8 +47,8 @@ fn problem([rows, columns]: [usize; 2], drift: Drift, is_upwind: bool) -> Result
     GridEquations::new([rows, columns], [Edge::Wall; 2], 1.0, vec![0.0; rows * columns], unknown, stencil)
 }
 
-/// Returns `4 / (2 + sqrt(4 - c^2))`, where `c` is the sum of the cosines of pi divided by the number of cells (Young
-/// 1954).
+/// Returns the factor of over-relaxation `4 / (2 + sqrt(4 - c^2))`, where `c` is the sum over both axes of the cosine
+/// of pi divided by the number of cells (Young 1954).
 fn formula(cells: [usize; 2]) -> f64 {
     let c: f64 = cells.map(|n| (std::f64::consts::PI / n as f64).cos()).iter().sum();
     4.0 / (2.0 + (4.0 - c * c).sqrt())
@@ -68,7 +68,8 @@ fn timed<T>(runs: usize, mut work: impl FnMut() -> Result<T, GpuError>) -> Resul
     best.ok_or_else(|| GpuError::Refused("no run".into()))
 }
 
-/// A benchmark: name, drift, whether upwind, sweep and factor, and the published times of a CPU and of a GPU.
+/// A benchmark: name, drift, whether differences are upwind, sweep and factor, and the published times on a CPU and on
+/// a GPU.
 type Row = (&'static str, Drift, bool, (Sweep, f64), &'static str, &'static str);
 
 fn main() -> Result<(), GpuError> {

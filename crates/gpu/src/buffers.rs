@@ -12,7 +12,8 @@ pub(super) fn blocks(columns: usize, rows: usize) -> [u32; 2] {
 }
 
 impl Gpu {
-    /// Creates a buffer for kernels with these numbers. An empty one gets one word.
+    /// Creates a buffer that kernels can read and write, with these numbers in it. If there are no numbers, the buffer
+    /// has room for one word.
     pub(super) fn storage<T: bytemuck::NoUninit>(&self, numbers: &[T]) -> Result<wgpu::Buffer, GpuError> {
         let bytes: &[u8] = if numbers.is_empty() { &[0; 16] } else { bytemuck::cast_slice(numbers) };
         let (needed, limits) = (bytes.len() as u64, self.device.limits());
@@ -31,7 +32,7 @@ impl Gpu {
         self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents, usage })
     }
 
-    /// Binds buffers to a kernel.
+    /// Returns a bind group, which connects buffers with the parameters of a kernel.
     pub(super) fn group(&self, pipeline: &wgpu::ComputePipeline, buffers: &[(u32, &wgpu::Buffer)]) -> wgpu::BindGroup {
         let entries = buffers
             .iter()

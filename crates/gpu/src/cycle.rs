@@ -27,10 +27,10 @@ struct Shape {
 
 /// A level on the GPU.
 struct Stage {
-    /// One bind group per turn.
+    /// One bind group per turn of a sweep.
     smooth: Vec<wgpu::BindGroup>,
     smooth_blocks: [u32; 2],
-    /// Transfers to the next coarser level and back. `None` for the coarsest level.
+    /// The next coarser level, and the transfers to it and back. `None` for the coarsest level.
     next: Option<Next>,
 }
 
@@ -44,7 +44,7 @@ struct Next {
 /// All levels on the GPU, with their variables.
 pub(super) struct Cycle {
     stages: Vec<Stage>,
-    /// Correction on the finest level, which a cycle computes. The next field is its right-hand side.
+    /// Correction on the finest level, which a cycle computes. The next field is the right-hand side for it.
     pub x: wgpu::Buffer,
     pub right: wgpu::Buffer,
 }

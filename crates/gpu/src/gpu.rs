@@ -32,7 +32,7 @@ pub enum GpuError {
     /// Values grew without bound, or became NaN.
     #[error("the relaxation diverged: after {sweeps} sweeps cell ({}, {}) has the value {value:e}", cell[0], cell[1])]
     Diverged {
-        /// Number of sweeps after which this was noticed.
+        /// Number of sweeps after which the divergence was noticed.
         sweeps: u32,
         /// The first cell with such a value, as row and column.
         cell: [usize; 2],

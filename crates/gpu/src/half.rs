@@ -34,13 +34,14 @@ impl Half {
         spread
     }
 
-    /// Gathers one number per cell, row by row: the inverse of [`Half::spread`].
+    /// Returns one number per cell, row by row, from the numbers at their places. This is the inverse of
+    /// [`Half::spread`].
     pub fn gathered(self, spread: &[f32]) -> Vec<f64> {
         let cells = (0..self.rows).flat_map(|i| (0..self.columns).map(move |j| (i, j)));
         cells.map(|(i, j)| f64::from(spread[self.place(i, j)])).collect()
     }
 
-    /// Packs one bit per place, 32 per word.
+    /// Packs one flag per place into bits, 32 per word.
     pub fn mask(self, of: &[bool]) -> Vec<u32> {
         let bits = self.spread(|cell| of[cell]);
         bits.chunks(32).map(|bits| bits.iter().rev().fold(0, |word, &bit| word << 1 | u32::from(bit))).collect()

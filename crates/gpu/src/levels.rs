@@ -21,7 +21,7 @@ pub(super) struct Level {
     pub sides: Vec<[f64; 4]>,
 }
 
-/// The side of a neighbour that faces the cell.
+/// For each side of a cell, the side of the neighbour there that faces the cell.
 const OPPOSITE_SIDE: [usize; 4] = [1, 0, 3, 2];
 
 impl Level {
@@ -114,7 +114,8 @@ impl Level {
         levels
     }
 
-    /// Returns five planes of coefficients in single precision, as used by the kernels.
+    /// Returns the coefficients in single precision, as five lists one after the other, in the order that the kernels
+    /// use.
     pub fn planes(&self) -> Vec<f32> {
         let sides = (0..4).flat_map(|side| self.sides.iter().map(move |sides| sides[side] as f32));
         sides.chain(self.own.iter().map(|&own| own as f32)).collect()

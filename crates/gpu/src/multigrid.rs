@@ -39,7 +39,7 @@ pub struct Solution {
 /// Number of cycles between residuals in double precision.
 const CYCLES_PER_ROUND: u32 = 2;
 
-/// Largest fraction of the residual that a round with progress leaves.
+/// Largest fraction of the residual that a round may leave if it counts as progress.
 const MAX_RESIDUAL_RATIO: f64 = 0.5;
 
 /// Number of consecutive rounds without progress after which the solver stops.
@@ -103,7 +103,7 @@ impl Gpu {
         Ok(Solution { values, residual, ..solved })
     }
 
-    /// Returns the values after this many cycles for the residual `left`.
+    /// Returns the values after so many cycles have corrected them. `left` is the residual before.
     fn corrected(&self, cycle: &Cycle, cycles: u32, values: &[f64], left: &[f64]) -> Result<Vec<f64>, GpuError> {
         // Scale the residual, so that corrections stay above the least number of single precision.
         let scale = left.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));

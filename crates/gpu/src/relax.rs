@@ -38,8 +38,8 @@ const MIN_IDLE_SWEEPS: usize = 64;
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct Turn {
     pub colour: u32,
-    /// Region of the cells: 0 for most cells. On circles of odd length, 1 is the last row, 2 the last column, and 3 the
-    /// cell that is in both.
+    /// Region of the cells that are updated: 0 for most cells. On circles of odd length, 1 is the last row, 2 the last
+    /// column, and 3 the cell that is in both.
     pub region: u32,
     /// Index of the first partial sum of this turn.
     pub slot: u32,
@@ -147,9 +147,9 @@ impl Gpu {
     }
 }
 
-/// Returns the relative change that may be pure rounding: eight units in the last place. Over-relaxation by `2 - d`
-/// accumulates rounding over about `1 / d` sweeps and amplifies it as much again, by measurement. A change of a
-/// thousandth exceeds rounding.
+/// Returns the relative change that may be pure rounding: eight units in the last place, or more with over-relaxation.
+/// Over-relaxation by `2 - d` accumulates rounding over about `1 / d` sweeps, and by measurement amplifies it as much
+/// again. A change of a thousandth is always more than rounding.
 fn rounding(factor: f64) -> f32 {
     let kept = (2.0 - factor).clamp(1e-2, 1.0).powi(-2);
     ((8.0 * kept) as f32 * f32::EPSILON).min(1e-3)
@@ -159,7 +159,7 @@ fn greatest(values: &[f64]) -> f32 {
     values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs())) as f32
 }
 
-/// Returns the absolute value above which a relaxation counts as diverged.
+/// Returns the limit for the absolute value of a cell above which a relaxation counts as diverged.
 fn beyond(problem: &GridEquations) -> f32 {
     let greatest = greatest(&problem.values).max(problem.outside.abs() as f32);
     if greatest > 0.0 { (DIVERGENCE_FACTOR * greatest).min(f32::MAX / 2.0) } else { DIVERGENCE_FACTOR }
@@ -203,7 +203,8 @@ fn rule(problem: &GridEquations, settings: &Settings, half: Half, odd: u32, bloc
     }
 }
 
-/// Returns the coefficients of a stencil in the order of places: none, one or four per place.
+/// Returns the coefficients of a stencil in the order of places. A place has none, one or four coefficients, depending
+/// on the stencil.
 fn coefficients(stencil: &Stencil, half: Half) -> Vec<f32> {
     match stencil {
         Stencil::Mean => Vec::new(),

@@ -41,8 +41,8 @@ pub struct Settings {
     pub clamp: Option<[f64; 2]>,
     /// The measured quantity.
     pub measure: Measure,
-    /// Bound on the measure. The relaxation has converged when the measure falls below it, or when a sweep changes
-    /// nothing.
+    /// Bound for the measure. The relaxation has converged when the measure falls below the bound, or when a sweep
+    /// changes nothing.
     pub below: f64,
     /// Largest number of sweeps.
     pub max_sweeps: u32,
@@ -89,7 +89,7 @@ pub(super) struct Rule {
     pub stencil: u32,
     pub measure: u32,
     pub max_sweeps: u32,
-    /// Number of partial sums of a sweep.
+    /// Number of partial sums that a sweep computes.
     pub blocks: u32,
     pub outside: f32,
     pub factor: f32,
@@ -108,7 +108,7 @@ pub(super) struct Rule {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct State {
-    /// 0 while the relaxation runs, then the code of the ending.
+    /// The code of the ending, or 0 while the relaxation runs.
     pub done: u32,
     pub sweeps: u32,
     pub lost: u32,
@@ -120,7 +120,7 @@ pub(super) struct State {
 }
 
 impl Settings {
-    /// Returns the reason why the settings are invalid, or `None`.
+    /// Returns the reason why the settings are invalid. Returns `None` if they are valid.
     pub(super) fn refusal(&self) -> Option<GpuError> {
         let reason = match self {
             _ if !(self.factor.is_finite() && self.factor > 0.0) => {

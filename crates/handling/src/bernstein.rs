@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-/// Number of halvings after which a zero is as precise as doubles allow.
+/// Number of times that an interval with a zero is halved. The zero is then as precise as doubles allow.
 const MAX_HALVINGS: usize = 60;
 
 /// A polynomial of degree `n`, at most 5. Its value at `u`, from 0 to 1, is
@@ -100,7 +100,7 @@ impl Polynomial<f64> {
         }
     }
 
-    /// Finds by bisection where the sign changes between two shares.
+    /// Finds the place between two shares where the sign changes, by bisection. `None` if it does not change.
     fn sign_change(&self, mut from: f64, mut to: f64) -> Option<f64> {
         let first = self.at(from) > 0.0;
         if first == (self.at(to) > 0.0) {
@@ -138,8 +138,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Every change of sign among 2000 samples is near a zero, and every zero is near a change of sign, up to
-        /// rounding.
+        /// Tests that every change of sign among 2000 samples is near a zero, and that every zero is near a change of
+        /// sign, up to rounding.
         #[test]
         fn zeros_are_where_the_sign_changes(count in 1..=6_usize, c in prop::array::uniform6(-3.0..3.0_f64)) {
             let polynomial = of(count, c);

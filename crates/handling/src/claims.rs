@@ -8,13 +8,14 @@ use std::ops::RangeInclusive;
 pub struct RecordedTurn {
     /// The object's orientation at the beginning, radians.
     pub from: f64,
-    /// The object's orientation at the end, radians. The wrist turns directly from one value to the other.
+    /// The object's orientation at the end, radians. The wrist turns from `from` to `to` without wrapping, so the sign
+    /// of the difference is the direction.
     pub to: f64,
     /// Duration, seconds.
     pub seconds: f64,
 }
 
-/// A recorded step of a task. The task has its action.
+/// A recorded step of a task. Its action is that of the step with this number in the task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedStep {
     /// Number of the step in the world file, from 1.
@@ -27,7 +28,8 @@ pub struct RecordedStep {
     pub turn: Option<RecordedTurn>,
 }
 
-/// Claims of a result about its motion, in addition to the samples. A claim that the file does not make is `None`.
+/// The statements of a result about its motion, in addition to the samples. A statement that the file does not make is
+/// `None`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Claims {
     /// Outcome in one word: `found` if there is a motion.
@@ -40,7 +42,8 @@ pub struct Claims {
     pub path: Option<Vec<Configuration>>,
     /// Length of the path in joint space.
     pub length: Option<f64>,
-    /// Distance kept from obstacles, metres. The inner value is `None` if no obstacle is within reach.
+    /// Distance from obstacles that the motion keeps, metres. The outer `None` if it is not stated, the inner `None` if
+    /// no obstacle is within reach.
     pub clearance: Option<Option<f64>>,
     /// The corners that the motion rounds off.
     pub blends: Option<BlendsClaim>,
@@ -50,7 +53,7 @@ pub struct Claims {
     pub optimum: Option<OptimumClaim>,
     /// Claims about the task.
     pub task: TaskClaims,
-    /// Members of the file that are not judged, in the order of the file.
+    /// Members of the file that are not checked, in the order of the file.
     pub unjudged: Vec<String>,
 }
 
@@ -72,7 +75,7 @@ pub struct OptimumClaim {
     pub weights: Option<[f64; 2]>,
     /// Length of the path in the metric.
     pub length: f64,
-    /// Lower bound on the length of all motions.
+    /// Lower bound on the length of every motion.
     pub lower_bound: f64,
     /// Gap: `length / lower_bound - 1`; `None` if the bound is 0.
     pub gap: Option<f64>,
@@ -125,11 +128,13 @@ pub struct StepClaims {
     pub path: Option<Vec<Configuration>>,
     /// Length of the path in joint space.
     pub length: Option<f64>,
-    /// Distance kept from obstacles, metres; the inner `None` if no obstacle is within reach.
+    /// Distance from obstacles that the step's motion keeps, metres. The outer `None` if it is not stated, the inner
+    /// `None` if no obstacle is within reach.
     pub clearance: Option<Option<f64>>,
     /// The corners that the motion rounds off.
     pub blends: Option<BlendsClaim>,
-    /// Distance kept from obstacles while the wrist turns.
+    /// Distance from obstacles that the object keeps while the wrist turns, metres. The outer `None` if it is not
+    /// stated, the inner `None` if no obstacle is within reach.
     pub turn_clearance: Option<Option<f64>>,
 }
 

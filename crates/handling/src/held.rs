@@ -4,13 +4,13 @@ use super::Recording;
 use cplan_geometry::Point;
 use serde::{Deserialize, Serialize};
 
-/// The effect on the arm if a held joint moved.
+/// The effect of a joint that the planner holds still, if the joint moved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum HeldEffect {
     /// The joint lifts everything that it carries along the plane's normal.
     Lifts {
-        /// 1 if greater values of the joint lift along the normal, and -1 if against it.
+        /// 1 if increasing values of the joint lift along the plane's normal, and -1 if they lower.
         sign: f64,
     },
     /// The joint turns everything that it carries, which is all of link 2, about an axis along the plane's normal.
@@ -18,9 +18,9 @@ pub enum HeldEffect {
         /// Position of the axis, in the frame of link 2.
         axis: Point,
     },
-    /// Another effect, which cplan cannot judge.
+    /// Another effect, which cplan cannot check.
     Unjudged {
-        /// The reason: a clause whose subject is the joint.
+        /// The reason why: a clause whose subject is the joint.
         why: String,
     },
 }

@@ -14,7 +14,7 @@
 /// within the limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
-    /// Straight lines in joint space, at constant velocity.
+    /// Straight lines in joint space, at constant velocity between two samples.
     Linear,
     /// Cubic polynomials with the positions and velocities of both ends (Hermite).
     Cubic,
@@ -26,7 +26,7 @@ pub enum Interpolation {
     Quintic,
 }
 
-/// Makes the description of an interpolation. The argument describes its straight pieces.
+/// Creates the description of an interpolation. The argument describes its straight pieces.
 macro_rules! interpolation {
     ($straight:literal) => {
         concat!(
@@ -43,6 +43,6 @@ macro_rules! interpolation {
 pub const INTERPOLATION: &str =
     interpolation!("c = d = 0 on straight pieces of the path, where the acceleration is constant");
 
-/// Description of the interpolation of cplan's JSON with limited jerk: [`Interpolation::Cubic`]. The file also states
-/// accelerations.
+/// Description of the interpolation of cplan's JSON if jerks are limited: [`Interpolation::Cubic`]. The file also
+/// states accelerations.
 pub const SMOOTH_INTERPOLATION: &str = interpolation!("d = 0, because the jerk is constant");

@@ -10,7 +10,7 @@ use thiserror::Error;
 /// be a mistake.
 pub const MAX_STOP_TIME: f64 = 1e6;
 
-/// The pose of a moving obstacle's frame at a time.
+/// A time, and the pose of a moving obstacle's frame at that time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stop {
@@ -68,7 +68,7 @@ pub enum ObstacleTrajectoryError {
     /// A time is not later than the previous one, or is negative, or exceeds [`MAX_STOP_TIME`].
     #[error("stop {} is at {time} s; times begin at 0 or later, increase, and end before {MAX_STOP_TIME:e}", stop + 1)]
     Time {
-        /// Number of the stop, from 0.
+        /// Index of the stop, from 0.
         stop: usize,
         /// The stop's time.
         time: f64,
@@ -76,7 +76,7 @@ pub enum ObstacleTrajectoryError {
     /// A place, angle or velocity is not finite, or is too large.
     #[error("stop {} has a position or a velocity that is not finite or too large", stop + 1)]
     Place {
-        /// Number of the stop, from 0.
+        /// Index of the stop, from 0.
         stop: usize,
     },
 }
@@ -110,7 +110,8 @@ impl Leg {
         self.turn == 0.0 && self.velocity == Vector::zeros()
     }
 
-    /// Returns an upper bound on the speed of points within `reach`, metres, of the frame's origin, metres per second.
+    /// Returns an upper bound, in metres per second, on the speed of points within `reach` metres of the frame's
+    /// origin.
     #[must_use]
     pub fn speed(&self, reach: f64) -> f64 {
         self.velocity.norm() + self.turn.abs() * reach
@@ -210,8 +211,8 @@ impl ObstacleTrajectory {
         Self { stops, velocity: self.velocity, legs }
     }
 
-    /// Returns the times at which the frame's origin passes a point, in order: times at which it is at the point, or
-    /// nearest to it and within the distance `within`, metres.
+    /// Returns the intervals of time, in order, in which the frame's origin passes a point: when it is at the point, or
+    /// nearest to it and within `within` metres.
     #[must_use]
     pub fn passes(&self, at: Point, within: f64) -> Vec<Interval> {
         let of = |leg: &Leg| {
@@ -272,7 +273,7 @@ impl MovingObstacle {
         self.obstacle.at(&self.course.pose(time))
     }
 
-    /// Returns the obstacle in the form in which a scene holds it: without its place.
+    /// Returns the obstacle in the form in which scenes contain it: without a place.
     #[must_use]
     pub fn loose(&self) -> LooseObstacle {
         let angle = (!self.course.turns()).then(|| self.course.stops()[0].angle);
@@ -354,7 +355,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(300))]
 
-        /// Compares the true place of a point of a moving obstacle with the bound of its drift, also across stops.
+        /// Compares the true place of a point of a moving obstacle with the bound of its drift. The drift may go across
+        /// stops.
         #[test]
         fn points_stay_where_their_drift_lets_them(
             at in prop::array::uniform4(prop::array::uniform3(-2.0..2.0_f64)), times in prop::array::uniform4(0.1..1.0_f64),

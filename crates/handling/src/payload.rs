@@ -8,21 +8,21 @@ use cplan_geometry::{Convex, Pose, inset_union};
 /// An object of a task while the arm carries it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Payload {
-    /// The number of the object in the task.
+    /// The index of the object in the task.
     pub object: usize,
     /// Connection with the arm.
     pub grip: Grip,
-    /// Numbers in [`Task::obstacles`] of the obstacles on which the object rests. The object may touch them, but must
+    /// Indices in [`Task::obstacles`] of the obstacles on which the object rests. The object may touch them, but must
     /// not press into them by more than [`Payload::penetration_allowance`].
     pub supports: Vec<usize>,
 }
 
-/// Depth to which a payload may press into its supports, as a share of the arm's reach. It is greater than the rounding
-/// of coordinates in files, and less than the compliance of any gripper.
+/// Depth to which a payload may press into its supports, as a share of the arm's reach. The depth is greater than the
+/// rounding of coordinates in files, and less than the compliance of any gripper.
 const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
-/// Share of the penetration allowance by which corners are moved inwards. It is a little less than 1, so that a checker
-/// that moves corners by the whole allowance still accepts the motion.
+/// Fraction of the penetration allowance by which corners are moved inwards. It is a little less than 1, so that a
+/// checker that moves corners by the whole allowance still accepts the motion.
 const ALLOWANCE_SHARE: f64 = 1.0 - 1e-3;
 
 impl Payload {
@@ -86,7 +86,7 @@ impl Task {
     }
 
     /// Returns the scene while the tool is lowered to pick or place an object. Returns `None` if the tool is not
-    /// lowered. Without a stroke, the path that lowers a placed object is unknown, so only its final pose counts.
+    /// lowered. Without a stroke, it is unknown how a placed object is lowered, so only its final pose is checked.
     #[must_use]
     pub fn lowered_scene(
         &self,

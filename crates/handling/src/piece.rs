@@ -29,7 +29,7 @@ pub struct Piece {
     curve: Polynomial<Configuration>,
 }
 
-/// The data at an end of a piece: position, velocity, acceleration.
+/// The state at an end of a piece: position, velocity, acceleration.
 pub type State = [Configuration; 3];
 
 impl Piece {
@@ -184,7 +184,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Checks the states at the ends by differences of the motion, and the jerk by differences of the acceleration.
+        /// Checks the states at the ends of pieces by differences of the motion, and the jerk by differences of the
+        /// acceleration.
         #[test]
         fn a_piece_has_the_states_of_its_ends(
             values in prop::array::uniform6(-3.0..3.0_f64), duration in 0.1..5.0_f64, u in 0.001..0.999_f64,
@@ -214,7 +215,7 @@ mod tests {
             }
         }
 
-        /// Compares extremes with 2000 samples: bounds hold and are tight.
+        /// Compares the extremes with 2000 samples. Tests that the bounds hold and are tight.
         #[test]
         fn extremes_bound_the_samples(
             values in prop::array::uniform6(prop_oneof![Just(0.0), -3.0..3.0_f64]), duration in 0.01..5.0_f64,

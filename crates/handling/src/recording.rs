@@ -21,7 +21,8 @@ pub struct Recording {
     velocity: Option<Vec<Configuration>>,
     acceleration: Option<Vec<Configuration>>,
     interpolation: Interpolation,
-    /// Numbers of the samples, ascending, after which the arm rests and the motion is straight to the next sample.
+    /// Indices of the samples, ascending, after which the arm rests. From each of them, the motion is straight to the
+    /// next sample.
     rests: Vec<usize>,
 }
 
@@ -50,7 +51,7 @@ pub enum RecordingError {
     /// A number is NaN, infinite, or implausibly large.
     #[error("a {what} is {value}")]
     Value {
-        /// Number of the sample.
+        /// Index of the sample.
         sample: usize,
         /// Kind of the number: `position`, `time`, `velocity` or `acceleration`.
         what: &'static str,
@@ -60,9 +61,9 @@ pub enum RecordingError {
     /// Times do not increase.
     #[error("the time {time} s follows {before} s; times must increase")]
     Time {
-        /// Number of the later of two samples.
+        /// Index of the later of two samples.
         sample: usize,
-        /// The time of that sample, seconds.
+        /// The time of the sample, seconds.
         time: f64,
         /// The time of the sample before it, seconds.
         before: f64,
@@ -70,7 +71,7 @@ pub enum RecordingError {
 }
 
 impl RecordingError {
-    /// Returns the number of the sample with the error. `None` if no single sample is wrong.
+    /// Returns the index of the sample with the error. `None` if no single sample is wrong.
     #[must_use]
     pub fn sample(&self) -> Option<usize> {
         match *self {
@@ -81,7 +82,7 @@ impl RecordingError {
 }
 
 impl Recording {
-    /// Makes a motion from samples. The interpolation is cubic if velocities are known, and linear otherwise.
+    /// Creates a motion from samples. The interpolation is cubic if velocities are known, and linear otherwise.
     ///
     /// # Errors
     /// [`RecordingError`]: the first problem found.
@@ -149,8 +150,8 @@ impl Recording {
         Ok(Self { acceleration: Some(acceleration), interpolation, ..self })
     }
 
-    /// Makes the motion straight from each of these samples to the next, whatever the interpolation. This is for
-    /// samples at which one motion ends and the arm rests until the next motion begins.
+    /// Makes the motion straight from each of these samples to the next, for any interpolation. This is for samples at
+    /// which one motion ends and the arm rests until the next motion begins.
     #[must_use]
     pub fn resting_after(self, samples: &[usize]) -> Self {
         let mut rests = samples.to_vec();

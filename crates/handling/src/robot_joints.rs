@@ -3,22 +3,22 @@
 use super::{Stroke, ToolJoint};
 use serde::{Deserialize, Serialize};
 
-/// The source of a joint's value.
+/// The source that determines a joint's value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Driver {
-    /// The planner: the joint is one of the two joints of the arm, 0 or 1.
+    /// The planner. The joint is the joint with this index, 0 or 1, of the two planned joints.
     Planned(usize),
-    /// No source: the joint stays at this value, radians or metres.
+    /// No source. The joint stays at this value, radians or metres.
     Held(f64),
-    /// The stroke: the joint lowers the tool at picks and places.
+    /// The stroke. The joint lowers the tool at picks and places.
     Stroke,
-    /// The wrist: the joint keeps or turns the load.
+    /// The wrist. The joint keeps the load's orientation, or turns the load.
     Wrist,
 }
 
-/// A movable joint. Its value is `factor * x + offset`, where `x` is the value of its driver. For a mimic joint, the
-/// driver is that of the joint that it follows.
+/// A movable joint. Its value is `factor * x + offset`, where `x` is the value that its driver determines. A mimic
+/// joint has the driver of the joint that it follows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotJoint {
@@ -87,8 +87,8 @@ impl RobotJoints {
         self.joints.iter().map(value).collect()
     }
 
-    /// Returns the derivatives of all joints' values by time, given the derivatives of the drivers' values. The order
-    /// of the derivatives does not matter.
+    /// Returns the derivatives of all joints' values by time, given the derivatives of the drivers' values. Works for
+    /// derivatives of any order.
     #[must_use]
     pub fn rates(&self, drives: &Drives) -> Vec<f64> {
         let rate = |joint: &RobotJoint| match joint.driver {

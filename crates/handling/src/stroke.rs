@@ -36,8 +36,8 @@ impl ToolJoint {
 pub struct Stroke {
     /// The joint that lowers the tool. It is raised at rest.
     pub joint: ToolJoint,
-    /// Distance by which the tool is lowered against the plane's normal, metres. With `None`, it is the lift of each
-    /// object.
+    /// Distance by which the tool is lowered against the plane's normal, metres. With `None`, it is lowered by the lift
+    /// of each object.
     pub travel: Option<f64>,
     /// Top speed, m/s, positive.
     pub velocity: f64,

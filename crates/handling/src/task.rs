@@ -7,7 +7,7 @@ use cplan_geometry::{Convex, Interval, Point, Pose};
 use cplan_text::short;
 use serde::{Deserialize, Serialize};
 
-/// What determines an object's orientation while the arm carries it.
+/// The rule for an object's orientation while the arm carries it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Holding {
@@ -18,7 +18,7 @@ pub enum Holding {
     Level,
 }
 
-/// A movable object: an obstacle while it lies somewhere, a payload while it is carried.
+/// A movable object. It is an obstacle while it lies somewhere, and a payload while the arm carries it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Object {
@@ -32,7 +32,7 @@ pub struct Object {
     pub heights: Heights,
     /// Distance by which the object is raised while it is carried, metres.
     pub lift: f64,
-    /// What determines the object's orientation while it is carried.
+    /// The rule for the object's orientation while it is carried.
     pub holding: Holding,
     /// Initial pose.
     pub at: Pose,
@@ -60,11 +60,11 @@ impl Object {
 pub enum Action {
     /// The tip moves to an object and grasps it.
     Pick {
-        /// The number of the object in the task.
+        /// The index of the object in the task.
         object: usize,
         /// The point of the object, in its own frame, to which the tip moves.
         grasp: Point,
-        /// Numbers in [`Task::obstacles`] of the obstacles on which the object rests, and which it may therefore touch.
+        /// Indices in [`Task::obstacles`] of the obstacles on which the object rests. The object may touch them.
         supports: Vec<usize>,
         /// For a moving object: the times at which it may be picked, seconds, in order. Empty if any time is allowed.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -76,8 +76,8 @@ pub enum Action {
         at: Point,
         /// The required orientation there, radians; `None` if any orientation is allowed.
         angle: Option<f64>,
-        /// Numbers in [`Task::obstacles`] of the obstacles on which the object comes to rest, and which it may
-        /// therefore touch.
+        /// Indices in [`Task::obstacles`] of the obstacles on which the object comes to rest. The object may touch
+        /// them.
         supports: Vec<usize>,
     },
     /// The arm moves to a goal, with the object that it carries, if any.
@@ -96,21 +96,21 @@ pub struct Step {
     pub cycle: usize,
     /// Position in the world file, for messages: `cell.toml:12:1`.
     pub place: String,
-    /// Share of the joints' top speeds to use, greater than 0 and at most 1.
+    /// Fraction of the joints' top speeds to use, greater than 0 and at most 1.
     pub speed: f64,
     /// Time that the arm rests at the end, seconds.
     pub dwell: f64,
 }
 
-/// Part of a task.
+/// A part of a task.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Item {
-    /// A single step, in its place in the order.
+    /// A single step, at this position in the order.
     Step(Step),
     /// Pairs of a pick and the place that follows it. The pairs may be executed in any order.
     AnyOrder(Vec<[Step; 2]>),
-    /// New objects are supplied: the objects with these numbers are at their initial poses again.
+    /// New objects are supplied: the objects with these indices are at their initial poses again.
     Renew(Vec<usize>),
 }
 
@@ -124,8 +124,8 @@ pub struct Wrist {
     pub acceleration: f64,
 }
 
-/// A task of an arm. In a valid task, an object that is picked lies somewhere, each place follows a pick, and the
-/// numbers of objects and obstacles exist.
+/// A task of an arm. In a valid task, an object that is picked lies somewhere, each place step follows a pick, and all
+/// indices of objects and obstacles exist.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Task {
@@ -146,14 +146,14 @@ pub struct Task {
 }
 
 impl Task {
-    /// Returns the number of an object as an obstacle: objects follow the workspace's own obstacles.
+    /// Returns the index of an object as an obstacle: objects follow the workspace's own obstacles.
     #[must_use]
     pub fn obstacle_number(&self, object: usize) -> usize {
         self.workspace.fixed.obstacles.len() + object
     }
 
     /// Returns the workspace with the objects at their poses, as static obstacles. A carried object has no pose. It
-    /// becomes an obstacle without pieces, so that numbers stay the same.
+    /// becomes an obstacle without pieces, so that indices stay the same.
     #[must_use]
     pub fn obstacles(&self, poses: &[Option<Pose>]) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
@@ -192,7 +192,7 @@ impl Task {
         self.courses(&self.initially_moving().collect::<Vec<_>>())
     }
 
-    /// Returns the number of an object as an obstacle while `moving` objects move.
+    /// Returns the index of an object as an obstacle while the objects `moving` move.
     #[must_use]
     pub fn obstacle_number_among(&self, moving: &[usize], object: usize) -> usize {
         let standing = self.obstacle_number(self.objects.len()) + self.workspace.movers.len();
@@ -211,7 +211,7 @@ impl Task {
         !self.workspace.movers.is_empty() || self.initially_moving().next().is_some()
     }
 
-    /// Replaces the displayed shapes of obstacles and objects by the convex pieces that are judged. This is for tasks
+    /// Replaces the displayed shapes of obstacles and objects by the convex pieces that collision checks use. For tasks
     /// that are read as data, in which the two may differ.
     pub fn restrict_shapes(&mut self) {
         self.workspace.restrict_shapes();
@@ -270,7 +270,7 @@ impl Object {
 }
 
 impl Action {
-    /// Returns the number of the object that is picked. `None` for other actions.
+    /// Returns the index of the object that is picked. `None` for other actions.
     #[must_use]
     pub fn picked(&self) -> Option<usize> {
         match self {
@@ -279,7 +279,7 @@ impl Action {
         }
     }
 
-    /// Describes the action in a few words: `pick "part"`. Numbers have six digits.
+    /// Describes the action in a few words, such as `pick "part"`. Numbers have six digits.
     #[must_use]
     pub fn describe(&self, objects: &[Object]) -> String {
         let point = |x: f64, y: f64| format!("({}, {})", short(x), short(y));

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 /// Limit on the duration of each part of a task, seconds. It is the same as for motions.
 const MAX_PART_DURATION: f64 = 1e6;
 
-/// Reason why an arm, objects and steps do not form a task.
+/// Reason why an arm, objects and steps do not form a valid task.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TaskError {
     /// The arm, the obstacles or the initial poses of the objects are invalid.
@@ -36,7 +36,7 @@ pub enum TaskError {
     /// A step is invalid.
     #[error("step {number} (cycle {cycle}): {why}")]
     Step {
-        /// The step's number in the world file.
+        /// The step's number in the world file, from 1.
         number: usize,
         /// Number of the step's repetition, from 1.
         cycle: usize,
@@ -63,8 +63,8 @@ pub enum TaskError {
 }
 
 impl Task {
-    /// Checks the task, and returns the initial scene: the arm without a load, among obstacles and objects at their
-    /// initial poses. Takes `O(n)` in parts, obstacles, objects and steps.
+    /// Checks the task, and returns the initial scene. In it, the arm has no load, and obstacles and objects are at
+    /// their initial poses. Takes `O(n)` in parts, obstacles, objects and steps.
     ///
     /// # Errors
     /// Returns the first problem, such as invalid numbers, a start that is not free, picks of missing objects, or
@@ -100,7 +100,7 @@ impl Task {
     }
 
     /// Returns a feature of the task that supports static obstacles only, with the name of a moving obstacle or object.
-    /// Returns `None` if there is no such conflict.
+    /// Returns `None` if the task has no such feature, or nothing moves.
     #[must_use]
     pub fn unmoved(&self) -> Option<(String, &'static str)> {
         let own = self.objects.iter().filter_map(|object| Some((&object.name, object.course.as_ref()?)));
@@ -172,7 +172,7 @@ struct Gripper<'a> {
     carried: Option<usize>,
     /// The objects that have been picked.
     picked: BTreeSet<usize>,
-    /// Orientation of each object, radians. The orientation of rigid payloads is not tracked.
+    /// Orientation of each object, radians. The orientation of rigid payloads is ignored.
     turned: Vec<f64>,
 }
 

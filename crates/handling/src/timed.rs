@@ -25,7 +25,7 @@ impl From<Workspace> for TimedWorkspace {
 }
 
 impl TimedWorkspace {
-    /// Splits this into the static workspace, and the moving obstacles as additions to a scene.
+    /// Splits the workspace into its static part, and its moving obstacles as additions to a scene.
     #[must_use]
     pub fn into_parts(self) -> (Workspace, Additions) {
         let loose = self.movers.iter().map(MovingObstacle::loose).collect();
@@ -41,7 +41,7 @@ impl TimedWorkspace {
         Scene::with(arm, workspace, additions)
     }
 
-    /// Same as [`TimedWorkspace::scene`], without checks.
+    /// Does the same as [`TimedWorkspace::scene`], without checks.
     #[must_use]
     #[doc(hidden)]
     pub fn scene_trusted(self, arm: Arm) -> Scene {
@@ -61,7 +61,7 @@ impl TimedWorkspace {
         self.fixed.obstacles.iter().chain(self.movers.iter().map(|mover| &mover.obstacle))
     }
 
-    /// Replaces the displayed shapes by the convex pieces that are judged. This is for workspaces that are read as
+    /// Replaces the displayed shapes by the convex pieces that collision checks use. For workspaces that are read as
     /// data, in which the two may differ.
     pub fn restrict_shapes(&mut self) {
         let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);
@@ -108,8 +108,8 @@ impl<'a> TimedScene<'a> {
         self.courses.iter().map(move |course| course.pose(time))
     }
 
-    /// Returns the scene at a time. Each moving obstacle becomes static at its place at that time. These obstacles
-    /// follow all others.
+    /// Returns the scene at a time. Each moving obstacle becomes static at its place at that time. These obstacles come
+    /// after all others.
     #[must_use]
     pub fn frozen(self, time: f64) -> Scene {
         self.scene.with_loose_at(self.poses(time))

@@ -5,7 +5,7 @@ use cplan_harmonic::{Component, Lattice, harmonic};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 
-/// Returns a torus of `n x n` cells with 25 boxes, distributed by the golden ratio.
+/// Returns the blocked cells of a torus of `n x n` cells with 25 boxes, distributed by the golden ratio.
 fn boxes(n: usize) -> Vec<bool> {
     let corner = |k: usize, by: f64| (k as f64 * by).fract() * n as f64;
     let mut blocked = vec![false; n * n];

@@ -3,14 +3,13 @@
 use super::{Lattice, Wave};
 use cplan_interrupt::checkpoint;
 
-/// The free cells that a wave from the goals reached. Their *positions* are numbers in the order of the wave: first the
-/// goals, then level by level. The algorithms of this crate use positions instead of indices of the grid.
-///
+/// The free cells that a wave from the goals reached. Each has a *position*, which is its number in the order of the
+/// wave: first the goals, then level by level. The algorithms of this crate use positions instead of indices of the
+/// grid.
 /// Relaxation in this order carries information away from the goal through a whole corridor in one sweep. Neighbours
-/// lie on consecutive levels (never on the same one, except on circles of odd size), so this is a consistent ordering,
+/// lie on consecutive levels (never on the same one, except on circles of odd size). So this is a consistent ordering,
 /// for which Young's theory of over-relaxation holds.
-///
-/// Each cell needs two 32-bit numbers. Neighbours are found by their place in the grid.
+/// Each cell needs two 32-bit numbers. The neighbours of a cell are found from its place in the grid.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Component {
     /// Number of goals, which are the first positions.
@@ -55,7 +54,7 @@ impl Component {
         self.places.is_empty()
     }
 
-    /// Returns the position that represents all cells that are not free.
+    /// Returns the special position that stands for all cells that are not free.
     #[must_use]
     pub fn wall(&self) -> usize {
         self.places.len()
@@ -99,7 +98,7 @@ impl Component {
         i * self.shape[1] + j
     }
 
-    /// Computes how much room there is at each position, by two measures. Takes linear time.
+    /// Computes the room at each position, by two measures. Takes linear time.
     #[must_use]
     pub fn room(&self) -> Room {
         let mut clearance = vec![u32::MAX; self.len()];
@@ -141,10 +140,10 @@ impl Component {
 /// Measures of the room at each position of a [`Component`].
 #[derive(Debug, Clone)]
 pub struct Room {
-    /// Number of steps to the nearest wall: 1 for a cell beside a wall. If there are no walls, number of steps to a
-    /// goal plus 1.
+    /// Number of steps to the nearest wall: 1 for a cell beside a wall. If there are no walls, it is the number of
+    /// steps to a goal plus 1.
     pub clearance: Vec<u32>,
-    /// Greatest clearance that is reached by moving away from walls. It measures the room or corridor that contains the
-    /// cell.
+    /// Greatest clearance that is reached by moving away from walls. It is about half the width of the room or corridor
+    /// that contains the cell.
     pub widest: Vec<u32>,
 }

@@ -63,13 +63,12 @@ pub struct Streamline {
 
 /// Follows a field from a point in a free cell to a goal's cell, along the guide's gradient. A cell has the side
 /// lengths `sides`. Takes a few microseconds per cell.
-///
 /// The gradient is interpolated bilinearly between the centres of free cells, and integrated by the classical
 /// fourth-order Runge-Kutta method in steps of [`STEP_LENGTH`].
-///
-/// Along walls, only the free centres count, which leads the curve away from the walls. A step that would still leave
-/// the free cells slides along their sides. Where the curve makes no progress (at a saddle, or in a narrow bend), it
-/// moves to a better cell by [`Guide::onward`]. So the curve stays in free cells, and ends where the guide's cells do.
+/// Beside walls, only the centres of free cells count, which leads the curve away from the walls. A step that would
+/// still leave the free cells slides along their sides. Where the curve makes no progress (at a saddle, or in a narrow
+/// bend), it moves to a better cell by [`Guide::onward`]. So the curve stays in free cells, and it can always be
+/// continued if the guide's cells lead to a goal.
 ///
 /// # Errors
 /// [`Guide::DeadEnd`] if the guide has no further cells.
@@ -107,9 +106,8 @@ pub fn direction<G: Guide>(guide: &G, sides: [f64; 2], at: LatticePoint) -> Opti
     Square::new(sides).direction(guide, at)
 }
 
-/// Advances along a field by a number of steps of [`STEP_LENGTH`], and returns the last point. This is for fields that
-/// change at the next moment, so there is no check for progress.
-///
+/// Advances along a field by a number of steps of [`STEP_LENGTH`], and returns the last point. Unlike [`follow`], it
+/// does not check for progress, because it is for fields that change over time.
 /// The point stays in free cells. It stops early in a goal's cell, or if no step would stay in free cells.
 pub fn advance<G: Guide>(guide: &G, sides: [f64; 2], from: LatticePoint, steps: usize) -> LatticePoint {
     let mut square = Square::new(sides);
@@ -146,8 +144,8 @@ impl Square {
         Self { weights: [b / a, a / b], corner: None, slopes: [None; 4] }
     }
 
-    /// Returns the unit direction at a point. Returns `None` if none of the surrounding centres has one, or if they
-    /// cancel.
+    /// Returns the unit direction at a point. Returns `None` if none of the surrounding centres has a gradient, or if
+    /// the gradients cancel.
     fn direction<G: Guide>(&mut self, guide: &G, at: LatticePoint) -> Option<[f64; 2]> {
         let corner = at.map(|x| x.floor() as i64);
         if self.corner != Some(corner) {

@@ -10,28 +10,25 @@ use std::f64::consts::{LN_2, PI};
 pub struct Field {
     /// The values.
     pub potential: Potential,
-    /// Number of windows in which the potential was solved.
+    /// Number of windows (sets of cells that are solved together) in which the potential was solved.
     pub windows: usize,
 }
 
-/// Weight of the value 0 in the mean, in addition to the weights 1 of the four neighbours. So at each step, a random
-/// walk ends with a quarter of this probability, 3e-14.
-///
-/// So every value is less than the mean of its neighbours by more than all rounding errors, and one neighbour is
-/// strictly greater. This also holds where the harmonic function is level: without any walls, or where symmetry makes
-/// all four neighbours equal.
-///
-/// Each step of a walk to the goal lowers the value by that fraction. For ten million steps, this is less than a
+/// Weight of the value 0 in the mean, in addition to the weights 1 of the four neighbours. A random walk therefore ends
+/// at each step with a quarter of this probability, 3e-14.
+/// This makes every value less than the mean of its neighbours by more than all rounding errors, so at least one
+/// neighbour is strictly greater. It also holds where the harmonic function is level: without any walls, or where
+/// symmetry makes all four neighbours equal.
+/// Each step of a walk to the goal lowers the value by a fraction of 3e-14. For ten million steps, this is less than a
 /// millionth.
 pub(super) const WALK_LOSS: f64 = f64::EPSILON * 512.0;
 
-/// Computes the harmonic potential on a component, in relative precision at any distance. Values may be `1e-50000`.
-///
-/// The potential is solved in windows in order of falling values: narrow ones by elimination without subtractions, wide
-/// rooms by multigrid. Each value agrees with the mean of its neighbours to a relative 1.5e-14 ([`residual`]), which is
-/// less than the loss per step. So every cell except the goals has a strictly greater neighbour
+/// Computes the harmonic potential on a component, in relative precision at any distance. Values may be as small as
+/// `1e-50000`.
+/// The potential is solved in windows in order of falling values: narrow windows by elimination without subtractions,
+/// wide rooms by multigrid. Each value agrees with the mean of its neighbours to a relative 1.5e-14 ([`residual`]),
+/// which is less than the loss per step. So every cell except the goals has a strictly greater neighbour
 /// ([`Potential::navigates`]).
-///
 /// Takes about 300 ns per cell in mazes and corridors. Wide rooms cost a few solves by
 /// [`Multigrid`](cplan_multigrid::Multigrid).
 #[must_use]
@@ -40,15 +37,15 @@ pub fn harmonic(component: &Component) -> Field {
     Field { potential, windows }
 }
 
-/// Returns the positions from `from` to a goal by steepest ascent of [`harmonic`]. Solves only the part that the ascent
-/// needs, so it takes less time near the goal.
+/// Returns the positions from `from` to a goal by steepest ascent of [`harmonic`]. Solves only the part of the
+/// potential that the ascent needs, so it takes less time near the goal.
 #[must_use]
 pub fn harmonic_path(component: &Component, from: usize) -> Option<Vec<usize>> {
     Peeling::new(component, WALK_LOSS).run_to(from).potential.ascend(component, from)
 }
 
-/// Estimates [`harmonic`] in a fraction of the time. The result is positive, and falls with the number of steps from
-/// the goal, faster in narrow places. It is for pictures of the cells from which the goal is reachable.
+/// Estimates [`harmonic`] in a fraction of the time. The result is positive. It falls with the number of steps from the
+/// goal, and it falls faster in narrow places. It is for pictures that show from which cells the goal is reachable.
 #[must_use]
 pub fn estimated_harmonic(component: &Component) -> Potential {
     let clearance = component.room().clearance;
@@ -61,8 +58,9 @@ pub fn estimated_harmonic(component: &Component) -> Potential {
     Potential::from_log2(&log2)
 }
 
-/// Returns the fall of the potential per cell along the middle of a straight corridor with this clearance, as a natural
-/// logarithm: `theta` with `cosh theta = 2 - cos(pi / w)`.
+/// Returns by how much the potential falls per cell, as a natural logarithm, along the middle of a straight corridor.
+/// `clearance` is half the width of the corridor. The result is `theta` with `cosh theta = 2 - cos(pi / w)`, where `w`
+/// is the width.
 pub(super) fn decay(clearance: u32) -> f64 {
     (2.0 - (PI / (2.0 * f64::from(clearance.max(1)))).cos()).acosh()
 }

@@ -105,7 +105,7 @@ impl Lattice {
         [framed - self.stride, framed + self.stride, framed - 1, framed + 1]
     }
 
-    /// Returns the free cell that a place is or represents. `None` for walls.
+    /// Returns the free cell that a place is or represents. Returns `None` for walls.
     pub(super) fn resolve(&self, framed: usize) -> Option<usize> {
         match self.sites[framed] {
             Site::Free => Some(framed),
@@ -134,9 +134,9 @@ impl Lattice {
         wrap(i, self.cells[0]) * self.stride + wrap(j, self.cells[1])
     }
 
-    /// Labels all free cells connected to `sources` (indices in the grid) with the number of steps to the nearest one,
-    /// breadth-first over neighbours that share a side: the navigation function in the `L1` metric. Linear; a few
-    /// nanoseconds per cell.
+    /// Labels all free cells that are connected to `sources` (indices in the grid) with the number of steps to the
+    /// nearest source. Goes breadth-first over neighbours that share a side. This is the navigation function in the
+    /// `L1` metric. Linear; a few nanoseconds per cell.
     #[must_use]
     pub fn wave(&self, sources: &[usize]) -> Wave {
         let label = |site: &Site| match site {

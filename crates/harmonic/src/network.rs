@@ -9,16 +9,15 @@ const NO_LINK: u32 = u32::MAX;
 /// Number of right-hand sides that are solved together.
 pub(super) const RIGHT_SIDES: usize = 2;
 
-/// Greatest ratio of the number of remaining nodes to the least number of links of a node at which the rest is solved
-/// as a dense matrix.
+/// The remaining nodes are solved as a dense matrix when their number is at most this multiple of the least number of
+/// links of a node.
 const DENSE_RATIO: usize = 4;
 
-/// A system of equations `(ground + sum of weights) u = source + sum of weight * neighbour's u`, one for each node. It
-/// gives the potentials in a network of conductances. `ground` is the conductance to known potentials.
-///
+/// A system of equations `(ground + sum of weights) u = source + sum of weight * neighbour's u`, one for each node. Its
+/// solution is the potentials in a network of conductances. `ground` is the conductance to known potentials.
 /// The network is eliminated by Gauss's algorithm in the form of Grassmann, Taksar and Heyman (1985): a pivot is the
-/// sum of the weights that lead away from the node. Only non-negative numbers are ever added, multiplied and divided.
-/// So every unknown has a relative error of a few roundings per node on which it depends, however small it is
+/// sum of the weights that lead away from the node. The algorithm only adds, multiplies and divides non-negative
+/// numbers. So every unknown has a relative error of a few roundings per node on which it depends, however small it is
 /// (O'Cinneide 1993).
 #[derive(Debug, Clone, Default)]
 pub(super) struct Network {
@@ -153,7 +152,8 @@ impl Network {
         }
     }
 
-    /// Eliminates nodes until the remaining ones are mostly linked with each other. Returns the order.
+    /// Eliminates nodes until the remaining ones are mostly linked with each other. Returns the eliminated nodes in
+    /// order.
     fn eliminate(&mut self) -> Vec<u32> {
         let nodes = self.first.len();
         let mut order = Vec::with_capacity(nodes);
@@ -223,7 +223,7 @@ impl Network {
         order
     }
 
-    /// Removes the link from `node` to `gone`, and records the places of its other links in `slot`.
+    /// Removes the link from `node` to `gone`. Records in `slot` the places of the node's other links.
     fn unlink(&mut self, node: usize, gone: u32, slot: &mut [u32]) {
         let (mut before, mut at) = (NO_LINK, self.first[node]);
         while at != NO_LINK {

@@ -22,41 +22,43 @@ use super::{Component, Potential};
 use cplan_interrupt::checkpoint;
 use std::f64::consts::LN_2;
 
-/// Number of a cell that is in no window.
+/// Value of [`Peeling::number`] for a cell that is in no window.
 const NO_WINDOW: u32 = u32::MAX;
 
-/// Estimated depth of a window, as the fall of the potential in nepers (natural logarithm).
+/// Estimated depth of a window: by how many nepers (natural logarithm) the potential falls inside it.
 const WINDOW_DEPTH: f64 = 64.0;
 
-/// Greatest missing part of an accepted value, as a fraction of the value.
+/// Greatest part of an accepted value, as a fraction of it, that the cells beyond the window may contribute. The
+/// window's equations do not contain this part.
 const NEGLIGIBLE_SHARE: f64 = f64::EPSILON / 4.0;
 
-/// Least value that a window accepts, as a fraction of its greatest value. Smaller values wait for a later window, in
-/// which they are large. It is far above the least double.
+/// Least value that is accepted from a window, as a fraction of the greatest value next to the window. Smaller values
+/// wait for a later window, in which they are relatively large. The limit is far above the least double.
 const MIN_VALUE_SHARE: f64 = 1e-200;
 
-/// Greatest room (`Room::widest`) in a maze. Mazes are solved by elimination.
+/// Greatest room (`Room::widest`) of a window that counts as a maze. Mazes are solved by elimination.
 const MAX_MAZE_ROOM: u32 = 3;
-/// Greatest room in a corridor that is solved by elimination. The cost of elimination grows with the square of the
-/// width.
+/// Greatest room of a window that counts as a corridor, which is solved by elimination if it has few cells. The cost of
+/// elimination grows with the square of the width.
 const MAX_CORRIDOR_ROOM: u32 = 12;
-/// Largest number of cells for which a window always counts as a corridor.
+/// Largest number of cells for which a window is always solved by elimination.
 const SMALL_WINDOW_CELLS: usize = 2000;
-/// Largest number of cells of a corridor, as a multiple of its squared room. In a corridor, a window is 41 times as
-/// long as the room, and twice as wide.
+/// Largest additional number of cells of a corridor, as a multiple of its squared room. A corridor is twice as wide as
+/// its room, and its window is 41 times as long as the room.
 const CORRIDOR_CELLS_PER_ROOM: usize = 128;
 
-/// Least value that is refined in a wide window, as a fraction of the greatest value.
+/// Least value that is refined in a wide window, as a fraction of the greatest value next to the window.
 const REFINEMENT_FLOOR: f64 = 1e-36;
-/// Least value that is precise after refinement, as a fraction of the greatest value.
+/// Least value that is accepted from a wide window after refinement, as a fraction of the greatest value next to the
+/// window.
 const PRECISE_SHARE: f64 = 1e-30;
 
 /// The part of the potential that is known so far.
 pub(super) struct Peeling<'a> {
     component: &'a Component,
-    /// Weight of a walk's end at each step; each neighbour has the weight 1.
+    /// Weight with which a walk ends at each step; each neighbour has the weight 1.
     loss: f64,
-    /// Estimated fall of the potential per cell, nepers, by the room around it.
+    /// Estimated fall of the potential per cell, nepers. The index is the room around the cell.
     decay: Vec<f64>,
     /// Room of each position. Empty until the first window is gathered.
     room: Vec<u32>,
@@ -118,7 +120,7 @@ impl<'a> Peeling<'a> {
         self.run_until(None)
     }
 
-    /// Computes the values that steepest ascent from a position reads.
+    /// Computes at least the values that steepest ascent from a position reads.
     pub fn run_to(self, position: usize) -> Self {
         if self.is_known(position) { self } else { self.run_until(Some(position)) }
     }
@@ -173,8 +175,8 @@ impl<'a> Peeling<'a> {
         path.is_some_and(|path| path.iter().all(|&at| at < self.component.goals || !self.is_front(at)))
     }
 
-    /// Solves all unknown cells as one window without cutting. If `last` is given, smaller values than at `last` only
-    /// need to be known to be smaller. Works row by row in grid order, without a list of cells.
+    /// Solves all unknown cells as one window that is not cut off. If `last` is given, values below that of `last` need
+    /// not be precise. Works row by row in grid order, without a list of cells.
     fn solve_whole(&mut self, last: Option<usize>) {
         let component = self.component;
         let cells = component.goals as u32..component.len() as u32;
@@ -342,7 +344,8 @@ impl<'a> Peeling<'a> {
         Some(wide)
     }
 
-    /// Accepts the values to which cut-off cells contribute nothing. Returns their number.
+    /// Accepts the values that do not depend noticeably on cells beyond the window. Returns the number of accepted
+    /// values.
     fn accept(&mut self, window: &Window, solution: impl Fn(usize) -> [f64; RIGHT_SIDES], least: f64) -> usize {
         // Values beyond are at most the greatest of those next to them. Those are known values, or values of the
         // window, which are at most their value here plus their share of the values beyond.
@@ -378,7 +381,8 @@ impl<'a> Peeling<'a> {
         taken
     }
 
-    /// Queues a position from which the next window may start: its value is known, and that of a neighbour is not.
+    /// Queues a position from which the next window may start, that is, if its value is known and that of a neighbour
+    /// is not.
     fn push_front(&mut self, position: u32) {
         if self.is_known(position as usize) && self.is_front(position as usize) {
             let log2 = self.potential.at(position as usize).log2();

@@ -10,7 +10,8 @@ pub struct PotentialGuide<'a, F> {
     at: F,
 }
 
-/// A cell that is not a goal and has no greater neighbour. A potential that [navigates](Potential::navigates) has none.
+/// The reason why a curve ends: a cell that is not a goal has no greater neighbour. This does not occur if the
+/// potential [navigates](Potential::navigates).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LocalMaximum {
     /// Position of the cell.

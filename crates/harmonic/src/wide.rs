@@ -9,13 +9,14 @@ use super::extent::Extent;
 use super::network::RIGHT_SIDES;
 use cplan_multigrid::{Ends, Multigrid, Workspace};
 
-/// Relative residual below which a value is precise. It is half of the loss of walks per step, which is a quarter of
-/// [`WALK_LOSS`](super::laplace::WALK_LOSS), so that the loss outweighs it. It is also many roundings.
+/// Relative residual below which a value is precise. A walk loses a quarter of [`WALK_LOSS`](super::laplace::WALK_LOSS)
+/// per step. The limit is half of that, so the loss is greater than the residual, and it is many times greater than
+/// rounding.
 const PRECISE_RESIDUAL: f64 = 64.0 * f64::EPSILON;
 
 /// Relative residual below which a cell needs no correction. Rounding of a correction is about 2 units in the last
-/// place, far less than the gap to [`PRECISE_RESIDUAL`]. Without this gap, each round would move some of the many cells
-/// just below the bound across it, and windows of 10^5 cells would never converge.
+/// place, far less than the difference to [`PRECISE_RESIDUAL`]. If the two limits were equal, each round would move
+/// some of the many cells just below the limit across it, and windows of 10^5 cells would never converge.
 const SETTLED_RESIDUAL: f64 = PRECISE_RESIDUAL / 4.0;
 
 /// The equations `(4 + loss) u = source + sum of the neighbours' u` for the unknowns in a box of cells. Other cells of
@@ -23,19 +24,20 @@ const SETTLED_RESIDUAL: f64 = PRECISE_RESIDUAL / 4.0;
 #[derive(Debug, Clone)]
 pub(super) struct WideSystem {
     pub extent: Extent,
-    /// Weight of a walk's end at each step; each neighbour has the weight 1.
+    /// Weight with which a walk ends at each step; each neighbour has the weight 1.
     loss: f64,
     /// True at the places in the box that are unknowns.
     free: Vec<bool>,
-    /// For each right-hand side, the sum of known values around each unknown next to such values: of the potential, and
-    /// of 1 at cells where the window was cut off.
+    /// The known values that enter the equations. An entry has an unknown beside known values, and a sum over these
+    /// neighbours. In the first list, it is the sum of the potential. In the second, each neighbour beyond the cut of
+    /// the window counts 1.
     sources: [Vec<(u32, f64)>; RIGHT_SIDES],
 }
 
 /// The solutions for both right-hand sides at each place in the box. A solution that is 0 everywhere is an empty list.
 pub(super) struct Values([Vec<f64>; RIGHT_SIDES]);
 
-/// Error of a round, relative to the greatest correction. In single precision, a few steps reach it.
+/// Error up to which a round solves, relative to the greatest correction. In single precision, a few steps reach it.
 const ROUND_ERROR: f64 = 1e-8;
 
 /// Largest number of rounds of refinement. Each round gains several digits, and at most 36 are needed.
@@ -73,9 +75,8 @@ impl WideSystem {
     }
 
     /// Solves for both right-hand sides. The first solution is precise down to `floor`, or down to its value at the
-    /// place
-    /// `above`. The second has an absolute error of at most [`SHARE_ERROR`]. Returns `None` if the refinement does not
-    /// converge.
+    /// place `above` if that is given and greater. The second has an absolute error of at most [`SHARE_ERROR`]. Returns
+    /// `None` if the refinement does not converge.
     pub fn solve(&self, floor: f64, above: Option<usize>) -> Option<Values> {
         let inner = Multigrid::new(self.extent.cells, self.extent.ends, &self.free, 0.0);
         let mut workspace = inner.workspace();
@@ -90,7 +91,8 @@ impl WideSystem {
         [u.get(at).copied().unwrap_or(0.0), e.get(at).copied().unwrap_or(0.0) + SHARE_ERROR]
     }
 
-    /// Solves one side for all places in the box, precise down to the floor.
+    /// Solves for one right-hand side, at all places in the box. The solution is precise down to `floor`. Returns
+    /// `None` if the refinement does not converge.
     fn side(
         &self,
         side: usize,
@@ -125,7 +127,8 @@ impl WideSystem {
         None
     }
 
-    /// Writes the residual at `x`, with 0 at settled values. Returns true if all values are precise.
+    /// Writes the residual of the solution `x`, with 0 at values that need no correction. Returns true if all values
+    /// are precise.
     fn residual(&self, x: &[f64], floor: f64, residual: &mut [f64]) -> bool {
         let Extent { cells: [rows, columns], ends, .. } = self.extent;
         let joined = ends.map(|ends| ends == Ends::Joined);
@@ -157,15 +160,15 @@ impl WideSystem {
     }
 }
 
-/// Returns a list of zeros that is already in memory. The system would map pages of zeros twice if they were read
-/// before they are written.
+/// Returns a list of zeros that is already written once. If memory is read before it is written, the system must map
+/// its pages twice.
 fn written(len: usize) -> Vec<f64> {
     let mut zeros = Vec::with_capacity(len);
     zeros.resize(len, 0.0);
     zeros
 }
 
-/// Adds sources at their places.
+/// Adds the sources to the right-hand side at their places.
 fn spread(sources: &[(u32, f64)], to: &mut [f64]) {
     sources.iter().for_each(|&(at, source)| to[at as usize] += source);
 }
@@ -174,8 +177,8 @@ fn spread(sources: &[(u32, f64)], to: &mut [f64]) {
 mod tests {
     use super::*;
 
-    /// A straight corridor between walls with 1 at its near end. Its potential is the sum of `sin(k pi i / (w + 1))
-    /// sinh(theta_k (n + 1 - j)) / sinh(theta_k (n + 1))`; far away only the first term matters.
+    /// Tests a straight corridor between walls with the value 1 at its near end. Its potential is the sum of `sin(k pi
+    /// i / (w + 1)) sinh(theta_k (n + 1 - j)) / sinh(theta_k (n + 1))` over `k`; far away only the first term matters.
     #[test]
     fn a_long_wide_corridor_is_precise_to_its_far_end() {
         let (w, n) = (50, 1500);

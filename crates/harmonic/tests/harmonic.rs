@@ -31,15 +31,16 @@ fn solved(grid: &Grid, goals: &[usize]) -> (Component, Field) {
     (component, field)
 }
 
-/// Asserts the properties of every field.
+/// Asserts what holds for every harmonic field: the residual is small, and every cell except the goals has a greater
+/// neighbour.
 fn is_sound(component: &Component, field: &Field) {
     let residual = residual(component, &field.potential);
     assert!(residual < 2e-14, "residual {residual:e}");
     assert!(field.potential.navigates(component));
 }
 
-/// Asserts that each step goes to a neighbour that is as great as any, up to rounding, and that the last cell is a
-/// goal.
+/// Asserts that each step of a path goes to a neighbour whose value is as great as any, up to rounding, and that the
+/// last cell is a goal.
 fn is_steepest(component: &Component, way: &[usize], ln: impl Fn(usize) -> f64) {
     assert!(way.last().is_some_and(|&last| last < component.goals));
     for step in way.windows(2) {
@@ -118,7 +119,7 @@ proptest! {
     }
 }
 
-/// Generates grids of some thousand cells with the goal anywhere: a wide room, thin walls, mazes, pillars.
+/// Generates grids of some thousand cells: a wide room, thin walls, mazes, or pillars. The goal may be anywhere.
 fn large_grid() -> impl Strategy<Value = (Grid, Vec<usize>)> {
     let kinds = (0..5_usize, 20..70_usize, any::<[bool; 2]>(), any::<u64>());
     let grids = kinds.prop_map(|(kind, half, circles, seed)| {
@@ -158,8 +159,8 @@ proptest! {
     }
 }
 
-/// The symmetry of walls and goals makes all four neighbours equal and the harmonic function level. The loss of walks
-/// makes it fall there.
+/// Tests a place where the symmetry of walls and goals makes all four neighbours equal, so the harmonic function is
+/// level. The loss of walks makes the computed potential fall there.
 #[test]
 fn the_middle_of_four_goals_is_not_level() {
     for half in [2, 3, 20, 40] {
@@ -175,7 +176,8 @@ fn the_middle_of_four_goals_is_not_level() {
     }
 }
 
-/// A corridor one cell wide: each value is `2 - sqrt 3` times the previous one, except for a few at its closed end.
+/// Tests a corridor one cell wide. Each value is `2 - sqrt 3` times the previous one, except for a few at its closed
+/// end.
 #[test]
 fn a_spiral_of_a_hundred_thousand_cells() {
     let (blocked, inner) = mazes::spiral(451);
@@ -213,7 +215,8 @@ fn a_braided_maze_of_501_x_501_cells() {
     is_sound(&component, &field);
 }
 
-/// In `u = sin(pi x / w) sinh(pi y / w)`, the path is the streamline found by a fine Runge-Kutta integration.
+/// Tests paths in the potential `u = sin(pi x / w) sinh(pi y / w)`. They are compared with streamlines that a fine
+/// Runge-Kutta integration finds.
 #[test]
 fn paths_are_streamlines_of_a_known_function() {
     let (w, h) = (64_usize, 96_usize);

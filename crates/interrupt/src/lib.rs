@@ -61,7 +61,7 @@ pub struct Interrupt {
 /// A callback that returns true if work must stop.
 type StopCheck = Box<dyn Fn() -> bool + Send + Sync>;
 
-/// A callback, and when it is called.
+/// A callback, and the times at which it is called.
 struct StopCallback {
     every: Duration,
     begun: Instant,
@@ -120,7 +120,7 @@ impl Interrupt {
         Self { question: Some(Arc::new(question)), ..self }
     }
 
-    /// Stops all work under this interrupt, through whichever handle it was started, now and later.
+    /// Stops all work that runs under this interrupt, now and later, whichever handle it was started with.
     pub fn set(&self) {
         self.flag.store(true, Ordering::Relaxed);
     }

@@ -15,16 +15,16 @@ use cplan_world::{LoadedProblem, LoadedScene, Overrides};
 use serde::Deserialize;
 use std::time::Duration;
 
-/// Time limit of a plan while the user drags something. Drawing takes a little longer in addition, and the page should
-/// follow ten times per second.
+/// Time limit of a plan while the user drags something. With the time for drawing, the page can then follow about ten
+/// times per second.
 const DRAG_TIME: Duration = Duration::from_millis(60);
 
-/// Least and greatest time limit for showing the obstacles without a plan, once the time for a plan is up. Between
-/// these, the limit equals that of a plan.
+/// Least and greatest time limit for showing the obstacles without a plan, after the time for a plan is up. Between
+/// these two, the limit equals that of a plan.
 const SHOW_TIME: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(5)];
 
-/// The part of a request's time limit that is spent. On some hosts, slow work can be ended only by ending the whole
-/// session with everything that it remembers. The next session then continues the request.
+/// The part of a request's time limit that is already spent. On some hosts, slow work can be ended only by ending the
+/// whole session, with all that it has in memory. The next session then continues the request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TimeSpent {
@@ -37,7 +37,7 @@ pub enum TimeSpent {
     All,
 }
 
-/// The interrupts of the parts of an answer. Each is set when its time is up, or by a newer request.
+/// The interrupts of the parts of an answer. Each is set when its time is up, or when a newer request arrives.
 pub struct Deadlines {
     /// Time limit of a plan.
     limit: Duration,
@@ -66,7 +66,7 @@ impl Deadlines {
     /// Returns the answer to a request whose time is up.
     ///
     /// # Errors
-    /// A newer request, to which the page expects an answer instead.
+    /// `stopped`, if a newer request was the cause. The page expects an answer to that one instead.
     pub fn timed_out(&self, stopped: Interrupted) -> Result<AnswerReply, Interrupted> {
         match stopped {
             Interrupted::TimeUp => Ok(AnswerReply {
@@ -89,7 +89,7 @@ pub fn refused(about: ErrorSubject, error: String) -> AnswerReply {
     AnswerReply { error: Some(error), about: Some(about), ..AnswerReply::default() }
 }
 
-/// Data for an answer, besides the problem.
+/// The data that answers need in addition to the problem.
 pub struct Answering<'a> {
     pub options: &'a Options,
     pub contours: &'a Contours,
@@ -104,7 +104,7 @@ impl Answering<'_> {
     /// Returns the complete answer about a task.
     ///
     /// # Errors
-    /// A newer request.
+    /// A newer request has arrived.
     pub fn task(self, loaded: LoadedScene) -> Result<AnswerReply, Interrupted> {
         let problem = match Problem::of_scene(loaded, &Overrides::default()) {
             Ok(problem) => problem,
@@ -118,10 +118,11 @@ impl Answering<'_> {
         }
     }
 
-    /// Returns the answer for a world with an unusable start or goal: the reason, and the arm's configuration there.
+    /// Returns the answer for a world with an unusable start or goal. It has the reason, and the arm's configuration
+    /// there.
     ///
     /// # Errors
-    /// A newer request.
+    /// A newer request has arrived.
     pub fn blocked(
         self,
         loaded: &LoadedScene,
@@ -138,10 +139,10 @@ impl Answering<'_> {
         Ok(AnswerReply { toml: self.toml, start, view: shown.view, ..refusal })
     }
 
-    /// Returns the answer during a drag, with a path if one can be found in time.
+    /// Returns the answer during a drag, with a path if one is found in time.
     ///
     /// # Errors
-    /// A newer request.
+    /// A newer request has arrived.
     pub fn quick_answer(self, loaded: LoadedProblem, pace: &Pace) -> Result<AnswerReply, Interrupted> {
         let (ends, problem) = (Ends::of(&loaded), Problem::from(loaded));
         let plan = || result::quick_answer(&problem, self.options, self.contours);
@@ -157,11 +158,11 @@ impl Answering<'_> {
         }
     }
 
-    /// Returns the complete answer about a motion. Since the search for a path may take long, sends the configuration
+    /// Returns the complete answer about a motion. The search for a path may take long, so this sends the configuration
     /// space before it.
     ///
     /// # Errors
-    /// A newer request.
+    /// A newer request has arrived.
     pub fn full_answer(
         self,
         loaded: LoadedProblem,

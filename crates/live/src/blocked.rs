@@ -7,10 +7,10 @@ use cplan_core::space::{Configuration, Segment};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_world::LoadedScene;
 
-/// Largest number of configurations that are drawn. More would hide each other.
+/// Largest number of blocked configurations that are drawn. More would hide each other.
 const MAX_SHOWN: usize = 4;
 
-/// Shapes that overlap by less than this are reported as touching, in metres.
+/// Depth of an overlap below which shapes are reported as touching, in metres.
 const TOUCHING_DEPTH: f64 = 1e-9;
 
 /// Returns the answer about a world whose start or goal is unusable.
@@ -34,12 +34,12 @@ pub fn refusal(loaded: &LoadedScene, error: &InputError, near: Configuration) ->
     AnswerReply { error: Some(error), about: Some(about), blocked, ..AnswerReply::default() }
 }
 
-/// Returns the answer about a text that the page wrote but that cannot be read.
+/// Returns the answer about a text from the page that cannot be read.
 pub fn unread(error: &InputError) -> AnswerReply {
     AnswerReply { error: Some(without_places(error)), about: Some(ErrorSubject::World), ..AnswerReply::default() }
 }
 
-/// Returns the configurations at a start or goal, with the obstacles in contact, the deepest first.
+/// Returns the configurations at a start or goal, each with the obstacles in contact, the deepest first.
 fn configurations(
     scene: &Scene,
     place: Goal,

@@ -6,7 +6,8 @@ use cplan_geometry::Convex;
 use cplan_view::output;
 use std::cell::RefCell;
 
-/// A cache of contours. The contours of an obstacle depend only on the arm, the clearance and the obstacle's pieces.
+/// A cache of C-obstacle contours. The contours of an obstacle depend only on the arm, the clearance and the obstacle's
+/// pieces.
 #[derive(Default)]
 pub struct Contours {
     known: RefCell<Known>,
@@ -26,7 +27,7 @@ struct Known {
 struct Entry {
     pieces: Vec<Convex>,
     heights: Heights,
-    /// Contours of the obstacle. They do not depend on its number.
+    /// Contours of the obstacle. They do not depend on its index.
     contours: Vec<CObstacle>,
 }
 
@@ -67,8 +68,8 @@ impl Contours {
 }
 
 impl Known {
-    /// Finds the entry of each obstacle. If obstacles appear or disappear, the entries of others are one or two places
-    /// away.
+    /// Finds the cached entry of each obstacle. If obstacles appear or disappear, the entries of the others are one or
+    /// two places away.
     fn found(&self, obstacles: &[Obstacle]) -> Vec<Option<Entry>> {
         let mut next = 0;
         let mut one = |obstacle: &Obstacle| {

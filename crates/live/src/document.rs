@@ -12,7 +12,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// Parses a text. `None` if it is not TOML; whoever reads the text as a world reports the reason.
+    /// Parses a text. `None` if it is not TOML; the code that reads the text as a world reports the reason.
     pub fn parse(text: &str) -> Option<Self> {
         Some(Self { text: text.to_owned(), toml: text.parse().ok()? })
     }
@@ -60,7 +60,7 @@ impl Document {
         self.by_motion().unwrap_or_default().0.iter().map(form).collect()
     }
 
-    /// Returns the text, changed to match the state. If it already matches, it stays the same.
+    /// Returns the text, changed so that it matches the state of the page. If it already matches, it stays the same.
     ///
     /// # Errors
     /// The reason, if the state is too large, or refers to obstacles that the text does not have.
@@ -364,7 +364,7 @@ image = \"map.yaml\"
         assert_eq!(pair(again.toml["goal"].get("tip")), Some([1.0, 2.0]));
     }
 
-    /// Checks that the numbers of the page count only static obstacles, and that moving ones stay unchanged.
+    /// Tests that the indices of the page count only static obstacles, and that moving ones stay unchanged.
     #[test]
     fn moving_obstacles_are_not_editable() {
         let cart = "[[obstacle]]\ncircle = { center = [0, 0], radius = 0.1 }\nmotion = { velocity = [0.1, 0] }\n";

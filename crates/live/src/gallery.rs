@@ -23,7 +23,7 @@ struct Puzzle {
     text: &'static str,
     verdict: &'static str,
     free: Free,
-    /// A solution must have a path of this length: a proven lower bound. `None` if length does not matter.
+    /// Length that the path of a solution must have, which is a proven lower bound. `None` if length does not matter.
     length: Option<f64>,
     /// Least clearance that the user must set, in metres. `None` if clearance does not matter.
     clearance: Option<f64>,
@@ -146,7 +146,8 @@ impl Puzzle {
 /// The gallery, as the page reads it.
 #[derive(Debug, Serialize)]
 pub struct Gallery {
-    /// For a page with the program inside, its initial files, and the time limit of a plan in seconds.
+    /// For a page with the program inside, its initial files, and the time limit of a plan in seconds. `None` for a
+    /// page that a server serves.
     alone: Option<(Files, f64)>,
     robots: BTreeMap<&'static str, &'static str>,
     choices: [Choice; 14],
@@ -170,7 +171,7 @@ mod tests {
     use cplan_world::{Overrides, scene_from};
     use std::collections::BTreeSet;
 
-    /// A solution of each puzzle, as replacements of parts of the world's text.
+    /// A solution of each puzzle. It replaces parts of the world's text.
     const SOLUTIONS: [(&str, &[[&str; 2]]); 6] = [
         ("close", &[["[0.02, -0.9], [0.02, -0.12], [0.0, -0.12]", "[0.02, -0.75], [0.02, 0.03], [0.0, 0.03]"]]),
         ("round", &[["[0.7, -1.5]", "[0.7, 0.0]"]]),

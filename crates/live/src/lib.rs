@@ -64,19 +64,19 @@ pub struct Host {
     world: Source,
     document: Document,
     scene: LoadedScene,
-    /// Files that it names: the only ones that a world from a page may name.
+    /// Files that the initial world names. A world from a page may name only these.
     files: BTreeSet<String>,
     /// Planner and options that pages begin with.
     options: String,
     /// Time that a plan may take.
     time: Duration,
-    /// True if arm and world name no other files, so that a link can contain them.
+    /// True if the arm and the world name no other files, so that a link can contain both.
     is_whole: bool,
 }
 
 impl Host {
-    /// Creates a host with an initial world, planned with `options` for at most `time`. Returns `None` if it is not
-    /// TOML.
+    /// Creates a host with an initial world. Plans use `options` and take at most `time`. Returns `None` if the world
+    /// is not TOML.
     pub fn new(urdf: Source, world: Source, scene: LoadedScene, options: String, time: Duration) -> Option<Self> {
         let document = Document::parse(world.text())?;
         let in_memory = |source: &Source| Source::in_memory(source.name(), source.text());
@@ -84,10 +84,10 @@ impl Host {
         Some(Self { files: document.files(), urdf, world, document, scene, options, time, is_whole })
     }
 
-    /// Creates a host with texts that a page sends, which cannot name other files.
+    /// Creates a host with texts that a page sends. These texts cannot name other files.
     ///
     /// # Errors
-    /// The reason, with the place.
+    /// The reason, with the position in the text.
     fn brought(Files { urdf, world, options }: Files, time: Duration) -> Result<Self, String> {
         let [urdf, world] =
             [("robot.urdf", urdf), ("world.toml", world)].map(|(name, text)| Source::in_memory(name, text));
@@ -98,7 +98,7 @@ impl Host {
     /// Reads a world from a page.
     ///
     /// # Errors
-    /// In words, with the place.
+    /// The reason in words, with the position in the text.
     fn read(&self, text: &str) -> Result<(Document, LoadedScene), String> {
         let document = Document::parse(text);
         let named = document.iter().flat_map(Document::files).find(|file| !self.files.contains(file));

@@ -115,7 +115,7 @@ impl LiveSession {
         }))
     }
 
-    /// Begins again with the files that the page sent, or with the program's initial files.
+    /// Starts again with the files that the page sent, or with the program's initial files.
     ///
     /// # Errors
     /// The reason, with its position in the text.
@@ -133,7 +133,7 @@ impl LiveSession {
         Ok(())
     }
 
-    /// Replaces the world by another text, if that is a valid world, and plans in it.
+    /// Replaces the world by another text and plans in it. If the text is not a valid world, keeps the old one.
     fn load(
         &mut self,
         id: u64,
@@ -178,7 +178,7 @@ impl LiveSession {
         }
     }
 
-    /// Returns the answer, unless it was interrupted. Since the search for a path can take long, sends the
+    /// Returns the answer, unless it was interrupted. The search for a path can take long, so this sends the
     /// configuration space before it.
     fn answer(
         &self,
@@ -222,7 +222,7 @@ impl LiveSession {
         }
     }
 
-    /// Returns the result as a file: name and content.
+    /// Returns the result as a file, with its name and content.
     ///
     /// # Errors
     /// The reason, for display.
@@ -269,8 +269,8 @@ impl LiveSession {
     }
 }
 
-/// Returns an IK solution within the limits that puts the tip at a place, the one nearest to `near`. If the tip cannot
-/// reach the place, it moves towards it on a straight line from its current place, as far as it can.
+/// Returns an IK solution within the limits that puts the tip at a place: the one nearest to `near`. If the tip cannot
+/// reach the place, it moves towards the place as far as it can, on a straight line from where it is.
 fn follow(arm: &Arm, tip: Point, near: Configuration) -> Configuration {
     let reached = |tip: Point| nearest_ik_solution(arm, tip, near);
     if let Some(q) = reached(tip) {

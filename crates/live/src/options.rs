@@ -27,7 +27,7 @@ struct Grammar {
 }
 
 impl Options {
-    /// Returns the grammar, for menus.
+    /// Returns the grammar of the options, from which the menus are made.
     pub fn grammar() -> Command {
         Grammar::command()
     }

@@ -3,10 +3,10 @@
 use cplan_interrupt::Interrupted;
 use std::cell::Cell;
 
-/// Number of positions without a plan after a plan that took too long.
+/// Number of positions of a drag that get no plan after a plan that took too long.
 const SKIPPED_PLANS: u32 = 7;
 
-/// Records whether plans keep up with the drag. A plan that does not would only delay the rest of the page.
+/// A record of whether plans keep up with the drag. Plans that are too slow would delay the rest of the page.
 #[derive(Default)]
 pub struct Pace {
     untried: Cell<u32>,

@@ -19,8 +19,8 @@ const SCRIPTS: [&str; 9] = [
     include_str!("assets/live.js"),
 ];
 
-/// Content security policy of a page with the program inside. The page may run the program in a worker, but load
-/// nothing.
+/// Content security policy of a page with the program inside. The page may run the program in a worker, but must not
+/// load anything.
 const CONTENT_POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; \
                       img-src blob: data:; base-uri 'none'; form-action 'none'";
 

@@ -16,7 +16,8 @@ pub type Pair = [f64; 2];
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Request {
-    /// Opens these files, or the program's initial ones. The program replies with the world.
+    /// Opens these files. Without files, opens the ones with which the program started. The program replies with the
+    /// world.
     Open {
         /// Number of the request, which its answers repeat.
         id: u64,
@@ -189,7 +190,7 @@ pub enum Reply {
 pub enum Message {
     /// A [`Reply`].
     Text(String),
-    /// A file. The first four bytes are the length of its head, then follow the head and the content.
+    /// A file. Its first four bytes are the length of its head. The head and the content follow.
     Binary(Vec<u8>),
 }
 
@@ -300,8 +301,8 @@ pub struct AnswerReply {
     pub is_final: bool,
     /// True if this is the last answer to the request.
     pub done: bool,
-    /// Description of a defect of options, world, start or goal that does not refer to files. `None` if there is none;
-    /// with a defect there is no verdict.
+    /// Description of a defect of options, world, start or goal, without references to files. `None` if there is no
+    /// defect. If there is one, there is no verdict.
     pub error: Option<String>,
     /// Subject of the error.
     pub about: Option<ErrorSubject>,

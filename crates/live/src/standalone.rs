@@ -17,7 +17,7 @@ enum Order {
         files: Files,
         /// Time limit of a plan, in seconds.
         seconds: f64,
-        /// The text that the page already has. Then the program does not reply.
+        /// The text that the page already has. If it is given, the program does not reply.
         held: Option<NumberedText>,
     },
     /// Handles a request of the protocol.

@@ -4,7 +4,8 @@ use cplan_core::space::{Configuration, Path};
 use cplan_handling::Piece;
 
 /// Greatest deviation of a motion from a blend's parabola, in each joint, as a share of the blend's radius.
-/// Certificates hold for this whole tube around the parabola, so they also cover readers that join samples by cubics.
+/// Certificates cover this whole tube around the parabola. So they are also valid if a program joins the samples by
+/// cubics.
 pub const BLEND_TOLERANCE: f64 = 1e-6;
 
 /// Number of points of a blend in pictures.
@@ -52,8 +53,8 @@ impl Blend {
     }
 }
 
-/// A part of a motion along a path with blends. Two consecutive straight pieces meet in a corner where the motion
-/// stops.
+/// A part of a motion along a path with blends. If one straight piece directly follows another, the motion stops at the
+/// corner between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stretch {
     /// A straight piece between two corners or their blends.
@@ -198,8 +199,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// A parabola is tangent to both legs: its ends lie on them, its middle is halfway between the corner and the
-        /// middle of the ends, and its cubic form is the same curve.
+        /// Tests that a parabola is tangent to both legs: its ends lie on them, and its middle is halfway between the
+        /// corner and the middle of the ends. Its cubic form is the same curve.
         #[test]
         fn blends_are_parabolas(legs in prop::array::uniform4(-2.0..2.0_f64), radius in 0.01..0.2_f64, u in 0.0..1.0_f64) {
             let (corner, before, after) = (q(0.3, -0.2), q(legs[0], legs[1]), q(legs[2], legs[3]));

@@ -7,8 +7,9 @@ use cplan_core::model::Scene;
 use cplan_core::space::Path;
 use cplan_handling::Piece;
 
-/// Share of the clearance in excess of the required one that remains when corners are rounded. It is one half, so that
-/// a motion on blends is proven to keep at least half the distance of the straight path.
+/// Fraction of the excess clearance that must remain when corners are rounded. The excess is the difference between the
+/// clearance of the straight path and the required one. It is one half, so that a motion on blends is proven to keep at
+/// least half the distance of the straight path.
 const KEPT_CLEARANCE_SHARE: f64 = 0.5;
 
 /// Greatest share of an inner leg that a blend at one of its ends may take. The part between the two blends stays
@@ -25,20 +26,21 @@ const MAX_RADIUS_HALVINGS: u32 = 13;
 /// Number of further radii that are tried between the first certified radius and the refused one before it.
 const RADIUS_REFINEMENTS: u32 = 2;
 
-/// Number of checks per pair of shapes after which a blend counts as not certified. A blend at a clear distance needs
-/// about ten checks, and trying a smaller blend costs little.
+/// Number of checks per pair of shapes after which a blend is refused. A blend at a clear distance needs about ten
+/// checks, and trying a smaller blend costs little.
 const MAX_CHECKS_PER_BLEND: usize = 64;
 
-/// A path with rounded corners. The whole motion is proven to be within the joint limits and to keep its clearance: on
-/// the straight legs up to their corners, on the blends, and within [`BLEND_TOLERANCE`] of these. If the motion rounds
-/// the corners by other curves than blends, this is proven for these curves. Only [`blend`] and [`Rounding`] round
+/// A path with rounded corners. The whole motion is proven to stay within the joint limits and at its clearance. The
+/// proof covers the straight legs up to their corners, the blends, and all motions within [`BLEND_TOLERANCE`] of the
+/// blends. If other curves than blends round the corners, it covers these curves. Only [`blend`] and [`Rounding`] round
 /// corners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifiedCurve {
     curve: BlendedPath,
     /// The straight path, with the clearance of the whole motion.
     straight: CertifiedPath,
-    /// For corners that other curves than blends round: the extents of the rounding, and a polyline for pictures.
+    /// `None` if blends round all corners. Otherwise, the extents of the rounding (see [`CertifiedCurve::radii`]), and
+    /// a polyline for pictures.
     driven: Option<(Vec<f64>, Path)>,
 }
 
@@ -56,8 +58,8 @@ impl CertifiedCurve {
         &self.curve
     }
 
-    /// Returns the extent of the rounding at each waypoint, in joint units: the radius of its blend, or of a parabola
-    /// that leaves the path as far as the motion does. It is 0 where the motion stops at the corner.
+    /// Returns the extent of the rounding at each waypoint, in joint units. This is the radius of the blend, or that of
+    /// a parabola that deviates from the path as far as the motion does. It is 0 where the motion stops at the corner.
     #[must_use]
     pub fn radii(&self) -> &[f64] {
         self.driven.as_ref().map_or_else(|| self.curve.radii(), |(radii, _)| radii)
@@ -101,8 +103,8 @@ impl CertifiedCurve {
         Self { curve: self.curve.then(&next.curve), straight: self.straight.then(&next.straight), driven }
     }
 
-    /// Returns the same motion with the proven distance `clearance` from moving obstacles, and the nearest place to
-    /// them. They replace the motion's own if they are nearer.
+    /// Returns the same motion with what was proven about moving obstacles. `clearance` and `nearest` replace the
+    /// motion's own clearance and nearest place if they are nearer.
     #[must_use]
     pub fn among_movers(self, clearance: f64, nearest: Option<Nearest>) -> Self {
         let known = self.nearest();
@@ -161,21 +163,21 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
     blended
 }
 
-/// Judges a tube around a piece of a motion, with the half width `beside` in each joint.
+/// Checks a tube around a piece of a motion. Its half width in each joint is `beside`.
 fn follow(search: &mut CurveSearch, vicinity: &Vicinity, piece: &Piece, beside: f64) -> Result<(), Rejection> {
     search.curve(vicinity, |middle: f64, half: f64| along(piece, middle - half, middle + half, beside))
 }
 
-/// Returns the distance, metres, that a motion must keep if it leaves the path at corners.
+/// Returns the distance, metres, that a motion must keep from obstacles if it leaves the path at corners.
 fn required(path: &CertifiedPath, clearance: f64) -> f64 {
     clearance + KEPT_CLEARANCE_SHARE * (path.clearance() - clearance)
 }
 
-/// Number of checks per pair of shapes after which a piece of a motion counts as not certified. It is large, because a
-/// straight piece may slide along an obstacle at a tiny distance.
+/// Number of checks per pair of shapes after which a piece of a motion is refused. It is large, because a straight
+/// piece may slide along an obstacle at a tiny distance.
 const MAX_CHECKS_PER_PIECE: usize = 2048;
 
-/// Judges motions that round the corners of a path by any curve.
+/// A check for motions that follow a path and round its corners by curves other than blends.
 pub struct Rounding<'a> {
     scene: &'a Scene,
     vicinity: Vicinity<'a>,
@@ -184,14 +186,14 @@ pub struct Rounding<'a> {
 }
 
 impl<'a> Rounding<'a> {
-    /// Creates the judge. Motions must keep more than half of the path's clearance in excess of `clearance`, same as
-    /// blends.
+    /// Creates the check. As on blends, motions must keep more than half of the path's clearance in excess of
+    /// `clearance`.
     #[must_use]
     pub fn new(scene: &'a Scene, path: &'a CertifiedPath, clearance: f64) -> Self {
         Self { scene, vicinity: Vicinity::new(scene), path, required: required(path, clearance) }
     }
 
-    /// Returns the pieces of a motion that are not shown to be free, by their numbers. Joint limits are not checked.
+    /// Returns the indices of the pieces of a motion that are not shown to be free. Joint limits are not checked.
     #[must_use]
     pub fn uncertified_pieces(&self, pieces: &[Piece]) -> Vec<usize> {
         let budget = MAX_CHECKS_PER_PIECE * self.scene.pairs().len();
@@ -217,7 +219,8 @@ impl<'a> Rounding<'a> {
     }
 }
 
-/// Returns the result of `judge` for the largest accepted radius, up to `most`, among those that are tried.
+/// Returns the result of `judge` for the largest radius that it accepts, among those that are tried. The first one is
+/// `most`.
 fn largest<T>(most: f64, judge: impl Fn(f64) -> Option<T>) -> Option<T> {
     let mut refused = f64::INFINITY;
     let mut radius = most;

@@ -9,7 +9,8 @@ use cplan_geometry::Interval;
 /// Nanoseconds in a second.
 pub(super) const NANOSECONDS_PER_SECOND: u64 = 1_000_000_000;
 
-/// Relative rounding error of a computed time. A smaller excess over a whole nanosecond is not rounded up.
+/// Relative rounding error of a computed time. If a time exceeds a whole nanosecond by less than this, it is not
+/// rounded up to the next one.
 const TIME_SLACK: f64 = 8.0 * f64::EPSILON;
 
 /// Returns seconds as nanoseconds, rounded to the nearest. Exact for all times below [`super::MAX_DURATION`], whose
@@ -23,8 +24,8 @@ pub fn seconds(nanoseconds: u64) -> f64 {
     nanoseconds as f64 / NANOSECONDS_PER_SECOND as f64
 }
 
-/// Greatest time that is rounded, seconds. No motion lasts longer, and doubles cannot represent the nanoseconds of
-/// longer times.
+/// Greatest time that is rounded, seconds. No motion lasts longer, and doubles cannot represent longer times to the
+/// nanosecond.
 const MAX_ROUNDED_TIME: f64 = 1e6;
 
 /// Rounds a time up to a whole nanosecond, in seconds.
@@ -52,14 +53,15 @@ pub fn nearest_within(time: f64, [from, to]: Interval) -> Option<f64> {
     (first <= last).then(|| seconds(nanoseconds(time)).clamp(first, last))
 }
 
-/// Rounds a duration up to whole nanoseconds. Excesses within rounding are ignored.
+/// Rounds a duration up to whole nanoseconds. An excess within rounding over a whole nanosecond is ignored.
 #[must_use]
 pub fn whole_nanoseconds(duration: f64) -> f64 {
     (duration * NANOSECONDS_PER_SECOND as f64 * (1.0 - TIME_SLACK)).ceil() / NANOSECONDS_PER_SECOND as f64
 }
 
-/// Returns the share of an acceleration limit that must stay unused next to a sample on the grid, if the acceleration
-/// jumps half a nanosecond beside it and samples are at least `interval` seconds apart.
+/// Returns the share of an acceleration limit that must stay unused next to a sample. Samples are at whole nanoseconds,
+/// so the acceleration may jump up to half a nanosecond beside a sample. `interval` is the least time between samples,
+/// seconds.
 ///
 /// The jump is at most twice the limit, so the velocity of a sample differs by at most one nanosecond times the limit
 /// from that of the polynomial on its other side. Differences `e0` and `e1` at the ends change the acceleration of the
@@ -81,7 +83,7 @@ mod tests {
         assert!(whole_nanoseconds(f64::INFINITY).is_infinite());
     }
 
-    /// In this test, rounding to the nearest nanosecond would move both ends of the interval outwards.
+    /// Tests an interval whose ends would both move outwards if they were rounded to the nearest nanosecond.
     #[test]
     fn times_are_rounded_into_intervals() {
         let [from, to] = [0.720_956_725_469_559_8, 0.820_956_725_669_559_8];

@@ -21,38 +21,38 @@ use super::tip::{Part, TIP_SPEED_STEP};
 use crate::{BLEND_TOLERANCE, Blend};
 use cplan_core::space::Configuration;
 
-/// Initial number of spans of a blend.
+/// Number of spans into which a blend is cut initially.
 const INITIAL_SPANS: usize = 8;
 
 /// Number of spans of a straight stretch that may begin or end at rest.
 const INITIAL_LINE_SPANS: usize = 32;
 
-/// Largest number of spans of a blend.
+/// Largest number of spans into which a blend is cut for accuracy.
 const MAX_SPANS: usize = 256;
 
-/// Number of parts into which each span is cut when more spans are tried.
+/// Number of parts into which each span is cut when more spans are tried for a faster motion.
 const PARTS_PER_SPAN: usize = 4;
 
-/// Largest number of spans when more spans are tried.
+/// Largest number of spans when more spans are tried for a faster motion.
 const MAX_TRIED_SPANS: usize = 1024;
 
-/// Greatest change of a joint's acceleration over a span, as a share of its limit, with which spans are not cut
-/// further. If the limit is reached at one end of a span, half of the change is lost.
+/// Greatest change of a joint's acceleration over a span, as a share of its limit. If the change is greater, the span
+/// is cut further. If the limit is reached at one end of a span, half of the change is lost.
 const MAX_ACCELERATION_STEP: f64 = 0.1;
 
-/// Greatest change of the speed over a span, as a share of the speed, with which spans are not cut further. If
-/// acceleration turns into deceleration within a span, half of the change is lost.
+/// Greatest change of the speed over a span, as a share of the speed. If the change is greater, the span is cut
+/// further. If acceleration turns into deceleration within a span, half of the change is lost.
 const MAX_SPEED_STEP: f64 = 0.1;
 
-/// Share of the limits that stays unused on a blend, so that cubics through the positions and velocities of samples,
-/// which many controllers use, are also within the limits. [`reserve`] adds a little.
+/// Fraction of the limits that stays unused on a blend. Many controllers use cubics through the positions and
+/// velocities of samples; because of this fraction, the cubics are also within the limits. [`reserve`] adds a little.
 const LIMIT_RESERVE: f64 = 1e-3;
 
 /// Largest number of spans if torques are limited.
 const MAX_TORQUE_SPANS: usize = 1024;
 
 /// A blend, cut into spans for its timing. A straight stretch along which limits vary is treated in the same manner, as
-/// a blend of two equal directions.
+/// a blend whose two directions are equal.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Corner {
     blend: Blend,
@@ -61,12 +61,12 @@ pub(super) struct Corner {
     spans: usize,
     /// Upper bound on the speed of the parameter.
     fastest: f64,
-    /// Share of the speed allowed by the limits at which the blend is passed.
+    /// Speed at which the blend is passed, as a share of the speed that the limits allow.
     share: f64,
 }
 
-/// Returns the least duration, seconds, of a blend with this many spans. Each span must last at least the least
-/// interval between samples, although some spans are passed several times as fast as others.
+/// Returns the least duration, seconds, of a blend that is cut into this many spans. Each span must last at least the
+/// least interval between samples, although some spans are passed several times as fast as others.
 fn shortest(spans: usize) -> f64 {
     8.0 * MIN_INTERVAL * spans as f64
 }
@@ -102,7 +102,8 @@ impl Corner {
         LIMIT_RESERVE + reserve(span.clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL))
     }
 
-    /// Returns the corner with twice as many spans, if the spans are too coarse for these squared speeds at their ends.
+    /// Returns the corner with twice as many spans. Returns `None` if its spans are fine enough for these squared
+    /// speeds at their ends, or cannot be cut.
     pub(super) fn finer(&self, squared_speeds: &[f64], limits: &Limits) -> Option<Self> {
         let bend = self.second_derivative();
         let coarse = squared_speeds.windows(2).enumerate().any(|(i, z)| {
@@ -120,12 +121,14 @@ impl Corner {
         if coarse { self.cut(2, most, squared_speeds) } else { None }
     }
 
-    /// Returns the corner with several times as many spans, even if they are fine enough.
+    /// Returns the corner with several times as many spans, even if its spans are fine enough. Returns `None` if they
+    /// cannot be cut.
     pub(super) fn much_finer(&self, squared_speeds: &[f64]) -> Option<Self> {
         self.cut(PARTS_PER_SPAN, MAX_TRIED_SPANS, squared_speeds)
     }
 
-    /// Cuts each span into `parts`. Returns `None` if there would be too many, or too short ones.
+    /// Returns the corner with each span cut into `parts`. Returns `None` if there would be too many spans, or some
+    /// would be too short.
     fn cut(&self, parts: usize, most: usize, squared_speeds: &[f64]) -> Option<Self> {
         let lasts: f64 = self.phases(squared_speeds).iter().map(|phase| phase.duration).sum();
         let finer = Self { spans: parts * self.spans, ..self.clone() };
@@ -203,8 +206,8 @@ impl Corner {
         squared_speeds.windows(2).enumerate().map(phase).collect()
     }
 
-    /// Returns the longest interval between samples in a phase for which the cubic through positions and velocities
-    /// is within the limits, and within [`BLEND_TOLERANCE`] of the blend.
+    /// Returns the longest interval between samples in a phase for which cubics are good enough. The cubic through
+    /// positions and velocities must be within the limits, and within [`BLEND_TOLERANCE`] of the blend.
     ///
     /// For a motion with a constant fourth derivative `d`, the error of the cubic is at most `d h^4 / 384` in position,
     /// `d h^3 / (72 sqrt 3)` in velocity and `d h^2 / 12` in acceleration. If `a` is the second derivative of the
@@ -242,11 +245,11 @@ impl Corner {
 /// each row `[a, b]`. This set is convex. It contains all small `z0` and `z1`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bounds {
-    /// The greatest `z0` that rows without `z1` allow.
+    /// Greatest `z0` that the rows without a `z1` allow.
     most: f64,
-    /// Intercept and slope of `z1` over `z0`, for each row that bounds `z1` from above.
+    /// Upper bounds on `z1`, one for each row that gives one: intercept and slope of `z1` over `z0`.
     above: Vec<[f64; 2]>,
-    /// Intercept and slope of `z1` over `z0`, for each row that bounds `z1` from below.
+    /// Lower bounds on `z1`, one for each row that gives one: intercept and slope of `z1` over `z0`.
     below: Vec<[f64; 2]>,
 }
 
@@ -327,7 +330,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares with the vertices of the polygon, by brute force.
+        /// Compares the bounds with the vertices of the polygon, found by brute force.
         #[test]
         fn bounds_are_those_of_the_polygon(
             rows in prop::collection::vec(prop::array::uniform2(prop_oneof![Just(0.0), -3.0..3.0_f64]), 1..9),

@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use std::fmt::Write;
 
 /// Returns the trajectory as CSV: a header `time,A,B,A_velocity,B_velocity` for joints `A` and `B`, then one line per
-/// sample. There are also `A_acceleration,B_acceleration` on request, and `A_torque,B_torque` if the trajectory has
-/// torques.
+/// sample. With `accelerations`, there are also columns `A_acceleration,B_acceleration`. If the trajectory has torques,
+/// there are also `A_torque,B_torque`.
 ///
 /// Fields are quoted by RFC 4180. Lines end in a single line feed, which every reader accepts and text tools prefer.
 /// Numbers have as many digits as needed to read back the same `f64`.

@@ -17,12 +17,12 @@ pub enum Objective {
     /// The length of the path. The motion is the fastest along the shortest path.
     #[default]
     Length,
-    /// The duration of the motion. Candidate paths are compared by it, and the path gets the shape with the fastest
-    /// motion.
+    /// The duration of the motion. It decides between candidate paths, and the corners of the path are moved if that
+    /// makes the motion faster.
     Time,
 }
 
-/// Options for driving along a path.
+/// Options for the motion along a path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Drive {
@@ -43,8 +43,8 @@ pub struct Drive {
 }
 
 impl Default for Drive {
-    /// Returns options with a sample every hundredth of a second, corners blended as the clearance allows, and no limit
-    /// of the tip.
+    /// Returns the default options: a sample every hundredth of a second, corners blended as far as the clearance
+    /// allows, and no limit on the tip's speed.
     fn default() -> Self {
         Self { optimize: Objective::Length, period: 0.01, blend: f64::INFINITY, tip_speed: None, torque: false }
     }
@@ -60,9 +60,9 @@ impl Drive {
     /// Returns the fastest motion along a path, by [`time`]. `speed` is the share of the joints' top speeds to use,
     /// greater than 0 and at most 1. The motion keeps the scene's clearance.
     ///
-    /// With limits on jerks, corners are moved off obstacles by the distance that makes the motion fastest, because a
-    /// smooth motion needs room there. If the duration is to be minimal ([`Drive::optimize`]), the whole path gets the
-    /// fastest shape.
+    /// With limits on jerks, corners are moved off obstacles, because a smooth motion needs room there. The distance is
+    /// that which makes the motion fastest. If the duration is to be minimal ([`Drive::optimize`]), the shape of the
+    /// whole path is optimised.
     ///
     /// # Errors
     /// If the motion would last too long or have too many samples, or if the efforts of the joints cannot hold the arm

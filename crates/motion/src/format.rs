@@ -17,7 +17,7 @@ pub enum Format {
     Mcap,
 }
 
-/// Reason why a file name gives no format.
+/// Reason why no format follows from a file name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum FormatError {
     /// The extension is unknown.

@@ -14,8 +14,8 @@ use super::clock::whole_nanoseconds;
 use super::profile::Phase;
 use rsruckig::prelude::{InputParameter, Ruckig, RuckigError, ThrowErrorHandler, Trajectory};
 
-/// Limit on speed and acceleration that stands for no limit. With a jerk of 1 and a length of 1, from rest to rest, the
-/// greatest acceleration is 0.79 and the greatest speed 0.63, so larger limits have no effect.
+/// Limit on speed and acceleration that is as good as no limit. With a jerk of 1 and a length of 1, from rest to rest,
+/// the greatest acceleration is 0.79 and the greatest speed 0.63. So larger limits have no effect.
 const NO_LIMIT: f64 = 1.0;
 
 /// The times of a symmetric motion from rest to rest, seconds.
@@ -72,7 +72,7 @@ fn fastest([speed, acceleration]: [f64; 2]) -> Result<Times, RuckigError> {
 }
 
 impl Times {
-    /// Lengthens each time that is not 0 to at least `shortest`.
+    /// Lengthens each phase that has a duration to at least `shortest` seconds.
     fn with_floor(self, shortest: f64) -> Self {
         let Self { mut grow, mut hold, mut cruise } = self;
         if hold < shortest {
@@ -91,14 +91,14 @@ impl Times {
         [speed, acceleration, acceleration / self.grow]
     }
 
-    /// Lengthens all times to compensate rates that exceed their limits by rounding.
+    /// Lengthens all times so that rates that exceed their limits by rounding are within them.
     fn within(self, length: f64, limits: [f64; 3]) -> Self {
         let [speed, acceleration, jerk] = [0, 1, 2].map(|i| self.rates(length)[i] / limits[i]);
         let longer = speed.max(acceleration.sqrt()).max(jerk.cbrt()).max(1.0);
         Self { grow: self.grow * longer, hold: self.hold * longer, cruise: self.cruise * longer }
     }
 
-    /// Lengthens each time to whole nanoseconds.
+    /// Lengthens every duration to whole nanoseconds.
     fn whole(self) -> Self {
         let Self { grow, hold, cruise } = self;
         Self { grow: whole_nanoseconds(grow), hold: whole_nanoseconds(hold), cruise: whole_nanoseconds(cruise) }
@@ -197,8 +197,8 @@ mod tests {
         assert_eq!(phases.len(), 4);
     }
 
-    /// Asserts that consecutive phases agree except in the jerk, from rest to rest, with the expected durations, and
-    /// keep the limits.
+    /// Asserts that the phases form a motion from rest to rest within the limits. Consecutive phases must agree except
+    /// in the jerk, and have the expected durations.
     fn joined(phases: &[Phase], length: f64, [speed, acceleration, jerk]: [f64; 3]) {
         let same = |a: f64, b: f64, size: f64| assert!((a - b).abs() <= 1e-12 * size, "{a} {b} {phases:?}");
         let (first, last) = (phases[0], phases[phases.len() - 1]);
@@ -228,7 +228,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// From the range of arms to far beyond it; `tests/motion` has the durations.
+        /// Tests limits and lengths from the range of arms to far beyond it. `tests/motion` tests the durations.
         #[test]
         fn phases_join_and_keep_the_limits(
             length in -15.0..4.0f64, speed in -4.0..4.0f64, acceleration in -4.0..6.0f64, jerk in -4.0..12.0f64,

@@ -17,8 +17,8 @@ pub fn field_per_line(object: &impl Serialize) -> String {
     String::from_utf8(text).expect("JSON is UTF-8")
 }
 
-/// A writer that puts each field of the outermost object on its own line, compact with a blank after each comma and
-/// colon.
+/// A formatter that puts each field of the outermost object on its own line. Within the line, there is one space after
+/// each comma and colon.
 #[derive(Default)]
 struct FieldPerLine {
     depth: usize,

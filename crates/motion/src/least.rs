@@ -2,14 +2,14 @@
 
 use super::Limits;
 
-/// Number of halvings when a duration is found by bisection.
+/// Number of times that the range of durations is halved in the search for a duration.
 const TIME_HALVINGS: usize = 64;
 
 /// Relative rounding error of a duration that bisection finds.
 const ROUNDING: f64 = 1e-9;
 
-/// Returns a lower bound on the seconds of every motion from rest to rest on a path that takes at least `length`
-/// seconds at the joints' top speeds ([`cplan_core::space::Metric::Time`]).
+/// Returns a lower bound on the duration, in seconds, of every motion from rest to rest on a path. `length` is the time
+/// that the path takes at the joints' top speeds ([`cplan_core::space::Metric::Time`]), seconds.
 ///
 /// Let `f(t)` be the greatest fraction of its top speed that a joint can reach `t` seconds after rest, by its
 /// acceleration and jerk. At the time `t` of a motion of `T` seconds, no joint exceeds the fraction `min(1, f(t), f(T -
@@ -63,7 +63,7 @@ mod tests {
         close(least_duration(0.25, &limits(2.0, f64::INFINITY, None)), 0.25);
     }
 
-    /// Compares with numerical integration in small time steps.
+    /// Compares the bound for limited jerk with a numerical integration in small time steps.
     #[test]
     fn with_a_jerk_as_integrated() {
         for (length, jerk) in [(0.1, 5.0), (0.1, 500.0), (1.0, 20.0), (3.0, 1.0), (1e-4, 3.0)] {

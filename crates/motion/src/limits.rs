@@ -34,8 +34,8 @@ impl From<&[Joint; 2]> for Limits<'_> {
 }
 
 impl Limits<'_> {
-    /// Scales the limits for motions at a share of the speed: a motion within the full limits, slowed down to this
-    /// share, is within the scaled limits. Torques keep their full limits, because gravity does not change.
+    /// Returns limits for motions at a share of the full speed. If a motion within the full limits is slowed down to
+    /// this share, it is within the returned limits. Torques keep their full limits, because gravity does not change.
     #[must_use]
     pub fn scaled(self, share: f64) -> Self {
         Self {
@@ -47,12 +47,13 @@ impl Limits<'_> {
         }
     }
 
-    /// Returns the greatest distance that a joint moves at top speed while the jerk builds up its full acceleration.
+    /// Returns the greatest distance over both joints that a joint moves at top speed while its jerk builds up the full
+    /// acceleration.
     pub(super) fn reversal(&self) -> f64 {
         (0..2).map(|k| self.jerk[k].map_or(0.0, |j| self.acceleration[k] / j * self.velocity[k])).fold(0.0, f64::max)
     }
 
-    /// Returns the greatest distance that a joint moves until it reaches top speed.
+    /// Returns the greatest distance over both joints that a joint moves until it reaches its top speed.
     pub(super) fn ramp(&self) -> f64 {
         let torque = self.torque.map_or([f64::INFINITY; 2], |torque| torque.accelerations());
         let acceleration = |k: usize| self.acceleration[k].min(torque[k]);

@@ -9,17 +9,17 @@ use thiserror::Error;
 pub struct JointMotion {
     /// Names in the URDF.
     pub joints: Vec<String>,
-    /// Seconds from the start, whole nanoseconds, strictly increasing.
+    /// Times in seconds from the start. They are whole nanoseconds and strictly increasing.
     pub time: Vec<f64>,
     /// For each sample, the value of each joint, radians or metres.
     pub position: Vec<Vec<f64>>,
-    /// For each sample, the rate of each joint.
+    /// For each sample, the velocity of each joint, radians or metres per second.
     pub velocity: Vec<Vec<f64>>,
     /// For each sample, the acceleration of each joint. `None` if readers must join the samples by cubics.
     pub acceleration: Option<Vec<Vec<f64>>>,
 }
 
-/// An error about accelerations that would mislead their readers.
+/// The accelerations of a motion jump, so they would mislead readers that join samples by quintics.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
     "accelerations cannot be written: at {time:.6} s they jump, and a controller that joins points by quintics would leave the \
@@ -31,8 +31,8 @@ pub struct AccelerationJump {
     pub time: f64,
 }
 
-/// Largest difference of the acceleration on both sides of a sample, relative to the greatest: far above rounding to
-/// nanoseconds, far below a visible effect on a quintic.
+/// Largest difference between the accelerations on both sides of a sample that does not count as a jump, relative to
+/// the greatest acceleration. It is far above rounding to nanoseconds, and far below a visible effect on a quintic.
 const ACCELERATION_TOLERANCE: f64 = 1e-6;
 
 /// Uncertainty of the acceleration of a piece, as a multiple of a unit in the last place of the greatest position

@@ -39,8 +39,8 @@ impl Phase {
 
     /// Returns the state `time` seconds after the phase began.
     ///
-    /// A deceleration is computed backwards from its end. Otherwise a short one after a long distance at top speed
-    /// would be lost in rounding.
+    /// A deceleration is computed backwards from its end. Otherwise, rounding would make a short deceleration after a
+    /// long distance at top speed inaccurate.
     pub(super) fn at(&self, time: f64) -> State {
         let Self { duration, from, to, enter, leave, acceleration, jerk } = *self;
         let last = acceleration + jerk * duration;
@@ -58,13 +58,14 @@ impl Phase {
     }
 }
 
-/// Returns the fastest motion over `length` from rest to rest: constant acceleration, constant speed (possibly for no
-/// time), and constant deceleration as long as the acceleration. No phase is shorter than `shortest`, and all last
-/// whole nanoseconds.
+/// Returns the fastest motion over `length` from rest to rest. It has a constant acceleration, a constant speed
+/// (possibly for no time), and a constant deceleration as long as the acceleration. No phase is shorter than
+/// `shortest`, and all last whole nanoseconds.
 ///
-/// The minimum duration may slow the motion down by up to `4 shortest`: ramps are stretched by a lower acceleration,
-/// and a shorter cruise is spread over the ramps. Each phase is stretched to the next nanosecond in the same way. All
-/// limits stay satisfied. `length`, `speed`, `acceleration` and `shortest` are positive; the limits may be infinite.
+/// The minimum duration may slow the motion down by up to `4 shortest`. Ramps are stretched by a lower acceleration,
+/// and a cruise that is too short is spread over the ramps. Each phase is stretched to the next nanosecond in the same
+/// way. All limits stay satisfied. `length`, `speed`, `acceleration` and `shortest` are positive; the limits may be
+/// infinite.
 pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest: f64) -> Vec<Phase> {
     let ramp = whole_nanoseconds((speed / acceleration).max(shortest));
     let cruise = length / speed - ramp;
@@ -94,9 +95,9 @@ pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest:
 }
 
 /// Returns the fastest motion over `length` between two speeds, within the limits `speed` and `acceleration`. The two
-/// speeds must not both be 0, and the acceleration must allow their difference. The motion coasts for `coast` seconds
-/// between acceleration and deceleration, as far as the two speeds allow. Returns `None` if even a single phase would
-/// be shorter than `shortest`.
+/// speeds must not both be 0, and the acceleration must allow the change from one to the other over this length.
+/// Between acceleration and deceleration the motion coasts for `coast` seconds, as far as the two speeds allow. Returns
+/// `None` if even a single phase would be shorter than `shortest`.
 ///
 /// A phase that would be too short is omitted, and the greater of the two speeds becomes the maximum. The lost speed is
 /// at most the gain in `shortest` seconds.
@@ -166,7 +167,7 @@ mod tests {
         assert!((duration(&speed_only) - 0.500_001).abs() < 1e-12);
     }
 
-    /// Asserts that consecutive phases agree, and that both formulas of a phase do.
+    /// Asserts that consecutive phases agree, and that within each phase both formulas do.
     fn joined(phases: &[Phase], length: f64, [enter, leave]: [f64; 2]) {
         let top = phases.iter().map(|p| p.enter.max(p.leave)).fold(0.0, f64::max);
         let same = |a: f64, b: f64, size: f64| assert!((a - b).abs() <= 1e-12 * size, "{a} {b} {phases:?}");
@@ -210,7 +211,8 @@ mod tests {
             prop_assert!(duration(&phases) <= optimum + 4e-6 + 1e-12 * optimum);
         }
 
-        /// Compares with the closed form for the distance and the limits: the ramps to and from the peak.
+        /// Compares the motion with a closed form for the distance and with the limits on the ramps to and from the
+        /// peak.
         #[test]
         fn passing_is_as_fast_as_the_limits_allow(
             length in -4.0..3.0f64, acceleration in -1.0..3.0f64, at in (0.0..1.0f64, 0.0..1.0f64), top in 0.05..3.0f64,

@@ -18,10 +18,11 @@ pub(super) const CONDITION_POSITIONS: [f64; 3] = [0.0, 0.5, 1.0];
 /// Weights of these positions in an integral (Simpson's rule).
 const SIMPSON_WEIGHTS: [f64; 3] = [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
 
-/// Initial weight of all barriers together, as a share of the time.
+/// Initial weight of all barriers together, as a share of the duration. A barrier is a term that grows without limit as
+/// a condition becomes tight.
 const FIRST_BARRIER_WEIGHT: f64 = 0.1;
 
-/// Final weight of all barriers together, as a share of the time.
+/// Final weight of all barriers together, as a share of the duration.
 const LAST_BARRIER_WEIGHT: f64 = 1e-3;
 
 /// Divisor of the barriers' weight after each round.
@@ -30,7 +31,7 @@ const BARRIER_REDUCTION: f64 = 6.0;
 /// Greatest number of Newton steps for one weight.
 const MAX_NEWTON_STEPS: usize = 40;
 
-/// Least predicted gain of a step, as a share of the time. A smaller gain ends the round.
+/// Least predicted gain of a step, as a share of the duration. A smaller gain ends the round.
 const MIN_ROUND_GAIN: f64 = 1e-5;
 
 /// Least fraction of the predicted decrease that a step must achieve. Otherwise the step is halved.
@@ -53,14 +54,15 @@ const GAUSS_POINTS: [[f64; 2]; 5] = [
 /// Number of Newton steps that find the parameter at a given time.
 const NEWTON_STEPS_TO_PLACE: usize = 4;
 
-/// A condition on `z` at a position: `a z + b z' + c z'' < 1`, or the same with the sum times the root of `z`.
+/// A condition on the squared rate `z` at a position of the curve: `a z + b z' + c z'' < 1`, or the same with the sum
+/// times the root of `z`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Condition {
     pub factors: [f64; 3],
     pub has_root: bool,
 }
 
-/// The squared rate at which a curve is passed.
+/// The squared rate at which the parameter of a curve increases, as a function of the parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Rate {
     /// Length of an interval of the parameter.
@@ -100,18 +102,17 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// A position of the curve, with its conditions.
 struct Place<'a> {
-    /// Index of the first coefficient that has an effect there. The next field has the weights of this coefficient and
-    /// the two after it.
+    /// Index of the first of three coefficients that have an effect at this position. The next field has their weights.
     first: usize,
     basis: &'a [[f64; 3]; 3],
     /// `z` and its derivatives.
     values: [f64; 3],
-    /// Share of the time.
+    /// Fraction of the time.
     time: f64,
     conditions: &'a [Condition],
 }
 
-/// The conditions of all places, in order, with the weights of `z` there.
+/// The conditions at all positions, in order, and the weights of the coefficients there.
 struct Problem<'a> {
     conditions: &'a [Vec<Condition>],
     step: f64,
@@ -130,7 +131,7 @@ impl Problem<'_> {
         })
     }
 
-    /// Returns the time plus barriers of a given weight; infinite if a condition is violated.
+    /// Returns the duration plus barriers of a given weight; infinite if a condition is violated.
     fn merit(&self, coefficients: &[f64], height: f64) -> f64 {
         // One logarithm of a product is faster than many.
         let (mut merit, mut product) = (0.0, 1.0_f64);
@@ -216,7 +217,7 @@ fn solved(mut bands: Vec<[f64; 3]>, mut x: Vec<f64>) -> Option<Vec<f64>> {
 }
 
 impl Rate {
-    /// Returns the rate with the least time over intervals of this length of the parameter that satisfies the
+    /// Returns the rate with the shortest duration over intervals of this length of the parameter. It satisfies the
     /// conditions at all positions. `begin` is a constant squared rate that satisfies them with some slack. Returns
     /// `None` if it does not.
     pub fn fastest(conditions: &[Vec<Condition>], step: f64, begin: f64) -> Option<Self> {
@@ -296,8 +297,8 @@ impl Rate {
 mod tests {
     use super::*;
 
-    /// Gravity leaves more slack in one direction than in the other. The product of all slacks may exceed 1, and the
-    /// range of doubles.
+    /// Tests conditions that have much slack: gravity leaves more slack in one direction than in the other. The product
+    /// of all slacks may exceed 1, and the range of doubles.
     #[test]
     fn what_is_left_may_be_much() {
         let conditions = [[0.25, 0.0, 0.0], [-10.0, 0.0, 0.0]].map(|factors| Condition { factors, has_root: false });

@@ -16,9 +16,9 @@ use thiserror::Error;
 /// times the spacing of doubles, so times stay distinct after rounding.
 pub const MIN_INTERVAL: f64 = 1e-6;
 
-/// Least time, seconds, between a sample at a multiple of the period and another sample, unless the period is shorter
-/// than twice this. At this distance, rounding to doubles changes the acceleration of a cubic by less than a millionth
-/// of a radian per squared second.
+/// Least time, seconds, between a sample at a multiple of the period and another sample. It does not apply if the
+/// period is shorter than twice this. At this distance, rounding to doubles changes the acceleration of a cubic by less
+/// than a millionth of a radian per squared second.
 pub(super) const MIN_PERIODIC_INTERVAL: f64 = 1e-4;
 
 /// Longest motion that is timed, seconds: eleven days. If a motion lasts longer, its limits are probably a mistake, and
@@ -131,15 +131,16 @@ impl Trajectory {
         self.torque.extend(&next.torque);
     }
 
-    /// Appends a rest of `pause` seconds, rounded up to whole nanoseconds. A rest below [`MIN_INTERVAL`] is omitted.
+    /// Appends a rest of `pause` seconds, rounded up to whole nanoseconds. A rest shorter than [`MIN_INTERVAL`] is
+    /// omitted.
     pub fn append_rest(&mut self, pause: f64) {
         if rest(pause) > 0.0 {
             self.append_rest_to(nanoseconds(self.duration() + rest(pause)));
         }
     }
 
-    /// Appends a rest until the first whole nanosecond from a time on, of at least [`MIN_INTERVAL`]. Does nothing
-    /// if the motion does not end before that time.
+    /// Appends a rest that ends at the first whole nanosecond at or after `time`, and lasts at least [`MIN_INTERVAL`].
+    /// Does nothing if the motion does not end before that time.
     pub fn append_rest_until(&mut self, time: f64) {
         let (end, until) = (nanoseconds(self.duration()), nanoseconds(round_up(time)));
         if end < until {
@@ -181,12 +182,12 @@ impl Trajectory {
     }
 }
 
-/// Returns the start of a motion after a previous one and a pause, in whole nanoseconds.
+/// Returns the time, in whole nanoseconds, at which a motion begins after a previous one and a pause.
 pub fn after_pause(end: f64, pause: f64) -> f64 {
     clock::seconds(nanoseconds(end + rest(pause)))
 }
 
-/// Returns the length of a pause.
+/// Returns the length of a pause as it is used: rounded up to whole nanoseconds, or zero if it is too short.
 fn rest(pause: f64) -> f64 {
     if pause < MIN_INTERVAL { 0.0 } else { whole_nanoseconds(pause) }
 }
@@ -204,23 +205,23 @@ pub struct TimedMotion {
 /// rest, and stops at every corner without a blend. Takes linear time in the number of samples.
 ///
 /// The squared speed along the path is found by forward-backward integration: on straight pieces in closed form, and on
-/// a blend over up to 256 spans. On each span, the second derivative of the path's parameter is constant, and both
-/// joints are within their limits, of which a thousandth stays unused. Between two stops, the motion that stops at
-/// every corner replaces this motion if it is faster.
+/// a blend over up to 256 spans. On each span, the second derivative of the path's parameter is constant. Both joints
+/// are within their limits, of which a thousandth stays unused. If stopping at every corner between two stops is
+/// faster, the motion does that instead.
 ///
 /// There is a sample at each multiple of `period`, and wherever that second derivative changes. On blends, samples are
-/// dense enough that the cubics through positions and velocities are also within the limits, and within
+/// so dense that the cubics through positions and velocities are also within the limits, and within
 /// [`crate::BLEND_TOLERANCE`] of the blend. All samples are at whole nanoseconds. A multiple of the period that is
 /// closer than a tenth of a millisecond (or half the period) to another sample is omitted. A path that does not move
 /// gives one sample.
 ///
 /// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes `2
-/// sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`. It takes up to `4` [`MIN_INTERVAL`] longer if a phase would
-/// be shorter than that, and each phase is lengthened to whole nanoseconds.
+/// sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`. It takes up to `4` [`MIN_INTERVAL`] longer if a phase would be
+/// shorter than that, and each phase is lengthened to whole nanoseconds.
 ///
 /// If the jerk of any joint is limited, the motion stops at every corner, blended or not ([`super::Drive::along`]
 /// passes corners). Each straight piece on which such a joint moves takes the least time that speed, acceleration and
-/// jerk along it allow from rest to rest, with one bound on the tip's speed for the whole piece; up to `12`
+/// jerk along it allow from rest to rest. One bound on the tip's speed applies to the whole piece. It takes up to `12`
 /// [`MIN_INTERVAL`] longer if a phase would be shorter than that.
 ///
 /// # Errors
@@ -233,7 +234,7 @@ pub fn time(curve: impl Into<CertifiedCurve>, limits: &Limits, period: f64) -> R
     Ok(TimedMotion { curve, trajectory })
 }
 
-/// Same as [`time`] for a curve without certificate. Also returns the curve with only the blends in use.
+/// Does the same as [`time`] for a curve without a certificate. Also returns the curve with only the blends in use.
 pub(super) fn time_curve(
     curve: &BlendedPath,
     limits: &Limits,
@@ -263,7 +264,8 @@ pub(super) fn time_curve(
     Ok((used, trajectory))
 }
 
-/// Appends the samples of a run from rest to rest that starts at a nanosecond, except the last one. Returns its end.
+/// Appends the samples of a run from rest to rest, except the last one. The run starts at the nanosecond `begin`.
+/// Returns its end, in nanoseconds.
 ///
 /// Phases start and end between nanoseconds. The sample of each is at the nearest nanosecond, with the motion's state
 /// there and the acceleration of the interval that starts there.

@@ -15,15 +15,16 @@ use std::ops::Range;
 const MAX_LINE_PARTS: f64 = 1024.0;
 
 /// Least duration of a phase on a straight stretch that is passed without a stop, as a fraction of the least time for
-/// the stretch. A shorter phase would gain less than the share of the limits that [`reserve`] leaves unused for it.
+/// the stretch. A shorter phase would gain less speed than it costs: [`reserve`] leaves a share of the limits unused
+/// for it.
 const MIN_PHASE_SHARE: f64 = 1.0 / 32.0;
 
-/// Least share by which more spans on blends must shorten the motion. Otherwise no more spans are tried. Where a joint
-/// with a low acceleration limit turns back within a blend, the other joint may accelerate more near that place, but
-/// coarse spans do not show this.
+/// Least share by which a finer division of blends must shorten the motion. If it gains less, no finer division is
+/// tried. A joint with a low acceleration limit may turn back within a blend. Near that place the other joint may
+/// accelerate more, but coarse spans do not show this.
 const MIN_GAIN: f64 = 0.005;
 
-/// A stretch of a path with the distance along it.
+/// A stretch of a path as a function of the distance along it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Track {
     Line(Line),
@@ -45,7 +46,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// Creates a line. With a limit on torques, its acceleration is not known to keep that limit: see [`Line::safe`].
+    /// Creates a line. If torques are limited, the line's acceleration may exceed that limit: see [`Line::safe`].
     fn new(from: Configuration, to: Configuration, limits: &Limits) -> Self {
         let offset = to - from;
         // Unlike the root of the sum of squares, this does not vanish for very short offsets.
@@ -88,8 +89,8 @@ impl Line {
         (self.length / self.speed * MIN_PHASE_SHARE).clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL)
     }
 
-    /// Adapts the line to a motion that does not start and end at rest. The phases of such a motion may end between two
-    /// nanoseconds.
+    /// Adapts the line to a motion that passes it without a rest at both ends. The phases of such a motion may end
+    /// between two nanoseconds.
     fn passed(self) -> Self {
         let left = 1.0 - reserve(self.shortest());
         Self { speed: left * self.speed, acceleration: left * self.acceleration, ..self }
@@ -143,8 +144,8 @@ impl Track {
 /// A track and the phases in which it is passed.
 pub(super) type TimedTrack = (Track, Vec<Phase>);
 
-/// Returns the timed tracks along a path, each from rest to rest, in order, and the blends in use. Useless blends are
-/// removed, and the motion stops at their corners.
+/// Returns the timed tracks along a path, and the blends in use. Each list of tracks leads from rest to rest, in order.
+/// Useless blends are removed, and the motion stops at their corners.
 ///
 /// With a limit on a jerk, all blends are useless, because the acceleration jumps where a parabola starts. Each
 /// waypoint's blend is passed at a share of the speed that the limits allow. On straight pieces the arm coasts for at
@@ -158,14 +159,14 @@ pub(super) fn schedule(
     scheduled(curve, limits, shares, coast, Spans::Enough)
 }
 
-/// Returns an upper bound on the duration along a curve, seconds, by the speeds that few spans allow. It compares
-/// similar curves at a fraction of the cost of [`schedule`].
+/// Returns an upper bound on the duration along a curve, seconds, from a coarse division into spans. It serves to
+/// compare similar curves at a fraction of the cost of [`schedule`].
 pub(super) fn duration_bound(curve: &BlendedPath, limits: &Limits) -> f64 {
     let (_, runs) = scheduled(curve, limits, &vec![1.0; curve.radii().len()], 0.0, Spans::Few);
     runs.iter().map(|run| duration(run)).sum()
 }
 
-/// The number of spans of a blend.
+/// How finely a blend is divided into spans.
 #[derive(Clone, Copy, PartialEq)]
 enum Spans {
     /// The initial number of spans.
@@ -215,7 +216,8 @@ pub(super) fn duration(timed_tracks: &[TimedTrack]) -> f64 {
     timed_tracks.iter().flat_map(|(_, phases)| phases).map(|phase| phase.duration).sum()
 }
 
-/// Appends the samples of the leg after a waypoint, from rest to rest, except the last one. Returns its end.
+/// Appends the samples of the leg after a waypoint, from rest to rest, except the last one. Returns its end, in
+/// nanoseconds.
 pub(super) fn stopping_at(
     curve: &BlendedPath,
     waypoint: usize,
@@ -276,8 +278,8 @@ enum Span {
 }
 
 impl Span {
-    /// Returns the greatest squared speed at the beginning from which a squared speed of at most `most` at the end is
-    /// reachable.
+    /// Returns the greatest squared speed at the beginning from which the end can be reached with a squared speed of at
+    /// most `most`.
     fn back(&self, most: f64) -> f64 {
         match self {
             Span::Line(line) => (most + 2.0 * line.acceleration * line.length).min(line.speed * line.speed),
@@ -285,7 +287,8 @@ impl Span {
         }
     }
 
-    /// Returns the greatest squared speed at the end, at most `most`, that is reachable from one at the beginning.
+    /// Returns the greatest squared speed at the end, at most `most`, that can be reached from the squared speed `from`
+    /// at the beginning.
     fn onward(&self, from: f64, most: f64) -> f64 {
         match self {
             Span::Line(line) => (from + 2.0 * line.acceleration * line.length).min(line.speed * line.speed).min(most),
@@ -294,8 +297,8 @@ impl Span {
     }
 }
 
-/// Drives from rest at the beginning of the first track to rest at the end of the last one. Returns `None` if a phase
-/// would be too short to be sampled.
+/// Returns the phases from rest at the beginning of the first track to rest at the end of the last one. Returns `None`
+/// if a phase would be too short to be sampled.
 fn driven(tracks: Vec<Track>, limits: &Limits, coast: f64, spans: Spans) -> Option<Vec<TimedTrack>> {
     let passed = |track| match track {
         Track::Line(line) => Track::Line(line.passed()),
@@ -367,9 +370,9 @@ fn timed_tracks(tracks: &[Track], squared: &[Vec<f64>], coast: f64) -> Option<Ve
 /// Returns the squared speeds of a motion from rest to rest along tracks: at the ends of each track, and for corners at
 /// the ends of the spans.
 ///
-/// Forward-backward integration in the phase plane: backwards from the end, the greatest squared speed from which the
-/// rest can still be driven; then forwards from the beginning, the greatest one reachable within that. On lines in
-/// closed form, on blends span by span.
+/// Uses forward-backward integration in the phase plane. The backward pass finds the greatest squared speed from which
+/// the arm can still stop at the end. The forward pass finds the greatest one that can be reached within that. Lines
+/// are treated in closed form, blends span by span.
 fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
     let spans: Vec<Vec<Span>> = tracks
         .iter()

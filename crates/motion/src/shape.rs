@@ -8,16 +8,16 @@ use cplan_core::check::{CertifiedPath, StraightMotions, certify};
 use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, Path};
 
-/// Initial distances by which all corners are moved off the obstacles, as fractions of the greatest.
+/// Distances by which all corners are first moved off the obstacles, as fractions of the greatest distance.
 const LIFT_SHARES: [f64; 8] = [1.0 / 128.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0, 1.0];
 
-/// First and last distance by which single corners are moved, as fractions of the greatest.
+/// First and last distance by which single corners are moved, as fractions of the greatest distance.
 const CORNER_STEPS: [f64; 2] = [1.0 / 8.0, 1.0 / 512.0];
 
 /// Number of paths with single corners moved that are tried.
 const MAX_TRIES: usize = 240;
 
-/// Number of times that the lift of a corner with blocked legs is halved before the corner stays in place.
+/// Number of times that the distance of a corner with blocked legs is halved before the corner stays in place.
 const MAX_LIFT_HALVINGS: u32 = 6;
 
 /// The settings of the shape search.
@@ -33,8 +33,8 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
         Self { scene, motions: StraightMotions::new(scene, scene.workspace().clearance), drive }
     }
 
-    /// Looks for a faster motion than `best`, on a path and on those whose corners are moved off the obstacles by up to
-    /// `most`.
+    /// Looks for a motion faster than `best`. Tries a path, and paths whose corners are all moved off the obstacles by
+    /// up to `most`.
     pub fn lifted(&self, path: &CertifiedPath, most: f64, best: &mut TimedMotion) {
         self.try_out(path, best);
         if path.path().waypoints().len() < 3 {
@@ -45,8 +45,8 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
         }
     }
 
-    /// Looks for a faster motion than `best` with single corners moved or removed: a pattern search, starting with
-    /// `most`.
+    /// Looks for a motion faster than `best`, by a pattern search that moves or removes single corners. The first
+    /// distance is a fraction of `most`.
     pub fn refined(&self, most: f64, best: &mut TimedMotion) {
         let [mut step, last] = CORNER_STEPS.map(|share| share * most);
         let mut left = MAX_TRIES;

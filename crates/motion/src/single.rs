@@ -3,9 +3,9 @@
 use super::profile::rest_to_rest;
 use super::sample::MIN_INTERVAL;
 
-/// Returns the fastest motion of a joint over a distance from rest to rest, at the ends of its phases: seconds from the
-/// beginning in whole nanoseconds, the distance so far, and the speed. Cubics between these are exact. A distance of 0
-/// gives only the beginning. `velocity` and `acceleration` are positive.
+/// Returns the fastest motion of one joint over a distance, from rest to rest. Each entry is an end of a phase: the
+/// time in seconds from the beginning (whole nanoseconds), the distance so far, and the speed. Cubics between the
+/// entries are exact. A distance of 0 gives only the beginning. `velocity` and `acceleration` are positive.
 #[must_use]
 pub fn single(distance: f64, velocity: f64, acceleration: f64) -> Vec<[f64; 3]> {
     let mut samples = vec![[0.0; 3]];

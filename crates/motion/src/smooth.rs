@@ -17,40 +17,40 @@ use cplan_core::space::Configuration;
 use cplan_handling::Piece;
 use std::collections::BTreeSet;
 
-/// Factor for the speed at a corner near which the motion is not shown to be free.
+/// Factor by which the speed at a corner is reduced if the motion near it is not shown to be free.
 const SLOWDOWN_FACTOR: f64 = 0.7;
 
-/// Share of a corner's speed below which the arm stops at the corner instead of passing it.
+/// Fraction of a corner's full speed below which the arm stops at the corner instead of passing it.
 const MIN_SPEED_SHARE: f64 = 1.0 / 128.0;
 
-/// Number of rounds in which corners are passed more slowly. After that, the arm stops at all corners.
+/// Number of rounds in which the speeds at corners are reduced. After that, the arm stops at all corners.
 const MAX_ROUNDS: usize = 24;
 
-/// Factor from each acceleration limit that is tried to the next one. With a lower acceleration, the jerk needs less
-/// time to reverse it.
+/// Ratio of an acceleration limit to the one tried before it. With a lower acceleration, the jerk needs less time to
+/// reverse it.
 const ACCELERATION_FACTOR: f64 = 0.8;
 
-/// Least share of the accelerations that is tried.
+/// Least acceleration limit that is tried, as a share of the full limit.
 const MIN_ACCELERATION_SHARE: f64 = 1e-3;
 
-/// Positions at which the distance of a piece of a motion from the path is measured.
+/// Fractions of a piece of a motion at which its distance from the path is measured.
 const DISTANCE_POSITIONS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
-/// Share by which the distance from the path may be greater between these positions.
+/// Share by which the distance from the path may be greater between the measured positions.
 const DISTANCE_MARGIN: f64 = 0.01;
 
-/// Greatest number of legs by which a piece may be ahead of the leg of the piece before.
+/// Greatest number of legs between the leg of one piece and that of the next piece.
 const MAX_LEGS_AHEAD: usize = 8;
 
 /// A path that is timed within limits.
 struct Smoothing<'a> {
     limits: Limits<'a>,
-    /// The limits without those on jerks, and possibly with lower accelerations.
+    /// The limits without those on jerks, and possibly with lower accelerations than the joints allow.
     base: Limits<'a>,
     /// Least time between acceleration and deceleration on a straight piece, seconds.
     coast: f64,
     period: f64,
-    /// True if motions are driven along their own curves in the least time.
+    /// True if motions are retimed: driven along their own curves in the least time.
     retimes: bool,
 }
 
@@ -61,9 +61,9 @@ struct SmoothMotion {
     passed: Vec<(usize, [u64; 2])>,
 }
 
-/// Returns the fastest motion around the corners of a path with a deviation of at most `greatest`. It is shown to be
-/// free and shorter than `below` seconds; `None` if none was found. On request, finally drives it along its own curve
-/// in the least time.
+/// Returns the fastest motion around the corners of a path that deviates from the path by at most `greatest`. It is
+/// shown to be free, and shorter than `below` seconds. Returns `None` if no such motion is found. If requested, the
+/// motion is finally driven along its own curve in the least time.
 pub(super) fn smoothed(
     scene: &Scene,
     path: &CertifiedPath,
@@ -121,8 +121,8 @@ pub(super) fn smoothed(
     plain
 }
 
-/// Returns the extent of the motion at each waypoint, as the radius of a parabola that leaves the path at the same
-/// distance and passes the corner at the same distance.
+/// Returns the extent of the motion at each waypoint, as the radius of a parabola. The parabola deviates at least as
+/// far from the path as the motion does, and passes the corner at least as far away.
 fn reaches(curve: &BlendedPath, smooth: &SmoothMotion, pieces: &[Piece]) -> Vec<f64> {
     let q = curve.path().waypoints();
     let (mut radii, mut nearest) = (vec![0.0_f64; q.len()], vec![f64::INFINITY; q.len()]);
@@ -156,8 +156,8 @@ fn to_leg(at: Configuration, from: Configuration, to: Configuration) -> f64 {
 }
 
 impl<'a> Smoothing<'a> {
-    /// Chooses the accelerations that make motions along this curve fastest, and a pause between accelerations of
-    /// opposite signs if that helps. Without the pause the jerk must reverse them at once.
+    /// Chooses the accelerations that make motions along this curve fastest. Also chooses a pause between accelerations
+    /// of opposite signs, if that helps. Without the pause the jerk must reverse the acceleration at once.
     fn new(curve: &BlendedPath, limits: Limits<'a>, period: f64) -> Option<Self> {
         let with = |share: f64, coasts: bool| {
             let acceleration = limits.acceleration.map(|a| a * share);
@@ -182,8 +182,8 @@ impl<'a> Smoothing<'a> {
         best.map(|(_, smoothing)| smoothing)
     }
 
-    /// Returns the motion along a curve whose corners are passed at shares of their speed, from rest to rest. Does not
-    /// check obstacles.
+    /// Returns the motion along a curve from rest to rest. It passes each corner at the given share of the corner's
+    /// speed. Does not check obstacles.
     fn along(&self, curve: &BlendedPath, shares: &[f64]) -> Option<SmoothMotion> {
         let (used, runs) = schedule(curve, &self.base, shares, self.coast);
         let mut smooth = SmoothMotion { trajectory: Trajectory::default(), passed: Vec::new() };
@@ -228,7 +228,7 @@ impl<'a> Smoothing<'a> {
 }
 
 impl SmoothMotion {
-    /// Returns the corner that is passed on a piece, or the nearest one in time.
+    /// Returns the corner that the motion passes on a piece, or the nearest one in time.
     fn corner(&self, piece: &Piece) -> Option<usize> {
         let middle = piece.time(0.5);
         let away = |(_, [from, to]): &&(usize, [u64; 2])| (seconds(*from) - middle).max(middle - seconds(*to)).max(0.0);

@@ -4,19 +4,19 @@ use cplan_core::check::Deviation;
 use cplan_core::space::Configuration;
 use cplan_handling::Piece;
 
-/// Least length of a span, as a share of its piece. It is a nanosecond of a long piece, and far greater than the
-/// rounding of a share.
+/// Least length of a span, as a share of its piece. For a long piece it corresponds to a nanosecond. It is far greater
+/// than the rounding of a share.
 const MIN_SPAN: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// A place on the motion: a piece, and a share of it.
+/// A place on the motion: the index of a piece, and the share of the piece before the place.
 pub type Place = (usize, f64);
 
 /// A stretch of the motion.
 #[derive(Debug, Clone, Copy)]
 pub enum Span {
-    /// Whole pieces, from the first number to before the second.
+    /// Whole pieces, from the first index up to, but not including, the second.
     Pieces(usize, usize),
-    /// A part of the piece with this number, from one share of it to another.
+    /// A part of the piece with this index, from one share of it to another.
     Part(usize, f64, f64),
 }
 
@@ -36,7 +36,8 @@ impl Span {
         if from.0 == to.0 { Span::Part(from.0, from.1, to.1) } else { Span::Pieces(from.0, to.0 + 1) }
     }
 
-    /// Returns the configuration in the middle of the span, and the deviation from it in the span.
+    /// Returns the configuration in the middle of the span, and a set that contains the deviations from it in the whole
+    /// span.
     pub fn deviation(self, pieces: &[Piece]) -> (Configuration, Deviation) {
         match self {
             Span::Pieces(first, end) => around(&pieces[first..end]),

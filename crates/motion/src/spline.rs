@@ -21,11 +21,11 @@ use super::schedule::{TimedTrack, duration, places};
 use super::torque::TorqueLimit;
 use cplan_core::space::Configuration;
 
-/// Number of steps in a smoothing window. The motion takes one step longer than the window, so many short steps cost
-/// less time.
+/// Number of time steps in a smoothing window. The motion takes one step longer than the window, so with more and
+/// shorter steps it is faster.
 const STEPS_PER_WINDOW: f64 = 32.0;
 
-/// Least step, as a share of the period of the samples.
+/// Least duration of a step, as a share of the period of the samples.
 const MIN_STEP_SHARE: f64 = 1.0 / 8.0;
 
 /// Greatest number of steps of a motion.
@@ -37,24 +37,24 @@ const MIN_INTERVALS: usize = 800;
 /// Greatest number of intervals of a motion that is retimed. Longer motions gain less and less.
 const MAX_INTERVALS: usize = 20_000;
 
-/// Share of the original speed with which retiming begins. It satisfies all limits with some slack.
+/// Fraction of the original speed with which retiming begins. At this speed, all limits are satisfied with some slack.
 const INITIAL_SPEED_SHARE: f64 = 0.97;
 
 /// Number of steps of a retimed motion, unless other reasons require shorter or longer steps. The motion takes two
 /// steps longer.
 const RETIMED_STEPS: f64 = 800.0;
 
-/// Share of the limits on torques and on the tip's speed that is used. The rest allows for excesses between the
-/// positions at which the limits are imposed.
+/// Fraction of the limits on torques and on the tip's speed that a retimed motion uses. The rest allows for excesses
+/// between the positions at which the limits are imposed.
 const USED_LIMIT_SHARE: f64 = 0.995;
 
-/// Greatest change of the jerk at a knot that is not sampled, as a fraction of the greatest jerk.
+/// Greatest change of the jerk at a knot that needs no sample, as a fraction of the greatest jerk.
 const JERK_TOLERANCE: f64 = 1e-7;
 
-/// A motion from rest to rest.
+/// A motion from rest to rest, as a spline with knots at equal intervals of time.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Spline {
-    /// Nanoseconds between two knots.
+    /// Duration of a step between two knots, nanoseconds.
     step: u64,
     /// Number of steps of the smoothing window.
     window: u64,
@@ -63,8 +63,8 @@ pub(super) struct Spline {
 }
 
 impl Spline {
-    /// Smooths a run from rest to rest as far as the limits on jerks require. `acceleration` has the limits that the
-    /// run keeps.
+    /// Smooths a run from rest to rest as far as the limits on jerks require. `acceleration` has the limits on
+    /// acceleration that the run keeps.
     pub fn smoothed(run: &[TimedTrack], acceleration: [f64; 2], limits: &Limits, period: f64) -> Self {
         let longest = |k: usize| limits.jerk[k].map_or(0.0, |jerk| 2.0 * acceleration[k] / jerk);
         let fine = (longest(0).max(longest(1)) / STEPS_PER_WINDOW).max(MIN_STEP_SHARE * period).max(MIN_INTERVAL);
@@ -83,8 +83,8 @@ impl Spline {
         Self { step, window: window as u64, control }
     }
 
-    /// Returns the same curve in the least time, and a function from seconds in the slower motion to those in the new
-    /// one. Returns `None` if it is not known to be faster.
+    /// Returns the same curve, passed in the least time. Also returns a function that converts seconds of the slower
+    /// motion to nanoseconds of the new one. Returns `None` if the new motion is not known to be faster.
     pub fn retimed(&self, limits: &Limits, period: f64) -> Option<(Self, impl Fn(f64) -> u64 + use<>)> {
         let pieces = self.last() + 1;
         let parts = ((MIN_INTERVALS + pieces / 2) / pieces).max(1);
@@ -141,7 +141,7 @@ impl Spline {
         self.step * (self.window + 1) / 2
     }
 
-    /// Returns position, velocity, acceleration and jerk in a piece between knots, at a fraction of it.
+    /// Returns position, velocity, acceleration and jerk in a piece between knots, at the fraction `u` of the piece.
     fn within(&self, piece: usize, u: f64) -> [Configuration; 4] {
         let h = seconds(self.step);
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.control[piece + i]);
@@ -196,7 +196,7 @@ impl Spline {
         knots
     }
 
-    /// Appends the spline's samples, except the last one, to a motion that ends where the spline begins. There is a
+    /// Appends the spline's samples, except the last one, to a trajectory that ends where the spline begins. There is a
     /// sample wherever the jerk changes, and at each multiple of the period that is not close to such a sample.
     pub fn sample(&self, begin: u64, period: f64, trajectory: &mut Trajectory) {
         let near = nanoseconds((period / 2.0).clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL));
@@ -214,7 +214,7 @@ impl Spline {
     }
 }
 
-/// Returns the conditions by the limits at a point of a motion with these derivatives, for retiming.
+/// Returns the conditions that the limits impose at a point of a motion with these derivatives. They are for retiming.
 fn asked([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &Limits) -> Vec<Condition> {
     let mut asked = Vec::new();
     let mut ask = |factors: [f64; 3], has_root: bool| {
@@ -249,7 +249,7 @@ fn asked([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &
     asked
 }
 
-/// Returns the least number of steps to average so that the jerks keep their limits.
+/// Returns the least number of steps over which positions must be averaged so that the jerks are within their limits.
 fn window(places: &[Configuration], step: f64, jerk: [Option<f64>; 2]) -> usize {
     let place = |j: isize| places[j.clamp(0, places.len() as isize - 1) as usize];
     let seconds: Vec<Configuration> =
@@ -280,7 +280,7 @@ mod tests {
         Limits { velocity: [velocity; 2], acceleration: [acceleration; 2], jerk, tip: None, torque: None }
     }
 
-    /// Returns a path with a blend at each corner, timed without limits on jerks, and smoothed.
+    /// Returns a path with a blend at each corner, timed without limits on jerks, and its smoothed motion.
     fn smoothed(corners: &[[f64; 2]], radius: f64, limits: &Limits) -> (f64, Spline) {
         let path = Path::new(corners.iter().map(|&q| q.into()).collect());
         let count = path.waypoints().len();
@@ -291,8 +291,8 @@ mod tests {
         (duration(&runs[0]), Spline::smoothed(&runs[0], limits.acceleration, limits, 0.01))
     }
 
-    /// A motion from rest to rest along one joint, with a window long enough for its reversal, takes a window and a
-    /// step longer.
+    /// Tests a motion from rest to rest along one joint, with a window long enough for its reversal. It takes a window
+    /// and a step longer than without smoothing.
     #[test]
     fn takes_a_window_and_a_step_longer() {
         let limits = limits(2.0, 8.0, [Some(200.0), None]);
@@ -305,8 +305,8 @@ mod tests {
         assert!(window <= 2.0 * 8.0 / 200.0 + 1e-9);
     }
 
-    /// A long distance at top speed between full ramps takes `L / v + v / a + a / j` in closed form, although the
-    /// initial motion is slower by a window.
+    /// Tests a long distance at top speed between full ramps. The least time is `L / v + v / a + a / j` in closed form,
+    /// although the initial motion is slower by a window.
     #[test]
     fn the_least_time_along_a_line() {
         let limits = limits(1.0, 4.0, [Some(20.0), None]);
@@ -319,7 +319,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(64))]
 
-        /// Checks by differences of its own samples: limits, rest at both ends, and joints that must not move.
+        /// Checks smoothed motions by differences of their own samples: limits, rest at both ends, and joints that must
+        /// not move.
         #[test]
         fn motions_from_rest_to_rest_satisfy_the_limits(
             turns in prop::collection::vec((0.4..1.5_f64, -2.5..2.5_f64), 2..6), velocity in 0.3..3.0_f64, acceleration in 1.0..20.0_f64,

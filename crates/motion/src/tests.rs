@@ -84,7 +84,8 @@ fn check(path: &Path, joints: &[Joint; 2], trajectory: &Trajectory, tolerance: f
     assert_eq!(piece, segments.len(), "a corner without a sample at rest");
 }
 
-/// Returns the duration in closed form, piece by piece, with the slower joint for each limit.
+/// Returns the duration in closed form, as a sum over the pieces. On each piece, the joint that is slower for a limit
+/// determines it.
 fn shortest_duration(path: &Path, joints: &[Joint; 2]) -> f64 {
     let limit = |length: f64, d: Configuration, of: fn(&Joint) -> f64| {
         (0..2).filter(|&i| d[i] != 0.0).map(|i| length * of(&joints[i]) / d[i].abs()).fold(f64::INFINITY, f64::min)
@@ -147,7 +148,8 @@ fn useless_periods_and_endless_motions_are_errors() {
     assert!(matches!(time_path(&path, &stuck, 0.01), Err(TimingError::TooLong(_))));
 }
 
-/// Regression found by the random tests: counted from the segment's beginning, the deceleration was lost in rounding.
+/// Tests a case that random tests found: when distances counted from the segment's beginning, rounding made the
+/// deceleration inaccurate.
 #[test]
 fn short_ramps_after_a_long_cruise_keep_the_limits() {
     let (path, joints) = (path(&[[0.0, 0.0], [100.0, 30.0]]), [joint(true, 0.01, 100.0), joint(true, 1.0, 100.0)]);
@@ -184,7 +186,7 @@ proptest! {
         prop_assert!(trajectory.time.windows(2).all(|w| w[1] - w[0] <= period + 2e-4));
     }
 
-    /// Segments far shorter and far longer than those of arms, along and across the axes.
+    /// Tests segments far shorter and far longer than those of arms, along and across the axes.
     #[test]
     fn tiny_and_huge_segments(
         steps in prop::collection::vec((-15.0..3.0f64, 0..8u32, any::<bool>()), 1..6),

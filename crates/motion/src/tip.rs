@@ -4,11 +4,11 @@ use cplan_core::model::{Arm, JointType};
 use cplan_core::space::Configuration;
 use cplan_handling::{Derivative, Piece};
 
-/// Greatest share of the tip's limit that is lost because the tip's speed is bounded part by part. It determines how
-/// finely curves are cut.
+/// Greatest share of the tip's speed limit that is lost because one bound holds for a whole part of a curve. It
+/// determines how finely curves are cut.
 pub(super) const TIP_SPEED_STEP: f64 = 0.01;
 
-/// Greatest number of parts of a piece in which the tip's speed is bounded.
+/// Greatest number of parts into which a piece is cut to bound the tip's speed.
 const MAX_TIP_PARTS: f64 = 64.0;
 
 /// Greatest speed of an arm's tip in the plane.
@@ -20,7 +20,8 @@ pub struct TipSpeed<'a> {
     pub speed: f64,
 }
 
-/// A part of a curve `q(s)` with a constant second derivative: everything within `half` of `middle`.
+/// A part of a curve `q(s)` with a constant second derivative: all values of the parameter `s` within `half` of the
+/// middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Part {
     /// The configuration in the middle.
@@ -34,7 +35,7 @@ pub(super) struct Part {
 }
 
 impl TipSpeed<'_> {
-    /// Returns the greatest overestimate of the tip's derivative on a part, metres per unit of the parameter.
+    /// Returns a bound, in metres per unit of the parameter, on the overestimate of the tip's derivative on a part.
     pub(super) fn slack(&self, part: &Part) -> f64 {
         self.change(part) * part.half
     }
@@ -47,7 +48,8 @@ impl TipSpeed<'_> {
         self.speed / (rate + self.slack(part))
     }
 
-    /// Returns the factor by which the tip may exceed its limit on pieces of a motion, if it may at all.
+    /// Returns the factor by which the tip may exceed its limit on pieces of a motion. `None` if the limit is proven to
+    /// be satisfied.
     pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
         let excess = pieces.iter().map(|piece| self.excess_on(piece)).fold(1.0, f64::max);
         (excess > 1.0).then_some(excess)

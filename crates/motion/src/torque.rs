@@ -8,43 +8,46 @@ use cplan_core::space::{Configuration, Path};
 use cplan_dynamics::{Curvature, Rates, Torques};
 use cplan_handling::Piece;
 
-/// Share of an effort by which the torque may be overestimated on a part of a curve. It determines how finely curves
+/// Fraction of an effort by which the torque may be overestimated on a part of a curve. It determines how finely curves
 /// are cut.
 const TORQUE_STEP: f64 = 0.01;
 
-/// Number of rows for a part of a curve: for two joints, two directions, three coefficients, and two signs of the error
-/// of the inertial factor.
+/// Number of rows of conditions for a part of a curve: for two joints, two directions, three coefficients, and two
+/// signs of the error of the inertial factor.
 const TORQUE_ROWS: usize = 24;
 
-/// Number of parts of a straight stretch for which one acceleration and one speed must be safe.
+/// Number of parts into which a straight stretch is cut to find one acceleration and one speed that are safe on all of
+/// it.
 const PARTS_PER_STRETCH: u32 = 64;
 
-/// Share of the effort left by gravity that is used for acceleration on such a part. The rest is used for speed.
+/// Fraction of the effort for acceleration on such a part. The effort that gravity does not need counts as 1, and the
+/// rest of it is for speed.
 const ACCELERATION_SHARE: f64 = 0.5;
 
-/// Least share of an effort that counts as left by gravity.
+/// Least effort that gravity leaves, as a share of the whole effort. If gravity leaves less, this share is assumed.
 const MIN_REMAINING_EFFORT: f64 = 1e-12;
 
-/// Share of an effort by which a torque may be greater between two samples of a motion.
+/// Fraction of an effort by which a torque may be greater between two samples of a motion than at the samples.
 const SAMPLED_TORQUE_TOLERANCE: f64 = 2e-4;
 
-/// Share of an effort by which a torque may be greater between two samples, during the search for a motion.
+/// Fraction of an effort by which a torque may be greater between two samples than at the samples, during the search
+/// for a motion.
 const SEARCHED_TORQUE_TOLERANCE: f64 = 2e-3;
 
 /// Greatest number of parts into which a leg is cut to check that the arm can be held everywhere on it.
 const MAX_LEG_PARTS: f64 = 1e5;
 
-/// A limit on the torques of an arm's joints: their efforts.
+/// A limit on the torques of an arm's joints, by their efforts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueLimit<'a> {
     /// Torques of the arm with its payload, and its efforts.
     pub torques: Torques<'a>,
-    /// Share of the efforts left by gravity that is used.
+    /// Fraction of the effort that motions may use, where the effort that gravity does not need counts as 1.
     pub share: f64,
 }
 
-/// Torques along a part of a curve with the squared speed `z` of its parameter: `inertial z' / 2 + bent z + holding`
-/// for each joint, where each factor is linear between its values at both ends, up to an error.
+/// The torques along a part of a curve whose parameter has the squared speed `z`. For each joint the torque is
+/// `inertial z' / 2 + bent z + holding`. Each factor is linear between its values at both ends, up to an error.
 struct TorquesOnPart {
     ends: [TorqueFactors; 2],
     off: Curvature,
@@ -94,8 +97,8 @@ impl<'a> TorqueLimit<'a> {
         }
     }
 
-    /// Returns the conditions on the squared speeds `z0`, `z1` at both ends of a part, between which they are linear:
-    /// rows `[a, b]` with `a z0 + b z1 <= 1`. Uses the share `used` of the efforts.
+    /// Returns the conditions on the squared speeds `z0` and `z1` at both ends of a part, as rows `[a, b]` with `a z0 +
+    /// b z1 <= 1`. Between the ends, the squared speed is linear. Uses the share `used` of the efforts.
     ///
     /// With linear factors a torque is a quadratic polynomial along the part. It keeps its limit if its Bernstein
     /// coefficients do.
@@ -158,15 +161,16 @@ impl<'a> TorqueLimit<'a> {
         safe
     }
 
-    /// Returns changes of the joints' accelerations that together change no torque by more than its effort.
+    /// Returns an acceleration of each joint. If both accelerations change by these at once, no torque changes by more
+    /// than its effort.
     pub(super) fn accelerations(&self) -> [f64; 2] {
         let inertia = self.torques.greatest_inertia();
         let share = |k: usize, l: usize| self.torques.dynamics.effort[l] / (2.0 * inertia[l][k]);
         [0, 1].map(|k| share(k, 0).min(share(k, 1)))
     }
 
-    /// Returns the factor by which accelerating torques on pieces of a motion may exceed the efforts left by gravity,
-    /// if they may at all.
+    /// Returns the factor by which accelerating torques on pieces of a motion may exceed the efforts that gravity
+    /// leaves. `None` if they are proven not to exceed them.
     pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
         let effort = self.torques.dynamics.effort;
         let mut excess = 1.0_f64;
@@ -189,10 +193,10 @@ impl<'a> TorqueLimit<'a> {
         TimingError::TooHeavy { joint: joint.name.clone(), at: at.into(), torque: torque.abs(), effort, unit }
     }
 
-    /// Checks that a motion keeps within the efforts.
+    /// Checks that the torques of a motion are within the efforts.
     ///
     /// # Errors
-    /// The first place where it may exceed them.
+    /// The first place where they may exceed the efforts.
     pub(super) fn check(&self, pieces: &[Piece]) -> Result<(), TimingError> {
         for piece in pieces {
             for look in torque_samples(&self.torques, piece, SAMPLED_TORQUE_TOLERANCE) {
@@ -216,8 +220,8 @@ impl<'a> TorqueLimit<'a> {
         (0..trajectory.time.len()).map(at).collect()
     }
 
-    /// Checks that the efforts of an arm hold it with its load at a configuration, if its motions must keep within
-    /// them.
+    /// Checks that the efforts of an arm hold it with its load at a configuration. Does nothing if motions need not
+    /// respect efforts.
     ///
     /// # Errors
     /// The joint whose effort is too small.

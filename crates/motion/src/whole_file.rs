@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// The reason why a file could not be written. Then nothing was changed.
+/// The reason why a file could not be written. No file was changed.
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// There is a folder (or a device, a pipe, ...) with that name.
@@ -62,7 +62,7 @@ struct TemporaryFile {
     /// The path of the file to write, as given.
     path: PathBuf,
     target: PathBuf,
-    /// Closed, so that the number of files is not limited by that of open ones.
+    /// The temporary file, closed. So the limit on open files does not limit the number of files.
     temporary: tempfile::TempPath,
 }
 
@@ -78,15 +78,15 @@ impl TemporaryFile {
         Ok(Self { path: path.to_owned(), target, temporary: file.into_temp_path() })
     }
 
-    /// Gives the file its name.
+    /// Renames the temporary file to the file's name.
     fn put(self) -> Result<(), WriteError> {
         let refused = |e: tempfile::PathPersistError| WriteError::Refused { path: self.path, source: e.error };
         self.temporary.persist(&self.target).map_err(refused)
     }
 }
 
-/// Checks whether a file of that name could be written, as far as possible without writing, for long jobs that would
-/// otherwise fail at the end.
+/// Checks whether a file of that name could be written, as far as possible without writing it. This is for long
+/// computations whose result could otherwise not be saved.
 ///
 /// # Errors
 /// [`WriteError`].
@@ -101,7 +101,7 @@ struct Target {
     /// The file itself, behind a symbolic link.
     file: PathBuf,
     folder: PathBuf,
-    /// Permissions of the existing file.
+    /// Permissions of the existing file. `None` if there is no such file.
     kept: Option<fs::Permissions>,
 }
 
@@ -132,7 +132,7 @@ fn target(path: &Path) -> Result<Target, WriteError> {
     Ok(Target { file: target, folder, kept })
 }
 
-/// Creates a temporary file with the permissions of an ordinary new one; by default only the owner could read it.
+/// Creates a temporary file with the permissions of an ordinary new file. By default only the owner could read it.
 #[cfg(unix)]
 fn new_temporary(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     use std::os::unix::fs::PermissionsExt;

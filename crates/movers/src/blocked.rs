@@ -10,16 +10,16 @@ use cplan_handling::{Leg, TimedScene};
 use cplan_interrupt::checkpoint;
 use std::cell::OnceCell;
 
-/// Shapes are enlarged by this fraction of the lengths involved. It is far more than rounding, but too little to
+/// Fraction of the lengths involved by which shapes are enlarged. It is far more than rounding, but too little to
 /// matter.
 const SHAPE_ENLARGEMENT: f64 = 1e-9;
 
-/// Limit of the motion of a turning obstacle in one step of the computation, as a fraction of the lengths involved. A
-/// step may also be as long as a quarter of the motion of the arm's part. A contact may seem to begin too early, and to
-/// end too late, by one step.
+/// Greatest motion of a turning obstacle in one step of the computation, as a fraction of the lengths involved. A step
+/// may also be as long as a quarter of the motion of the arm's part. A contact may seem to begin too early, and to end
+/// too late, by one step.
 const TURN_STEP: f64 = 1e-3;
 
-/// The deviation of a posture that is a single configuration.
+/// The set of deviations of a single configuration: only zero.
 pub const NO_DEVIATION: Deviation = Deviation::Box([0.0; 2]);
 
 /// The moving obstacles of a scene, prepared for computing times of contact.
@@ -49,7 +49,7 @@ impl Meeting {
     }
 }
 
-/// A part of the arm at a posture, and how far it may deviate from there. All pairs with this part share it.
+/// A part of the arm at a posture, and a bound on its deviation from there. All pairs with this part share it.
 pub struct PartDeviation<'a> {
     pair: Pair,
     /// The part in its own frame.
@@ -58,7 +58,7 @@ pub struct PartDeviation<'a> {
     pose: Pose,
     /// The part at its pose, with its size. Computed when first needed.
     placed: OnceCell<(Convex, f64)>,
-    /// A disc that contains the part.
+    /// A disc that contains the part: centre and radius.
     disc: (Point, f64),
     /// Upper bound on the deviation of a point of the part, in metres.
     moves: f64,
@@ -151,7 +151,7 @@ impl Stretch {
         }
     }
 
-    /// Returns the distance of the piece from a part of the arm at a time. `None` if it exceeds `most`.
+    /// Returns the distance of the piece from a part of the arm at a time. `None` if it exceeds `most`, metres.
     fn distance(&self, around: &PartDeviation, time: f64, most: f64) -> Option<f64> {
         let pose = self.leg.pose(time);
         let ((at, extent), (center, radius)) = (around.disc, self.own_disc);
@@ -161,8 +161,8 @@ impl Stretch {
         distance.filter(|distance| *distance <= most)
     }
 
-    /// Finds the times at which the distance of a turning piece from a part is, or may be, at most `grow`. The result
-    /// is a superset, computed in steps in which the piece moves by at most `step`.
+    /// Finds the times at which the distance of a turning piece from a part is at most `grow`. The result may include
+    /// more times. It is computed in steps in which the piece moves by at most `step`.
     fn turning(&self, around: &PartDeviation, within: Interval, [grow, step]: [f64; 2], out: &mut Vec<Interval>) {
         let mut open = vec![within];
         while let Some([from, to]) = open.pop() {
@@ -178,8 +178,8 @@ impl Stretch {
         }
     }
 
-    /// Finds the times at which the piece overlaps a part by more than `deeper`. The result is a subset. Its ends are
-    /// accurate to `shortest` seconds.
+    /// Finds times at which the piece overlaps a part by more than `deeper`. It may omit some: its ends are accurate to
+    /// `shortest` seconds.
     fn deep(&self, around: &PartDeviation, within: Interval, [deeper, shortest]: [f64; 2], out: &mut Vec<Interval>) {
         let mut open = vec![within];
         while let Some([from, to]) = open.pop() {
@@ -194,9 +194,9 @@ impl Stretch {
         }
     }
 
-    /// Finds the same times for a piece that slides without turning. The distance to a convex set is a convex function
-    /// of the place, so the depth is a concave function of time. At both `ends`, the depth is `round`, the sum of both
-    /// radii. So if a chord from an end to a deeper time is deep enough, the depth is as well.
+    /// Does the same as [`Stretch::deep`] for a piece that slides without turning. The distance to a convex set is a
+    /// convex function of the place, so the depth is a concave function of time. At both `ends`, the depth is `round`,
+    /// the sum of both radii. So if a chord from an end to a deeper time is deep enough, the depth is as well.
     fn deep_in_passing(
         &self,
         around: &PartDeviation,
@@ -262,8 +262,8 @@ impl<'a> MovingObstacles<'a> {
         &self.meetings
     }
 
-    /// Finds the times of a meeting at which the part, at any of its deviations, is or may be nearer to the obstacle
-    /// than the clearance. The result is a superset, in no order. Returns true if there are any such times.
+    /// Finds the times of a meeting at which some deviation of the part may be nearer to the obstacle than the
+    /// clearance. The result includes all such times and possibly others, in no order. Returns true if it added any.
     ///
     /// A shape that slides past another one meets it during a single interval of time, which has a closed form
     /// ([`sliding`]); the other shape is grown by the deviation of the arm's part. If the shape turns, the time is
@@ -296,8 +296,8 @@ impl<'a> MovingObstacles<'a> {
         out.len() > before
     }
 
-    /// Finds the times of a meeting at which the part, grown by the clearance, overlaps the obstacle at every
-    /// deviation. The result is a subset, in no order. Its ends are accurate to `shortest` seconds.
+    /// Finds times of a meeting at which the part, grown by the clearance, overlaps the obstacle at every deviation.
+    /// The result may omit some such times, and is in no order. Its ends are accurate to `shortest` seconds.
     ///
     /// The overlap must be deeper than the deviation of the part.
     pub(crate) fn met(&self, around: &PartDeviation, meeting: Meeting, shortest: f64, out: &mut Vec<Interval>) {
@@ -361,7 +361,7 @@ fn disc(shape: &Convex) -> (Point, f64) {
     ((low + high) * 0.5, (high - low).norm() / 2.0)
 }
 
-/// Returns the times from 0 on that lie between the intervals. Ends of intervals belong to the intervals.
+/// Returns the times from 0 on that lie between the given intervals, the ends of which belong to the intervals.
 pub fn complement(intervals: &[Interval]) -> Vec<Interval> {
     let (mut left, mut from) = (Vec::new(), 0.0);
     for &[lower, upper] in intervals {

@@ -7,8 +7,8 @@ use cplan_handling::Piece;
 use cplan_interrupt::checkpoint;
 use cplan_motion::{Place, Span};
 
-/// Largest motion of a point of the arm within half a stretch of a motion, as a fraction of the arm's reach. Longer
-/// stretches are halved.
+/// Largest motion of a point of the arm in half of a stretch of a motion, as a fraction of the arm's reach. A stretch
+/// with a larger motion is halved.
 const MAX_STRETCH_MOTION: f64 = 4e-3;
 
 /// Shortest duration of a stretch that is halved, in seconds.
@@ -81,8 +81,8 @@ fn since(pieces: &[Piece], (piece, share): Place) -> f64 {
     pieces[piece].time(share) - pieces[0].from
 }
 
-/// Returns the part of an interval that remains after others, in order and disjoint, remove parts at its ends. `None`
-/// if one of them contains the interval.
+/// Returns an interval, shortened at both ends by those of the `others` that contain its ends. The others are in order
+/// and disjoint. `None` if nothing is left.
 fn uncovered(others: &[Interval], [from, to]: Interval) -> Option<Interval> {
     let holding = |time: f64| {
         let next = others.partition_point(|[begins, _]| *begins <= time);

@@ -29,15 +29,15 @@ use refutation::has_no_timing;
 use schedule::{Effort, ScheduledMotion, schedule};
 use serde::Serialize;
 
-/// Largest number of paths that are tried: the planner's path, and paths around the obstacles that motions along
-/// earlier ones meet.
+/// Largest number of paths that are tried. The first is the planner's path. The others lead around the obstacles that
+/// motions along earlier paths meet.
 const MAX_PATHS: usize = 3;
 
-/// Fraction by which other paths may exceed the shortest one, unless the user requests a gap. Such paths are found in
-/// much less time. They have fewer corners, so that most of them are driven faster.
+/// Fraction by which later paths may exceed the shortest one, unless the user requests a gap. Such paths are found in
+/// much less time. They have fewer corners, so most of them are driven faster.
 const PATH_GAP: f64 = 0.03;
 
-/// Two times that differ by at most this count as equal, in seconds. Times are whole nanoseconds.
+/// Difference of two times up to which they count as equal, in seconds. Times are whole nanoseconds.
 const TIME_ROUNDING: f64 = 1e-8;
 
 /// Figures about a motion among moving obstacles.
@@ -45,7 +45,7 @@ const TIME_ROUNDING: f64 = 1e-8;
 pub struct Timing {
     /// Number of moving obstacles. In a task, objects that move until they are picked are included.
     pub obstacles: usize,
-    /// Number of paths tried.
+    /// Number of paths that were tried.
     pub ways: usize,
     /// Places and times at which the arm waits.
     pub waits: Vec<Wait>,
@@ -140,7 +140,7 @@ fn reason(ways: usize, refuted: usize, movers: usize) -> String {
     format!("a path exists past the static obstacles, but {moves}; {known}")
 }
 
-/// Certifies a motion for both interpolations with which programs join its samples.
+/// Certifies a motion for both interpolations that programs use between its samples.
 fn certified_in_time(timed: TimedScene, found: ScheduledMotion, ways: usize) -> Option<(TimedMotion, Timing)> {
     let ScheduledMotion { timed: TimedMotion { curve, trajectory }, waits, free_until } = found;
     let (mut clearance, mut nearest) = (f64::INFINITY, None);
@@ -174,7 +174,7 @@ pub fn clearance_at_rest(timed: TimedScene, q: Configuration, seconds: f64) -> O
     }
 }
 
-/// Returns a motion in both interpolations: by cubics, and by the polynomials that it states.
+/// Returns a motion as recordings for both interpolations: by cubics, and by the polynomials that it states.
 fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
     let rows = |values: &[[f64; 2]]| values.iter().map(|&row| Configuration::from(row)).collect::<Vec<_>>();
     let (position, velocity) = (rows(&trajectory.position), rows(&trajectory.velocity));
@@ -183,8 +183,8 @@ fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
     Some([cubic, quartic])
 }
 
-/// Returns the problem in which the first moving obstacle that the motion meets is static, at the place where it is
-/// met. `None` if the motion meets none, or if this obstacle blocks the start or all goals.
+/// Returns the problem in which one moving obstacle is static. It is the first one that the motion meets, at the place
+/// of that meeting.
 fn around_what_is_met(
     problem: &MotionProblem,
     courses: &[ObstacleTrajectory],

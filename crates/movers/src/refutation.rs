@@ -24,7 +24,7 @@ struct Stretch {
     /// The middle of the stretch, and half of its extent.
     middle: Configuration,
     half: Configuration,
-    /// Lower bound on the duration of a motion from one end of the stretch to the other, in seconds.
+    /// Lower bound on the duration of a motion from one end of the stretch to the other, seconds.
     takes: f64,
     /// Times at which the arm may be in the stretch, computed when first needed. At all other times, every posture of
     /// the stretch overlaps a moving obstacle.

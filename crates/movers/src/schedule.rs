@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 /// Number of configurations on a path for which safe times are computed.
 const PLACES_PER_PATH: usize = 64;
 
-/// How thoroughly a motion along a path is sought.
+/// Limits of the search for the timing of a motion along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
     /// Largest number of places where the arm may wait, besides the ends. A motion is timed for each pair of places.
@@ -27,9 +27,9 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Suffices for most motions, and takes milliseconds.
+    /// A search that suffices for most motions, and takes milliseconds.
     pub const QUICK: Self = Self { most_stops: 6, spread: false, backward: false };
-    /// For motions through short intervals of time.
+    /// A search that also finds motions through short intervals of time.
     pub const THOROUGH: Self = Self { most_stops: 12, spread: true, backward: true };
 }
 
@@ -38,10 +38,10 @@ impl Effort {
 pub struct TimingRequirements {
     /// Fraction of the joints' top speeds at which the arm moves.
     pub speed: f64,
-    /// Times within which the motion must arrive, in seconds after it may begin; it is not considered what follows.
-    /// With `None`, the arm must be able to stay at the goal for ever, if that is possible.
+    /// Times within which the motion must arrive, in seconds since the time from which it may begin. Events after the
+    /// arrival are ignored. With `None`, the arm must be able to stay at the goal for ever, if that is possible.
     pub arrival: Option<Interval>,
-    /// Time until which the arm must be able to wait at the goal if it arrives earlier. `None` for no such time.
+    /// Time until which the arm must be able to wait at the goal if it arrives earlier. `None` if it need not wait.
     pub until: Option<f64>,
 }
 
@@ -102,7 +102,7 @@ struct Stops<'a> {
     /// Distance of each stop from the beginning of the path, in ascending order. The first and the last stop are its
     /// ends.
     at: Vec<f64>,
-    /// Time to each stop at the joints' top speeds, in seconds.
+    /// Time to reach each stop from the first one at the joints' top speeds, in seconds.
     gone: Vec<f64>,
     /// For each stop, the intervals of time in which the arm may stay there.
     safe: Vec<Vec<Interval>>,
@@ -154,7 +154,8 @@ impl EarliestArrivals {
         }
     }
 
-    /// Returns true if the known arrival at this stop and interval is later, or if there is none.
+    /// Returns true if an arrival at `time` is earlier than the known arrival at this stop and interval, or if none is
+    /// known.
     fn is_improved_by(&self, at: SafeStop, time: f64) -> bool {
         self.known.get(&at).is_none_or(|known| known.time > time)
     }
@@ -311,7 +312,7 @@ impl Stops<'_> {
     }
 
     /// Returns the time until which the arm may stay at the goal after arriving at `time`. Infinite if the requirements
-    /// state times of arrival, since it is then not considered what follows.
+    /// state times of arrival, because events after the arrival are then ignored.
     fn stays(&self, interval: usize, time: f64) -> f64 {
         let last = self.at.len() - 1;
         let until = self.safe[last][interval][1];

@@ -29,7 +29,8 @@ struct Scene {
 }
 
 impl Scene {
-    /// Returns an open area with boxes distributed by the golden ratio, of at most `size` percent.
+    /// Returns an open area with this many boxes, distributed by the golden ratio. A box takes at most `size` percent
+    /// of each side of the area.
     fn boxes(name: &'static str, cells: [usize; 2], boxes: usize, size: usize) -> Self {
         let mut free = vec![true; cells[0] * cells[1]];
         for k in 0..boxes {
@@ -44,7 +45,7 @@ impl Scene {
         Self::with_goal(name, cells, free)
     }
 
-    /// Rooms with walls one cell thick and doors three cells wide.
+    /// Returns an area of rooms. Walls are one cell thick, and doors three cells wide.
     fn rooms(name: &'static str, cells: [usize; 2], room: usize) -> Self {
         let mut free = vec![true; cells[0] * cells[1]];
         for (at, free) in free.iter_mut().enumerate() {
@@ -72,7 +73,8 @@ impl Scene {
     }
 }
 
-/// The yardstick: values with a frame of zeros, and the runs of cells that are relaxed.
+/// The method that the solver is compared with: relaxation of one cell after another. The values have a frame of zeros.
+/// `runs` are the ranges of free cells that are relaxed.
 struct Relaxation {
     stride: usize,
     values: Vec<f64>,
@@ -99,7 +101,8 @@ impl Relaxation {
         Self { stride, values, runs }
     }
 
-    /// Runs one pass; with `SHORT` in the form with the short chain.
+    /// Relaxes all cells once. With `SHORT`, the arithmetic is arranged so that each cell waits less for its western
+    /// neighbour.
     fn sweep<const SHORT: bool>(&mut self, factor: f64) {
         let (keep, quarter) = (1.0 - factor, 0.25 * factor);
         for &(from, to) in &self.runs {
@@ -128,7 +131,8 @@ impl Relaxation {
         exact.iter().enumerate().map(|(cell, exact)| (self.values[at(cell)] - exact).abs()).fold(0.0, f64::max)
     }
 
-    /// Returns the number of sweeps until the error is reached, or `most`.
+    /// Returns the number of sweeps after which the error is small enough. Returns `most` if more sweeps would be
+    /// needed.
     fn sweeps(scene: &Scene, exact: &[f64], factor: f64, most: usize) -> usize {
         let every = (most / 500).max(1);
         let mut relaxation = Self::new(scene);
@@ -141,7 +145,7 @@ impl Relaxation {
         most
     }
 
-    /// Returns the least time in seconds for this many sweeps, of several runs.
+    /// Returns the time in seconds for this many sweeps, the least of several runs.
     fn seconds<const SHORT: bool>(scene: &Scene, factor: f64, sweeps: usize, runs: usize) -> f64 {
         least(runs, || {
             let mut relaxation = Self::new(scene);
@@ -174,7 +178,7 @@ fn best_factor(scene: &Scene, exact: &[f64]) -> f64 {
     2.0 - if inner[0].1 <= inner[1].1 { inner[0].0 } else { inner[1].0 }.exp()
 }
 
-/// Returns the least time in seconds of several runs.
+/// Returns the time in seconds of the fastest of several runs.
 fn least<T>(runs: usize, mut run: impl FnMut() -> T) -> f64 {
     (0..runs)
         .map(|_| {
@@ -185,7 +189,8 @@ fn least<T>(runs: usize, mut run: impl FnMut() -> T) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Prints a line for new memory and for a reused workspace. With a factor, also for the yardstick.
+/// Prints the times of the solver in one line: with new memory and with a reused workspace. If `factor` is given, also
+/// prints the times of relaxation.
 fn compare(scene: &Scene, runs: usize, factor: Option<f64>) {
     let exact = scene.field(1e-13).0;
     let solver = scene.solver();
@@ -240,8 +245,8 @@ fn compare(scene: &Scene, runs: usize, factor: Option<f64>) {
     }
 }
 
-/// Measures updates per second: an obstacle moves by one cell, the walls are rebuilt, and the last field is the initial
-/// guess.
+/// Measures how many updates per second are possible. In each update an obstacle moves by one cell, the walls are
+/// rebuilt, and the last field is the initial guess.
 fn updates(scene: &Scene) {
     let [rows, columns] = scene.cells;
     let steps = columns - 20;

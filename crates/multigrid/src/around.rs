@@ -3,13 +3,14 @@
 use super::machine::{LANES, Machine, packs};
 use super::stencil::Stencil;
 
-/// Packs of cells that follow each other in memory.
+/// Packs of cells that are adjacent in memory.
 type Packs<'a> = &'a [[f32; LANES]];
 
-/// A row and its eight neighbours, each with its coupling.
+/// The packs of a row and of the eight neighbours of its cells, each neighbour with its coupling.
 pub(super) struct NineCells<'a> {
     pub middle: Packs<'a>,
-    /// Couplings and values: east, west, south, north, south-east, north-west, south-west, north-east.
+    /// Pairs of couplings and values, in the order: east, west, south, north, south-east, north-west, south-west,
+    /// north-east.
     terms: [(Packs<'a>, Packs<'a>); 8],
 }
 
@@ -35,7 +36,7 @@ impl<'a> NineCells<'a> {
         Self { middle: packs(middle, 1, count), terms }
     }
 
-    /// Returns the sum over the eight neighbours of coupling times value.
+    /// Returns, for the cells of pack `k`, the sum over the eight neighbours of coupling times value.
     #[inline(always)]
     pub fn sum<M: Machine>(&self, m: M, k: usize) -> M::Single {
         let [a, b, c, d, e, f, g, h] = &self.terms;

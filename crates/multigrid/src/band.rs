@@ -2,12 +2,12 @@
 
 use super::machine::{LANES, Machine, packs, packs_mut};
 
-/// Largest number of stages of a pipeline. The last stage is this many rows, less one, behind the first stage, and
-/// needs one row more.
+/// Largest number of stages of a pipeline. The last stage is `STAGES - 1` rows behind the first stage, and reads one
+/// more row.
 pub(super) const STAGES: usize = 5;
 
-/// Rows of one colour. Each row has one extra cell at both ends, and there is one extra row above the first and one
-/// below the last. A band may keep only the last few of many rows.
+/// The cells of one colour in several rows. Each row has one extra cell at both ends, and there is one extra row above
+/// the first and one below the last. A band may keep only the last few of many rows.
 #[derive(Debug, Clone)]
 pub(super) struct Band<T> {
     pub width: usize,
@@ -37,8 +37,8 @@ impl<T: Copy + Default> Band<T> {
         self.above(i + 2)
     }
 
-    /// Returns row `i`, including padding, as `count` packs. Passing the count lets loops over several rows skip bounds
-    /// checks.
+    /// Returns row `i`, including padding, as `count` packs. The caller passes the count so that loops over several
+    /// rows need no bounds checks.
     #[inline(always)]
     pub fn row(&self, i: usize, count: usize) -> &[[T; LANES]] {
         packs(&self.data, self.start(i), count)
@@ -88,7 +88,7 @@ impl Around<'_, f32> {
         (m.pack(&self.beside[0][k]) + m.pack(&self.beside[1][k])) + (m.pack(&self.above[k]) + m.pack(&self.below[k]))
     }
 
-    /// Returns the sum without rounding to single precision.
+    /// Returns the sum of the neighbours in pack `k`, without rounding to single precision.
     #[inline(always)]
     pub fn exact_sum<M: Machine>(&self, m: M, k: usize) -> M::Double {
         let [a, b] = self.beside.map(|row| m.double(m.pack(&row[k])));

@@ -17,7 +17,7 @@ use super::transfer::Corners;
 /// numbers, which are slow.
 const NEGLIGIBLE: f32 = 1e-25;
 
-/// A right-hand side.
+/// A right-hand side of the equations.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Right<'a> {
     Given(&'a [f64]),
@@ -47,14 +47,15 @@ pub struct Workspace {
     right_odd: Band<f64>,
 }
 
-/// A step along the next direction: the preconditioned residual plus `beta` times the last direction.
+/// The factors of a step. The next direction is the preconditioned residual plus `beta` times the last direction, and
+/// the step is `alpha` times that direction.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Step {
     pub alpha: f64,
     pub beta: f64,
 }
 
-/// The greatest magnitudes in one pass.
+/// The greatest magnitudes that one pass over the grid meets.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Greatest {
     pub value: f64,
@@ -82,7 +83,7 @@ impl Workspace {
         }
     }
 
-    /// Returns true if the workspace fits grids of this shape.
+    /// Returns true if the workspace fits the shape of this grid.
     pub(super) fn is_for(&self, red_black: &RedBlack) -> bool {
         self.shape == red_black.shape
     }
@@ -94,7 +95,8 @@ impl Workspace {
         }
     }
 
-    /// Takes a step, smooths from zero and restricts. Returns the greatest change and the greatest sum of changes.
+    /// Takes a step, smooths the residual (starting from zero), and restricts it to the next coarser level. Returns the
+    /// greatest change and the greatest sum of changes.
     pub(super) fn descend<M: Machine>(
         &mut self,
         m: M,
@@ -164,8 +166,8 @@ impl Workspace {
         Greatest { value: greatest(most), change: greatest(change) }
     }
 
-    /// Interpolates and smooths. Returns the products of the preconditioned residual with the residual, and with its
-    /// own image by the operator.
+    /// Interpolates the coarse solution and smooths, which gives the preconditioned residual. Returns two scalar
+    /// products of it: with the residual, and with its image under the operator.
     pub(super) fn ascend<M: Machine>(&mut self, m: M, red_black: &RedBlack, corners: &Corners) -> [f64; 2] {
         let count = red_black.count();
         let inverse = m.all((1.0 / red_black.degree) as f32);
@@ -235,9 +237,9 @@ impl Workspace {
         [product, energy].map(|sums| sums.lanes().iter().sum())
     }
 
-    /// Adds `unit` times the sum of the steps to the even cells of `values`, and computes the odd cells. With a
-    /// `scale`, also computes the residual times this factor. Returns the greatest value and the greatest scaled
-    /// residual.
+    /// Adds `unit` times the sum of the steps to the even cells of `values`, and computes the odd cells from them. If
+    /// `scale` is given, also computes the residual times `scale`. Returns the greatest magnitudes of the values and of
+    /// the scaled residual.
     pub(super) fn correct<M: Machine>(
         &mut self,
         m: M,
@@ -277,7 +279,7 @@ impl Workspace {
         Greatest { value: greatest(most), change: greatest(left) }
     }
 
-    /// Reads a row of the right-hand side and of the values, and adds `unit` times the sum of the steps to its even
+    /// Reads a row of the right-hand side and of the values. Adds `unit` times the sum of the steps to the row's even
     /// cells.
     #[inline(always)]
     fn add_steps<M: Machine>(
@@ -329,7 +331,7 @@ impl Workspace {
         red_black.settle(&mut self.exact_odd, &self.exact_even, i);
     }
 
-    /// Returns the greatest magnitudes of a row's cells and of `most`.
+    /// Returns the greatest magnitude in each lane, among the cells of a row and `most`.
     #[inline(always)]
     fn greatest_value<M: Machine>(&self, m: M, count: usize, mut most: M::Double, i: usize) -> M::Double {
         for (a, b) in self.exact_even.row(i, count).iter().zip(self.exact_odd.row(i, count)) {
@@ -339,7 +341,8 @@ impl Workspace {
         most
     }
 
-    /// Computes the scaled residual of a row's even cells, and returns the greatest magnitudes of it and of `left`.
+    /// Computes the scaled residual of a row's even cells. Returns the greatest magnitude in each lane, among the
+    /// residual and `left`.
     #[inline(always)]
     fn scaled_residual<M: Machine>(
         &mut self,

@@ -12,7 +12,7 @@ use cplan_interrupt::checkpoint;
 /// Largest number of cells of a level that is solved directly.
 const MAX_DIRECT_CELLS: usize = 40;
 
-/// The levels below the finest, which depend only on the operator.
+/// The levels below the finest one. They depend only on the operator.
 #[derive(Debug, Clone)]
 pub(super) struct Hierarchy {
     /// Transfer from the finest level to the first of `levels`.
@@ -58,7 +58,8 @@ impl Hierarchy {
         }
     }
 
-    /// Runs one V-cycle from zero through the levels below the finest, for the right-hand side of the first of them.
+    /// Runs one V-cycle through the levels below the finest. It starts from zero, for the right-hand side of the first
+    /// of these levels.
     pub fn cycle<M: Machine>(&self, m: M, stack: &mut Stack) {
         let Stack { levels: vectors, rows, bottom } = stack;
         let last = self.transfers.len();
@@ -84,7 +85,7 @@ impl Hierarchy {
     }
 }
 
-/// Smooths, and restricts the residual.
+/// Smooths the solution of a level, and restricts its residual to the next level.
 fn descend<M: Machine, L: Smooth>(
     m: M,
     level: &L,
@@ -97,7 +98,7 @@ fn descend<M: Machine, L: Smooth>(
     transfer.restrict(m, level, upper, rows, &mut lower.right);
 }
 
-/// Factorises an operator.
+/// Factorises the operator of the coarsest level.
 fn envelope<M: Machine, O: Operator>(m: M, operator: &O) -> Envelope {
     let Frame { rows, columns, width, .. } = operator.frame();
     let mut entries = Vec::with_capacity(5 * rows * columns);

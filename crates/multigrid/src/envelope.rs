@@ -10,8 +10,8 @@ pub(super) struct Envelope {
 }
 
 impl Envelope {
-    /// Factorises a matrix from the entries of its lower triangle, `(row, column, value)`, in any order; entries at the
-    /// same place are added. Rows without a positive pivot are removed: their unknown is 0.
+    /// Factorises a matrix. `entries` are those of its lower triangle, `(row, column, value)`, in any order; entries at
+    /// the same place are added. Rows without a positive pivot are removed, and their unknowns are 0.
     pub fn new(rows: usize, entries: &[(usize, usize, f64)]) -> Self {
         let mut first: Vec<usize> = (0..rows).collect();
         entries.iter().for_each(|&(i, j, _)| first[i] = first[i].min(j));
@@ -37,7 +37,7 @@ impl Envelope {
         Self { first, start, lower }
     }
 
-    /// Solves in place.
+    /// Replaces the right-hand side `x` by the solution.
     pub fn solve(&self, x: &mut [f64]) {
         for i in 0..self.first.len() {
             let row = &self.lower[self.start[i]..self.start[i + 1]];
@@ -57,6 +57,6 @@ impl Envelope {
     }
 }
 
-/// Least pivot, as a fraction of the diagonal. A smaller pivot is only rounding of the entries, which are computed in
-/// single precision: the matrix is singular there.
+/// Least pivot, as a fraction of the diagonal entry. Where a pivot is smaller, the matrix is singular: the pivot is
+/// only the rounding of entries, which are computed in single precision.
 const MIN_PIVOT: f64 = 1e-6;

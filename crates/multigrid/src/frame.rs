@@ -8,9 +8,9 @@ use std::ops::Range;
 pub enum Ends {
     /// Beyond the limit the value is 0, as in walls (Dirichlet).
     High,
-    /// Beyond the limit lies the value of the cell at the end itself: nothing flows across the limit (Neumann).
+    /// Beyond the limit the value is that of the cell at the limit, so nothing flows across the limit (Neumann).
     Reflecting,
-    /// Beyond the end lies the other end: the axis is a circle.
+    /// The axis is a circle, so the two ends are neighbours.
     Joined,
 }
 
@@ -49,7 +49,7 @@ impl Frame {
         start..start + self.width
     }
 
-    /// Returns the same row with the extra cell at each end.
+    /// Returns the cells of row `i`, including padding and the extra cell at each end.
     pub fn framed(&self, i: usize) -> Range<usize> {
         let start = (i + 1) * self.stride;
         start..start + self.width + 2
@@ -70,7 +70,7 @@ impl Frame {
         [0, 1, 2].map(|k| &data[(i + k) * self.stride..(i + k) * self.stride + self.width + 2])
     }
 
-    /// Sets the frame as far as it depends on row `i`.
+    /// Sets those cells of the frame that depend on row `i`.
     #[inline]
     pub fn finish_row<T: Copy + Default>(&self, data: &mut [T], i: usize) {
         self.finish_ends(&mut data[self.framed(i)]);
@@ -98,7 +98,7 @@ impl Frame {
         }
     }
 
-    /// Sets the cell before and the one after a row.
+    /// Sets the extra cells before and after a row.
     #[inline]
     pub fn finish_ends<T: Copy + Default>(&self, framed: &mut [T]) {
         let last = self.columns;
@@ -121,8 +121,9 @@ impl Frame {
         self.ends[0] == Ends::Joined
     }
 
-    /// Iterates over rows so that each is produced once, and consumed as soon as its neighbours exist, while the
-    /// previous row is still in the cache. On a circle the last row comes first, because it lies above the first.
+    /// Iterates over the steps of two loops that run together: the first loop makes rows, and the second uses each row
+    /// as soon as it and the rows around it are made. Then these rows are still in the cache. On a circle the last row
+    /// is made first, because it lies above the first row.
     pub fn ahead(&self) -> impl Iterator<Item = AheadStep> + use<> {
         let rows = self.rows;
         let first = (self.is_joined_at_rows() && rows > 1).then(|| AheadStep { made: Some(rows - 1), used: None });
@@ -132,7 +133,8 @@ impl Frame {
     }
 }
 
-/// A step of [`Frame::ahead`]: first `made`, then `used`.
+/// A step of [`Frame::ahead`]: the row to make first, and the row to use afterwards. `None` if this step has no such
+/// row.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AheadStep {
     pub made: Option<usize>,

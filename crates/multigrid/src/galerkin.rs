@@ -12,8 +12,8 @@ use super::seam::SeamlessOperator;
 use super::stencil::{Line, Operator, Stencil};
 use super::transfer::Transfer;
 
-/// A [`Line`] with separate lists of its even and odd columns: entry `j` of `even` is column `2 j`, and entry `j` of
-/// `odd` is column `2 j + 1`.
+/// A [`Line`], split into its even and odd columns: entry `j` of `even` is column `2 j`, and entry `j` of `odd` is
+/// column `2 j + 1`.
 struct Halves {
     even: Line,
     odd: Line,
@@ -44,7 +44,7 @@ impl Halves {
     }
 }
 
-/// Three consecutive rows of an operator, the middle one even, as [`Halves`].
+/// Three consecutive rows of an operator, of which the middle one has an even number.
 struct Window<'a, O> {
     from: SeamlessOperator<'a, O>,
     line: Line,
@@ -74,7 +74,7 @@ impl<'a, O: Operator> Window<'a, O> {
         }
     }
 
-    /// Advances to the rows around row `2 i`.
+    /// Advances to the three rows around row `2 i`.
     fn advance<M: Machine>(&mut self, m: M, i: usize) {
         std::mem::swap(&mut self.above, &mut self.below);
         self.from.line(m, 2 * i, &mut self.line);
@@ -123,7 +123,8 @@ pub(super) fn coarsen<M: Machine, O: Operator>(m: M, operator: &O) -> (Transfer,
     (transfer, stencil)
 }
 
-/// Computes the weights of the cells between two coarse cells of row `i`, and between rows `i` and `i + 1`.
+/// Computes the weights of the fine cells that lie between two coarse cells, either of row `i`, or of rows `i` and `i +
+/// 1`.
 fn line_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transfer, i: usize) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (s, x) = (&window.below.even, &window.below.odd);
@@ -150,8 +151,8 @@ fn line_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transfer
     );
 }
 
-/// Sets to 0 the weights of coarse cells that are not unknowns. Without this, diagonal couplings past such a cell would
-/// count as couplings to it.
+/// Sets to 0 the weights from coarse cells that are not unknowns. Without this, diagonal couplings that lead past such
+/// a cell would count as couplings to it.
 fn keep_unknowns<M: Machine>(m: M, transfer: &mut Transfer, unknown: &[f32], i: usize) {
     let (row, below) = (transfer.coarse.row(i), transfer.coarse.below(i));
     m.run(
@@ -170,7 +171,7 @@ fn keep_unknowns<M: Machine>(m: M, transfer: &mut Transfer, unknown: &[f32], i: 
     );
 }
 
-/// Computes the weights of the cells in the middle of four coarse cells.
+/// Computes the weights of the fine cells that lie in the middle of four coarse cells.
 fn center_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transfer, i: usize) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (s, x) = (&window.below.even, &window.below.odd);
@@ -204,8 +205,8 @@ fn center_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transf
     );
 }
 
-/// Computes `A P` at the cells between the coarse cells of row `i`, for the coarse cells to their west, east,
-/// south-west and south-east.
+/// Computes the entries of `A P` in the rows of the fine cells between the coarse cells of row `i`, and in the columns
+/// of the coarse cells to the west, east, south-west and south-east of them.
 fn seen_between<M: Machine, O>(m: M, window: &Window<O>, transfer: &Transfer, i: usize, seen: &mut [Vec<f32>; 4]) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (n, nx) = (&window.above.even, &window.above.odd);
@@ -243,8 +244,8 @@ fn seen_between<M: Machine, O>(m: M, window: &Window<O>, transfer: &Transfer, i:
     }
 }
 
-/// Computes row `i` of `P^T A P` and its contribution to the next row. Cells in the middle of four coarse cells
-/// contribute nothing, because their weights make `A P` zero there.
+/// Computes row `i` of `P^T A P`, and the part of row `i + 1` that the same fine rows contribute. Cells in the middle
+/// of four coarse cells contribute nothing, because their weights make `A P` zero there.
 fn products<M: Machine, O>(
     m: M,
     window: &Window<O>,

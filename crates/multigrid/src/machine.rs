@@ -37,7 +37,7 @@ pub(super) trait Machine: Copy {
     fn all_double(self, x: f64) -> Self::Double;
     /// Returns the reciprocal of each positive number, and 0 for others.
     fn inverse(self, x: Self::Single) -> Self::Single;
-    /// Returns `x` with lanes below `negligible` in magnitude set to 0.
+    /// Returns `x`, in which lanes with a magnitude below `negligible` are set to 0.
     fn significant(self, x: Self::Single, negligible: f32) -> Self::Single;
     fn double(self, x: Self::Single) -> Self::Double;
     fn single(self, x: Self::Double) -> Self::Single;
@@ -47,13 +47,14 @@ pub(super) trait Machine: Copy {
     fn greater_double(self, a: Self::Double, b: Self::Double) -> Self::Double;
 }
 
-/// Returns `count` packs from a place. Loops over several such slices of equal length need no bounds checks.
+/// Returns `count` packs that begin at index `at`. Loops over several such slices of equal length need no bounds
+/// checks.
 #[inline(always)]
 pub(super) fn packs<T>(from: &[T], at: usize, count: usize) -> &[[T; LANES]] {
     &from[at..].as_chunks().0[..count]
 }
 
-/// Same as [`packs`], for writing.
+/// Does the same as [`packs`], but for writing.
 #[inline(always)]
 pub(super) fn packs_mut<T>(from: &mut [T], at: usize, count: usize) -> &mut [[T; LANES]] {
     &mut from[at..].as_chunks_mut().0[..count]

@@ -67,7 +67,7 @@ impl RedBlack {
         new
     }
 
-    /// Returns row `i` of the flags: even columns, odd columns.
+    /// Returns the flags of row `i`, split into even and odd columns.
     fn halves(&mut self, i: usize) -> [&mut [f32]; 2] {
         let halves = [self.even.cells_mut(i), self.odd.cells_mut(i)];
         if i.is_multiple_of(2) {
@@ -93,14 +93,16 @@ impl RedBlack {
         Band::new(self.even.width, self.shape.rows + 2)
     }
 
-    /// Allocates a band for the rows that one stage of a [`pipeline`](Self::pipeline) passes to the next.
+    /// Allocates a band that keeps only the rows that one stage of a [`pipeline`](Self::pipeline) passes to the next.
+    /// On a circle it keeps all rows.
     pub fn narrow_band<T: Copy + Default>(&self) -> Band<T> {
         let kept = if self.shape.ends[0] == Ends::Joined { self.shape.rows + 2 } else { STAGES + 1 };
         Band::new(self.even.width, kept)
     }
 
-    /// Calls `stage(s, i)` for all rows `i` and this many stages (at most [`STAGES`]). Each call comes as soon as the
-    /// previous stage has been called for the rows around `i`, while those rows are still in the cache.
+    /// Calls `stage(s, i)` for all stages `s` (at most [`STAGES`]) and all rows `i`. Each call comes as soon as the
+    /// previous stage has been called for the rows around `i`, while those rows are still in the cache. If the rows
+    /// form a circle, each stage is called for all rows before the next stage.
     #[inline(always)]
     pub fn pipeline(&self, stages: usize, mut stage: impl FnMut(usize, usize)) {
         if self.shape.ends[0] == Ends::Joined {
@@ -121,14 +123,14 @@ impl RedBlack {
         }
     }
 
-    /// Returns the parity of the number of cells of an axis that is a circle. If it is odd, neighbours across the seam
-    /// have the same colour. Returns `None` for an interval.
+    /// Returns whether the number of cells of an axis that is a circle is even or odd. If it is odd, neighbours across
+    /// the seam have the same colour. Returns `None` for an axis that is an interval.
     fn joined(&self, axis: usize) -> Option<Parity> {
         let odd = [self.shape.rows, self.shape.columns][axis] % 2 == 1;
         (self.shape.ends[axis] == Ends::Joined).then_some(if odd { Parity::Odd } else { Parity::Even })
     }
 
-    /// Sets the frame of even cells as far as it depends on row `i`.
+    /// Sets those extra cells of the even cells' band that depend on row `i`.
     #[inline(always)]
     pub fn frame_even<T: Real>(&self, band: &mut Band<T>, i: usize) {
         let (at, half) = (band.start(i), self.half());
@@ -142,8 +144,9 @@ impl RedBlack {
         });
     }
 
-    /// Sets the frame of odd cells as far as it depends on row `i`. With this frame, sums over the neighbours of even
-    /// cells are also right if some of these neighbours are even.
+    /// Sets those extra cells of the odd cells' band that depend on row `i`. Where an even cell has even neighbours, at
+    /// seams and reflecting limits, the extra cells have the values of these neighbours, so sums over neighbours are
+    /// also right there.
     #[inline(always)]
     pub fn frame_odd<T: Real, U: Real + Into<T>>(&self, band: &mut Band<T>, even: &Band<U>, i: usize) {
         let (at, half) = (band.start(i), self.half());
@@ -188,8 +191,8 @@ impl RedBlack {
         }
     }
 
-    /// Calls `set` for each extra row that depends on row `i`, with the start of the extra row and the start of row
-    /// `i`.
+    /// Calls `set` for each extra row that depends on row `i`. Passes it the start of row `i` and the start of the
+    /// extra row.
     #[inline(always)]
     fn rows_beyond<T: Real>(&self, band: &mut Band<T>, i: usize, mut set: impl FnMut(&mut Band<T>, usize, usize)) {
         let from = band.start(i);
@@ -204,7 +207,8 @@ impl RedBlack {
         }
     }
 
-    /// Returns how many times a cell is its own neighbour along an axis.
+    /// Returns how many times a cell is its own neighbour along an axis: at a reflecting limit, or on a circle of one
+    /// cell.
     fn own(&self, axis: usize, at: usize) -> f64 {
         let cells = [self.shape.rows, self.shape.columns][axis];
         match self.shape.ends[axis] {
@@ -220,7 +224,8 @@ impl RedBlack {
         }
     }
 
-    /// Computes the solution for the odd cells of row `i`. The band has their right-hand sides divided by the degree.
+    /// Computes the solution at the odd cells of row `i`. When called, the band has their right-hand sides divided by
+    /// the degree.
     #[inline(always)]
     pub fn settle<T: Real, U: Real + Into<T>>(&self, band: &mut Band<T>, even: &Band<U>, i: usize) {
         if self.shape.ends != [Ends::High; 2] {
@@ -315,7 +320,8 @@ enum Parity {
     Odd,
 }
 
-/// Solves for two neighbouring odd cells, from the values that each has if the other is 0.
+/// Solves for two odd cells that are neighbours, given the value that each would have if the other were 0. If `both` is
+/// false, these values are the result.
 fn together<T: Real>(diagonal: f64, alone: [T; 2], both: bool) -> (T, T) {
     if !both {
         return alone.into();

@@ -14,8 +14,9 @@ pub(super) struct SeamlessOperator<'a, O> {
     fine: Frame,
     even: Frame,
     odd: [bool; 2],
-    /// The row before the current one, and finally the last row with its new column.
+    /// The row before the current one.
     before: Line,
+    /// The last row, with its new column.
     last: Line,
     /// The diagonal of the first row, with its new column.
     first: Vec<f32>,
@@ -31,7 +32,7 @@ impl<'a, O: Operator> SeamlessOperator<'a, O> {
         Self { operator, fine, even, odd, before: line(), last: line(), first: line().diagonal }
     }
 
-    /// Writes row `i`, its ends included.
+    /// Writes row `i` to `into`, including the entries at its ends.
     pub fn line<M: Machine>(&mut self, m: M, i: usize, into: &mut Line) {
         if !self.odd[0] {
             if i < self.fine.rows {
@@ -79,7 +80,7 @@ impl<'a, O: Operator> SeamlessOperator<'a, O> {
         self.last = last;
     }
 
-    /// Writes row `i` of the operator, with the new column if there is one.
+    /// Writes row `i` of the operator to `into`, with the new column if there is one.
     fn columns<M: Machine>(&mut self, m: M, i: usize, into: &mut Line) {
         self.operator.line(m, i, into);
         if !self.odd[1] {
@@ -118,7 +119,7 @@ fn straight(one: [f32; 3], other: [f32; 3], diagonals: [f32; 2]) -> f32 {
     (one[0] + 0.5 * (one[1] + one[2] + other[1] + other[2])).max(0.0)
 }
 
-/// Returns which axes are circles with an odd number of cells.
+/// Returns, for each axis, true if it is a circle with an odd number of cells.
 pub(super) fn odd_circles(frame: Frame) -> [bool; 2] {
     let odd = [frame.rows % 2 == 1, frame.columns % 2 == 1];
     [0, 1].map(|axis| odd[axis] && frame.ends[axis] == Ends::Joined)

@@ -9,10 +9,10 @@ use super::frame::Frame;
 use super::machine::{LANES, Machine, Pack, packs, packs_mut};
 use super::stencil::Stencil;
 
-/// Weights of the two steps: `1 / (1.25 +- 0.75 cos(pi / 4))`.
+/// Weights of the two smoothing steps: `1 / (1.25 +- 0.75 cos(pi / 4))`.
 const STEP_WEIGHTS: [f32; 2] = [0.561_731_2, 1.389_488_2];
-/// Weight of a cell's own right-hand side in two steps `w0`, `w1` from zero, which give
-/// `(w0 + w1 - w0 w1) D^-1 b + w0 w1 D^-1 (sum of couplings times D^-1 b)`.
+/// Weight of a cell's own right-hand side in the result of two steps from zero. With weights `w0` and `w1`, the steps
+/// give `(w0 + w1 - w0 w1) D^-1 b + w0 w1 D^-1 (sum of couplings times D^-1 b)`.
 const OWN_WEIGHT: f32 = STEP_WEIGHTS[0] + STEP_WEIGHTS[1] - STEP_WEIGHTS[0] * STEP_WEIGHTS[1];
 const NEIGHBOR_WEIGHT: f32 = STEP_WEIGHTS[0] * STEP_WEIGHTS[1];
 
@@ -33,14 +33,14 @@ impl Vectors {
 
 /// The operations of a cycle on one level.
 pub(super) trait Smooth {
-    /// Takes two steps from zero, for a right-hand side with its frame.
+    /// Takes two smoothing steps from zero, for a right-hand side whose frame is set.
     fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors);
     /// Computes row `i` of the residual, including padding.
     fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]);
 }
 
 impl Stencil {
-    /// Takes one step for row `i`, except at its ends.
+    /// Takes one smoothing step for row `i`, except for the extra cells at its ends.
     #[inline(always)]
     fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32], i: usize) {
         let (keep, take) = (m.all(1.0 - weight), m.all(weight));
@@ -54,7 +54,7 @@ impl Stencil {
         }
     }
 
-    /// Takes two more steps, from a solution without frame.
+    /// Takes two more smoothing steps, from a solution whose frame is not set yet.
     pub fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         self.frame.finish(solution);

@@ -34,7 +34,7 @@ pub struct Multigrid {
     hierarchy: Option<Hierarchy>,
 }
 
-/// Result of a solve.
+/// Result of a solve, which says how precise the values are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Convergence {
     /// Number of steps of conjugate gradients, each with one V-cycle.
@@ -45,17 +45,17 @@ pub struct Convergence {
     pub converged: bool,
 }
 
-/// Largest number of steps. Each step gains about a digit, so more are never needed.
+/// Largest number of iterations. Each one gains about a decimal digit, so more are never needed.
 const MAX_ITERATIONS: usize = 100;
 
 /// Rounding error of sums in single precision, relative to the greatest value.
 const SINGLE_ROUNDING: f64 = 1e-7;
 
-/// Greatest fraction of the residual that a round may leave. If it leaves more, only rounding remains.
+/// Greatest fraction of the residual that may remain after a round. If more remains, it is only rounding.
 const MIN_PROGRESS: f64 = 0.5;
 
-/// Least ratio of the geometric series that estimates the error from the last two changes. A single step may change
-/// values only little by chance.
+/// Least assumed ratio between two consecutive changes. The error is estimated from the last two changes as the rest of
+/// a geometric series. A single step may change values only little by chance, which would make the ratio too small.
 const MIN_RATIO: f64 = 0.1;
 
 impl Multigrid {
@@ -147,8 +147,8 @@ impl Multigrid {
         }
     }
 
-    /// Takes steps until the tolerance is reached or single precision ends the progress. Returns the estimated error.
-    /// `greatest` is the greatest value before the round.
+    /// Takes steps until the tolerance is reached, or until single precision prevents further progress. Returns the
+    /// estimated error. `greatest` is the greatest value before the round.
     fn round<M: Machine>(
         &self,
         m: M,
@@ -189,7 +189,8 @@ impl Multigrid {
         }
     }
 
-    /// Prepares the initial values. Returns the factor that scales the residual to the range of single precision.
+    /// Prepares the initial values: for the field of a goal, scales them so that they satisfy the equation at the goal.
+    /// Returns the factor that scales the residual to the range of single precision.
     fn start(&self, right: Right, values: &mut [f64]) -> f64 {
         match right {
             Right::Given(right) => {
@@ -277,7 +278,7 @@ mod tests {
         }
     }
 
-    /// The preconditioner must be symmetric and positive definite, up to rounding in single precision.
+    /// Tests that the preconditioner is symmetric and positive definite, up to rounding in single precision.
     #[test]
     fn a_cycle_is_symmetric_and_positive_definite() {
         let cells = [45, 37];

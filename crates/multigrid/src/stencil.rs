@@ -32,7 +32,7 @@ impl Stencil {
         }
     }
 
-    /// Computes derived coefficients after the couplings are set.
+    /// Computes the coefficients that depend on the couplings. Must be called after the couplings are set.
     pub fn finish(&mut self) {
         for part in [&mut self.diagonal, &mut self.east, &mut self.south, &mut self.south_east, &mut self.south_west] {
             self.frame.finish(part);
@@ -44,7 +44,7 @@ impl Stencil {
     }
 }
 
-/// One row of couplings, with a cell before and one after.
+/// One row of couplings, with one extra cell before the row and one after it.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Line {
     pub diagonal: Vec<f32>,
@@ -68,7 +68,7 @@ impl Line {
 /// An operator that can be coarsened.
 pub(super) trait Operator {
     fn frame(&self) -> Frame;
-    /// Writes row `i`, its ends included.
+    /// Writes row `i` to `into`, including the entries at its ends.
     fn line<M: Machine>(&self, m: M, i: usize, into: &mut Line);
 }
 
@@ -97,7 +97,7 @@ pub(super) struct FivePoint {
 }
 
 impl FivePoint {
-    /// Returns true if `A` is singular, with constants in its kernel.
+    /// Returns true if `A` is singular, which means that it maps constants to zero.
     pub fn is_singular(&self) -> bool {
         let closed = self.frame.ends.iter().all(|&ends| ends != Ends::High);
         let all = || {

@@ -6,21 +6,22 @@ use super::machine::{LANES, Machine, Pack, packs, packs_mut};
 use super::seam::odd_circles;
 use super::smooth::{Smooth, Vectors};
 
-/// Interpolation, and its transpose, restriction. The weights of a fine cell are stored at the coarse cell to the north
-/// or west of it.
+/// Interpolation `P` from a coarse level to the finer one, and its transpose, the restriction. The weights of a fine
+/// cell are stored at the coarse cell to the north or west of it.
 #[derive(Debug, Clone)]
 pub(super) struct Transfer {
     pub fine: Frame,
     pub coarse: Frame,
-    /// Weight from the west, for the cell to the east of a coarse one.
+    /// Weight of the coarse cell to the west, for the fine cell to the east of a coarse one.
     pub west: Vec<f32>,
-    /// Weight from the east, for the same cell.
+    /// Weight of the coarse cell to the east, for the same fine cell.
     pub east: Vec<f32>,
-    /// Weight from the north, for the cell to the south of a coarse one.
+    /// Weight of the coarse cell to the north, for the fine cell to the south of a coarse one.
     pub north: Vec<f32>,
-    /// Weight from the south, for the same cell.
+    /// Weight of the coarse cell to the south, for the same fine cell.
     pub south: Vec<f32>,
-    /// For the cell to the south-east of a coarse one: from the north-west, north-east, south-west, south-east.
+    /// Weights of the four coarse cells around the fine cell to the south-east of a coarse one: north-west, north-east,
+    /// south-west and south-east.
     pub corners: [Vec<f32>; 4],
 }
 
@@ -30,13 +31,13 @@ pub(super) struct Rows {
     natural: Vec<f32>,
     even: Vec<f32>,
     odd: Vec<f32>,
-    /// The even columns and the odd columns of the odd row above.
+    /// The even and the odd columns of the odd row above.
     above: [Vec<f32>; 2],
     below: [Vec<f32>; 2],
 }
 
 impl Rows {
-    /// Allocates rows of up to this padded width.
+    /// Allocates rows of at most this width, which includes padding.
     pub fn new(width: usize) -> Self {
         let zeros = || vec![0.0; width + 2 * LANES + 2];
         Self { natural: zeros(), even: zeros(), odd: zeros(), above: [zeros(), zeros()], below: [zeros(), zeros()] }
@@ -55,7 +56,7 @@ impl Corners {
         Self { coarse: transfer.coarse, weights: transfer.corners }
     }
 
-    /// Computes row `i` of `P^T` applied to a residual that is nonzero at even cells only.
+    /// Computes row `i` of `P^T` times a residual that is zero at odd cells, and writes it to `into`.
     #[inline(always)]
     pub fn restrict<M: Machine>(&self, m: M, residual: &Band<f32>, i: usize, into: &mut [f32]) {
         let (row, over, count) = (self.coarse.row(i).start, self.coarse.above(i), self.coarse.width / LANES);
@@ -73,7 +74,8 @@ impl Corners {
         }
     }
 
-    /// Computes row `i` of `inverse` times the residual plus `P` times a coarse vector with its frame.
+    /// Computes row `i` of the sum of two vectors: `inverse` times the residual, and `P` times a coarse vector whose
+    /// frame is set.
     #[inline(always)]
     pub fn prolong<M: Machine>(
         &self,
@@ -138,7 +140,7 @@ impl Transfer {
         }
     }
 
-    /// Applies `P^T` to the residual of the finer level.
+    /// Computes the residual of the finer level, applies `P^T` to it, and writes the result to `into`.
     pub fn restrict<M: Machine, L: Smooth>(&self, m: M, level: &L, upper: &Vectors, rows: &mut Rows, into: &mut [f32]) {
         let (fine, coarse) = (self.fine, self.coarse);
         let Rows { natural, even, odd, above, below } = rows;
@@ -188,7 +190,7 @@ impl Transfer {
         }
     }
 
-    /// Adds `P` of a coarse vector with its frame to a fine vector.
+    /// Interpolates a coarse vector whose frame is set, and adds the result to a fine vector.
     pub fn prolong<M: Machine>(&self, m: M, from: &[f32], rows: &mut Rows, onto: &mut [f32]) {
         let Rows { even, odd, below, .. } = rows;
         let [a, b, c, d] = &self.corners;

@@ -4,7 +4,8 @@ use cplan_multigrid::{Ends, Multigrid};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-/// Returns the row or column `step` further, if it exists. On a reflecting limit it is the cell itself.
+/// Returns the row or column that is `step` further. Beyond a reflecting limit that is the cell itself. Returns `None`
+/// beyond any other limit.
 fn neighbor(at: usize, step: isize, cells: usize, ends: Ends) -> Option<usize> {
     let to = at as isize + step;
     if (0..cells as isize).contains(&to) {
@@ -88,7 +89,7 @@ proptest! {
     }
 }
 
-/// Rings of three and of two cells: on the latter the neighbours on either side are one and the same.
+/// Tests rings of three and of two cells. On a ring of two cells, the neighbours on either side are the same cell.
 #[test]
 fn short_rings_agree_with_elimination() {
     let right = [
@@ -105,8 +106,8 @@ fn short_rings_agree_with_elimination() {
     agrees_with_elimination([3, 2], [Ends::High, Ends::Joined], &[true; 6], &right, shift).unwrap();
 }
 
-/// Solves by Gauss-Seidel relaxation until nothing changes, with the goal fixed at 1. Both the equation and the method
-/// differ from the solver's.
+/// Solves by Gauss-Seidel relaxation until nothing changes, with the goal fixed at 1. The solver under test uses
+/// another equation and another method.
 fn relaxed(cells: [usize; 2], ends: [Ends; 2], free: &[bool], goal: usize) -> Vec<f64> {
     let around = around(cells, ends);
     let mut values = vec![0.0; free.len()];
@@ -124,7 +125,7 @@ fn relaxed(cells: [usize; 2], ends: [Ends; 2], free: &[bool], goal: usize) -> Ve
     }
 }
 
-/// Rooms with walls one cell thick and doors of one cell.
+/// Returns the free cells of rooms. Walls are one cell thick, and doors one cell wide.
 fn rooms(cells: [usize; 2], room: usize) -> Vec<bool> {
     let place = |cell: usize| [cell / cells[1] % room, cell % cells[1] % room];
     (0..cells[0] * cells[1])
@@ -135,7 +136,8 @@ fn rooms(cells: [usize; 2], room: usize) -> Vec<bool> {
         .collect()
 }
 
-/// Corridors as wide as `width` that branch at random: a perfect maze by depth-first search.
+/// Returns the shape and the free cells of a maze whose corridors have this width. Any two cells are connected by
+/// exactly one way. The maze is made by depth-first search in random order.
 fn maze(rooms: usize, width: usize) -> ([usize; 2], Vec<bool>) {
     let pitch = width + 1;
     let n = rooms * pitch + 1;
@@ -166,7 +168,7 @@ fn maze(rooms: usize, width: usize) -> ([usize; 2], Vec<bool>) {
     ([n, n], free)
 }
 
-/// Returns a linear congruential generator on 0..1 with a fixed seed.
+/// Returns a function that generates random numbers between 0 and 1: a linear congruential generator with a fixed seed.
 fn numbers() -> impl FnMut() -> f64 {
     let mut state = 1_u64;
     move || {
@@ -230,7 +232,8 @@ fn sines_are_modes_of_a_rectangle() {
     }
 }
 
-/// The number of iterations depends neither on the size nor on the walls, and the error is below the tolerance.
+/// Tests that the number of iterations depends neither on the size nor on the walls, and that the error is below the
+/// tolerance.
 #[test]
 fn iterations_are_few_whatever_the_walls() {
     let mut random = numbers();
@@ -289,7 +292,8 @@ fn grids_without_free_cells_need_no_work() {
     }
 }
 
-/// An obstacle moves through an open area. Each field starts from the last one.
+/// Tests fields while an obstacle moves through an open area. The solution for each position of the obstacle starts
+/// from the last field.
 #[test]
 fn a_field_is_repaired_after_an_obstacle_moved() {
     let cells = [65, 85];

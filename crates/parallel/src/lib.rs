@@ -9,7 +9,7 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 /// Largest number of results per thread that wait for an earlier result.
 const MAX_WAITING_PER_THREAD: usize = 64;
 
-/// Runs a piece of work. If it panics, returns the message, so that other pieces can continue.
+/// Runs a piece of work. If the work panics, returns the message of the panic, so that other pieces can continue.
 ///
 /// # Errors
 /// The message of the panic. An interruption of the whole run is passed on.
@@ -76,7 +76,7 @@ pub fn in_order<T: Send, E>(
     })
 }
 
-/// Index of the next result to be passed on, and whether new work may start.
+/// The state of a run: index of the next result to be passed on, and whether new work may start.
 struct TurnState {
     state: Mutex<(usize, bool)>,
     moved: Condvar,

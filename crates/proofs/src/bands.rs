@@ -7,8 +7,8 @@ use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::{Contacts, on_axis};
 use cplan_geometry::{Vector, merge_in_place};
 
-/// Places where a wall is sought, as shares of the interval of `q1` in which a pair collides. Shapes usually overlap
-/// most in the middle.
+/// Places where a wall of configurations is sought, as shares of the interval of `q1` in which a pair collides. Shapes
+/// usually overlap most in the middle.
 const WALL_POSITIONS: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
 
 /// A stretch of joint 1's domain in which link 1 has one state.
@@ -22,7 +22,7 @@ pub(super) struct Stretch {
 pub(super) enum Kind {
     /// Link 1 keeps its distance everywhere in the stretch.
     Free,
-    /// Link 1 is proven too near over some width within the stretch, so no path crosses the stretch.
+    /// Link 1 is proven too near an obstacle over some width within the stretch, so no path crosses the stretch.
     Wall(CollisionBox),
     /// It is not decided whether link 1 keeps its distance.
     Unknown,

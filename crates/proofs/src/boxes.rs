@@ -15,8 +15,8 @@ fn halves(cell: &Cell, axis: usize) -> [Cell; 2] {
     [below, above]
 }
 
-/// Returns the portal from this cell to another, if the two share a piece of a side of positive length. Corners do not
-/// count: two other boxes share the same corner.
+/// Returns the portal from this cell to another. `None` unless the two share a piece of a side of positive length. A
+/// common corner is no portal, because two other boxes share the same corner.
 pub(super) fn portal(cell: &Cell, other: &Cell, topology: &Topology) -> Option<Portal> {
     (0..2).find_map(|axis| portal_along(cell, other, axis, topology))
 }
@@ -80,8 +80,8 @@ pub(super) enum State {
     Colliding(Pair),
     /// These pairs are undecided. No other pair comes too near.
     Undecided(Vec<Pair>),
-    /// Undecided, and halving would not help: the box has the finest size, or it is in a column of the finest width and
-    /// only pairs of link 1 are undecided.
+    /// Undecided, and halving would not help. Either the box has the finest size, or it is in a column of the finest
+    /// width in which only pairs of link 1 are undecided.
     Finest,
     /// Replaced by two halves, which are the nodes with this index and the next one.
     Split(u32),
@@ -111,12 +111,12 @@ pub(super) struct Subdivision<'a> {
     roots: usize,
 }
 
-/// Number of initial columns and rows. At least three, so that across a seam no box is its own neighbour.
+/// Number of initial columns and rows. It must be at least three, so that no box is its own neighbour across a seam.
 const INITIAL_COLUMNS: usize = 8;
 
-/// Finest width of a column, as a share of the domain. Link 1 alone is decided on such intervals of `q1`. Columns are
-/// as tall as the domain, so fine ones cost little. A thin wall of link 1, such as a corner that just reaches an
-/// obstacle, needs fine columns.
+/// Finest width of a column, as a share of the domain. Link 1 alone is decided on such intervals of `q1`. A column
+/// extends over the whole domain of `q2`, so fine columns cost little. A thin wall of link 1, such as a corner that
+/// just reaches an obstacle, needs them.
 const MIN_COLUMN_WIDTH: f64 = 1e-8;
 
 /// Maximum number of undecided columns of one width that are halved before the search. Each end of a contact leaves a
@@ -125,7 +125,7 @@ const MIN_COLUMN_WIDTH: f64 = 1e-8;
 const MAX_UNDECIDED_COLUMNS: usize = 512;
 
 /// Finest size of a box, as a share of the domain along each axis. Finer boxes would be within the rounding error of a
-/// clearance, and a start or goal without any free space around it would never be decided.
+/// clearance. Without this limit, a start or goal without any free space around it would never be decided.
 const MIN_BOX_SIZE: f64 = 1e-10;
 
 impl<'a> Subdivision<'a> {
@@ -257,7 +257,7 @@ impl<'a> Subdivision<'a> {
         (!open.is_empty()).then(|| usize::from(along(1) > along(0)))
     }
 
-    /// Returns all boxes that meet a segment in the domain, without split boxes.
+    /// Returns all boxes that meet a segment in the domain. Split boxes are omitted.
     pub fn holding(&self, piece: &Segment) -> Vec<u32> {
         let mut found = Vec::new();
         let mut waiting: Vec<u32> = (0..index(self.roots)).rev().collect();
@@ -311,13 +311,14 @@ impl Mosaic for Subdivision<'_> {
     }
 }
 
-/// Converts an index of nodes to 32 bits. Four thousand million boxes would not fit into memory.
+/// Converts an index of nodes to 32 bits. It cannot overflow, because four thousand million boxes would not fit into
+/// memory.
 fn index(at: usize) -> u32 {
     u32::try_from(at).unwrap_or(u32::MAX)
 }
 
-/// Computes the state of a box. `pairs` are the pairs to test, undecided in a larger box. The pairs `fixed` stay
-/// undecided without a test.
+/// Computes the state of a box. `pairs` are the pairs to test, which were undecided in a larger box. The pairs `fixed`
+/// stay undecided and are not tested.
 fn judge(scene: &Scene, clearance: f64, cell: &Cell, pairs: &[Pair], fixed: &[Pair]) -> State {
     checkpoint();
     let posture = Posture::new(scene, cell.center());

@@ -24,9 +24,9 @@ pub(super) enum Openness {
     Finest,
 }
 
-/// Boxes that cover the domain side by side. Each has a number.
+/// A set of boxes that cover the domain without overlapping. Each has an index.
 pub(super) trait Mosaic {
-    /// Returns an upper limit of the numbers of boxes.
+    /// Returns an upper bound on the indices of boxes: all are below it.
     fn count(&self) -> usize;
     /// Returns the configurations of a box.
     fn cell(&self, index: u32) -> Cell;
@@ -36,17 +36,17 @@ pub(super) trait Mosaic {
     fn for_each_neighbor(&self, index: u32, f: impl FnMut(u32));
     /// Returns a box that contains `q` and is not a collision box.
     fn locate(&self, q: Configuration) -> Option<u32>;
-    /// Returns the boxes, without collision boxes, that meet a segment in the domain: all of them, or at least one if
-    /// the segment is a point.
+    /// Returns boxes that meet a segment in the domain and are not collision boxes. Returns all of them, or at least
+    /// one if the segment is a point.
     fn meeting(&self, piece: &Segment) -> Vec<u32>;
     /// Returns the topology of the configuration space.
     fn topology(&self) -> &Topology;
 }
 
-/// The number of a box, and a goal segment within that box.
+/// A goal segment within a box, preceded by the index of the box.
 pub(super) type End = (u32, Segment);
 
-/// Returns the goals within boxes that are not collision boxes, sorted by the number of the box.
+/// Returns the parts of goals within boxes that are not collision boxes, sorted by the index of the box.
 pub(super) fn ends(boxes: &impl Mosaic, goals: &GoalSet) -> Vec<End> {
     let mut ends: Vec<End> = Vec::new();
     for piece in goals.wrapped(boxes.topology()) {
@@ -56,21 +56,22 @@ pub(super) fn ends(boxes: &impl Mosaic, goals: &GoalSet) -> Vec<End> {
     ends
 }
 
-/// Returns the goals within a box. The given goals must be sorted by number.
+/// Returns the goals within a box. The given goals must be sorted by the index of their box.
 pub(super) fn ends_in(ends: &[End], index: u32) -> impl Iterator<Item = &Segment> {
     let first = ends.partition_point(|end| end.0 < index);
     ends[first..].iter().take_while(move |end| end.0 == index).map(|end| &end.1)
 }
 
-/// Finds the chain of adjacent boxes from `from` to one of `ends` with the fewest undecided boxes. Boxes that halving
-/// would not decide are used only if `finest` is true. This is a breadth-first search in which free boxes cost nothing.
-/// It takes `O(boxes + adjacencies)`.
+/// Finds the chain of adjacent boxes from `from` to one of `ends` that contains the fewest undecided boxes. Boxes that
+/// halving would not decide are used only if `finest` is true. This is a breadth-first search in which free boxes cost
+/// nothing. It takes `O(boxes + adjacencies)`.
 pub(super) fn fewest_undecided(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Option<Vec<u32>> {
     let (_, parent, last) = search(boxes, &[from], ends, finest);
     last.map(|last| back(&parent, last))
 }
 
-/// Returns all undecided boxes, ascending, that lie on a chain with the fewest undecided boxes. Takes two searches.
+/// Returns, in ascending order, all undecided boxes that lie on some chain with the fewest undecided boxes. Takes two
+/// searches.
 pub(super) fn all_of_fewest_undecided(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Vec<u32> {
     let (here, ..) = search(boxes, &[from], &[], finest);
     let starts: Vec<u32> = ends.iter().map(|end| end.0).collect();
@@ -91,8 +92,8 @@ fn cost_of(boxes: &impl Mosaic, index: u32, finest: bool) -> Option<u32> {
     }
 }
 
-/// Computes for each box the least cost of reaching it from `starts`, with the costs of both ends, and the box before
-/// it on that chain. Stops when one of `ends` is reached, and returns that box.
+/// Computes, for each box, the least cost of a chain from `starts` to it, the first and the last box included, and the
+/// box before it on that chain. Stops at the first of `ends`, and returns the index of its box.
 fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[End], finest: bool) -> (Vec<u32>, Vec<u32>, Option<u32>) {
     let mut cost = vec![u32::MAX; boxes.count()];
     let mut parent = vec![NO_BOX; boxes.count()];
@@ -122,9 +123,9 @@ fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[End], finest: bool) -> (V
     (cost, parent, None)
 }
 
-/// Finds a chain of free boxes from the start, in box `from`, to a goal, with a short polyline through the middles of
-/// the portals. Dijkstra's search with one entry point per box makes this polyline approximately the shortest. A chain
-/// must exist.
+/// Finds a chain of free boxes from the start, in box `from`, to a goal. A short polyline leads through the middles of
+/// its portals. Dijkstra's search with one entry point per box makes this polyline approximately the shortest. A chain
+/// of free boxes must exist.
 pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, ends: &[End]) -> Vec<u32> {
     let topology = boxes.topology();
     let mut length = vec![f64::INFINITY; boxes.count()];

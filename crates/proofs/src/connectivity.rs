@@ -21,8 +21,8 @@ pub enum Connectivity {
     Undecided {
         /// Number of boxes examined.
         boxes: usize,
-        /// True if the search found that no path exists, but a proof by boxes would need too many of them, or rounding
-        /// prevents it.
+        /// True if the search found that no path exists, but has no proof by boxes. Either the proof needs too many
+        /// boxes, or rounding prevents it.
         closed: bool,
     },
 }
@@ -49,14 +49,15 @@ pub struct Exploration {
     pub adjacencies: usize,
 }
 
-/// Decides whether a motion from `start` to one of `goals` keeps more than zero and at least `clearance` from every
-/// obstacle, with at most `max_boxes` boxes.
+/// Decides whether a motion exists from `start` to one of `goals` that keeps more than zero and at least `clearance`
+/// from every obstacle. Examines at most `max_boxes` boxes.
 ///
 /// Soft subdivision search (Wang, Chiang, Yap 2015): boxes are free, in collision, or undecided. If free boxes alone
 /// connect start and goal, there is a path. If free and undecided boxes together do not connect them, there is no path.
-/// Otherwise the search takes a connection with the fewest undecided boxes, and halves these. The search is complete up
-/// to the resolution that `max_boxes` allows: it finds a path with free space around it, and proves that a passage is
-/// closed if shapes overlap there by some depth.
+/// Otherwise the search takes a connection with the fewest undecided boxes, and halves these.
+///
+/// The search is complete up to the resolution that `max_boxes` allows. It finds a path if there is free space around
+/// it. It proves that a passage is closed if shapes overlap there by some depth.
 #[must_use]
 pub fn connectivity(
     scene: &Scene,
@@ -68,8 +69,8 @@ pub fn connectivity(
     proven(scene, |scene| decide(&mut Subdivision::new(scene, clearance), start, goals, max_boxes))
 }
 
-/// Decides first with the outer shapes, which contain the exact ones: a path among them is valid. If there is no path
-/// among them, decides again with the inner shapes, unless these are the same: a proof with them is valid.
+/// Decides first with the outer shapes, which contain the exact ones. A path among them is valid. If there is none,
+/// decides again with the inner shapes, unless these are the same. A proof with them is valid.
 pub(super) fn proven(scene: &Scene, decide: impl Fn(&Scene) -> Connectivity) -> Connectivity {
     match (decide(scene), scene.inner()) {
         (Connectivity::Disconnected(proof), Cow::Owned(inner)) => match decide(&inner) {
@@ -104,9 +105,9 @@ pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: 
     }
 }
 
-/// Number of boxes from which all chains with the fewest undecided boxes are refined at once. Below it, one chain is
-/// refined at a time: a search is then cheap compared with the boxes that it saves. Above it, that would take quadratic
-/// time in a passage that is closed along a curve, with a search for every few boxes along the curve.
+/// Number of boxes from which all chains with the fewest undecided boxes are refined at once. With fewer boxes, one
+/// chain is refined at a time, because a search is then cheap compared with the boxes that it saves. With more boxes, a
+/// passage that is closed along a curve would take quadratic time, with a search for every few boxes along the curve.
 const MIN_BATCH_BOXES: usize = 512;
 
 fn decide(boxes: &mut Subdivision, start: Configuration, goals: &GoalSet, max_boxes: usize) -> Connectivity {

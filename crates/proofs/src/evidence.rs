@@ -15,7 +15,7 @@ use cplan_core::model::{Pair, Scene};
 use cplan_core::space::Configuration;
 use cplan_interrupt::checkpoint;
 
-/// Values of joint 2 on a slice at which a pair collides.
+/// An interval of joint 2 on a slice in which a pair of shapes collides.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wall {
     /// Least value of joint 2.
@@ -35,8 +35,8 @@ pub(crate) struct Barrier {
     pub pair: Pair,
 }
 
-/// A value of joint 1, with the walls there and the barriers across the strip up to the next slice. For a continuous
-/// joint, the first slice follows the last.
+/// A value of joint 1, with the walls there, and with the barriers across the strip between it and the next slice. For
+/// a continuous joint 1, the first slice follows the last.
 #[derive(Debug, Clone)]
 pub(crate) struct Slice {
     /// Value of joint 1.
@@ -63,17 +63,18 @@ pub struct BoundEvidence {
     pub(crate) slices: Vec<Slice>,
 }
 
-/// Shifts of `q2`, radians or metres, that are tried one after the other for a barrier that is not proven in its place.
+/// Shifts of `q2`, radians or metres, for a barrier that is not proven in its place. They are tried one after the
+/// other.
 const BARRIER_SHIFTS: [f64; 9] = [0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-4];
 
-/// Length by which barriers and walls are extended beyond a seam, radians. It ensures that they overlap their
-/// continuation despite rounding.
+/// Length by which barriers and walls are extended beyond a seam, radians. They then overlap their continuation despite
+/// rounding.
 const SEAM_OVERLAP: f64 = 1e-7;
 
 impl BoundEvidence {
     /// Returns the proven parts of the walls, and the proven barriers. Each is tested at up to `looks` places in either
-    /// direction from its middle. A barrier that is barely in collision is shifted slightly. Segments that end at a
-    /// seam are extended slightly beyond the seam.
+    /// direction from its middle. A barrier whose shapes barely overlap is shifted slightly. Segments that end at a
+    /// seam are extended slightly beyond it.
     #[must_use]
     pub fn segments(&self, scene: &Scene, clearance: f64, looks: usize) -> Vec<ClosedSegment> {
         let (scene, mut closed) = (&*scene.inner(), Vec::new());

@@ -5,11 +5,11 @@ use super::chain::Mosaic;
 use cplan_core::check::{CollisionBox, Disconnection};
 use cplan_core::space::{Configuration, GoalSet};
 
-/// Selects the collision boxes that separate start and goals. The boxes of the subdivision that may be free must not
+/// Selects the collision boxes that separate start and goals. Precondition: the other boxes of the subdivision do not
 /// connect them.
 ///
-/// The boxes that may be free and are connected with the start form a region. Its sides are shared with collision
-/// boxes, or are limits of joints. So these collision boxes alone separate the start from the goals.
+/// Consider the boxes that may be free and are connected with the start. They form a region. Its sides are shared with
+/// collision boxes, or are limits of joints. So these collision boxes alone separate the start from the goals.
 pub(super) fn separating(boxes: &Subdivision, start: Configuration, goals: &GoalSet) -> Disconnection {
     let (here, there) = (around(boxes, &start.into()), around(boxes, goals));
     let fewer = if there.len() < here.len() { there } else { here };
@@ -21,8 +21,8 @@ pub(super) fn separating(boxes: &Subdivision, start: Configuration, goals: &Goal
 }
 
 /// Returns the collision boxes, ascending, that share a side with the region connected to any of the places. Also
-/// returns the collision boxes that contain places. A single place that another box contains as well is exempt from
-/// this.
+/// returns the collision boxes that contain places, with one exception: a single place that another box contains as
+/// well.
 fn around(boxes: &Subdivision, places: &GoalSet) -> Vec<u32> {
     let mut reached = vec![false; boxes.nodes.len()];
     let mut waiting = Vec::new();

@@ -11,21 +11,22 @@ use cplan_core::model::{CarriedPart, Contacts, Pair, Scene, on_axis};
 use cplan_geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
 use cplan_interrupt::checkpoint;
 
-/// Assumed error of closed forms, metres: twice their stated error. The rest covers the rounding of a few sums of
-/// lengths and of angles with whole turns.
+/// Assumed error of closed forms, metres: twice the error that they state. The second half covers the rounding of a few
+/// sums of lengths and of angles with whole turns.
 pub(super) const CLOSED_FORM_ERROR: f64 = 2.0 * ROUNDING;
 
-/// Required overlap, as a multiple of the motion over half a slab. The excess lets the boxes of a proof have some
-/// height at the ends of a colliding interval, where joint 2 moves shapes by a quarter of that motion.
+/// Overlap that is required of shapes that collide in a whole slab, as a multiple of the motion over half a slab. The
+/// excess lets the boxes of a proof have some height at the ends of a colliding interval. There, joint 2 moves shapes
+/// by a quarter of that motion.
 const REQUIRED_OVERLAP: f64 = 1.25;
 
-/// A part of link 2, or the static piece in one of its pairs.
+/// A part of link 2, or the obstacle's piece, in one of the pairs of link 2.
 struct PairShape {
     /// Greatest depth of any point of the shape, metres.
     depth: f64,
     /// For each level of slabs so far, this shape eroded, if it is the deeper one of a pair. The outer `None` means
-    /// that it has not been computed, the inner `None` that nothing is left. An eroded part is stored only if it is the
-    /// same for all pieces.
+    /// that it has not been computed. The inner `None` means that nothing is left of it. An eroded part is stored only
+    /// if it is the same for all pieces.
     eroded: Vec<Option<Option<ErodedShape>>>,
 }
 
@@ -39,7 +40,7 @@ impl PairShape {
 pub(super) enum ErodedShape {
     Part(CarriedPart),
     Piece(Features),
-    /// Not eroded but grown by this length, metres, because the clearance exceeds the required overlap.
+    /// Grown by this length, metres, instead of eroded, because the clearance exceeds the required overlap.
     Grown(f64),
 }
 
@@ -70,8 +71,8 @@ impl ErodedShape {
         piece.eroded(-grow).map(|shape| Self::Piece(Features::new(&shape)))
     }
 
-    /// Finds the values of the joint at which the eroded shape touches or overlaps the other shape of the pair. There
-    /// the shapes overlap by at least the erosion.
+    /// Finds the values of the joint at which the eroded shape touches or overlaps the other shape of the pair. There,
+    /// the original shapes overlap by at least the erosion.
     pub fn hits(
         &self,
         part: &CarriedPart,
@@ -88,8 +89,8 @@ impl ErodedShape {
     }
 }
 
-/// Returns by how much a piece with a negative radius must grow until its radius is zero; 0 for other pieces. Only for
-/// a radius of at least zero does a distance from the core give a distance from the piece.
+/// Returns the length by which a piece with a negative radius must grow so that its radius is zero; 0 for other pieces.
+/// A distance from the core gives a distance from the piece only if the radius is at least zero.
 fn lacking(piece: &Convex) -> f64 {
     (-piece.radius()).max(0.0)
 }
@@ -106,8 +107,8 @@ pub(super) struct SecondLink<'a> {
     near: Vec<u32>,
 }
 
-/// The colliding values of joint 2 in a slab, within the domain. Each list is ordered by pair. Pairs are numbered as in
-/// [`Contacts`].
+/// The values of joint 2 in a slab at which pairs collide, within the domain. Each list is ordered by pair. Pairs are
+/// numbered as in [`Contacts`].
 #[derive(Default)]
 pub(super) struct Verdicts {
     /// Outside these intervals, no pair comes too near anywhere in the slab.
@@ -142,8 +143,8 @@ impl<'a> SecondLink<'a> {
         &self.contacts
     }
 
-    /// Computes the verdicts for the slab `from <= q1 <= to`. The slab is no wider than twice `half`, the half width of
-    /// all slabs of this `level`.
+    /// Computes the intervals of joint 2 for the slab `from <= q1 <= to`. All slabs of a `level` have about the same
+    /// width, and `half` is half of it; this slab is no wider.
     pub fn judge(&mut self, from: f64, to: f64, level: usize, half: f64, verdicts: &mut Verdicts) {
         checkpoint();
         verdicts.outer.clear();
@@ -212,7 +213,7 @@ impl<'a> SecondLink<'a> {
     }
 }
 
-/// Returns true if the pair is too near all over the box, by the same bounds that the check of boxes uses.
+/// Returns true if the pair is too near in the whole box. Uses the same bounds as the check of a proof.
 pub(super) fn is_collision(scene: &Scene, pair: Pair, cell: &Cell, clearance: f64) -> bool {
     Posture::new(scene, cell.center()).greatest(pair, Deviation::Box(cell.half())) < clearance
 }
@@ -275,7 +276,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(600))]
 
-        /// The oracle is the distance of the shapes in sampled configurations. It does not use contact angles.
+        /// Compares the verdicts with the distance of the shapes in sampled configurations. The distance does not
+        /// depend on contact angles.
         #[test]
         fn verdicts_hold_all_over_the_slab(
             kinds in (any::<bool>(), any::<bool>()), offset in (-1.0..1.0f64, -1.0..1.0f64),

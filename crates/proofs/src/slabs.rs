@@ -18,8 +18,8 @@ use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, GoalSet, Segment, Topology};
 use cplan_geometry::merge_in_place;
 
-/// Number of initial slabs over the domain. Slabs beside a band of link 1 are narrower. All later slabs are made by
-/// halving. There must be at least three, so that across a seam no slab is its own neighbour.
+/// Number of initial slabs over the domain. Slabs beside values of joint 1 at which link 1 collides are narrower. All
+/// later slabs are made by halving. There must be at least three, so that no slab is its own neighbour across a seam.
 const INITIAL_SLABS: usize = 16;
 
 /// Maximum number of times that a slab is halved. Within finer slabs, link 2 would move by less than the rounding
@@ -27,10 +27,10 @@ const INITIAL_SLABS: usize = 16;
 const MAX_HALVINGS: usize = 26;
 
 /// Number of slabs from which all connections with the fewest undecided spans are refined at once. With more slabs, a
-/// search for each single connection would take most of the time.
+/// separate search for each connection would take most of the time.
 const MIN_BATCH_SLABS: usize = 512;
 
-/// Difference of widths, as a share, up to which slabs count as slabs of the same level. It is far greater than the
+/// Difference of widths, as a share, up to which slabs count as being of the same level. It is far greater than the
 /// rounding of their ends.
 const LEVEL_TOLERANCE: f64 = 1e-6;
 
@@ -40,18 +40,18 @@ struct Slab {
     from: f64,
     to: f64,
     level: usize,
-    /// True if link 1 is free all over the slab. If false, no span counts as free, but spans in which link 2 collides
+    /// True if link 1 is free in the whole slab. If false, no span counts as free, but spans in which link 2 collides
     /// still count as colliding.
     clear: bool,
-    /// True if link 2 was judged. Before that, the whole slab is one undecided span.
+    /// True if link 2 has been examined. Before that, the whole slab is one undecided span.
     judged: bool,
     /// Index of the first span, and one past the last.
     spans: [u32; 2],
-    /// Index into the walls, if link 1 closes the slab; otherwise `None`.
+    /// Index into the walls, if link 1 collides in the slab; otherwise `None`.
     wall: Option<u32>,
 }
 
-/// An interval of `q2` in a slab that is not in collision.
+/// An interval of `q2` in a slab that is free or undecided.
 #[derive(Clone, Copy)]
 struct Span {
     lower: f64,
@@ -182,8 +182,8 @@ impl<'a> Slabs<'a> {
         this
     }
 
-    /// Adds slabs for a stretch of `q1`, without judging them. The stretch is cut where initial slabs end, so that all
-    /// slabs of a level have the same width.
+    /// Adds slabs for a stretch of `q1`, without examining them. The stretch is cut where initial slabs end, so that
+    /// all slabs of a level have the same width.
     fn lay(&mut self, from: f64, to: f64, clear: bool) {
         let (lower, upper) = self.topology.ranges[0].domain();
         let at = |i: usize| lower + (upper - lower) * i as f64 / INITIAL_SLABS as f64;
@@ -205,7 +205,7 @@ impl<'a> Slabs<'a> {
         [first, first + 1]
     }
 
-    /// Adds a slab and judges it.
+    /// Adds a slab and examines it.
     fn add(&mut self, from: f64, to: f64, clear: bool) {
         // Find the finest level whose slabs are at least as wide. The ends of the initial slabs are rounded.
         let fits = |&level: &usize| (to - from) / 2.0 <= half_of_level(&self.topology, level) * (1.0 + LEVEL_TOLERANCE);
@@ -230,7 +230,7 @@ impl<'a> Slabs<'a> {
         });
     }
 
-    /// Adds the spans that the verdicts on a slab leave.
+    /// Adds the spans of a slab that its colliding intervals leave.
     fn cut(&mut self, level: usize, clear: bool) {
         let (bottom, top) = self.topology.ranges[1].domain();
         let Verdicts { outer, inner } = &mut self.verdicts;
@@ -269,7 +269,7 @@ impl<'a> Slabs<'a> {
         }
     }
 
-    /// Replaces slabs, given in ascending order, by their halves. Slabs that are not judged yet are judged first.
+    /// Replaces slabs, given in ascending order, by their halves. Slabs that have not been examined are examined first.
     fn halve(&mut self, which: &[u32]) {
         let before = std::mem::take(&mut self.slabs);
         self.slabs.reserve(before.len() + which.len());
@@ -416,7 +416,8 @@ impl Mosaic for Slabs<'_> {
     }
 }
 
-/// Converts a number of spans to 32 bits. Four thousand million spans would not fit into memory.
+/// Converts a number of spans to 32 bits. It cannot overflow, because four thousand million spans would not fit into
+/// memory.
 fn index(at: usize) -> u32 {
     u32::try_from(at).unwrap_or(u32::MAX)
 }

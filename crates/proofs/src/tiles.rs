@@ -10,8 +10,8 @@ use cplan_core::check::{Cell, CollisionBox, Deviation, Posture};
 use cplan_core::model::{Pair, Scene};
 use cplan_interrupt::checkpoint;
 
-/// Maximum number of boxes for a colliding interval of a slab. Where shapes overlap little, boxes must be about as low
-/// as the slab is narrow.
+/// Maximum number of boxes for a colliding interval of a slab. Where shapes overlap little, the height of boxes must be
+/// about the width of the slab.
 const MAX_TILES_PER_INTERVAL: usize = 4096;
 
 /// A slab `from <= q1 <= to` with its collisions: the pair, and the interval of joint 2.
@@ -21,8 +21,8 @@ pub(super) struct SlabCollision {
     pub by: Vec<(Pair, [f64; 2])>,
 }
 
-/// Adds boxes that cover all collisions of adjacent slabs, within the range of joint 2. Returns false if the bounds
-/// that judge boxes do not confirm a box, or if there are more than `most` boxes.
+/// Adds boxes that cover all collisions of adjacent slabs, within the range of joint 2. Returns false if there are more
+/// than `most` boxes, or if the check of a proof would refuse one of them.
 pub(super) fn lay(
     scene: &Scene,
     clearance: f64,
@@ -72,7 +72,7 @@ pub(super) fn lay(
 }
 
 /// Adds boxes that together cover the slab `from <= q1 <= to` for `q2` in `interval`, where a pair collides. Returns
-/// false if the bounds that judge boxes do not confirm a box.
+/// false if the check of a proof would refuse one of them.
 pub(super) fn tile(
     scene: &Scene,
     clearance: f64,

@@ -13,11 +13,12 @@ use cplan_interrupt::checkpoint;
 use cplan_text::counted;
 use petgraph::graph::NodeIndex;
 
-/// Largest number of random configurations per wanted sample. It is enough if a hundredth of the space is free.
+/// Largest number of random configurations that are drawn per requested sample. It is enough if a hundredth of the
+/// space is free.
 const MAX_DRAWS_PER_SAMPLE: usize = 100;
 
 /// The *probabilistic roadmap* (Kavraki, Svestka, Latombe, Overmars 1996), for comparison. It joins random free
-/// configurations to the nearest ones that they see.
+/// configurations to the nearest ones that a straight free motion can reach.
 ///
 /// Samples are uniform over free space. On circles all copies of a sample within the window are nodes. Triangulated
 /// free space decides exactly whether a motion between samples is free. The seed determines the sequence of samples,
@@ -29,7 +30,7 @@ const MAX_DRAWS_PER_SAMPLE: usize = 100;
 pub struct Prm {
     /// Number of free samples.
     pub samples: usize,
-    /// Number of nearest samples to which each sample is joined, if it sees them.
+    /// Number of nearest samples to which each sample is joined, if the straight motion to them is free.
     pub nearest: usize,
     /// Seed of the random configurations.
     pub seed: u64,
@@ -114,8 +115,8 @@ impl Prm {
         points
     }
 
-    /// Returns the roadmap with the start and the goals of a query. They are joined to the nearest samples, and the
-    /// start to the goals that it sees.
+    /// Returns the roadmap with the start and the goals of a query. They are joined to the nearest samples. The start
+    /// is also joined to those goals to which the straight motion is free.
     fn query_graph(&self, map: &PrmMap, terminals: &Terminals) -> QueryGraph {
         let mut query_graph = map.roadmap.clone().query_graph(terminals.start);
         let start = query_graph.start;

@@ -5,8 +5,8 @@ use cplan_text::short;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Assumed limits that replace missing ones, by joint. Only the timing depends on them; path, certificate and proof do
-/// not.
+/// Limits that are assumed because the files state none, by joint. Only the timing depends on them; path, certificate
+/// and proof do not.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct AssumedLimits {

@@ -5,7 +5,7 @@ use cplan_text::{plain, plain_line};
 use std::fmt;
 use thiserror::Error;
 
-/// Category of a diagnostic, for scripts.
+/// Category of a diagnostic, which scripts can read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum DiagnosticKind {
     /// A defect of a file or an option.
@@ -78,7 +78,8 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Unusable input. Its text has every diagnostic with file, line and column, the line of the file, and a hint.
+/// An error for unusable input. Its text has every diagnostic, with file, line and column, the line of the file, and a
+/// hint.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}", listed(.diagnostics))]
 pub struct InputError {
@@ -92,7 +93,7 @@ impl InputError {
         &self.diagnostics
     }
 
-    /// Replaces the name of an option, for commands that have another name for it.
+    /// Replaces the name of an option in the messages, for commands in which the option has another name.
     pub fn with_option(mut self, name: &str, called: &str) -> Self {
         for Diagnostic { origin, message, help, .. } in &mut self.diagnostics {
             [Some(origin), Some(message), help.as_mut()]
@@ -120,7 +121,7 @@ impl InputError {
         Self { diagnostics }
     }
 
-    /// Returns `Ok` when there are no diagnostics.
+    /// Returns `Ok` if there are no diagnostics.
     ///
     /// # Errors
     /// All diagnostics.
@@ -135,8 +136,8 @@ impl From<Diagnostic> for InputError {
     }
 }
 
-/// Largest number of diagnostics that are shown. Further ones are only counted, because the first ones usually cause
-/// them.
+/// Largest number of diagnostics that a message shows. Further ones are only counted, because the first ones usually
+/// cause them.
 const MAX_SHOWN_DIAGNOSTICS: usize = 8;
 
 fn listed(diagnostics: &[Diagnostic]) -> String {

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Identity of a file, independent of the spelling of its path and of links.
+/// Identity of a file. It does not depend on the spelling of its path or on links.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileIdentity {
     /// Absolute path, without links.

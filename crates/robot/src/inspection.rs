@@ -28,7 +28,8 @@ pub struct Inspection {
     pub pairs: Vec<PairEntry>,
     /// The two joints that the rest of the report describes, base to tip.
     pub chosen: Option<[String; 2]>,
-    /// True if nothing chose these joints. They are then the first pair that forms a planar arm.
+    /// True if the joints were not chosen by the world file or by the robot itself. They are then the first pair that
+    /// forms a planar arm.
     pub assumed: bool,
     /// Link whose origin is the tip.
     pub tip: Option<String>,
@@ -44,8 +45,8 @@ pub struct Inspection {
     pub ignored: Vec<String>,
     /// Warnings.
     pub warnings: Vec<String>,
-    /// A table `[robot]` for the world file that makes the robot usable, if nothing else is missing. Its ranges, speeds
-    /// and radii are placeholders.
+    /// A table `[robot]` for the world file that makes the robot usable, if no other data is missing. Its ranges,
+    /// speeds and radii are placeholders. `None` if no table is needed.
     #[serde(rename = "remedy")]
     pub help: Option<String>,
     /// Errors that prevent planning. Planning reports only the first of them.
@@ -99,7 +100,7 @@ pub enum Role {
     Follows,
     /// A movable joint on which the arm does not depend.
     Ignored,
-    /// A fixed joint, or another type without a single value.
+    /// A fixed joint, or a joint of another type whose position is not a single value.
     Rigid,
     /// The role is unknown, because no two joints could be chosen.
     Undecided,
@@ -156,7 +157,7 @@ pub enum LimitSource {
     World,
     /// The joint is continuous, so it needs no range.
     Continuous,
-    /// There is no range that is suitable for planning.
+    /// No range is known that is suitable for planning.
     Unset,
 }
 

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use toml::Spanned;
 
-/// A joint's value or an angle, in radians or metres; the file may state it in degrees.
+/// A joint's value or an angle, in radians or metres. The file may state it in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantity {
     /// Value in radians or metres.

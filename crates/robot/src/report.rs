@@ -20,7 +20,7 @@ pub struct RobotReport {
     pub assumed: AssumedLimits,
     /// Names and values (radians or metres) of the movable joints that are held and whose value matters to the arm.
     pub held: Vec<(String, f64)>,
-    /// The same joints, with the effects of their motion.
+    /// The joints in `held`, with the effects of their motion.
     #[serde(default)]
     pub held_joints: Vec<HeldJoint>,
     /// All movable joints, for messages that name them.

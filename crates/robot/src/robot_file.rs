@@ -27,8 +27,8 @@ impl<P: AsRef<Path>> From<P> for RobotFile {
 }
 
 impl RobotFile {
-    /// Reads the file as URDF. Expands xacro, which it recognises by the file's name or content; positions in messages
-    /// then refer to the xacro files.
+    /// Reads the file as URDF. If it is xacro, which its name or content shows, expands it. Positions in messages then
+    /// refer to the xacro files.
     ///
     /// # Errors
     /// A file that cannot be read or expanded, and arguments for a file that is not xacro.

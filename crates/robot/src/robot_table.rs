@@ -75,7 +75,7 @@ pub struct RobotTable {
 }
 
 impl RobotTable {
-    /// Returns the same table for a robot at the origin. The reader of URDFs gets this table.
+    /// Returns the same table without the placement of the robot. The reader of URDFs receives this table.
     #[must_use]
     pub fn unplaced(&self) -> Self {
         Self { at: None, angle: None, ..self.clone() }

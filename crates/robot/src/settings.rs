@@ -8,7 +8,7 @@ use crate::source::Source;
 pub struct RobotSettings<'a> {
     /// The `[robot]` table.
     pub table: &'a RobotTable,
-    /// The world file, from which messages quote lines.
+    /// The world file. Messages quote its lines.
     pub source: &'a Source,
     /// True if the world has steps, during which the wrist turns.
     pub has_steps: bool,

@@ -18,8 +18,8 @@ pub struct Position {
     pub column: usize,
 }
 
-/// The text of an input, read from a file or made by the program. Serialised, it is the text with its name;
-/// deserialising it does not read the file again.
+/// The text of an input, read from a file or created by the program. Its serialised form has the text and its name.
+/// Deserialising it does not read the file again.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Source {
     /// Path of the file, or name of a text in memory.
@@ -36,7 +36,7 @@ pub struct Source {
     milestones: OnceLock<Vec<Position>>,
 }
 
-/// Cached positions do not affect equality.
+/// Compares sources without the cached positions.
 impl PartialEq for Source {
     fn eq(&self, other: &Self) -> bool {
         (&self.path, &self.text, self.is_file) == (&other.path, &other.text, other.is_file)
@@ -78,7 +78,7 @@ impl Cursor<'_> {
 /// endless devices.
 const MAX_FILE_BYTES: u64 = 256 << 20;
 
-/// Reads a file, and returns the error of the operating system.
+/// Reads a file. Unlike [`read_bytes`], returns the error of the operating system.
 ///
 /// # Errors
 /// I/O errors, and a file larger than 256 MiB.
@@ -96,11 +96,11 @@ fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Largest size of a recording, in bytes. It is enough for hours at a thousand samples per second, as cplan writes
-/// them. In memory, the values take up to three times as much.
+/// Largest size of a recording, in bytes. Hours of motion at a thousand samples per second fit, in the format that
+/// cplan writes. In memory, the values take up to three times as much.
 const MAX_RECORDING_BYTES: u64 = 2 << 30;
 
-/// Number of bytes between the offsets whose positions are stored.
+/// Interval of byte offsets, in bytes, at which positions are stored.
 const LINE_INDEX_INTERVAL: usize = 4096;
 
 /// Reads a file.
@@ -135,8 +135,8 @@ fn unreadable(path: &Path, error: &io::Error, too_large: &str) -> Diagnostic {
 const EXCERPT_REACH: usize = 60;
 
 impl Source {
-    /// Creates a source from a text in memory. Messages use `name`, and so does a world without a name. The text cannot
-    /// refer to other files such as meshes and maps.
+    /// Creates a source from a text in memory. Messages show `name`, and a world without a name of its own has this
+    /// name. The text cannot refer to other files such as meshes and maps.
     #[must_use]
     pub fn in_memory(name: impl Into<PathBuf>, text: impl Into<String>) -> Self {
         Self { path: name.into(), text: text.into(), is_file: false, expansion: None, milestones: OnceLock::new() }
@@ -183,7 +183,8 @@ impl Source {
         self.expansion.is_some()
     }
 
-    /// Returns the xacro file from which a byte of the text comes, and the range of bytes there.
+    /// Returns the xacro file from which a byte of the text comes, and the range of bytes in that file. `None` if the
+    /// text is not expanded xacro.
     fn origin(&self, offset: usize) -> Option<(Self, Range<usize>)> {
         let expansion = self.expansion.as_ref()?;
         let place = expansion.place(offset)?;
@@ -222,7 +223,7 @@ impl Source {
     /// Returns the path to which the names of other files are relative.
     ///
     /// # Errors
-    /// The reason, for a text in memory.
+    /// The reason why there is none, for a text in memory.
     pub fn anchor(&self) -> Result<&Path, &'static str> {
         if self.is_file {
             Ok(&self.path)
@@ -259,7 +260,7 @@ impl Source {
         cursor.position(offset)
     }
 
-    /// Returns a cursor at the beginning of the text, for the positions of many offsets.
+    /// Returns a cursor at the beginning of the text. It finds the positions of many offsets efficiently.
     #[must_use]
     pub fn cursor(&self) -> Cursor<'_> {
         Cursor { bytes: self.text.as_bytes(), read: 0, at: Position { line: 1, column: 1 } }
@@ -283,7 +284,8 @@ impl Source {
         }
     }
 
-    /// Creates a diagnostic at a line and column as parsers report them: counted from 1, with 0 for unknown.
+    /// Creates a diagnostic at a line and column as parsers report them. Both are counted from 1; 0 means that they are
+    /// unknown.
     pub fn diagnostic_at_position(&self, line: usize, column: usize, message: impl Into<String>) -> Diagnostic {
         if line == 0 {
             return self.diagnostic(message);

@@ -11,7 +11,8 @@ use cplan_core::planner::Query;
 use cplan_core::space::{Configuration, Path, Segment, Topology};
 use std::f64::consts::TAU;
 
-/// A space that may block a start or goal which is free.
+/// A planner's representation of free space. It may refuse a start or goal that is free, because it is not exact. Then
+/// the search uses a *stand-in*: an admitted configuration nearby.
 pub(super) trait EndAdmission {
     /// Returns true if a planner can begin or end at `q`.
     fn admits(&self, q: Configuration) -> bool;
@@ -35,18 +36,18 @@ impl EndAdmission for ZonedGrid {
     }
 }
 
-/// Number of directions in which a stand-in is sought.
+/// Number of directions in which the search for a stand-in looks.
 const STAND_IN_DIRECTIONS: usize = 64;
 
-/// Number of steps tried in each direction, the shortest first. Each is twice as long as the one before.
+/// Number of steps that are tried in each direction, the shortest first. Each is twice as long as the one before.
 const STEPS_PER_DIRECTION: usize = 13;
 
-/// Shortest step, radians or metres. It is far shorter than the steps that the default margin, a thousandth of the
-/// reach, requires.
+/// Length of the shortest step, radians or metres. A stand-in usually needs far longer steps with the default margin, a
+/// thousandth of the reach.
 const SHORTEST_STEP: f64 = 1e-4;
 
-/// Returns `q` if the space admits it. Otherwise returns the end of the shortest certified straight motion from `q` to
-/// an admitted configuration, or `q` itself if no such motion is found.
+/// Returns `q` if the space admits it. Otherwise returns an admitted configuration to which a certified straight motion
+/// leads from `q`, the shortest that is found. Returns `q` itself if none is found.
 fn stand_in(scene: &Scene, space: &impl EndAdmission, q: Configuration) -> Configuration {
     if space.admits(q) {
         return q;
@@ -68,10 +69,11 @@ fn stand_in(scene: &Scene, space: &impl EndAdmission, q: Configuration) -> Confi
     q
 }
 
-/// Number of samples on a free stretch of goals when testing whether the space admits any part of it.
+/// Number of samples on a free stretch of goals. With them the search tests whether the space admits any part of the
+/// stretch.
 const SAMPLES_PER_STRETCH: usize = 17;
 
-/// Largest number of stretches that get a stand-in. The longest stretches come first.
+/// Largest number of stretches of goals that get a stand-in. The longest stretches come first.
 const MAX_STRETCHES: usize = 8;
 
 /// Start and goals of a problem, with their stand-ins.
@@ -84,8 +86,8 @@ pub(super) struct Ends {
     pub query: Query,
 }
 
-/// Distance below which two configurations, wrapped, count as the same: far above rounding, and far below any distance
-/// that matters. Radians or metres.
+/// Distance below which two configurations count as the same, up to whole turns, in radians or metres. It is far above
+/// rounding, and far below any distance that matters.
 const COPY_DISTANCE: f64 = 1e-9;
 
 impl Ends {
@@ -127,8 +129,8 @@ impl Ends {
         self.join(path.waypoints(), self.goal_reached(path))
     }
 
-    /// Completes the planner's path, but leaves out the stand-ins, which is shorter if the direct motion is free.
-    /// `None` if the path has no stand-ins.
+    /// Completes the planner's path, but leaves out the stand-ins. The result is shorter than that of
+    /// [`Ends::complete`] if the direct motion is free. Returns `None` if the path has no stand-ins.
     pub fn past_stand_ins(&self, path: &Path) -> Option<Path> {
         let (inner, goal) = (path.waypoints(), self.goal_reached(path));
         let (first, last) = (self.start != path.start(), goal != path.goal());
@@ -150,7 +152,7 @@ impl Ends {
     }
 }
 
-/// Returns the middles of the free stretches of a segment that the space admits nowhere. Each needs a stand-in.
+/// Returns the middles of those free stretches of a segment of which the space admits no part. Each needs a stand-in.
 fn middles_unknown(scene: &Scene, space: &impl EndAdmission, piece: &Segment) -> Vec<Configuration> {
     let knows = |stretch: &Segment| {
         (0..SAMPLES_PER_STRETCH).any(|k| space.admits(stretch.at(k as f64 / (SAMPLES_PER_STRETCH - 1) as f64)))

@@ -23,7 +23,7 @@ pub struct Answer<F = BoundedPath> {
     pub history: Vec<String>,
     /// The planner's last run, including its trace.
     pub run: Run,
-    /// The space of that run.
+    /// The space of the run.
     pub space: Space,
     /// Time spent in each stage.
     pub stages: Stages,
@@ -34,7 +34,7 @@ pub struct Answer<F = BoundedPath> {
 pub struct BoundedPath {
     /// The path.
     pub certified: CertifiedPath,
-    /// Bounds on the length of the shortest path. `None` if the planner does not look for it, or if bounds were not
+    /// Bounds on the length of the shortest path. `None` if the planner does not minimise length, or if bounds were not
     /// requested.
     pub bound: Option<Bound>,
 }
@@ -95,8 +95,8 @@ impl From<String> for Unknown {
     }
 }
 
-/// Largest number of corners of a visibility graph that is drawn completely. Larger graphs are drawn only as far as
-/// they were searched, since more lines make a grey surface.
+/// Largest number of corners of a visibility graph that is drawn completely. Of a larger graph, only the searched part
+/// is drawn, since more lines would make a grey surface.
 const MAX_DRAWN_CORNERS: usize = 5_000;
 
 impl<F: AsRef<BoundedPath>> Answer<F> {
@@ -124,8 +124,8 @@ impl<F> Answer<F> {
         }
     }
 
-    /// Returns the trace to draw: the planner's own. For a visibility graph, all arcs between corners are added, which
-    /// takes the time to find them.
+    /// Returns the trace to draw: the planner's own trace. For a visibility graph, adds all arcs between corners, and
+    /// first has to find them.
     #[must_use]
     pub fn drawn(&self) -> Cow<'_, Trace> {
         if let (Trace::Roadmap { edges, whole: false }, Space::Regions(regions)) = (&self.run.trace, &self.space) {

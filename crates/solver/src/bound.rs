@@ -27,7 +27,7 @@ impl Bound {
     }
 
     /// Searches for evidence of the lower bound: walls and barriers that close all shorter paths. This repeats the
-    /// search, because the first one does not keep them.
+    /// search for the bound, which does not keep its evidence.
     #[must_use]
     pub fn evidence(&self, problem: &MotionProblem) -> BoundEvidence {
         let gap = (self.gap() * EVIDENCE_GAP_SHARE).clamp(MIN_EVIDENCE_GAP, 1.0);
@@ -43,18 +43,19 @@ pub fn bound(problem: &MotionProblem, path: &Path, metric: Metric, gap: f64) -> 
     Bound { metric, lower: lower_bound(&motions(problem, metric), upper, gap, &[]), upper }
 }
 
-/// Largest distance of a gantry's polygons from the borders of the C-obstacles that contain them, as a share of the gap
-/// times the arm's extent. At each corner, a path among the polygons is shorter by about this distance.
+/// Largest distance between the polygons inside a gantry's C-obstacles and the borders of these C-obstacles, as a share
+/// of the gap times the arm's extent. At each corner, a path among the polygons is shorter by about this distance.
 const POLYGON_LOSS: f64 = 0.02;
 
-/// Least value of this distance, as a share of the arm's extent. It is far greater than rounding errors.
+/// Least value of the distance that [`POLYGON_LOSS`] limits, as a share of the arm's extent. It is far greater than
+/// rounding errors.
 const MIN_POLYGON_LOSS: f64 = 1e-9;
 
 /// Largest number of pairs of shapes of a gantry for which the polygons are united. At the resolution of
-/// [`POLYGON_LOSS`], this many pairs take some tenths of a second. A few times as many that overlap take a minute.
+/// [`POLYGON_LOSS`], this many pairs take some tenths of a second. A few times as many overlapping pairs take a minute.
 pub(super) const MAX_UNITED_PAIRS: usize = 512;
 
-/// Share of a length that rounding may add to it.
+/// Fraction of a length by which rounding may change it.
 const ROUNDING: f64 = 1e-9;
 
 /// Computes a lower bound on the lengths of motions. For gantries it is the length of the shortest path past the exact
@@ -63,8 +64,8 @@ pub(super) fn lower_bound(motions: &MotionQuery, upper: f64, gap: f64, slices: &
     past_polygons(motions, gap).unwrap_or_else(|| least_length(motions, upper, gap, slices))
 }
 
-/// Computes the length of the shortest path past polygons inside the C-obstacles of a gantry. `None` if these polygons
-/// are not known.
+/// Computes the length of the shortest path past polygons that lie inside the C-obstacles of a gantry. `None` if no
+/// such polygons are known.
 fn past_polygons(motions: &MotionQuery, gap: f64) -> Option<f64> {
     let MotionQuery { scene, start, goals, metric, .. } = *motions;
     if scene.pairs().len() > MAX_UNITED_PAIRS {
@@ -79,14 +80,14 @@ fn past_polygons(motions: &MotionQuery, gap: f64) -> Option<f64> {
     Some(metric.length(&path) * (1.0 - ROUNDING))
 }
 
-/// Gap at which the search for evidence ends, as a share of the stated gap. That search does not begin with the slices
-/// that the first one knew, so it must aim closer to prove as much.
+/// Gap at which the search for evidence ends, as a share of the stated gap. The search for the bound knew slices with
+/// which it began; this one does not. So it must aim closer to prove as much.
 const EVIDENCE_GAP_SHARE: f64 = 0.05;
 
-/// Smallest gap at which the search for evidence ends, for any stated gap.
+/// Smallest gap at which the search for evidence ends, even if the stated gap is smaller.
 const MIN_EVIDENCE_GAP: f64 = 1e-9;
 
-/// Returns the query whose answers are all motions that solve a problem.
+/// Returns the query for all motions that solve a problem.
 pub(super) fn motions(problem: &MotionProblem, metric: Metric) -> MotionQuery<'_> {
     let scene = problem.scene();
     let clearance = scene.workspace().clearance;

@@ -9,8 +9,8 @@ use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, Metric, Path, Topology};
 use cplan_geometry::OpenList;
 
-/// Largest number of attempts. After a refused attempt, the pieces whose removal leads too near to an obstacle are kept
-/// in the next one.
+/// Largest number of attempts to certify a path with fewer corners. Some pieces were removed where the refused path
+/// comes too near to an obstacle. The next attempt keeps these pieces.
 const MAX_ATTEMPTS: usize = 6;
 
 /// Longest extension of a piece, as a multiple of the length of the removed piece. Without this limit, pieces that meet
@@ -20,8 +20,8 @@ const MAX_EXTENSION: f64 = 8.0;
 /// Returns a certified path with fewer corners that is longer than `path` by at most `budget`. `None` if no corner can
 /// be removed.
 ///
-/// Pieces whose removal adds the least length go first. Costs `O(n log n)` for `n` corners, and one certificate per
-/// attempt.
+/// The pieces whose removal adds the least length are removed first. Costs `O(n log n)` for `n` corners, and one
+/// certificate per attempt.
 pub(super) fn fewer_corners(scene: &Scene, path: &Path, metric: Metric, budget: f64) -> Option<CertifiedPath> {
     let topology = scene.arm().topology();
     let mut too_near = Vec::new();
@@ -39,7 +39,7 @@ pub(super) fn fewer_corners(scene: &Scene, path: &Path, metric: Metric, budget: 
     None
 }
 
-/// A piece that may be removed, as an entry of the linked list of remaining pieces.
+/// A piece of a path, as an entry in the linked list of the pieces that remain.
 struct Piece {
     before: usize,
     after: usize,
@@ -48,7 +48,7 @@ struct Piece {
     gone: bool,
 }
 
-/// Removes pieces and returns the remaining waypoints. Keeps every piece whose removal would lead past a configuration
+/// Removes pieces and returns the remaining waypoints. A piece is kept if its removal would lead past a configuration
 /// in `too_near`.
 fn drawn_out(
     topology: &Topology,
@@ -123,7 +123,8 @@ fn meeting([a, b, c, d]: [Configuration; 4]) -> Option<Configuration> {
     (along >= 0.0 && back >= 0.0 && along.is_finite() && back.is_finite() && near(b) && near(c)).then_some(corner)
 }
 
-/// Returns true if a configuration is within the bounds of some others, widened by their extent.
+/// Returns true if a configuration is near some others: inside their bounding box after it is widened by its own
+/// extent.
 fn is_about(q: Configuration, others: &[Configuration; 3]) -> bool {
     (0..2).all(|k| {
         let (least, greatest) =

@@ -10,27 +10,26 @@ use cplan_proofs::{Connectivity, connectivity, slab_connectivity, slimmed};
 /// Largest number of slabs; enough for all but contrived questions. A few thousand slabs take some milliseconds.
 const MAX_SLABS: usize = 10_000;
 
-/// Budgets (slabs, boxes) of a first round that tries both methods. Each may need ten times as much as the other: slabs
-/// along a slanted passage that is narrowly closed, and boxes in a narrow passage.
+/// Budgets of slabs and of boxes in a first round that tries both methods. Either method may need ten times as much as
+/// the other. Slabs do along a slanted passage that is narrowly closed, and boxes in a narrow passage.
 const INITIAL_BUDGETS: [usize; 2] = [1000, 4000];
 
-/// Largest number of boxes of a proof by slabs in the first attempt. If slabs need more, subdivision into boxes is
-/// tried. It needs fewer, for example where obstacles overlap little along a slanted line: slabs cover such a line by
-/// boxes that are as narrow as the slabs.
+/// Number of boxes of a proof by slabs above which subdivision into boxes is tried as well. Subdivision sometimes needs
+/// fewer, for example where obstacles overlap little along a slanted line. Slabs cover such a line by boxes that are as
+/// narrow as the slabs.
 pub const LARGE_PROOF_BOXES: usize = 10_000;
 
 /// Largest number of boxes of a proof by slabs, if subdivision finds no smaller proof.
 const MAX_PROOF_BOXES: usize = 200_000;
 
-/// Least budget of boxes of a subdivision that looks for a smaller proof than slabs have. It is twice the largest
-/// number that some thousand random proofs needed.
+/// Least budget of boxes for a subdivision that looks for a smaller proof than that of the slabs. It is twice the
+/// largest number that some thousand random proofs needed.
 const MIN_BOXES_FOR_SMALLER_PROOF: usize = 100_000;
 
 /// Number of pairs of shapes above which a question is first decided with fewer pieces of obstacles.
 const MANY_PAIRS: usize = 4096;
 
-/// Spacings of the lattices that select these pieces, as shares of the arm's reach, in the order in which they are
-/// tried.
+/// Spacings of the lattices that select these pieces, as shares of the arm's reach. They are tried in this order.
 const LATTICE_SPACINGS: [f64; 2] = [1.0 / 128.0, 1.0 / 1024.0];
 
 /// Largest product of pairs and slabs, and largest product of pairs and boxes, in scenes of more than [`MANY_PAIRS`]
@@ -39,18 +38,18 @@ const MAX_WORK_PER_SEARCH: [usize; 2] = [4_000_000, 40_000_000];
 
 /// Decides `problem` by [`slab_connectivity`], with at most `boxes` slabs and never more than 10 000. If slabs leave it
 /// undecided, decides it by [`connectivity`], with at most `boxes` boxes. The answer is a path, pulled taut in the
-/// channel of free boxes, or a proof. Both have passed the judge, which shares only kernels of geometry and its bounds
-/// on distances (`Posture`, `Deviation`) with the search.
+/// channel of free boxes, or a proof. An independent check has accepted both. It shares only kernels of geometry and
+/// its bounds on distances (`Posture`, `Deviation`) with the search.
 ///
 /// Slabs may show that there is no path, but need more than 10 000 boxes to state it. If `boxes` is at least 4000,
-/// subdivision then looks for a smaller proof, with a budget of at least 100 000 boxes (fewer in scenes of more than
-/// 4096 pairs).
+/// subdivision then looks for a smaller proof. Its budget is at least 100 000 boxes, or fewer in scenes of more than
+/// 4096 pairs of shapes.
 ///
-/// The path is rarely the shortest: the first channel that is found suffices. Slabs answer most questions in a small
-/// part of the time. Boxes also handle shapes without thickness, and need fewer boxes for some proofs.
+/// The path is rarely the shortest, because the search ends at the first channel. Slabs answer most questions in a
+/// small part of the time. Boxes also handle shapes without thickness, and need fewer boxes for some proofs.
 ///
 /// In scenes of more than 4096 pairs of shapes, the question is first decided with fewer pieces of obstacles. If these
-/// block all paths, so do all pieces. If these leave a path, the path is judged among all pieces.
+/// block all paths, so do all pieces. If these leave a path, the path is checked against all pieces.
 ///
 /// An unknown answer is not final: [`super::solve`] has other methods, and more boxes may decide it. In scenes of more
 /// than 4096 pairs, more boxes do not help, because slabs and boxes get about a second of work each.
@@ -91,8 +90,8 @@ struct DecisionBudget {
     for_smaller: Option<usize>,
 }
 
-/// Decides `thinned`, which is `problem` or lacks some of its pieces, by slabs and boxes. `original_pair` maps pairs of
-/// `thinned` to pairs of `problem`.
+/// Decides `thinned` by slabs and boxes. It is `problem`, or `problem` without some pieces of obstacles.
+/// `original_pair` maps pairs of `thinned` to pairs of `problem`.
 fn decide_within(
     problem: &MotionProblem,
     thinned: &MotionProblem,
@@ -124,7 +123,7 @@ fn decide_within(
     }
 }
 
-/// Checks the answer of a search among the thinned pieces, against all pieces of `problem`.
+/// Checks an answer that was found with fewer pieces of obstacles against all pieces of `problem`.
 fn checked_answer(
     problem: &MotionProblem,
     original_pair: &dyn Fn(Pair) -> Pair,
@@ -145,12 +144,13 @@ fn checked_answer(
     }
 }
 
-/// Returns the proof if the judge accepts it, with fewer boxes if it has more than 256.
+/// Returns the proof if the independent check accepts it. A proof of more than 256 boxes is first reduced to fewer
+/// boxes.
 pub(super) fn checked(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
     slimmed(&proof, |some| if_checked(problem, some))
 }
 
-/// Returns the proof if the judge accepts it.
+/// Returns the proof if the independent check accepts it.
 fn if_checked(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
     let clearance = problem.scene().workspace().clearance;
     proof.checked(problem.scene(), problem.start(), problem.goals(), clearance).ok()

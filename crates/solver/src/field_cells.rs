@@ -9,11 +9,12 @@ use cplan_fields::field_domain;
 use cplan_fields::{Cell, Domain, Limits};
 
 /// Returns the cells of a problem's first level with the world's preferences, and marks which of them are free,
-/// obstacles and goals. The harmonic planner relaxes an equation on them. The number of cells along each axis is that
-/// of the planner's `--cells`.
+/// obstacles and goals. The planner `harmonic` relaxes an equation on such cells. `cells` is the number along each
+/// axis, as that of the planner's `--cells`.
 ///
 /// # Errors
-/// Returns the reason, in words, if start or goal has no free cell near it, or if no free cell leads to the goal.
+/// Returns the reason, in words, if the start or the goal has no free cell near it, or if no free cell leads to the
+/// goal.
 pub fn field_on_cells(problem: &MotionProblem, cells: usize, limits: Limits) -> Result<(ZonedGrid, Domain), String> {
     let space = zoned_cells(problem, GridSpace::Rows, Some(CellCounts::square(cells)), 0);
     let space = space.ok_or_else(|| format!("there is no grid of {cells} x {cells} cells"))?;

@@ -6,11 +6,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridSpace {
-    /// Exact slices. Each size of cells is tried twice. First, a cell counts as free only if all of it is free; then, if
-    /// its centre is free ([`Proves`](cplan_core::cspace::Proves) says which).
+    /// Exact slices. Each size of cells is tried twice. In the first attempt, a cell counts as free only if all of it
+    /// is free. In the second, it counts as free if its centre is free. [`Proves`](cplan_core::cspace::Proves) states
+    /// which of the two applies.
     #[default]
     Rows,
-    /// Exact slices. Free cells are those with free centres, from the first attempt on, as usual in the literature.
+    /// Exact slices. A cell counts as free if its centre is free, from the first attempt on, as usual in the
+    /// literature.
     Centers,
     /// Collision checks by parry2d at the centres of cells ([`Proves::Sampled`](cplan_core::cspace::Proves::Sampled)),
     /// for comparison with other libraries. Slower than slices by the number of cells per slice.

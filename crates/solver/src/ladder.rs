@@ -18,7 +18,7 @@ use cplan_text::percent;
 /// and is cheap compared with a finer attempt if it is not.
 pub(super) const FIRST_BOXES: usize = 20_000;
 
-/// Gap below which a lower bound is not refined further: the path is then at most this share longer than the bound.
+/// Gap below which a lower bound is not refined further. The path is then longer than the bound by at most this share.
 pub(super) const CLOSE_GAP: f64 = 1e-4;
 
 /// Gap above which a path is planned again on finer levels, even if no gap was requested. A shorter path may lead
@@ -62,7 +62,8 @@ pub(super) struct Request<'a> {
     pub progress: &'a mut dyn FnMut(&str),
 }
 
-/// Answers with a planner that works among polygons. `planner` makes the planner of a level from the settings.
+/// Answers with a planner that works among polygons. `planner` creates the planner from the settings and the number of
+/// the level.
 pub(super) fn on_polygons<P>(request: Request, planner: impl Fn(&Settings, usize) -> P) -> Answer
 where
     P: Planner<Space = Regions>,
@@ -71,7 +72,8 @@ where
     climb(request, planner, |level| polygons(problem, margin, level))
 }
 
-/// Answers with a planner that works on the cells of a grid. `planner` makes the planner of a level from the settings.
+/// Answers with a planner that works on the cells of a grid. `planner` creates the planner from the settings and the
+/// number of the level.
 pub(super) fn on_cells<P>(request: Request, planner: impl Fn(&Settings, usize) -> P) -> Answer
 where
     P: Planner<Space = Grid>,
@@ -80,8 +82,8 @@ where
     climb(request, planner, |level| grid_cells(problem, space, cells, level))
 }
 
-/// Answers with a planner that works on the cells of a grid with the world's preferences. `planner` makes the planner
-/// of a level from the settings.
+/// Answers with a planner that works on the cells of a grid with the world's preferences. `planner` creates the planner
+/// from the settings and the number of the level.
 pub(super) fn on_zoned_cells<P>(request: Request, planner: impl Fn(&Settings, usize) -> P) -> Answer
 where
     P: Planner<Space = ZonedGrid>,
@@ -96,9 +98,8 @@ pub(super) fn by_visibility(request: Request) -> Answer {
     on_polygons(request, |s, _| Visibility { metric, search: s.search, graph: s.graph })
 }
 
-/// Plans level after level, until a path is good enough or a proof is found. `planner` makes the planner of a level,
-/// and
-/// `build` its space; `None` if there is no finer space.
+/// Plans level after level, until a path is good enough or a proof is found. `planner` creates the planner of a level.
+/// `build` creates the level's space; it returns `None` if there is no finer space.
 fn climb<P: Planner>(
     Request { problem, options, progress }: Request,
     planner: impl Fn(&Settings, usize) -> P,
@@ -177,7 +178,7 @@ where
     Answer { method, outcome, path_kind, history, run, space: space.into(), stages }
 }
 
-/// The state of the search on the way up the ladder.
+/// The state of a search that goes from level to level.
 struct Climb<'a> {
     problem: &'a MotionProblem,
     options: &'a Options,
@@ -221,8 +222,8 @@ impl Climb<'_> {
         (self.path.is_none() || wants_more).then_some(failure)
     }
 
-    /// Certifies a proposed path. Where the proposal begins or ends at a stand-in, the path is completed to the true
-    /// start and goal: directly if that can be certified, or else through the stand-in.
+    /// Certifies a proposed path. If the proposal begins or ends at a stand-in, the path is first completed to the true
+    /// start and goal. The direct motion is tried first, then the motion through the stand-in.
     fn certified(&mut self, ends: &Ends, proposal: &Path) -> Result<CertifiedPath, Rejection> {
         let clock = Instant::now();
         let judge = |path| certify(self.problem.scene(), path, self.problem.scene().workspace().clearance);
@@ -237,8 +238,8 @@ impl Climb<'_> {
         self.path.as_ref().and_then(|path| path.bound)
     }
 
-    /// Keeps a path if it is the shortest so far, with its bounds. Keeps every path, without bounds, if the method does
-    /// not look for the optimum or bounds were not requested.
+    /// Keeps a path if it is the shortest so far, with its bounds. If the method does not minimise length, or bounds
+    /// were not requested, keeps every path, without bounds.
     fn keep(&mut self, certified: CertifiedPath) {
         if !self.options.bounded || !self.options.planner.method().optimizes() {
             self.path = Some(certified.into());
@@ -276,7 +277,7 @@ fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -
     shortest.unwrap_or_else(|| query(&ends.query))
 }
 
-/// Decides whether there is a path at all, independent of a planner's space. `None` if the question stays undecided.
+/// Decides whether a path exists at all, without the planner's own space. `None` if the question stays undecided.
 fn decide_feasibility(
     problem: &MotionProblem,
     boxes: usize,

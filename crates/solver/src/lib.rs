@@ -96,7 +96,7 @@ pub enum Space {
     Regions(Box<Regions>),
     /// Cells of a grid.
     Grid(Box<Grid>),
-    /// No representation: subdivision judges the scene itself.
+    /// No representation: subdivision works on the scene itself.
     Scene,
 }
 

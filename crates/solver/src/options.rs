@@ -34,18 +34,19 @@ pub enum NamedJoints {
 pub struct Options {
     /// The planner with its own settings.
     pub planner: Planner,
-    /// Number of attempts, from 1 to 12, each finer than the one before. With polygons, the margin shrinks to a
-    /// quarter. With cells, the first attempt uses cells that are free throughout, the next the same number of cells
-    /// with free centres, and then their number along each axis doubles. Sampled cells double each time.
+    /// Number of attempts (levels), from 1 to 12, each finer than the one before. With polygons, the margin shrinks to
+    /// a quarter. With cells, the first attempt uses cells that are free throughout; the next one uses the same number
+    /// of cells, with free centres. Then their number along each axis doubles. If cells are judged by their centres
+    /// from the first attempt on, the number doubles with each attempt.
     pub levels: usize,
     /// Number of boxes for a proof that there is no path, and for planning by subdivision.
     pub boxes: usize,
-    /// True if planners that optimise bound the optimum from below. If false, they aim at the gap without proof.
+    /// True if planners that minimise length compute a proven lower bound. If false, they aim at the gap without proof.
     pub bounded: bool,
     /// Settings for driving along the path.
     pub drive: Drive,
-    /// Greatest jerk of each joint, replacing the robot's own limit, rad/s3 or m/s3. `None` for a joint without a
-    /// limit.
+    /// Greatest jerk of each joint, rad/s3 or m/s3, which replaces the robot's own limit. `None` to keep the robot's
+    /// limits; in the array, `None` for a joint without a limit.
     pub jerk: Option<[Option<f64>; 2]>,
     /// Joints that ROS 2 messages name.
     pub joints: NamedJoints,
@@ -95,8 +96,8 @@ impl Options {
         }
     }
 
-    /// Describes the first option that is invalid, by name. `None` if all are valid. `has_steps` is true if the options
-    /// are for a sequence of steps.
+    /// Describes the first option that is invalid, and names it. `None` if all are valid. `has_steps` is true if the
+    /// options are for a sequence of steps.
     pub fn error(&self, has_steps: bool) -> Option<String> {
         let Drive { period, blend, tip_speed, optimize: _, torque: _ } = self.drive;
         let jerks = self.jerk.into_iter().flatten().flatten();

@@ -37,7 +37,7 @@ impl Planner {
         &self.settings
     }
 
-    /// Returns the same planner after `change` has modified `setting`. Returns it unchanged if it does not read that
+    /// Returns the same planner with one setting modified by `change`. Returns it unchanged if it does not read that
     /// setting.
     #[must_use]
     pub fn with(mut self, setting: Setting, change: impl FnOnce(&mut Settings)) -> Self {
@@ -47,49 +47,54 @@ impl Planner {
         self
     }
 
-    /// Returns the same planner with the other kind of path, if it has two.
+    /// Returns the same planner with this kind of path. Returns it unchanged if it does not read that setting.
     #[must_use]
     pub fn with_path(self, kind: PathKind) -> Self {
         self.with(Setting::Path, |settings| settings.path = kind)
     }
 
-    /// Returns the same planner with this criterion for short paths, if it optimises.
+    /// Returns the same planner with this criterion for short paths. Returns it unchanged if it does not minimise
+    /// length.
     #[must_use]
     pub fn with_criterion(self, criterion: Criterion) -> Self {
         self.with(Setting::Criterion, |settings| settings.criterion = criterion)
     }
 
-    /// Returns the same planner with this gap, if it optimises.
+    /// Returns the same planner with this gap, a share of the optimum. Returns it unchanged if it does not minimise
+    /// length.
     #[must_use]
     pub fn with_gap(self, share: f64) -> Self {
         self.with(Setting::Gap, |settings| settings.gap = Some(share))
     }
 
-    /// Returns the same planner with this first margin, if it has one.
+    /// Returns the same planner with this margin on the first level, a share of the arm's reach. Returns it unchanged
+    /// if it does not plan among polygons.
     #[must_use]
     pub fn with_margin(self, share: f64) -> Self {
         self.with(Setting::Margin, |settings| settings.margin = share)
     }
 
-    /// Returns the same planner with this first number of cells along each axis, if it has cells.
+    /// Returns the same planner with this number of cells along each axis on the first level. Returns it unchanged if
+    /// it has no cells.
     #[must_use]
     pub fn with_cells(self, n: usize) -> Self {
         self.with_cell_counts(CellCounts::square(n))
     }
 
-    /// Returns the same planner with these first numbers of cells along the axes, if it has cells.
+    /// Returns the same planner with these numbers of cells along the axes on the first level. Returns it unchanged if
+    /// it has no cells.
     #[must_use]
     pub fn with_cell_counts(self, counts: CellCounts) -> Self {
         self.with(Setting::Cells, |settings| settings.cells = Some(counts))
     }
 
-    /// Returns the same planner with this search of its roadmap, if it has one.
+    /// Returns the same planner with this search of its roadmap. Returns it unchanged if it has no roadmap.
     #[must_use]
     pub fn with_search(self, search: RoadmapSearch) -> Self {
         self.with(Setting::Search, |settings| settings.search = search)
     }
 
-    /// Returns the same planner with this method of deciding cells, if it has cells.
+    /// Returns the same planner with this method of deciding cells. Returns it unchanged if it has no cells.
     #[must_use]
     pub fn with_space(self, space: GridSpace) -> Self {
         self.with(Setting::Space, |settings| settings.space = space)
@@ -137,7 +142,7 @@ impl Planner {
         self.if_read(Setting::Search, self.settings.search)
     }
 
-    /// Returns true if the planner's search looks for the optimum.
+    /// Returns true if the planner's search minimises length.
     #[must_use]
     pub fn optimizes(&self) -> bool {
         self.method.optimizes() && self.settings.search.order.is_optimal()

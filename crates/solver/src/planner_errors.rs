@@ -8,7 +8,8 @@ use cplan_fields::{EquationChoice, FieldChoice};
 use std::ops::RangeInclusive;
 
 impl Planner {
-    /// Reports the first preference that the planner's field needs and the world lacks, with a hint.
+    /// Reports the first preference that the planner's field needs and the world file lacks, with a hint. `None` if
+    /// none is missing.
     #[must_use]
     pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
         let FieldChoice::Relaxed { equation, .. } = self.field()?.field else { return None };
@@ -31,7 +32,7 @@ impl Planner {
         preferences.is_empty().then(needs)
     }
 
-    /// Describes the first invalid setting, by name. `None` if all are valid.
+    /// Describes the first invalid setting, and names it. `None` if all are valid.
     pub(super) fn error(&self) -> Option<String> {
         if self.path_kind() == PathKind::Middles && !self.method().descriptor().paths.contains(&PathKind::Middles) {
             return Some(format!("path: middles needs the planner trapezoid, not {}", self.method()));

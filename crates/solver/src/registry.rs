@@ -24,8 +24,8 @@ pub struct Descriptor {
     pub family: Family,
     /// Kinds of paths that the planner can give.
     pub paths: &'static [PathKind],
-    /// Settings that the planner reads, in their order in JSON. Some of them imply how it works:
-    /// - [`Setting::Gap`]: it looks for the optimum, and bounds its path's distance from it.
+    /// Settings that the planner reads, in their order in JSON. Some of them imply how the planner works:
+    /// - [`Setting::Gap`]: it minimises length, and bounds its path's distance from the optimum.
     /// - [`Setting::Margin`]: it plans among polygons.
     /// - [`Setting::Search`]: it plans on a roadmap.
     /// - [`Setting::Space`]: it plans on a grid.
@@ -43,7 +43,7 @@ pub enum Family {
     Roadmap,
     /// Planners that compute values on the cells of a grid.
     Field,
-    /// Planners that judge the scene itself: by exact slices, slabs, boxes.
+    /// Planners that work on the scene itself: by exact slices, slabs or boxes.
     Exact,
 }
 
@@ -87,7 +87,8 @@ impl Method {
         self.descriptor().paths.contains(&PathKind::Own)
     }
 
-    /// Returns true if the planner looks for the optimum of a metric, and bounds its path's distance from it.
+    /// Returns true if the planner minimises the length in some metric, and bounds its path's distance from the
+    /// optimum.
     #[must_use]
     pub fn optimizes(self) -> bool {
         self.reads(Gap)

@@ -19,8 +19,8 @@ use cplan_text::{counted, percent};
 /// The replay of a planner's run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replay {
-    /// Phases in order. Each phase remains visible after it ends, except boxes and values that are recomputed only for
-    /// the replay.
+    /// Phases in order. Each phase remains visible after it ends. Boxes and values that are computed only for the
+    /// replay do not.
     pub phases: Vec<Phase>,
 }
 
@@ -35,8 +35,8 @@ pub struct Phase {
     pub events: usize,
 }
 
-/// The content of a phase, shown event by event. A variant without a field stands for a part of the drawn [`Trace`], in
-/// the trace's order.
+/// The content of a phase, shown event by event. A variant without a field stands for the corresponding part of the
+/// drawn [`Trace`], in the trace's order.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shows {
     /// Configurations, in the order in which edges reach them.
@@ -86,7 +86,8 @@ pub struct SlabBoxes {
 /// A field after some of its sweeps, at some cells of the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweeps {
-    /// Number of cells along each axis.
+    /// One entry per frame: the number of sweeps so far, and the natural logarithms of the values. They are minus
+    /// infinity where the field is still zero.
     pub cells: [usize; 2],
     /// For each frame, the number of sweeps so far and the natural logarithms of the values, which are minus infinity
     /// where the field is still zero.
@@ -100,8 +101,9 @@ const MAX_REPLAY_PAIRS: usize = 4096;
 /// Smallest width of a box in a replay, as a share of the joint's range. Narrower boxes would be less than a pixel.
 const MIN_BOX_WIDTH: f64 = 1.0 / 1024.0;
 
-/// Number of frames of a field, and of cells of each frame along an axis.
+/// Number of frames in the replay of a field.
 const FIELD_FRAMES: usize = 24;
+/// Number of cells of each frame along an axis.
 const FRAME_CELLS: usize = 48;
 
 impl Replay {
@@ -140,7 +142,7 @@ impl Phases {
         }
     }
 
-    /// Adds the phases of the trace.
+    /// Adds the phases that show the planner's trace.
     fn of_trace<F>(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer<F>) {
         let graph = match answer.run.size {
             Size::Graph { nodes, .. } => nodes,
@@ -225,7 +227,7 @@ impl Phases {
         }
     }
 
-    /// Adds the slabs that decide whether there is a path.
+    /// Adds the phase with the slabs that decide whether there is a path.
     fn of_slabs(&mut self, problem: &MotionProblem) {
         let scene = problem.scene();
         if scene.pairs().len() > MAX_REPLAY_PAIRS {
@@ -255,14 +257,14 @@ impl Phases {
         self.add(seen.len(), caption, Shows::Slabs(found));
     }
 
-    /// Adds the field after some of its sweeps, if it is relaxed on the CPU.
+    /// Adds the phase with the field after some of its sweeps, if the field is relaxed on the CPU.
     fn of_sweeps<F>(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer<F>) {
         let Some(found) = sweeps(problem, options, answer) else { return };
         let caption = format!("The field, sweep by sweep: {} in all", found.frames.last().map_or(0, |frame| frame.0));
         self.add(found.frames.len(), caption, Shows::Sweeps(found));
     }
 
-    /// Adds the path as it was found, and the final path.
+    /// Adds the phases with the path as the planner found it, and with the final path.
     fn of_path<F>(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer<F>, found: &BoundedPath) {
         let path = found.path();
         let own = (answer.path_kind == PathKind::Taut && answer.method.has_own_path())
@@ -282,7 +284,8 @@ impl Phases {
     }
 }
 
-/// Returns the path before it is pulled taut: plans with the planner's own kind of path, in the space of the answer.
+/// Returns the path before it is pulled taut. To find it, plans again with the planner's own kind of path, in the space
+/// of the answer.
 fn own_path<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> Option<Path> {
     let levels = answer.history.len() + 1;
     let planner = options.planner.with_path(PathKind::Own);

@@ -12,26 +12,27 @@ use cplan_core::model::{Arm, MotionProblem};
 /// minutes.
 const MAX_CELLS: usize = 2048;
 
-/// Largest number of collision checks of a sampled grid, some ten seconds of work. A level after the first that needs
-/// more has no grid.
+/// Largest number of collision checks of a sampled grid on levels after the first. They take some ten seconds. A level
+/// that needs more has no grid.
 const MAX_CHECKS: usize = 1 << 30;
 
-/// Share of a prismatic joint's stroke that replaces the arm's reach where the reach is smaller, as for a gantry with a
-/// slender tool.
+/// If the reach is smaller than this fraction of a prismatic joint's stroke, the fraction replaces it. This is so for a
+/// gantry with a slender tool.
 const STROKE_SHARE: f64 = 0.1;
 
 /// Number of whole turns of continuous joints, on either side of the start, that polygons cover.
 const TURNS_PER_SIDE: usize = 1;
 
-/// Number of pairs of shapes from which polygons are made on the first level, one or two seconds of work. With more
-/// pairs, [`MARGIN_INCREASE`] applies.
+/// Largest number of pairs of shapes from which polygons are made on the first level without a larger margin. They take
+/// one or two seconds. With more pairs, [`MARGIN_INCREASE`] applies.
 const MAX_FIRST_PAIRS: usize = 6144;
 
-/// Factor by which the margin grows above [`MAX_FIRST_PAIRS`] pairs, and how often at most. A greater margin joins
-/// shapes.
+/// Factor by which the margin grows while there are more than [`MAX_FIRST_PAIRS`] pairs, and how often it may grow. A
+/// greater margin merges shapes, so that fewer pairs remain.
 const MARGIN_INCREASE: (f64, usize) = (2.0, 6);
 
-/// Largest number of pairs of shapes on levels after the first. A level with more has no polygons.
+/// Largest number of pairs of shapes from which polygons are made on levels after the first. A level with more has no
+/// polygons.
 const MAX_PAIRS: usize = 16_384;
 
 /// Margin of the level after exact polygons, as a share of the arm's reach. Paths among exact polygons usually touch
@@ -84,10 +85,10 @@ const MAX_SQUARE_RATIO: f64 = 16.0;
 
 /// Returns the cells of a level. `None` if the level is too fine. `first` gives the numbers of cells on level 0.
 ///
-/// With [`GridSpace::Rows`], the number along each axis doubles with every second level. On the first of two levels of
-/// one size, free cells are free throughout. On the second, free cells have a free centre, so passages look some three
-/// cells wider. The path is certified in either case. To show the same passage, cells that are free throughout would
-/// take sixteen times as long.
+/// With [`GridSpace::Rows`], the number along each axis doubles with every second level. There are two levels of each
+/// size. On the first, a cell counts as free if all of it is free. On the second, it counts as free if its centre is,
+/// so passages look some three cells wider. The path is certified in either case. To show the same passage, cells that
+/// are free throughout would take sixteen times as long.
 ///
 /// If `first` is `None`, cells are square in joint space, where a radian is as long as a metre. Then a field's equation
 /// is that of the configuration space, and does not depend on the grid.
@@ -102,7 +103,7 @@ pub(super) fn grid_cells(
     Some(grid(problem, space, level, shape))
 }
 
-/// Returns the numbers of cells along the axes, about `n * n` in total, that make cells square.
+/// Returns the numbers of cells along the axes that make cells square. There are about `n * n` cells in total.
 fn square_in_joint_space(problem: &MotionProblem, n: f64) -> [usize; 2] {
     let [a, b] = problem.scene().arm().topology().ranges.map(|axis| axis.extent());
     let ratio = (a / b).clamp(1.0 / MAX_SQUARE_RATIO, MAX_SQUARE_RATIO).sqrt();

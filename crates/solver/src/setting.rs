@@ -56,7 +56,7 @@ impl Criterion {
 /// in JSON.
 macro_rules! settings {
     ($($(#[$doc:meta])+ $setting:ident, $field:ident: $kind:ty = $default:expr, $key:literal;)+) => {
-        /// The name of a setting.
+        /// The names of the settings.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum Setting {
             $($(#[$doc])+ $setting),+
@@ -107,12 +107,12 @@ settings! {
     /// Definition of the length that the planner minimises.
     Criterion, criterion: Criterion = Criterion::Euclidean, "criterion";
     /// Largest gap: the path is refined until it is proven to be at most this share longer than the optimum. A larger
-    /// gap permits faster motions. With `None`, `shortest` uses 1e-4, and `visibility` accepts the gap that its first
-    /// margin gives.
+    /// gap permits faster motions. With `None`, the planner `shortest` uses 1e-4, and the planner `visibility` accepts
+    /// the gap that its first margin gives.
     Gap, gap: Option<f64> = None, "gap";
     /// Margin by which polygonal obstacles are grown on the first level, as a share of the arm's reach. Each finer
-    /// level has a quarter of it. With 0, the first level has the exact polygons of a gantry, and paths that touch them
-    /// are planned again among grown polygons.
+    /// level has a quarter of the margin before it. With 0, the first level has the exact polygons of a gantry. If a
+    /// path touches them, it is planned again among grown polygons.
     Margin, margin: f64 = 1e-3, "margin";
     /// Search of a roadmap.
     Search, search: RoadmapSearch = RoadmapSearch::default(), "search";

@@ -26,17 +26,19 @@ const CLEARANCE_FRACTIONS: [f64; 4] = [0.25, 0.06, 0.015, 0.004];
 /// Largest extra clearance, as a fraction of the arm's reach, for any gap.
 const MAX_EXTRA_CLEARANCE: f64 = 0.01;
 
-/// Number of pairs of shapes up to which all extra clearances are tried. With more, only the first is.
+/// Largest number of pairs of shapes with which all extra clearances are tried. With more pairs, only the first extra
+/// clearance is tried.
 const MAX_PAIRS_FOR_RETRIES: usize = 1000;
 
-/// Number of pairs of shapes up to which slices look for a shorter path. With more, a visibility graph does.
+/// Largest number of pairs of shapes with which slices look for a shorter path. With more pairs, a visibility graph
+/// does.
 const MAX_PAIRS: usize = 20_000;
 
-/// Fraction of the requested gap within which the lower bound is refined to the path's length. The rest allows
-/// corners to be removed.
+/// Fraction of the requested gap that the lower bound may use up: it is refined until it is this close to the path's
+/// length. The rest allows corners to be removed.
 const BOUND_FRACTION: f64 = 0.5;
 
-/// Fraction of the remaining gap that removing corners may cost.
+/// Fraction of the remaining gap by which the path may become longer when corners are removed.
 const SLACK_FRACTION: f64 = 0.9;
 
 /// Answers a request with an approximately shortest path. If slabs do not decide whether there is a path, or if the
@@ -88,13 +90,13 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     best
 }
 
-/// Largest first margin of a gantry's polygons, a share of the arm's reach, as a fraction of the gap. The planner's own
-/// margin applies if it is smaller. Paths farther from corners give faster motions. If the margin is too large for the
-/// gap, it is quartered.
+/// Limit on the margin by which a gantry's polygons are grown at first. The margin is a fraction of the arm's reach,
+/// and the limit on it is this multiple of the gap. With a greater margin, paths are farther from corners, which makes
+/// motions faster. If the margin is too large for the gap, it is quartered.
 const MARGIN_FRACTION: f64 = 0.4;
 
-/// Answers for a gantry, whose C-obstacles are polygons: finds the shortest path among slightly grown polygons. `None`
-/// if no path is proven to be within the gap.
+/// Answers for a gantry, whose C-obstacles are polygons: finds the shortest path among slightly grown polygons. Returns
+/// `None` if no path is proven to be within the gap.
 fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) -> Option<Answer> {
     let (scene, gap) = (problem.scene(), options.planner.gap().unwrap_or(CLOSE_GAP));
     let planner =
@@ -185,7 +187,7 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
     answer
 }
 
-/// The best lower bound so far on the length of the shortest path.
+/// The computation of the best lower bound on the length of the shortest path.
 struct PathBounding<'a> {
     motions: MotionQuery<'a>,
     /// The gap to reach.
@@ -217,14 +219,14 @@ impl PathBounding<'_> {
         Bound { metric: self.motions.metric, lower: self.lower, upper }.gap() <= self.gap
     }
 
-    /// Returns by how much a path of length `upper` may become longer to remove corners.
+    /// Returns by how much a path of length `upper` may become longer when corners are removed.
     fn room(&self, upper: f64) -> f64 {
         room(upper, self.is_asked.then_some(self.lower), self.gap)
     }
 }
 
-/// Returns by how much a path of length `upper` may become longer to remove corners. Without a lower bound, this is a
-/// share of the requested gap.
+/// Returns by how much a path of length `upper` may become longer when corners are removed. Without a lower bound, this
+/// is a share of the requested gap.
 fn room(upper: f64, lower: Option<f64>, gap: f64) -> f64 {
     SLACK_FRACTION * lower.map_or(gap / 2.0 * upper, |lower| lower * (1.0 + gap) - upper)
 }

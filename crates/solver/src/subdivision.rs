@@ -66,8 +66,8 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     }
 }
 
-/// Certifies the shortest path through the channel. That path touches the sides of boxes, where rounding may spoil it.
-/// Then this certifies the path through the middles of the portals.
+/// Certifies the shortest path through the channel. That path touches the sides of boxes, so rounding may prevent its
+/// certification. In that case, certifies the path through the middles of the portals.
 pub(super) fn certified(problem: &MotionProblem, channel: &Channel) -> Result<CertifiedPath, Rejection> {
     let clearance = problem.scene().workspace().clearance;
     certify(problem.scene(), taut(channel), clearance).or_else(|_| certify(problem.scene(), channel.path(), clearance))

@@ -4,7 +4,7 @@ use cplan_core::model::{MotionProblem, Obstacle, Pair};
 use cplan_geometry::{Convex, Point};
 use std::collections::HashMap;
 
-/// A problem with some of the pieces of its obstacles.
+/// A problem with only some of the pieces of its obstacles.
 pub(super) struct ThinnedProblem {
     /// The problem with the remaining pieces.
     pub problem: MotionProblem,
@@ -13,11 +13,12 @@ pub(super) struct ThinnedProblem {
 }
 
 impl ThinnedProblem {
-    /// Keeps one of all pieces that are alike: the one with the greatest depth. Two pieces are alike if their bounding
-    /// boxes are equal after rounding to a lattice with this spacing, metres, and if they lie along the same diagonal.
+    /// Keeps one piece of each group of similar pieces: the one with the greatest depth. Two pieces are similar if
+    /// their bounding boxes are equal after rounding to a lattice with this spacing, metres, and if they lie along the
+    /// same diagonal.
     ///
-    /// The omitted pieces lie near remaining ones. A proof without them holds with them, because more obstacles block
-    /// more. Takes `O(n)` for `n` pieces.
+    /// The omitted pieces lie near remaining ones. If the remaining pieces block all paths, then so do all pieces
+    /// together, because more obstacles block more. Takes `O(n)` for `n` pieces.
     pub fn new(problem: &MotionProblem, lattice: f64) -> Self {
         let kept: Vec<(Vec<usize>, usize)> = problem
             .scene()
@@ -45,7 +46,7 @@ impl ThinnedProblem {
     }
 }
 
-/// Returns the indices of the deepest of each group of alike pieces, ascending.
+/// Returns, in ascending order, the index of the deepest piece of each group of similar pieces.
 fn largest_alike(obstacle: &Obstacle, lattice: f64) -> Vec<usize> {
     let mut largest: HashMap<[i64; 5], (f64, usize)> = HashMap::new();
     for (number, piece) in obstacle.pieces.iter().enumerate() {

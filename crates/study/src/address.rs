@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-/// One step of an address.
+/// One step of an address. An address leads to a value in a file, such as `obstacle.shelf.at[0]`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Step {
     /// The name of a key, element or attribute, or of a named table or element.
@@ -63,11 +63,11 @@ pub(super) struct FoundNumber {
     pub is_whole: bool,
 }
 
-/// Keys of a robot or an obstacle that a world file may leave out, with their default values.
+/// Keys of a robot or an obstacle that a world file may omit, with their default values.
 const DEFAULT_KEYS: [(&str, &str); 2] = [("at", "[0.0, 0.0]"), ("angle", "0.0")];
 
-/// Returns the text of a world in which this number is written out. If the number is not a default of a robot or an
-/// obstacle, returns the same text.
+/// Returns the text of a world with the number at an address written out, if it is a default of a robot or an obstacle.
+/// Otherwise returns the same text.
 pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
     let (table, key) = match steps {
         [Step::Name(robot), Step::Name(key), ..] if robot == "robot" => (&steps[..1], key),
@@ -82,7 +82,7 @@ pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
     written.filter(|_| in_world(text, steps).is_err()).unwrap_or_else(|| text.to_owned())
 }
 
-/// Inserts the key at the beginning of its table, if the table has a header or is inline.
+/// Inserts the key at the beginning of its table. `None` if the table has no header and is not inline.
 fn inside(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
     let document = DeTable::parse(text).ok()?;
     let (_, at) = descend(document.get_ref(), document.span(), table).ok()?;
@@ -167,7 +167,7 @@ fn missing(here: &DeRef, step: &Step) -> String {
     format!("there is no {step}; there is {there}")
 }
 
-/// Returns the number of a world file at an address.
+/// Returns the number at an address in a world file.
 ///
 /// # Errors
 /// The reason, if there is no number.
@@ -192,7 +192,7 @@ pub(super) fn entry_in(text: &str, steps: &[Step]) -> Option<Range<usize>> {
     descend(document.get_ref(), document.span(), steps).ok().map(|(_, at)| at)
 }
 
-/// Returns true if the value at an address may be an angle, that is, an angle or a value of a joint.
+/// Returns true if the value at an address may be an angle: an angle of a frame, or a value of a joint.
 pub(super) fn is_angle(address: &str) -> bool {
     const ANGLE_KEYS: [&str; 7] = ["angle", "joints", "fixed", "limits", "rpy", "lower", "upper"];
     let steps = steps(address).unwrap_or_default();
@@ -204,8 +204,8 @@ pub(super) fn is_angle(address: &str) -> bool {
     names.by_ref().take(2).any(|name| ANGLE_KEYS.contains(&name))
 }
 
-/// Returns the addresses of all numbers of a world file, without `world.`, including those of defaults that it does not
-/// state.
+/// Returns the addresses of all numbers of a world file, without the prefix `world.`. Includes those of defaults that
+/// the file does not state.
 pub(super) fn all_in_world(text: &str) -> Vec<String> {
     let mut found = vec!["robot.at[0]".to_owned(), "robot.at[1]".to_owned(), "robot.angle".to_owned()];
     if let Ok(document) = DeTable::parse(text) {
@@ -248,7 +248,7 @@ fn quoted(name: &str) -> String {
     if name.contains([' ', '.', '[']) { format!("\"{name}\"") } else { name.to_owned() }
 }
 
-/// Returns the addresses of all numbers of a URDF, without `urdf.`.
+/// Returns the addresses of all numbers of a URDF, without the prefix `urdf.`.
 pub(super) fn all_in_urdf(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     if let Ok(document) = roxmltree::Document::parse(text) {
@@ -276,7 +276,7 @@ fn numbers_of_element(element: roxmltree::Node, path: &str, found: &mut Vec<Stri
     }
 }
 
-/// Largest number of addresses that are compared with a wrong one for a hint. Maps and drawings have very many.
+/// Number of known addresses that are compared with a wrong one to find a hint. Maps and drawings may have more.
 const MAX_COMPARED_ADDRESSES: usize = 10_000;
 
 /// Returns the known address that is closest to a wrong one.
@@ -299,8 +299,8 @@ fn edits(a: &str, b: &str) -> usize {
     row[b.len()]
 }
 
-/// Returns the number of a URDF at an address. Steps are tags of elements, with `joint` and `link` followed by a name;
-/// then an attribute, and the index of the number in it.
+/// Returns the number at an address in a URDF. The first steps are tags of elements; after `joint` and `link`, a name
+/// follows. The last steps are an attribute, and the index of the number in it.
 ///
 /// # Errors
 /// The reason, if there is no number.

@@ -16,13 +16,13 @@ use toml::Spanned;
 /// Largest number of layouts of a study.
 const MAX_LAYOUTS: usize = 20_000_000;
 
-/// Parses planning options such as `--planner=first`, which are the same as those of the main command.
+/// A function that parses planning options such as `--planner=first`. The options are those of the main command.
 pub type ReadOptions<'a> = &'a dyn Fn(&[String]) -> Result<(Options, Overrides), String>;
 
-/// Reads a file that a study names. The second argument is its name, if the study states one.
+/// A function that reads a file that a study names. The second argument is the file's name, if the study states one.
 type OpenFile<'a> = &'a dyn Fn(NamedFile, Option<&str>) -> Result<Source, InputError>;
 
-/// A reader that knows the study file, for messages.
+/// A reader of a study file. It knows the file for its messages.
 struct Reader<'a> {
     source: &'a Source,
 }
@@ -49,7 +49,7 @@ pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, Inpu
     read(&study, read_options, &beside)
 }
 
-/// A file that a study names.
+/// The files that a study names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum NamedFile {
     Robot,
@@ -334,7 +334,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns templates of world and robot, with the places that the parameters set.
+    /// Returns the templates of world and robot, with the places of the numbers that the parameters set.
     fn templates(
         &self,
         tables: &[Spanned<ParameterTable>],
@@ -374,7 +374,7 @@ impl Reader<'_> {
         Ok([template(world, Place::World)?, template(urdf, Place::Urdf)?])
     }
 
-    /// Returns the position of one of the addresses that a parameter sets.
+    /// Returns the position in the study file of one of the addresses that a parameter sets.
     fn target(&self, tables: &[Spanned<ParameterTable>], parameter: usize, number: usize) -> Range<usize> {
         let sets = &tables[parameter].get_ref().sets;
         let entry =

@@ -9,13 +9,13 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// Longest time after which appended rows are written to disk.
+/// Longest time for which appended rows may remain unwritten.
 const MAX_WRITE_DELAY: Duration = Duration::from_millis(200);
 
 /// The reason why a journal cannot be used.
 #[derive(Debug, Error)]
 pub enum JournalError {
-    /// The file has the rows of another study, or is no journal.
+    /// The file has the rows of another study, or is not a journal.
     #[error("{} has rows of another study, of other files, or of another version of cplan: remove it, or begin again with --fresh", path.display())]
     Other {
         /// Path of the journal.
@@ -46,7 +46,7 @@ struct JournalHeader {
     urdf: String,
 }
 
-/// The journal of a study: one line per row, in order.
+/// The journal of a study, a file with one line per row, in order. It lets an interrupted study continue.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -55,13 +55,13 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal of a study, and reads its rows, which are those of the first layouts without a gap. Drops an
+    /// Opens the journal of a study, and reads its rows. They are those of the first layouts, without a gap. Drops an
     /// incomplete last line, which remains if the program is killed while it writes.
     ///
-    /// With `fresh`, drops all rows, even those of another study. A file that is no journal is never changed.
+    /// With `fresh`, drops all rows, even those of another study. A file that is not a journal is never changed.
     ///
     /// # Errors
-    /// A journal of another study, a file that is no journal, a journal in use by another run, and errors of the
+    /// A journal of another study, a file that is not a journal, a journal in use by another run, and errors of the
     /// operating system.
     pub fn open(path: &Path, study: &Study, fresh: bool) -> Result<(Self, Vec<Row>), JournalError> {
         let system = |source| JournalError::System { path: path.to_owned(), source };
@@ -138,7 +138,7 @@ impl Journal {
         self.file.flush().map_err(|source| JournalError::System { path: self.path.clone(), source })
     }
 
-    /// Removes the journal, once the table is written.
+    /// Removes the journal. For use after the table is written.
     ///
     /// # Errors
     /// Errors of the operating system.

@@ -72,12 +72,12 @@ pub struct Study {
     design: Design,
     world: Template,
     urdf: Template,
-    /// Robot and world as in the files, before parameters set any numbers.
+    /// Robot and world as the files state them, before parameters set any numbers.
     base: LoadedScene,
     options: Options,
     /// The planning options as text.
     words: Vec<String>,
-    /// True if obstacles may overlap in a layout that do not overlap in the world file.
+    /// True if obstacles may overlap in a layout even if they do not overlap in the world file.
     may_overlap: bool,
     overrides: Overrides,
 }
@@ -113,8 +113,8 @@ impl Study {
         })
     }
 
-    /// Returns the texts of study, robot and world, from which [`Study::from_sources`] makes the same study. Defaults
-    /// of the world that parameters set are written out.
+    /// Returns the texts of study, robot and world, from which [`Study::from_sources`] creates the same study. In the
+    /// text of the world, defaults that parameters set are written out.
     #[must_use]
     pub fn sources(&self) -> [&Source; 3] {
         [&self.source, self.urdf.source(), self.world.source()]
@@ -132,7 +132,8 @@ impl Study {
         !self.urdf.is_fixed()
     }
 
-    /// Returns the number of layouts that are listed and drawn.
+    /// Returns the number of layouts of the study itself, whether listed or drawn. Those of the search are not
+    /// included.
     #[must_use]
     pub fn count(&self) -> usize {
         self.design.count()
@@ -178,7 +179,7 @@ impl Study {
     /// Plans with these values of the parameters.
     ///
     /// # Errors
-    /// The errors of [`Study::problem`], and reasons for which planning is refused.
+    /// The errors of [`Study::problem`], and the reasons for which planning is refused.
     pub fn plan(&self, values: &[f64]) -> Result<Plan, String> {
         let problem = self.problem(values).map_err(|error| describe_error(&error))?;
         plan(&problem, &self.options).map_err(|error| error.to_string())
@@ -234,8 +235,8 @@ impl Study {
 /// The ending of planning, the reason if there is no motion, and the measured values.
 type LayoutResult = (Ending, Option<String>, Vec<Option<f64>>);
 
-/// Returns the first defect on one line, without its position in a file, because the files of a layout exist in memory
-/// only.
+/// Returns the first defect on one line. Omits its position in a file, because the files of a layout exist only in
+/// memory.
 fn describe_error(error: &InputError) -> String {
     error.diagnostics().first().map_or_else(|| error.to_string(), |first| first.message.clone())
 }

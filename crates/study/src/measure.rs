@@ -66,7 +66,7 @@ impl Measure {
 }
 
 impl Measure {
-    /// Returns true if it depends only on the path, not on the motion.
+    /// Returns true if the measure depends only on the path, not on the motion along it.
     pub(super) fn is_of_the_path(self) -> bool {
         matches!(self, Self::Length | Self::OverBound | Self::LowerBound)
     }
@@ -114,8 +114,8 @@ impl Condition {
         Ok(Self { measure: Measure::named(measure.trim())?, at_least, bound })
     }
 
-    /// Returns true if a value satisfies the condition. A missing value does not, except that a missing clearance (no
-    /// obstacle within reach) satisfies every lower bound.
+    /// Returns true if a value satisfies the condition. A missing value does not, with one exception: a missing
+    /// clearance means that no obstacle is within reach, so it satisfies every lower bound.
     pub(super) fn holds(&self, value: Option<f64>) -> bool {
         let unbounded = (self.measure == Measure::Clearance).then_some(f64::INFINITY);
         value.or(unbounded).is_some_and(|value| if self.at_least { value >= self.bound } else { value <= self.bound })
@@ -155,7 +155,7 @@ impl Objective {
         }
     }
 
-    /// Converts a value to a cost, where less is better. The same conversion turns a cost back to the value.
+    /// Converts a value to a cost, for which less is better. The same conversion turns a cost back into the value.
     pub(super) fn cost(&self, value: f64) -> f64 {
         if self.most { -value } else { value }
     }

@@ -3,8 +3,8 @@
 use cplan_core::model::Obstacle;
 use cplan_geometry::{Bounds, BoxTree, Convex, separation};
 
-/// Obstacles that overlap by at most this, in metres, only touch. It covers the rounding of numbers in files and of
-/// moved shapes.
+/// Depth up to which overlapping obstacles count as only touching, in metres. It covers the rounding of numbers in
+/// files and of moved shapes.
 const TOUCHING_DEPTH: f64 = 1e-9;
 
 /// Describes two obstacles that overlap in the layout (`now`), but not in the files (`before`). `None` if there are
@@ -26,7 +26,8 @@ pub(super) fn overlap(before: &[Obstacle], now: &[Obstacle]) -> Option<String> {
     None
 }
 
-/// Returns true if two obstacles share more than boundary points at some height, and neither rests on the other.
+/// Returns true if two obstacles have more than boundary points in common at some height, and neither rests on the
+/// other.
 fn are_in_each_other(a: &Obstacle, b: &Obstacle) -> bool {
     if !(a.heights.object_definitely_meets(b.heights) && b.heights.object_definitely_meets(a.heights)) {
         return false;
@@ -63,8 +64,8 @@ mod tests {
         Obstacle::polygon(name, corners.map(|[x, y]| [at[0] + x, at[1] + y])).unwrap()
     }
 
-    /// Compares with the distance of the centres: squares of side 1 overlap if it is less than 1 along both axes, and
-    /// discs if it is less than the sum of the radii.
+    /// Compares the result with the distance of the centres. Squares of side 1 overlap if it is less than 1 along both
+    /// axes. Discs overlap if it is less than the sum of the radii.
     #[test]
     fn overlaps_agree_with_centres() {
         let mut numbers = SplitMix64::nth(5, 0);

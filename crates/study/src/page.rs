@@ -21,7 +21,7 @@ const MAX_LISTED_CELLS: usize = 48;
 const MAX_CHART_POINTS: usize = 4000;
 
 impl Study {
-    /// Returns the page of these rows, with pictures of some layouts. The same rows give the same bytes.
+    /// Returns the page for these rows, with pictures of some layouts. The same rows give the same bytes.
     #[must_use]
     pub fn html(&self, rows: &[Row], pictures: &[Picture]) -> String {
         let summary = Summary::new(self, rows);
@@ -181,7 +181,7 @@ const MAP_LEGEND: [(&str, &str); 3] = [
     (NO_MOTION_COLOR, "nothing to plan, or unknown"),
 ];
 
-/// Largest distance at which dots of two charts count as equal, as a fraction of the chart.
+/// Largest distance at which two dots of a chart count as one, as a fraction of the chart.
 const DOT_DISTANCE: f64 = 0.01;
 
 fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {

@@ -74,7 +74,7 @@ impl Values {
         }
     }
 
-    /// Returns the least and greatest argument of [`Values::at`], between which the search moves.
+    /// Returns the least and greatest argument of [`Values::at`]. The search moves between these.
     pub(super) fn room(&self) -> [f64; 2] {
         match self {
             Self::Listed(values) => [0.0, values.len() as f64],
@@ -82,8 +82,8 @@ impl Values {
         }
     }
 
-    /// Returns the value at a place of the search range. For listed values, the integer part of the place is the index;
-    /// otherwise the place is the value itself.
+    /// Returns the value at a place of the search range. For listed values, the integer part of the place is the index.
+    /// Otherwise the place is the value itself.
     pub(super) fn at(&self, place: f64) -> f64 {
         match self {
             Self::Listed(values) => values[(place.max(0.0) as usize).min(values.len() - 1)],
@@ -119,8 +119,8 @@ enum Column {
 }
 
 impl Design {
-    /// Creates the design. From one layout to the next, draws change fastest, then the listed values of the last
-    /// parameter. Returns `None` if there are more layouts than can be counted.
+    /// Creates the design. From one layout to the next, the draw changes first. After all draws, the listed value of
+    /// the last parameter changes, and so on. Returns `None` if there are more layouts than can be counted.
     pub fn new(parameters: &[Parameter], draws: usize, seed: u64) -> Option<Self> {
         let mut stays = draws;
         let mut columns = Vec::new();

@@ -33,11 +33,11 @@ impl Cells {
 }
 
 impl Study {
-    /// Returns the table as a Parquet file, with the columns of [`Study::csv`] as counts, flags, doubles and text.
+    /// Returns the table as a Parquet file. It has the columns of [`Study::csv`], as counts, flags, doubles and text.
     /// Missing values are null.
     ///
     /// # Errors
-    /// Rows that the format cannot hold.
+    /// Rows that the format cannot represent.
     pub fn parquet(&self, rows: &[Row]) -> Result<Vec<u8>, ParquetError> {
         let names = self.columns();
         let fields = names.iter().zip(self.cells(&[])).map(|(name, cells)| {
@@ -87,7 +87,7 @@ impl Study {
     }
 }
 
-/// Splits optional values into the present ones, and a 1 or 0 for each that states whether it is present.
+/// Splits optional values into those that are present, and a 1 or 0 for each that states whether it is present.
 fn present<T>(values: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
     let (mut there, mut levels) = (Vec::new(), Vec::new());
     for value in values {

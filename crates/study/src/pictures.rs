@@ -6,7 +6,7 @@ use super::summary::Summary;
 use cplan_compare::Picture;
 use cplan_view::output::PlanOutput as _;
 
-/// Draws the best and the worst layout, the first infeasible one and the first unknown one, as far as they exist.
+/// Draws the best and the worst layout, the first infeasible one and the first unknown one, if they exist.
 #[must_use]
 pub fn pictures(study: &Study, rows: &[Row]) -> Vec<Picture> {
     let summary = Summary::new(study, rows);

@@ -127,7 +127,7 @@ pub(super) struct Scaled {
 }
 
 impl ParameterTable {
-    /// Returns the position of the first value that is written in degrees, if any.
+    /// Returns the position of the first value that is written in degrees. `None` if there is none.
     pub fn degrees(&self) -> Option<Range<usize>> {
         let listed = self.values.iter().filter(|values| values.get_ref().iter().any(|value| value.in_degrees));
         let ends = [&self.from, &self.to].into_iter().flatten().filter(|end| end.get_ref().in_degrees);
@@ -136,7 +136,7 @@ impl ParameterTable {
 }
 
 impl Targets {
-    /// Returns each address with its factor and offset.
+    /// Returns each address that the parameter sets, with its factor and offset.
     pub fn all(&self) -> Vec<(&str, f64, f64)> {
         match self {
             Self::One(address) => vec![(address.as_str(), 1.0, 0.0)],

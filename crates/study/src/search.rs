@@ -9,7 +9,8 @@ use cplan_parallel::in_order;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-/// Number of layouts in a generation. A search of fewer than ten generations of this size has smaller ones.
+/// Number of layouts in a generation. If a search has fewer than ten generations of this size, its generations are
+/// smaller.
 const GENERATION_SIZE: usize = 40;
 
 /// Cost of a layout that has no motion or violates a condition.
@@ -24,9 +25,9 @@ impl Study {
         self.objective.filter(|_| row.fits).and_then(value).unwrap_or(EXCLUDED_COST)
     }
 
-    /// Searches for a better layout on several threads. `known` are the rows of all layouts of the study, and `done`
-    /// are the rows of an earlier search that was interrupted. Passes each new layout's row to `each`, in order. Plans
-    /// no layout again, and passes no two rows for one layout. The rows are the same for any number of threads.
+    /// Searches for a better layout on several threads. `known` are the rows of all layouts of the study. `done` are
+    /// the rows of an earlier search that was interrupted. Passes each new layout's row to `each`, in order. No layout
+    /// is planned twice, and `each` gets at most one row per layout. The rows are the same for any number of threads.
     ///
     /// # Errors
     /// The error of `each`.
@@ -58,7 +59,7 @@ impl Study {
         minimize(&rooms, places, generations, &mut numbers, |places| landscape.costs(places))
     }
 
-    /// Returns the places and costs of the best rows, the best first, at most `most` of them.
+    /// Returns the places and the costs of the best rows, the best first. There are at most `most` of them.
     fn best_places(&self, known: &[Row], most: usize) -> Vec<(Vec<f64>, f64)> {
         let mut order: Vec<(&Row, f64)> = known.iter().map(|row| (row, self.cost(row))).collect();
         order.sort_by(|(a, a_cost), (b, b_cost)| a_cost.total_cmp(b_cost).then(a.layout.cmp(&b.layout)));
@@ -70,7 +71,7 @@ impl Study {
     }
 }
 
-/// Computes the costs of layouts at places of the search range, and passes on new rows.
+/// The cost of layouts as a function of the place in the search range. It passes new rows on.
 struct Landscape<'a, F> {
     study: &'a Study,
     /// The rows of an earlier search, in order.
@@ -118,7 +119,7 @@ impl<F> Landscape<'_, F> {
     }
 }
 
-/// Returns values as a key of a map. Zeros of both signs have the same key.
+/// Returns values as a key of a map. Positive and negative zero have the same key.
 fn key(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| (value + 0.0).to_bits()).collect()
 }

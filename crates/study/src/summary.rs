@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 /// Largest number of reasons that are listed.
 const MAX_REASONS: usize = 6;
 
-/// A value counts as at the end of its range if it is within this fraction of the range.
+/// A value counts as being at the end of a range if its distance from the end is at most this fraction of the range.
 const RANGE_END_SHARE: f64 = 0.05;
 
 /// Indentation of tables.
@@ -87,9 +87,9 @@ impl<'a> Summary<'a> {
         reasons
     }
 
-    /// Returns the Pareto front of two measures, sorted by the first one: layouts to which no other is better in both
-    /// measures. Of layouts that are equal in one measure, only the best in the other is included. Less is better,
-    /// except for the clearance.
+    /// Returns the Pareto front of two measures, sorted by the first one. It has the layouts to which no other layout
+    /// is better in both measures. Of layouts that are equal in one measure, only the best in the other is included.
+    /// Less is better, except for the clearance.
     #[must_use]
     pub fn pareto(&self, measures: [Measure; 2]) -> Vec<&'a Row> {
         let cost = |row: &Row, k: usize| {
@@ -255,7 +255,7 @@ fn share(part: usize, all: usize) -> f64 {
     100.0 * part as f64 / all.max(1) as f64
 }
 
-/// Formats a value with five significant digits, enough to distinguish layouts; the tables have all digits.
+/// Formats a value with five significant digits. They are enough to distinguish layouts; the tables have all digits.
 pub(super) fn shown(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
@@ -305,8 +305,8 @@ fn cause(reason: &str) -> String {
     cause
 }
 
-/// Returns the position after the joint values with which a text begins: `(shoulder # rad, elbow # rad)`. `None` if it
-/// does not begin so.
+/// Returns the position after joint values such as `(shoulder # rad, elbow # rad)` at the beginning of a text. `None`
+/// if the text does not begin with such values.
 fn values_end(text: &str) -> Option<usize> {
     let end = text.find(')')? + 1;
     let inside = &text[..end];

@@ -3,10 +3,10 @@
 use cplan_core::space::SplitMix64;
 use std::f64::consts::LN_2;
 
-/// Fraction of its speed that a particle keeps from one generation to the next: Clerc's value.
+/// Fraction of its speed that a particle keeps from one generation to the next. This is Clerc's value.
 const SPEED_SHARE: f64 = 0.5 / LN_2;
 
-/// Greatest pull towards a best place, as a multiple of the distance to it: Clerc's value.
+/// Greatest pull towards a best place, as a multiple of the distance to it. This is Clerc's value.
 const MAX_PULL: f64 = 0.5 + LN_2;
 
 /// Greatest initial speed, as a fraction of the range of a coordinate.
@@ -51,8 +51,8 @@ impl Particle {
     }
 }
 
-/// Minimises the cost within the ranges of the coordinates. Begins with places of known costs, each of which becomes a
-/// particle. `costs` evaluates all places of a generation at once. Costs may be infinite.
+/// Minimises the cost within the ranges of the coordinates. Begins with places whose costs are known; each of them
+/// becomes a particle. `costs` evaluates all places of a generation at once. Costs may be infinite.
 ///
 /// # Errors
 /// The error of `costs`.

@@ -4,10 +4,10 @@ use super::Study;
 use super::row::Row;
 use cplan_compare::quoted;
 
-/// The table of rows, as CSV.
+/// Tables of rows, as CSV.
 impl Study {
     /// Returns the names of the columns: the number of the layout, the parameters, the ending, the reason, the
-    /// measures, and whether the layout fits.
+    /// measures, and whether the layout satisfies all conditions.
     #[must_use]
     pub fn columns(&self) -> Vec<String> {
         let parameters = self.parameters.iter().map(|parameter| parameter.name.clone());

@@ -5,7 +5,7 @@ use cplan_robot::Source;
 use std::fmt::Write;
 use std::ops::Range;
 
-/// A file with the places of the numbers that parameters set.
+/// A text with placeholders for the numbers that parameters set.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Template {
     source: Source,
@@ -64,7 +64,8 @@ impl Template {
     /// Creates the template of a file in which `settings` set numbers.
     ///
     /// # Errors
-    /// The index of the first setting whose address leads to no number, or to one that another sets, with the reason.
+    /// The index of the first setting whose address leads to no number, or to a number that another setting sets, with
+    /// the reason.
     pub fn new(source: Source, file: Place, settings: &[(Vec<Step>, Setting)]) -> Result<Self, (usize, String)> {
         let mut text = source.text().to_owned();
         if file == Place::World {

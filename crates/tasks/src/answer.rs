@@ -17,12 +17,12 @@ use std::sync::Arc;
 pub enum Event {
     /// The gripper grasps an object.
     Grasp {
-        /// The number of the object in the task.
+        /// The index of the object in the task.
         object: usize,
     },
     /// The gripper releases an object.
     Release {
-        /// The number of the object in the task.
+        /// The index of the object in the task.
         object: usize,
         /// Pose of the object from then on.
         pose: Pose,
@@ -51,7 +51,7 @@ pub struct Leg {
     pub step: Step,
     /// The world during the motion, with the payload.
     pub scene: Arc<Scene>,
-    /// The objects that still move by themselves ([`cplan_handling::Task::courses`]).
+    /// The indices of the objects that still move by themselves ([`cplan_handling::Task::courses`]).
     pub moving: Arc<[usize]>,
     /// The object that is carried during the motion. `None` if the gripper is empty.
     pub carried: Option<usize>,
@@ -134,7 +134,8 @@ impl Leg {
 pub struct TaskMotion {
     /// The motions of all steps, joined into one.
     pub sequence: Sequence,
-    /// True if no other choice of IK solutions, turns and order is faster, given the motions that this planner finds.
+    /// True if no other choice of IK solutions, turns and order is faster. This holds only for the motions that this
+    /// planner finds.
     pub exact: bool,
     /// How the arm passes moving obstacles, with times from the beginning of the task. `None` if there are none.
     pub timing: Option<Timing>,
@@ -151,12 +152,12 @@ impl TaskMotion {
 /// The outcome of a task, with figures about the search.
 #[derive(Debug, Clone)]
 pub struct TaskAnswer {
-    /// The motion that performs all steps, or the step that fails for all IK solutions and orders. Failure is either
-    /// proven (infeasible), or no solution was found within the effort (unknown).
+    /// The motion that performs all steps, or the step that fails for all IK solutions and orders. The failure is
+    /// proven (infeasible), or the search merely found no solution (unknown).
     pub outcome: Outcome<TaskMotion, FailedStep, FailedStep>,
     /// The steps in the order of execution: all of them, or those before the step that fails.
     pub legs: Vec<Leg>,
-    /// Proven lower bound, in seconds, on the duration of all motions that perform the whole task from rest to rest at
+    /// Proven lower bound, in seconds, on the duration of every motion that performs the whole task and rests after
     /// each step.
     pub lower_bound: f64,
     /// Number of motions that were planned, including those that the answer does not use.
@@ -184,7 +185,7 @@ impl TaskAnswer {
     }
 
     /// Returns the largest fraction by which the task may take longer than the fastest solution: `duration /
-    /// lower_bound - 1`. `None` if not all steps are done, or if only the bound is 0.
+    /// lower_bound - 1`. `None` if not all steps are done, or if the bound is 0 and the duration is not.
     #[must_use]
     pub fn gap(&self) -> Option<f64> {
         let (seconds, least) = (self.outcome.found()?.seconds(), self.least_seconds());

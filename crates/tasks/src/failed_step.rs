@@ -26,14 +26,14 @@ pub struct RefusedIkSolution {
     pub proof: Option<CheckedProof>,
 }
 
-/// A step that cannot be done, or that is not known to be possible. The same then holds for the task in every other
-/// order.
+/// A step that cannot be done, or that is not known to be possible. The same then holds in every other order of the
+/// task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FailedStep {
-    /// The first step that cannot be done, when as many steps as possible have been done before it.
+    /// The first step that cannot be done. It is the one before which the most steps can be done.
     pub step: Step,
-    /// Reasons in words, with the motions that were tried. These include motions that begin with other IK solutions or
-    /// other grips than those with which the answer's steps end.
+    /// Reasons in words, with the motions that were tried. Some of these motions begin with other IK solutions or other
+    /// grips than those at the end of the answer's steps.
     pub reasons: Vec<String>,
     /// The world after the earlier steps, with the payload of the motion that fails.
     pub scene: Arc<Scene>,
@@ -41,11 +41,12 @@ pub struct FailedStep {
     pub moving: Arc<[usize]>,
     /// Configuration of the arm after the earlier steps.
     pub from: Configuration,
-    /// The IK solutions that were tried from there. Empty if no IK solution within the joint limits reaches the target.
+    /// The IK solutions to which motions from there were tried. Empty if no IK solution within the joint limits reaches
+    /// the target.
     pub ik_solutions: Vec<RefusedIkSolution>,
 }
 
-/// A step that could not be done from some node of the search.
+/// A step that could not be done after some node of the search.
 pub(super) struct RefusedStep<'a> {
     /// Number of steps that were done before it.
     pub depth: usize,
@@ -69,8 +70,8 @@ impl RefusedStep<'_> {
     }
 }
 
-/// Explains why the search got no farther. Of the refused steps, it considers those with the most steps before them,
-/// and of these the node that was reached first. Also returns that node.
+/// Explains why the search got no farther. It considers the refused steps that have the most steps before them, and of
+/// these the node that was reached first. Also returns that node.
 pub(super) fn farthest<'s>(
     arm: &Arm,
     refused: &[RefusedStep],

@@ -21,7 +21,7 @@ pub(super) struct Stop {
 }
 
 impl Stop {
-    /// Returns the number of configurations at the stop, or 1 if they are unknown.
+    /// Returns the number of configurations at the stop; 1 if they are unknown.
     fn count(&self) -> usize {
         self.ik_solutions.as_ref().map_or(1, Vec::len)
     }
@@ -48,7 +48,7 @@ impl Stop {
     }
 }
 
-/// The stops of an item of the task.
+/// The stops of an item of a task.
 #[derive(Debug, Clone)]
 pub(super) enum Stops {
     /// The stop of a step.
@@ -75,13 +75,13 @@ enum RemainingSeconds {
 /// numbers.
 const MAX_TABULATED_PAIRS: usize = 12;
 
-/// Lower bounds on the time from within a group to the end of the task, in seconds. The indices are the set of pairs
-/// that are done (one bit each), the last of them, and the configuration at its stop.
+/// Lower bounds on the time from within a group to the end of the task, in seconds. They are indexed by the set of
+/// pairs that are done (one bit each), the last of these pairs, and the configuration at its stop.
 #[derive(Debug, Clone)]
 struct Table {
-    /// Bounds after the pick of a pair, which then counts as done.
+    /// Bounds after the pick of a pair. The pair then counts as done.
     picked: Vec<Vec<Vec<f64>>>,
-    /// Bounds after the place of the last pair that is done.
+    /// Bounds after the place step of the last pair that is done.
     placed: Vec<Vec<Vec<f64>>>,
 }
 
@@ -93,9 +93,9 @@ pub(super) struct Heuristic<'a> {
 }
 
 impl<'a> Heuristic<'a> {
-    /// Computes the bounds. Takes `O(n b^2)` for `n` steps with `b` IK solutions each. Takes `O(2^k k^2 b^2)` for a
-    /// group of `k` pairs up to [`MAX_TABULATED_PAIRS`], of which it finds the best order. For a larger group, the
-    /// bound is weaker: each pick is reached from the nearest place, and the longest of these motions is omitted,
+    /// Computes the bounds. Takes `O(n b^2)` for `n` steps with `b` IK solutions each. For a group of `k` pairs up to
+    /// [`MAX_TABULATED_PAIRS`], it finds the best order and takes `O(2^k k^2 b^2)`. For a larger group, the bound is
+    /// weaker. It assumes that each pick is reached from the nearest place. It omits the longest of these motions,
     /// because the first pick needs none.
     pub fn new(task: &'a Task) -> Self {
         let stops = stops(task);
@@ -142,7 +142,8 @@ impl<'a> Heuristic<'a> {
         }
     }
 
-    /// Returns the least bound over all configurations of a stop. `after` has the bounds from these configurations on.
+    /// Returns the least bound over all configurations of a stop. `after` has the bounds after the stop, one per
+    /// configuration.
     fn over(&self, stop: &Stop, q: Option<Configuration>, after: &[f64]) -> f64 {
         let by = |(place, after): (usize, &f64)| stop.seconds(self.arm, q, place) + after;
         after.iter().enumerate().map(by).fold(f64::INFINITY, f64::min)
@@ -198,7 +199,7 @@ impl<'a> Heuristic<'a> {
     }
 }
 
-/// Pose of an object, as far as it does not depend on IK solutions.
+/// The part of an object's pose that does not depend on IK solutions.
 #[derive(Clone, Copy)]
 struct KnownPose {
     at: Point,
@@ -250,7 +251,7 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
     task.items.iter().map(of).collect()
 }
 
-/// Returns all IK solutions of a step, and updates the pose of its object. `None` if they are unknown.
+/// Returns all IK solutions of a step, or `None` if they are unknown. Updates the pose of the step's object.
 fn targets(
     task: &Task,
     step: &Step,
@@ -322,7 +323,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(64))]
 
-        /// Checks that the bound for large groups is at most the least time over all orders.
+        /// Tests that the bound for large groups is at most the least time over all orders.
         #[test]
         fn the_bound_of_a_large_group_is_a_bound(
             spots in prop::collection::vec(((0.4..1.6f64, -3.0..3.0f64), (0.4..1.6f64, -3.0..3.0f64)), 2..7),

@@ -9,7 +9,7 @@ use cplan_geometry::Point;
 pub(super) struct IkSolutions {
     /// Configurations within the joint limits. Empty if the target is out of reach.
     pub configurations: Vec<Configuration>,
-    /// True if these are all configurations, except that a joint without limits may make whole turns.
+    /// True if these are all solutions. Whole turns of a joint without limits do not count as further solutions.
     pub all: bool,
 }
 

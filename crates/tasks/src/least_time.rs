@@ -14,12 +14,13 @@ pub fn rest_to_rest(distance: f64, velocity: f64, acceleration: f64) -> f64 {
     }
 }
 
-/// Fraction by which such a time is lowered, so that rounding cannot make it exceed the time of the straight motion.
+/// Fraction by which the time of a motion is lowered. So rounding cannot make the bound exceed the time of the straight
+/// motion.
 const ROUNDING: f64 = 1e-9;
 
-/// Returns a lower bound on the duration of all motions between two configurations from rest to rest, at a fraction of
-/// the joints' top speeds, in seconds. Each joint takes at least its own time. On a circle, it takes the shorter
-/// direction.
+/// Returns a lower bound, in seconds, on the duration of every motion between two configurations from rest to rest. The
+/// joints move at most at the fraction `speed` of their top speeds. Each joint takes at least its own time. On a
+/// circle, it takes the shorter direction.
 #[must_use]
 pub(super) fn least_time(arm: &Arm, from: Configuration, to: Configuration, speed: f64) -> f64 {
     let displacement = arm.topology().displacement(from, to);

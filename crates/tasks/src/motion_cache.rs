@@ -29,12 +29,12 @@ pub(super) struct Refusal {
     pub blockers: Blockers,
 }
 
-/// Obstacles that prevent a motion, by their numbers in [`Task::obstacles`], in ascending order.
+/// Obstacles that prevent a motion, by their indices in [`Task::obstacles`], in ascending order.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Blockers {
     /// At the end of the motion, the arm or its payload hits all of these.
     AtEnd(Vec<usize>),
-    /// Together, these block the path.
+    /// Together, these block all paths to the end of the motion.
     OnTheWay(Vec<usize>),
     /// The blocking obstacles are not known.
     Unknown,
@@ -79,7 +79,7 @@ impl Motion {
     }
 }
 
-/// Knowledge about a motion's path before it is planned.
+/// What is known about a motion's path before it is planned.
 enum PathStatus {
     /// The certified straight path. No path is shorter in any metric.
     Straight(CertifiedPath),
@@ -89,30 +89,30 @@ enum PathStatus {
     Infeasible(Refusal),
 }
 
-/// Number of slabs that an inexpensive check may use to prove that there is no path. It takes some milliseconds. Beyond
-/// it, the planner must decide.
+/// Number of slabs that an inexpensive proof of infeasibility may use. It takes some milliseconds. If they do not
+/// suffice, the planner must decide.
 const DECISION_SLABS: usize = 2_000;
 
-/// Number of attempts with a subset of the objects before all of them are included.
+/// Number of attempts to plan with only some of the objects before all of them are included.
 const ATTEMPTS_AMONG_FEW: usize = 3;
 
 /// Samples per segment when collecting the objects that a path hits.
 const SAMPLES_PER_SEGMENT: u32 = 16;
 
-/// The data that determines a scene, as bits.
+/// The data that determines a scene, as bits. It serves as a key.
 type SceneKey = Vec<u64>;
 
 /// Fraction by which a path may be longer than the shortest one.
 const PATH_GAP: f64 = 0.01;
 
-/// Number of a scene, with the bits of start and end of the path.
+/// Index of a scene, with the bits of the start and the end of a path.
 type PathKey = (usize, [u64; 4]);
 
 /// Plans motions and caches them. A motion among the same relevant obstacles is planned only once. Tasks that differ
 /// only in their items can share a cache.
 pub(super) struct MotionCache {
     options: Options,
-    /// The number of each scene. Scenes that differ only in objects that cannot matter share a number.
+    /// The index of each scene. Scenes that differ only in objects that cannot affect the motion share an index.
     numbers: BTreeMap<SceneKey, usize>,
     path_statuses: BTreeMap<PathKey, PathStatus>,
     /// Paths among the static obstacles and some of the objects.
@@ -183,9 +183,9 @@ impl MotionCache {
         timed.map(Arc::new).map_err(|error| Refusal::new(error.to_string(), false))
     }
 
-    /// Returns the planner's path among all objects. It first plans among few objects, because such a path serves many
-    /// motions. If the path is free among all objects, it is the answer, as no path is shorter. Otherwise the objects
-    /// that it hits are added, and the path is planned again.
+    /// Returns the planner's path among all objects. It first plans with only a few objects, because such a path serves
+    /// many motions. If the path is free among all objects, it is the answer, as no path is shorter. Otherwise the
+    /// objects that it hits are added, and the path is planned again.
     fn shortest(
         &mut self,
         task: &Task,
@@ -208,7 +208,7 @@ impl MotionCache {
         found.unwrap_or_else(|| path(scene, q, to, &self.options))
     }
 
-    /// Refuses a candidate if an inexpensive check rules out the motion to its target, or the turn there. These checks
+    /// Refuses a candidate if an inexpensive check rules out the motion to its target, or the turn there. Such checks
     /// find most reasons in a small part of the time for planning the motion.
     pub fn promising(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<(), Refusal> {
         let key = self.path_key(task, from, candidate)?;
@@ -219,7 +219,8 @@ impl MotionCache {
         candidate.turn.map_or(Ok(()), |turn| self.turn(task, from, candidate, turn).map(|_| ()))
     }
 
-    /// Examines the path to a candidate's target. Refuses the candidate if there is provably no path.
+    /// Examines the path to a candidate's target, and returns its key. Refuses the candidate if there is provably no
+    /// path.
     fn path_key(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<PathKey, Refusal> {
         let left = from.after_step(task, candidate, candidate.to);
         if left.is_done(task) {
@@ -279,8 +280,8 @@ impl MotionCache {
     }
 }
 
-/// Returns the options for planning the motions of a task. Tasks limit durations instead of lengths, and a slightly
-/// longer path permits faster motions.
+/// Returns the options for planning the motions of a task. A task minimises duration, not length, and a slightly longer
+/// path permits faster motions.
 pub(super) fn of_legs(options: &Options) -> Options {
     let planner = options.planner.with_gap(options.planner.gap().unwrap_or(PATH_GAP));
     Options { planner, bounded: false, ..*options }
@@ -290,7 +291,7 @@ pub(super) fn of_legs(options: &Options) -> Options {
 /// rounded, so a collision is certain only if the neighbours collide, too.
 const NEIGHBOR_DISTANCE: f64 = 1e-9;
 
-/// Refuses a configuration with collisions. `when` is a phrase for the message that states when the arm is there.
+/// Refuses a configuration with collisions. `when` is a phrase for the message: when the arm is there.
 pub(super) fn require_unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
     let hits = scene.obstructions(q);
     if hits.is_empty() {
@@ -310,9 +311,9 @@ pub(super) fn require_unobstructed(scene: &Scene, q: Configuration, when: &str) 
     Err(Refusal { blockers, ..Refusal::new(format!("{when} {}", listed(&words)), is_proven) })
 }
 
-/// Plans among few objects, and adds those that the path hits. Returns a path that is free among all objects, or a
-/// proof that there is no path even among few. `None` if the path must be planned among all objects. The first `own`
-/// obstacles are not objects. `plan` plans a path among some objects.
+/// Plans with only a few objects, and adds those that the path hits. Returns a path that is free among all objects, or
+/// a proof that there is no path even among the few. Returns `None` if the path must be planned among all objects. The
+/// first `own` obstacles are not objects. `plan` plans a path among some objects.
 fn among_few(
     scene: &Scene,
     own: usize,
@@ -375,7 +376,7 @@ pub(super) fn planned_again(
     }
 }
 
-/// Returns the scene with only some of its objects. The others keep their numbers, but have no shape.
+/// Returns the scene with only some of its objects. The others keep their indices, but have no shape.
 fn only(scene: &Scene, own: usize, among: &BTreeSet<usize>) -> Scene {
     let mut number = 0;
     scene.reshaped(

@@ -14,13 +14,13 @@ use cplan_handling::{Action, Item, Task};
 use cplan_solver::Options;
 use std::collections::BTreeSet;
 
-/// Largest number of motions planned for one part.
+/// Largest number of motions that are planned for one part of a group.
 const MAX_PART_MOTIONS: usize = 200;
 
 /// Largest number of pairs of a part. All orders of so few pairs can be searched quickly.
 const MAX_PART_PAIRS: usize = 4;
 
-/// Returns the answer that group `item` cannot be done, if that is proven. Tries the first of `pairs` alone, then
+/// Returns the answer that the group at `item` is infeasible, if that is proven. Tries the first of `pairs` alone, then
 /// together with each other one, and then all of them if they are few.
 pub(super) fn impossible(
     task: &Task,
@@ -65,7 +65,7 @@ fn name(task: &Task, item: usize, pair: usize) -> String {
 }
 
 /// Returns the task up to a group, with only some of the group's pairs. Objects that other pairs or later steps move
-/// are left out. `None` if a later step moves one of the remaining objects, because then the part ends differently from
+/// are omitted. `None` if a later step moves one of the remaining objects, because then the part ends differently from
 /// the group.
 fn part_of(task: &Task, item: usize, part: &[usize]) -> Option<Task> {
     let Item::AnyOrder(pairs) = &task.items[item] else { return None };

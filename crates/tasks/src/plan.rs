@@ -15,16 +15,17 @@ use cplan_handling::{Item, Task};
 use cplan_solver::Options;
 use std::collections::BTreeSet;
 
-/// Largest numbers of planned motions and of expanded nodes of a search with a fixed order for the fastest choice. It
-/// takes some seconds. Beyond them, weighted A* looks for any solution.
+/// Largest numbers of planned motions and of expanded nodes in the search for the fastest choice in a fixed order. It
+/// takes some seconds. If they do not suffice, weighted A* looks for any solution.
 const MAX_MOTIONS: usize = 2_000;
 const MAX_EXPANDED: usize = 100_000;
 
-/// The same limits for free orders. The search takes about a second. Beyond them, a single order is chosen.
+/// Largest numbers of planned motions and of expanded nodes in the search over free orders. It takes about a second. If
+/// they do not suffice, a single order is chosen.
 const FREE_MOTIONS: usize = 500;
 
-/// Limits of the attempts to improve a chosen order: numbers of further motions and of further orders. There are no
-/// such attempts if its duration is within the factor `CLOSE_FACTOR` of the bound.
+/// Largest numbers of further motions and of further orders in attempts to improve a chosen order. There are no such
+/// attempts if its duration is within the factor `CLOSE_FACTOR` of the bound.
 const IMPROVING_MOTIONS: usize = 100;
 const IMPROVING_ORDERS: usize = 6;
 const CLOSE_FACTOR: f64 = 1.15;
@@ -32,19 +33,20 @@ const CLOSE_FACTOR: f64 = 1.15;
 /// Number of nodes per step of a task that are added to the limits, since long tasks have more states.
 const EXPANDED_PER_STEP: usize = 16;
 
-/// A weighted search ends without an answer at this multiple of the limits of the first search.
+/// Factor by which the limits of a weighted search exceed those of the first search. At these limits, it ends without
+/// an answer.
 const WEIGHTED_BUDGET_FACTOR: usize = 10;
 
 /// Largest number of pairs in a group for which all orders are searched. The table of all subsets then has some
 /// thousand entries, and doubles with each further pair.
 const MAX_FULLY_ORDERED_PAIRS: usize = 10;
 
-/// Plans a task: finds the fastest sequence of motions over all IK solutions at the targets, turns of the wrist, and
+/// Plans a task. Finds the fastest sequence of motions over all IK solutions at the targets, turns of the wrist, and
 /// free orders. [`TaskAnswer`] describes the guarantees. Calls `progress` during long computations.
 ///
-/// If there are too many orders, one is chosen that is good without obstacles and satisfies the conditions learned from
-/// orders that fail. If the file's own order is faster, it is used instead. With the real durations of planned motions,
-/// a still better order may be found.
+/// If there are too many orders, one is chosen that is good without obstacles. It satisfies conditions that were
+/// learned from orders that fail. If the file's own order is faster, it is used instead. With the real durations of
+/// planned motions, a still better order may be found.
 #[must_use]
 pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
     if task.has_moving_obstacles() {
@@ -114,7 +116,7 @@ impl Planning<'_, '_> {
         self.answer(found)
     }
 
-    /// Plans the task in an order that is chosen.
+    /// Plans the task in an order that this function chooses.
     fn in_chosen_order(&mut self) -> Found {
         let mut orders = Orders::of_file(self.task);
         let search = orders.search(&mut self.legs, self.progress);
@@ -196,14 +198,14 @@ impl Planning<'_, '_> {
 pub(super) struct Found {
     pub outcome: Outcome<(), FailedStep, FailedStep>,
     pub legs: Vec<Leg>,
-    /// True if no other choice is faster, or, without a solution, if no other choice is possible.
+    /// True if no other choice is faster. Without a solution: true if no other choice is possible.
     pub exact: bool,
     /// Duration in seconds. Infinite if not all steps can be done.
     pub seconds: f64,
 }
 
 impl Found {
-    /// Converts the end of a search to its result. `exact` is true if the search was exhaustive.
+    /// Converts the end of a search to a result. `exact` is true if the search was exhaustive.
     pub fn of(search: &mut Search, ending: Ending, exact: bool) -> Self {
         if let Ending::Done(node) = ending {
             let (legs, seconds) = (search.legs(node), search.seconds(node));

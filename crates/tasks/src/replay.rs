@@ -7,7 +7,7 @@ use cplan_handling::Task;
 use cplan_solver::{Options, Phase, Replay, Shows};
 use std::sync::Arc;
 
-/// The replay of a task. Repeated motions occur once.
+/// The replay of a task. A motion that the task repeats occurs only once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TaskReplay {
     /// The different motions.
@@ -84,8 +84,8 @@ mod tests {
         (task, answer)
     }
 
-    /// Checks that each motion is planned in the same way again. The path is the same one, except for the last digits
-    /// of its end.
+    /// Tests that each motion is planned in the same way again. The path is the same, except for the last digits of its
+    /// end.
     #[test]
     fn the_replay_matches_the_run() {
         let (mut among_few, mut straight) = (0, 0);

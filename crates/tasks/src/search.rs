@@ -16,7 +16,7 @@ use cplan_interrupt::checkpoint;
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
-/// Weight of the heuristic in weighted A*. With a large weight, it soon reaches the end of the task.
+/// Weight of the heuristic in weighted A*. With a large weight, the search soon reaches the end of the task.
 const HEURISTIC_WEIGHT: f64 = 4.0;
 
 /// Number of motions between two progress messages.
@@ -54,7 +54,7 @@ struct Node<'a> {
     stage: Stage<'a>,
 }
 
-/// Whether the motion to a node is planned.
+/// The stages of a node: whether the motion to it is already planned.
 enum Stage<'a> {
     /// The motion is not planned yet.
     Pending(Candidate<'a>),
@@ -70,15 +70,15 @@ pub(super) struct Search<'a, 'l> {
     /// Number of motions that were planned before this search.
     planned: usize,
     nodes: Vec<Node<'a>>,
-    /// Nodes by their least total time. Of equal ones, the deeper node comes first, then the one that was found
-    /// earlier.
+    /// Nodes, ordered by their least total time. If several have the same time, the node with more steps comes first,
+    /// then the node that was found earlier.
     open: OpenList<(Reverse<usize>, usize)>,
     closed: BTreeSet<Vec<i64>>,
     /// Weight of the heuristic. Above 1, the search is weighted A*.
     weight: f64,
     /// Steps that could not be done.
     refused: Vec<RefusedStep<'a>>,
-    /// True if no choice has been left out so far.
+    /// True if the search has left out no choice so far.
     complete: bool,
     expanded: usize,
 }
@@ -103,8 +103,8 @@ impl<'a, 'l> Search<'a, 'l> {
         search
     }
 
-    /// Continues the search up to the limits. The solution is the fastest one unless [`Search::use_weighted_astar`] was
-    /// called.
+    /// Continues the search up to the limits. The solution is the fastest one, unless [`Search::use_weighted_astar`]
+    /// was called.
     pub fn run(&mut self, limits: Limits, progress: &mut dyn FnMut(&str)) -> Ending {
         let mut reported = 0;
         while let Some((least, (_, index))) = self.open.pop() {
@@ -170,7 +170,7 @@ impl<'a, 'l> Search<'a, 'l> {
         self.open.drain().into_iter().for_each(|(_, index)| self.open(index));
     }
 
-    /// Records that the search stopped at a limit: the steps after the farthest state could not be done within it.
+    /// Records that the search stopped at a limit. The steps after the farthest state could not be done within it.
     pub fn give_up(&mut self) {
         let open = |&node: &usize| self.state(node).is_some_and(|state| !state.is_done(self.task));
         let farthest = (0..self.nodes.len()).filter(open).max_by_key(|&node| (self.nodes[node].depth, Reverse(node)));
@@ -184,7 +184,7 @@ impl<'a, 'l> Search<'a, 'l> {
         }
     }
 
-    /// Plans the motion to a node, which is then opened again or refused.
+    /// Plans the motion to a node. The node is then put on the open list again, or refused.
     fn evaluate(&mut self, index: usize) {
         let (Some(parent), Stage::Pending(candidate)) = (self.nodes[index].parent, &self.nodes[index].stage) else {
             return;
@@ -264,8 +264,8 @@ impl<'a, 'l> Search<'a, 'l> {
         legs
     }
 
-    /// Explains why the search got no farther than the steps to a node, which is also returned. The last value is true
-    /// if the failure is proven for all choices, provided that the search is exhausted.
+    /// Explains why the search got no farther. Also returns the node that it reached. The last value is true if the
+    /// failure is proven for all choices, provided that the search is exhausted.
     pub fn failure(&mut self) -> (FailedStep, usize, bool) {
         let state = |node: usize| match &self.nodes[node].stage {
             Stage::Reached(state, _) => Some(&**state),

@@ -35,7 +35,7 @@ pub(super) struct State {
     pub released: Option<usize>,
 }
 
-/// A candidate for the next step: one possible configuration, and orientation of the object, at its target.
+/// A candidate for the next step: one possible configuration at its target, and one orientation of the object.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Candidate<'a> {
     pub step: &'a Step,
@@ -58,13 +58,13 @@ pub(super) struct Candidates<'a> {
     pub all: bool,
 }
 
-/// Two orientations that differ by less than this are equal, in radians. It covers rounding.
+/// Difference in radians below which two orientations count as equal. It covers rounding.
 const ANGLE_TOLERANCE: f64 = 1e-9;
 
-/// Two poses or configurations that differ by less than this are equal, in metres and radians. It covers rounding.
+/// Difference in metres and radians below which two poses or configurations count as equal. It covers rounding.
 const POSE_TOLERANCE: f64 = 1e-9;
 
-/// Orientations at which rigid payloads are released are rounded to multiples of this, in radians. It is far below all
+/// Unit in radians to whose multiples the orientations of released rigid payloads are rounded. It is far below all
 /// tolerances, and far above the rounding of doubles. So repeated cycles return to the same world, bit for bit, and are
 /// planned only once.
 const ORIENTATION_ROUNDING: f64 = 1e-12;
@@ -107,7 +107,7 @@ impl State {
         key
     }
 
-    /// Returns the state at the time when a moving object is picked. The object is where it is at that time.
+    /// Returns the state at the time when a moving object is picked. The object has the pose that it has at that time.
     pub fn at_pick(&self, task: &Task, object: usize, time: f64) -> Self {
         let mut state = self.clone();
         Arc::make_mut(&mut state.poses)[object] = task.objects[object].course.as_ref().map(|course| course.pose(time));
@@ -241,7 +241,7 @@ impl State {
         matches!(task.items.get(self.progress.item), Some(Item::Renew(_)))
     }
 
-    /// Renews objects if that is next in the task.
+    /// Renews objects if that is the next item of the task.
     pub fn renewed(mut self, task: &Task) -> Self {
         while let Some(Item::Renew(objects)) = task.items.get(self.progress.item) {
             let poses = Arc::make_mut(&mut self.poses);
@@ -275,7 +275,7 @@ impl Progress {
     }
 }
 
-/// Returns the obstacles that an object may touch from its pick to its place, by number, in ascending order.
+/// Returns the indices of the obstacles that an object may touch from its pick to its place, in ascending order.
 fn supports(pick: &Step, place: Option<&Step>) -> Vec<usize> {
     let of = |step: &Step| match &step.action {
         Action::Pick { supports, .. } | Action::Place { supports, .. } => supports.clone(),

@@ -24,8 +24,8 @@ pub struct ToolStroke {
     pub clearance: f64,
 }
 
-/// Returns a lower bound on the time that the arm stands still for a step, in seconds: the dwell, and the stroke if the
-/// step has an object. Turns of the wrist are not included.
+/// Returns a lower bound on the time, in seconds, for which the arm stands still in a step. It is the dwell, plus the
+/// stroke if the step has an object. Turns of the wrist are not included.
 pub(super) fn least_rest(task: &Task, step: &Step, object: Option<usize>) -> f64 {
     let down = |(stroke, object): (&Stroke, usize)| {
         rest_to_rest(stroke.depth(&task.objects[object]).abs(), stroke.velocity, stroke.acceleration)
@@ -52,8 +52,8 @@ pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result
 }
 
 /// Returns the scene with the lowered tool and its payload. `None` if the tool is not lowered. After a pick the tool
-/// rises with the object, and before a place it goes down with the object. In the other direction it is empty, and
-/// meets no other obstacles.
+/// rises with the object, and before a place step it goes down with the object. In the other direction the tool is
+/// empty, so it meets no further obstacles.
 fn lowered(task: &Task, from: &State, candidate: &Candidate, event: Event) -> Option<Scene> {
     let left = from.after_step(task, candidate, candidate.to);
     // The wrist turns after a pick, and before a place.

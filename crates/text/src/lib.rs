@@ -40,7 +40,8 @@ pub fn listed(reasons: &[String]) -> String {
     first.iter().cloned().chain(rest).collect::<Vec<_>>().join("; ")
 }
 
-/// Returns the lines, or the first ones if there are many. Then the last line is `more` of the number of others.
+/// Returns the lines. If there are many, returns the first ones, and then the line that `more` returns for the number
+/// of the others.
 #[must_use]
 pub fn first_lines(lines: Vec<String>, more: impl Fn(usize) -> String) -> Vec<String> {
     let rest = lines.len().saturating_sub(MAX_LISTED_REASONS);

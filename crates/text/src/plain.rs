@@ -34,7 +34,7 @@ pub fn plain_line(text: &str) -> Cow<'_, str> {
     escaped(text, |_| false, |shown, c| shown.extend(c.escape_default()))
 }
 
-/// Escapes these characters within JSON. Parsing the result gives the same value.
+/// Escapes within JSON the same characters as [`plain`]. Parsing the result gives the same value.
 #[must_use]
 pub fn plain_json(json: &str) -> Cow<'_, str> {
     use std::fmt::Write;

@@ -108,7 +108,7 @@ pub fn percent(share: f64) -> String {
     format!("{} %", round_up(percent, decimals))
 }
 
-/// Formats the nearest decimal for which `holds` is true, in the direction `towards`.
+/// Formats the nearest decimal number, in the direction `towards`, for which `holds` is true.
 fn shown(value: f64, decimals: usize, holds: impl Fn(f64) -> bool, towards: f64) -> String {
     let nearest = fixed(value, decimals);
     match nearest.parse::<f64>() {

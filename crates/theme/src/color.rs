@@ -51,8 +51,8 @@ impl Serialize for Rgb {
     }
 }
 
-/// Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), ordered so that neighbours in the list differ
-/// strongly.
+/// Colours of obstacles: Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), ordered so that
+/// neighbours in the list differ strongly.
 const OBSTACLE_COLORS: [Rgb; 9] = [
     Rgb(0x88, 0xcc, 0xee),
     Rgb(0xcc, 0x66, 0x77),
@@ -65,8 +65,8 @@ const OBSTACLE_COLORS: [Rgb; 9] = [
     Rgb(0x11, 0x77, 0x33),
 ];
 
-/// Returns the colour of obstacle `index`. There are nine hues. After nine obstacles the hues repeat, alternately paler
-/// and deeper, so that the first 63 obstacles have different colours.
+/// Returns the colour of the obstacle with this index. There are nine hues. After nine obstacles the hues repeat,
+/// alternately paler and deeper, so that the first 63 obstacles have different colours.
 #[must_use]
 pub fn obstacle(index: usize) -> Rgb {
     let hue = OBSTACLE_COLORS[index % OBSTACLE_COLORS.len()];
@@ -100,8 +100,8 @@ pub fn path(index: usize) -> (Rgb, &'static [f64]) {
     (PATH_COLORS[index % PATH_COLORS.len()].0, PATH_DASHES[(index + index / PATH_COLORS.len()) % PATH_DASHES.len()])
 }
 
-/// Returns the colour for `value` from 0 (light) to 1 (dark) on a perceptually uniform scale: seaborn's "mako" without
-/// its darkest third, reversed, so that a dark path stays legible on it.
+/// Returns the colour for `value` from 0 (light) to 1 (dark) on a perceptually uniform scale. The scale is seaborn's
+/// "mako" without its darkest third, reversed, so that a dark path stays legible on it.
 #[must_use]
 pub fn scale(value: f64) -> Rgb {
     const SCALE_STOPS: [Rgb; 8] = [
@@ -124,7 +124,7 @@ mod tests {
     use super::*;
     use crate::CHANNEL;
 
-    /// Relative luminance (WCAG), a measure that is independent of the mixing code.
+    /// Returns the relative luminance (WCAG) of a colour. It does not depend on the code that mixes colours.
     fn luminance(c: Rgb) -> f64 {
         let linear = |v: u8| {
             let v = f64::from(v) / 255.0;
@@ -150,7 +150,8 @@ mod tests {
         assert_eq!(obstacle(63), obstacle(0));
     }
 
-    /// Compares with the paler colours of configuration spaces. One obstacle once had nearly the colour of the channel.
+    /// Compares obstacles with the paler colours of configuration spaces. One obstacle once had nearly the colour of
+    /// the channel.
     #[test]
     fn no_obstacle_has_the_colour_of_the_channel() {
         for index in 0..63 {

@@ -8,13 +8,13 @@ use super::view::View;
 /// Time between two pictures, in hundredths of a second: nearly 17 pictures per second.
 pub const FRAME_DELAY: u16 = 6;
 
-/// Shortest and longest time for which an animation shows the motion, in seconds. The animation shows a shorter motion
-/// more slowly and a longer one faster than it is.
+/// Shortest and longest time, in seconds, for which an animation shows the motion. A shorter motion is slowed down, and
+/// a longer one is sped up.
 const MOTION_TIMES: [f64; 2] = [2.0, 3.5];
 
-/// Time for which the last picture of a phase (`PHASE_DELAY`) and the last picture of the animation (`END_DELAY`) are
-/// shown, in hundredths of a second.
+/// Time for which the last picture of a phase is shown, in hundredths of a second.
 const PHASE_DELAY: u16 = 36;
+/// Time for which the last picture of the animation is shown, in hundredths of a second.
 const END_DELAY: u16 = 200;
 
 /// A moment of the animation, with the time for which its picture is shown, in hundredths of a second.

@@ -26,8 +26,8 @@ pub struct Frame {
     pub y: Range,
 }
 
-/// Returns a range of positive, finite length. Widens a range that is too short about its middle, and replaces one that
-/// is not finite.
+/// Returns a range of positive, finite length. A range that is too short is widened about its middle. A range that is
+/// not finite is replaced.
 fn sound((lower, upper): Range) -> Range {
     if !(lower.is_finite() && upper.is_finite()) {
         return (-1.0, 1.0);
@@ -99,7 +99,7 @@ impl Frame {
     }
 
     /// Draws sides, ticks and titles. Callers draw them last, so that they lie above everything else. A side is dashed
-    /// if it is a seam, where the space continues on the opposite side.
+    /// if it is a seam, across which the space continues on the opposite side.
     #[must_use]
     pub fn border(&self, units: [Unit; 2], titles: [String; 2], seams: [bool; 2]) -> Vec<Item> {
         let mut items = self.sides(seams);
@@ -146,8 +146,8 @@ impl Frame {
         items
     }
 
-    /// Draws the titles of the axes in the middle of the sides of `around`, outside of the values at the ticks.
-    /// `around` is the rectangle of this frame, or of several frames that share their titles.
+    /// Draws the titles of the axes in the middle of the sides of `around`, outside the values at the ticks. `around`
+    /// is the rectangle of this frame, or of several frames that share their titles.
     #[must_use]
     pub fn titles(&self, around: Rect, units: [Unit; 2], [x_title, y_title]: [String; 2]) -> [Item; 2] {
         let [_, y_ticks] = self.ticks(units);
@@ -167,8 +167,8 @@ impl Frame {
     }
 }
 
-/// Returns round values in the range, with their labels: at most `at_most` of them, but at least two if the range has
-/// them.
+/// Returns round values in the range, with their labels. There are at most `at_most` of them, but at least two if the
+/// range has two.
 fn ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> {
     let few = sparse_ticks(range, unit, at_most.max(2));
     if few.len() >= 2 { few } else { sparse_ticks(range, unit, 2 * at_most.max(2)) }

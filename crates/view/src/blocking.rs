@@ -19,10 +19,10 @@ const BLOCKING_DASH: &[f64] = &[7.0, 3.0];
 /// Width of the outlines of blocking obstacles, in pixels.
 const OUTLINE_WIDTH: f64 = 3.0;
 
-/// The blocking obstacles, and the narrowest place.
+/// The obstacles that block the motion, and the narrowest place.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BlockingView {
-    /// Numbers of the blocking obstacles.
+    /// Indices of the blocking obstacles.
     pub blockers: Vec<usize>,
     /// The configuration where the arm gets stuck, and the place in the plane where it touches. `None` if there is no
     /// such configuration.

@@ -7,7 +7,7 @@ use super::view::Chain;
 use cplan_core::space::Configuration;
 use cplan_theme::{EDGE, FREE, PROOF, UNDECIDED, WHITE};
 
-/// Boxes narrower than this are drawn without sides, in pixels. The sides would hide the colours of such boxes.
+/// Width in pixels below which boxes are drawn without sides. The sides would hide the colours of such boxes.
 const MIN_OUTLINED_WIDTH: f64 = 2.0;
 
 fn rect([lower, upper]: [Configuration; 2], frame: &Frame) -> Rect {
@@ -46,7 +46,7 @@ pub fn keys() -> Vec<Key> {
 /// Horizontal distance between neighbouring lines of a hatch, in pixels.
 const HATCH_DISTANCE: f64 = 7.0;
 
-/// Draws the boxes of a proof over the C-obstacles. Only these boxes are hatched.
+/// Draws the boxes of a proof over the C-obstacles. No other boxes are hatched.
 #[must_use]
 pub fn proof(boxes: &Chain, frame: &Frame) -> Vec<Item> {
     hatched(&boxes.pairs().map(|b| rect(b, frame)).collect::<Vec<_>>())
@@ -98,7 +98,7 @@ mod tests {
         assert_eq!(style.pen.map(|pen| pen.color), Some(PROOF));
     }
 
-    /// A place is on the hatch of a rectangle exactly if it is in the rectangle and on one of the lines.
+    /// Tests that a place is on the hatch of a rectangle exactly if it is in the rectangle and on one of the lines.
     #[test]
     fn a_hatch_fills_its_rectangle_and_goes_on_in_the_next() {
         for rect in [[3.0, 40.0, 31.0, 22.0], [34.0, 40.0, 2.0, 22.0], [0.0, 0.0, 7.0, 90.0]] {

@@ -6,8 +6,8 @@ use super::key::{Key, Sign};
 use super::view::Chain;
 use cplan_theme::{CHANNEL, EDGE, INK, WHITE};
 
-/// Cells narrower than this are drawn with finer sides, in pixels. With normal sides, many such cells would make a
-/// moiré pattern.
+/// Width in pixels below which cells are drawn with finer sides. With normal sides, many such cells would make a moiré
+/// pattern.
 const NARROW_CELL: f64 = 5.0;
 /// Radius of a point, in pixels.
 const POINT_RADIUS: f64 = 3.0;
@@ -41,8 +41,8 @@ fn is_wide(Chain(corners): &Chain, chart: &Chart) -> bool {
     high - low >= NARROW_CELL
 }
 
-/// Draws centres of cells (discs) and middles of portals (rings), named `C1`, `Q1`, `C2` and so on. In a channel of at
-/// most [`MAX_NAMED_CELLS`] cells, it also draws those names that cover no marker.
+/// Draws centres of cells as discs, and middles of portals as rings. Their names are `C1`, `Q1`, `C2` and so on. In a
+/// channel of at most [`MAX_NAMED_CELLS`] cells, also draws those names that cover no marker.
 pub fn points([centers, middles]: [&Chain; 2], chart: &Chart) -> Vec<Item> {
     let places = |points: &Chain| points.0.iter().map(|&q| chart.place(q)).collect::<Vec<[f64; 2]>>();
     let (centers, middles) = (places(centers), places(middles));

@@ -8,7 +8,8 @@ use cplan_core::model::{Arm, Joint};
 use cplan_core::space::{Configuration, Topology};
 use cplan_geometry::cross;
 
-/// Both axes have the same scale if both joints are of the same kind and the ratio of their ranges is at most this.
+/// Largest ratio of the joints' ranges for which both axes have the same scale. The joints must also be of the same
+/// kind.
 const MAX_ONE_SCALE_RATIO: f64 = 2.2;
 
 /// A frame of the page that shows the whole joint space of an arm.
@@ -60,7 +61,7 @@ impl Chart {
         pieces.into_iter().flat_map(|p| chain(p.iter().map(|q| self.frame.at(q[0], q[1])), false)).collect()
     }
 
-    /// Returns a closed outline with the same copies as paths have.
+    /// Returns a closed outline with the same copies on circles as paths have.
     #[must_use]
     pub fn polygon(&self, Chain(corners): &Chain) -> Vec<Step> {
         self.copies(corners, &self.paths)
@@ -94,8 +95,8 @@ fn units(arm: &Arm) -> [Unit; 2] {
     [0, 1].map(|k| if arm.joints[k].joint_type.is_revolute() { Unit::Degrees } else { Unit::Meters })
 }
 
-/// Returns the ratio of height to width that the chart of the whole joint space has if both axes have the same scale.
-/// `None` if they should not have the same scale.
+/// Returns the ratio of height to width of the chart of the whole joint space, if both axes have the same scale. `None`
+/// if they should not have the same scale.
 #[must_use]
 pub fn one_scale(arm: &Arm) -> Option<f64> {
     let [width, height] = arm.topology().ranges.map(|axis| axis.extent());

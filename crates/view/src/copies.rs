@@ -4,7 +4,7 @@ use super::axes::Range;
 use cplan_core::space::Configuration;
 use std::f64::consts::TAU;
 
-/// Largest number of copies. A panel is some 500 pixels wide: with more copies, a turn would be narrower than half a
+/// Largest number of copies. A panel is some 500 pixels wide. With more copies, a turn would be narrower than half a
 /// pixel.
 const MAX_COPIES: f64 = 1000.0;
 
@@ -100,7 +100,7 @@ impl Window {
     }
 }
 
-/// Keeps the piece unless it only touches the window in a point.
+/// Adds a piece to `all`. Omits a piece that only touches the window in a point.
 fn finish(piece: &mut Vec<Configuration>, all: &mut Vec<Vec<Configuration>>) {
     let piece = std::mem::take(piece);
     if piece.iter().any(|q| *q != piece[0]) {
@@ -153,8 +153,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(200))]
 
-        /// Walks along the path, wraps every point, and checks that one of the pieces contains it. The lengths are
-        /// equal as well, so the pieces contain nothing else.
+        /// Tests that the pieces are the wrapped path. Walks along the path, wraps every point, and checks that one of
+        /// the pieces contains it. The lengths are equal as well, so the pieces contain nothing else.
         #[test]
         fn pieces_are_the_wrapped_path(
             corners in prop::collection::vec((-12.0..12.0f64, -12.0..12.0f64), 2..8),

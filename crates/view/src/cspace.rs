@@ -69,8 +69,8 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     items
 }
 
-/// Draws the C-obstacles. Where link 2 may reach into an obstacle in one of the worlds, the part of its C-obstacle that
-/// is free there is dashed.
+/// Draws the C-obstacles. If link 2 may reach into an obstacle in one of the worlds, some part of its C-obstacle is
+/// free there. That part is dashed.
 fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     let (mut dashed, mut solid) = (Vec::new(), Vec::new());
     for (number, obstacle) in worlds[0].obstacles.iter().enumerate() {

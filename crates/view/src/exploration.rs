@@ -11,7 +11,8 @@ use serde_json::{Value, json};
 const STYLE: &str = include_str!("assets/exploration.css");
 const SCRIPT: &str = include_str!("assets/exploration.js");
 
-/// Returns an exploration as one self-contained HTML file; `timed` adds the time that its decisions took.
+/// Returns an exploration as one self-contained HTML file. If `timed`, the file includes the time that each decision
+/// took.
 #[must_use]
 pub fn exploration_page(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration, timed: bool) -> String {
     sealed(title, STYLE, "exploration", &data(title, scene, sensor, done, timed).to_string(), SCRIPT)

@@ -61,7 +61,7 @@ pub struct Style {
     pub fill: Option<Rgb>,
     /// Pen of the outline.
     pub pen: Option<Pen>,
-    /// True to draw the pen first and the fill over it, so that of overlapping pieces only the common outline shows.
+    /// True to draw the pen first and the fill over it. If pieces overlap, only their common outline then shows.
     pub pen_below: bool,
     /// Opacity: 0 is invisible, 1 is opaque.
     pub opacity: f64,
@@ -118,7 +118,7 @@ pub enum Anchor {
 /// A line of text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
-    /// The place at which the text is anchored.
+    /// The place on the page at which the text is anchored.
     pub at: [f64; 2],
     /// The text; any characters are allowed.
     pub text: String,
@@ -160,7 +160,7 @@ pub struct Raster {
     pub levels: Vec<Option<usize>>,
 }
 
-/// A page; later items cover earlier ones.
+/// A page. Items that are added later cover earlier ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Width of the page, in pixels.
@@ -171,8 +171,8 @@ pub struct Figure {
     pub items: Vec<Item>,
 }
 
-/// Returns the outline of an open (or closed) chain of places. It skips a place that is nearer than a quarter of a
-/// pixel to the one before, which nobody could see, so that files stay small.
+/// Returns the outline of an open (or closed) chain of places. Skips a place that is nearer than a quarter of a pixel
+/// to the one before. Nobody could see the difference, and files stay small.
 #[must_use]
 pub fn chain(spots: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Vec<Step> {
     const MIN_VISIBLE_SIZE: f64 = 0.25;
@@ -201,7 +201,7 @@ pub fn chain(spots: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Vec<Ste
 }
 
 /// Draws lines that are visible on any ground, because each lies on a broader pale line. All pale lines are drawn
-/// first, so that none of them hides a line that shows in the gaps of another's dashes.
+/// first. So no pale line hides a line that shows in the gaps of another line's dashes.
 #[must_use]
 pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
     let (mut halos, mut lines) = (Vec::new(), Vec::new());

@@ -8,8 +8,8 @@ use cplan_theme::{INK, WHITE};
 
 /// Length of an axis that lies in the plane, in pixels.
 const AXIS_LENGTH: f64 = 52.0;
-/// An axis is drawn as perpendicular to the plane if the length of its projection is less than this fraction of its
-/// length.
+/// Ratio of the length of an axis's projection to its own length below which the axis is drawn as perpendicular to the
+/// plane.
 const PERPENDICULAR_SHARE: f64 = 0.1;
 const AXIS_LETTERS: [&str; 3] = ["x", "y", "z"];
 
@@ -44,7 +44,8 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
     items
 }
 
-/// Draws, in a circle, an axis perpendicular to the plane: a dot if it points towards the viewer, otherwise a cross.
+/// Draws an axis that is perpendicular to the plane: a circle with a dot if it points towards the viewer, otherwise
+/// with a cross.
 fn standing(at: [f64; 2], towards: bool, pen: Style) -> Vec<Item> {
     const PERPENDICULAR_RADIUS: f64 = 7.0;
     let ring = Item::Disc(at, PERPENDICULAR_RADIUS, pen.filled(WHITE));

@@ -14,18 +14,18 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use tiny_skia::{Pixmap, PixmapPaint, Transform};
 
-/// Number of colours in the palette. One more index (`UNCHANGED_INDEX`) marks unchanged pixels.
+/// Number of colours in the palette. The index after the last colour (`UNCHANGED_INDEX`) marks unchanged pixels.
 const PALETTE_COLORS: usize = 255;
 const UNCHANGED_INDEX: u8 = PALETTE_COLORS as u8;
 
-/// Colours nearer than this are merged, as the sum of the squared differences of the three channels (0 to 255).
+/// Distance below which colours are merged: the sum of the squared differences of the three channels (0 to 255).
 const COLOR_DISTANCE: i32 = 48;
 
-/// Number of layers that are kept, because the next picture may need them too.
+/// Number of layers that are kept in memory, because the next picture may use them as well.
 const KEPT_LAYERS: usize = 8;
 
-/// Limit of the search for the next item that two figures share: at most `2 * MAX_SHIFT - 1` items are skipped, those
-/// of both figures together.
+/// Limit on the search for the next item that two figures have in common. At most `2 * MAX_SHIFT - 1` items of both
+/// figures together are skipped.
 const MAX_SHIFT: usize = 12;
 
 type Color = [u8; 3];
@@ -38,7 +38,7 @@ struct Patch {
     delay: u16,
 }
 
-/// Writes an endlessly repeated animated GIF, `width` pixels wide; calls `done` after each figure.
+/// Writes an animated GIF that repeats for ever, `width` pixels wide. Calls `done` after each figure.
 pub fn write(
     figures: impl Iterator<Item = (Figure, u16)>,
     width: f64,
@@ -94,7 +94,7 @@ fn cut(pixels: &[Color], [width, _]: [usize; 2], place: [usize; 4], delay: u16) 
     Patch { place, pixels: rows.collect(), delay }
 }
 
-/// A painter that reuses the layers that a figure shares with the figures before it.
+/// A painter that reuses the layers that a figure has in common with the figures before it.
 struct Painter {
     rasteriser: Rasterizer,
     width: f64,
@@ -160,8 +160,8 @@ fn units(figure: &Figure) -> Vec<Unit> {
     units
 }
 
-/// Splits the items into runs of items that the previous figure also has, and runs of new items. Returns the end of
-/// each run, and true if the previous figure has its items.
+/// Splits the items into runs: runs of items that the previous figure also has, and runs of new items. Returns the end
+/// of each run, and true if the previous figure has its items.
 fn runs(before: &[Unit], now: &[Unit]) -> Vec<(usize, bool)> {
     let same = before.iter().zip(now).take_while(|(a, b)| a == b).count();
     let (old, new) = (&before[same..], &now[same..]);
@@ -194,7 +194,7 @@ fn distance(a: Color, b: Color) -> i32 {
     (0..3).map(|k| (i32::from(a[k]) - i32::from(b[k])).pow(2)).sum()
 }
 
-/// Returns the most frequent colours, without similar ones.
+/// Returns the most frequent colours. Of similar colours, only one is included.
 fn palette(patches: &[Patch]) -> Vec<Color> {
     let mut counts: HashMap<Color, usize> = HashMap::new();
     for color in patches.iter().flat_map(|patch| &patch.pixels) {

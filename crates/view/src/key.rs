@@ -35,7 +35,7 @@ pub enum Sign {
 /// A sign and its meaning.
 pub type Key = (Sign, String);
 
-/// An entry of the legend, in the document for pages.
+/// An entry of the legend, as pages read it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KeyView {
     sign: &'static str,
@@ -50,8 +50,8 @@ pub struct KeyView {
     #[serde(skip_serializing_if = "Option::is_none")]
     part: Option<f64>,
     text: String,
-    /// The layers of the page that this entry explains. The page hides the entry together with them; it always shows an
-    /// entry without layers.
+    /// The layers of the page that this entry explains. The page hides the entry together with its layers. It always
+    /// shows an entry without layers.
     #[serde(skip_serializing_if = "<[&str]>::is_empty")]
     layers: &'static [&'static str],
     /// True if the page shows the entry only while it shows the planner's search.

@@ -11,8 +11,9 @@ use cplan_theme::{INK, WHITE};
 const NAME_SIZE: f64 = 12.0;
 /// Greatest width of a name, in pixels.
 const MAX_NAME_WIDTH: f64 = 160.0;
-/// Height of a name's box, and its distance (`NAME_GAP`) from the shape beside it, in pixels.
+/// Height of a name's box, in pixels.
 const NAME_HEIGHT: f64 = 15.0;
+/// Distance between a name's box and the shape beside it, in pixels.
 const NAME_GAP: f64 = 4.0;
 /// Side of the square in the middle of a wall that the wall's name refers to, in pixels.
 const WALL_SPOT_SIDE: f64 = 10.0;
@@ -27,7 +28,7 @@ const NAME_PLACES: [[f64; 2]; 9] =
 /// A name, and the box of the shape that it names.
 pub type Named = (String, Rect);
 
-/// Draws the names within `page`, as far as there is room. Earlier names choose their places first.
+/// Draws the names within `page` for which there is room. Earlier names choose their places first.
 #[must_use]
 pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
     let mut taken: Vec<Rect> = Vec::new();
@@ -74,8 +75,8 @@ pub fn inside(page: &Rect, markers: Vec<Rect>, names: impl IntoIterator<Item = (
     items
 }
 
-/// Returns the box that the name of a shape refers to: the box around the whole shape, or for a wall a square in the
-/// middle of its longest stretch.
+/// Returns the box to which the name of a shape refers. It is the box around the whole shape, or for a wall a square in
+/// the middle of its longest stretch.
 pub fn place<'a>(frame: &Frame, shape: &Shape, pieces: impl IntoIterator<Item = &'a Convex>) -> Rect {
     if let Shape::Polyline(points) = shape {
         let longest = points.windows(2).max_by(|a, b| (a[1] - a[0]).norm().total_cmp(&(b[1] - b[0]).norm()));
@@ -93,7 +94,7 @@ pub fn about([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
     Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
 }
 
-/// Returns the box for the name of a line that comes from `from` and ends at `tip`. The box lies beyond the end.
+/// Returns the box for the name of a line that comes from `from` and ends at `tip`. The box lies beyond that end.
 pub fn beyond(name: &str, tip: [f64; 2], from: [f64; 2]) -> Rect {
     let away = [tip[0] - from[0], tip[1] - from[1]];
     let length = away[0].hypot(away[1]).max(f64::MIN_POSITIVE);

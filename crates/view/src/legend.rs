@@ -19,7 +19,7 @@ pub fn keys(view: &View) -> Vec<Key> {
     all(view, true).into_iter().map(|(key, _)| key).collect()
 }
 
-/// Returns the legend of a page. A page shows one world at a time, and fewer items than a picture.
+/// Returns the legend of a page. A page shows one world at a time, and fewer items than a picture does.
 #[must_use]
 pub fn on_pages(view: &View) -> Vec<KeyView> {
     let mut keys: Vec<KeyView> = all(view, false).into_iter().map(|key| KeyView::new(key, false)).collect();
@@ -79,14 +79,15 @@ fn all(view: &View, still: bool) -> Vec<Layered> {
     keys
 }
 
-/// Returns the legend of the obstacles by their colours, or an empty one if there are too many obstacles.
+/// Returns the legend of the obstacles by their colours. It is empty if there are too many obstacles.
 #[must_use]
 pub fn obstacles<'a>(shown: impl Iterator<Item = &'a ObstacleView> + Clone) -> Vec<Key> {
     let count = shown.clone().count();
     shown.filter(|_| count <= MAX_NAMED_OBSTACLES).map(|o| (Sign::Swatch(o.color), o.name.clone())).collect()
 }
 
-/// Returns the legend of the paths: their names, or for a task one entry with a payload and one without.
+/// Returns the legend of the paths. It has their names, or for a task one entry for paths with a payload and one for
+/// those without.
 fn paths(view: &View) -> Vec<Key> {
     let named = |path: &PathView, name: &str| (Sign::Line(path.pen()), name.to_owned());
     if view.is_task() {
@@ -126,7 +127,7 @@ pub fn layout(keys: Vec<Key>, room: f64) -> Vec<Vec<Key>> {
     rows
 }
 
-/// Draws the rows, centred about `middle`, the first of them below `top`.
+/// Draws the rows, centred about `middle`, from `top` downwards.
 #[must_use]
 pub fn items(rows: &[Vec<Key>], middle: f64, top: f64) -> Vec<Item> {
     let mut items = Vec::new();

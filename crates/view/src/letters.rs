@@ -15,8 +15,8 @@ impl Font {
         Self(Face::parse(epaint_default_fonts::UBUNTU_LIGHT, 0).expect("the built-in font can be read"))
     }
 
-    /// Returns the outline of a line of text of this size, with its anchor at this place of the page. `None` if no
-    /// letter has an outline.
+    /// Returns the outline of a line of text of this size. Its anchor is at the place `[left, bottom]` of the page.
+    /// `None` if no letter has an outline.
     pub fn outline(&self, text: &str, size: f32, anchor: Anchor, [left, bottom]: [f32; 2]) -> Option<Path> {
         let scale = size / f32::from(self.0.units_per_em());
         let glyphs = self.glyphs(text);
@@ -60,8 +60,8 @@ impl Font {
         places
     }
 
-    /// Returns the kerning of a pair: how much farther the second glyph is from the first, in units of the font. In
-    /// each lookup, only the first table that lists the pair counts.
+    /// Returns the kerning of a pair: the amount by which the second glyph is farther from the first, in units of the
+    /// font. In each lookup, the first table that lists the pair determines it.
     fn kern(&self, first: GlyphId, second: GlyphId) -> i16 {
         let lookups = self.0.tables().gpos.into_iter().flat_map(|table| table.lookups);
         let known = lookups.filter_map(|lookup| {
@@ -82,7 +82,7 @@ fn advance(table: &PositioningSubtable, first: GlyphId, second: GlyphId) -> Opti
     Some(of_first.x_advance)
 }
 
-/// Converts outlines of glyphs to the page: y points up in fonts, and down on pages.
+/// A pen that converts outlines of glyphs to the page. The y axis points up in fonts, and down on pages.
 struct Pen {
     path: PathBuilder,
     /// Pixels per unit of the font.
@@ -139,7 +139,7 @@ mod tests {
         assert!((middle[0] + middle[1] - 1000.0).abs() < 2.0, "{middle:?}");
     }
 
-    /// Compares with HarfBuzz for this font: the second of the letters "AV" overlaps the first.
+    /// Compares the position with that of HarfBuzz for this font: the second of the letters "AV" overlaps the first.
     #[test]
     fn pairs_of_letters_are_kerned() {
         let font = Font::built_in();

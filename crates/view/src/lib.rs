@@ -65,7 +65,7 @@ pub use view::{AxesFrame, Moments, Picture, TaskPicture, View, drawing, page, sh
 /// The reason why there is no picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DrawError {
-    /// The size is not usable.
+    /// The scale or the size of the picture is not usable.
     #[error("a picture at {0} pixels a unit would be empty, or more than 16384 pixels wide")]
     Scale(f64),
     /// The SVG document cannot be read, or has elements that this crate does not write.
@@ -86,8 +86,8 @@ pub fn svg(view: &View) -> String {
 }
 
 /// Returns the animation of a view: SVG documents, each with the time for which it is shown, in hundredths of a second.
-/// It shows how the planner found its answer, if the view contains a replay, and then the motion of the arm. The last
-/// document is [`svg()`].
+/// If the view contains a replay, the animation first shows how the planner found its answer. Then it shows the motion
+/// of the arm. The last document is [`svg()`].
 pub fn moving(view: &View) -> impl Iterator<Item = (String, u16)> {
     let moments = animation::moments(view).into_iter();
     moments.map(|moment| (svg_writer::write(&animation::figure(view, moment)), moment.delay))
@@ -103,8 +103,9 @@ pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, DrawError> {
     png_writer::write(svg, scale)
 }
 
-/// Returns the animation of a view as a GIF of this width: how the planner found its answer, if the view contains a
-/// replay, and then the motion of the arm. `progress` receives the number of finished pictures and the number of all.
+/// Returns the animation of a view as a GIF of this width. If the view contains a replay, the animation first shows how
+/// the planner found its answer. Then it shows the motion of the arm. `progress` receives the number of finished
+/// pictures and the number of all.
 ///
 /// # Errors
 /// [`DrawError::Scale`] if the width is not usable.
@@ -122,7 +123,7 @@ pub fn gif(view: &View, width: f64, progress: &mut dyn FnMut(usize, usize)) -> R
 /// Returns an SVG document from this crate as a GIF with a single picture of this width.
 ///
 /// # Errors
-/// As [`png()`].
+/// The errors of [`png()`].
 #[cfg(feature = "png")]
 pub fn still_gif(svg: &str, width: f64) -> Result<Vec<u8>, DrawError> {
     gif_writer::still(svg, width)

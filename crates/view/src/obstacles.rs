@@ -12,8 +12,8 @@ use cplan_text::markup;
 /// Margin on each side of the obstacles, as a fraction of their extent.
 const MARGIN_SHARE: f64 = 0.04;
 
-/// Draws obstacles as an SVG document, the largest first, each with its name if there is room. Obstacles of the same
-/// group share a colour; `groups` has the group of each. The first line is the title.
+/// Draws obstacles as an SVG document, the largest first. Each has its name if there is room. Obstacles of the same
+/// group have the same colour; `groups` has the group of each. The first line of `title` is the title.
 #[must_use]
 pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> String {
     let mut known: Vec<&str> = Vec::new();
@@ -46,9 +46,9 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> S
     }))
 }
 
-/// Largest number of colours that the legend explains.
+/// Largest number of colours for which there is a legend.
 const MAX_KEYS: usize = 32;
-/// Largest number of obstacles with names. With more names, nobody could tell which obstacle each belongs to.
+/// Largest number of obstacles with names. With more names, it would be unclear to which obstacle each belongs.
 const MAX_NAMES: usize = 200;
 /// Draws names on their obstacles or beside them.
 fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {

@@ -10,22 +10,23 @@ use cplan_theme::{GRAY, INK};
 
 /// Width of every picture, in pixels.
 const PAGE_WIDTH: f64 = 1400.0;
-/// Height of pictures of one motion, and least height of all pictures, in pixels.
+/// Height of pictures of one motion, and least height of other pictures, in pixels.
 const MIN_PAGE_HEIGHT: f64 = 720.0;
 /// Margin on all sides, in pixels.
 const PAGE_MARGIN: f64 = 28.0;
 /// Space below panels, in pixels: values and titles of their axes, and the distance to the next item.
 const AXES_HEIGHT: f64 = 58.0;
 
-/// The columns; their height depends on the available room.
+/// Place of the left column. Its height depends on the available room.
 const LEFT_COLUMN: Rect = Rect { x: 84.0, y: 0.0, width: 570.0, height: 0.0 };
+/// Place of the right column. Its height depends on the available room.
 const RIGHT_COLUMN: Rect = Rect { x: 760.0, y: 0.0, width: 612.0, height: 0.0 };
 /// Column of a single configuration space, with room for a scale of colours beside it.
 const SCALED_COLUMN: Rect = Rect { x: 770.0, y: 0.0, width: 530.0, height: 0.0 };
 /// Least and greatest height of the workspace in the picture of a task, in pixels.
 const WORKSPACE_HEIGHTS: [f64; 2] = [520.0, 640.0];
-/// Largest number of payload states that are shown, besides that of a failed step. With more of them, the page would be
-/// too long to read.
+/// Largest number of payload states that a picture shows, not counting that of a failed step. With more of them, the
+/// page would be too long to read.
 const MAX_PAYLOAD_STATES: usize = 24;
 
 /// Composes the whole page of a view.
@@ -34,8 +35,8 @@ pub fn compose(view: &View) -> Figure {
     explained(view, legend::keys(view))
 }
 
-/// Composes the page with the given legend. All pictures of an animation share one legend, so that nothing moves when
-/// the content changes.
+/// Composes the page with the given legend. All pictures of an animation have the same legend, so that nothing moves
+/// when the content changes.
 #[must_use]
 pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
     let mut items = titles(&view.title, &view.status, PAGE_WIDTH);
@@ -71,8 +72,8 @@ pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
     Figure { width: PAGE_WIDTH, height, items }
 }
 
-/// Composes a page with a single panel and a legend below it. The panel has this ratio of height to width, unless the
-/// page has too little room.
+/// Composes a page with a single panel and a legend below it. The panel's height is `aspect` times its width, unless
+/// the page has too little room.
 #[must_use]
 pub fn alone(title: &[String], keys: Vec<Key>, aspect: f64, panel: impl FnOnce(Rect) -> Vec<Item>) -> Figure {
     const PAGE_HEIGHTS: [f64; 2] = [300.0, 960.0];
@@ -121,8 +122,8 @@ struct Layout {
     height: f64,
 }
 
-/// Places the list of steps below the workspace or below the configuration spaces (`grid` pixels high), depending on
-/// which makes the page lower.
+/// Places the list of steps below the workspace or below the configuration spaces, which are `grid` pixels high.
+/// Chooses the place for which the page is lower.
 fn layout(top: f64, grid: f64, list: f64, legend: f64) -> Layout {
     let list = AXES_HEIGHT + list;
     let [below_workspace, below_grid] = [grid.max(WORKSPACE_HEIGHTS[0] + list), WORKSPACE_HEIGHTS[0].max(grid + list)];

@@ -8,7 +8,7 @@ use tiny_skia::{Pixmap, Transform};
 /// Greatest side of a picture, in pixels. It fits into 16 bits, and a picture of this size needs at most 1 GB.
 const MAX_SIDE: f64 = 16_384.0;
 
-/// Renders SVG documents to pixels, with the font that is part of the program.
+/// A renderer of SVG documents to pixels. It uses the font that is part of the program.
 pub struct Rasterizer(Font);
 
 impl Rasterizer {

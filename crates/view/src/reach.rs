@@ -57,14 +57,14 @@ fn free(reach: &Reach) -> impl Iterator<Item = &Solution> {
     reach.places.iter().flatten().filter(|solution| solution.access != Access::Blocked)
 }
 
-/// The reachable places in the document for pages.
+/// The reachable places, as pages read them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReachView {
     /// Least coordinates of the first cell, in metres.
     corner: [f64; 2],
     /// Side of the cells, in metres.
     cell: f64,
-    /// Number of cells along x, and along y.
+    /// Number of cells along x and along y.
     size: [usize; 2],
     /// Colour and free IK solutions of each kind of cell.
     kinds: Vec<KindView>,

@@ -92,7 +92,7 @@ mod tests {
     use super::super::figure::Rect;
     use super::*;
 
-    /// Flattens the outline and compares its area with Steiner's formula.
+    /// Compares the area of the flattened outline with Steiner's formula.
     #[test]
     fn outlines_enclose_their_shape() {
         let area = Rect { x: 0.0, y: 0.0, width: 100.0, height: 100.0 };

@@ -277,7 +277,7 @@ mod tests {
         assert_eq!(at(&pixels, 1, 1), NOTHING);
     }
 
-    /// Upwards from the middle of the lower edge.
+    /// Tests that a text turns about its anchor. It reads upwards from the middle of the lower edge.
     #[test]
     fn texts_turn_about_their_anchor() {
         let pixels = painted("<text x=\"10\" y=\"20\" transform=\"rotate(-90 10 20)\">\nll\n</text>").unwrap();

@@ -6,11 +6,11 @@ use ::svg::Document;
 use ::svg::node::element::{Circle, ClipPath, Definitions, Group, Path, Rectangle, Text};
 use std::fmt::Write;
 
-/// Fonts of texts. The PNG writer has the first one; a viewer takes the first one that it has.
+/// Fonts of texts. The writer of PNG files has the first one. A viewer uses the first one that is installed.
 const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
 
-/// Greatest absolute value of coordinates, in pixels. Nothing beyond is visible, and up to here viewers that compute in
-/// single precision are exact to a tenth of a pixel.
+/// Greatest absolute value of coordinates, in pixels. Places beyond it are invisible. Up to here, viewers that compute
+/// in single precision are exact to a tenth of a pixel.
 const MAX_COORDINATE: f64 = 1e6;
 
 /// Writes the figure as an SVG document without a size of its own: it fills the width that its reader gives it. Texts have
@@ -148,9 +148,9 @@ fn is_xml(c: char) -> bool {
     !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')
 }
 
-/// Writes the cells as one path of rectangles per colour, in units of cells. Cells of one colour that follow each other
-/// in a column form a rectangle, which equal rectangles in the next columns extend. Smoothing is off, because it would
-/// show seams between rectangles.
+/// Writes the cells as one path of rectangles per colour, in units of cells. Consecutive cells of one colour in a
+/// column form a rectangle. Equal rectangles in the next columns extend it. Smoothing is off, because it would show
+/// seams between rectangles.
 fn cells(raster: &Raster) -> Group {
     let [columns, rows] = raster.cells;
     let mut paths = vec![String::new(); raster.palette.len()];

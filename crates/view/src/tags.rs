@@ -9,7 +9,7 @@ const TEXT_SIZE: f64 = 12.0;
 const MAX_TEXT_WIDTH: f64 = 96.0;
 /// Height of a number's box, in pixels.
 const LINE_HEIGHT: f64 = 15.0;
-/// Places nearer to each other than this share one box for their numbers, in pixels.
+/// Distance in pixels below which places have one box for their numbers.
 const SHARED_BOX_DISTANCE: f64 = 4.0;
 /// Distance from a place to the nearest side of its number's box, in pixels. It leaves room for the marker at the
 /// place.
@@ -19,11 +19,10 @@ const BOX_GAP: f64 = 9.0;
 const BOX_DIRECTIONS: [[f64; 2]; 8] =
     [[1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
-/// Possible distances of the box as multiples of [`BOX_GAP`], and the extra cost of each. All costs are in square
-/// pixels of covered shapes. The extra cost of the wider gap is less than that of covering two square pixels of a
-/// number.
+/// Possible distances of the box as multiples of [`BOX_GAP`], each with its extra cost. All costs are in square pixels
+/// of covered shapes. The extra cost of the wider gap is less than that of covering two square pixels of a number.
 const GAP_CHOICES: [(f64, f64); 2] = [(1.0, 0.0), (2.6, 12.0)];
-/// Extra cost of each direction compared with the one before it. Any small value works: it only makes the numbers in a
+/// Extra cost of each direction compared with the one before it. Any small value works. It only makes the numbers in a
 /// row of places take the same side.
 const SIDE_COST: f64 = 1.0;
 /// Cost of covering a square pixel of a number or a place, or of leaving the page by one.
@@ -40,7 +39,7 @@ pub struct Tag {
     pub numbers: Vec<usize>,
 }
 
-/// Adds a step's number at a place; a number that is already there is not repeated.
+/// Adds the number of a step at a place. A number that is already there is not added again.
 pub fn add(tags: &mut Vec<Tag>, at: [f64; 2], number: usize) {
     match tags.iter_mut().find(|tag| (tag.at[0] - at[0]).hypot(tag.at[1] - at[1]) < SHARED_BOX_DISTANCE) {
         Some(tag) if tag.numbers.contains(&number) => {}

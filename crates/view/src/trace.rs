@@ -50,7 +50,7 @@ pub fn above(trace: &TraceView, field_lines: FieldLines, chart: &Chart) -> Vec<I
     }
 }
 
-/// Draws the centres and middles of a channel, which lie over the path.
+/// Draws the centres of a channel's cells and the middles of its portals, which lie over the path.
 #[must_use]
 pub fn over_path(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     match trace {

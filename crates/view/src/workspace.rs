@@ -146,7 +146,8 @@ fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
 
 /// Returns the path of the tip. Straight motions in joint space are curves here, so they are drawn in small steps.
 fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
-    /// Step in radians. A chord of such an arc is off by at most 2e-5 of the reach, which is a hundredth of a pixel.
+    /// Step in radians. With it, a chord deviates from its arc by at most 2e-5 of the reach, which is a hundredth of a
+    /// pixel.
     const ARC_STEP: f64 = 0.0125;
     const MAX_ARC_POINTS: f64 = 2000.0;
     let turns = [0, 1].map(|k| arm.joints[k].joint_type.is_revolute());

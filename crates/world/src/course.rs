@@ -42,7 +42,7 @@ pub(super) struct StopTable {
 }
 
 impl ObstacleTrajectoryTable {
-    /// Returns the motion of an obstacle. A stop without a position or an angle takes that of `place`.
+    /// Returns the motion of an obstacle. If a stop has no position or no angle, it gets that of `place`.
     ///
     /// # Errors
     /// Times that do not increase, numbers that are not finite, and an empty table.

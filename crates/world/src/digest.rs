@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// SHA-256 of each file, in hexadecimal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Digests {
-    /// Digest of the URDF. For xacro, it is the digest of the URDF to which `cplan inspect --expanded` expands it.
+    /// Digest of the URDF. For xacro, it is the digest of the URDF that `cplan inspect --expanded` prints.
     pub urdf: String,
     /// Digest of the world file.
     pub world: String,
@@ -16,8 +16,8 @@ pub struct Digests {
 }
 
 impl Digests {
-    /// Returns the digests of a URDF, a world, and the other ones of `files`, which are all files that were read
-    /// ([`LoadedScene::files`](super::LoadedScene::files)).
+    /// Returns the digests of a URDF, a world, and the other files among `files`. These must be all files that were
+    /// read ([`LoadedScene::files`](super::LoadedScene::files)).
     ///
     /// # Errors
     /// A file that can no longer be read.

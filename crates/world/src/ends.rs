@@ -6,7 +6,8 @@ use cplan_robot::InputError;
 
 impl LoadedScene {
     /// Returns the start and the alternative goals. Values on the command line override those of the world file. Does
-    /// not check whether start and goals are free and within the limits: a recorded motion shows that.
+    /// not check whether start and goals are free and within the limits, because a check of the recorded motion shows
+    /// that.
     ///
     /// # Errors
     /// Invalid values on the command line.

@@ -24,7 +24,7 @@ pub struct Explorable {
 }
 
 impl LoadedScene {
-    /// Puts the start into the scene, and a goal if one is given.
+    /// Reads the start, and the goal if one is given, for the exploration of this scene.
     ///
     /// # Errors
     /// The errors of [`LoadedScene::problem`], except that a goal may be missing.

@@ -13,7 +13,7 @@ pub(super) struct Group {
     pub repeat: usize,
     /// Position in the file of the key `repeat`, or of the group if it has no such key.
     pub at: Range<usize>,
-    /// The objects that steps of the group pick, and that each repetition replaces by new ones.
+    /// The objects that steps of the group pick. Each repetition replaces them by new ones.
     pub renewed: BTreeSet<usize>,
     /// The number of steps, with repetitions counted.
     pub length: usize,
@@ -33,20 +33,20 @@ pub(super) enum Node {
     Group(Group),
 }
 
-/// A step as in the file.
+/// A single step, as the file states it.
 pub(super) struct Leaf {
     /// Number of the step in the file, from 1.
     pub number: usize,
     /// File, line and column of the step, for messages.
     pub place: String,
-    /// Position in the file of the target: of the object's name, the point or the joint values.
+    /// Position of the step's target in the file. The target is an object's name, a point or joint values.
     pub at: Range<usize>,
     pub action: LeafAction,
     pub speed: f64,
     pub dwell: f64,
 }
 
-/// The action of a step, as in the file.
+/// The action of a step, as the file states it.
 pub(super) enum LeafAction {
     Pick { object: usize, grasp: Point, supports: Supports, when: Option<When> },
     Place { at: Point, angle: Option<(f64, Range<usize>)>, supports: Option<Supports> },
@@ -57,7 +57,7 @@ pub(super) enum LeafAction {
 pub(super) struct When {
     /// Intervals of time in ascending order, in seconds; at least one.
     pub times: Vec<Interval>,
-    /// Position of the key in the file.
+    /// Position of the key `when` in the file.
     pub at: Range<usize>,
 }
 

@@ -1,7 +1,7 @@
 //! Hints for values of the wrong type in a world file.
 
-/// Keys, with the form of their values. The entry for a key of one table precedes the entry for the same key in other
-/// tables.
+/// Names of keys, with the form of their values. A name such as `robot.joints` is that of a key in one table. A name
+/// without a table applies to all other tables.
 const KEY_FORMS: [(&str, &str); 30] = [
     ("start", "[start] joints = [q1, q2], or tip = [x, y]"),
     ("goal", "[goal] joints = [q1, q2], or tip = [x, y]"),

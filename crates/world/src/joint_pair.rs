@@ -4,7 +4,8 @@ use cplan_core::model::Joint;
 use cplan_robot::{Diagnostic, Source};
 use std::ops::Range;
 
-/// Values of both joints, base to tip. `degrees` has the positions in the file of those that are written in degrees.
+/// Values of both joints, base to tip, in radians or metres. `degrees` has the positions in the file of the values that
+/// are written in degrees.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct JointPair {
     pub values: [f64; 2],

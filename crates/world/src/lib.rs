@@ -155,7 +155,7 @@ pub fn world_from(world: Source) -> Result<World, InputError> {
 }
 
 impl LoadedScene {
-    /// Returns the start and the first goal of the world, whether or not they are valid.
+    /// Returns the start and the first goal that the world file states, even if they are invalid.
     #[must_use]
     pub fn given(&self) -> [Option<Goal>; 2] {
         let goal = self.world.goals.as_ref().and_then(|(goals, _)| goals.first().copied());
@@ -168,8 +168,8 @@ impl LoadedScene {
         self.robot.files.iter().cloned().chain(self.world.files()).collect()
     }
 
-    /// Returns the same as [`scene_from`] for a changed text of the world. The robot is not read again if in `[robot]`
-    /// only its placement has changed.
+    /// Does the same as [`scene_from`] for a changed text of the world. If only the placement of the robot has changed
+    /// in the table `[robot]`, the robot is not read again.
     ///
     /// # Errors
     /// [`InputError`] with all defects of the texts.
@@ -209,12 +209,12 @@ fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
     Ok(loaded)
 }
 
-/// Returns the arm where the world places the robot.
+/// Returns the arm at the place where the world file puts the robot.
 fn standing(arm: &Arm, world: &World) -> Arm {
     world.place.as_ref().map_or_else(|| arm.clone(), |place| arm.placed(place))
 }
 
-/// Examines a robot and collects all defects. Without a world file, nothing is chosen, held or overridden. Decisions
+/// Examines a robot and collects all defects. Without a world file, no joints are chosen, held or overridden. Decisions
 /// that a world file would have to make are then among the diagnostics, and [`Inspection::help`] has entries that make
 /// them.
 #[must_use]

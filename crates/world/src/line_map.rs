@@ -22,7 +22,7 @@ use std::path::Path;
 pub struct LineMap {
     /// `LineMinPos` and `LineMaxPos`: lower left and upper right corner. All lines lie between them.
     pub bounds: [Point; 2],
-    /// Both ends of every line, in the order of the file. They are the same for a line without length.
+    /// The ends of every line, in the order of the file. Both ends are the same for a line without length.
     pub lines: Vec<[Point; 2]>,
 }
 
@@ -31,7 +31,7 @@ pub struct LineMap {
 pub struct Chain {
     /// Corners, of which no two neighbours are the same. A single corner is a line without length.
     pub points: Vec<Point>,
-    /// Indices in [`LineMap::lines`] of its first and of its last line.
+    /// Indices in [`LineMap::lines`] of the chain's first and last line.
     pub lines: [usize; 2],
 }
 
@@ -39,9 +39,9 @@ impl LineMap {
     /// Reads a map. Ignores blank lines, lines that begin with `#`, tabs and carriage returns.
     ///
     /// # Errors
-    /// A file of another kind, lines in the wrong order, missing lines or lines after the end, numbers that are not
-    /// finite or outside the bounds, and a `NumLines` that differs from the number of lines. Each error has line and
-    /// column.
+    /// A file of another kind, lines in the wrong order, and missing lines or lines after the end. Also numbers that
+    /// are not finite or outside the bounds, and a `NumLines` that differs from the number of lines. Each error has
+    /// line and column.
     pub fn read(path: &Path) -> Result<Self, InputError> {
         let mut text = MapText::read(path)?;
         let bounds = text.bounds()?;

@@ -8,8 +8,8 @@ use std::path::Path;
 /// First word of a map file.
 const MAP_HEADER: &str = "2D-Map";
 
-/// A file that begins with `2D-Map`, line by line. Blank lines and lines that begin with `#` are skipped. Any white
-/// space separates words.
+/// The lines of a file that begins with `2D-Map`. Blank lines and lines that begin with `#` are skipped. White space of
+/// any kind separates words.
 pub(super) struct MapText {
     pub source: Source,
     /// Positions of the lines that are not skipped.
@@ -48,10 +48,10 @@ impl MapText {
         Some((&self.source.text()[at.clone()], at.clone()))
     }
 
-    /// Returns the next line.
+    /// Returns the next line. `what` names it in the message.
     ///
     /// # Errors
-    /// The end of the file. `what` names the expected line in the message.
+    /// The file has ended.
     fn expected(&self, what: &str) -> Result<(&str, Range<usize>), Diagnostic> {
         self.line().ok_or_else(|| {
             let end = self.source.text().trim_end().len();
@@ -106,7 +106,7 @@ impl MapText {
         Ok(Numbers { values, at })
     }
 
-    /// Reads the announced number of lines of numbers, then the line `end`.
+    /// Reads lines of numbers, then the line `end`. `count` lines are expected, as the file announced.
     pub fn list<const N: usize>(
         &mut self,
         announced: (usize, Range<usize>),
@@ -119,7 +119,8 @@ impl MapText {
         Ok(list)
     }
 
-    /// Reads the announced number of lines of numbers, up to a line that begins with `end` and that stays unread.
+    /// Reads lines of numbers, up to a line that begins with `end`, which is not read. `count` lines are expected, as
+    /// the file announced.
     pub fn list_before<const N: usize>(
         &mut self,
         (count, at): (usize, Range<usize>),
@@ -164,7 +165,7 @@ impl MapText {
         }
     }
 
-    /// Checks that nothing follows.
+    /// Checks that no further line follows.
     pub fn end(&self) -> Result<(), Diagnostic> {
         match self.line() {
             None => Ok(()),
@@ -200,7 +201,7 @@ impl MapText {
     }
 }
 
-/// Limit of announced numbers of lines. A file of the greatest size has fewer lines.
+/// Limit on the number of lines that a file may announce. Even the largest file that can be read has fewer lines.
 const MAX_COUNT: f64 = 1e9;
 
 fn counted(n: usize) -> String {

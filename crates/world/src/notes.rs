@@ -7,7 +7,7 @@ use std::cell::RefCell;
 /// Largest number of shapes that a note names. If there are more, the note has only their number.
 const MAX_NAMED_SHAPES: usize = 3;
 
-/// Kinds of corrections, each with the names of the corrected shapes.
+/// Corrections of the input by kind, each with the names of the corrected shapes.
 #[derive(Debug, Default)]
 pub(super) struct Corrections(RefCell<Vec<(Cow<'static, str>, Vec<String>)>>);
 
@@ -25,7 +25,7 @@ impl Corrections {
         }
     }
 
-    /// Returns one line per kind, in order of first occurrence.
+    /// Returns one line for each kind of correction, in order of first occurrence.
     pub fn lines(self) -> Vec<String> {
         let line = |(what, names): (Cow<str>, Vec<String>)| {
             let more = names.len().saturating_sub(MAX_NAMED_SHAPES);

@@ -108,7 +108,7 @@ pub(super) struct Names<'a> {
 const MAX_LISTED_NAMES: usize = 12;
 
 impl<'a> Names<'a> {
-    /// Collects the names.
+    /// Collects the names of objects and obstacles, by which steps refer to them.
     ///
     /// # Errors
     /// Two objects with the same name, or an object with the name of an obstacle.
@@ -173,7 +173,7 @@ impl<'a> Names<'a> {
         Err(reader.source.diagnostic_at(name.span(), message).help(help))
     }
 
-    /// Returns the indices of the objects with this common name on a pallet, row by row.
+    /// Returns the indices of all objects on a pallet that share this name, row by row.
     ///
     /// # Errors
     /// An unknown name.
@@ -191,13 +191,13 @@ impl<'a> Names<'a> {
         Err(reader.source.diagnostic_at(name.span(), message).help(help))
     }
 
-    /// Returns the available names. Objects on a pallet are listed by their common name.
+    /// Returns the available names. Objects on a pallet appear once, under their common name.
     fn all(&self) -> String {
         let single = self.objects.iter().filter(|(_, number)| !self.families.values().any(|all| all.contains(number)));
         listed(single.map(|(name, _)| name.as_str()).chain(self.families.keys().copied()))
     }
 
-    /// Returns the numbers of the obstacles and objects in a list of supports.
+    /// Returns the indices, as obstacles, of the obstacles and objects in a list of supports.
     ///
     /// # Errors
     /// An unknown name.
@@ -222,7 +222,7 @@ impl<'a> Names<'a> {
         Ok(Supports { numbers, at: list.span() })
     }
 
-    /// Returns the number of an object as an obstacle.
+    /// Returns the index of an object as an obstacle.
     pub fn as_obstacle(&self, object: usize) -> usize {
         self.fixed + object
     }
@@ -274,10 +274,10 @@ fn placed<'a>(
     Ok(all)
 }
 
-/// Reads all objects. `default` is how the gripper holds an object that does not state it.
+/// Reads all objects. `default` states how the gripper holds an object whose table does not state it.
 ///
 /// # Errors
-/// Names that are not unique; other than exactly one shape; other than exactly one of position and pallet; invalid
+/// Names that are not unique; a table without exactly one shape, or without exactly one of position and pallet; invalid
 /// shapes and values; unknown pallets and supports.
 pub(super) fn read<'a>(
     reader: &Reader,
@@ -340,7 +340,7 @@ fn movable(
     Ok(MovableObject { object, grasp: grasp.unwrap_or_else(Point::zeros), supports, is_renewed: given.renew })
 }
 
-/// Returns the motion of an object. A stop without a position takes that of the object.
+/// Returns the motion of an object. A stop without a position gets the position of the object.
 fn course(
     reader: &Reader,
     given: &ObjectTable,

@@ -89,7 +89,7 @@ impl ObstacleTable {
     /// Reads the obstacle with this index in its file.
     ///
     /// # Errors
-    /// Other than exactly one shape, values that are not finite, invalid shapes, and unusable files.
+    /// A table without exactly one shape, values that are not finite, invalid shapes, and unusable files.
     pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<ObstacleKind, InputError> {
         let obstacle = table.get_ref();
         let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));

@@ -37,8 +37,8 @@ pub(super) struct PalletTable {
 /// Largest number of places of a pallet. No machine has more.
 const MAX_PLACES: usize = 10_000;
 
-/// Number of significant digits of places, counted from the first digit of the largest number in their sum. It removes
-/// rounding errors, so that a place has the decimals that people would write.
+/// Number of significant digits to which coordinates of places are rounded, counted from the first digit of the largest
+/// number in their sum. This removes rounding errors, so that a place has the decimals that people would write.
 const PLACE_DIGITS: i32 = 15;
 
 /// A grid of places.
@@ -58,7 +58,7 @@ impl Pallet {
         self.rows * self.columns
     }
 
-    /// Iterates over all places, row by row. Each has row and column, as in names, and its pose.
+    /// Iterates over all places, row by row. Each is given by row and column, as in its name, and by its pose.
     pub fn places(&self) -> impl Iterator<Item = (String, Pose)> + '_ {
         (0..self.rows).flat_map(move |row| {
             (0..self.columns).map(move |column| {

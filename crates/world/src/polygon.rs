@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer};
 use std::fmt;
 use toml::Spanned;
 
-/// A number or a list of coordinates, so that it can be a point, a ring, or GeoJSON's list of rings.
+/// A number, or a list of coordinates. So it can be a point, a ring, or GeoJSON's list of rings.
 pub(super) enum Coordinates {
     Number(f64),
     List(Vec<Spanned<Coordinates>>),
@@ -54,7 +54,7 @@ impl<'de> Visitor<'de> for CoordinatesVisitor {
 const CLOSED_RING_NOTE: &str = "the last point of a ring repeats the first; taken once";
 /// Note about repeated points.
 const REPEATED_POINTS_NOTE: &str = "points that repeat the one before them are taken once";
-/// Note about a polygon that is not simple but whose inside is well defined.
+/// Note about a polygon whose boundary touches itself but whose inside is well defined.
 const TOUCHING_BOUNDARY_NOTE: &str = "the boundary touches itself in single points; the enclosed area is solid";
 
 impl Coordinates {
@@ -118,7 +118,7 @@ pub(super) fn polygon(
 /// Returns a polygon whose boundary does not touch itself.
 ///
 /// # Errors
-/// A boundary that touches itself. `help` is the hint.
+/// A boundary that touches or crosses itself. `help` is the hint.
 pub(super) fn simple_polygon(
     reader: &Reader,
     given: &Ring,

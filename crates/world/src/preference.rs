@@ -31,8 +31,8 @@ pub(super) struct PreferenceTable {
     polygon: Option<Ring>,
 }
 
-/// Largest extent of a region of configurations, in radians or metres. On a circle, the region is searched copy by
-/// copy.
+/// Largest extent of a region of configurations, in radians or metres. On a circle, the region is searched in every
+/// copy by a whole turn, so it must be bounded.
 const MAX_REGION_WIDTH: f64 = 100.0;
 
 /// Hint for a region that is not a simple polygon.

@@ -29,7 +29,7 @@ impl Place<'_> {
 }
 
 impl LoadedScene {
-    /// Puts start and goal into the scene. Values on the command line override those of the world file.
+    /// Reads start and goal for this scene. Values on the command line override those of the world file.
     ///
     /// # Errors
     /// A world with steps. A start or goal that is missing, outside the joint limits, in contact with an obstacle or
@@ -92,7 +92,7 @@ impl LoadedScene {
     }
 
     /// Returns the configurations that put the tip on the boundary of a rectangle and are not known to be blocked. If
-    /// the tip at the start is inside the rectangle, adds the start.
+    /// the tip is inside the rectangle at the start, adds the start.
     fn area(&self, area: [Point; 2], start: Configuration, place: &Place) -> Result<GoalSet, Diagnostic> {
         let [low, high] = area;
         let shown = format!("the goal area from ({}, {}) to ({}, {})", low.x, low.y, high.x, high.y);
@@ -139,7 +139,7 @@ impl LoadedScene {
         }
     }
 
-    /// Returns the diagnostic about a goal that was requested of a world with steps.
+    /// Returns the diagnostic that a world with steps has no goal.
     pub(super) fn has_no_goal(&self, overrides: &Overrides) -> Diagnostic {
         let message = "this world has steps, not a goal";
         let option = match (&overrides.goal, &overrides.goal_tip) {
@@ -190,7 +190,7 @@ impl LoadedScene {
         Err(self.world.source.diagnostic(message).help(help).into())
     }
 
-    /// Checks that no moving obstacle is at the arm's start initially.
+    /// Checks that no moving obstacle is at the arm's start at time 0.
     pub(super) fn require_clear(&self, start: Configuration, place: &Place) -> Result<(), Diagnostic> {
         let hits = self.timed().obstructions(start, 0.0);
         if hits.is_empty() {
@@ -241,7 +241,7 @@ impl LoadedScene {
     }
 }
 
-/// Describes which joint values are possible when the tip is at a place.
+/// Describes the freedom of the joints when the tip is at a place.
 fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
     let name = |joint: usize| &scene.arm().joints[joint].name;
     match free {
@@ -258,7 +258,8 @@ fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
     }
 }
 
-/// Explains why each part of a segment is blocked. Returns `None` unless it is proven that the whole segment is.
+/// Explains why each part of a segment is blocked. Returns `None` if it is not proven that the whole segment is
+/// blocked.
 fn blocked_all_along(scene: &Scene, piece: &Segment) -> Option<Vec<String>> {
     if piece.is_point() {
         let [q, _] = piece.ends();

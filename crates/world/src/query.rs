@@ -21,7 +21,7 @@ pub struct LoadedEnds {
 }
 
 impl LoadedScene {
-    /// Puts start and goal into the scene as [`LoadedScene::problem`] does, but checks neither limits nor obstacles.
+    /// Reads start and goal for this scene as [`LoadedScene::problem`] does, but checks neither limits nor obstacles.
     ///
     /// # Errors
     /// A world with steps, a missing start or goal, and a start given by the tip that does not have exactly one IK

@@ -45,9 +45,9 @@ impl Sensor {
     /// Default number of map cells per length of the arm's reach.
     const DEFAULT_CELLS: f64 = 40.0;
 
-    /// Returns the default sensor of an arm: at the tip, without errors, with a range of half the arm's reach, and with
-    /// a reading every tenth of a radian or metre. Its 360 rays point in all directions, because the arm mostly moves
-    /// towards what lies beside the tip, not ahead of it.
+    /// Returns the default sensor of an arm. It is at the tip, without errors, with a range of half the arm's reach,
+    /// and with a reading every tenth of a radian or metre. Its 360 rays point in all directions, because the arm
+    /// mostly moves towards places beside the tip, not ahead of it.
     #[must_use]
     pub fn usual(arm: &Arm) -> Self {
         let cell = arm.reach() / Self::DEFAULT_CELLS;
@@ -93,14 +93,14 @@ impl Sensor {
         first + self.field_of_view * (k as f64 / self.gaps() as f64)
     }
 
-    /// Returns the number of gaps between rays in the field of view. If that is a whole turn, there is one more gap,
-    /// between the last ray and the first.
+    /// Returns the number of gaps between rays in the field of view. If the field of view is a whole turn, there is one
+    /// more gap, between the last ray and the first.
     fn gaps(&self) -> usize {
         if self.field_of_view < TAU { self.rays.max(2) - 1 } else { self.rays }
     }
 
-    /// Iterates over the numbers of the rays within an angle of a direction. A ray can occur more than once if the
-    /// angle is half a turn or more.
+    /// Iterates over the indices of the rays within `angle` of a direction. A ray can occur more than once if the angle
+    /// is half a turn or more.
     pub fn rays_about(&self, ahead: f64, direction: f64, angle: f64) -> impl Iterator<Item = usize> + use<> {
         let (rays, gap) = (self.rays, self.field_of_view / self.gaps() as f64);
         let from_first = (direction - self.ray(ahead, 0)).rem_euclid(TAU);

@@ -12,10 +12,10 @@ use std::ops::Range;
 use std::path::PathBuf;
 use toml::Spanned;
 
-/// Checks values, and knows the file for messages.
+/// A reader that checks values of a world file. It knows the file, which its messages quote.
 pub(super) struct Reader<'a> {
     pub source: &'a Source,
-    /// Corrections of input that is not refused.
+    /// Corrections of input that is accepted in a corrected form.
     pub taken: Corrections,
     /// Joint values that are written in degrees.
     pub in_degrees: RefCell<Vec<JointPair>>,
@@ -46,7 +46,7 @@ impl Reader<'_> {
     /// Returns two numbers.
     ///
     /// # Errors
-    /// Another count of numbers.
+    /// A list that does not have two numbers.
     pub fn two(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
         match numbers.get_ref().as_slice() {
             [a, b] => Ok([self.source.finite(a, what)?, self.source.finite(b, what)?]),

@@ -5,7 +5,7 @@ use cplan_core::space::{Configuration, JointRange, Segment};
 use cplan_geometry::Point;
 use cplan_text::{fixed, format_distinct};
 
-/// Returns the IK solutions of `solved` that the joint limits allow, with all their whole turns that they allow. Also
+/// Returns the IK solutions of `solved` that the joint limits allow, shifted by all whole turns that they allow. Also
 /// returns the reason for each solution that is outside the limits.
 pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, Vec<String>) {
     let joints = &scene.arm().joints;
@@ -99,7 +99,8 @@ pub(super) fn help_for_contact(scene: &Scene) -> &'static str {
     }
 }
 
-/// Returns the hint if each IK solution is `outside` the limits or `blocked`. Both can be true.
+/// Returns the hint for a target all of whose IK solutions are unusable. `outside` is true if some are outside the
+/// limits, and `blocked` if some are blocked.
 pub(super) fn help_for_ik_solutions(scene: &Scene, outside: bool, blocked: bool) -> String {
     let contact = help_for_contact(scene);
     match (outside, blocked) {

@@ -5,13 +5,13 @@ use cplan_geometry::Point;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// Something that a step requires of the arm.
+/// A condition on the arm that follows from a step.
 #[derive(Debug, Clone)]
 pub(super) struct Requirement {
     pub required: Required,
     /// The step's number.
     pub step: usize,
-    /// Position in the file of the value that leads to the requirement.
+    /// Position in the file of the value from which the requirement follows.
     pub at: Range<usize>,
 }
 
@@ -26,11 +26,11 @@ pub(super) enum Required {
     Rest(usize),
 }
 
-/// The requirements of all steps, without repetitions.
+/// The requirements of all steps. Repetitions of a step count once.
 #[derive(Default)]
 pub(super) struct Requirements {
     pub all: Vec<Requirement>,
-    /// Number of the step, kind, and bits of the values, of each requirement.
+    /// For each requirement, the number of the step, the kind, and the bits of the values.
     known: BTreeSet<(usize, u8, [u64; 2])>,
 }
 

@@ -6,7 +6,7 @@ use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 
-/// The schema of a file in TOML.
+/// Returns the JSON schema of a file that is written in TOML.
 pub fn toml_schema<T: JsonSchema>() -> Value {
     let mut settings = SchemaSettings::draft07();
     // First, because the draft's own transforms may apply to its result.

@@ -12,7 +12,8 @@ use toml::Spanned;
 /// Largest number of rays. No sensor has more.
 const MAX_RAYS: u64 = 100_000;
 
-/// Least distance between readings, in joint space. With it, a path of many turns has millions of readings.
+/// Least distance between readings, in joint space. At this distance, a path of many turns already has millions of
+/// readings.
 const MIN_READING_STEP: f64 = 1e-4;
 
 /// The sensor of an exploration (`cplan explore`). Every key has a default. Rays are as wide as the map cells that they
@@ -60,7 +61,7 @@ pub(super) struct SensorWishes {
 }
 
 impl SensorTable {
-    /// Checks the values.
+    /// Checks the values, and returns them.
     ///
     /// # Errors
     /// Invalid words and numbers.
@@ -118,7 +119,7 @@ impl SensorTable {
 }
 
 impl SensorWishes {
-    /// Returns the default sensor `usual`, with the properties that the file states.
+    /// Returns the sensor `usual`. Properties that the file states replace those of `usual`.
     pub fn over(&self, usual: Sensor) -> Sensor {
         Sensor {
             mount: self.mount.unwrap_or(usual.mount),

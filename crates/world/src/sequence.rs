@@ -17,17 +17,17 @@ use std::ops::Range;
 #[derive(Debug, Clone)]
 pub(super) struct Sequence {
     pub items: Vec<Item>,
-    /// Requirements on the arm. Each step of the file has each of its requirements once.
+    /// Requirements on the arm. A requirement of a step is listed once, even if the step is repeated.
     pub requirements: Vec<Requirement>,
     /// Position in the file of the first step.
     pub at: Range<usize>,
 }
 
-/// Two orientations that differ by at most this are equal, in radians. It is far above the rounding of angles, and
+/// Largest difference of two orientations that count as equal, in radians. It is far above the rounding of angles, and
 /// below the repeatability of any wrist.
 const ANGLE_TOLERANCE: f64 = 1e-9;
 
-/// Writes out the file's steps with all repetitions. `at` is the position of the first step in the file.
+/// Returns the file's steps with all repetitions written out. `at` is the position of the first step in the file.
 ///
 /// # Errors
 /// Picks while an object is carried, places without a carried object, repetitions that do not end in the state in which
@@ -56,13 +56,13 @@ pub(super) fn write_out(
     Ok(Sequence { items: writer.items, requirements: writer.requirements.all, at })
 }
 
-/// The place of an object. Parts of it may be unknown after the object was carried.
+/// The place of an object. After the object was carried, parts of it may be unknown.
 #[derive(Clone, Copy)]
 struct ObjectPlace {
     at: Point,
     /// The angle of the object. `None` if it depends on the configuration in which a rigid payload is placed.
     angle: Option<f64>,
-    /// Position of the tip when the object is placed. The placement already requires that the tip reaches it.
+    /// Position of the tip when the object was placed. The place step already requires that the tip can reach it.
     tip: Option<Point>,
     /// True if the object moves by itself. The other fields are then its initial values.
     moves: bool,
@@ -259,8 +259,8 @@ impl Writer<'_> {
         Ok(Action::Place { at, angle: asked, supports: supports.numbers.clone() })
     }
 
-    /// Returns the angle at which an object is placed: the current one if it equals the requested one, otherwise the
-    /// requested one.
+    /// Returns the angle at which an object is placed. If the current angle equals the requested one, returns the
+    /// current one, otherwise the requested one.
     ///
     /// # Errors
     /// An object that is held rigidly, or a requested turn without a wrist.

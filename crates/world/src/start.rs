@@ -9,15 +9,16 @@ use cplan_geometry::Point;
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::listed;
 
-/// A value that exceeds a limit by at most this, in radians or metres, counts as the limit. It covers the rounding to
-/// nine digits, and is far below the resolution of any drive.
+/// Largest excess over a limit that is removed as rounding, in radians or metres. It covers the rounding to nine
+/// digits, and is far below the resolution of any drive.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
 /// Largest number of IK solutions that a message lists. If there are more, it states their number.
 const MAX_LISTED_SOLUTIONS: usize = 6;
 
 impl LoadedScene {
-    /// Returns the start and the first goal as joint values. `None` for one that is a tip position or missing.
+    /// Returns the start and the first goal as joint values. An entry is `None` if it is missing or given as a tip
+    /// position.
     #[must_use]
     pub fn resolved_ends(&self) -> [Option<Configuration>; 2] {
         self.given().map(|end| match end {
@@ -26,8 +27,8 @@ impl LoadedScene {
         })
     }
 
-    /// Returns the start and its source. It must be within the limits. An excess that is due to rounding is removed,
-    /// with a note.
+    /// Returns the start, and where it comes from. It must be within the limits. An excess over a limit that is due to
+    /// rounding is removed, with a note.
     pub(super) fn start(
         &self,
         overrides: &Overrides,
@@ -58,7 +59,7 @@ impl LoadedScene {
         Ok((q, place))
     }
 
-    /// Replaces values that exceed a limit by rounding only by the limit.
+    /// Returns the configuration with values that exceed a limit only by rounding set to the limit.
     pub(super) fn at_limits(&self, what: &str, q: Configuration, notes: &mut Vec<String>) -> Configuration {
         let joints = &self.scene.arm().joints;
         Configuration::from_fn(|i, _| {
@@ -76,7 +77,7 @@ impl LoadedScene {
         })
     }
 
-    /// Returns the IK solution for a tip position. Exactly one must be within the limits and free.
+    /// Returns the only IK solution for a tip position. Exactly one must be within the limits and free.
     fn only_ik_solution(
         &self,
         tip: Point,

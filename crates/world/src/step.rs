@@ -128,11 +128,11 @@ pub(super) struct TaskTable {
     dwell: Option<Number>,
 }
 
-/// Largest number of steps of a task, with repetitions counted. It is some days of work.
+/// Largest number of steps of a task, with repetitions counted. A robot would take some days for them.
 const MAX_STEPS: usize = 100_000;
 
-/// A position within this distance of an axis counts as on it, in metres. This is the precision with which people write
-/// positions.
+/// Distance from an axis, in metres, within which a position counts as on the axis. This is the precision with which
+/// people write positions.
 const ON_AXIS_DISTANCE: f64 = 1e-3;
 
 /// Speed and dwell of steps that state none.
@@ -174,7 +174,7 @@ impl<'a> StepReader<'a> {
     ///
     /// # Errors
     /// Steps without exactly one action, misplaced keys, invalid values, unknown objects and supports, groups in free
-    /// order with anything but picks and places, and more than [`MAX_STEPS`] steps.
+    /// order with other actions than picks and places, and more than [`MAX_STEPS`] steps.
     pub fn all(mut self, tables: &[Spanned<StepTable>], task: Option<&TaskTable>) -> Result<Group, Diagnostic> {
         let pace = Pace { speed: 1.0, dwell: 0.0 };
         let pace = task.map_or(Ok(pace), |t| self.pace(pace, t.speed.as_ref(), t.dwell.as_ref()))?;
@@ -385,7 +385,8 @@ impl<'a> StepReader<'a> {
         Ok(Some(When { times, at: stated }))
     }
 
-    /// Returns a place and its position in the file. `at` is the position of the step.
+    /// Returns the action of placing an object, with the position of its target in the file. `at` is the position of
+    /// the step.
     fn place(&self, place: &PlaceTable, at: Range<usize>) -> Result<(Range<usize>, LeafAction), Diagnostic> {
         let (to, stated) = match (&place.at, &place.on) {
             (Some(at), None) => (self.reader.point(at, "place, at")?, at.span()),

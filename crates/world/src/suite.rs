@@ -17,7 +17,7 @@ pub struct Suite {
     pub name: String,
     /// The worlds that were read, at least one. Their names are distinct.
     pub members: Vec<Member>,
-    /// Worlds that planners cannot be compared on.
+    /// Worlds in which planners cannot be compared.
     pub left_out: Vec<ExcludedWorld>,
     /// Problems that cannot be read.
     pub refused: Vec<RefusedProblem>,
@@ -25,12 +25,12 @@ pub struct Suite {
     pub files: Vec<PathBuf>,
 }
 
-/// A world that planners cannot be compared on.
+/// A world in which planners cannot be compared.
 #[derive(Debug, Clone)]
 pub struct ExcludedWorld {
     /// The world file.
     pub world: PathBuf,
-    /// The reason, as a clause that follows "it".
+    /// The reason, as a clause that follows "it" in messages.
     pub why: &'static str,
 }
 
@@ -169,7 +169,7 @@ pub fn load_folder(robot: impl Into<RobotFile>, folder: &Path) -> Result<Suite, 
     read(folder_name(folder), pairs, Vec::new())
 }
 
-/// Reads all files. Collects the defects of those that cannot be read.
+/// Reads all problems. Collects the defects of those that cannot be read.
 fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<RefusedProblem>) -> Result<Suite, InputError> {
     let (mut members, mut left_out) = (Vec::<Member>::new(), Vec::new());
     let mut files = Vec::new();
@@ -202,7 +202,7 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<RefusedProblem>) -> Res
     Ok(Suite { name, members, left_out, refused, files })
 }
 
-/// Returns an error with all these defects.
+/// Fails with all defects of these problems.
 ///
 /// # Errors
 /// The error, if there are any defects.
@@ -218,11 +218,11 @@ fn all_of(refused: &[RefusedProblem]) -> Result<(), InputError> {
 }
 
 impl Suite {
-    /// Sets start and goal in every scene, as [`LoadedScene::problem`] does. Invalid problems are added to those that
+    /// Reads start and goal for every scene, as [`LoadedScene::problem`] does. Invalid problems are added to those that
     /// cannot be read.
     ///
     /// # Errors
-    /// [`InputError`] with the diagnostics of all problems, if none is left.
+    /// [`InputError`] with the diagnostics of all problems, if no valid problem is left.
     pub fn problems(self, overrides: &Overrides) -> Result<LoadedProblems, InputError> {
         let (mut problems, mut refused) = (Vec::new(), self.refused);
         for Member { name, scene } in self.members {

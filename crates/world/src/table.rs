@@ -6,8 +6,8 @@ use serde::{Deserialize, Deserializer};
 use std::fmt;
 use std::marker::PhantomData;
 
-/// A table that refuses arrays. Serde would take the elements of an array for the table's values in the order of its
-/// keys: `place = [0.5, 0.6]` would be refused for its first number.
+/// A table that refuses arrays. Serde would accept an array as a table and take its elements for values in the order of
+/// the keys. Then `place = [0.5, 0.6]` would be refused because of its first number, with a confusing message.
 pub(super) struct Table<T>(pub T);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {

@@ -33,15 +33,16 @@ impl LoadedScene {
     /// Returns the task of the world's steps. A start on the command line overrides that of the world.
     ///
     /// # Errors
-    /// A world without steps; a goal on the command line; a start that is missing, outside the limits or blocked; a
-    /// step that requires joint values outside the limits, a point out of the tip's reach, or that a too thin object
-    /// rests on something.
+    /// - A world without steps, or a goal on the command line.
+    /// - A start that is missing, outside the limits or blocked.
+    /// - A step that requires joint values outside the limits, or a point out of the tip's reach.
+    /// - A step that requires that an object rests on something, although the object is too thin.
     pub fn task(self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
         self.task_from(overrides, true)
     }
 
-    /// Returns the task for judging a recording. Its start may be outside the limits or blocked, which the judgement
-    /// reports.
+    /// Returns the task with which a recording is compared. Its start may be outside the limits or blocked; the check
+    /// of the recording reports that.
     ///
     /// # Errors
     /// The errors of [`LoadedScene::task`] that do not concern the start.
@@ -134,8 +135,7 @@ impl LoadedScene {
     }
 }
 
-/// Iterates over the objects that the tool cannot reach because it would have to move farther down than its joint
-/// allows.
+/// Iterates over diagnostics about objects that the tool cannot reach, because its joint cannot lower it so far.
 fn too_deep<'a>(stroke: &'a Stroke, world: &'a World) -> impl Iterator<Item = Diagnostic> + 'a {
     let joint = &stroke.joint;
     world.objects.iter().filter_map(|object| {

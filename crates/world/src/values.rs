@@ -37,7 +37,7 @@ impl LoadedScene {
         Ok(self)
     }
 
-    /// Limits motions by the efforts of the joints, even if the world file does not request it.
+    /// Requires that motions respect the efforts of the joints, even if the world file does not.
     ///
     /// # Errors
     /// A robot that lacks the necessary data.
@@ -96,7 +96,7 @@ impl JointValues {
     }
 }
 
-/// Displays the values as in an option: `-0.9,20deg`.
+/// Formats the values as an option states them: `-0.9,20deg`.
 impl fmt::Display for JointValues {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [first, second] = [0, 1].map(|i| if self.degrees[i] { "deg" } else { "" });

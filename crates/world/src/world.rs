@@ -152,9 +152,9 @@ struct StartTable {
     tip: Option<Numbers>,
 }
 
-/// Returns the schema of world files, in JSON Schema draft 7, which editors of TOML read. It has every key with its
-/// meaning and unit. It refuses unknown keys, missing keys, and anything but exactly one shape, one region and one kind
-/// of goal.
+/// Returns the schema of world files, in JSON Schema draft 7, which editors of TOML support. It has every key with its
+/// meaning and unit. It refuses unknown and missing keys. Where a file must have exactly one shape, region or kind of
+/// goal, it refuses none and several.
 ///
 /// Other conditions are checked only when the file is read: polygons are simple, names and files exist, numbers are not
 /// too large, and the arm can take the values.
@@ -262,7 +262,7 @@ fn steps(
     write_out(reader, names, movables, has_wrist, &group, at).map(Some)
 }
 
-/// Returns the deserialiser's message, with TOML's words for keys and numbers in place of Rust's.
+/// Returns the deserialiser's message in TOML's words for keys and numbers. Rust's words are replaced.
 pub fn in_toml_words(message: &str) -> String {
     message
         .replace("unknown field", "unknown key")

@@ -124,7 +124,7 @@ fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "map".to_owned(), |s| s.to_string_lossy().into_owned())
 }
 
-/// Returns the number of metres per unit.
+/// Returns the number of metres per unit of the map.
 fn scale(reader: &Reader, number: &Number) -> Result<f64, InputError> {
     let scale = reader.source.finite(number, "map scale")?;
     if scale > 0.0 {

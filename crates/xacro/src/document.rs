@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// Largest number of elements and texts in one file. No robot has as many.
+/// Largest number of elements and texts in one file. Descriptions of robots have far fewer.
 const MAX_NODES: u32 = 1_000_000;
 
 /// A file that was read.
@@ -53,7 +53,7 @@ impl Node {
     }
 }
 
-/// An element. Its name has the prefix that it has in the file.
+/// An element. Its name includes the prefix that it has in the file.
 #[derive(Debug)]
 pub(crate) struct Element {
     pub name: String,
@@ -82,7 +82,7 @@ impl Element {
     }
 }
 
-/// The root of a file, and the namespaces that it declares, without xacro's own.
+/// The root element of a file, and the namespaces that the file declares, except xacro's own.
 #[derive(Debug)]
 pub(crate) struct Tree {
     pub root: Rc<Element>,

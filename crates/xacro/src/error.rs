@@ -4,7 +4,7 @@ use crate::document::{File, Place};
 use std::fmt;
 use std::path::PathBuf;
 
-/// Reason why a file is not expanded.
+/// Reason why a file cannot be expanded.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Error {
     /// Path of the file with the error.
@@ -33,7 +33,7 @@ impl std::error::Error for Error {}
 /// An error in an expression or a substitution, before its place is known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Fault {
-    /// The text itself is wrong: the message, and a hint.
+    /// The text itself is wrong. Contains the message and a hint.
     Here(String, Option<String>),
     /// The error is in another place: in a property whose value is computed only when the text uses it.
     Elsewhere(Box<Error>),

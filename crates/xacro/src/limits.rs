@@ -30,7 +30,7 @@ pub(crate) struct Budget {
 const RECURSION_HINT: &str = "a macro or include may repeat without end; end it by a condition (xacro:if)";
 
 impl Budget {
-    /// Counts a step that makes a text of this many bytes.
+    /// Counts a step whose result is a text of this many bytes.
     pub fn spend(&mut self, bytes: usize) -> Result<(), Fault> {
         self.steps += 1;
         self.bytes = self.bytes.saturating_add(bytes);

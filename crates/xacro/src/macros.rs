@@ -24,9 +24,9 @@ struct Parameter {
 /// The default of a parameter.
 #[derive(Debug, PartialEq, Eq)]
 struct Default {
-    /// True if the default is the caller's property of the same name, if there is one.
+    /// True if the default is the caller's property of the same name. If there is no such property, the text is used.
     is_forwarded: bool,
-    /// Text of the default, evaluated in the caller's scope. `None` if there is only the caller's property.
+    /// Text of the default, evaluated in the caller's scope. `None` if only the caller's property can be the default.
     text: Option<String>,
 }
 

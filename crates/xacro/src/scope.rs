@@ -6,7 +6,7 @@ use crate::value::Value;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// The value of a name, which may not be known yet.
+/// The value of a name. It may not have been computed yet.
 #[derive(Debug, Clone)]
 pub(crate) enum Slot {
     /// A text that is evaluated when the name is used, with its place.
@@ -16,12 +16,12 @@ pub(crate) enum Slot {
     Value(Value),
 }
 
-/// Elements with a name, which `xacro:insert_block` inserts.
+/// Nodes with a name, which `xacro:insert_block` inserts.
 #[derive(Debug, Clone)]
 pub(crate) struct Block {
     pub nodes: Vec<Node>,
-    /// True if the nodes must be expanded where they are inserted. This is so for properties. The nodes of a macro's
-    /// parameter are expanded already.
+    /// True if the nodes must be expanded where they are inserted, as for properties. The nodes of a macro's parameter
+    /// are expanded already.
     pub is_source: bool,
 }
 
@@ -61,7 +61,7 @@ impl Scopes {
         scope
     }
 
-    /// Returns the parent scope; the robot's own scope has none.
+    /// Returns the parent scope. Returns `None` for the robot's own scope, which has no parent.
     pub fn parent(&self, scope: usize) -> Option<usize> {
         self.0[scope].parent
     }

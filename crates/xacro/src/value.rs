@@ -109,7 +109,8 @@ impl Value {
         }
     }
 
-    /// Returns the truth value of a condition. A text must be `true` or `false`, or a number. `None` for other values.
+    /// Returns the truth value of a condition. A text must be `true` or `false`, or a number. Returns `None` for other
+    /// values.
     pub fn condition(&self) -> Option<bool> {
         let Self::Text(text) = self else { return Some(self.is_true()) };
         match text.trim() {
@@ -133,7 +134,7 @@ impl Value {
         }
     }
 
-    /// Compares two numbers or two texts. `None` for other values.
+    /// Compares two numbers or two texts. Returns `None` for other values.
     pub fn compare(&self, other: &Self) -> Option<Ordering> {
         match (self, other) {
             (Self::Text(a), Self::Text(b)) => Some(a.cmp(b)),

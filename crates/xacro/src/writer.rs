@@ -14,7 +14,8 @@ pub struct Span {
     pub place: Place,
 }
 
-/// Returns an element and its content as XML, with the spans of its parts. The start tag declares these namespaces.
+/// Returns an element and its content as XML, with the spans of its parts. The root's start tag declares these
+/// namespaces.
 pub(crate) fn write(root: &Element, namespaces: &[(String, String)]) -> (String, Vec<Span>) {
     let mut writer = Writer { text: "<?xml version=\"1.0\"?>\n".to_owned(), spans: Vec::new() };
     writer.element(root, 0, namespaces);

@@ -41,7 +41,7 @@ pub struct Draft {
     pub method: u8,
 }
 
-/// Sixteenths: exact, and often equal.
+/// Converts a number of sixteenths to a length. Such lengths are exact, and many of them are equal.
 fn length(x: i8) -> f64 {
     f64::from(x) / 16.0
 }
@@ -84,7 +84,7 @@ impl JointDraft {
 }
 
 impl Draft {
-    /// Returns the problem, if its start and a goal are free.
+    /// Returns the problem. Returns `None` unless its start and a goal are free.
     pub fn problem(&self) -> Option<MotionProblem> {
         let [a, b] = &self.joints;
         let joints = [a.joint("one")?, b.joint("two")?];

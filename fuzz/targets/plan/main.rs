@@ -17,10 +17,10 @@ use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query;
 use parry2d_f64::shape::SharedShape;
 
-/// Error of parry's iterations (GJK), metres.
+/// Error of the iterations of parry's GJK algorithm, metres.
 const PARRY: f64 = 1e-6;
 
-/// Samples of a straight piece.
+/// Number of samples of a straight piece.
 const SAMPLES: u32 = 200;
 
 /// Returns options with little effort, so that many scenes are tried.

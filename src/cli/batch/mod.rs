@@ -88,7 +88,7 @@ struct Stopped {
 /// Answers all lines of the input.
 ///
 /// # Errors
-/// Input that cannot be read or contains no objects, and output that cannot be written.
+/// Input that cannot be read or that contains no JSON objects, and output that cannot be written.
 pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
     let input = args.problems.as_ref().map_or_else(|| "stdin".into(), |path| path.display().to_string());
     let turns = Turns::new(BufReader::new(opened(args)?), &input, io::stdout(), args.jobs.into());
@@ -132,7 +132,7 @@ fn opened(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
     Ok(Box::new(File::open(path).map_err(refused)?))
 }
 
-/// Returns the answer as a line. The second value is true if the answered line is a JSON object.
+/// Returns the answer as a line of output. The second value is true if the line of input is a JSON object.
 fn row(answer: Answer, fields: &[String]) -> (String, bool) {
     let Answer { id, is_object, plan } = answer;
     let text = match plan {

@@ -56,7 +56,7 @@ impl Default for Options {
     }
 }
 
-/// A file by its name, or its text.
+/// A file, given by its name or by its text.
 #[derive(Clone, PartialEq, Eq, Hash)]
 enum Named {
     File(PathBuf),
@@ -125,7 +125,7 @@ impl Reader {
         Answer { id: keys.remove("id"), is_object: true, plan: planned }
     }
 
-    /// Plans, unless the time limit is reached.
+    /// Plans, and stops when the time limit is reached.
     fn in_time(
         &mut self,
         given: LineKeys,
@@ -196,7 +196,7 @@ impl Reader {
 }
 
 impl Named {
-    /// Returns the text. `name` is for messages about texts without a file.
+    /// Returns the text of the file. `name` stands for the file name in messages if the text was given directly.
     fn source(&self, name: &str) -> Result<Source, InputError> {
         match self {
             Self::File(path) => Source::read(path),
@@ -206,8 +206,8 @@ impl Named {
     }
 }
 
-/// Converts an option of a line to a word of the command line. `None` if its value is false or null. Pairs are written
-/// with a comma, and numbers of cells with an x.
+/// Converts an option of a line to a word of the command line. Returns `None` if the option's value is false or null.
+/// Pairs are written with a comma, and numbers of cells with an x.
 fn word(name: &str, value: &Value) -> Result<Option<String>, String> {
     let option = format!("--{}", name.replace('_', "-"));
     let one = |value: &Value| match value {

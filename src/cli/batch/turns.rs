@@ -6,14 +6,14 @@ use std::collections::BTreeMap;
 use std::io::{self, BufRead, ErrorKind, Read, Write};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Longest line, in bytes. With it, endless input ends with an error.
+/// Longest line, in bytes. With this limit, endless input ends with an error.
 const MAX_LINE_BYTES: u64 = 64 << 20;
 
-/// Bytes that some programs write before a text in UTF-8.
+/// The byte order mark, which some programs write before a text in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// Largest number of answers per job that wait for an earlier one. It is enough to keep all jobs busy during a hard
-/// problem.
+/// Largest number of answers per job that wait until an earlier line is answered. It is enough to keep all jobs busy
+/// during a hard problem.
 const MAX_WAITING_PER_JOB: usize = 64;
 
 /// A line that is not blank, and its number among all lines, from 1.
@@ -54,7 +54,8 @@ struct Output<W> {
     waiting: BTreeMap<usize, String>,
     written: usize,
     count: Count,
-    /// The reason why the work has ended. If the reader of the output has closed it, that is no failure.
+    /// The reason why the work has ended; `None` while it continues. If the reader of the output has closed it, that is
+    /// no failure.
     ended: Option<Result<(), Failure>>,
 }
 
@@ -93,13 +94,13 @@ impl<R: BufRead, W: Write> Turns<R, W> {
         output.ended.unwrap_or(Ok(())).map(|()| output.count)
     }
 
-    /// Waits until another answer may wait. Returns false if the work has ended.
+    /// Waits until there is room to store another answer that is not yet due. Returns false if the work has ended.
     fn has_room(&self) -> bool {
         let is_full = |output: &mut Output<W>| output.ended.is_none() && output.waiting.len() >= self.most;
         self.moved.wait_while(self.output(), is_full).unwrap_or_else(PoisonError::into_inner).ended.is_none()
     }
 
-    /// Returns the next line that is not blank, and its number among these.
+    /// Returns the next line that is not blank, and its number among the lines that are not blank.
     fn next(&self) -> Result<Option<(usize, Line)>, Failure> {
         let mut input = self.input.lock().unwrap_or_else(PoisonError::into_inner);
         loop {
@@ -130,7 +131,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
         }
     }
 
-    /// Writes an answer and those that waited for it, or stores it until its turn.
+    /// Writes an answer and those that waited for it. If earlier lines are not answered yet, stores it instead.
     fn put(&self, turn: usize, text: String, is_object: bool) {
         let mut output = self.output();
         output.count.lines += 1;

@@ -9,7 +9,7 @@ use crate::grammar::{EffortArgs, MotionArgs, word};
 use clap::{ArgGroup, Args, ValueHint};
 use std::path::PathBuf;
 
-/// Greatest number of pairs: their results still fit into memory.
+/// Greatest number of pairs. The results of so many pairs still fit into memory.
 const MAX_QUERIES: i64 = 100_000;
 
 /// Run all planners on one problem or on many, side by side.

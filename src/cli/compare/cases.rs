@@ -12,13 +12,13 @@ use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The problems to compare planners on, read and checked.
+/// The problems on which planners are compared, read and checked.
 pub struct Cases {
     /// Title of all problems.
     pub title: String,
     /// The problems, at least one.
     pub cases: Vec<Case>,
-    /// How queries are drawn at random. `None` if they are those of the worlds.
+    /// The way in which random queries are drawn. `None` if the queries are those of the worlds.
     pub sampling: Option<Sampling>,
     /// Problems that were left out, each with the reason on the same line.
     pub left_out: Vec<String>,
@@ -34,7 +34,7 @@ pub struct Cases {
 pub struct Case {
     /// Name of the problem in tables.
     pub name: String,
-    /// Index of its world, from 0.
+    /// Index of the case's world, from 0.
     pub world: usize,
     /// The problem with the world's own start and goal. For random queries, start and goal have no meaning.
     base: Arc<MotionProblem>,
@@ -138,7 +138,7 @@ impl Cases {
     }
 }
 
-/// Returns a suite that consists of one robot in its world.
+/// Returns a suite of problems that consists of one robot in its world.
 fn one(scene: LoadedScene) -> Suite {
     let name = scene.scene.workspace().name.clone();
     Suite {
@@ -171,7 +171,8 @@ fn refusal(refused: &RefusedProblem) -> Refusal {
     Refusal { problem: refused.name.clone(), kind, reason }
 }
 
-/// Returns the scenes for random queries. Start and goal of the worlds are not used, so they may be missing or blocked.
+/// Returns the scenes for random queries. The start and goal of a world are not used here, so they may be missing or
+/// blocked.
 fn scenes(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure> {
     let scene = |member: input::Member| {
         // Only a world that the command line names can have steps here. The request for its goal then reports the
@@ -187,10 +188,10 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure
     Ok((scenes?, suite.refused))
 }
 
-/// Returns the problem itself, or as many random ones in its scene as `sampling` requests.
+/// Returns the problem itself. If `sampling` is given, returns as many random queries in its scene as it requests.
 ///
 /// # Errors
-/// The reason, if hardly any configuration is free.
+/// A message if hardly any configuration is free.
 fn drawn(name: &str, world: usize, base: Arc<MotionProblem>, sampling: Option<Sampling>) -> Result<Vec<Case>, String> {
     let Some(Sampling { queries, seed }) = sampling else {
         return Ok(vec![Case { name: name.to_owned(), world, base, query: None }]);

@@ -12,10 +12,10 @@ use crate::output::{self, PictureFormat};
 use crate::report::{self, Comparison, Overlay, Study, labels};
 use crate::space::Path;
 
-/// Largest number of random queries for which a page has a picture each.
+/// Largest number of random queries for which a page has pictures. Each query has its own.
 const MAX_DRAWN_QUERIES: usize = 6;
 
-/// Largest number of worlds for which a page has a picture each.
+/// Largest number of worlds for which a page has pictures. Each world has its own.
 const MAX_DRAWN_WORLDS: usize = 60;
 
 /// Largest number of queries whose paths a page draws in one picture.
@@ -38,8 +38,8 @@ pub fn save(
     sinks::save_picture(format, file, &view(case, comparison, paths))
 }
 
-/// Returns the page's pictures with workspace and configuration space, one per problem. Of random queries, it draws
-/// those for which the planners' lengths differ most.
+/// Returns the page's pictures with workspace and configuration space, one per problem. Among random queries, it
+/// chooses those for which the planners' path lengths differ most.
 pub fn pictures(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<report::Picture> {
     let mut chosen: Vec<usize> = (0..study.comparisons.len()).collect();
     if cases.sampling.is_some() {
@@ -109,8 +109,8 @@ fn view(case: &Case, comparison: &Comparison, paths: &[Option<Path>]) -> View {
     })
 }
 
-/// Returns the default planner's proof, if planners proved that there is no path. Computes it again, which is cheaper
-/// than storing the proofs of all problems, because only a few are drawn.
+/// Returns the default planner's proof, if planners proved that there is no path. Computes the proof again. This is
+/// cheaper than storing the proofs of all problems, because only a few are drawn.
 fn proof(problem: &MotionProblem, comparison: &Comparison) -> Option<CheckedProof> {
     let is_proven = comparison.rows.iter().any(|row| row.outcome == Status::Infeasible);
     let made = is_proven.then(|| plan(&Problem::from(problem.clone()), &Options::default()))?.ok()?;

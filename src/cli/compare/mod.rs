@@ -33,8 +33,8 @@ use clap::Parser;
 use runner::{ComparisonResults, Entry, Runner};
 use sink::{ReportFormat, report_sinks};
 
-/// Compares planners, and returns the exit code: for a single problem that of the best answer, and 1 if planners
-/// contradict each other.
+/// Compares planners, and returns the exit code. For a single problem it is that of the best answer. It is 1 if
+/// planners contradict each other.
 ///
 /// # Errors
 /// Bad input and I/O.
@@ -131,8 +131,8 @@ fn measured(
     Ok((study, done))
 }
 
-/// Returns the exit code. A contradiction is a failure. A problem that could not be run is a failure, too, but only
-/// after all others have been run. Otherwise, the code is that of the best answer to a single problem.
+/// Returns the exit code. It is that of a failure if planners contradict each other, or if a problem could not be run
+/// (although all others have been run). Otherwise, it is that of the best answer to a single problem.
 fn exit_code(study: &Study, is_single: bool) -> u8 {
     match study.settled() {
         _ if !study.alarms().is_empty() || !study.refused.is_empty() => BAD_INPUT,
@@ -190,7 +190,7 @@ struct Results<'a> {
 }
 
 impl Results<'_> {
-    /// Returns the comparison if there is only one problem.
+    /// Returns the comparison if there is only one problem, and `None` otherwise.
     fn single(&self) -> Option<&Comparison> {
         self.study.comparisons.first().filter(|_| self.args.is_single())
     }

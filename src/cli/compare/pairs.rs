@@ -3,8 +3,8 @@
 use crate::model::Scene;
 use crate::space::{Configuration, SplitMix64};
 
-/// Number of draws after which a world counts as having no free configurations. If 1 configuration in 10,000 is free,
-/// pairs are still found.
+/// Number of draws after which the search for free configurations ends if it has found too few. If 1 configuration in
+/// 10,000 is free, pairs are still found.
 const MAX_DRAWS: usize = 200_000;
 
 /// Draws `count` pairs of free configurations. All are independent and uniform over the free part of the joint space
@@ -49,8 +49,8 @@ mod tests {
         assert_ne!(pairs[0][0], pairs[0][1]);
     }
 
-    /// Compares each quarter of the joint space: its fraction of the samples, and its fraction of the free space,
-    /// counted on a grid. Both agree within five standard deviations.
+    /// Compares each quarter of the joint space: its fraction of the samples with its fraction of the free space, which
+    /// is counted on a grid. The two agree within five standard deviations.
     #[test]
     fn pairs_are_uniform_over_the_free_space_of_a_torus() {
         let scene = scene("planar_2r_continuous", "torus_open");

@@ -40,7 +40,7 @@ pub struct Runner<'a> {
     pub jobs: usize,
     /// Counter of allocated bytes. `None` if several runs take place at the same time.
     pub meter: Option<MemoryMeter>,
-    /// Display of progress.
+    /// Display of the progress of all runs.
     pub progress: &'a Progress,
 }
 
@@ -50,7 +50,7 @@ type RunResult = Result<(Row, Option<Path>), PlanError>;
 /// Number of boxes for the warm-up run.
 const WARM_UP_BOXES: usize = 1000;
 
-/// Required gap between a bound and the shortest path that was found, as a fraction of the path.
+/// Required gap between a lower bound and the shortest path that was found, as a fraction of the path's length.
 const BOUND_GAP: f64 = 1e-4;
 
 impl Runner<'_> {
@@ -95,7 +95,7 @@ impl Runner<'_> {
         Ok(ComparisonResults { comparisons, paths, elapsed: clock.elapsed() })
     }
 
-    /// Runs `count` pieces of work on as many threads as there are jobs. Returns the results in order.
+    /// Calls `work` for the numbers below `count`, on as many threads as there are jobs. Returns the results in order.
     fn all<T: Send>(&self, count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
         let mut results = Vec::with_capacity(count);
         let Ok(()) = in_order(count, self.jobs, work, |result| {
@@ -158,7 +158,8 @@ impl Runner<'_> {
     }
 }
 
-/// Returns the planner's path of the other kind. `None` if it has none. The time for it is not measured.
+/// Returns the path of the other kind that the planner also computes. Returns `None` if it has none. The time for this
+/// path is not measured.
 fn other_path(problem: &Problem, options: &Options) -> Result<Option<OtherPath>, PlanError> {
     if !options.planner.method().has_own_path() || options.planner.path_kind() == PathKind::Middles {
         return Ok(None);

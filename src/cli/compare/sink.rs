@@ -19,7 +19,7 @@ pub enum ReportFormat {
     Arena,
 }
 
-/// Returns the format for each file name. Names are checked before any work is done.
+/// Returns each file name with the format that its extension states. Names are checked before any work is done.
 ///
 /// # Errors
 /// Unknown extensions, and files that cannot be written.

@@ -36,7 +36,7 @@ mod tests {
         assert_eq!(written(4_107_542_400), "2100-03-01 00:00:00 UTC");
     }
 
-    /// Compares with a simple calendar, day by day.
+    /// Tests that dates agree with a simple calendar, day by day for two centuries.
     #[test]
     fn every_day_of_two_centuries() {
         let (mut year, mut month, mut day) = (1970, 1, 1);

@@ -11,7 +11,8 @@ const USUAL_WIDTHS: [f64; 2] = [0.01, 100.0];
 /// Least and greatest value of both coordinates.
 type Bounds = [(f64, f64); 2];
 
-/// Adds notes about an obstacle at the arm's base, an obstacle around all others, and an unusual extent.
+/// Adds notes about what looks unusual: an obstacle at the arm's base, an obstacle around all others, and the extent of
+/// the drawing.
 pub(super) fn note(taken: &[ImportedObstacle], notes: &mut Notes) {
     let bounds: Vec<Bounds> = taken.iter().map(|taken| bounds(coordinates(&taken.shape))).collect();
     let border = border(taken, &bounds);
@@ -45,8 +46,8 @@ fn bounds(points: impl Iterator<Item = [f64; 2]>) -> Bounds {
     })
 }
 
-/// Returns the index of the solid that surrounds all others. `None` if there is none. Drawings often show the walls of
-/// a room, or an arm's reach, as such a solid.
+/// Returns the index of the solid that surrounds all others. Returns `None` if there is none. Drawings often contain
+/// the walls of a room, or the reach of an arm, as such a solid.
 fn border(taken: &[ImportedObstacle], bounds: &[Bounds]) -> Option<usize> {
     let holds = |i: usize, j: usize| (0..2).all(|k| bounds[i][k].0 < bounds[j][k].0 && bounds[j][k].1 < bounds[i][k].1);
     let is_solid = |shape: &Shape| match &shape.geometry {

@@ -83,7 +83,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x >= MIN_TOLERANCE, &format!("of metres, finite and at least {MIN_TOLERANCE}"))
 }
 
-/// Longest move of a drawing, in metres. The coordinates of drawings are at most half of this.
+/// Greatest distance by which a drawing can be moved, in metres. The coordinates of drawings are at most half of this.
 const MAX_MOVE: f64 = 2e12;
 
 fn displacement(text: &str) -> Result<[f64; 2], String> {

@@ -42,12 +42,13 @@ pub(super) struct Layers<'a> {
     pub tolerance: f64,
 }
 
-/// Returns true if an obstacle has this name, or its layer, or the hidden layer of the block that contains it.
+/// Returns true if an obstacle is called `name`. That may be its own name, its layer, or the hidden layer of the block
+/// that contains it.
 fn is_called(taken: &ImportedObstacle, name: &str) -> bool {
     is_same(&taken.name, name) || taken.shape.called().iter().any(|own| is_same(own, name))
 }
 
-/// Compares names, ignoring upper and lower case.
+/// Returns true if two names are equal, ignoring upper and lower case.
 fn is_same(name: &str, other: &str) -> bool {
     name.to_lowercase() == other.to_lowercase()
 }
@@ -75,13 +76,14 @@ impl Layers<'_> {
         Err(Failure::Option(format!("{option}: the drawing has no layer or part \"{name}\"\n  hint: {known}")))
     }
 
-    /// Returns true if options select an obstacle with one of these names.
+    /// Returns true if the options select an obstacle that has one of these names.
     pub fn asks_for(&self, names: &[String]) -> bool {
         let among = |asked: &[String]| asked.iter().any(|name| names.iter().any(|own| is_same(own, name)));
         (self.only.is_empty() || among(self.only)) && !among(self.without)
     }
 
-    /// Returns the selected obstacles, with the heights that options state, and as walls if options say so.
+    /// Returns the selected obstacles. Sets the heights that options state, and converts outlines to walls where
+    /// options request it.
     pub fn chosen(&self, found: Vec<ImportedObstacle>, notes: &mut Notes) -> Vec<ImportedObstacle> {
         let mut names = Names::of(&found);
         let mut chosen = Vec::new();
@@ -146,7 +148,7 @@ fn chords([x, y]: [f64; 2], radius: f64, tolerance: f64) -> Vec<[f64; 2]> {
     (0..count).map(at).collect()
 }
 
-/// Lists the layers with the number of obstacles from each.
+/// Returns lines that state how many obstacles come from each layer.
 pub(super) fn lines(taken: &[ImportedObstacle]) -> Vec<String> {
     let mut layers = BTreeMap::<&str, usize>::new();
     for layer in taken.iter().filter_map(|taken| taken.shape.layer.as_deref()) {

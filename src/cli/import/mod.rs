@@ -34,7 +34,7 @@ struct Json<'a> {
     obstacles: Vec<Entry<'a>>,
     /// Parts of the drawing that were left out or changed.
     notes: &'a [String],
-    /// The text of the world. `None` if it is written to a file.
+    /// The text of the world. `None` if the world is written to a file.
     #[serde(skip_serializing_if = "Option::is_none")]
     world: Option<&'a str>,
 }
@@ -132,7 +132,7 @@ fn sinks(args: &ImportArgs) -> Result<Vec<Sink>, Failure> {
     Ok(pictures)
 }
 
-/// Adds the file of the drawing to a diagnostic about it.
+/// Returns the failure for a diagnostic about the drawing, with the drawing's file name.
 fn refused(args: &ImportArgs, diagnostic: Diagnostic) -> Failure {
     Failure::Input(Diagnostic { origin: args.drawing.display().to_string(), ..diagnostic }.into())
 }
@@ -187,7 +187,7 @@ fn summary(args: &ImportArgs, taken: &[ImportedObstacle], notes: &[String], worl
     laid_out(&lines)
 }
 
-/// Returns the command that plans in the world. Values that the user must fill in are in capitals.
+/// Returns the command that plans in the imported world. Values that the user must fill in are in capitals.
 fn next(args: &ImportArgs, path: &Path) -> String {
     let query = &args.query;
     let start = if query.start.is_none() { " --start Q1,Q2" } else { "" };

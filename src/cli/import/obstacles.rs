@@ -36,7 +36,8 @@ impl Placement {
         Frame { at: drawing.placed(frame.at).map(rounded), angle: angle + 0.0 }
     }
 
-    /// Returns the coordinates of a point in the file. In a block, they are relative to the block's frame.
+    /// Returns the coordinates in the world file of a point of the drawing. In a block, they are relative to the
+    /// block's frame.
     fn point(&self, p: [f64; 2], frame: Option<&Frame>) -> [f64; 2] {
         let drawing = Frame { at: self.shift, angle: self.turn };
         frame.map_or_else(|| drawing.placed(p), |frame| frame.local(p)).map(rounded)
@@ -142,8 +143,8 @@ pub(super) fn within_reach(taken: &[ImportedObstacle], shift: [f64; 2]) -> Resul
     })
 }
 
-/// Returns a hint for a drawing that is far from the arm: the move, in whole metres, that brings its middle to the arm.
-/// If the drawing is too large, the hint is another one.
+/// Returns a hint for a drawing that is far from the arm. It suggests a move, in whole metres, that brings the middle
+/// of the drawing to the arm. If the drawing is too large for that, the hint suggests something else.
 fn far_off(taken: &[ImportedObstacle], shift: [f64; 2]) -> String {
     let points: Vec<[f64; 2]> = taken.iter().flat_map(|taken| coordinates(&taken.shape)).collect();
     let ends = |k: usize| {
@@ -160,7 +161,7 @@ fn far_off(taken: &[ImportedObstacle], shift: [f64; 2]) -> String {
     }
 }
 
-/// Iterates over points of the world whose bounding box is that of the shape.
+/// Iterates over points, in world coordinates, whose bounding box is that of the shape.
 pub(super) fn coordinates(shape: &Shape) -> impl Iterator<Item = [f64; 2]> {
     let points = match &shape.geometry {
         Geometry::Polygon { outer, holes } => outer.iter().chain(holes.iter().flatten()).copied().collect(),
@@ -181,8 +182,8 @@ pub(super) fn placed(shape: &Shape, p: [f64; 2]) -> [f64; 2] {
 /// Names that count as missing, such as that of the layer that every DXF has.
 const MISSING_NAMES: [&str; 2] = ["", "0"];
 
-/// Gives each obstacle a unique name: its own, or that of its layer, with a number if several share it. Hidden
-/// obstacles are numbered after visible ones, so that names do not depend on the selection.
+/// Gives each obstacle a unique name: its own, or that of its layer. If several obstacles share it, a number is added.
+/// Hidden obstacles are numbered after visible ones, so that names do not depend on the selection.
 fn named(shapes: Vec<Shape>) -> Vec<ImportedObstacle> {
     let base = |shape: &Shape| {
         let name = shape
@@ -211,7 +212,7 @@ fn named(shapes: Vec<Shape>) -> Vec<ImportedObstacle> {
     given.into_iter().zip(shapes).map(|(name, shape)| ImportedObstacle { name, shape }).collect()
 }
 
-/// Names in use.
+/// The names that are in use.
 #[derive(Default)]
 pub(super) struct Names {
     taken: HashSet<String>,
@@ -220,12 +221,12 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// Returns the names of obstacles.
+    /// Returns the names that these obstacles use.
     pub fn of(taken: &[ImportedObstacle]) -> Self {
         Self { taken: taken.iter().map(|taken| taken.name.clone()).collect(), ..Self::default() }
     }
 
-    /// Returns the next that is free: the name and a number.
+    /// Returns a name that is not in use: `name` followed by the next free number.
     pub fn numbered(&mut self, name: &str) -> String {
         let number = self.numbers.entry(name.to_owned()).or_default();
         loop {

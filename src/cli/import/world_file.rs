@@ -9,7 +9,7 @@ use std::fmt::Write;
 /// Number of points per line of the file.
 const POINTS_PER_LINE: usize = 6;
 
-/// Returns the world: head, start and goal, obstacles.
+/// Returns the text of the world file: head, start and goal, obstacles.
 pub(super) fn text(args: &ImportArgs, taken: &[ImportedObstacle], notes: &[String]) -> String {
     let file = args.drawing.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut text = format!("# {}, by `cplan import`. Lengths in metres, angles in radians.\n", plain_line(&file));
@@ -90,7 +90,7 @@ fn points(points: &[[f64; 2]]) -> String {
     }
 }
 
-/// Returns a name as TOML has it.
+/// Returns a name as a TOML string, in quotes.
 fn quoted(name: &str) -> String {
     toml::Value::from(name).to_string()
 }

@@ -91,11 +91,11 @@ pub struct VerifyArgs {
     pub print: PrintArgs,
 }
 
-/// Checks and reports.
+/// Checks a recorded motion and reports the findings.
 ///
 /// # Errors
-/// Bad input and I/O, and options that do not fit the recording. A collision is no error, because finding it is the
-/// job.
+/// Bad input and I/O, and options that do not fit the recording. A collision is no error, because it is a result of the
+/// check.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks_with(&[], &args.picture, args.certificate.as_deref())?;
     let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.keeping(args.clearance)?;

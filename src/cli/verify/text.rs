@@ -9,10 +9,10 @@ use crate::output::{Line, StepLine, configuration, laid_out, step_lines};
 use crate::space::Recording;
 use crate::text::{counted, format_distinct, length, length_down, nonzero};
 
-/// Depths below this, metres, count as rounding.
+/// Depth of a contact, in metres, below which it counts as rounding.
 const TOUCHING_DEPTH: f64 = 1e-9;
 
-/// Returns the findings for people.
+/// Returns the findings as text.
 pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFindings) -> String {
     let mut lines = vec![("result", result(findings))];
     lines.extend(collisions(arm, &findings.collisions, findings.verdict));
@@ -37,7 +37,7 @@ pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFinding
     laid_out(&lines)
 }
 
-/// Returns the time or place in words.
+/// Describes the time or the place of a moment in words.
 fn when(m: &MomentFinding) -> String {
     match (m.time, m.waypoint) {
         (Some(time), _) => format!("at {time:.6} s (sample {})", m.sample),
@@ -45,7 +45,7 @@ fn when(m: &MomentFinding) -> String {
     }
 }
 
-/// Returns the encounters along the motion.
+/// Returns lines about the collisions along the motion, and about its clearance.
 fn collisions(arm: &Arm, collisions: &CollisionFinding, verdict: Judgement) -> Vec<Line> {
     let place = |e: &EncounterFinding| {
         format!("{} {}, {}", e.pair, when(&e.moment), configuration(arm, e.moment.configuration.into()))
@@ -85,7 +85,7 @@ fn collisions(arm: &Arm, collisions: &CollisionFinding, verdict: Judgement) -> V
     lines
 }
 
-/// Returns a limit that is broken.
+/// Describes a violated limit.
 fn broken(arm: &Arm, limit: &LimitFinding) -> String {
     let excess = &limit.excess;
     let joint = &arm.joints[excess.joint];
@@ -109,7 +109,7 @@ fn broken(arm: &Arm, limit: &LimitFinding) -> String {
     format!("{}: {what}, {}", limit.joint, when(&limit.moment))
 }
 
-/// Returns a turn of the wrist that hits something.
+/// Describes the turn of the wrist in which the payload hits an obstacle. Returns `None` if it hits nothing.
 fn turn(step: &StepFinding) -> Option<Line> {
     let contact = step.turn.as_ref()?.contact.as_ref()?;
     let object = step.object.as_deref().or(step.carried.as_deref()).unwrap_or_default();
@@ -117,7 +117,7 @@ fn turn(step: &StepFinding) -> Option<Line> {
     Some(("turn", format!("{what} in {}, at {:.6} rad", step.name(), contact.angle)))
 }
 
-/// Returns a line a step.
+/// Returns one line per step.
 fn rows(steps: &[StepFinding]) -> Vec<String> {
     let repeated = steps.iter().any(|step| step.cycle > 1);
     let line = |step: &StepFinding| {

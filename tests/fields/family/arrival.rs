@@ -31,7 +31,8 @@ fn path(direction: f64, epsilon: f64, from: [i64; 2]) -> Vec<[f64; 2]> {
     points.iter().map(|p| [p[0] - goal[0], p[1] - goal[1]]).collect()
 }
 
-/// Returns the angle, as seen from the goal, at which a path comes within a distance of it.
+/// Returns the direction, as seen from the goal, of the place at which a path first comes within a distance of the
+/// goal.
 fn bearing(path: &[[f64; 2]], distance: f64) -> f64 {
     let far = path.iter().rposition(|p| p[0].hypot(p[1]) >= distance).expect("it starts farther away");
     let (a, b) = (path[far], path[far + 1]);
@@ -54,7 +55,7 @@ fn apart(a: f64, b: f64) -> f64 {
     ((a - b + PI).rem_euclid(2.0 * PI) - PI).abs()
 }
 
-/// Returns `K1(x) / K0(x)`, by the integrals of `exp(-x cosh t) cosh(n t)`.
+/// Returns the quotient of Bessel functions `K1(x) / K0(x)`, from the integrals of `exp(-x cosh t) cosh(n t)`.
 fn ratio(x: f64) -> f64 {
     let step = 1e-3;
     let terms = (0..12_000).map(|k| (f64::from(k) + 0.5) * step).map(|t| ((-x * (t.cosh() - 1.0)).exp(), t.cosh()));
@@ -62,8 +63,8 @@ fn ratio(x: f64) -> f64 {
     k1 / k0
 }
 
-/// Returns the bearing in open space. Along a line, the angle `f` between `x` and `v` changes by `sin f / (cos f +
-/// K1/K0)` for each factor `1 / e` of the distance.
+/// Returns the bearing that a path has in open space at this distance. Along a path, the angle `f` between `x` and `v`
+/// changes by `sin f / (cos f + K1/K0)` for each factor `1 / e` of the distance.
 fn expected(direction: f64, epsilon: f64, from: [i64; 2], distance: f64) -> f64 {
     let [x, y] = from.map(|k| k as f64);
     let (r, at) = (x.hypot(y), y.atan2(x));
@@ -104,7 +105,7 @@ fn paths_arrive_along_the_drift_unless_they_start_behind_the_goal() {
     assert!(along >= 12 && others >= 2, "{along} {others}");
 }
 
-/// Checks the start of docs/fields.md whose path does not arrive along `v`, and some starts whose paths do.
+/// Checks the example of docs/fields.md whose path does not arrive along `v`, and some other starts, whose paths do.
 #[test]
 fn path_bearings_agree_with_the_closed_form() {
     for (degrees, from) in [(180, [-7, -3]), (225, [-7, -3]), (0, [-7, -3]), (90, [-12, 0]), (0, [4, 12]), (0, [8, 4])]

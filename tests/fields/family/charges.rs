@@ -22,8 +22,8 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
 proptest! {
     #![proptest_config(cplan_cases::cases(60))]
 
-    /// Checks the sum term by term. On circles, the shorter direction counts. With high limits, a frame of one cell
-    /// counts as obstacles.
+    /// Checks the sum term by term. On circles, the shorter direction counts. At limits with a high value, a frame of
+    /// one cell counts as obstacles.
     #[test]
     fn the_sum_is_that_over_all_obstacle_cells(
         (rows, columns, blocked) in (1..9_usize, 1..9_usize).prop_flat_map(|(rows, columns)| {

@@ -24,9 +24,9 @@ fn oriented(epsilon: f64, difference: Difference) -> Equation {
     Equation::Oriented { direction: Direction::of([1.0, 0.0]).unwrap(), epsilon, difference }
 }
 
-/// Returns the spectral radius of Jacobi's relaxation. Its eigenvectors are products of sines and powers. Along each
-/// axis, the eigenvalue is twice the root of the product of opposite weights times a cosine, over the sum of all
-/// weights.
+/// Returns the spectral radius of Jacobi's relaxation, the factor by which each sweep reduces the error in the end. Its
+/// eigenvectors are products of sines and powers. Along each axis, the eigenvalue is twice the root of the product of
+/// opposite weights times a cosine, over the sum of all weights.
 fn jacobi_rate(cells: [usize; 2], equation: &Equation) -> f64 {
     let [a, b] = cells.map(|n| (PI / (n + 1) as f64).cos());
     match equation {

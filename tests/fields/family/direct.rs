@@ -41,7 +41,7 @@ fn there(domain: &Domain, cell: usize, axis: usize, step: i64) -> There {
     There::Cell((at[0] * columns + at[1]) as usize)
 }
 
-/// Returns the value of a neighbour. `values` has those of all cells.
+/// Returns the value of a neighbour of a cell. `values` has the values of all cells.
 fn value(domain: &Domain, values: &[f64], cell: usize, axis: usize, step: i64) -> f64 {
     match there(domain, cell, axis, step) {
         There::Cell(next) => values[next],
@@ -106,8 +106,8 @@ fn uphill(domain: &Domain, values: &[f64], cell: usize) -> [f64; 2] {
     if length == 0.0 { slope } else { slope.map(|x| x / length) }
 }
 
-/// Returns the left side of the equation of the altered preferences for a cell, as in the literature, where obstacles
-/// have the high value.
+/// Returns the left side of the altered preferences' equation at a cell. As in the literature, obstacles have the high
+/// value.
 pub fn altered(domain: &Domain, published: &[f64], epsilon: &[f64], cell: usize) -> f64 {
     let [west, east] = [-1, 1].map(|step| value(domain, published, cell, 1, step));
     let [south, north] = [-1, 1].map(|step| value(domain, published, cell, 0, step));
@@ -119,7 +119,7 @@ pub fn altered(domain: &Domain, published: &[f64], epsilon: &[f64], cell: usize)
     h + epsilon[cell] / sum * d
 }
 
-/// Returns the field that the equation describes.
+/// Returns the field that solves an equation, by elimination where the equation allows it.
 pub fn solution(domain: &Domain, equation: &Equation) -> Vec<f64> {
     match equation {
         Equation::Harmonic => solve(domain, |_| [0.0; 2], Difference::Central),

@@ -23,8 +23,8 @@ fn escaped(run: &Run) -> (&'static str, usize, usize) {
     }
 }
 
-/// Samples a path densely, and checks that every point is in a free cell. On a side between two cells, either cell may
-/// be the free one.
+/// Samples a path densely, and checks that every point is in a free cell. For a point on the side between two cells, it
+/// suffices that one of them is free.
 fn stays_free(grid: &Grid, run: &Run) {
     for (a, b) in found(run).segments() {
         for k in 0..=40 {

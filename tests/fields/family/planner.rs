@@ -62,7 +62,8 @@ pub fn found(run: &Run) -> &Path {
     }
 }
 
-/// Returns true if a cell at `q` is free. On a side between two cells, either cell may be free.
+/// Returns true if a cell that contains `q` is free. On the side between two cells, it suffices that one of them is
+/// free.
 fn is_free(grid: &Grid, q: Configuration) -> bool {
     let beside = |d: [f64; 2]| {
         let p = q + Configuration::new(d[0] * 1e-7 * grid.step()[0], d[1] * 1e-7 * grid.step()[1]);
@@ -94,7 +95,8 @@ fn equations() -> Vec<EquationChoice> {
 proptest! {
     #![proptest_config(cplan_cases::cases(150))]
 
-    /// Checks that every field finds a path exactly if the wave does, and that its path visits only free cells.
+    /// Checks that every field finds a path exactly if a wave reaches the goal, and that its path visits only free
+    /// cells.
     #[test]
     fn every_field_answers_as_the_wave_does(
         (cells, blocked, start, goal) in (2..10_usize, 2..10_usize).prop_flat_map(|(rows, columns)| {

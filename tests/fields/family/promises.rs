@@ -126,9 +126,9 @@ proptest! {
     }
 }
 
-/// Returns true if a path reaches a goal, or ends beside a cell whose value is equal up to rounding. Reflecting limits
-/// can make a field exactly level around a cell. Rounding then decides whether the computed values are level, too, or
-/// have a minimum.
+/// Returns true if a path reaches a goal, or if it ends beside a cell whose value is equal up to rounding. The second
+/// case occurs because reflecting limits can make a field exactly level around a cell. Then rounding decides whether
+/// the computed values are level, too, or have a minimum.
 fn leads(domain: &Domain, values: &[f64], way: &Result<Vec<usize>, DeadEnd>) -> bool {
     let Err(stuck) = way else { return true };
     let level = |neighbor: Neighbor| matches!(neighbor, Neighbor::Cell(n) if (values[n] - stuck.value).abs() < 1e-14);

@@ -3,8 +3,8 @@
 use super::direct::drawn;
 use cplan::field::{Boundary, Equation, Influence, Levels, Measure, Relaxation, Stopping, around, relax};
 
-/// Returns the measure after each of the first sweeps on `#.G`, walled above and below. In each sweep, the one free
-/// cell moves half of the remaining distance to 3/4.
+/// Returns the value of a stopping measure after each of the first sweeps on the cells `#.G`, with walls above and
+/// below. In each sweep, the only free cell moves half of the remaining distance to 3/4.
 fn measures(measure: Measure) -> Vec<f64> {
     let domain = drawn("#.G", [Boundary::High; 2], Levels::PUBLISHED);
     let relaxation = Relaxation::weighted_jacobi(0.5);

@@ -72,7 +72,7 @@ proptest! {
     }
 }
 
-/// Returns the lower left and upper right corner of a rectangle for the tip.
+/// Returns the lower left and the upper right corner of a preference's rectangle for the tip.
 fn ends(preference: &Preference) -> [Point; 2] {
     let Region::Tip(polygon) = &preference.region else { panic!("{preference:?}") };
     let corners = polygon.corners();

@@ -9,8 +9,8 @@ fn shipped(name: &str) -> Vec<u8> {
     std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces").join(name)).unwrap()
 }
 
-/// Changes, inserts or removes a byte for each entry of `damage`. Positions are fractions of the length, more of them
-/// near the beginning.
+/// Changes, inserts or removes a byte for each entry of `damage`. The position in an entry is a fraction of the length,
+/// and most of them are near the beginning.
 fn damaged(mut bytes: Vec<u8>, damage: &[(f64, u8, u8)]) -> Vec<u8> {
     for &(share, kind, value) in damage {
         let at = (share * share * share * bytes.len() as f64) as usize;

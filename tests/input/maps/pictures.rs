@@ -15,8 +15,8 @@ fn read(bytes: &[u8]) -> Result<OccupancyMap, InputError> {
     OccupancyMap::read(&folder.path().join("room.yaml"))
 }
 
-/// Returns the occupancy of pixels with these values out of `most`. It compares whole numbers, while the program
-/// divides.
+/// Returns the occupancy of pixels with these values, of which `most` is the greatest possible one. Compares whole
+/// numbers, while the program divides.
 fn expected(values: &[u32], most: u32) -> Vec<Occupancy> {
     let judge = |&value: &u32| {
         let dark = 1000 * u64::from(most - value);

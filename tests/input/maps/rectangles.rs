@@ -12,8 +12,8 @@ fn of(pixels: &[Vec<bool>]) -> Vec<PixelRectangle> {
     found
 }
 
-/// Returns the least number of rectangles that cover the pixels `solid` (bits, row by row) without overlap. It tries
-/// every rectangle whose first pixel is the first one left.
+/// Returns the least number of rectangles that cover the pixels `solid` (bits, row by row) without overlap. Tries every
+/// rectangle that begins at the first pixel that is not covered yet.
 fn fewest(width: usize, height: usize, solid: u32, known: &mut HashMap<u32, u32>) -> u32 {
     if solid == 0 {
         return 0;

@@ -50,7 +50,7 @@ fn length(node: &Node) -> usize {
     }
 }
 
-/// Returns the steps as words, without cycles; the first has the number `first`.
+/// Returns the steps as words, without cycles. `first` is the number of the first step.
 fn expanded(nodes: &[Node], first: usize) -> Vec<(Option<usize>, String)> {
     let mut words = Vec::new();
     let mut number = first;
@@ -110,7 +110,7 @@ fn assert_sound(loaded: &LoadedTask) {
     }
 }
 
-/// Lines to mix: lines of objects, steps and groups, right and wrong.
+/// Lines that are mixed at random: lines of objects, steps and groups, correct and wrong ones.
 const LINES: &[&str] = &[
     "[[step]]",
     "[[step]]",

@@ -7,12 +7,12 @@
 #[derive(Debug, Clone, Default)]
 pub struct Message {
     pub joints: Vec<String>,
-    /// Nanoseconds from the start.
+    /// Times of the points, in nanoseconds from the start.
     pub since: Vec<u64>,
     pub points: Vec<[Vec<f64>; 3]>,
 }
 
-/// Returns the seconds between two points.
+/// Returns the time between two points in seconds. The arguments are nanoseconds.
 pub fn seconds(from: u64, to: u64) -> f64 {
     (to - from) as f64 * 1e-9
 }

@@ -48,14 +48,15 @@ pub fn csv(text: &str) -> Message {
     message
 }
 
-/// Returns the messages on `/joint_trajectory` of a recording, each with the time at which it begins, in nanoseconds.
+/// Returns the messages on `/joint_trajectory` of a recording. Each comes with the time at which it begins, in
+/// nanoseconds.
 #[cfg(feature = "mcap")]
 pub fn mcap(file: &[u8]) -> Vec<(u64, Message)> {
     let (_, motions) = crate::mcap::read(file);
     motions.into_iter().map(|m| (m.log, Message { joints: m.joints, since: m.since, points: m.points })).collect()
 }
 
-/// Returns the states of a recording: nanosecond, names and positions.
+/// Returns the states of a recording: the time in nanoseconds, the joints' names and their positions.
 #[cfg(feature = "mcap")]
 pub fn states(file: &[u8]) -> Vec<(u64, Vec<String>, Vec<f64>)> {
     crate::mcap::read(file).0.into_iter().map(|state| (state.stamp, state.joints, state.position)).collect()

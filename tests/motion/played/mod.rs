@@ -13,12 +13,12 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Fraction of a limit by which an interpolated motion may exceed it, as in `cplan verify`. It covers the rounding of
-/// doubles over a millisecond.
+/// Fraction of a limit by which an interpolated motion may exceed it, as in `cplan verify`. It allows for the rounding
+/// of doubles within a millisecond.
 const OVER: f64 = 1e-6;
 
-/// Largest distance of an interpolated motion from that in the result, in radians or metres. It covers the tolerance
-/// about blends for which the certificate holds (for radii of at most one), and rounding.
+/// Largest distance of an interpolated motion from that in the result, in radians or metres. It allows for rounding,
+/// and for the tolerance around blends within which the certificate holds (for radii of at most one).
 const OFF: f64 = 1e-6;
 
 /// Formats that the program writes and that `verify` reads.

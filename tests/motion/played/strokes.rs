@@ -167,7 +167,7 @@ fn collisions_of_the_lowered_tool_are_found() {
     assert!(reasons.contains("while the tool is lowered") && reasons.contains("stub"), "{reasons}");
 }
 
-/// Returns the reasons of the step that fails.
+/// Returns the reasons why a step of the task fails, from the program's JSON result.
 fn run_json(world: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("world.toml");

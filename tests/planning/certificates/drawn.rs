@@ -6,11 +6,11 @@ use std::fmt::Write;
 
 pub type V = [f64; 2];
 
-/// Root axes of the plane's two coordinates and of its normal, and the sign of the normal's direction if the
-/// coordinates turn left.
+/// For each plane, the root axes of its two coordinates and of its normal, and the sign of the normal for which
+/// coordinates and normal form a right-handed system.
 pub const PLANES: [([usize; 3], f64); 3] = [([0, 1, 2], 1.0), ([0, 2, 1], -1.0), ([1, 2, 0], 1.0)];
 
-/// A problem in numbers: lengths in metres.
+/// A problem in numbers. Lengths are in metres.
 #[derive(Debug, Clone)]
 pub struct Drawn {
     /// Index into [`PLANES`].
@@ -20,12 +20,12 @@ pub struct Drawn {
     pub origins: [V; 2],
     pub heights: [f64; 2],
     pub solids: [Vec<Solid>; 2],
-    /// True if the solids are `<visual>` because the links have no others.
+    /// True if the solids are `<visual>` shapes, because the links have no collision geometry.
     pub visual: bool,
     /// The tip relative to the second joint. `None` if it is at that joint.
     pub tip: Option<V>,
     /// Angle of each axis off the plane's normal, or of each slide off the plane, radians. Exported files have such
-    /// deviations.
+    /// deviations from exact directions.
     pub tilts: V,
     /// Position and orientation of the robot.
     pub at: V,

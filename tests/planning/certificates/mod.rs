@@ -37,7 +37,7 @@ const KINDS: u64 = 4;
 const ENDS: usize = 3;
 const TRIES: usize = 200;
 
-/// Largest number of boxes of a certificate that is falsified. Larger ones take long and show nothing new.
+/// Largest number of boxes of a certificate that is falsified. Larger ones would take long and show nothing new.
 const MAX_BOXES: usize = 30;
 
 /// Least number of certificates that are falsified.
@@ -66,7 +66,7 @@ struct Tally {
     checking: Duration,
 }
 
-/// Plans in a world between several starts and goals, and returns the infeasible problems, with valid certificates.
+/// Plans in a world between several starts and goals. Returns the infeasible problems, with their valid certificates.
 fn closed(seed: u64, tally: &mut Tally) -> Vec<InfeasibleExplanation> {
     let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D));
     let kind = seed % KINDS;
@@ -137,7 +137,7 @@ fn certificates_of_random_worlds_hold() {
     assert!(!usual() || tally.infeasible.iter().sum::<usize>() > 3 && tally.tips > 0, "{tally:?}");
 }
 
-/// Changes something in the certificate, or in the files that it is checked against.
+/// Changes something in the certificate, or in the files against which it is checked.
 fn falsify(dice: &mut Dice, InfeasibleExplanation { drawn, certificate }: &InfeasibleExplanation) -> (Drawn, Value) {
     let (mut drawn, mut value): (Drawn, Value) = (drawn.clone(), serde_json::from_str(certificate).unwrap());
     let scale = drawn.scale;
@@ -286,7 +286,7 @@ fn respelled(dice: &mut Dice, text: &str) -> String {
     out + rest
 }
 
-/// Returns a text that is hardly a certificate.
+/// Returns a text that resembles a certificate only vaguely.
 fn nonsense(dice: &mut Dice, text: &str) -> String {
     let at = dice.below(text.len());
     let number = |dice: &mut Dice| {
@@ -332,7 +332,8 @@ fn nonsense(dice: &mut Dice, text: &str) -> String {
     }
 }
 
-/// Returns which of the three answers the checker gave.
+/// Returns the checker's answer: it accepts the certificate, refuses it, or does not understand it. The last two are
+/// `Err`.
 fn judged(urdf: &str, world: &str, certificate: &str) -> Result<(), bool> {
     match check(urdf, world, certificate) {
         Ok(_) => Ok(()),

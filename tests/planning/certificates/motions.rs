@@ -28,7 +28,8 @@ struct Tally {
     longest: Duration,
 }
 
-/// Plans in the world of this seed: the shortest path, the first path found, and a path far from obstacles, in turn.
+/// Plans in the world of this seed, and checks the certificates of the motions. The requested path is in turn the
+/// shortest one, the first one found, and one far from obstacles.
 fn ways(seed: u64, tally: &mut Tally) {
     let mut dice = Dice::new(seed.wrapping_mul(0x9e6c_63d0_876a_1b1d));
     let kind = seed % KINDS;

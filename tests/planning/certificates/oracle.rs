@@ -11,8 +11,8 @@ const ROUNDING: f64 = 1e-9;
 /// A configuration counts as inside a cell if it is at least this far from the sides, as a fraction of the domain.
 const INSIDE: f64 = 1e-6;
 
-/// The tip counts as being at a place within this distance, as a fraction of lengths. It is less than the checker's
-/// tolerance.
+/// The tip counts as being at a place within this distance, as a fraction of lengths. The checker's tolerance is
+/// greater.
 const REACHED: f64 = 1e-13;
 
 /// Number of samples of a box along each joint.
@@ -163,7 +163,7 @@ fn pair(value: &Value) -> Option<V> {
     Some([value.get(0)?.as_f64()?, value.get(1)?.as_f64()?].map(|x| x.clamp(-1e100, 1e100)))
 }
 
-/// Returns a description of what is false in a certificate. `None` if nothing is. The certificate must have the form
+/// Describes a false statement of a certificate. Returns `None` if there is none. The certificate must have the form
 /// that the checker accepts.
 pub fn lie(drawn: &Drawn, certificate: &Value) -> Option<String> {
     let clearance = certificate["clearance"].as_f64().unwrap_or(drawn.clearance);
@@ -209,7 +209,7 @@ pub fn lie(drawn: &Drawn, certificate: &Value) -> Option<String> {
     connection(drawn, certificate, &boxes)
 }
 
-/// Returns a part of an obstacle in its place, or an error if it is not one of the obstacle's parts.
+/// Returns a part of an obstacle in its place in the world. Returns an error if the obstacle has no such part.
 fn part_of(drawn: &Drawn, part: &Value) -> Result<(Vec<V>, f64), &'static str> {
     let number = part["obstacle"].as_u64().ok_or("names no obstacle")? as usize;
     let obstacle = drawn.obstacles.get(number).ok_or("is of an obstacle that is not there")?;
@@ -258,7 +258,7 @@ fn part_of(drawn: &Drawn, part: &Value) -> Result<(Vec<V>, f64), &'static str> {
     }
 }
 
-/// Describes how the boxes leave the start connected with a goal. `None` if they do not.
+/// Describes how a path leads past the boxes from the start to a goal. Returns `None` if there is none.
 fn connection(drawn: &Drawn, certificate: &Value, boxes: &[[V; 2]]) -> Option<String> {
     let domain = drawn.joints.map(|joint| joint.domain());
     let ends = [0, 1].map(|k| {

@@ -10,7 +10,8 @@ use std::f64::consts::{PI, TAU};
 
 const CIRCLES: [JointRange; 2] = [JointRange::Circle, JointRange::Circle];
 
-/// Checks the bound without obstacles: the length of the straight motion to the nearest copy of a goal.
+/// Checks the bound in a space without obstacles, which is the length of the straight motion to the nearest copy of a
+/// goal.
 fn assert_straight(axes: [JointRange; 2], start: Configuration, goals: &[Configuration]) {
     let scene = scene(rr(axes), Vec::new());
     let topology = scene.arm().topology();
@@ -62,8 +63,8 @@ fn a_goal_at_the_start_is_reached_at_once() {
     }
 }
 
-/// Checks borders of strips: the domain of joint 1 begins with 64 strips. Starts and goals are exactly on the border of
-/// two strips, on either side of it by one last bit, on the seam, and at the same places on other turns.
+/// Checks starts and goals at the borders of strips; the domain of joint 1 begins with 64 strips. They are exactly on
+/// the border of two strips, on either side of it by one last bit, on the seam, and at the same places on other turns.
 #[test]
 fn starts_and_goals_on_slices() {
     let axes = [JointRange::Circle, JointRange::Interval { lower: -1.0, upper: 2.5 }];
@@ -94,8 +95,8 @@ fn among(axes: [JointRange; 2], pieces: Vec<Convex>, start: Configuration, goal:
     asked(scene(rr(axes), pieces), start, goal)
 }
 
-/// Checks goals on the other side of a post that the upper arm cannot pass. They are reached in the other direction,
-/// with a straight arm.
+/// Checks goals on the other side of a post that the upper arm cannot pass. The arm reaches them stretched, by turning
+/// in the other direction.
 #[test]
 fn the_other_way_round() {
     let post = disc(Point::new(0.5, 0.0), 0.1);
@@ -115,7 +116,7 @@ fn the_other_way_round() {
     }
 }
 
-/// Checks joints without room to move. There is nothing to cut into strips, or nothing beside the strips.
+/// Checks joints without room to move. Then there is nothing to cut into strips, or nothing beside the strips.
 #[test]
 fn joints_that_cannot_move() {
     let fixed = JointRange::Interval { lower: 0.5, upper: 0.5 };
@@ -143,9 +144,9 @@ fn the_same_to_the_last_bit() {
     }
 }
 
-/// A capsule sits on a carriage that slides past an obstacle, or on the axis of joint 1. Within one strip, its
-/// collision interval leaves the lower limit of joint 2 and enters at the upper one, a turn away. All along, the elbow
-/// is in the link, and in no obstacle.
+/// Checks a capsule on a carriage that slides past an obstacle, or on the axis of joint 1. Within one strip, its
+/// collision interval leaves the lower limit of joint 2 and enters at the upper one, a turn away. The elbow is always
+/// inside the link, and in no obstacle.
 #[test]
 fn permanent_contact_closes_nothing() {
     let (far, half, radius) = (0.9_f64, 0.1_f64, 0.1);

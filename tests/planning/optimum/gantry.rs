@@ -26,8 +26,7 @@ pub fn square(pieces: Vec<Convex>, start: Configuration, goal: Configuration) ->
     gantry([0.0, TAU / 4.0], pieces, start, &[goal])
 }
 
-/// Checks that the bound is within the gap of a known length, for every limit of the length from which the search
-/// starts.
+/// Checks that the bound is within the gap below a known length, whatever limit of the length the search starts from.
 fn assert_is(problem: &MotionProblem, length: f64) {
     for factor in LIMITS {
         let found = bound(problem, Metric::Euclidean, factor * length, 1e-5 / factor);
@@ -58,7 +57,7 @@ fn out_of_a_trap() {
     assert_is(&square(turned.collect(), turn(start), turn(goal)), out(-1.0, 0.7).min(out(1.0, 0.8)));
 }
 
-/// A wall spans the whole space except for a slot a hundredth wide.
+/// Checks a wall that spans the whole space except for a slot a hundredth wide.
 #[test]
 fn through_a_slot() {
     let walls = vec![rectangle(-0.05, 0.05, -3.0, 0.7), rectangle(-0.05, 0.05, 0.71, 3.0)];
@@ -68,7 +67,7 @@ fn through_a_slot() {
     assert_is(&square(turned.collect(), q(0.0, -1.0), q(0.0, 1.0)), length);
 }
 
-/// Checks two slots in walls behind one another, far apart: the path leads to one, and back to the other.
+/// Checks two slots in walls behind one another, far apart. The path leads to one slot, and then back to the other.
 #[test]
 fn through_two_slots() {
     let wall = |x: f64, slot: f64| [rectangle(x, x + 0.1, -3.0, slot), rectangle(x, x + 0.1, slot + 0.01, 3.0)];
@@ -78,7 +77,7 @@ fn through_two_slots() {
     assert_is(&square(walls, q(-1.0, 0.0), q(1.0, 0.0)), length);
 }
 
-/// A path around a disc has two tangents and an arc.
+/// Checks a path around a disc, which consists of two tangents and an arc.
 #[test]
 fn around_a_disc() {
     let tangent = (1.5_f64 * 1.5 - 0.5 * 0.5).sqrt();

@@ -15,7 +15,7 @@ use cplan::space::Metric;
 /// Relative error that rounding may add to a length.
 const ROUNDING: f64 = 1e-9;
 
-/// Length limits as multiples of the length, far above it.
+/// Limits of the length from which the search starts, as multiples of the true length. They are far above it.
 const LIMITS: [f64; 2] = [3.0, 10.0];
 
 /// Returns the bound for a problem.

@@ -86,7 +86,7 @@ fn polygon() -> impl Strategy<Value = Vec<Configuration>> {
     )
 }
 
-/// Checks that bounds do not exceed the optimum.
+/// Checks that bounds do not exceed the length of the shortest path.
 fn agree(polygons: &[Vec<Configuration>], angles: [f64; 2], start: Configuration, goals: &[Configuration], gap: f64) {
     let directions = angles.map(|angle| Vector::new(angle.cos(), angle.sin()));
     let place = |q: &Configuration| directions[0] * q[0] + directions[1] * q[1];
@@ -100,8 +100,8 @@ fn agree(polygons: &[Vec<Configuration>], angles: [f64; 2], start: Configuration
     }
 }
 
-/// Checks a slanting side. In the slices along it, the ends of the closed intervals are in line. None may be lost
-/// although its neighbours imply its value.
+/// Checks a slanting side. In the slices along it, the ends of the closed intervals are in line. None of them may be
+/// left out, although its neighbours imply its value.
 #[test]
 fn along_a_slanting_side() {
     let corners = [

@@ -6,7 +6,8 @@ use cplan::Outcome;
 use cplan::engine::{Method, Planner, solve};
 use cplan::space::Metric;
 
-/// Requested gap, also to the best known path, which is itself within a thousandth of the optimum.
+/// Requested gap. The best known path, which is itself within a thousandth of the optimum, must also be within this
+/// gap.
 const GAP: f64 = 1e-4;
 const NEAR: f64 = 2e-3;
 

@@ -31,7 +31,7 @@ fn motions(problem: &MotionProblem) -> Vec<Path> {
     paths.into_iter().flatten().collect()
 }
 
-/// Checks that the bound is not above any known motion.
+/// Checks that the bound does not exceed the length of any known motion.
 fn keeps_below(problem: &MotionProblem, gap: f64) {
     let paths = motions(problem);
     for metric in metrics() {
@@ -93,8 +93,8 @@ proptest! {
         keeps_below(&asked(scene, start, goals.into_iter().collect::<GoalSet>()), gap);
     }
 
-    /// Includes touching, pointed and thin obstacles, joints of all ranges, and starts on limits, on other turns and
-    /// next to obstacles.
+    /// Checks bounds in worlds that include touching, pointed and thin obstacles, joints of all ranges, and starts on
+    /// limits, on other turns and next to obstacles.
     #[test]
     fn nor_in_worlds_made_to_be_hard(kind in 0_usize..4, seed in any::<u64>(), gap in gaps()) {
         let problem = world::world(world::KINDS[kind], seed);
@@ -102,7 +102,7 @@ proptest! {
         keeps_below(&problem.unwrap(), gap);
     }
 
-    /// Two walls leave a slot.
+    /// Checks bounds for two walls that leave a slot between them.
     #[test]
     fn nor_through_narrow_passages(
         kind in 0_usize..5, at in (0.5..1.5_f64, -3.2..3.2_f64), width in prop_oneof![1e-4..1e-2_f64, 0.1..0.3_f64],

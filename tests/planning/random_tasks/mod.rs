@@ -52,8 +52,8 @@ fn planned_tasks_are_feasible() {
     assert!(found.done * 2 > found.infeasible + found.unknown, "hardly any task can be done: {found:?}");
 }
 
-/// Checks that the oracle refuses plans: those for smaller objects are not valid for larger ones, nor for other
-/// targets.
+/// Checks that the oracle refuses recordings of other tasks: those for smaller objects are not valid for larger ones,
+/// nor for other targets.
 #[test]
 fn recordings_of_another_task_are_refused() {
     let (mut larger, mut elsewhere, mut done) = (0, 0, 0);

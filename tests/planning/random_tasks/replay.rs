@@ -34,7 +34,7 @@ fn turned(angle: f64, at: V) -> Frame {
     ([angle.cos(), angle.sin()], at)
 }
 
-/// A payload.
+/// An object that the gripper holds.
 struct Held {
     object: usize,
     /// Pose of the object: in link 2's frame for a rigid payload; relative to the tip, in the plane's directions, for a
@@ -52,6 +52,8 @@ pub struct World<'a> {
     released: Option<usize>,
 }
 
+/// Replays the answer to a task and checks every motion.
+///
 /// # Errors
 /// A description of the fault.
 pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String> {
@@ -108,7 +110,7 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
     Ok(())
 }
 
-/// Returns the objects that the object picked by a leg may touch at its target.
+/// Returns the objects that may be touched at the target of the object that a leg picks.
 fn next_supports(task: &Task, answer: &TaskAnswer, index: usize) -> Vec<usize> {
     let picked = &answer.legs[index].step;
     let follows = |step: &&Step| (step.cycle, step.number) > (picked.cycle, picked.number);
@@ -194,7 +196,7 @@ fn limits(joints: &[Joint; 2], position: V, velocity: V, share: f64) -> Result<(
 }
 
 impl<'a> World<'a> {
-    /// Returns the initial world, with all objects at their first places.
+    /// Returns the world at the beginning of a task, with all objects at their first places.
     pub fn at_first(task: &'a Task) -> Self {
         let lies = task.objects.iter().map(|o| {
             let (sin, cos) = o.at.rotation.angle().sin_cos();
@@ -203,7 +205,7 @@ impl<'a> World<'a> {
         World { task, lies: lies.collect(), held: None, released: None }
     }
 
-    /// Returns the world with an object in the gripper, gripped as by the arm at `q`.
+    /// Returns the world after an object was gripped by the arm at `q`.
     pub fn carrying(mut self, object: usize, q: V, supports: Vec<usize>) -> Self {
         let (frames, tip) = self.frames(q);
         if let Some(lies) = self.lies[object].take() {
@@ -250,14 +252,14 @@ impl<'a> World<'a> {
         bodies
     }
 
-    /// Returns how much deeper a body may press into its support; negative if it presses too deep. The clearance does
-    /// not matter.
+    /// Returns how much deeper a body may press into its support. The result is negative if it presses too deep. The
+    /// clearance does not matter.
     fn pressed(&self, body: &Solid, support: &Solid) -> f64 {
         body.distance(support) + PENETRATION_ALLOWANCE * self.task.arm.reach()
     }
 
-    /// Calls `f` with each moving body, an obstacle, their distance at `q`, and [`World::pressed`] if the body rests on
-    /// the obstacle.
+    /// Calls `f` for each moving body and each obstacle, with their distance at `q`. If the body rests on the obstacle,
+    /// `f` also gets [`World::pressed`].
     fn distances(&self, q: V, target: Option<usize>, mut f: impl FnMut(&str, usize, f64, Option<f64>)) {
         let fixed = self.task.workspace.fixed.obstacles.len();
         let (frames, _) = self.frames(q);
@@ -339,7 +341,7 @@ impl<'a> World<'a> {
         [0, 1].map(|k| if arm.joints[k].joint_type.is_revolute() { [first, second][k] } else { 1.0 })
     }
 
-    /// Applies the end of a motion; `then` lists the objects that may be touched at the next target.
+    /// Applies the event at the end of a motion. `then` lists the objects that may be touched at the next target.
     fn finish(&mut self, q: V, step: &Step, then: &[usize], turn: Option<[f64; 2]>, keep: f64) -> Result<(), String> {
         let (frames, tip) = self.frames(q);
         let near = |a: V, b: V| norm(sub(a, b)) < NEAR;

@@ -5,7 +5,8 @@ use crate::common::dice::Dice;
 use cplan::geometry::{Convex, Vector};
 use cplan::model::{Arm, Carrier, MotionProblem, Obstacle, SelfObstacle};
 
-/// Returns the world of a seed, of the given kind of arm; `None` if the draw has no two free configurations.
+/// Returns the world of a seed for an arm of a kind whose own body is an obstacle. Returns `None` if the draw has no
+/// two free configurations.
 pub fn world_of_body(kind: &str, seed: u64) -> Option<MotionProblem> {
     world::drawn(kind, seed, self_obstacles)
 }
@@ -34,7 +35,7 @@ fn self_obstacles(dice: &mut Dice, arm: &Arm) -> Vec<SelfObstacle> {
     all
 }
 
-/// Returns one obstacle for each of its pieces.
+/// Returns one obstacle for each piece of an obstacle.
 fn split(obstacle: &Obstacle) -> Vec<Obstacle> {
     let one = |piece: &Convex| Obstacle { pieces: vec![piece.clone()], ..obstacle.clone() };
     obstacle.pieces.iter().map(one).collect()

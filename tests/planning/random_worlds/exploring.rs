@@ -74,7 +74,8 @@ fn map_is_true(scene: &Scene, map: &OccupancyMap) {
     }
 }
 
-/// Returns an unknown cell that a ray would show. Considers all sides of cells that the ray meets, in order.
+/// Returns an unknown cell that a ray of the sensor would show. Considers all sides of cells that the ray meets, in
+/// order.
 fn shown_by_ray(map: &OccupancyMap, from: Point, angle: f64, range: f64) -> Option<usize> {
     let local = map.pose.inverse_point(from) / map.resolution;
     let (from, ahead, far) = ([local.x, local.y], [angle.cos(), angle.sin()], range / map.resolution);
@@ -151,7 +152,7 @@ fn reachable(oracle: &Oracle, topology: &Topology, from: Configuration) -> Vec<[
     cells
 }
 
-/// Checks all claims of an exploration. Returns how it ended.
+/// Checks all claims of an exploration. Returns in a word how it ended.
 fn is_true(problem: &MotionProblem, sensor: &Sensor, done: &Exploration) -> &'static str {
     let (scene, arm) = (problem.scene(), problem.scene().arm());
     let (topology, map) = (arm.topology(), done.survey.map());
@@ -234,8 +235,8 @@ fn explorations_report_true_results() {
     }
 }
 
-/// One of these worlds has a path whose next portal, the only one of its cell, is more than half a turn of joint 2
-/// away.
+/// Checks explorations of one world for each kind of arm. In one of them, a path has a portal that is the only one of
+/// its cell, and more than half a turn of joint 2 away.
 #[test]
 fn a_portal_beyond_half_a_turn_ends_a_sleeve() {
     let worlds: Vec<MotionProblem> = KINDS.iter().filter_map(|kind| world(kind, 11)).collect();

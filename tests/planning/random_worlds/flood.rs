@@ -21,10 +21,10 @@ const FREE: u8 = 1;
 const BLOCKED: u8 = 2;
 const OPEN: u8 = 3;
 
-/// Cells along an axis to begin with.
+/// Number of cells along an axis in the first lattice.
 const COARSEST: usize = 32;
 
-/// A cell that is neither free nor blocked, and the bodies that can meet in it.
+/// A cell that is neither free nor blocked yet, and the bodies that can meet in it.
 struct Open {
     at: [usize; 2],
     meetings: std::ops::Range<usize>,
@@ -39,7 +39,7 @@ struct Lattice<'a> {
     meetings: Vec<Meeting>,
 }
 
-/// Decides whether a path leads from `start` to one of `goals`, with up to `finest x finest` cells.
+/// Decides whether a path leads from `start` to one of `goals`. Refines the lattice up to `finest x finest` cells.
 pub fn connected(oracle: &Oracle, start: Configuration, goals: &[Configuration], finest: usize) -> Truth {
     let mut lattice = Lattice::coarsest(oracle);
     loop {
@@ -98,7 +98,7 @@ impl<'a> Lattice<'a> {
         self.oracle.axes.map(|(lower, upper, _)| (upper - lower) / self.n as f64)
     }
 
-    /// Labels a cell in which only these pairs can meet.
+    /// Labels a cell in which only these pairs of bodies can meet.
     fn judge(&mut self, at: [usize; 2], candidates: &[Meeting]) {
         let step = self.step();
         let middle = [0, 1].map(|k| self.oracle.axes[k].0 + (at[k] as f64 + 0.5) * step[k]);
@@ -135,8 +135,8 @@ impl<'a> Lattice<'a> {
         i * self.n + j
     }
 
-    /// Returns free cells to which a straight motion leads from `q`: its own cell, or cells around a place too tight
-    /// for the lattice. Each step is at most as long as the room at its beginning.
+    /// Returns free cells to which a straight motion leads from `q`: the cell that contains `q`, or cells around it if
+    /// it is too tight for the lattice. Each step is at most as long as the room at its beginning.
     fn ways_out(&self, q: Configuration) -> Vec<usize> {
         let own = self.cell(q);
         if self.labels[own] == FREE {

@@ -75,7 +75,7 @@ struct Run {
     boxes: usize,
     cells: Option<usize>,
     lattice: usize,
-    /// One of this many worlds is answered by all planners.
+    /// One world in this many is answered by all planners.
     share: u64,
     /// True to include arms whose own body is an obstacle.
     body: bool,
@@ -96,7 +96,7 @@ impl Run {
     }
 }
 
-/// Describes what is false in an answer. `None` if nothing is.
+/// Describes a false statement of an answer. Returns `None` if there is none.
 fn lie(problem: &MotionProblem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Option<String> {
     match &answer.outcome {
         Outcome::Unknown(_) => None,
@@ -130,7 +130,7 @@ fn lie(problem: &MotionProblem, oracle: &Oracle, truth: Truth, answer: &Answer) 
     }
 }
 
-/// Compares the answers to one world, and records false ones.
+/// Compares the planners' answers to one world, and records false ones.
 fn look(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     let kind = problem.scene().arm().kind();
     let clock = Instant::now();
@@ -277,9 +277,9 @@ fn print(kind: &str, tally: &Tally) {
     }
 }
 
-/// Worlds with former defects. In two kinds (PP, PR), link 1 touches an obstacle wherever it slides. That filled the
-/// memory with columns, or left the start in a column that was not examined. In the third (RP), a proof required less
-/// depth than its check.
+/// Checks worlds that revealed defects. In the first three (PP, PR), link 1 touches an obstacle wherever it slides.
+/// That once filled the memory with columns, or left the start in a column that was not examined. In the last (RP), a
+/// proof required less depth than its check.
 #[test]
 fn remembered_worlds_are_decided() {
     let run = Run::usual(512);

@@ -16,7 +16,7 @@ struct MovingObstacle {
     speed: V,
 }
 
-/// A mover and an obstacle by their numbers.
+/// A moving part and an obstacle, given by their numbers.
 pub type Meeting = (u16, u16);
 
 /// The world as the oracle sees it.
@@ -175,7 +175,7 @@ impl Oracle {
         self.room_up_to(q, f64::INFINITY)
     }
 
-    /// Returns the room, or `most` if that is less.
+    /// Returns the distance to the nearest obstacle minus the clearance to keep, or `most` if that is less.
     fn room_up_to(&self, q: Configuration, most: f64) -> f64 {
         let mut posture = self.posture([q[0], q[1]]);
         let mut least = most;
@@ -196,8 +196,8 @@ impl Oracle {
         self.movers.iter().map(|m| dot(m.speed, [d[0].abs(), d[1].abs()])).fold(0.0, f64::max)
     }
 
-    /// Finds a configuration on the path with less room than `proven`. The search takes steps of `step`; longer ones
-    /// only if the distance proves that they skip nothing.
+    /// Finds a configuration on the path with less room than `proven`. The search takes steps of `step`. A step is
+    /// longer only if the distance proves that it skips nothing.
     pub fn violation(&self, path: &Path, proven: f64, step: f64) -> Option<(Configuration, f64)> {
         let mut worst = None;
         for (a, b) in path.segments().chain([(path.goal(), path.goal())]) {

@@ -9,8 +9,8 @@ pub type V = [f64; 2];
 /// Largest number of corners of a body.
 const MOST: usize = 8;
 
-/// Gaps nearer to zero than this are computed from the distance of corners to sides. If bodies lie on one line, no
-/// normal shows their distance.
+/// Distances nearer to zero than this are computed from corners and sides. If bodies lie on one line, no normal shows
+/// their distance.
 const TOUCHING: f64 = 1e-12;
 
 pub fn sub(a: V, b: V) -> V {
@@ -88,7 +88,7 @@ impl Solid {
         norm(sub(self.middle, other.middle)) - self.size - other.size - self.radius - other.radius
     }
 
-    /// Returns the signed distance: negative is the depth of penetration.
+    /// Returns the signed distance. A negative value is the depth of penetration.
     pub fn distance(&self, other: &Self) -> f64 {
         let gap = self.widest_gap(other).max(other.widest_gap(self));
         let cores = if gap < -TOUCHING && gap.is_finite() {
@@ -99,8 +99,8 @@ impl Solid {
         cores - self.radius - other.radius
     }
 
-    /// Returns the greatest distance of the other body from the line of a side of this one; minus infinity without
-    /// sides.
+    /// Returns the greatest distance of the other body from the line of a side of this one. Returns minus infinity if
+    /// this body has no sides.
     fn widest_gap(&self, other: &Self) -> f64 {
         let mut widest = f64::NEG_INFINITY;
         let sides = if self.count > 1 { self.count } else { 0 };

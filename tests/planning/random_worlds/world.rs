@@ -15,7 +15,7 @@ use std::f64::consts::{PI, TAU};
 /// The four kinds of arms.
 pub const KINDS: [&str; 4] = ["RR", "RP", "PR", "PP"];
 
-/// Returns the world of a seed, of the given kind of arm; `None` if the draw has no two free configurations.
+/// Returns the world of a seed for an arm of a kind. Returns `None` if the draw has no two free configurations.
 pub fn world(kind: &str, seed: u64) -> Option<MotionProblem> {
     drawn(kind, seed, |_, _| Vec::new())
 }

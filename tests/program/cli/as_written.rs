@@ -17,7 +17,7 @@ fn obstacle(shape: &str) -> String {
     format!("{FREE}[[obstacle]]\nname = \"it\"\n{shape}\n")
 }
 
-/// Returns the part of the result that does not depend on how the obstacles were written.
+/// Returns those parts of the result that do not depend on how the obstacles are written.
 fn path_of(done: &Done) -> serde_json::Value {
     assert_eq!(done.code, 0, "{}", done.stderr);
     done.json()["path"].clone()

@@ -181,7 +181,7 @@ fn answers_come_while_lines_do_and_end_with_their_reader() {
     assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
 }
 
-/// A problem that exceeds its time limit is answered, and so are those after it.
+/// Checks that a problem that exceeds its time limit is answered, and so are the problems after it.
 #[test]
 fn each_problem_has_an_answer_in_time() {
     let place = Place::new();
@@ -196,7 +196,8 @@ fn each_problem_has_an_answer_in_time() {
     assert_eq!(answered(&place, &lines, "--time 0").code, 2);
 }
 
-/// The world's own start and goal may be blocked, because each line requests others.
+/// Checks worlds whose own start and goal are blocked. They can be used, because each line requests another start and
+/// goal.
 #[test]
 fn worlds_whose_own_ends_are_blocked_are_answered_line_by_line() {
     let place = Place::new();

@@ -72,8 +72,8 @@ fn the_certificate_states_the_query_of_the_command_line() {
     }
 }
 
-/// Checks the tasks of shipped worlds, with the goal as a place of the tip: both elbows, two solutions of a slide, and
-/// a stretched arm.
+/// Checks the tasks of shipped worlds, with the goal as a place of the tip: with both elbows, with two solutions of a
+/// slide, and with a stretched arm.
 #[test]
 fn places_of_the_tip_that_are_shut_off_have_certificates_that_hold() {
     let place = Place::new();
@@ -200,8 +200,8 @@ fn certificates_are_bound_to_their_files() {
     check_files(&urdf, &world, &place.path("v.json")).unwrap();
 }
 
-/// Checks that a certificate can be written to a file of its own or into the result. Readers of the result skip it, and
-/// the checker finds it.
+/// Checks that a certificate can be written to a file of its own or into the result. Programs that read the result skip
+/// the certificate, and the checker finds it.
 #[test]
 fn a_certificate_can_be_a_part_of_the_result() {
     let place = Place::new();
@@ -229,7 +229,8 @@ fn a_certificate_can_be_a_part_of_the_result() {
     done.refused(1, &["m.csv", "the same file"]);
 }
 
-/// Returns an STL of a block of 1 m along x that is slightly thinner in the middle. Its convex hull counts.
+/// Returns an STL file of a block of 1 m along x that is slightly thinner in the middle. The program uses its convex
+/// hull.
 fn stl() -> String {
     let ring = |x: f64, half: f64| [[x, -half, -half], [x, half, -half], [x, half, half], [x, -half, half]];
     let rings = [ring(-0.5, 0.05), ring(0.0, 0.02), ring(0.5, 0.05)];
@@ -274,7 +275,7 @@ fn arms_of_meshes_have_certificates_that_hold() {
 }
 
 /// Checks arms with two bars of a millimetre or two, among polygons that are a thousand times as large. The shortest
-/// paths keep some nanometres from their sides.
+/// paths keep some nanometres from the polygons' sides.
 #[test]
 fn shortest_paths_past_what_is_a_thousand_times_as_large_have_certificates_that_hold() {
     let arm = |[first, second]: [f64; 2], width: f64| {
@@ -321,7 +322,7 @@ fn shortest_paths_past_what_is_a_thousand_times_as_large_have_certificates_that_
     }
 }
 
-/// Checks goal areas: a path ends on the rim of one, and a proof covers all of them. The checker accepts both.
+/// Checks goal areas: a path ends on the rim of one area, and a proof covers all areas. The checker accepts both.
 #[test]
 fn goal_areas_have_certificates_that_hold() {
     let robot = shipped("robots/room_gantry.urdf");

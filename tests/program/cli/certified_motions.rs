@@ -25,7 +25,7 @@ fn read(path: &str) -> String {
     std::fs::read_to_string(path).unwrap()
 }
 
-/// Returns the certificate with another motion.
+/// Returns the certificate, with its motion changed by `alter`.
 fn altered(certificate: &str, alter: impl FnOnce(&mut Vec<Value>)) -> String {
     let mut whole: Value = serde_json::from_str(certificate).unwrap();
     alter(whole["motion"]["knots"].as_array_mut().unwrap());
@@ -105,7 +105,7 @@ fn the_certificate_states_motion_and_query() {
     assert!(tip.contains("goal (0.35, 0.5), a position of the tip") && tip.contains("within 1e-1"), "{tip}");
 }
 
-/// Checks the motions of the other planners, and one with sharp corners.
+/// Checks the motions of the planners other than the default, and a motion with sharp corners.
 #[test]
 fn motions_of_every_planner_hold() {
     let place = Place::new();
@@ -174,8 +174,8 @@ fn an_arm_far_from_the_origin() {
     assert!(report.as_ref().is_ok_and(|report| report.contains("is shorter than")), "{report:?}");
 }
 
-/// Checks limits that are no doubles: in degrees, or with more digits than a double has. The nearest double may lie
-/// slightly beyond such a limit.
+/// Checks limits that cannot be written as doubles: limits in degrees, or with more digits than a double has. The
+/// nearest double may lie slightly beyond such a limit.
 #[test]
 fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {
     let place = Place::new();
@@ -212,7 +212,7 @@ fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {
     }
 }
 
-/// Checks a limit of 0, for which a margin in proportion to its size is none.
+/// Checks a limit of 0, at which a margin in proportion to the limit is 0, too.
 #[test]
 fn motions_at_a_limit_of_0_are_within_the_limits_as_they_are_written() {
     let place = Place::new();

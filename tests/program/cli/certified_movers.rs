@@ -39,7 +39,8 @@ fn every_shipped_motion_among_moving_obstacles_has_a_valid_certificate() {
     assert!(unknown.stderr.contains("claims nothing") && !place.path("c.json").exists(), "{}", unknown.stderr);
 }
 
-/// Checks the motion in a world where the cart comes half a second later, and in one without the cart.
+/// Checks that the certificate of a motion does not hold in a world where the cart comes half a second later, nor in
+/// one without the cart.
 #[test]
 fn of_another_time_it_does_not_hold() {
     let (place, robot, world) =
@@ -118,7 +119,7 @@ fn certificates_among_random_moving_obstacles_hold() {
     assert!(!usual() || (found > 8 && waited > 0), "{found} found, {waited} with waits");
 }
 
-/// Checks an object that stands still on a part of its trajectory, where it has no direction of motion.
+/// Checks an object that stands still during a part of its trajectory. It has no direction of motion there.
 #[test]
 fn obstacles_waiting_out_of_reach_stay_out_of_reach() {
     let place = Place::new();

@@ -23,7 +23,7 @@ const ARM: &str = r#"<robot name="r" {version}>
 {more}
 </robot>"#;
 
-/// Defaults of the placeholders.
+/// Default values of the placeholders.
 const USUAL: [(&str, &str); 9] = [
     ("{version}", ""),
     ("{mounting}", ""),
@@ -42,7 +42,7 @@ const WORLD: &str = "[start]\njoints = [0.0, 0.0]\n[goal]\njoints = [0.2, 0.5]\n
                      [[obstacle]]\ncircle = { center = [0.38, -0.32], radius = 0.1 }\n\
                      [[obstacle]]\ncircle = { center = [-0.5, 0.0], radius = 0.1 }\n";
 
-/// A robot, or a world, as some tool or person writes it.
+/// A robot or a world in the form in which some tool or person writes it.
 #[derive(Default)]
 struct Case<'a> {
     what: &'a str,
@@ -180,8 +180,8 @@ fn limits_and_joints_that_do_not_move() {
     assert!(matches!(&report, Err(CheckError::Fails(why)) if why.contains("leaves its limits")), "{report:?}");
 }
 
-/// Checks corners on a line between others, in place or turned, starts and goals at half a turn, and ones beyond a
-/// limit by rounding.
+/// Checks corners on a line between others (in place or turned), starts and goals at half a turn, and starts and goals
+/// that are beyond a limit only by rounding.
 #[test]
 fn worlds_whose_numbers_are_no_doubles() {
     for (what, obstacle) in [
@@ -252,8 +252,8 @@ fn worlds_whose_numbers_are_no_doubles() {
     }
 }
 
-/// Checks links that a wrist turns: together they cover a disc, and a smaller one at all angles. The program refuses a
-/// link away from the wrist's axis, and one that mimics a joint of the arm or the tool.
+/// Checks links that a wrist turns. Some of them cover a disc together, and a smaller one at all angles of the wrist.
+/// The program refuses a link away from the wrist's axis, and one that mimics a joint of the arm or the tool.
 #[test]
 fn other_joints_that_move() {
     let place = Place::new();

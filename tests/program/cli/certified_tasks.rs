@@ -32,7 +32,7 @@ fn altered(certificate: &Value, alter: impl FnOnce(&mut Value)) -> String {
     whole.to_string()
 }
 
-/// Changes the first joint's value in some knots.
+/// Changes the value of the first joint in some knots of the motion.
 fn moved(certificate: &mut Value, knots: std::ops::RangeInclusive<usize>, to: impl Fn(f64) -> f64) {
     for knot in &mut certificate["motion"]["knots"].as_array_mut().unwrap()[knots] {
         knot[1] = json!(to(knot[1].as_f64().unwrap()));
@@ -103,7 +103,7 @@ fn every_shipped_task_that_can_be_done_has_a_certificate_that_holds() {
     }
 }
 
-/// The warning about a task that is infeasible.
+/// The warning that is printed for an infeasible task.
 const NONE: &str = "is not written: an infeasible task has no certificate";
 
 /// Checks that, except for the warning, all output is the same as without `--certificate`.
@@ -263,8 +263,8 @@ pick = "part"
     }
 }
 
-/// Checks an object that is placed into its support, as deep as it may press, and deeper. It is convex, or has several
-/// parts.
+/// Checks an object that is placed into its support: as deep as it may press, and deeper. The object is convex, or has
+/// several parts.
 #[test]
 fn what_presses_into_its_supports_has_certificates() {
     let into = |depth: f64| {
@@ -325,7 +325,7 @@ fn rings_on_pegs_have_certificates() {
     }
 }
 
-/// Checks that a released object may be touched, but not the new one that replaces it.
+/// Checks that a released object may be touched, but that the new object which replaces it may not.
 #[test]
 fn a_new_object_is_an_obstacle() {
     let walls = |low: f64, high: f64| {
@@ -359,8 +359,8 @@ fn a_new_object_is_an_obstacle() {
     assert_eq!(done.code, 0, "{}", done.stderr);
 }
 
-/// Checks that a released object may be touched until the next step has ended, after which the arm must be free of it.
-/// This also holds if a new object replaces it from then on, and if an obstacle moves.
+/// Checks that a released object may be touched until the next step has ended. After that step, the arm must be free of
+/// it. This also holds if a new object replaces the released one from then on, and if an obstacle moves.
 #[test]
 fn what_is_renewed_is_there_until_the_arm_goes_on() {
     let place = Place::new();
@@ -412,7 +412,8 @@ fn boxes_reach_across_half_a_turn() {
     }
 }
 
-/// Checks a piece whose area is due only to rounding: a hole touches a side between its corners, in decimal numbers.
+/// Checks a piece of an obstacle whose area is due only to rounding. It arises where a hole touches a side between its
+/// corners, in decimal numbers.
 #[test]
 fn slivers_are_no_evidence() {
     let urdf = read(&shipped("robots/gantry.urdf"));
@@ -474,8 +475,8 @@ fn what_is_asked_in_place_of_the_world_is_in_the_certificate() {
     assert!(report.contains("to the goal (0.5, 0.8)"), "{report}");
 }
 
-/// Checks that certificates of tasks have digests, can be part of the result, and have joint values slightly inside the
-/// limits, like those of motions.
+/// Checks certificates of tasks in those respects in which they are like those of motions: they have digests, can be
+/// part of the result, and have joint values slightly inside the limits.
 #[test]
 fn certificates_of_tasks_are_bound_to_their_files_and_can_be_a_part_of_the_result() {
     let place = Place::new();

@@ -260,7 +260,7 @@ fn every_file_is_written_or_none() {
     assert!(!place.path("new.md").exists());
 }
 
-/// Checks that HTML is also XML, as our pages must be, and counts its figures.
+/// Checks that HTML is also XML, as our pages must be. Returns the number of figures.
 fn check_knots(html: &str) -> usize {
     let body = html.strip_prefix("<!DOCTYPE html>\n").expect("a page");
     let document = roxmltree::Document::parse(body).unwrap_or_else(|e| panic!("{e}: {html}"));
@@ -351,7 +351,8 @@ fn a_planner_with_a_gap_is_run_until_it_is_within() {
     assert!(close <= 1e-6, "{close}");
 }
 
-/// Checks long names of variants. If room is scarce, their common part is left out, and the differences remain.
+/// Checks long names of variants. If there is too little room, their common part is left out, and the differences
+/// remain.
 #[test]
 fn pictures_and_charts_keep_what_tells_variants_apart() {
     let place = Place::new();

@@ -6,15 +6,15 @@ use crate::common::random::times;
 use cplan_cases::slips::slipped;
 use serde_json::Value;
 
-/// Messages about missing things, which have no line.
+/// Messages about missing things. They have no line.
 const MISSING: [&str; 6] =
     ["there is no ", "there are no ", "holds no ", "holds neither ", "is missing", "has no link"];
 
-/// Names of members in nested documents. There, errors of syntax have lines, but errors of content do not.
+/// Names of members whose documents are nested. In them, syntax errors have lines, but errors of content do not.
 const MEMBERS: [&str; 7] = ["points", "steps", "path", "trajectory", "joint_names", "\"joints\"", "is too large"];
 
-/// Checks that the program succeeds (0, 3, 4), or reports the error in one object with file, place, message and help.
-/// Returns true if it is an error.
+/// Checks that the program succeeds (with code 0, 3 or 4), or that it reports the error in one object with file, place,
+/// message and help. Returns true if it is an error.
 fn is_answered(done: &Done, text: &str) -> bool {
     let what = || format!("{}{}\n{text}", done.stdout, done.stderr);
     assert!(!done.stderr.contains("panicked"), "{}", what());

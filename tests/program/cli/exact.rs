@@ -48,7 +48,8 @@ fn margin_0_writes_the_c_obstacles_of_a_gantry_as_the_sweep_gives_them() {
     assert!((corners(&grown, "dead end")[0][0] - 0.35).abs() > 1e-4);
 }
 
-/// Checks a head that is a disc, and a wall at an angle. Only the arcs are replaced, by tangents outside of them.
+/// Checks a head that is a disc, and a wall at an angle. Only arcs are replaced by tangents outside of them; straight
+/// sides stay.
 #[test]
 fn margin_0_keeps_flat_sides_where_corners_are_round() {
     let place = Place::new();
@@ -103,7 +104,8 @@ fn margin_0_is_for_what_has_exact_polygons() {
     place.run(&maze(), "--graph full").refused(2, &["--graph needs --planner visibility"]);
 }
 
-/// Checks the maze, for which an independent count gives 64 arcs. The reduced graph has 11 of them.
+/// Checks the maze. Its visibility graph has 64 arcs according to an independent count, and 11 of them are in the
+/// reduced graph.
 #[test]
 fn the_full_visibility_graph_of_the_maze_has_all_arcs() {
     let place = Place::new();

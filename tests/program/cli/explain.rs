@@ -97,8 +97,8 @@ fn bad_input_is_refused() {
     assert_eq!(explain(&place, "planar_2r", "shelf", "--picture why.txt").code, 2);
 }
 
-/// Checks a polar arm whose slide ends long before its goal. Without that limit there is a path, and the joint must
-/// move as far as the program reports.
+/// Checks a polar arm whose slide ends long before its goal. Without that limit there is a path. The joint must move as
+/// far beyond the limit as the program reports.
 #[test]
 fn a_tip_beyond_the_slide_is_opened_by_its_limit() {
     let place = Place::new();
@@ -123,7 +123,7 @@ fn a_tip_beyond_the_slide_is_opened_by_its_limit() {
     assert_ne!(place_of(upper + change["closed"].as_f64().expect("a number")), 0, "{change}");
 }
 
-/// Checks that a feasible task is drawn with its motions.
+/// Checks that the picture of a feasible task has the task's motions.
 #[test]
 fn of_a_task_that_can_be_done_there_is_a_picture() {
     let place = Place::new();

@@ -68,7 +68,8 @@ fn rooms_are_explored_and_the_map_is_a_world() {
     assert_eq!(planned.code, 0, "{}{}", planned.stdout, planned.stderr);
 }
 
-/// Checks that the program explores no known area again, and refuses the map of another world.
+/// Checks that the program can continue with a known map. It explores no known area again, and refuses the map of
+/// another world.
 #[test]
 fn a_known_map_is_taken_up() {
     let place = Place::new();
@@ -91,8 +92,8 @@ fn a_known_map_is_taken_up() {
     finer.refused(1, &["rooms.yaml", "does not have the cells"]);
 }
 
-/// Checks a head that moves above all obstacles, so that its sensor can be above unknown places. One leg is longer than
-/// the sensor's range.
+/// Checks a head that moves above all obstacles, so that its sensor can be above unknown places. One leg of the motion
+/// is longer than the sensor's range.
 #[test]
 fn nothing_is_left_by_a_head_that_stands_above_the_unknown() {
     let place = Place::new();
@@ -168,7 +169,8 @@ fn on_a_coarse_grid_it_ends() {
     }
 }
 
-/// Checks that the sensor also detects obstacles that are out of reach, but nearer to it than the clearance.
+/// Checks that the sensor also detects obstacles that the arm cannot touch, but that are nearer to its reach than the
+/// clearance.
 #[test]
 fn the_clearance_is_kept_from_what_lies_beyond_reach() {
     let place = Place::new();
@@ -211,8 +213,8 @@ fn what_makes_no_exploration_is_refused() {
     }
 }
 
-/// Checks cells around the arm that no steps of the grid connect with those around its start, although the arm's own
-/// path does.
+/// Checks cells around the arm that no steps of the grid connect with the cells around its start, although the arm's
+/// own path connects them.
 #[test]
 fn what_the_arm_can_go_back_to_is_explored_too() {
     let place = Place::new();

@@ -138,8 +138,8 @@ fn a_local_minimum_and_a_divergence_are_unknown_with_their_reasons() {
     assert!(diverged.json()["reason"].as_str().unwrap().contains("the relaxation diverged: after "));
 }
 
-/// Checks a figure: a trap, how stronger repulsion opens it, and what that costs. Both kinds of escape need no other
-/// charge.
+/// Checks a figure that shows a trap, how stronger repulsion opens it, and what that costs. Both kinds of escape work
+/// without another charge.
 #[test]
 fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {
     let place = Place::new();
@@ -247,7 +247,8 @@ fn a_field_that_does_not_converge_is_not_looked_for_on_finer_grids() {
     assert!(reason.contains("at the resolution that its sweeps allow (256 x 256 cells: "), "{reason}");
 }
 
-/// Returns the number of sweeps until the measure is met, and in total, of a field on one of the published maps.
+/// Returns two numbers of sweeps of a field on one of the published maps: until the stopping measure is small enough,
+/// and in total.
 fn on_map(map: &str, options: &str) -> (u64, u64) {
     let place = Place::new();
     let files = [shipped("robots/room_gantry.urdf"), shipped(&format!("workspaces/maps/{map}.toml"))];

@@ -28,7 +28,8 @@ fn values(list: &Value) -> Vec<[f64; 2]> {
     serde_json::from_value(list.clone()).unwrap()
 }
 
-/// Compares with figures 6.11 and 6.12 of the course. Formerly, only cells wider than five pixels had sides.
+/// Compares pictures of trapezoids with figures 6.11 and 6.12 of the course. Formerly, only cells wider than five
+/// pixels had outlines.
 #[test]
 fn all_trapezoids_are_outlined_and_the_channels_points_are_marked() {
     let place = Place::new();
@@ -51,8 +52,8 @@ fn all_trapezoids_are_outlined_and_the_channels_points_are_marked() {
     );
 }
 
-/// Checks the simpler path of the course, section 6.3.2. It visits the middles of all portals, and the centre of a cell
-/// only between portals on one line.
+/// Checks the simpler path of the course, section 6.3.2. It visits the middles of all portals. It visits the centre of
+/// a cell only between portals on one line.
 #[test]
 fn the_path_of_middles_has_a_centre_only_between_collinear_doors() {
     let place = Place::new();
@@ -91,7 +92,7 @@ fn doors_on_one_vertical_have_the_centre_of_their_cell_between_them() {
     assert!(waypoints[1][0] == waypoints[3][0] && waypoints[2][0] > waypoints[1][0], "{waypoints:?}");
 }
 
-/// Compares with figure 6.14 of the course.
+/// Compares the numbers in a picture of cells with figure 6.14 of the course.
 #[test]
 fn cells_of_a_coarse_grid_have_the_numbers_of_the_wave() {
     let place = Place::new();
@@ -124,7 +125,7 @@ fn coarse_grids_are_kept_or_refused_with_the_reason() {
     assert_eq!(place.run(&shelf(), "--planner visibility --cells 16 --quiet").code, 0);
 }
 
-/// Compares with figures 34 and 35 of Deicu's text.
+/// Compares pictures of flow lines with figures 34 and 35 of Deicu's text.
 #[test]
 fn flow_lines_are_drawn_where_they_are_asked_for() {
     let place = Place::new();

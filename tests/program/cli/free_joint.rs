@@ -3,7 +3,8 @@
 use super::{Done, Place};
 use serde_json::{Value, json};
 
-/// Links of 1 m and 0.8 m; no tool frame, so the tip is the second link's origin, on the axis of its joint.
+/// An arm with links of 1 m and 0.8 m. It has no tool frame, so the tip is the second link's origin, on the axis of its
+/// joint.
 const ELBOW: &str = r#"<robot name="elbow">
   <link name="base"/>
   <link name="upper"><collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.05 0.1"/></geometry></collision></link>
@@ -87,7 +88,7 @@ fn no_bound_is_above_the_length_to_any_value_of_the_free_joint() {
     }
 }
 
-/// Checks that the optimum is at right angles to the segment of goals, as measured by the metric.
+/// Checks that the shortest path meets the segment of goals at right angles, as measured by the metric.
 #[test]
 fn without_obstacles_only_the_joint_that_matters_moves() {
     let place = place(ELBOW, ENDS);
@@ -128,7 +129,7 @@ fn a_goal_is_refused_only_if_no_value_of_the_free_joint_is_free() {
     run(&none, "").refused(1, &["no IK solution that puts the tip at", "elbow from -2.5 ", "hits obstacle", " more"]);
 }
 
-/// Checks a segment of which walls close off one part, and obstacles block the rest. The program proves this.
+/// Checks a segment of goals. Walls close off one part of it, and obstacles block the rest, which the program proves.
 #[test]
 fn a_proof_for_all_values_of_the_free_joint_holds() {
     let across = "[[obstacle]]\npolyline = [[0.6, 0.05], [1.9, 0.05]]\n";

@@ -3,7 +3,7 @@
 use super::*;
 use crate::common::reference::published;
 
-/// The map with its 12 x 20 cells, tested at their centres, and one attempt.
+/// Options for the published map: 12 x 20 cells, tested at their centres, and one attempt.
 const MAP: &str = "--planner wavefront --cells 12x20 --space centers --levels 1 --path own --quiet";
 
 fn map() -> [String; 2] {
@@ -22,7 +22,7 @@ fn labeled(matrix: &[Vec<f64>]) -> usize {
     matrix.iter().flatten().filter(|value| value.is_finite()).count()
 }
 
-/// Compares with R. F. Goncalves da Silva, figures 2 and 3, whose labels begin at 2 and at 1.
+/// Compares the labels of a search with figures 2 and 3 of R. F. Goncalves da Silva, whose labels begin at 2 and at 1.
 #[test]
 fn a_search_from_the_start_with_ties_first_labels_the_published_50_cells() {
     let place = Place::new();
@@ -40,7 +40,7 @@ fn a_search_from_the_start_with_ties_first_labels_the_published_50_cells() {
     assert_eq!(labeled(&matrix(&place, "--search astar")), 40);
 }
 
-/// Compares both matrices completely, cell by cell.
+/// Compares all cells of both published matrices with those that the command line gives.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_published_matrices_come_from_the_command_line() {

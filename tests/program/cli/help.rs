@@ -3,7 +3,7 @@
 use super::Place;
 use std::path::Path;
 
-/// Examples that the test only parses, because they run without end, or too long.
+/// Examples that the test only parses, because they would run too long or without end.
 const ONLY_READ: [&str; 3] = ["cplan serve", "--suite", "--queries"];
 
 /// Returns the commands that the help lists.
@@ -135,7 +135,7 @@ fn help_fits_80_columns_and_lists_planner_options_in_one_place() {
     assert!(output.contains("--output <FILE>") && output.contains("--wide"), "{compare}");
 }
 
-/// Returns fish's completions of a command line; `None` if fish is not installed.
+/// Returns fish's completions of a command line. Returns `None` if fish is not installed.
 fn offered_by_fish(place: &Place, line: &str) -> Option<Vec<String>> {
     let script = format!("source cplan.fish; complete -C '{line}'");
     let mut fish = std::process::Command::new("fish");

@@ -7,7 +7,7 @@ fn cell() -> String {
     shipped("workspaces/drawings/cell.dxf")
 }
 
-/// Returns a DXF in millimetres with these entities: words are codes and values in turn.
+/// Returns a DXF in millimetres with these entities. The words are alternately codes and values.
 fn dxf(entities: &str) -> String {
     let all = format!("0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 ENTITIES {entities} 0 ENDSEC 0 EOF");
     all.split_whitespace().map(|word| format!("{word}\n")).collect()
@@ -168,7 +168,7 @@ fn outlines_that_are_none_are_taken_as_what_they_surround() {
     assert_eq!(made["obstacle"][3]["polyline"].as_array().unwrap().len(), 5);
 }
 
-/// Returns two layers: three squares and a ring of two polygons would be WALLS, a disc FEEDER.
+/// Returns a drawing with two layers. WALLS has three squares and a ring of two polygons, and FEEDER has a disc.
 fn hall() -> String {
     let square = |x: f64| {
         let [a, b] = [x, x + 100.0];
@@ -378,8 +378,8 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
     place.run(&["import", "broken.svg"], "--picture broken.svg").refused(1, &["the output broken.svg is the input"]);
 }
 
-/// Checks a map with projected coordinates, as from surveys and GIS. With the options of the hint, one can plan in its
-/// world.
+/// Checks a map with projected coordinates, as surveys and GIS use them. With the options that the hint suggests, the
+/// world of the map is suitable for planning.
 #[test]
 fn projected_coordinates_are_moved_as_the_hint_says() {
     let place = Place::new();

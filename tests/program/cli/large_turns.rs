@@ -32,8 +32,8 @@ fn last_free(scene: &LoadedScene) -> f64 {
     free
 }
 
-/// Returns starts, many turns from zero, that are free by some picoradians. Each comes with its value after wrapping by
-/// a double 2 pi, which collides.
+/// Returns starts, many turns from zero, that are free by some picoradians. Each comes with a second value: what
+/// remains if multiples of 2 pi, rounded to a double, are subtracted. That value collides.
 fn starts(last_free: f64) -> impl Iterator<Item = (f64, f64)> {
     (70_000..159_000_u32).filter_map(move |turns| {
         let start = last_free - 2e-11 + f64::from(turns) * TAU;

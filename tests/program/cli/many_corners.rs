@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::process::Command;
 
-/// Memory that a run may use, in KiB. It includes memory that is reserved but not used.
+/// Memory that a run may use, in KiB, including memory that is reserved but not used.
 const MEMORY: u32 = 1 << 20;
 
 fn listed(points: impl IntoIterator<Item = [f64; 2]>) -> String {
@@ -33,7 +33,7 @@ fn polyline(points: Vec<[f64; 2]>) -> String {
     format!("[[obstacle]]\npolyline = [{}]\n", listed(points))
 }
 
-/// Returns the program's result for an arm among obstacles, within [`MEMORY`].
+/// Returns the program's result for an arm among obstacles. The program may use at most [`MEMORY`].
 fn planned(urdf: &str, obstacles: &str, options: &str) -> Value {
     let place = Place::new();
     place.write("world.toml", format!("{FREE}{obstacles}"));
@@ -114,7 +114,7 @@ fn noise(k: usize) -> f64 {
     (k as f64 * 0.618_033_988_749 + (k as f64 * 0.013).sin() * 17.0).rem_euclid(1.0) * 2.0 - 1.0
 }
 
-/// Checks a polygon like the outline of a scanned object, each of whose corners has its own noise.
+/// Checks a polygon like the outline of a scanned object, in which each corner deviates at random.
 #[test]
 fn a_scanned_outline_of_6000_corners_is_passed_between_its_least_and_its_greatest_circle() {
     let center = [1.2, 0.3];
@@ -134,7 +134,8 @@ fn a_noisy_zigzag_of_5000_points_is_passed_like_the_band_that_it_fills() {
     is_found_within(&planned(&arm(), &zigzag, ""), number(&around, "length") * 1.06);
 }
 
-/// Returns the arm with a mesh as its forearm: a prism over a polygon of `corners` corners around that of the file.
+/// Returns the arm with a mesh as its forearm. The mesh is a prism over a polygon with `corners` corners that surrounds
+/// the forearm of the file.
 fn with_mesh(place: &Place, corners: usize) -> String {
     let mut stl = vec![0; 80];
     let rim = ring(corners, [0.0, 0.0], |_| 1.0);
@@ -210,8 +211,8 @@ fn a_robot_with_20_000_broken_joints_is_refused_with_the_first_of_them() {
     assert!(done.stderr.len() < 40_000, "{} bytes", done.stderr.len());
 }
 
-/// Checks ten thousand obstacles out of reach: the optimum is that without them, within the same gap. Proofs keep the
-/// numbers of all obstacles.
+/// Checks ten thousand obstacles out of reach. The optimum is within the same gap as without them. Proofs refer to
+/// obstacles by their numbers among all obstacles.
 #[test]
 fn what_is_out_of_reach_changes_nothing() {
     let place = Place::new();

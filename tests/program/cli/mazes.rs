@@ -4,7 +4,7 @@ use super::Place;
 use cplan_cases::mazes;
 use std::fmt::Write;
 
-/// Side of a cell along the second slide, metres. It is less along the first, since an outer grid grows walls by half
+/// Side of a cell along each slide, metres. It is less along the first slide, because an outer grid grows walls by half
 /// of that in all directions.
 const SIDE: [f64; 2] = [0.006, 0.01];
 
@@ -13,7 +13,8 @@ fn middle(axis: usize, at: usize) -> String {
     format!("{:.4}", (at as f64 + 0.5) * SIDE[axis])
 }
 
-/// Returns walls through the middles of the blocked cells, from end to end of each run of two or more.
+/// Returns a world whose walls lead through the middles of the blocked cells, from end to end of each run of two or
+/// more cells.
 fn world(n: usize, blocked: &[bool], goal: usize) -> String {
     let joints = |cell: usize| format!("[{}, {}]", middle(0, cell / n), middle(1, cell % n));
     let mut text = format!("[start]\njoints = {}\n[goal]\njoints = {}\n", joints(0), joints(goal));

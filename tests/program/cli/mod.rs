@@ -62,7 +62,7 @@ fn shelf() -> [String; 2] {
 /// Start and goal in free space for `planar_2r`.
 const FREE: &str = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";
 
-/// A folder to run the program in.
+/// A folder in which the program runs.
 pub struct Place(TempDir);
 
 /// Result of a run.
@@ -111,7 +111,7 @@ impl Place {
 }
 
 impl Done {
-    /// Checks the exit code, an empty stdout, and that the message has all `parts`.
+    /// Checks that a command is refused: the exit code, an empty stdout, and a message that has all `parts`.
     fn refused(&self, code: i32, parts: &[&str]) {
         assert_eq!((self.code, self.stdout.as_str()), (code, ""), "{}", self.stderr);
         assert!(self.stderr.starts_with("error: ") && !self.stderr.contains("panicked"), "{}", self.stderr);

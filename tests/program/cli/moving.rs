@@ -60,8 +60,8 @@ fn the_arm_waits_until_the_cart_has_gone() {
     assert!(judged.stdout.contains("no times"), "{}", judged.stdout);
 }
 
-/// Checks a goal of the tip, to which the fastest motion may follow another path than the shortest, to another IK
-/// solution. The time from which that solution is free counts.
+/// Checks a goal of the tip. The fastest motion may follow another path than the shortest one, and end at another IK
+/// solution. Then it counts from which time that other solution is free.
 #[test]
 fn the_fastest_motion_is_timed_along_its_own_path() {
     let place = Place::new();
@@ -186,7 +186,8 @@ fn bottles_are_picked_from_a_belt() {
     assert_eq!(place.run(&["verify", &urdf, &world, "m.csv"], "").code, 3);
 }
 
-/// A recording that is a little late picks beside the bottles. One that is too fast does not pause long enough.
+/// Checks falsified recordings of a task. One that is a little late picks beside the bottles. One that is too fast does
+/// not pause long enough.
 #[test]
 fn a_falsified_recording_of_a_task_is_found_out() {
     let place = Place::new();

@@ -2,8 +2,8 @@
 
 use super::{Place, shipped};
 
-/// Problem A has a passage of 0.070 rad among cells of 0.025 rad. Grids of entirely free cells show it only at 1024 x
-/// 1024.
+/// Checks benchmark problem A, which has a passage of 0.070 rad, on cells of 0.025 rad. A grid of cells that are free
+/// as a whole would need 1024 x 1024 cells to contain the passage.
 #[test]
 fn fields_find_a_passage_of_three_cells_without_a_finer_grid() {
     let problem = ["arm.urdf", "a.toml"].map(|file| shipped(&format!("benches/peers/problems/{file}")));
@@ -17,8 +17,8 @@ fn fields_find_a_passage_of_three_cells_without_a_finer_grid() {
     }
 }
 
-/// Checks a slide of hundreds of metres beside a star. A taut path leads through a side of the star, however fine the
-/// strips are. The planner must search again, and must not build a visibility graph after millions of strips.
+/// Checks a slide of hundreds of metres beside a star. However fine the strips are, a taut path leads through a side of
+/// the star. The planner must search again, and must not build a visibility graph after millions of strips.
 #[test]
 fn ways_through_walls_are_searched_for_anew() {
     let place = Place::new();

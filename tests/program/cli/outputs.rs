@@ -23,7 +23,7 @@ fn refused(place: &Place, arguments: &[&str], names: &[&str]) {
     assert_eq!(files.map(|file| place.read(file)), before, "{arguments:?}");
 }
 
-/// A symbolic link stays a link, whether its target exists or not.
+/// Checks that a symbolic link stays a link when its target is written, whether the target exists or not.
 #[cfg(unix)]
 #[test]
 fn outputs_are_written_behind_links() {

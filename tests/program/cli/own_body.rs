@@ -3,8 +3,9 @@
 use super::{Done, Place};
 use cplan_check_files::check_files;
 
-/// A SCARA of 1.05 m reach on a pedestal 272 mm high, with arms of 560 and 490 mm above it, and a quill that reaches
-/// down to `{quill}` m. The words in braces are placeholders for the differences.
+/// A SCARA with a reach of 1.05 m. It stands on a pedestal 272 mm high, has arms of 560 and 490 mm above it, and a
+/// quill whose lower end is at the height `{quill}` m. The words in braces are placeholders for what differs between
+/// cases.
 const SCARA: &str = r#"<robot name="scara">
 <link name="base_link"> <collision> <origin xyz="-0.0185 0 0.136"/> <geometry> <box size="0.297 0.21 0.272"/> </geometry> </collision> </link>
 <joint name="j1" type="revolute">
@@ -47,7 +48,7 @@ fn world(robot: &str, goal: [f64; 2]) -> String {
     WORLD.replace("{robot}", robot).replace("{goal}", &format!("{goal:?}"))
 }
 
-/// Folded, the tip is 72 mm from axis 1, over the pedestal.
+/// A folded configuration. The tip is 72 mm from axis 1, over the pedestal.
 const FOLDED: [f64; 2] = [0.5, 3.1];
 
 #[test]
@@ -80,8 +81,8 @@ fn link_1_is_in_the_way_of_the_quill() {
     }
 }
 
-/// Checks that joint 2 does not pass angles where the quill would be in link 1. Without a limit, it turns in the other
-/// direction.
+/// Checks that joint 2 does not pass the angles at which the quill would be in link 1. If joint 2 has no limit, it
+/// turns in the other direction.
 #[test]
 fn joint_2_does_not_pass_the_fold() {
     let urdf = scara(0.29, "").replace(r#"<limit lower="-3.1" upper="3.1" velocity="5" effort="1"/>"#, "");

@@ -113,8 +113,8 @@ fn compare_lists_both_paths_of_each_planner() {
     assert_eq!((two["planners"].as_array().unwrap().len(), &two["planners"][1]["path_kind"]), (2, &json!("own")));
 }
 
-/// Checks cells that are too coarse for a slot that the arm passes. The answer states that there is a path, but
-/// contains none.
+/// Checks a slot that the arm can pass, but that the cells are too coarse to show. The answer states that there is a
+/// path, but contains none.
 #[test]
 fn where_cells_are_too_coarse_the_answer_says_whether_there_is_a_path() {
     let place = Place::new();

@@ -36,7 +36,8 @@ const CROSS: &str = "[[-0.02, 0.04], [0.02, 0.04], [0.02, 0.1], [0.06, 0.1], [0.
 const CLEFT: &str = "[[-0.05, -0.02], [0.0, 0.05], [0.05, -0.02], [0.05, 0.1], [0.0, 0.12], [-0.05, 0.1]]";
 const BOX: &str = "[[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [-0.05, 0.1]]";
 
-/// The arm reaches 1.8 m, so it may press in by 0.18 mm.
+/// Checks that a corner is not pressed too deep into a support. The arm's reach is 1.8 m, so a corner may press in by
+/// 0.18 mm.
 #[test]
 fn no_corner_is_pressed_into_a_support() {
     for (what, polygon, table, numbers) in [
@@ -69,8 +70,8 @@ fn what_rests_on_a_support_may_touch_it() {
     }
 }
 
-/// The objects have pieces, and a wall is on the line of a side that two pieces share. One such side ends in the tip.
-/// Another extends a side of a cross, which the wall reaches after 8 cm beside it.
+/// Checks objects that consist of pieces, with a wall on the line of a side that two pieces share. One such side ends
+/// in the tip of the object. Another extends a side of a cross, beside which the wall has room for 8 cm.
 #[test]
 fn no_wall_gets_between_the_pieces_of_an_object() {
     for (x, polygon, tip, free, deep) in [
@@ -87,7 +88,7 @@ fn no_wall_gets_between_the_pieces_of_an_object() {
     }
 }
 
-/// The judge of recordings agrees: a plan is judged in a world where the table is 1 mm nearer.
+/// Checks that the judge of recordings agrees. A plan is judged in a world where the table is 1 mm nearer.
 #[test]
 fn a_recording_that_presses_a_corner_into_a_support_is_refuted() {
     for (polygon, numbers @ [.., clearance]) in [(NEEDLE, [0.18, 0.0, 0.0]), (GABLE, [0.15, 0.0, 0.005])] {
@@ -103,12 +104,12 @@ fn a_recording_that_presses_a_corner_into_a_support_is_refuted() {
     }
 }
 
-/// Fraction of the arm's reach of 1.8 m, metres.
+/// Depth to which an object may press into its support, metres: a fraction of the arm's reach of 1.8 m.
 const PENETRATION_ALLOWANCE: f64 = 1.8e-4;
 
-/// Objects that end in a tip on their axis: outline and kind of holding, distance of the tip from the origin, and the
-/// share of [`PENETRATION_ALLOWANCE`] for the tip. Corners are moved inwards by all of the allowance, and sides by the
-/// sine of half the angle beside them.
+/// Objects that end in a tip on their axis. Each has its outline and the way in which it is held, the distance of the
+/// tip from the origin, and the share of [`PENETRATION_ALLOWANCE`] that holds for the tip. The allowance moves corners
+/// inwards by all of it, and sides by the sine of half the angle beside them.
 const TIPPED: [([&str; 2], f64, f64); 5] = [
     (["polygon = [[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [-0.05, 0.1]]", "level"], 0.1, FRAC_1_SQRT_2),
     (["polygon = [[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [0, 0.15], [-0.05, 0.1]]", "level"], 0.15, 1.0),
@@ -138,8 +139,8 @@ fn tipped([outline, held]: [&str; 2], support: &str, numbers: [f64; 3]) -> Strin
     cell("[]", support, numbers).replace("polygon = []", outline).replace("\"level\"", &format!("\"{held}\""))
 }
 
-/// A clearance allows no deeper pressing. On thick and thin supports, and corner on corner, a place is free if the tip
-/// is less deep than its allowance. It is not free if the tip is deeper by a hundredth.
+/// Checks that a clearance allows no deeper pressing. On thick and thin supports, and corner on corner, a place is free
+/// if the tip is less deep than its allowance. It is not free if the tip is deeper by a hundredth of the allowance.
 #[test]
 fn with_a_clearance_nothing_is_pressed_deeper_than_without() {
     let mut wrong = Vec::new();
@@ -171,7 +172,7 @@ fn without_clearances(result: &str) -> String {
     result.to_string()
 }
 
-/// The judge of recordings agrees: plans are judged in worlds where the support is nearer than planned.
+/// Checks that the judge of recordings agrees. Plans are judged in worlds where the support is nearer than planned.
 #[test]
 fn with_a_clearance_nothing_recorded_may_press_deeper_than_without() {
     let mut wrong = Vec::new();
@@ -208,8 +209,8 @@ fn on_a_table(polygon: &str) -> String {
     )
 }
 
-/// Corners on straight sides have no effect, and a rib that is too fine does not affect the sides beside it. If the
-/// checker would refuse to move an object's corners, there is no certificate.
+/// Checks outlines of the same object. Corners on straight sides have no effect, and a rib that is too fine does not
+/// affect the sides beside it. If the checker would refuse to move an object's corners, there is no certificate.
 #[test]
 fn outlines_say_the_same_however_they_are_written() {
     let urdf = shipped("robots/gantry.urdf");
@@ -256,7 +257,8 @@ fn outlines_say_the_same_however_they_are_written() {
     }
 }
 
-/// Three corners on a line, up to rounding, are not a corner. So the middle one may not be moved farther than its side.
+/// Checks three corners on a line, up to rounding. The middle one does not count as a corner, so it may not be moved
+/// farther than its side.
 #[test]
 fn corners_that_bend_by_rounding_are_none() {
     let world = |x: f64, deep: f64| {
@@ -280,7 +282,7 @@ fn corners_that_bend_by_rounding_are_none() {
     }
 }
 
-/// Some sides of C-obstacles lie almost on each other. Their union used to take minutes and gigabytes.
+/// Checks C-obstacles of which some sides almost coincide. Their union used to take minutes and gigabytes.
 #[test]
 fn rings_beside_what_they_rest_on_are_planned() {
     let world = r#"clearance=0

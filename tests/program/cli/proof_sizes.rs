@@ -33,7 +33,8 @@ fn world(seed: u64) -> String {
     world
 }
 
-/// Tries random worlds, more of them with `CPLAN_TIMES`: all proofs have at most [`MOST`] boxes, and hold.
+/// Tries random worlds (more of them with `CPLAN_TIMES`), and checks that all proofs hold and have at most [`MOST`]
+/// boxes.
 #[test]
 fn proofs_in_random_worlds_are_small() {
     let place = Place::new();
@@ -61,8 +62,8 @@ fn proofs_in_random_worlds_are_small() {
     assert!(large * 1000 <= count, "{:?}", &sizes[count - large..]);
 }
 
-/// Among 20 000 random worlds, this one needs the most boxes in a proof by slabs, 130 596: obstacles that overlap
-/// slightly close the space along a slanted line. A proof by halved boxes needs some hundreds.
+/// Checks the world that, among 20 000 random ones, needs the most boxes in a proof by slabs, 130 596: obstacles that
+/// overlap slightly close the space along a slanted line. A proof by halved boxes needs some hundreds.
 #[test]
 fn the_world_whose_slabs_take_the_most_boxes_has_a_small_proof() {
     let place = Place::new();

@@ -23,7 +23,7 @@ fn solutions(csv: &str) -> Vec<Solution> {
     csv.lines().skip(1).map(solution).collect()
 }
 
-/// Links of `planar_2r`: where the tip is.
+/// Returns the position of the tip of `planar_2r`.
 fn tip([a, b]: [f64; 2]) -> [f64; 2] {
     [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
 }
@@ -121,8 +121,8 @@ fn what_is_wrong_with_the_home_is_said_of_the_home() {
     assert!(!far.stderr.contains("--start"), "{}", far.stderr);
 }
 
-/// With the tip at the first joint, that joint may have any value. The pole blocks the value nearest to home, but not
-/// others.
+/// Checks a place at the first joint, where that joint may have any value. A pole blocks the value nearest to the home
+/// position, but not others.
 #[test]
 fn a_place_that_leaves_a_joint_free_is_reached_with_another_value_of_it() {
     let place = Place::new();

@@ -3,12 +3,12 @@
 use super::{Done, Place, shipped};
 use cplan_check_files::check;
 
-/// How the tool is lowered, and how the part is held.
+/// The way in which the tool is lowered, and in which the part is held.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Hand {
     Lifting,
     Stroke,
-    /// The part is kept level by a wrist that turns it over the table.
+    /// A wrist turns the part over the table so that it stays level.
     Wrist,
 }
 

@@ -4,7 +4,7 @@ use super::{Done, FREE, Place, shelf, shipped};
 use serde_json::{Value, json};
 use std::process::Stdio;
 
-/// Checks the fields that scripts rely on, which every result has.
+/// Checks the members of a result on which scripts rely, and which every result has.
 fn contract(done: &Done) -> Value {
     let result = done.json();
     let found = result["status"] == "found";

@@ -482,7 +482,7 @@ fn ctrl_c_says_what_is_kept() {
     assert!(lines() > kept, "{} {kept}", lines());
 }
 
-/// A picture without a path does not explain slices that a path would pass.
+/// Checks that the legend of a picture explains the slices that a path passes only if there is a path.
 #[test]
 fn pictures_explain_what_they_show() {
     let place = Place::new();
@@ -495,8 +495,8 @@ fn pictures_explain_what_they_show() {
     assert!(legend(["robots/planar_2r.urdf", "workspaces/shelf.toml"], 0));
 }
 
-/// A layout in which an obstacle blocks the world's own start or goal has its row, and so has the layout of the
-/// unchanged files.
+/// Checks that a layout in which an obstacle blocks the world's own start or goal has a row, and that the unchanged
+/// files have one, too.
 #[test]
 fn layouts_have_rows_where_the_base_has_a_blocked_start_or_goal() {
     let place = Place::new();

@@ -8,7 +8,8 @@ use cplan::space::{Configuration, Recording};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Two objects, one of them on a wrist, and a post as an obstacle. Steps follow.
+/// A world with two objects, of which one is held by a wrist, and with a post as an obstacle. The steps are added to
+/// it.
 const CELL: &str = r#"name = "cell"
 [robot]
 wrist = { velocity = 6.0, acceleration = 60.0 }
@@ -32,7 +33,7 @@ payload = "level"
 renew = true
 "#;
 
-/// The arm pauses at the ends of some steps; the last step moves nothing.
+/// Steps that end in pauses. The last step moves nothing.
 const STEPS: &str = r#"[[step]]
 pick = "part"
 dwell = 0.2
@@ -359,7 +360,8 @@ fn a_recording_has_a_message_for_each_motion() {
     assert_eq!(topic("/joint_states").len(), samples - shared.count());
 }
 
-/// With a clearance, the supports in the payload's configuration space shrink: their radius is negative.
+/// Checks pictures of a task with a clearance. The supports shrink in the configuration space of the payload, because
+/// their radius is negative.
 #[test]
 fn supports_that_recede_are_drawn() {
     let place = Place::new();
@@ -369,8 +371,8 @@ fn supports_that_recede_are_drawn() {
     assert!(place.read("plan.svg").contains("</svg>") && place.read("plan.html").contains("\"worlds\""));
 }
 
-/// A bar fits into a bay in few directions. Thus a wall in the configuration space spans the full turn of the first
-/// joint, and a taut path around its end does not exist.
+/// Checks a bar that fits into a bay in few directions only. The walls of the configuration space then span the full
+/// turn of the first joint, and no taut path leads around their ends.
 #[test]
 fn walls_all_round_a_joint_have_no_end() {
     let place = Place::new();

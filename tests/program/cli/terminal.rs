@@ -3,7 +3,7 @@
 use super::*;
 use serde_json::Value;
 
-/// Names that clear the screen, change the direction of writing, and imitate a result.
+/// Names with control characters: they would clear the screen, change the direction of writing, and imitate a result.
 const NAMES: [&str; 3] = ["wall\u{1b}[2J", "wall\u{202e}eerf", "wall\nresult     free: proven\u{9b}31m"];
 
 /// Returns a world in which the start may collide with an obstacle of this name.

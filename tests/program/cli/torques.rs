@@ -143,7 +143,8 @@ fn what_is_missing_or_makes_no_sense_is_named() {
     place.run(&["weak.urdf", "own.toml"], "").refused(1, &["joint \"shoulder\" has no effort", "[robot] effort"]);
 }
 
-/// Checks the effort that holds the arm at the end. No motion follows that would show the excess.
+/// Checks the effort that holds the arm at the end. No motion follows the end, so none would show that the effort is
+/// exceeded.
 #[test]
 fn what_is_held_in_the_end_is_held_by_the_efforts() {
     let place = Place::new();
@@ -165,7 +166,7 @@ fn what_is_held_in_the_end_is_held_by_the_efforts() {
     }
 }
 
-/// Checks efforts in a very different unit, in the world or in the robot's file.
+/// Checks efforts that are far too small, as in a wrong unit, in the world or in the robot's file.
 #[test]
 fn efforts_next_to_nothing_are_told_from_links_without_mass() {
     let place = Place::new();
@@ -179,7 +180,7 @@ fn efforts_next_to_nothing_are_told_from_links_without_mass() {
 }
 
 /// Checks recordings without velocities. The speed of the arm is unknown, so torques cannot be judged. For a single
-/// sample, the judge computes the torques that hold the arm there.
+/// sample, the program computes the torques that hold the arm there.
 #[test]
 fn torques_of_what_has_no_velocities_are_not_said_to_be_kept() {
     let place = Place::new();

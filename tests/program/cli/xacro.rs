@@ -57,7 +57,7 @@ fn arguments_that_a_robot_does_not_have_are_refused() {
     place.run(&FILES, "--xacro-arg reach=wide").refused(1, &["scara.urdf.xacro: line 5", "no property \"wide\""]);
 }
 
-/// Messages about the URDF name the file and the line of the element in xacro.
+/// Checks that messages about the URDF name the file and the line of the element in xacro.
 #[test]
 fn messages_name_the_place_in_the_xacro_file() {
     let place = place();
@@ -73,7 +73,7 @@ fn messages_name_the_place_in_the_xacro_file() {
         .refused(1, &["parts.xacro: line 6", "link \"b\", collision", "6 | <box size=\"${length} 0.1 0.1\"/>"]);
 }
 
-/// The checker reads no xacro. It explains how to write the URDF, and accepts that.
+/// Checks that the checker refuses xacro, that it explains how to write the URDF, and that it accepts that URDF.
 #[test]
 fn certificates_are_checked_against_the_expanded_urdf() {
     let place = place();

@@ -37,7 +37,7 @@ fn commands(block: &Block) -> Vec<Shown<'_>> {
     commands
 }
 
-/// Returns `None` if the output of a command matches the page, else the difference.
+/// Returns `None` if the output of a command matches the page. Otherwise returns the difference.
 fn run(place: &Place, shown: &Shown, code: i32) -> Option<String> {
     let command = shown.command;
     let arguments = ["cplan ", "cargo run --release -- "].iter().find_map(|program| command.strip_prefix(program));

@@ -36,7 +36,7 @@ fn the_readme_is_a_page() {
     assert!(size <= 8 * 1024, "the README has {size} bytes: what is more belongs into docs");
 }
 
-/// mdBook builds a book from exactly the pages in the summary.
+/// Checks that the summary lists every page once. mdBook builds a book from exactly the pages in the summary.
 #[test]
 fn the_summary_lists_every_page_once() {
     let summary = Page::read(&root().join("docs/SUMMARY.md"));

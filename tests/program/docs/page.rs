@@ -17,12 +17,12 @@ pub struct Block {
     pub line: usize,
     pub language: String,
     pub text: String,
-    /// Text of the comments directly above: `exit: 3` for `<!-- exit: 3 -->`.
+    /// Texts of the comments directly above the block, such as `exit: 3` for `<!-- exit: 3 -->`.
     pub marks: Vec<String>,
 }
 
 impl Block {
-    /// Returns the text behind `key: ` in a mark.
+    /// Returns the text after `key: ` in a mark. Returns `None` if no mark has this key.
     pub fn mark(&self, key: &str) -> Option<&str> {
         self.marks.iter().find_map(|mark| mark.strip_prefix(key)?.strip_prefix(": "))
     }

@@ -6,7 +6,7 @@ use crate::rounding;
 /// Mark for omitted output.
 const OUT: &str = "[...]";
 
-/// Stands for a value that differs from run to run.
+/// Placeholder for a value that differs from run to run.
 const ANY: &str = "~";
 
 /// Splits a table line into cells, which two blanks or more separate.
@@ -19,8 +19,8 @@ fn timeless(word: &str) -> &str {
     if word.trim_end_matches(',').parse::<f64>().is_ok() { ANY } else { word }
 }
 
-/// Returns the lines of a text in a comparable form: without times and memory, and without the widths of the columns
-/// beside them. Units may be below their headers.
+/// Returns the lines of a text in a form that can be compared: without times and memory, and without the widths of the
+/// columns beside them. Units may be below their headers.
 fn lines(text: &str) -> Vec<String> {
     let is_volatile = |head: &str| head.ends_with("[ms]") || head.ends_with("[MiB]");
     // Volatile columns of the current table, counted from the last.
@@ -69,7 +69,7 @@ fn are_lines(shown: &[String], report: &[String]) -> bool {
     }
 }
 
-/// Returns `None` if `shown` matches `report`, else the difference.
+/// Returns `None` if `shown` matches `report`. Otherwise returns the difference.
 pub fn difference(shown: &str, report: &str) -> Option<String> {
     let (shown, heard) = (lines(shown), lines(report));
     if are_lines(&shown, &heard) {

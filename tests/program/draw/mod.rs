@@ -16,14 +16,14 @@ use cplan::space::{Configuration, JointRange, Path, Segment};
 use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
 use std::f64::consts::PI;
 
-/// Writes the picture if `CPLAN_PICTURES` is set, checks the rules for every picture, and returns it.
+/// Checks the rules for every picture, and returns the picture. Writes it to a file if `CPLAN_PICTURES` is set.
 fn checked(name: &str, picture: &Picture) -> String {
     let view = View::of_picture(picture);
     pages::inspected(name, &view);
     inspected(name, &view)
 }
 
-/// Checks and writes the picture of any view.
+/// Checks the picture of a view, of whatever kind. Writes it to a file if `CPLAN_PICTURES` is set.
 fn inspected(name: &str, view: &View) -> String {
     let text = svg(view);
     if let Some(folder) = std::env::var_os("CPLAN_PICTURES") {
@@ -316,7 +316,7 @@ mod raster {
         assert!(colors.len() > 50, "{} colours", colors.len());
     }
 
-    /// Text uses the built-in font: the picture with a longer title has more dark pixels at the top.
+    /// Checks that text uses the built-in font: a picture with a longer title has more dark pixels at the top.
     #[test]
     fn text_is_rendered_without_fonts_of_the_machine() {
         let scene = three();

@@ -47,7 +47,8 @@ fn without_a_motion_the_proof_is_the_end_and_without_a_replay_there_is_the_motio
     assert!(frames(&found.view()).len() < frames(&found.view_with_replay()).len());
 }
 
-/// The GIF is decoded by the crate's own reader, and assembled as viewers do.
+/// Checks the last picture of a GIF. The crate's own reader decodes the file, and the test puts the frames together as
+/// viewers do.
 #[cfg(feature = "png")]
 #[test]
 fn the_last_picture_of_a_gif_is_the_still_one() {

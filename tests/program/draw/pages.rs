@@ -14,7 +14,7 @@ use cplan::space::Path;
 use nalgebra::Vector3;
 use serde_json::Value;
 
-/// Writes the page if `CPLAN_PICTURES` is set, checks the rules for every page, and returns the page's data.
+/// Checks the rules for every page, and returns the page's data. Writes the page to a file if `CPLAN_PICTURES` is set.
 pub fn inspected(name: &str, view: &View) -> Value {
     let text = page(view);
     if let Some(folder) = std::env::var_os("CPLAN_PICTURES") {
@@ -34,7 +34,7 @@ pub fn inspected(name: &str, view: &View) -> Value {
     value
 }
 
-/// Infinite or undefined numbers are null in JSON: only values that may be missing are null.
+/// Checks that only values that may be missing are null. Infinite or undefined numbers would be null in JSON.
 fn no_holes(name: &str, key: &str, value: &Value) {
     match value {
         Value::Null => assert!(["clock", "path"].contains(&key), "{name}: {key} is null"),
@@ -95,7 +95,7 @@ fn a_plan_is_shown_as_it_is() {
     assert_eq!(ranges.map(|(end, first)| (end - first.unwrap()) as usize).sum::<usize>(), scene.pairs().len());
 }
 
-/// Every block of cells is drawn with its least label. Blocks that stick out are marked.
+/// Checks that every block of cells is drawn with its least label. Blocks that stick out are marked.
 #[test]
 fn a_wavefront_is_written_in_letters() {
     let scene = three();

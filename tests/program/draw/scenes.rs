@@ -94,13 +94,13 @@ pub fn scene(arm: Arm, obstacles: Vec<Obstacle>) -> Scene {
     placed(arm, Workspace { name: "test".to_owned(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
-/// The cells of a grid, with what the arm hits at their centres.
+/// The cells of a grid, and the obstacles that the arm hits at their centres.
 pub struct Cells {
     topology: Topology,
     pub n: usize,
-    /// The first obstacle hit in each cell's middle.
+    /// For each cell, the first obstacle that the arm hits at its centre. `None` if it hits nothing.
     hit: Vec<Option<usize>>,
-    /// All obstacles hit, per cell.
+    /// For each cell, all obstacles that the arm hits at its centre.
     all: Vec<Vec<usize>>,
 }
 
@@ -128,7 +128,7 @@ impl Cells {
         Configuration::new(self.at(0, i as f64 + 0.5), self.at(1, j as f64 + 0.5))
     }
 
-    /// Returns runs of cells in each column, as corners.
+    /// Returns runs of cells in each column for which `inside` is true, as corners of rectangles.
     fn runs(&self, inside: impl Fn(usize) -> bool) -> Vec<Vec<Configuration>> {
         let mut boxes = Vec::new();
         for i in 0..self.n {
@@ -188,7 +188,7 @@ impl Cells {
             .unwrap()
     }
 
-    /// Returns steps from `goal` by breadth-first search.
+    /// Returns the number of steps from `goal` to each cell, by breadth-first search.
     pub fn labels(&self, goal: usize) -> Vec<u32> {
         let mut labels = vec![u32::MAX; self.hit.len()];
         labels[goal] = 0;
@@ -204,7 +204,7 @@ impl Cells {
         labels
     }
 
-    /// Follows the labels down to zero; the path is unwrapped.
+    /// Returns the path that follows the labels down to zero, continued past whole turns on circles.
     pub fn descend(&self, start: usize, labels: &[u32]) -> Path {
         let (mut at, mut q) = (start, self.center(start));
         let mut waypoints = vec![q];

@@ -56,7 +56,7 @@ fn turn_to(q1: f64, q2: f64) -> Action {
     Action::Move(Goal::Joints(Configuration::new(q1, q2)))
 }
 
-/// Returns a task that repeats these steps; each round begins with new objects.
+/// Returns a task that repeats these steps. Each round begins with new objects.
 fn task(objects: Vec<Object>, obstacles: Vec<Obstacle>, steps: &[Action], rounds: usize) -> Task {
     let mut items = Vec::new();
     for cycle in 1..=rounds {
@@ -94,7 +94,7 @@ fn fixed() -> Vec<Obstacle> {
     ]
 }
 
-/// Moves two objects to two places, with a move before, between and after.
+/// Returns a task that moves two objects to two places, with motions before, between and after.
 fn sorting(holding: Holding) -> Task {
     let objects = vec![object("part", false, holding, [1.2, -0.5]), object("disc", true, holding, [0.55, -1.25])];
     let home = turn_to(START[0], START[1]);
@@ -128,7 +128,7 @@ fn drawn(name: &str, task: &Task, answer: &TaskAnswer) -> String {
     inspected(name, &view)
 }
 
-/// Checks that a page of the task shows every motion at its time, in its world.
+/// Checks that a page of the task shows every motion at its time, with the objects where they are then.
 fn follows(name: &str, task: &Task, answer: &TaskAnswer, view: &View) {
     let legs = &answer.legs;
     let value = pages::inspected(name, view);
@@ -170,7 +170,7 @@ fn done(name: &str, task: &Task) -> String {
     drawn(name, task, &answer)
 }
 
-/// A surface or a line.
+/// A surface or a line of a picture.
 #[derive(Debug, Clone)]
 struct Mark {
     stroke: String,
@@ -181,7 +181,7 @@ struct Mark {
     outline: String,
 }
 
-/// Returns the content of each frame: that of the workspace, then those of the configuration spaces.
+/// Returns the content of each frame of a picture: first the workspace's frame, then those of the configuration spaces.
 fn frames(text: &str) -> Vec<Vec<Mark>> {
     let tree = roxmltree::Document::parse(text).unwrap();
     let clipped = tree.descendants().filter(|n| n.has_tag_name("g") && n.has_attribute("clip-path"));
@@ -274,7 +274,8 @@ fn directions(outline: &str) -> Vec<f64> {
     corners(outline).windows(2).filter(|w| w[0] != w[1]).map(angle).collect()
 }
 
-/// A square that is carried to the end is drawn there: upright if level, otherwise turned with link 2.
+/// Checks a square that is carried to the end and is drawn there. It is upright if it is held level, and otherwise
+/// turned with link 2.
 #[test]
 fn payloads_are_drawn_where_they_are() {
     for (name, holding) in [("task_carried_rigid", Holding::Rigid), ("task_carried_level", Holding::Level)] {
@@ -385,7 +386,7 @@ fn a_step_that_fails_is_named() {
     }
 }
 
-/// Counts the hollow diamonds in the picture, with that of the legend.
+/// Returns the number of hollow diamonds in the picture, including the one in the legend.
 fn hollow_diamonds(text: &str) -> usize {
     let tree = roxmltree::Document::parse(text).unwrap();
     let white = tree.descendants().filter(|n| n.has_tag_name("path") && n.attribute("fill") == Some("#ffffff"));
@@ -402,7 +403,7 @@ fn hollow_diamonds(text: &str) -> usize {
     outlines.filter(is_diamond).count()
 }
 
-/// With the object in the hand, both configurations at the target collide.
+/// Checks that the motion that fails is drawn. With the object in the hand, both configurations at the target collide.
 #[test]
 fn the_motion_that_fails_is_drawn() {
     let held = |holding| vec![object("part", false, holding, [1.2, -0.5])];
@@ -433,7 +434,7 @@ fn the_motion_that_fails_is_drawn() {
     assert!(frames[2].iter().all(|m| m.stroke != part));
 }
 
-/// In a picture of one motion, the payload is drawn by its own pieces, and there is no obstacle at its former place.
+/// Checks pictures of one motion. The payload is drawn by its own pieces, and there is no obstacle at its former place.
 #[test]
 fn pictures_of_one_motion_show_what_is_carried() {
     let task = sorting(Holding::Level);

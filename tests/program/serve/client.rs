@@ -11,7 +11,7 @@ pub struct Page {
     socket: WebSocket<TcpStream>,
     /// Number of the last request.
     id: u64,
-    /// The text that states are changes of.
+    /// Number of the text on which states are based: a state consists of changes to it.
     pub base: u64,
     /// The server's message about the world.
     pub world: Value,
@@ -23,7 +23,7 @@ impl Page {
         Self::try_open(server).unwrap()
     }
 
-    /// Opens a page; an error is the status if the server refuses.
+    /// Opens a page. If the server refuses, returns the HTTP status as an error.
     pub fn try_open(server: &Server) -> Result<Self, u16> {
         let mut request = format!("ws://{}/live", server.address).into_client_request().unwrap();
         let origin = HeaderValue::from_str(&format!("http://{}", server.address)).unwrap();
@@ -38,7 +38,7 @@ impl Page {
         Ok(page)
     }
 
-    /// Begins with files that the page provides, or with the server's own. Returns the server's answer.
+    /// Begins a session with files that the page provides, or with the server's own. Returns the server's answer.
     pub fn begin(&mut self, files: &Value) -> Value {
         self.id += 1;
         self.send(&json!({ "do": "open", "id": self.id, "files": files }).to_string());
@@ -77,7 +77,7 @@ impl Page {
         json!({ "id": self.id, "base": self.base, "final": is_final, "state": state, "options": options })
     }
 
-    /// Requests a plan without waiting for it; returns the request's number.
+    /// Requests a plan without waiting for it. Returns the request's number.
     pub fn post(&mut self, state: Option<Value>, is_final: bool, options: &str) -> u64 {
         let mut ask = self.ask(state, is_final, options);
         ask["do"] = "plan".into();
@@ -85,7 +85,7 @@ impl Page {
         self.id
     }
 
-    /// Returns the last answer to the request of this number; skips answers to others.
+    /// Returns the last answer to the request of this number. Skips answers to other requests.
     pub fn answer(&mut self, id: u64) -> Value {
         loop {
             let message = self.next();
@@ -145,8 +145,8 @@ impl Page {
         }
     }
 
-    /// Returns true if the server closes the connection at this message instead of an answer. It may do so before it
-    /// has read everything. Then the rest cannot be written.
+    /// Returns true if the server reacts to this message by closing the connection. The server may close it before it
+    /// has read everything, so the rest of the message may fail to be sent.
     pub fn is_refused(&mut self, message: &str) -> bool {
         if self.socket.send(Message::text(message)).is_err() {
             return true;

@@ -7,7 +7,7 @@ use std::io::Write;
 use std::net::TcpStream;
 use std::time::Duration;
 
-/// More connections than the server keeps at a time.
+/// Number of connections, which is more than the server keeps at a time.
 const MANY: usize = 40;
 
 #[test]

@@ -11,14 +11,14 @@ mod server;
 
 use serde_json::{Value, json};
 
-/// Returns the obstacle of `shelf.toml` that the path leads around, moved by `by`.
+/// Returns an obstacle of `shelf.toml`, moved by `by`: the one around which the path leads.
 fn shelf_moved(by: [f64; 2]) -> Value {
     let corners = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]];
     let moved: Vec<_> = corners.iter().map(|[x, y]| [x + by[0], y + by[1]]).collect();
     json!({ "from": 0, "polygon": moved })
 }
 
-/// Returns the state of `shelf.toml` with that obstacle instead of its own.
+/// Returns the state of `shelf.toml` in which its obstacle is replaced by `shelf`.
 fn shelf_state(shelf: Value) -> Value {
     json!({
         "obstacles": [shelf, { "from": 1 }],

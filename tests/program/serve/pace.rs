@@ -19,7 +19,7 @@ const ANSWERS: u32 = 30;
 const START: [f64; 2] = [-0.9, 0.4];
 const GOAL: [f64; 2] = [1.55, -0.35];
 
-/// Returns small pentagons all over the reach of `planar_2r`, except near the arm at its start and goal.
+/// Returns small pentagons everywhere in the reach of `planar_2r`, except near the arm at its start and goal.
 fn crowd() -> Vec<Vec<[f64; 2]>> {
     let links = |[q1, q2]: [f64; 2]| {
         let elbow = [q1.cos(), q1.sin()];
@@ -65,7 +65,7 @@ fn dragged(crowd: &[Vec<[f64; 2]>], by: f64) -> Value {
     })
 }
 
-/// Returns the CPU time of a process so far, if the system reports it.
+/// Returns the CPU time that a process has used so far. Returns `None` if the system does not report it.
 fn computed(process: u32) -> Option<Duration> {
     let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     // Behind the name in brackets: state, then eleven others, then ticks in user and system mode, a hundred per second.

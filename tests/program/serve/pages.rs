@@ -46,7 +46,8 @@ fn every_answer_says_what_browsers_may_do_with_it() {
     }
 }
 
-/// No machine has an address reserved for documentation (RFC 5737).
+/// Checks that an address of another machine is refused. No machine has the address in the test, because it is reserved
+/// for documentation (RFC 5737).
 #[test]
 fn an_address_that_is_not_of_this_machine_is_refused_with_its_cure() {
     let mut serve = Command::new(env!("CARGO_BIN_EXE_cplan"));

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// Far longer than any request takes, so that a test that hangs fails.
+/// Time after which a test fails. It is far longer than any request takes.
 pub const TIME_LIMIT: Duration = Duration::from_secs(120);
 
 /// Returns the path of a file of the repository.
@@ -56,7 +56,7 @@ impl Server {
         stream
     }
 
-    /// Returns the answer to a request that is sent unchanged; `HOST` is replaced by the address.
+    /// Returns the answer to a request, which is sent as it is, except that `HOST` is replaced by the address.
     pub fn raw(&self, request: &str) -> Response {
         let mut stream = self.connect();
         // A server that refuses may answer and close before it has read everything. Its answer can be read

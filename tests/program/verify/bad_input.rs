@@ -3,7 +3,7 @@
 use cplan::input::{load_recording, load_scene};
 use std::fs;
 
-/// A vertical slide carries two revolute joints; the slide is held.
+/// An arm of two revolute joints that a vertical slide carries. The slide is held.
 const ARM: &str = r#"<robot name="arm">
   <link name="base"/>
   <joint name="lift" type="prismatic">

@@ -44,7 +44,7 @@ impl Case {
         judged(&self.robot, &self.world, &file, question).unwrap_or_else(|error| Value::String(error.to_string()))
     }
 
-    /// Returns the findings about a motion or task for the start and goal of its world.
+    /// Returns the findings about a motion or task, with the start and goal that its world states.
     fn found(&self, result: &Value) -> Value {
         self.judged(result, &Question::default())
     }
@@ -192,7 +192,7 @@ fn each_false_claim_of_a_task_is_named() {
     case.refused(|r| r["duration"] = json!(1.0), "claims", "duration");
 }
 
-/// Lists all numbers, words and booleans that are claims, as pointers into the result.
+/// Adds to `found` all numbers, words and booleans of a result that are claims, as JSON pointers.
 fn leaves(value: &Value, at: String, found: &mut Vec<String>) {
     match value {
         Value::Object(members) => members.iter().for_each(|(key, value)| leaves(value, format!("{at}/{key}"), found)),
@@ -218,7 +218,7 @@ fn is_judged(pointer: &str) -> bool {
     }
 }
 
-/// Returns a different value. A clearance is a lower bound, so only a greater value is false.
+/// Returns a false value for a claim. A clearance is a lower bound, so only a greater value is false.
 fn changed(value: &Value, pointer: &str, dice: &mut Dice) -> Value {
     match value {
         Value::Bool(value) => json!(!value),

@@ -82,8 +82,8 @@ fn seams_of_wrapped_angles_are_noted_and_undone() {
     assert!(!stdout.contains("--unwrap") && stdout.contains("3.1832 rad"), "{stdout}");
 }
 
-/// The head of the gantry slides past a wall at exactly the distance to keep. Rounding leaves open whether it keeps it.
-/// All lengths are binary fractions, so the computed distance is exact.
+/// Checks a motion that slides past a wall at exactly the distance to keep. All lengths are binary fractions, so the
+/// computed distance is exact, but the judge must allow for rounding. So the motion is undecided.
 #[test]
 fn a_motion_that_grazes_at_exactly_the_clearance_is_undecided() {
     let folder = tempfile::tempdir().unwrap();

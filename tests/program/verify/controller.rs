@@ -14,7 +14,7 @@ use std::path::PathBuf;
 type Point = (f64, [[f64; 2]; 3]);
 
 /// Returns position, velocity and acceleration at `t` seconds after the first point, as `joint_trajectory_controller`
-/// samples them. The coefficients are those of a quintic, a cubic or a line, as in its
+/// samples them. The coefficients are those of a quintic, a cubic or a line, as in that program's function
 /// `Trajectory::interpolate_between_points` for one joint.
 fn sampled(before: [f64; 3], after: [f64; 3], span: f64, t: f64, given: usize) -> [f64; 3] {
     let ([p0, v0, a0], [p1, v1, a1]) = (before, after);
@@ -91,8 +91,8 @@ const LOOKS: u32 = 400;
 proptest! {
     #![proptest_config(cplan_cases::cases(24))]
 
-    /// Compares positions, velocities and accelerations between all points, and the exceeded limits with those of the
-    /// samples.
+    /// Compares what the judge finds with samples of the controller's formula: positions, velocities and accelerations
+    /// between all points, and the exceeded limits.
     #[test]
     fn messages_are_judged_as_the_controller_plays_them(points in points(), given in 1..=3_usize) {
         let recording = read(&yaml(&points, given));
@@ -135,7 +135,7 @@ proptest! {
     }
 }
 
-/// The two points of a task's dwell differ in acceleration: a quintic moves away and returns.
+/// Checks a dwell of a task whose two points differ in acceleration. A quintic between them moves away and returns.
 #[test]
 fn a_dwell_with_different_accelerations_is_seen_to_move() {
     let still = |time: f64, acceleration: f64| (time, [[0.3, 0.4], [0.0; 2], [acceleration, 0.0]]);

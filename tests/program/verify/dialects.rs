@@ -61,7 +61,7 @@ fn what_is_taken_is_said_and_what_is_not_clear_is_refused() {
     }
 }
 
-/// The headers are those of PlotJuggler and loggers; dates keep their nanoseconds.
+/// Checks tables with the headers of PlotJuggler and of loggers. Times that are dates keep their nanoseconds.
 #[test]
 fn names_of_topics_and_units_make_no_difference() {
     let plain = findings(PLAIN);

@@ -15,7 +15,7 @@ fn root(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
-/// Returns a shipped workspace and the motion found in it.
+/// Returns a shipped workspace with the motion that the planner finds in it. Returns `None` if it finds none.
 fn planned(robot: &str, world: &str) -> Option<(LoadedScene, Plan)> {
     let files = [root(&format!("robots/{robot}.urdf")), root(&format!("workspaces/{world}.toml"))];
     let problem = input::load(&files[0], &files[1], &Overrides::default()).unwrap().problem;
@@ -221,7 +221,7 @@ fn thousands_of_points_are_no_bomb() {
     assert_eq!(read(&scene, "long.yaml", &text).positions().len(), 60_000);
 }
 
-/// cplan writes recordings of hundreds of mebibytes, and reads them.
+/// Checks a recording of hundreds of mebibytes, which cplan can write and read.
 #[test]
 fn a_recording_may_be_larger_than_other_files() {
     let folder = tempfile::tempdir().unwrap();

@@ -8,8 +8,8 @@ use cplan::space::Configuration;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// Two arms of a metre each at a height of 1 m, a quill of 0.6 m at their end, and a finger of 0.2 m off the quill's
-/// axis.
+/// A robot with two arms of a metre each at a height of 1 m. It has a quill of 0.6 m at their end, and a finger of 0.2
+/// m off the quill's axis.
 const ROBOT: &str = r#"<robot name="scara">
   <link name="base"/>
   <joint name="j1" type="revolute">
@@ -38,7 +38,7 @@ const ROBOT: &str = r#"<robot name="scara">
 const FINGER: &str =
     r#"<collision><origin xyz="0.1 0 0"/><geometry><box size="0.2 0.02 0.02"/></geometry></collision>"#;
 
-/// A low block beside the stretched arm.
+/// A world with a low block beside the stretched arm.
 const WORLD: &str = "[robot]\njoints = [\"j1\", \"j2\"]\n[[obstacle]]\nname = \"block\"\n\
                      polygon = [[1.5, 0.5], [1.9, 0.5], [1.9, 0.9], [1.5, 0.9]]\nheight = [0.0, 0.5]\n";
 
@@ -60,7 +60,7 @@ fn found(finger: &str, table: &str) -> (String, Value) {
     (found["verdict"].as_str().expect("a word").to_owned(), found)
 }
 
-/// The arm moves over the block and back; the rod is above the block while it is raised.
+/// Checks motions over the block and back, with the quill at different heights above it.
 #[test]
 fn a_quill_is_judged_at_the_heights_that_it_has() {
     let table = |depths: [f64; 4]| {
@@ -90,8 +90,8 @@ fn a_quill_is_judged_at_the_heights_that_it_has() {
     assert!(notes.contains("moves, from 0 to 0.21 m") && notes.contains("at their heights of each moment"), "{notes}");
 }
 
-/// The arm stands over the block. The rod moves down at the first sample and up at the second, so the cubic between
-/// them is deeper than both.
+/// Checks an arm that stands over the block. The quill moves down at the first sample and up at the second, so the
+/// cubic between them is deeper than both.
 #[test]
 fn between_samples_a_quill_goes_where_its_velocities_lead_it() {
     let table = |speed: f64| {
@@ -125,8 +125,8 @@ fn a_wrist_sweeps_a_disc() {
     }
 }
 
-/// A certificate covers two joints, so the program writes no certificate when other joints move. The errors of unusable
-/// motions give the reason.
+/// Checks that the program writes no certificate when other joints move, because a certificate covers only two joints.
+/// Errors about motions that cannot be used give the reason.
 #[test]
 fn motions_that_cannot_be_judged_say_why() {
     let table = "time,j1,j2,quill\n0,0,0,0\n1,0.1,0,0.1\n";
@@ -148,7 +148,8 @@ fn motions_that_cannot_be_judged_say_why() {
     assert!(error.contains("not along the normal"), "{error}");
 }
 
-/// Random motions of a quill agree with the scenes of their moments, each with the quill at its position then.
+/// Checks random motions of a quill. The judge must agree with the static scene of each moment, in which the quill has
+/// its position at that time.
 #[test]
 fn motions_of_a_quill_agree_with_the_scenes_of_their_moments() {
     let mut verdicts = [0; 2];

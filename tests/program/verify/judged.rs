@@ -16,7 +16,7 @@ pub struct Question<'a> {
 }
 
 impl Question<'_> {
-    /// Allows a motion to begin and end anywhere.
+    /// Returns the settings under which a motion may begin and end anywhere.
     pub fn anywhere() -> Self {
         Self { anywhere: true, ..Self::default() }
     }
@@ -37,7 +37,7 @@ pub fn judged(robot: &Path, world: &Path, recording: &Path, question: &Question)
     Ok(serde_json::to_value(&findings).unwrap())
 }
 
-/// Returns the result of the main job with these words of its command line.
+/// Returns the result that `cplan plan` prints with these words of its command line.
 pub fn planned(robot: &Path, world: &Path, words: &str) -> Value {
     let words: Vec<String> = words.split_whitespace().map(str::to_owned).collect();
     let (options, overrides) = read_words(&words).unwrap_or_else(|error| panic!("{words:?}: {error}"));

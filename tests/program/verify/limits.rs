@@ -68,8 +68,8 @@ fn a_single_sample_may_not_move() {
     assert_eq!(judged(&[0.0], vec![q(0.0, 0.0)], Some(vec![q(0.0, 0.0)])), []);
 }
 
-/// Judges a constant acceleration `a` from rest for 0.25 s and the same back, every `h` seconds, with numbers rounded
-/// to `decimals`.
+/// Judges a motion that accelerates with `a` from rest for 0.25 s, and decelerates in the same way. Its samples are `h`
+/// seconds apart, and its numbers are rounded to `decimals`.
 fn ramps(a: f64, h: f64, decimals: i32) -> Vec<LimitViolation> {
     let round = |v: f64| (v * 10f64.powi(decimals)).round() / 10f64.powi(decimals);
     let n = (0.5 / h).round() as u32;
@@ -148,7 +148,8 @@ fn a_real_move_that_is_too_fast_is_so_with_samples_a_microsecond_apart() {
 proptest! {
     #![proptest_config(cplan_cases::cases(64))]
 
-    /// In random cubics with all their digits, the judge finds exactly the excesses that dense samples show.
+    /// Checks random cubics that are written with all their digits. The judge finds exactly the excesses that dense
+    /// samples show.
     #[test]
     fn speeds_and_accelerations_are_those_of_dense_samples(
         rows in prop::collection::vec((1e-6..1.0_f64, -0.2..0.2_f64, -1.1..1.1_f64), 2..6),

@@ -26,7 +26,7 @@ fn at(recording: &Recording, time: f64) -> Configuration {
     }
 }
 
-/// Times, and distances there, at `n` steps.
+/// Returns times and the distances from obstacles at these times, at `n` equal steps.
 fn sampled(scene: &Scene, recording: &Recording, n: u32) -> Vec<(f64, f64)> {
     let times = recording.times().unwrap();
     let (from, to) = (times[0], times[times.len() - 1]);
@@ -85,7 +85,8 @@ proptest! {
     }
 }
 
-/// Returns a scene with a speck in the path of the outstretched arm, and the angle at which the bar's side meets it.
+/// Returns a scene with a tiny obstacle in the path of the outstretched arm, and the angle at which the bar's side
+/// meets it.
 fn speck() -> (Scene, f64) {
     let radius = 1e-9;
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![disc(Point::new(1.2, 1.2), radius)]);

@@ -11,7 +11,7 @@ fn shipped(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
-/// The same message in both formats is the same motion.
+/// Checks that the same message in both formats is judged as the same motion.
 #[test]
 fn a_recording_is_judged_as_the_message_in_it() {
     for (robot, world) in [("planar_2r", "shelf"), ("scara", "scara_cell")] {
@@ -31,11 +31,11 @@ fn a_recording_is_judged_as_the_message_in_it() {
     }
 }
 
-/// Writes values as CDR has them, for tests.
+/// A writer of values in the encoding CDR.
 struct Message(Vec<u8>);
 
 impl Message {
-    /// Returns a message whose header has this stamp.
+    /// Returns a message whose header has this time stamp.
     fn stamped(seconds: i32, nanoseconds: i32) -> Self {
         Self(vec![0, 1, 0, 0]).word(seconds).word(nanoseconds).word(1).byte(0)
     }
@@ -76,7 +76,7 @@ fn state(seconds: i32, values: [f64; 2]) -> Vec<u8> {
     state_of(seconds, &["elbow", "shoulder"], &values)
 }
 
-/// Returns a motion without a stamp, of points with their seconds from the start.
+/// Returns a motion without a time stamp. Its points have their seconds from the start.
 fn motion(names: &[&str], points: &[(i32, [f64; 2])]) -> Vec<u8> {
     let start = Message::stamped(0, 0).names(names).word(points.len() as i32);
     let point = |message: Message, (seconds, values): &(i32, [f64; 2])| {
@@ -159,7 +159,8 @@ fn message_of(bytes: &[u8], topic: Option<&str>) -> String {
     format!("{}; {}", first.message, first.help.as_ref().expect("a hint"))
 }
 
-/// `write.py` beside the files wrote them with the format's Python package. They hold the same motion as the table.
+/// Checks recordings that `write.py` (in the folder of the files) wrote with the format's Python package. They contain
+/// the same motion as the table.
 #[test]
 fn compressed_chunks_of_a_topic_in_a_namespace_out_of_order() {
     let folder = tempfile::tempdir().unwrap();
@@ -198,7 +199,8 @@ fn damaged_compressed_chunks_are_refused() {
     }
 }
 
-/// If there are several topics, the program chooses none silently, and its hint works.
+/// Checks a recording with several topics. The program does not choose one of them silently, and following its hint
+/// works.
 #[test]
 fn several_topics_with_the_arms_joints() {
     let bytes = recording(&[
@@ -232,7 +234,8 @@ fn several_topics_with_the_arms_joints() {
     }
 }
 
-/// Several nodes publish on one topic. The arm's messages count; the others only appear in notes.
+/// Checks a recording in which several nodes publish on one topic. The arm's messages count; the others only appear in
+/// notes.
 #[test]
 fn several_publishers_on_one_topic() {
     let bytes = recording(&[
@@ -258,7 +261,8 @@ fn several_publishers_on_one_topic() {
     assert!(message.contains("holds no positions of") && message.contains("both of the arm's joints"), "{message}");
 }
 
-/// The recording holds commands to a controller: motions in a namespace whose first point is not the arm's position.
+/// Checks a recording of commands to a controller: motions in a namespace. The first point of a motion is not the arm's
+/// position.
 #[test]
 fn motions_of_a_controller_in_a_namespace() {
     let topic = "/arm_controller/joint_trajectory";

@@ -9,14 +9,14 @@ fn root(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
-/// A shipped task, and its plan.
+/// A shipped task with its plan.
 struct Shipped {
     robot: PathBuf,
     world: String,
     result: Value,
 }
 
-/// Exit code, stdout and stderr.
+/// Output of a run: exit code, stdout and stderr.
 type Said = (i32, String, String);
 
 fn run(folder: &Path, arguments: &[&str]) -> Said {
@@ -88,7 +88,7 @@ impl Shipped {
         self.result["trajectory"]["time"].as_array().unwrap().len()
     }
 
-    /// Checks that the verdict is this one for the whole, and refuted only for these steps, counted from 0.
+    /// Checks the verdict on the whole recording. Also checks that exactly these steps, counted from 0, are refuted.
     #[track_caller]
     fn refuted(&self, verdict: &str, steps: &[usize]) -> Value {
         let found = self.found();

@@ -8,7 +8,7 @@ use cplan::space::Path;
 use cplan::{Options, Outcome};
 use serde_json::{Value, json};
 
-/// Boxes that a search may look at.
+/// Largest number of boxes that a search may examine.
 const BOXES: usize = 10_000;
 
 pub fn run(urdf: &str, world: &str, rounds: usize) -> Result<Value> {

@@ -7,7 +7,7 @@ use parry2d::math::{Pose, Rotation, Vector};
 use parry2d::query::details::intersection_test_support_map_support_map as meet;
 use parry2d::shape::ConvexPolygon;
 
-/// A polygon and the disc around it.
+/// A polygon, and a disc that contains it.
 struct Solid {
     shape: ConvexPolygon,
     center: Vector,
@@ -24,7 +24,7 @@ impl Solid {
     }
 }
 
-/// Returns the pose of a link at `at`, turned by `cos, sin`.
+/// Returns the pose of a link whose origin is `at` and which is turned by the angle with this cosine and sine.
 fn placed(at: Vector, cos: f32, sin: f32) -> Pose {
     Pose::from_parts(at, Rotation { re: cos, im: sin })
 }
@@ -44,7 +44,8 @@ impl Arm {
         }
     }
 
-    /// Returns whether the arm collides at the centre of each cell, row by row; joint values by axis.
+    /// Returns, row by row, whether the arm collides at the centre of each cell. `first` and `second` are the values of
+    /// the joints at the centres.
     pub fn cells(&self, first: &[f64], second: &[f64]) -> Vec<bool> {
         let mut blocked = vec![false; first.len() * second.len()];
         let turns: Vec<(f32, f32)> = second.iter().map(|q| (q.cos() as f32, q.sin() as f32)).collect();

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 /// The initial margin of the planners' polygons, metres.
 const MARGIN: f64 = 1e-3;
 
-/// Runs of cplan's contenders per run of parry2d's, which take hundreds of times as long.
+/// Number of runs of cplan's contenders for each run of parry2d's, which take hundreds of times as long.
 const REPEATS: usize = 5;
 
 pub fn run(urdf: &str, world: &str, cells: usize, rounds: usize) -> Result<Value> {

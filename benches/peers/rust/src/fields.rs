@@ -15,7 +15,7 @@ use cplan::space::{JointRange, Configuration, Topology};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Greatest error of the multigrid's values.
+/// Greatest error to which the multigrid method solves.
 const ERROR: f64 = 1e-6;
 
 /// Returns a rectangle with ten boxes distributed by the golden ratio.
@@ -31,7 +31,7 @@ pub fn boxes(cells: usize) -> Grid {
     rectangle(cells, blocked)
 }
 
-/// Returns a maze without loops and with corridors one cell wide.
+/// Returns a maze without loops, whose corridors are one cell wide.
 pub fn maze(cells: usize) -> Grid {
     rectangle(cells, mazes::maze(cells, 0))
 }

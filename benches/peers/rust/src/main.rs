@@ -23,7 +23,7 @@ const USAGE: &str = "usage: cplan-peers answers URDF WORLD ROUNDS
        cplan-peers oxmpl URDF WORLD PLANNER SEED LIMIT_SECONDS
        cplan-peers collides URDF WORLD < configurations, two numbers a line";
 
-/// A result with the error as text.
+/// A result whose error can be any error.
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 fn run(arguments: &[&str]) -> Result<serde_json::Value> {

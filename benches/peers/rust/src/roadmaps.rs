@@ -22,7 +22,7 @@ use serde_json::{Value, json};
 /// Number of queries per map.
 const QUERIES: usize = 32;
 
-/// Number of pairs of free places in the window.
+/// Returns pairs of free places in the window.
 fn queries(regions: &Regions) -> Vec<[Configuration; 2]> {
     let mut random = Dice::new(7);
     let free = |q: &Configuration| regions.free.iter().any(|polygon| polygon.contains(*q));
@@ -40,7 +40,8 @@ fn single(p: Point) -> Vec2 {
     vec2(p.x as f32, p.y as f32)
 }
 
-/// Returns polyanya's mesh of triangles, or with neighbouring ones merged to polygons, as its documentation recommends.
+/// Returns polyanya's mesh of triangles. If `is_merged`, merges neighbouring ones to polygons, as its documentation
+/// recommends.
 fn mesh(regions: &Regions, is_merged: bool) -> Mesh {
     let free = &regions.free[0];
     let outer: Vec<Vec2> = free.outer.iter().copied().map(single).collect();
@@ -54,7 +55,8 @@ fn mesh(regions: &Regions, is_merged: bool) -> Mesh {
     mesh
 }
 
-/// Returns the length of polyanya's path, whose first waypoint is the first corner.
+/// Returns the length of polyanya's path. The path that polyanya returns lacks the start; its first waypoint is the
+/// first corner.
 fn polyanya_length(mesh: &Mesh, [from, to]: &[Configuration; 2]) -> Option<f64> {
     let path = mesh.path(single(*from), single(*to))?;
     Some(f64::from(path.length))

@@ -15,13 +15,13 @@ pub fn problem(urdf: &str, world: &str) -> Result<MotionProblem> {
     Ok(loaded.problem)
 }
 
-/// Corners of the one shape of each link, in the link's frame, and the x coordinate of joint 2 on link 1.
+/// The shape of each link, given by its corners in the link's frame, and the x coordinate of joint 2 on link 1.
 pub struct Bars {
     pub links: [Vec<[f64; 2]>; 2],
     pub elbow: f64,
 }
 
-/// Returns the arm, if it is of the simple kind that the peers' checkers support.
+/// Returns the bars of an arm. Fails unless the arm is of the simple kind that the peers' checkers support.
 pub fn bars(scene: &Scene) -> Result<Bars> {
     let arm = scene.arm();
     let simple = arm.base.norm() == 0.0 && arm.offset.y == 0.0 && arm.links.iter().all(|l| l.parts.len() == 1);
@@ -32,7 +32,7 @@ pub fn bars(scene: &Scene) -> Result<Bars> {
     Ok(Bars { links, elbow: arm.offset.x })
 }
 
-/// Corners of all convex pieces of the obstacles.
+/// Returns the corners of all convex pieces of the obstacles.
 pub fn obstacles(scene: &Scene) -> Vec<Vec<[f64; 2]>> {
     scene.workspace().obstacles.iter().flat_map(|o| &o.pieces).map(corners).collect()
 }

@@ -51,7 +51,8 @@ impl StateSpace for Torus {
         Ok(Joints([0, 1].map(|_| rng.random_range(-PI..PI))))
     }
 
-    /// Returns the length; oxmpl tests at a tenth of it, every 0.01 rad.
+    /// Returns a length of which oxmpl takes a tenth as the step between collision checks. With this value, it checks
+    /// every 0.01 rad.
     fn get_longest_valid_segment_length(&self) -> f64 {
         0.1
     }
@@ -78,7 +79,7 @@ impl GoalSampleableRegion<Joints> for Target {
     }
 }
 
-/// A polygon and the disc around it.
+/// A polygon, and a disc that contains it.
 struct Solid {
     shape: ConvexPolygon,
     center: Vector,
@@ -101,7 +102,7 @@ impl Solid {
     }
 }
 
-/// The collision check.
+/// The collision checker for the peer's planners.
 pub struct Checker {
     links: [Solid; 2],
     elbow: f64,
@@ -132,7 +133,8 @@ impl StateValidityChecker<Joints> for Checker {
     }
 }
 
-/// Prints the checker's verdicts on configurations from standard input, for the harness's test of its checkers.
+/// Reads configurations from standard input, and prints the checker's verdicts. This is for the harness's test of its
+/// checkers.
 pub fn answer_standard_input(urdf: &str, world: &str) -> Result<Value> {
     let scene = scenes::scene(urdf, world)?;
     let checker = Checker::new(&scenes::bars(&scene)?, &scenes::obstacles(&scene));

@@ -9,10 +9,10 @@ use serde_json::{Value, json};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Greatest length of a branch: a fifth of the greatest distance on the torus, OMPL's default.
+/// Greatest length of a branch. As by default in OMPL, it is a fifth of the greatest distance on the torus.
 const BRANCH: f64 = 0.89;
 
-/// Share of samples that are the goal: OMPL's default.
+/// Fraction of samples that are the goal itself. It is OMPL's default.
 const GOAL_BIAS: f64 = 0.05;
 
 pub fn run(urdf: &str, world: &str, planner: &str, seed: u64, limit: f64) -> Result<Value> {

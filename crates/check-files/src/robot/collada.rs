@@ -8,16 +8,19 @@ use num_bigint::Sign;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Maximum depth of nested nodes. The two following constants limit the nodes in the scene and the visible vertices.
+/// Maximum depth of nested nodes.
 const MAX_NODE_DEPTH: usize = 64;
+/// Maximum number of nodes in the scene.
 const MAX_NODES: usize = 1 << 16;
+/// Maximum number of vertices that the scene shows.
 const MAX_POINTS: usize = 1 << 22;
 
-/// Elements that place a node. The following constant is their maximum number per node.
+/// Elements that place a node.
 const TRANSFORM_ELEMENTS: [&str; 6] = ["matrix", "translate", "rotate", "scale", "lookat", "skew"];
+/// Maximum number of such elements per node.
 const MAX_TRANSFORM_ELEMENTS: usize = 16;
 
-/// Numbers that differ by less than `2^-EQUALITY_BITS` count as equal.
+/// Negative binary logarithm of the difference below which numbers count as equal.
 const EQUALITY_BITS: u32 = 40;
 
 /// A linear map followed by a translation. It is stored as a pose, but usually is not a rotation.

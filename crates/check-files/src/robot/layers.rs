@@ -5,10 +5,10 @@ use cplan_check::decimal::Decimal;
 use cplan_check::interval::{BITS, Interval, Point, minus, sum, times};
 use num_bigint::BigInt;
 
-/// Least thickness of a layer, metres: `10^-6`.
+/// Number of decimals of the least thickness of a layer: `10^-6` m.
 const MIN_THICKNESS_DECIMALS: u32 = 6;
 
-/// Tolerance of layers, metres: `10^-9`. Vertices at most this far outside a layer belong to it.
+/// Number of decimals of the tolerance of layers: `10^-9` m. Vertices at most this far outside a layer belong to it.
 const LAYER_TOLERANCE_DECIMALS: u32 = 9;
 
 fn metres(digits: u32) -> BigInt {
@@ -24,8 +24,8 @@ pub fn cuts(mut ends: Vec<BigInt>) -> Vec<BigInt> {
 }
 
 impl Surface {
-    /// Cuts the surface into layers. Returns for each layer the points whose convex hull it is, and its heights, the
-    /// lowest layer first.
+    /// Cuts the surface into layers. Returns, for each layer from the lowest upwards, its heights, and points whose
+    /// convex hull is the layer.
     ///
     /// The result is empty if no cut goes through the surface, or if the edges of the surface are unknown.
     pub fn layers(&self, cuts: &[BigInt]) -> Vec<(Vec<Point>, [Interval; 2])> {

@@ -13,10 +13,11 @@ use roxmltree::Node;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Number of bytes of a binary STL before its triangles. The two following constants are the bytes per triangle, and
-/// the bytes of a triangle's normal, which precedes its corners.
+/// Number of bytes of a binary STL before its triangles.
 const STL_HEADER_BYTES: usize = 84;
+/// Number of bytes of each triangle of a binary STL.
 const STL_TRIANGLE_BYTES: usize = 50;
+/// Number of bytes of a triangle's normal, which precedes its corners.
 const STL_NORMAL_BYTES: usize = 12;
 
 /// Number of folders above the URDF in which packages are searched.
@@ -139,7 +140,7 @@ fn in_bytes(triangles: &[u8]) -> Vec<Vec<Single>> {
     triangles.chunks_exact(STL_TRIANGLE_BYTES).map(triangle).collect()
 }
 
-/// Reads the triangles of all solids of an STL in text form. Returns `None` if the text is no such STL.
+/// Reads the triangles of all solids of an STL in text form. Returns `None` if the text is not an STL.
 fn as_text(text: &str) -> Option<Vec<Vec<Single>>> {
     let lines = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
     let mut lines = lines.filter(|words| !words.is_empty());

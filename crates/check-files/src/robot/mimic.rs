@@ -43,8 +43,8 @@ impl<'a> Tree<'a> {
 }
 
 impl<'a> Robot<'a> {
-    /// Checks that no joint which carries the tip or shapes mimics one of the given joints. The links of such a joint
-    /// would move in a manner that the arm does not model.
+    /// Checks that no joint that carries the tip or shapes mimics one of the given joints. The arm does not model how
+    /// the links of such a joint would move.
     pub(super) fn check_independence(&self, joints: &[Node<'a, 'a>]) -> ReadResult<()> {
         for &link in &self.tree.order {
             let has_shapes = ["collision", "visual"].iter().any(|kind| child(self.tree.links[link], kind).is_some());

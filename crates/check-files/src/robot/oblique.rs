@@ -7,11 +7,12 @@ use num_bigint::Sign;
 /// Number of sides of the polygon that replaces half of an ellipse, the projection of a cylinder's end.
 const ELLIPSE_STEPS: i32 = 16;
 
-/// Inverse of the tolerance for simple projections, which is 0.5 %. If the projection of an end deviates from a disc by
-/// less, a disc replaces it. If it is flatter than this, a rectangle replaces the cylinder.
+/// Inverse of the tolerance for simple projections, which is 0.5 %. If the projection of a cylinder's end deviates from
+/// a disc by less, a disc replaces it. If the projection is flatter than this share, a rectangle replaces the cylinder.
 const PROJECTION_TOLERANCE_DIVISOR: u32 = 200;
 
-/// Negative binary logarithm of the greatest slope of a cylinder's axis out of the plane that counts as none.
+/// Negative binary logarithm of the greatest slope between a cylinder's axis and the plane for which the axis counts as
+/// lying in the plane.
 const IN_PLANE_BITS: u64 = 44;
 
 /// Returns the core and the radius of the projection of an oblique cylinder. The projection is the convex hull of two

@@ -31,7 +31,7 @@ fn are_neighbors(left: &[&str], right: &[&str], is_solid: impl Fn(&str) -> bool)
 
 impl<'a> Robot<'a> {
     /// Finds the last of the two joints that moves a link. Returns `Some(None)` for a static link. Returns `None` if
-    /// another movable joint carries the link, because the position of the link is then unknown.
+    /// another movable joint carries the link, because then the position of the link is unknown.
     pub(super) fn group(&self, link: &'a str) -> ReadResult<Option<Option<usize>>> {
         if let Some(last) = self.moved_by(link)? {
             return Ok(Some(Some(last)));

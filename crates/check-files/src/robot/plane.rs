@@ -6,10 +6,10 @@ use cplan_check::interval::{Interval, Point};
 use cplan_check::polygon::Corner;
 use num_bigint::{BigInt, Sign};
 
-/// Largest angle between directions that count as equal: `10^-3` rad.
+/// Number of decimals of the largest angle between directions that count as equal: `10^-3` rad.
 const ALIGNMENT_DECIMALS: u32 = 3;
 
-/// Largest angle between directions that differ only by rounding: `10^-12` rad.
+/// Number of decimals of the largest angle between directions that differ only by rounding: `10^-12` rad.
 const ROUNDING_DECIMALS: u32 = 12;
 
 /// The plane of two joints, in the root frame.
@@ -18,14 +18,14 @@ pub struct Plane {
     pub across: [Vector; 2],
     /// Direction of heights.
     pub normal: Vector,
-    /// Sine of the greatest angle by which a revolute joint's axis is off the normal, or a prismatic joint's axis is
-    /// off the plane.
+    /// Sine of the greatest deviation of the joints from the plane: the angle between a revolute joint's axis and the
+    /// normal, or between a prismatic joint's axis and the plane.
     pub off: BigInt,
 }
 
 impl Plane {
-    /// Finds the plane in which two joints move, given their axes of unit length and whether each is prismatic. Returns
-    /// `None` if there is no such plane.
+    /// Finds the plane in which two joints move. `axes` are their axes of unit length, and `slides` states for each
+    /// whether it is prismatic. Returns `None` if there is no such plane.
     ///
     /// The normal is the axis of the first revolute joint, or else perpendicular to both axes. If it is along an axis
     /// of the root frame, that axis replaces it, and the plane coordinates are the other two axes: (x, y) for z, (x, z)
@@ -67,7 +67,7 @@ impl Plane {
         Some(Self { across, normal, off })
     }
 
-    /// Describes in words by how much the joints deviate from the plane in which they are assumed to move. The text is
+    /// Describes in words how much the joints deviate from the plane in which they are assumed to move. The text is
     /// empty if the deviation is only rounding.
     pub fn idealized(&self) -> String {
         let is_within = |digits: &u32| Interval::from(&Decimal::power_of_ten(*digits)).lower >= self.off;

@@ -18,9 +18,9 @@ pub struct PlacedShape<'a> {
 }
 
 impl<'a> Robot<'a> {
-    /// Finds all shapes that count: the collision shapes of each link, or its visual shapes if it has no collision
-    /// shapes. If one of the two moving parts of the arm has no shapes, or one of its meshes cannot be read, the
-    /// world's bar replaces it.
+    /// Finds all shapes that are checked for collisions: the collision shapes of each link, or its visual shapes if it
+    /// has no collision shapes. If one of the two moving parts of the arm has no shapes, or one of its meshes cannot be
+    /// read, the world's bar replaces it.
     ///
     /// # Errors
     /// If a shape cannot be read, even if the certificate does not refer to it. Only two kinds of unreadable shapes are

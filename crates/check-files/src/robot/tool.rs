@@ -13,13 +13,15 @@ use cplan_check::{CheckError, Input};
 use num_bigint::{BigInt, Sign};
 use roxmltree::Node;
 
-/// Maximum depth to which an object may press into its support, as a share of the arm's reach: `10^-4`.
+/// Number of decimals of the maximum depth to which an object may press into its support, as a share of the arm's
+/// reach: `10^-4`.
 const PENETRATION_DECIMALS: u32 = 4;
 
-/// Maximum distance of the tip from the wrist's axis: `10^-6` m, for rounding in the URDF.
+/// Number of decimals of the maximum distance of the tip from the wrist's axis: `10^-6` m, for rounding in the URDF.
 const ON_AXIS_DECIMALS: u32 = 6;
 
-/// Tolerance of axes along the normal: the cosine of the angle between them is at least `1 - 10^-9`.
+/// Number of decimals of the tolerance of axes along the normal: the cosine of the angle between the two is at least `1
+/// - 10^-9`.
 const UPRIGHT_DECIMALS: u32 = 9;
 
 /// Returns a lower bound on the depth of a point in a shape, with a relative error of about `10^-12`. Returns 0 if the
@@ -40,8 +42,8 @@ fn depth(shape: &Shape, point: &Point) -> BigInt {
 const MAX_DEPTH_BITS: u32 = 10;
 const DEPTH_BITS: u32 = 60;
 
-/// Replaces the two approximations of a shape by discs about a point. The outer disc covers the shape in all
-/// orientations. The shape covers the inner disc in all orientations.
+/// Replaces the two approximations of a shape by discs about a point. In all orientations, the outer disc covers the
+/// shape, and the shape covers the inner disc.
 ///
 /// # Errors
 /// If the shape does not contain the point, because then there is no inner disc.
@@ -111,8 +113,8 @@ impl<'a> Robot<'a> {
         Ok((joint, carried))
     }
 
-    /// Returns true if `joint`, which lowers the tool, carries a shape. A bar ends at the tip, so the joint carries it
-    /// if it carries the tip.
+    /// Returns true if `joint`, which lowers the tool, carries a shape. A bar ends at the tip, so the joint carries the
+    /// bar if it carries the tip.
     ///
     /// # Errors
     /// If the links do not form a tree.

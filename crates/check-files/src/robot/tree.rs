@@ -55,7 +55,7 @@ pub fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Ite
     node.children().filter(move |n| n.tag_name().name() == name && n.tag_name().namespace() == namespace)
 }
 
-/// Returns true if an element belongs to xacro, so that the file must be expanded first.
+/// Returns true if an element belongs to xacro. The file must then be expanded first.
 fn is_xacro(node: &Node, robot: &Node) -> bool {
     let namespace = node.tag_name().namespace().filter(|namespace| Some(*namespace) != robot.tag_name().namespace());
     namespace.is_some_and(|namespace| namespace.ends_with("/xacro"))

@@ -7,15 +7,15 @@ use cplan_check::decimal::Decimal;
 use std::iter::{Enumerate, Peekable};
 use std::slice::Iter;
 
-/// A step of the world with its execution.
+/// A step of the world, together with its execution.
 pub(super) struct MatchedStep<'a> {
     pub(super) step: &'a Step,
     pub(super) done: &'a ExecutedStep,
-    /// Objects, by number, that return to their initial poses before the step.
+    /// Indices of the objects that return to their initial poses before the step.
     pub(super) renewed: Vec<usize>,
 }
 
-/// The state while executed steps are matched with those of the world.
+/// The state of the matching of executed steps with those of the world.
 pub(super) struct Order<'a> {
     pub(super) left: Peekable<Enumerate<Iter<'a, ExecutedStep>>>,
     pub(super) renewed: Vec<usize>,

@@ -28,14 +28,14 @@ use std::ops::Range;
 #[derive(PartialEq)]
 enum ContactRule {
     Off,
-    /// The object may press into the obstacle, a support, up to the allowed depth.
+    /// The obstacle is a support. The object may press into it up to the allowed depth.
     Pressed,
-    /// The object must keep away in all orientations about the tip. This applies to level objects and links that joint
-    /// 1 carries, because such links turn relative to the object.
+    /// The object must keep away in all orientations about the tip. This rule applies to level objects and links that
+    /// joint 1 carries, because such links turn relative to the object.
     Round,
 }
 
-/// The state between steps.
+/// The state of the task between two steps.
 pub(super) struct Replay<'a> {
     arm: &'a Arm,
     task: &'a Task,
@@ -49,21 +49,21 @@ pub(super) struct Replay<'a> {
     keeps: String,
     /// Depth to which the carried object may press into its supports.
     pressed: Interval,
-    /// Obstacles and objects in their current state, then moving obstacles, then links of the robot. `None` stands for
-    /// the carried object.
+    /// Obstacles and objects in their current state, then moving obstacles, then links of the robot. An entry is `None`
+    /// for the carried object.
     present: Vec<Option<PlacedObstacle>>,
     /// The same obstacles and links, in their initial state.
     all: Vec<&'a Obstacle>,
     /// The last knot of the previous step.
     knot: usize,
     held: Option<HeldObject>,
-    /// Number of the object that was released last, among the obstacles. `None` if it must not be touched any more.
+    /// Index among the obstacles of the object that was released last. `None` if it must not be touched any more.
     released: Option<usize>,
     /// Greatest deviation so far of an object or the tip from its required place.
     pub(super) off: BigInt,
 }
 
-/// The heights at which shapes are checked: their own (`Raised`), or all heights of the stroke that lowers them. With
+/// The heights at which shapes are checked: their own (`Raised`), or all heights that they have during the stroke. With
 /// `Lying`, the carried object is checked at its final pose.
 #[derive(Clone, Copy, PartialEq)]
 enum ToolHeights {
@@ -187,7 +187,7 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// Returns the rule by which the carried object must keep away from an obstacle. Returns `None` if they cannot
+    /// Returns the rule by which the carried object must keep away from an obstacle. Returns `None` if the two cannot
     /// collide.
     fn meets(&self, held: &HeldObject, obstacle: usize, tool: ToolHeights) -> Option<ContactRule> {
         let own = self.task.first + held.object;
@@ -232,8 +232,8 @@ impl<'a> Replay<'a> {
         others.iter().map(|solid| part(solid, &*self.keeps, ContactRule::Off)).chain(supported).chain(round).collect()
     }
 
-    /// Checks that no obstacle is inside the carried object when its motion begins, and that no support is inside the
-    /// part of the object that must keep away from supports.
+    /// Checks two conditions when the motion of a carried object begins. No obstacle is inside the object. No support
+    /// is inside the part of the object that must keep away from supports.
     fn require_outside(
         &self,
         held: &HeldObject,
@@ -259,8 +259,8 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// Checks that the arm, with its load, is free on pieces that begin in a configuration. The second link may touch
-    /// the object that was released last, and the obstacle with the number `also`.
+    /// Checks that the arm, with its load, is free on pieces of motion that begin in the configuration `from`. The
+    /// second link may touch the object that was released last, and the obstacle with the index `also`.
     fn free(&self, pieces: &[Piece], from: &Point, also: Option<usize>, tool: ToolHeights) -> Result<(), CheckError> {
         let stroke = match (tool, &self.task.stroke, &self.held) {
             (ToolHeights::Raised | ToolHeights::Lying, ..) => None,

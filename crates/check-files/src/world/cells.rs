@@ -10,14 +10,14 @@ use num_bigint::{BigInt, Sign};
 use serde::Deserialize;
 use std::path::Path;
 
-/// The squares of a picture, as closed sets.
+/// The solid and free squares of a picture, which is an occupancy map. A square includes its sides.
 pub struct Cells {
     size: [usize; 2],
     /// For each square, true if it is solid; row by row from below.
     solid: Vec<bool>,
     /// Length of a square's side.
     side: Decimal,
-    /// Position of the picture's lower left corner; `turn` holds the sine and cosine of the rotation about that corner.
+    /// Position of the picture's lower left corner. `turn` has the sine and cosine of the rotation about that corner.
     at: Point,
     turn: [Interval; 2],
 }
@@ -25,8 +25,8 @@ pub struct Cells {
 /// Maximum number of border pieces. This many need about a gigabyte of memory.
 const MAX_PIECES: usize = 1 << 18;
 
-/// Darkness, from 0 to 255, of pixels that are unknown whatever the thresholds are. ROS's map savers write this value
-/// for unseen cells.
+/// Darkness, from 0 to 255, of pixels that count as unknown for any thresholds. ROS's map savers write this value for
+/// unseen cells.
 const UNSEEN_DARKNESS: i32 = 50;
 
 /// The description of a map, as in the YAML file of ROS's map server. Numbers are exact. Unknown keys are ignored.

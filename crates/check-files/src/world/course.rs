@@ -7,14 +7,14 @@ use cplan_check::obstacle::{ObstacleTrajectory, point};
 use cplan_check::overlap::Shape;
 use num_bigint::{BigInt, Sign};
 
-/// Uniform straight motion from stop to stop. The obstacle waits at the first stop until that stop's time. It leaves
-/// the last stop at a constant velocity.
+/// Uniform straight motion from stop to stop. The obstacle waits at the first stop until the time of that stop. It
+/// leaves the last stop at a constant velocity.
 pub struct StopTrajectory {
     stops: Vec<Stop>,
     velocity: Point,
 }
 
-/// A time, with the position of the frame's origin and the orientation of the frame at that time.
+/// A time, with the position and the orientation that the frame has at that time.
 struct Stop {
     time: Decimal,
     at: Point,

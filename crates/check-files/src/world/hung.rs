@@ -9,11 +9,11 @@ use cplan_check::polygon::{Corner, edges, is_convex, side, surrounds};
 use cplan_check::{CheckError, Input};
 use num_bigint::Sign;
 
-/// Negative binary logarithm of two lower limits for objects that press into supports: for the sine of half the angle
-/// at each corner, and for the length of each side, metres.
+/// Two lower limits for objects that press into supports: on the sine of half the angle at each corner, and on the
+/// length of each side, metres. Each limit is 2 to the power of minus this number.
 const MIN_SINE_BITS: u64 = 30;
 
-/// Negative binary logarithm of the share by which corners that turn inwards are moved less than other corners.
+/// Negative binary logarithm of a share. Corners that turn inwards are moved by this share less than other corners.
 const REFLEX_CORNER_BITS: u32 = 30;
 
 /// Returns convex shapes at the obstacle's place: the obstacle itself if it is convex, or else its sides. A set that
@@ -28,9 +28,9 @@ pub fn solids(obstacle: &Obstacle) -> ReadResult<Vec<Shape>> {
     }
 }
 
-/// Returns the part of an object that must keep away from its supports. Each corner is moved inwards by the length
-/// `by`, or by up to `2^-30` of that less, along the bisector of its angle. The radius of a disc is reduced by this
-/// length, at most to 0.
+/// Returns the part of an object that must keep away from its supports. Each corner is moved inwards along the bisector
+/// of its angle. The length is `by`, or up to `2^-30` of `by` less. The radius of a disc is reduced by this length, at
+/// most to 0.
 ///
 /// # Errors
 /// If the object has no interior, or is too thin.
@@ -91,7 +91,7 @@ fn bent(ring: &[Corner]) -> Vec<Corner> {
 }
 
 /// Moves the corners of a ring by a length along the bisectors of their angles, inwards or outwards. The order of the
-/// corners stays the same. Returns `None` if the result turns the other way round, or if corners are too sharp.
+/// corners stays the same. Returns `None` if the result turns in the other direction, or if corners are too sharp.
 fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Corner>> {
     let turns_left = |ring: &[Corner]| {
         let doubled = edges(ring).map(|([a, b], [c, d])| &(a * d) - &(b * c));

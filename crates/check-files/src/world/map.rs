@@ -54,7 +54,7 @@ impl Reader<'_> {
     }
 }
 
-/// The remaining lines of a file without comments, and the file's name.
+/// A reader of the lines of a file, without comments. It knows the file's name.
 struct Text<'a> {
     name: &'a str,
     lines: Vec<(usize, &'a str)>,

@@ -9,13 +9,13 @@ const MAX_PIXELS: usize = 1 << 26;
 /// The brightness of pixels.
 pub struct Picture {
     pub size: [usize; 2],
-    /// Shade that stands for white. Black is 0.
+    /// Shade of white. The shade of black is 0.
     pub white: u32,
     /// Shade of each pixel, row by row from above; `None` for a pixel that is not opaque.
     pub shades: Vec<Option<u32>>,
 }
 
-/// Reads a picture in either format.
+/// Reads a picture in PNG or PGM.
 pub fn read(bytes: &[u8]) -> Result<Picture, String> {
     match bytes {
         [b'P', kind @ (b'2' | b'5'), rest @ ..] => greymap(rest, *kind == b'2'),
@@ -144,7 +144,7 @@ mod tests {
     use super::*;
     use png::Encoder;
 
-    /// Makes a picture of two pixels per row, with two bits each. The padding of a row must be ignored.
+    /// Returns a picture of two pixels per row, with two bits each. A reader must ignore the padding of a row.
     fn indexed(rows: &[u8]) -> Result<Picture, String> {
         let mut bytes = Vec::new();
         let mut encoder = Encoder::new(&mut bytes, 2, rows.len() as u32);

@@ -20,7 +20,7 @@ struct Pallet {
     turn: Point,
 }
 
-/// Everything to which steps can refer.
+/// All that steps can refer to.
 struct Steps<'r, 'w> {
     reader: &'r Reader<'r>,
     world: &'w World,
@@ -31,7 +31,7 @@ struct Steps<'r, 'w> {
 }
 
 impl Reader<'_> {
-    /// Reads the objects and the steps of a world. Returns `None` if it has no steps.
+    /// Reads the objects and the steps of a world. Returns `None` if the world has no steps.
     pub(super) fn task(&self, table: &DeTable, world: &mut World) -> ReadResult<Option<Task>> {
         let list = |key: &str| table.get(key).map_or(Ok(Vec::new()), |value| self.list(value));
         let mut pallets = BTreeMap::new();
@@ -176,7 +176,7 @@ impl Reader<'_> {
         Ok(places)
     }
 
-    /// Returns the numbers of the named obstacles and objects. A name may stand for all objects of a pallet.
+    /// Returns the indices of the named obstacles and objects. A name may mean all objects of a pallet.
     fn supports(&self, list: &Value, world: &World, first: usize, objects: &[Object]) -> ReadResult<Vec<usize>> {
         let mut all = Vec::new();
         for value in self.list(list)? {

@@ -6,13 +6,13 @@ use cplan_check::interval::{Interval, Point};
 use cplan_check::polygon::Corner;
 use cplan_check::world::Goal;
 
-/// Tolerance of resting heights, metres: `10^-6`. An object rests on a support if its lower end reaches into the
-/// support by no more than this.
+/// Number of decimals of the tolerance of resting heights: `10^-6` m. An object rests on a support if its lower end
+/// reaches into the support by no more than this.
 pub const RESTING_DECIMALS: u32 = 6;
 
 /// The task that the steps of a world describe.
 pub struct Task {
-    /// Number of the first object among the world's obstacles. The other objects follow it.
+    /// Index of the first object among the world's obstacles. The other objects follow it.
     pub first: usize,
     pub objects: Vec<Object>,
     pub steps: Group,
@@ -40,7 +40,8 @@ pub struct Wrist {
     pub joint: Option<String>,
 }
 
-/// The joint that lowers the tool, and the distance. If the distance is `None`, it is as far as objects are lifted.
+/// The joint that lowers the tool, and the distance by which it does. If the distance is `None`, it is the distance by
+/// which objects are lifted.
 pub struct Stroke {
     pub joint: String,
     pub travel: Option<Decimal>,
@@ -71,7 +72,7 @@ pub struct Step {
     pub dwell: Decimal,
 }
 
-/// Time and place at which a moving object must be picked, as far as the step states them.
+/// Time and place at which a moving object must be picked. `None` for those that the step does not state.
 #[derive(Default)]
 pub struct MovingPick {
     /// Range of allowed times, seconds after the task began.
@@ -82,7 +83,7 @@ pub struct MovingPick {
 
 /// The action of a step.
 pub enum Action {
-    /// The tip moves to a point of an object, which is attached to it from then on.
+    /// The tip moves to a point of an object. From then on, the object is attached to it.
     Pick {
         object: usize,
         grasp: Corner,
@@ -98,16 +99,17 @@ pub enum Action {
     Move(Goal),
 }
 
-/// Rules that apply from a pick to the place that follows.
+/// Rules that apply from a pick to the next place step.
 pub struct CarryRules {
     /// Obstacles that the object may touch.
     pub supports: Vec<usize>,
-    /// True if the wrist may turn the object to the angle of its place.
+    /// True if the wrist may turn the object to the angle that the place step requires.
     pub may_turn: bool,
 }
 
 impl Task {
-    /// Returns the rules for an object that is picked from supports, and placed by the step `placing` if there is one.
+    /// Returns the rules for an object that is picked from `supports`, and placed by the step `placing` if there is
+    /// one.
     pub fn carrying(&self, object: usize, supports: &[usize], placing: Option<&Step>) -> CarryRules {
         let mut carrying = CarryRules { supports: supports.to_vec(), may_turn: false };
         if let Some(Action::Place { angle, supports, .. }) = placing.map(|step| &step.action) {

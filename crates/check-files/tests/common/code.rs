@@ -2,7 +2,7 @@
 
 use cplan_check_files::{CheckError, check};
 
-/// Judges a certificate, and returns the exit code.
+/// Checks a certificate, and returns the exit code.
 pub fn code(urdf: &str, world: &str, certificate: &str) -> i32 {
     match check(urdf, world, certificate) {
         Ok(_) => 0,

@@ -55,14 +55,14 @@ pub fn holds((code, report): (i32, String)) -> String {
     report
 }
 
-/// Asserts that a certificate fails with all of these words.
+/// Asserts that a certificate fails, with a message that has all of these words.
 #[track_caller]
 pub fn fails((code, report): (i32, String), parts: &[&str]) {
     assert!(code == 3 && parts.iter().all(|part| report.contains(part)), "{code} {report}");
 }
 
-/// Returns a certificate that the elbow cannot fold beyond 2.65 rad: from there on, the shape overlaps the part for all
-/// values of the shoulder within [`LIMITS`].
+/// Returns a certificate that the elbow cannot fold beyond 2.65 rad. Its evidence: from there on, the shape overlaps
+/// the part for all values of the shoulder within [`LIMITS`].
 pub fn shut(shape: &str, part: &str) -> String {
     let stuck = |k: i32| {
         let [low, high] = [k, k + 1].map(|k| f64::from(k) / 10.0);

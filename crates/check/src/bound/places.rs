@@ -7,14 +7,15 @@ use crate::interval::{BITS, Interval, Point};
 use num_bigint::{BigInt, Sign};
 use std::collections::BTreeMap;
 
-/// A place in the plane of the metric: coordinates are scaled so that lengths are those of the metric.
+/// A place in the plane of the metric. Its coordinates are scaled, so that Euclidean lengths or greatest entries are
+/// lengths in the metric.
 #[derive(Clone)]
 pub(super) struct Place {
     pub(super) at: Point,
     /// Lower and upper bound on each coordinate, in coarse units, rounded outward.
     pub(super) coarse: [[i64; 2]; 2],
     /// Value of joint 1 as written in the certificate, and the number of whole turns added to it. `None` if the place
-    /// spans several values of joint 1.
+    /// has several values of joint 1.
     pub(super) line: Option<Line>,
 }
 
@@ -103,8 +104,8 @@ impl Place {
         Some(Self { at, coarse: [first?, second?], line })
     }
 
-    /// Returns the side of the line from `a` to `b` on which this place certainly lies: 1 for left, -1 for right, 0 if
-    /// this is uncertain.
+    /// Returns the side of the line from `a` to `b` on which this place certainly lies: 1 for left, -1 for right, and 0
+    /// if this is uncertain.
     pub(super) fn side(&self, a: &Self, b: &Self) -> i8 {
         // Coarse middles are off by less than two units, so differences are off by less than four.
         let middle = |place: &Self| place.coarse.map(|[low, high]| (low + high) / 2);

@@ -11,7 +11,7 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-/// Maximum number of copies of walls, on all turns that a path of the certified length can reach.
+/// Maximum number of copies of walls on all turns that a path of the certified length can reach.
 const MAX_COPIES: usize = 200_000;
 
 /// An end of a wall at which shortest paths may turn.
@@ -20,8 +20,8 @@ pub(super) struct Corner {
     at: Place,
     /// Lower bound on the length of paths from the corner to a goal.
     rest: BigInt,
-    /// Claimed lower bound on the length of paths from the start to the corner. `None` stands for the certified length
-    /// minus `rest`.
+    /// Claimed lower bound on the length of paths from the start to the corner. If it is `None`, the bound is the
+    /// certified length minus `rest`.
     potential: Option<BigInt>,
 }
 
@@ -134,7 +134,7 @@ impl<'a> Plane<'a> {
     /// Checks that the potential grows along each leg by at most the leg's length, unless walls block the leg.
     ///
     /// # Errors
-    /// Names a leg along which the potential grows too much.
+    /// A leg along which the potential grows too much.
     pub(super) fn check_potentials(&self, corners: &[Corner]) -> Result<(), CheckError> {
         let claimed: Vec<BigInt> = corners
             .iter()
@@ -178,8 +178,8 @@ impl<'a> Plane<'a> {
         is_long || self.metric.is_at_least(&from.at, &to.at, length)
     }
 
-    /// Returns true if walls block every straight leg from `from` to any point of `to`. A leg is blocked if it crosses
-    /// a wall. A leg that runs along walls is blocked if other walls touch these from both sides.
+    /// Returns true if walls block every straight leg from `from` to any point of `to`. A wall blocks a leg that
+    /// crosses it. Walls along a leg block it if other walls touch them from both sides.
     fn bars(&self, from: &Place, to: &Place, latest: &Cell<usize>) -> bool {
         if self.copies.get(latest.get()).is_some_and(|copy| copy.crosses(from, to)) {
             return true;

@@ -9,7 +9,7 @@ use serde::Deserialize;
 pub struct Bound {
     /// Target configuration; the goal by default.
     pub to: Option<[Decimal; 2]>,
-    /// Claimed lower bound on the length of all motions, in units of the metric.
+    /// Claimed lower bound on the length of every motion, in units of the metric.
     pub length: Decimal,
     /// Length metric.
     #[serde(default)]
@@ -20,7 +20,7 @@ pub struct Bound {
     pub potentials: Vec<Potential>,
 }
 
-/// Length of a displacement, computed from its two entries.
+/// Metric: the length of a displacement, computed from its two entries.
 #[derive(Deserialize, Default)]
 #[serde(rename_all = "snake_case")]
 pub enum Metric {
@@ -55,7 +55,8 @@ pub struct Potential {
     pub wall: usize,
     /// The end of the wall: 0 for its first configuration, 1 for its last.
     pub end: usize,
-    /// Whole turns by which each joint is shifted from the wall as written to the copy that is meant.
+    /// Numbers of whole turns by which each joint is shifted. They turn the wall as written into the copy to which the
+    /// bound applies.
     #[serde(default)]
     pub turns: [i64; 2],
     /// The lower bound.

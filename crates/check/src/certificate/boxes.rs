@@ -12,13 +12,13 @@ use serde::Deserialize;
 pub struct ShapeName {
     /// Name of the link.
     pub link: String,
-    /// Number among the link's collision shapes; `None` for other kinds.
+    /// Index among the link's collision shapes; `None` for other kinds.
     pub collision: Option<usize>,
-    /// Number among the link's visual shapes; `None` for other kinds.
+    /// Index among the link's visual shapes; `None` for other kinds.
     pub visual: Option<usize>,
     /// 0 for the bar that the world defines; `None` for other kinds.
     pub bar: Option<usize>,
-    /// A height within the intended layer, if the shape has several layers.
+    /// A height within the layer, if the shape is cut into several layers.
     pub height: Option<Decimal>,
 }
 
@@ -26,17 +26,17 @@ pub struct ShapeName {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PartName {
-    /// Number of the obstacle in the world; absent if the part belongs to the robot.
+    /// Index of the obstacle in the world; `None` if the part belongs to the robot.
     pub obstacle: Option<usize>,
-    /// Corners of the part; absent for a circle.
+    /// Corners of the part; `None` for a circle.
     pub corners: Option<Vec<Corner>>,
     /// Name of the link, if the part belongs to the robot.
     pub own: Option<String>,
-    /// Number of the link's shape, if it is a collision shape.
+    /// Index of the link's shape, if it is a collision shape.
     pub collision: Option<usize>,
-    /// Number of the link's shape, if it is a visual shape.
+    /// Index of the link's shape, if it is a visual shape.
     pub visual: Option<usize>,
-    /// A height within the intended layer, if the shape has several layers.
+    /// A height within the layer, if the shape is cut into several layers.
     pub height: Option<Decimal>,
 }
 

@@ -9,8 +9,8 @@ use serde::Deserialize;
 pub struct Motion {
     /// Interpolations that a controller may use between the knots. The motion must be free with each of them.
     pub interpolation: Vec<Interpolation>,
-    /// For each knot: the time, both joints' values, then their velocities, then their accelerations. Velocities and
-    /// accelerations may be absent if no interpolation needs them.
+    /// The knots. Each has the time, both joints' values, then their velocities, then their accelerations. Velocities
+    /// and accelerations may be absent if no interpolation needs them.
     pub knots: Vec<Vec<Decimal>>,
 }
 

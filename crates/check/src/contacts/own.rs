@@ -9,7 +9,7 @@ use crate::shapes::{Outline, named};
 /// Finds the shape of a link that is an obstacle for other links, or one of its layers.
 ///
 /// # Errors
-/// If the name is incomplete, or if no shape that counts has this name.
+/// If the name is incomplete, or if no shape that is checked for collisions has this name.
 pub fn part(arm: &Arm, name: &PartName) -> Result<Evident, CheckError> {
     let (link, kind, number) = match (&name.own, name.collision, name.visual, &name.corners) {
         (Some(link), Some(number), None, None) => (link, "collision", number),

@@ -12,12 +12,12 @@ use crate::interval::{BITS, Interval, Point, length, minus};
 use crate::world::Goal;
 use num_bigint::BigInt;
 
-/// Maximum error of a motion at its start or goal: `10^-5` radians or metres. Rounding to six decimals, in joints several
-/// metres from the tip, causes about this error.
+/// Number of decimals of the maximum error of a motion at its start or goal: `10^-5` radians or metres. Rounding to six
+/// decimals, in joints several metres from the tip, causes about this error.
 const END_TOLERANCE_DECIMALS: u32 = 5;
 
 impl End {
-    /// Describes the end in words. If the knot, which is a motion's first or last, is not exactly at the end, adds a
+    /// Describes the end in words. `knot` is the first or last one of a motion. If it is not exactly at the end, adds a
     /// power of ten that bounds its distance from the end.
     ///
     /// # Errors
@@ -32,7 +32,7 @@ impl End {
     }
 }
 
-/// Describes in words by how much a motion misses an end, as a power of ten that is at least the error `off`.
+/// Describes the distance between a motion and an end in words: as a power of ten that is at least the error `off`.
 ///
 /// # Errors
 /// If the error exceeds `10^-5`.
@@ -79,7 +79,7 @@ impl Arm {
     }
 
     /// Returns an upper bound on the difference between a joint's value and any number of a target range. For a
-    /// continuous joint, whole turns do not count.
+    /// continuous joint, whole turns are ignored.
     fn joint_error(&self, joint: usize, actual: &Decimal, target: &Range) -> BigInt {
         let apart = &Interval::from(actual) - &Interval::around(target);
         if !matches!(self.joints[joint].axis, Axis::Circle) {

@@ -12,7 +12,8 @@ use crate::world::Goal;
 /// Maximum number of rectangles that cover the configurations for a tip position, in a proof that there is no motion.
 pub const MAX_ENCLOSED_PARTS: usize = 2000;
 
-/// Maximum number of such rectangles in a proof that no motion is shorter, where a rough cover is enough.
+/// Maximum number of rectangles that cover the configurations for a tip position, in a proof that no motion is shorter.
+/// A rough cover is enough there.
 pub const MAX_LOCATED_PARTS: usize = 500;
 
 impl End {
@@ -57,8 +58,8 @@ pub enum Region {
 }
 
 impl Region {
-    /// Returns rectangles that cover the region, except for the configurations in rectangles that `is_left_out`
-    /// excludes. There are at most `most` for each tip position.
+    /// Returns rectangles that cover the region. Configurations in rectangles that `is_left_out` excludes need not be
+    /// covered. There are at most `most` rectangles for each tip position.
     pub fn places(&self, arm: &Arm, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
         self.places_by(arm, most, &is_left_out)
     }
@@ -73,8 +74,8 @@ impl Region {
 }
 
 impl Arm {
-    /// Returns the tip positions for which a rectangle of the goal stands, given its opposite corners: all positions in
-    /// it if both joints are prismatic, and only its centre otherwise.
+    /// Returns the tip positions that a rectangle of the goal means, given its opposite corners. They are all positions
+    /// in it if both joints are prismatic, and only its centre otherwise.
     pub fn area(&self, [a, b]: &[Corner; 2]) -> Point {
         if self.joints.iter().any(|joint| !matches!(joint.motion, Motion::Slide(_))) {
             return [0, 1].map(|k| Interval::from(&Decimal::middle(&a[k], &b[k])));

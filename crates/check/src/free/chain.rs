@@ -6,8 +6,8 @@ use crate::curve::Tube;
 use crate::interval::{Interval, Point, sum};
 use crate::obstacle::Obstacle;
 
-/// A vector that turns and grows with the joints: `R(±(s1 q1 + s2 q2)) (at + direction q)`. `by` selects the joints
-/// that turn it, `back` the minus sign, and `slide` the joint whose value `q` moves it along a direction.
+/// A vector that turns and grows with the joints: `R(±(s1 q1 + s2 q2)) (at + direction q)`. `by` states which joints
+/// turn it. `back` states that the sign is minus. `slide` is the joint whose value `q` moves it along a direction.
 #[derive(Clone)]
 pub(super) struct Term {
     pub(super) by: [bool; 2],
@@ -56,7 +56,7 @@ impl From<&Arm> for Chain {
 }
 
 impl Chain {
-    /// Makes a chain whose both joints turn left about a point.
+    /// Returns a chain whose two joints both turn left about a point.
     pub fn about(point: &Point) -> Self {
         let offset = [0, 0].map(Interval::whole);
         Self { motions: [Motion::Turn(1), Motion::Turn(1)], base: point.clone(), offset }
@@ -129,7 +129,8 @@ impl Chain {
         self.still(&self.hanging(on, a), values)
     }
 
-    /// Converts an object from plane coordinates to the frame of the second link, which picks it up in a configuration.
+    /// Converts an object from plane coordinates to the frame of the second link, which picks it up in this
+    /// configuration.
     pub fn hung(&self, lying: &Obstacle, values: &Point) -> Obstacle {
         lying.clone().moved(self.seen_at(&lying.at, values), self.turn(1, &lying.turn, true, values))
     }

@@ -11,11 +11,11 @@ const CHARTS_PER_ROW: usize = 2;
 /// Height of the title above the charts, in pixels.
 const TITLE_HEIGHT: f64 = 44.0;
 
-/// Fonts of the charts. The PNG writer has the first one; a viewer uses the first one that it has.
+/// Fonts of the charts. The writer of PNG files has the first one. A viewer uses the first one that is installed.
 const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
 
 impl Convergence {
-    /// Draws all charts as one SVG document. The same figures give the same bytes.
+    /// Draws all charts as one SVG document. The same data give the same bytes.
     #[must_use]
     pub fn to_svg(&self) -> String {
         let charts = self.charts();
@@ -124,7 +124,8 @@ fn errors(courses: &[Course]) -> LineChart {
     }
 }
 
-/// Returns numbers of colour and dashes. Each relaxation has its colour, and each order its dashes.
+/// Returns indices of the colour and of the dashes of a relaxation. Each relaxation has its own colour, and each order
+/// its own dashes.
 fn pen(scheme: Scheme) -> [usize; 2] {
     match scheme {
         Scheme::Simultaneous { factor } => [0, usize::from(factor != 1.0)],

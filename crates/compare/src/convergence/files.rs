@@ -61,8 +61,8 @@ impl Convergence {
         Table { columns, rows: self.courses.iter().map(row).collect() }
     }
 
-    /// Returns a table with one row per equation: the sweeps with the best factor of the scan, with the formula's
-    /// factor, and with Young's factor.
+    /// Returns a table with one row per equation. It has the number of sweeps with the best factor of the scan, with
+    /// the formula's factor, and with Young's factor.
     #[must_use]
     pub fn factor_table(&self) -> Table {
         let cells =
@@ -94,8 +94,8 @@ impl Convergence {
         Table { columns, rows: self.weights.iter().map(row).collect() }
     }
 
-    /// Returns a table with one row per relaxation of two stages: how the changes of a sweep jump where preferences
-    /// begin.
+    /// Returns a table of the relaxations that have two stages. It shows how the changes in a sweep jump when
+    /// preferences are added in the second stage.
     #[must_use]
     pub fn leap_table(&self) -> Table {
         let row = |course: &Course| {
@@ -124,8 +124,8 @@ impl Convergence {
 
     /// Returns CSV with one line per sample, in full precision. Samples are taken after sweeps (`error`), for each
     /// factor of SOR (`factor`) and of weighted Jacobi (`weight`), and for each strength of the drift (`epsilon`). For
-    /// the last three, `sweep` is the total number of sweeps. Columns that do not apply are empty. The last line of a
-    /// relaxation has its `ending`.
+    /// the last three kinds, `sweep` is the total number of sweeps. Columns that do not apply are empty. The last line
+    /// of a relaxation has its `ending`.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut text = format!("{CSV_COLUMNS}\n");
@@ -163,8 +163,8 @@ impl Convergence {
         text
     }
 
-    /// Returns everything as a JSON object. A sample is a list of numbers, all of one length, with null for a value
-    /// that is unknown or infinite.
+    /// Returns all data as a JSON object. A sample is a list of numbers. All samples have the same length, with null
+    /// for a value that is unknown or infinite.
     #[must_use]
     pub fn to_json(&self) -> Value {
         let course = |Course { equation, relaxation, trace }: &Course| {
@@ -228,7 +228,7 @@ impl Convergence {
         })
     }
 
-    /// Returns name, order and factor of a relaxation on this domain.
+    /// Returns the name, the order and the factor of a relaxation on this domain.
     fn parts(&self, relaxation: &Relaxation) -> (&'static str, Option<String>, f64) {
         let factor = relaxation.factor(self.cells);
         match relaxation.scheme {

@@ -24,7 +24,8 @@ const COLORS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#b04f88", "#a87400"
 /// Dashes of lines, in pixels. They distinguish lines of one colour.
 const DASHES: [&str; 4] = ["", "7 3", "2 3", "7 3 2 3"];
 
-/// Returns colour and dashes of a line by its number. The dashes change each time that all colours have been used.
+/// Returns indices of the colour and of the dashes of a line, given the line's index. After all colours have been used,
+/// the next dashes follow.
 pub fn pen(line: usize) -> [usize; 2] {
     [line % COLORS.len(), line / COLORS.len()]
 }
@@ -42,7 +43,7 @@ pub struct LineChart {
 /// A line with its name.
 pub struct Line {
     pub name: String,
-    /// Indices of colour and dashes.
+    /// Indices into `COLORS` and `DASHES`.
     pub pen: [usize; 2],
     pub points: Vec<[f64; 2]>,
     /// True to draw a dot at each point.
@@ -51,7 +52,7 @@ pub struct Line {
 
 impl LineChart {
     /// Draws the chart with its upper left corner at `[left, top]`. Returns an empty text if there are no points. An
-    /// axis is logarithmic if its values differ greatly; values that a logarithmic axis cannot show are left out.
+    /// axis is logarithmic if its values differ greatly. Values that a logarithmic axis cannot show are omitted.
     pub fn svg(&self, [left, top]: [f64; 2]) -> String {
         let of = |k: usize| self.lines.iter().flat_map(|line| &line.points).map(move |point| point[k]);
         let marks = self.marks.iter().map(|mark| mark.0);
@@ -165,7 +166,7 @@ mod tests {
         LineChart { title: "t".into(), axes, lines: vec![line], marks: vec![(1.0, "here")] }.svg([0.0, 0.0])
     }
 
-    /// Centres of the dots.
+    /// Returns the centres of the dots.
     fn dots(svg: &str) -> Vec<[f64; 2]> {
         let document = roxmltree::Document::parse(svg).unwrap();
         let dots = document.descendants().filter(|node| node.has_tag_name("circle"));

@@ -40,8 +40,8 @@ fn factors() -> Vec<f64> {
     (20..39).map(|k| f64::from(k) / 20.0).chain((95..100).map(|k| 1.0 + f64::from(k) / 100.0)).collect()
 }
 
-/// Iterates over the factors of weighted Jacobi in the scan, in steps of 0.05. It begins at 0.5: smaller factors only
-/// take longer.
+/// Iterates over the factors of weighted Jacobi in the scan, in steps of 0.05. The scan begins at 0.5, because smaller
+/// factors only take longer.
 fn weights() -> impl Iterator<Item = f64> {
     (10..40).map(|k| f64::from(k) / 20.0)
 }
@@ -111,7 +111,7 @@ pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Conv
 }
 
 /// Relaxes with increasing factors of weighted Jacobi. Stops at the first factor that does not converge and is at least
-/// 1; with smaller ones, convergence may only be slow.
+/// 1. Below 1, a relaxation that does not converge may only be slow.
 fn weight_scan(
     name: &str,
     domain: &Domain,
@@ -129,7 +129,8 @@ fn weight_scan(
     Ok(WeightScan { equation: name.to_owned(), points })
 }
 
-/// Returns Young's best factor of SOR for Jacobi's rate of convergence. `None` if the rate is not below 1.
+/// Returns the best factor of SOR by Young's formula, given Jacobi's rate of convergence. `None` if the rate is not
+/// below 1.
 fn best_factor(rate: f64) -> Option<f64> {
     (rate < 1.0).then(|| 2.0 / (1.0 + (1.0 - rate * rate).sqrt()))
 }

@@ -25,7 +25,7 @@ pub struct Convergence {
     pub title: String,
     /// Rows and columns.
     pub cells: [usize; 2],
-    /// Number of cells whose values are sought.
+    /// Number of cells whose values are unknowns.
     pub free: usize,
     /// Rule by which a relaxation ends.
     pub stopping: Stopping,
@@ -33,13 +33,14 @@ pub struct Convergence {
     pub order: Order,
     /// All relaxations of the first equation, then those of the next one.
     pub courses: Vec<Course>,
-    /// For each equation, the sweeps against the factor of SOR.
+    /// For each equation, the number of sweeps as a function of the factor of SOR.
     pub factors: Vec<FactorScan>,
-    /// For each equation, the sweeps against the factor of weighted Jacobi.
+    /// For each equation, the number of sweeps as a function of the factor of weighted Jacobi.
     pub weights: Vec<WeightScan>,
     /// Direction of the drift in the scans over its strength, in grid coordinates; a vector of length 1.
     pub direction: [f64; 2],
-    /// For each discretisation of the drift, the sweeps of Gauss-Seidel against its strength.
+    /// For each discretisation of the drift, the number of sweeps of Gauss-Seidel as a function of the drift's
+    /// strength.
     pub strengths: Vec<StrengthScan>,
 }
 
@@ -59,11 +60,13 @@ pub struct Course {
 pub struct FactorScan {
     /// The name of the equation.
     pub equation: String,
-    /// The result at `4 / (2 + sqrt(4 - c^2))`, the best factor for Laplace's equation in an empty rectangle of this
-    /// many cells.
+    /// The result for the factor `4 / (2 + sqrt(4 - c^2))`, the best one for Laplace's equation in an empty rectangle
+    /// of this many cells. `c` is as in the formula of [`cplan_fields::Factor::Formula`].
     pub formula: Point,
-    /// The result at `2 / (1 + sqrt(1 - r^2))`, where `r` is the measured rate of Jacobi relaxation on this domain. For
-    /// consistent orders, such as rows and red-black, this is the best factor if all eigenvalues are real (Young 1954).
+    /// The result for the factor `2 / (1 + sqrt(1 - r^2))`, where `r` is the measured rate of Jacobi relaxation on this
+    /// domain. For consistent orders, such as rows and red-black, this is the best factor if all eigenvalues are real
+    /// (Young 1954).
+    ///
     /// `None` if `r` is unknown or not below 1, or the equation is not monotone.
     pub by_rate: Option<Point>,
     /// Results for the factors of the scan, in ascending order.
@@ -71,8 +74,9 @@ pub struct FactorScan {
 }
 
 /// Numbers of sweeps for several factors of weighted Jacobi, in steps of 0.05. The scan ends at the first factor from 1
-/// on that does not converge. No greater factor converges: for each eigenvalue `m` of Jacobi's relaxation, a sweep
-/// multiplies a part of the error by `1 - w (1 - m)`, whose absolute value is convex in the factor `w` and 1 at 0.
+/// on that does not converge, because no greater factor converges. The reason: for each eigenvalue `m` of Jacobi's
+/// relaxation, a sweep multiplies a part of the error by `1 - w (1 - m)`. Its absolute value is convex in the factor
+/// `w`, and 1 at `w = 0`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WeightScan {
     /// The name of the equation.
@@ -110,8 +114,8 @@ impl Point {
 }
 
 impl FactorScan {
-    /// Returns the converged point with the fewest sweeps, among the points of the scan, `formula` and `by_rate`. Of
-    /// several such points, returns the one with the least factor.
+    /// Returns the converged point with the fewest sweeps, among the points of the scan, `formula` and `by_rate`. If
+    /// several are equal, returns the one with the least factor.
     #[must_use]
     pub fn best(&self) -> Option<Point> {
         fewest(self.points.iter().chain([&self.formula]).chain(&self.by_rate))
@@ -119,14 +123,14 @@ impl FactorScan {
 }
 
 impl WeightScan {
-    /// Returns the converged point with the fewest sweeps; of several such points, the one with the least factor.
+    /// Returns the converged point with the fewest sweeps. If several are equal, returns the one with the least factor.
     #[must_use]
     pub fn best(&self) -> Option<Point> {
         fewest(self.points.iter())
     }
 
-    /// Returns the point with the least factor from which on no relaxation of the scan converged. `None` if the last
-    /// one converged.
+    /// Returns the point with the least factor from which on no relaxation of the scan converges. `None` if the last
+    /// one converges.
     #[must_use]
     pub fn lost_from(&self) -> Option<Point> {
         lost_from(&self.points)
@@ -139,15 +143,15 @@ fn lost_from(points: &[Point]) -> Option<Point> {
     points.get(after).copied()
 }
 
-/// Returns the converged point with the fewest sweeps; of several such points, the one with the least parameter.
+/// Returns the converged point with the fewest sweeps. If several are equal, returns the one with the least parameter.
 fn fewest<'a>(points: impl Iterator<Item = &'a Point>) -> Option<Point> {
     let converged = points.filter(|point| point.converged().is_some()).copied();
     converged.min_by(|a, b| a.sweeps.cmp(&b.sweeps).then(a.at.total_cmp(&b.at)))
 }
 
 impl StrengthScan {
-    /// Returns the point with the least strength from which on no relaxation of the scan converged. `None` if the last
-    /// one converged.
+    /// Returns the point with the least strength from which on no relaxation of the scan converges. `None` if the last
+    /// one converges.
     #[must_use]
     pub fn lost_from(&self) -> Option<Point> {
         lost_from(&self.points)

@@ -1,6 +1,6 @@
 //! The axis of a chart.
 
-/// An axis becomes logarithmic if the ratio of its greatest to its least value is at least this.
+/// Least ratio of an axis's greatest to its least value for which the axis is logarithmic.
 const LOGARITHMIC_RATIO: f64 = 8.0;
 
 /// Largest number of ticks, except on a logarithmic axis over many decades.
@@ -54,7 +54,7 @@ impl Axis {
         }
     }
 
-    /// Returns powers of ten and some of their multiples: as many kinds of multiples as there is room for.
+    /// Returns powers of ten and multiples of them. It uses as many kinds of multiples as there is room for.
     fn factors(&self) -> Vec<f64> {
         let decades = self.lower.log10().floor() as i32..=self.upper.log10().ceil() as i32;
         let within = |digits: &[f64]| -> Vec<f64> {
@@ -86,7 +86,7 @@ impl Axis {
     }
 }
 
-/// Formats a round number with as many digits as needed to distinguish it from its neighbours at a distance of `apart`.
+/// Formats a round number. It has as many digits as needed to distinguish it from neighbours at the distance `apart`.
 fn written(value: f64, apart: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();

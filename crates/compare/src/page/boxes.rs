@@ -15,8 +15,8 @@ const ROW_HEIGHT: f64 = 30.0;
 const TOP_MARGIN: f64 = 6.0;
 /// Room below the last line for the axis, in pixels.
 const AXIS_HEIGHT: f64 = 26.0;
-/// Largest number of runs that are shown as dots. More dots would make a grey surface; then only every second or third
-/// run is shown, and so on.
+/// Largest number of runs that are shown as dots. More dots would merge into a grey surface. With more runs, only every
+/// second or third one is shown, and so on.
 const MAX_DOTS: usize = 250;
 
 /// Draws the chart of one measure. `None` if no run has a value.

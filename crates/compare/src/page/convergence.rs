@@ -5,7 +5,7 @@ use super::{foot, head, section};
 use crate::Convergence;
 
 impl Convergence {
-    /// Returns the page as a self-contained file without scripts. The same figures give the same bytes.
+    /// Returns the page as a self-contained file without scripts. The same data give the same bytes.
     #[must_use]
     pub fn to_html(&self) -> String {
         let [rows, columns] = self.cells;
@@ -24,7 +24,7 @@ impl Convergence {
             + &foot(METHOD_NOTE)
     }
 
-    /// Describes the leap where preferences begin, if there are any.
+    /// Describes the jump of the changes at the point where preferences are added, if there is one.
     fn leaps(&self) -> String {
         let leaps = self.leap_table();
         if leaps.rows.is_empty() { String::new() } else { section("Where preferences begin", &table(&leaps)) }

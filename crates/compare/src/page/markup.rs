@@ -3,18 +3,18 @@
 use crate::{Align, Table};
 use cplan_text::{markup, wrapped};
 
-/// Number of colours of planners; further planners repeat them. They are Okabe and Ito's colours, as for paths in
+/// Number of colours of planners. With more planners, colours repeat. They are Okabe and Ito's colours, as for paths in
 /// pictures.
 pub const COLOR_COUNT: usize = 6;
 
-/// Largest number of characters of a planner's name in one line before a chart.
+/// Largest number of characters in one line of a planner's name before a chart.
 const MAX_NAME_CHARACTERS: usize = 24;
 
 /// Distance of two lines of a name, in pixels.
 const NAME_LINE_HEIGHT: f64 = 13.0;
 
 /// Writes a name before a line of a chart: right-aligned at `right`, and centred about the height `middle`. A long name
-/// takes two lines; of a still longer one, the second line shows the end.
+/// takes two lines. Of a name that is still longer, the second line shows the end.
 pub fn name_before(name: &str, right: f64, middle: f64) -> String {
     let lines = name_lines(name);
     let first = middle - NAME_LINE_HEIGHT * 0.5 * (lines.len() - 1) as f64;

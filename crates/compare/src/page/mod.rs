@@ -40,7 +40,7 @@ pub struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// Returns the page. The same figures give the same bytes.
+    /// Returns the page. The same data give the same bytes.
     #[must_use]
     pub fn html(&self) -> String {
         let study = self.study;
@@ -157,12 +157,12 @@ pub fn head(title: &str, subtitle: &str) -> String {
     )
 }
 
-/// Returns the foot of a page. `how` is an HTML text that says how the numbers were obtained.
+/// Returns the foot of a page. `how` is an HTML text about how the numbers were obtained.
 pub fn foot(how: &str) -> String {
     format!("<footer>{how}</footer>\n</main>\n</body>\n</html>\n")
 }
 
-/// If there are more problems than this, their list is folded.
+/// Number of problems above which their list is folded.
 const MAX_UNFOLDED_PROBLEMS: usize = 40;
 
 /// The page's own style sheet, after the one of all pages.

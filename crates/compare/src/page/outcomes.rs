@@ -9,11 +9,11 @@ use cplan_text::markup;
 const BAR_WIDTH: f64 = 460.0;
 /// Height of a planner's line, in pixels.
 const ROW_HEIGHT: f64 = 28.0;
-/// Width in pixels that a number and a sign need.
+/// Width in pixels that a number and a sign take.
 const NUMBER_WIDTH: f64 = 44.0;
 
-/// Draws one bar per planner: the problems that it solved, that it proved infeasible, and that it left open. Each piece
-/// of a bar shows its sign, and its number if there is room.
+/// Draws one bar per planner, with three pieces: the problems that it solved, those that it proved infeasible, and
+/// those that it left open. Each piece shows its sign, and its number if there is room.
 pub fn bars(study: &Study) -> String {
     let planners = study.planners();
     let height = ROW_HEIGHT * planners.len() as f64 + 4.0;

@@ -18,7 +18,7 @@ pub struct Overlay {
     pub blocked: Vec<Vec<[f64; 2]>>,
     /// Paths of each planner, in unwrapped values.
     pub planners: Vec<(String, Vec<Vec<[f64; 2]>>)>,
-    /// Which of all paths are shown, in words. `None` if all are shown.
+    /// Which paths are shown, in words, if not all are. `None` if all are shown.
     pub note: Option<String>,
 }
 
@@ -81,8 +81,8 @@ fn lines(overlay: &Overlay, lines: &[Vec<[f64; 2]>], closed: bool) -> String {
     data
 }
 
-/// Returns the distances by which copies of a line are moved along an axis to reach into the window. On an interval,
-/// returns 0 only.
+/// Returns the distances by which a line must be moved along an axis so that its copies reach into the window. On an
+/// interval, returns only 0.
 fn shifts(overlay: &Overlay, line: &[[f64; 2]], axis: usize) -> Vec<f64> {
     if !overlay.circles[axis] {
         return vec![0.0];

@@ -25,15 +25,15 @@ const ROUNDING: f64 = 1e-13;
 /// proofs.
 pub const COLLISION_ROUNDING: f64 = 2e-12;
 
-/// A set of deviations from a configuration, symmetric about it.
+/// A set of deviations from a configuration. It is symmetric: with every deviation it contains the opposite one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Deviation {
-    /// A straight motion: the deviations `t d` for `-1 <= t <= 1`.
+    /// The deviations `t d` of a straight motion, for `-1 <= t <= 1`. The value is `d`.
     Along(Configuration),
-    /// A box: all deviations with `|d_1| <= h_1` and `|d_2| <= h_2`.
+    /// All deviations `d` with `|d_1| <= h_1` and `|d_2| <= h_2`. The value is `h`.
     Box([f64; 2]),
-    /// The sums of a deviation along a straight motion and one in a box. It covers, for example, a curve about its
-    /// chord.
+    /// All sums of a deviation of [`Deviation::Along`] and one of [`Deviation::Box`]. They cover, for example, a curve
+    /// that stays near its chord.
     Tube(Configuration, [f64; 2]),
 }
 
@@ -57,7 +57,7 @@ impl Deviation {
         }
     }
 
-    /// Returns the greatest values of `|d_1|` and `|d_2|` over the deviations.
+    /// Returns the greatest value of `|d_1|` over the deviations, and that of `|d_2|`.
     fn each(self) -> [f64; 2] {
         match self {
             Deviation::Along(d) => [d[0].abs(), d[1].abs()],
@@ -73,11 +73,11 @@ pub struct Posture<'a> {
     scene: &'a Scene,
     q: Configuration,
     poses: [Pose; 3],
-    /// Positions of joint 2: at the configuration, and with joint 1 at zero instead.
+    /// Positions of joint 2 in the plane: first at the configuration, then with joint 1 at zero instead.
     elbows: [Point; 2],
 }
 
-/// The distance of a pair at a posture, and a lower bound on it nearby.
+/// The distance of a pair of shapes at one configuration, and a lower bound on it at nearby configurations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeparationBound {
     /// Signed distance at the posture, with its direction.
@@ -98,11 +98,11 @@ struct Shapes<'s> {
     drift: Option<&'s Drift>,
 }
 
-/// A bound on the second derivative of the motion of a point `p` by the deviation's parameter:
-/// `(|p - center| + shift) factor^2 + constant`.
+/// A bound on the acceleration of a moving point `p`, that is on the second derivative of its position by the
+/// deviation's parameter: `(|p - center| + shift) factor^2 + constant`.
 #[derive(Debug, Clone, Copy)]
 pub struct Curvature {
-    /// The point from which the distance of `p` counts.
+    /// The point from which the distance of `p` is measured.
     center: Point,
     /// A length added to that distance, metres.
     shift: f64,
@@ -150,8 +150,8 @@ impl<'a> Posture<'a> {
         self.bound_up_to(pair, deviation, |_| f64::INFINITY)
     }
 
-    /// Does the same as [`Posture::bound`], but stops as soon as the bound is at least the value that `enough`
-    /// returns for the distance at the posture.
+    /// Does the same as [`Posture::bound`], but may stop early. `enough` receives the distance at the posture and
+    /// returns the bound that suffices.
     pub fn bound_up_to(&self, pair: Pair, deviation: Deviation, enough: impl Fn(f64) -> f64) -> SeparationBound {
         self.least(self.shapes(pair), deviation, enough)
     }
@@ -170,7 +170,8 @@ impl<'a> Posture<'a> {
         self.least(Shapes { piece: &piece, drift: Some(drift), ..standing }, deviation, enough)
     }
 
-    /// Does the same as [`Posture::disc_bound`] for a loose obstacle that drifts.
+    /// Does the same as [`Posture::disc_bound`] for a loose obstacle that drifts: returns a lower bound on the
+    /// distance.
     pub fn apart_drifting(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> f64 {
         let (center, around) = disc(self.scene.piece(pair));
         let drifts = drift.farthest(center.norm() + around);
@@ -213,17 +214,17 @@ impl<'a> Posture<'a> {
         between - extent - around - ROUNDING * scale
     }
 
-    /// Returns centre and radius of a disc that contains the part of a pair over `deviation`.
+    /// Returns centre and radius of a disc that contains the moving part of a pair over the whole `deviation`.
     pub fn place(&self, pair: Pair, deviation: Deviation) -> (Point, f64) {
         let (center, extent) = disc(self.scene.part(pair));
         (self.poses[pair.link].point(center), extent + self.farthest_motion(pair, deviation))
     }
 
-    /// Returns an upper bound on the signed distance of a pair over `deviation`. If it is negative, the pair
-    /// collides at every deviation.
-    ///
-    /// The reason: if the shapes were apart at some deviation, a line would separate them there. Moved back by the
-    /// farthest motion of a point, that line would bound the depth at the posture by this motion.
+    /// Returns an upper bound on the signed distance of a pair over `deviation`. If it is negative, the pair collides
+    /// at every deviation.
+    /// The reason: suppose that the shapes were apart at some deviation. Then a line would separate them there. On the
+    /// way back to the posture, no point moves farther than the greatest motion. So at the posture the shapes would
+    /// overlap by at most that motion.
     #[must_use]
     pub fn greatest(&self, pair: Pair, deviation: Deviation) -> f64 {
         let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
@@ -233,14 +234,15 @@ impl<'a> Posture<'a> {
         })
     }
 
-    /// Returns a bound on all lengths in the computation of a distance, to which its rounding is relative.
+    /// Returns a bound for all lengths that occur in the computation of a distance. The rounding error of the distance
+    /// is a fraction of this bound.
     pub fn scale(&self, corners: &[Point], radius: f64, piece: &Convex) -> f64 {
         let base = self.scene.arm().base;
         base.norm() + reach(corners, base) + radius.max(0.0) + piece.reach_from(base)
     }
 
-    /// Returns a bound with the separating direction fixed in the plane. The link's corners move, and those of a
-    /// drifting obstacle as well.
+    /// Returns a lower bound on the distance, computed along a direction that is fixed in the plane. The corners of the
+    /// link move, and so do those of a drifting obstacle.
     fn least_in_plane(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
         let Shapes { link, local, piece, drift } = shapes;
         let curvature = self.curvature_in_plane(link, deviation);
@@ -266,8 +268,8 @@ impl<'a> Posture<'a> {
         least
     }
 
-    /// Returns a bound with the separating direction fixed in the link. The obstacle's corners move: each has the
-    /// opposite of the velocity of the link's point at the same place.
+    /// Returns a lower bound on the distance, computed along a direction that is fixed in the link. Seen from the link,
+    /// the obstacle's corners move. Each has the opposite of the velocity of the link's point at the same place.
     fn least_in_link(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
         let Shapes { link, piece, .. } = shapes;
         let line = corners.iter().map(|p| n.dot(p)).fold(f64::NEG_INFINITY, f64::max);
@@ -298,7 +300,7 @@ impl<'a> Posture<'a> {
         [first, second]
     }
 
-    /// Returns the curvature of the motion in the plane of points given in the link's frame.
+    /// Returns the bound on the acceleration in the plane of points that are fixed to the link.
     pub fn curvature_in_plane(&self, link: usize, deviation: Deviation) -> Curvature {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
@@ -320,7 +322,7 @@ impl<'a> Posture<'a> {
         }
     }
 
-    /// Returns the curvature of the motion in the link's frame of points at rest in the plane.
+    /// Returns the bound on the acceleration, as seen from the link, of points that are fixed in the plane.
     pub fn curvature_in_link(&self, link: usize, deviation: Deviation) -> Curvature {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();

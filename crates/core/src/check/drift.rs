@@ -8,26 +8,28 @@ use cplan_geometry::{Point, Pose, Vector, perpendicular};
 pub struct Drift {
     /// Pose of the obstacle's frame in the middle of the span.
     pub middle: Pose,
-    /// Velocity of the frame's origin, metres per unit of the parameter, if it is constant in the span. Otherwise
-    /// zero.
+    /// Velocity of the frame's origin, metres per unit of the parameter. Zero if the velocity changes within the span;
+    /// see `any`.
     pub velocity: Vector,
-    /// Angular velocity, radians per unit of the parameter, if it is constant in the span. Otherwise zero.
+    /// Angular velocity, radians per unit of the parameter. Zero if it changes within the span; see `any`.
     pub turn: f64,
     /// Half the length of the span, in units of the parameter.
     pub half: f64,
-    /// Bounds on the speed of the origin (metres per unit) and on the angular speed (radians per unit) in a span in
-    /// which the velocity changes. Zero if it is constant.
+    /// Bounds for a span in which the velocity changes: on the speed of the origin (metres per unit) and on the angular
+    /// speed (radians per unit). Zero if the velocity is constant.
     pub any: [f64; 2],
 }
 
 impl Drift {
-    /// Returns the displacement, to first order, during half of the span of the point that is at `p` in the middle.
+    /// Returns the displacement of a point during half of the span, to first order. The point is at `p` in the middle
+    /// of the span.
     #[must_use]
     pub fn of(&self, p: Point) -> Vector {
         (self.velocity + perpendicular(p - self.origin()) * self.turn) * self.half
     }
 
-    /// Returns a bound on the difference between that point's actual displacement and [`Drift::of`], metres.
+    /// Returns a bound, in metres, on the difference between the actual displacement of the point at `p` and
+    /// [`Drift::of`].
     #[must_use]
     pub fn beyond(&self, p: Point) -> f64 {
         let reach = (p - self.origin()).norm();
@@ -35,8 +37,8 @@ impl Drift {
         turned * turned * reach / 2.0 + (self.any[0] + self.any[1] * reach) * self.half
     }
 
-    /// Returns an upper bound on the motion during half of the span, metres, of points within `reach` of the frame's
-    /// origin.
+    /// Returns an upper bound, in metres, on the motion during half of the span of all points within `reach` of the
+    /// frame's origin.
     #[must_use]
     pub fn farthest(&self, reach: f64) -> f64 {
         (self.velocity.norm() + self.any[0] + (self.turn.abs() + self.any[1]) * reach) * self.half

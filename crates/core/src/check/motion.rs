@@ -11,32 +11,31 @@ use cplan_interrupt::checkpoint;
 /// to 1 costs more evaluations: a few more for every halving of the gap.
 const TIGHTNESS: f64 = 0.9;
 
-/// Number of checks of a pair on a piece of a path before the search gives up, if the path has few waypoints. They
-/// take some seconds.
+/// Number of distance evaluations before the search gives up, for a path with few waypoints. They take some seconds.
 const MAX_EVALUATIONS: usize = 5_000_000;
-/// Number of checks per waypoint that are added to [`MAX_EVALUATIONS`]. Paths through mazes have hundreds of
-/// thousands of waypoints.
+/// Number of distance evaluations per waypoint that are added to [`MAX_EVALUATIONS`]. Paths through mazes have hundreds
+/// of thousands of waypoints.
 const EVALUATIONS_PER_PIECE: usize = 500;
 
 /// Rounding error of a configuration on a segment, relative to the larger of the segment's ends: three operations.
 /// On circles joint values may be many turns from zero, where doubles lie far apart.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Parts of a curve with numbers below this have one posture for all pairs. These parts are the whole curve and
-/// three levels of halves.
+/// Parts of a curve with numbers below this share one [`Posture`] among all pairs of shapes. These parts are the whole
+/// curve and three levels of halves.
 const SHARED_PARTS: usize = 16;
 
 /// Allowed distance of the end of one path from the start of the next, relative to the size of the joint values.
 const JOIN_ROUNDING: f64 = 1e-9;
 
-/// Pairs are not checked if their distance exceeds this multiple of the target, which is at least [`TIGHTNESS`] of
-/// the least distance seen. A nearer pair then determines the proven clearance. Must exceed the inverse of
-/// [`TIGHTNESS`], with room for rounding.
+/// Pairs of shapes farther apart than this multiple of the target are not checked. The target is at least [`TIGHTNESS`]
+/// of the least distance seen, so a nearer pair determines the proven clearance. The multiple must exceed the inverse
+/// of [`TIGHTNESS`], with room for rounding.
 const DISTANCE_CUTOFF: f64 = 2.0;
 
-/// A path whose whole continuous motion is proven to be within the joint limits and to keep its clearance. Only
-/// [`certify`] makes one from a path; [`CertifiedPath::then`], [`CertifiedPath::part`] and [`CertifiedPath::within`]
-/// derive others.
+/// A path whose whole continuous motion is proven to stay within the joint limits and at the required clearance from
+/// obstacles. [`certify`] creates one from a path. [`CertifiedPath::then`], [`CertifiedPath::part`] and
+/// [`CertifiedPath::within`] derive others.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifiedPath {
     path: Path,
@@ -44,7 +43,7 @@ pub struct CertifiedPath {
     nearest: Option<Nearest>,
 }
 
-/// The least distance from an obstacle among the configurations that the search examined.
+/// The configuration nearest to an obstacle among those that the search examined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
     /// The configuration at which it was found.
@@ -60,8 +59,8 @@ impl CertifiedPath {
         &self.path
     }
 
-    /// Returns the same path with another nearest place, and with `clearance` if that is lower than the present one.
-    /// For motions that deviate from the path.
+    /// Returns the same path for a motion that deviates from it. The nearest approach is replaced, and the clearance is
+    /// lowered to `clearance` if that is less.
     #[must_use]
     pub fn within(self, clearance: f64, nearest: Option<Nearest>) -> Self {
         Self { clearance: self.clearance.min(clearance), nearest, ..self }
@@ -192,8 +191,8 @@ impl<'a> StraightMotions<'a> {
     }
 }
 
-/// Returns the deviations from a place on a segment to all places within the fraction `half` of the segment on
-/// either side, plus the rounding of that place.
+/// Returns the deviations from a point of a segment to all points within the fraction `half` of the segment on either
+/// side. They include the rounding error of that point.
 fn part_of(from: Configuration, to: Configuration, half: f64) -> Deviation {
     let rounded = [0, 1].map(|k| ROUNDING * from[k].abs().max(to[k].abs()));
     Deviation::Tube((to - from) * half, rounded)
@@ -222,8 +221,8 @@ impl<'a> CurveSearch<'a> {
         Self { scene, required, tightness: TIGHTNESS, proven: f64::INFINITY, nearest: None, budget, open: Vec::new() }
     }
 
-    /// Creates a search that decides only whether the distance `required` is kept, not by how much, with at most
-    /// `budget` checks of pairs.
+    /// Creates a search that decides only whether the motion keeps the distance `required`, not by how much. It makes
+    /// at most `budget` distance evaluations.
     #[must_use]
     pub fn deciding(scene: &'a Scene, required: f64, budget: usize) -> Self {
         Self { tightness: 0.0, ..Self::new(scene, required, budget) }
@@ -259,7 +258,7 @@ impl<'a> CurveSearch<'a> {
         self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance)
     }
 
-    /// Returns the value at which a bound is accepted, given that `distance` was seen as well.
+    /// Returns the value at which a bound is accepted, if the least distance seen so far includes `distance`.
     fn target(&self, distance: f64) -> f64 {
         if self.tightness > 0.0 {
             (self.tightness * self.least_distance().min(distance)).max(self.required)
@@ -268,7 +267,7 @@ impl<'a> CurveSearch<'a> {
         }
     }
 
-    /// Returns the distance beyond which pairs need no check.
+    /// Returns the distance, in metres, beyond which pairs of shapes need no check.
     fn cutoff(&self) -> f64 {
         if self.tightness > 0.0 { DISTANCE_CUTOFF * self.target(f64::INFINITY) } else { self.required }
     }
@@ -277,7 +276,7 @@ impl<'a> CurveSearch<'a> {
         self.curve(vicinity, |middle, half| (from + (to - from) * middle, part_of(from, to, half)))
     }
 
-    /// Judges a curve, whose parameter goes from 0 to 1. `part` takes the middle and the half width of a range of
+    /// Checks a curve, whose parameter goes from 0 to 1. `part` receives the middle and the half width of a range of
     /// the parameter. It returns the configuration in the middle, and deviations from it that cover the range.
     ///
     /// # Errors
@@ -297,7 +296,7 @@ impl<'a> CurveSearch<'a> {
         vicinity.near(&whole.0, whole.1, self.cutoff(), |pair| self.pair(pair, &whole, &mut shared, posed))
     }
 
-    /// Judges one pair along a curve. The postures of parts with low numbers are shared with other pairs.
+    /// Checks one pair of shapes along a curve. The postures of parts with low numbers are shared with other pairs.
     fn pair(
         &mut self,
         pair: Pair,

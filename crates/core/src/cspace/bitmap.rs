@@ -12,7 +12,7 @@ use std::ops::Range;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Bitmap {
     cells: [usize; 2],
-    /// Number of words per row.
+    /// Number of 64-bit words per row.
     words: usize,
     bits: Vec<u64>,
 }
@@ -125,14 +125,14 @@ impl Centers {
     }
 }
 
-/// Iterates over the members of `range` outside all of the `others`, which must be ascending.
+/// Iterates over the members of `range` that are in none of the `others`, which must be ascending.
 fn without<'a>(range: Range<usize>, others: &'a [Range<usize>]) -> impl Iterator<Item = usize> + 'a {
     let ends = others.iter().map(|o| o.start).chain([usize::MAX]);
     let starts = [0].into_iter().chain(others.iter().map(|o| o.end));
     starts.zip(ends).flat_map(move |(from, to)| from.max(range.start)..to.min(range.end))
 }
 
-/// Sets the bits from `from` to before `to`.
+/// Sets the bits from `from` up to, but not including, `to`.
 fn fill(words: &mut [u64], from: usize, to: usize) {
     if from >= to {
         return;

@@ -5,7 +5,7 @@ use crate::space::Configuration;
 use cplan_geometry::{Convex, Pose, Separation, Vector, separation};
 use std::f64::consts::TAU;
 
-/// A configuration, with the direction from part to piece along which they are separated there.
+/// A configuration of a pair of shapes, with the direction from part to piece along which they are separated.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contact {
     /// Unwrapped joint values.
@@ -139,8 +139,9 @@ impl<'a> PairMotion<'a> {
     }
 }
 
-/// Computes the bound of [`PairMotion`]. `least` is `G`. `across` has the gap at the start along the direction of
-/// the end, and the gap at the end along the direction of the start.
+/// Computes the bound that [`PairMotion`] explains. `least` is `G`. `across` has the gap at the start along the
+/// direction of the end, and the gap at the end along the direction of the start. `cosine` is `c`, and `curvature` is
+/// `k`.
 fn bound(least: f64, across: [f64; 2], cosine: f64, curvature: f64) -> f64 {
     // At each end its own direction gives the greatest gap, so only rounding can make this negative.
     let defect = (2.0 * least - across[0] - across[1]).max(0.0);

@@ -9,8 +9,8 @@ use std::borrow::Cow;
 /// Shapes with at most this many corners stay unchanged, since simpler ones would hardly save time.
 const MAX_UNCHANGED_CORNERS: usize = 16;
 
-/// If an obstacle still has more pieces than this after its outline is simplified, small cells cover it, if that
-/// gives fewer pieces.
+/// Number of pieces of a simplified obstacle above which a covering by small cells is tried. It is used if it has fewer
+/// pieces.
 const MAX_PIECES: usize = 512;
 
 /// Number of attempts to simplify a polygon whose coarse outline crosses itself. Each attempt has a quarter of the
@@ -127,8 +127,8 @@ fn around_convex(core: &[Point], within: f64) -> Option<Vec<Point>> {
     (outline.len() > 2).then_some(outline)
 }
 
-/// Returns the point where the line of a side, beyond the side's end, meets the line of a later side, before that
-/// side's start. Returns `None` if the two directions differ by more than a right angle.
+/// Returns the point where the extensions of two sides meet: the first beyond its end, the second before its start.
+/// Returns `None` if the two directions differ by more than a right angle.
 fn where_lines_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<Point> {
     let (u, v) = (b - a, d - c);
     let turn = cross(u, v);

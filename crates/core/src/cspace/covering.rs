@@ -150,7 +150,7 @@ fn merge(runs: &mut Vec<Run>) {
     });
 }
 
-/// Runs in consecutive rows, of which each meets only the next one.
+/// Runs in consecutive rows. Each run meets exactly one run of the next row.
 struct Stack {
     /// The row of the first run.
     bottom: usize,
@@ -255,11 +255,12 @@ mod tests {
         }
     }
 
-    /// Points, position and size of a piece, and whether its corners may lie anywhere.
+    /// Points, position and size of a piece. The flag is true if its corners may lie anywhere, false if they lie on a
+    /// lattice.
     type Given = (Vec<(f64, f64)>, (f64, f64, f64), bool);
 
-    /// Pieces with corners on a lattice (so that sides touch lattice lines, or are horizontal or vertical) or
-    /// anywhere.
+    /// Generates pieces. Their corners lie anywhere, or on a lattice. On a lattice, sides often touch lattice lines, or
+    /// are horizontal or vertical.
     fn pieces() -> impl Strategy<Value = Vec<Convex>> {
         let spread = |free: bool, v: f64| if free { v } else { (v * 8.0).round() / 8.0 };
         let piece = prop::collection::vec((-0.5..0.5f64, -0.5..0.5f64), 1..6);
@@ -285,7 +286,7 @@ mod tests {
             covers(&pieces, &polygons, within, &shares);
         }
 
-        /// Compares with the hull of a side's corners, and with their distances from the hull.
+        /// Compares the bulge with distances from the hull of a side's corners, computed directly.
         #[test]
         fn a_bulge_is_the_depth_of_the_deepest_pocket(columns in prop::collection::vec(-6..6i64, 1..12)) {
             // The stack ends far to the right, so no other side of the hull is near.
@@ -319,8 +320,8 @@ mod tests {
         covers(&slices, &polygons, 0.02, &[0.2, 0.7, 1.0]);
     }
 
-    /// A hundred thousand short segments in a square need about as many polygons as the square has cells along its
-    /// sides.
+    /// Tests that a hundred thousand short segments in a square need few polygons: about as many as the square has
+    /// cells along its sides.
     #[test]
     fn pieces_of_a_square_are_covered_by_about_the_square() {
         let step = |k: u64| (k.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f64 / (1_u64 << 24) as f64;

@@ -15,11 +15,12 @@ const TOLERANCE_RESERVE: f64 = 1.0 / 16.0;
 /// on it: [`events`] finds what coarse slices could miss.
 const FIRST_SLICES: usize = 24;
 
-/// Overlap of neighbouring contours, relative to the width of the narrowest strip. It is far above the rounding of
-/// the union and far below the tolerance.
+/// Overlap of neighbouring contours in `q1`, as a fraction of the width of the narrowest strip. It is far above the
+/// rounding of the union and far below the tolerance.
 const CONTOUR_OVERLAP: f64 = 1e-3;
 
-/// The slices of one pair of link 2, with the distances that chords between them must keep.
+/// The slices of one pair of shapes with a part of link 2. The distances state how near to the obstacle chords between
+/// the slices may come.
 pub(super) struct Curves<'a> {
     slices: &'a Contacts<'a>,
     index: usize,

@@ -6,9 +6,9 @@ use cplan_geometry::{Convex, Point, Vector, cross, perpendicular, separation};
 use cplan_interrupt::checkpoint;
 use std::f64::consts::TAU;
 
-/// Tolerance, metres, for deciding whether the foot of a perpendicular lies on a side, and whether a distance equals
-/// the level. It can only add values that are no events, and each costs a slice. To miss an event would cost the
-/// guarantee.
+/// Tolerance, metres, of two decisions: whether the foot of a perpendicular lies on a side, and whether a distance
+/// equals the level. The tolerance can only add values that are no events, and each costs a slice. A missed event would
+/// invalidate the guarantee.
 const FOOT_SLACK: f64 = 1e-7;
 
 /// Returns values of `q1` at which an interval of `q2` can appear or vanish in which `part` (of link 2, in its
@@ -133,7 +133,7 @@ impl Turning<'_> {
         }
     }
 
-    /// Adds `q1`, unless the shapes are nearer than `level` there with the feature turned to `heading`.
+    /// Adds `q1`, unless the shapes are nearer than `level` when the feature points to `heading`.
     fn consider(&mut self, q1: f64, heading: Vector, feature: &Radial) {
         if let (Some(at), true) = (feature.heading, heading.norm() > FOOT_SLACK) {
             let turn = heading.y.atan2(heading.x) - at.y.atan2(at.x);

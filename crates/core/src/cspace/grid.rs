@@ -10,7 +10,7 @@ use crate::space::{Configuration, Topology};
 pub struct Grid {
     /// Topology of the configuration space.
     pub topology: Topology,
-    /// What a free or a blocked cell proves about its configurations.
+    /// What a free cell, or a blocked one, proves about its configurations.
     pub proves: Proves,
     /// Number of cells along each axis.
     pub cells: [usize; 2],
@@ -36,8 +36,8 @@ impl Grid {
         )
     }
 
-    /// Returns the cell that contains `q` or its copy in the domain. A configuration on a shared side belongs to the
-    /// cell that starts there.
+    /// Returns the index of the cell that contains `q`, or its copy in the domain. A configuration on a shared side
+    /// belongs to the cell that starts there.
     #[must_use]
     pub fn locate(&self, q: Configuration) -> usize {
         let step = self.step();

@@ -13,8 +13,8 @@ pub struct NearestFree {
     pub configuration: Configuration,
     /// Euclidean distance in joint space, which adds squares of radians and metres.
     pub distance: f64,
-    /// Least distance of the arm to an obstacle at that configuration, metres: positive, and at least the
-    /// workspace's clearance. Infinite if nothing can be hit.
+    /// Least distance of the arm to an obstacle at that configuration, metres: positive, and at least the workspace's
+    /// clearance. Infinite if no obstacle is within reach.
     pub clearance: f64,
     /// Distance between neighbouring slices of the search, in units of joint 1: see [`nearest_free`].
     pub spacing: f64,
@@ -50,7 +50,8 @@ struct Search<'a> {
     bands: Slice,
     slice: Slice,
     from: Configuration,
-    /// Distance by which obstacles are grown so that the free part of a slice is certainly free, metres.
+    /// Distance by which obstacles are enlarged, metres. It ensures that the free part of a slice is free despite
+    /// rounding.
     grow: f64,
     best: Option<NearestFree>,
     spacing: f64,
@@ -104,7 +105,7 @@ impl<'a> Search<'a> {
         self.best
     }
 
-    /// Examines ever closer slices around a slice.
+    /// Examines slices around a slice, at ever smaller distances.
     fn refine(&mut self, q1: f64) {
         let (mut middle, mut step) = (q1, self.spacing);
         while step > MIN_SLICE_DISTANCE {
@@ -116,8 +117,9 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the distance of the nearest free configuration with this value of joint 1, and records it if it is
-    /// the best. Returns `None` if the value is not allowed or no such configuration is free.
+    /// Returns the distance from the given configuration to the nearest free one with this value of joint 1, and
+    /// records it if it is the best. Returns `None` if the value is not allowed, or if no configuration with it is
+    /// free.
     fn look(&mut self, q1: f64) -> Option<f64> {
         let [first, second] = self.scene.arm().topology().ranges;
         let inside = |band: &[f64; 2], value: f64| band[0] < value && value < band[1];
@@ -151,7 +153,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Returns the values of joint 1 of the samples that are no farther than their neighbours, best first.
+/// Returns the values of joint 1 of the local minima: samples whose distance is at most that of both neighbours. The
+/// least distance comes first.
 fn minima(mut samples: Vec<(f64, f64)>) -> Vec<f64> {
     samples.sort_by(|a, b| a.0.total_cmp(&b.0));
     let distance = |i: Option<usize>| i.and_then(|i| samples.get(i)).map_or(f64::INFINITY, |s| s.1);

@@ -51,7 +51,7 @@ pub(super) struct Flattening {
 pub(super) struct Breakpoint {
     /// The value of joint 1.
     pub q1: f64,
-    /// True if contours must have a vertex here: the C-obstacle may end or split at this value.
+    /// True if contours must have a vertex at this value, because the C-obstacle may end or split there.
     pub keep: bool,
 }
 
@@ -87,14 +87,14 @@ struct Slice<E> {
 /// A sequence of matched intervals, in unwrapped values.
 struct Chain<E> {
     slices: Vec<([E; 2], bool)>,
-    /// Whole turns to add to the intervals of the last slice to continue the chain.
+    /// Number of whole turns to add to the intervals of the last slice so that they continue the chain.
     turns: f64,
 }
 
 struct Tracer<'r, S: SlicedObstacle> {
     source: &'r mut S,
     how: Flattening,
-    /// One chain for each interval of the last slice.
+    /// The unfinished chains, one for each interval of the last slice.
     open: Vec<Chain<S::End>>,
     done: Vec<Vec<Point>>,
     scratch: Vec<[f64; 2]>,
@@ -269,7 +269,8 @@ fn ordered(sides: &[Vec<Point>; 2]) -> bool {
     below(&sides[0], &sides[1], 1.0) && below(&sides[1], &sides[0], -1.0)
 }
 
-/// Returns the contour between a lower and an upper polyline, extended by `pad` at each end that is not a tip.
+/// Returns the contour between a lower and an upper polyline. It is extended by `pad` at both ends, except at an end
+/// where the two polylines meet.
 fn outline(sides: &[Vec<Point>; 2], pad: f64) -> Vec<Point> {
     let [lower, upper] = sides;
     let mut contour = Vec::with_capacity(lower.len() + upper.len() + 4);

@@ -36,7 +36,7 @@ pub struct PolygonWithHoles {
 }
 
 impl PolygonWithHoles {
-    /// Returns the area, without the holes.
+    /// Returns the area of the polygon, its holes excluded, in the product of the axes' units.
     #[must_use]
     pub fn area(&self) -> f64 {
         signed_area(&self.outer) + self.holes.iter().map(|hole| signed_area(hole)).sum::<f64>()
@@ -67,9 +67,8 @@ fn crossings(contour: &[Point], p: Point) -> usize {
         .count()
 }
 
-/// The part of a C-obstacle that one pair of shapes, or a piece of its range, contributes. It is a simple polygon in
-/// unwrapped joint values; on a circle its copies by whole turns belong to it. For pictures, and as input of the
-/// union.
+/// The polygon that one pair of shapes contributes to a C-obstacle, in unwrapped joint values. One pair may contribute
+/// several. On a circle, its copies by whole turns are implied. Used for pictures, and as input of the union.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CObstacle {
     /// Index of the obstacle, as in [`Pair::obstacle`].
@@ -128,7 +127,7 @@ pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize
     within_window(scene, Proves::Outer { margin }, window(scene, center, periods), obstacles)
 }
 
-/// Returns true if [`exact_c_obstacles`] has the C-obstacles of the scene: both joints are prismatic, and their
+/// Returns true if [`exact_c_obstacles`] returns a result for the scene: both joints are prismatic, and their
 /// directions are not parallel.
 #[must_use]
 pub fn has_exact_polygons(scene: &Scene) -> bool {
@@ -273,9 +272,9 @@ pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
     coarsened(scene, PROVEN_MARGIN_SHARE * margin, (1.0 - PROVEN_MARGIN_SHARE) * margin).pairs().len()
 }
 
-/// Returns the bands of `q1` in which a pair of link 1 is within `level`, over all `q2`. They extend by `pad` beyond
-/// either end of `q2`, so that copies a whole turn apart overlap. For a pair of link 2 and link 1, returns bands of
-/// `q2` over all `q1`.
+/// Returns the bands of `q1` in which a pair of link 1 is within `level`, over all values of `q2`. They extend by `pad`
+/// beyond either end of `q2`, so that copies a whole turn apart overlap. For a pair of link 2 and link 1, returns bands
+/// of `q2` over all values of `q1`.
 fn bands(slices: &Contacts, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
     let domain = |joint: &Joint| if joint.joint_type.is_revolute() { (-PI, PI) } else { joint.range.domain() };
     let folds = slices.scene().pairs()[index].link == 2;

@@ -12,8 +12,8 @@ use std::f64::consts::TAU;
 /// division into cells is about 1e-13 of a cell.
 const ARC_WIDENING: f64 = 1e-9;
 
-/// Largest simplification of shapes with many corners, as a fraction of the margin that the joints' motion within a
-/// cell adds.
+/// Largest simplification of shapes with many corners, as a fraction of the margin that covers the joints' motion
+/// within a cell.
 const MAX_COARSENING: f64 = 1.0 / 16.0;
 
 /// Computes the grid whose cells are blocked if the arm is within `clearance` of an obstacle at the cell's *centre*.

@@ -129,7 +129,7 @@ mod tests {
         ]
     }
 
-    /// Tests distances from the core at the polygon's corners and between them.
+    /// Tests the distances from the core to the polygon's corners and to points between them.
     #[test]
     fn chord_polygons_lie_between_the_sag_and_the_radius() {
         for core in cores() {

@@ -71,14 +71,14 @@ fn parts<'a>(
 /// Number of contours above which neighbours are united first.
 const MAX_DIRECT_CONTOURS: usize = 128;
 
-/// Number of contours in each group that is united first.
+/// Number of contours in each group of the first round.
 const CONTOURS_PER_GROUP: usize = 8;
 
-/// Number of neighbouring groups whose outlines are united in each further round.
+/// Number of neighbouring groups whose outlines are united in each later round.
 const GROUPS_PER_ROUND: usize = 4;
 
-/// If a union keeps more than this fraction of the corners, contours hardly overlap, and only the last union is of
-/// use.
+/// Greatest fraction of corners that a group's union may keep for the groups to be useful. Above it the contours hardly
+/// overlap, and only the last union is computed.
 const MAX_CORNER_SHARE: f64 = 0.75;
 
 /// Distance within which corners are snapped to each other: initially 256 steps of the grid, which is about 3e-15 of
@@ -202,7 +202,7 @@ mod tests {
         assert_eq!(free.len(), 2);
     }
 
-    /// Uses squares on integer coordinates, whose free cells can be counted.
+    /// Tests squares on integer coordinates, whose free cells can be counted.
     #[test]
     fn the_union_of_many_squares_leaves_the_rest_free() {
         let n = 40_usize;

@@ -3,18 +3,18 @@
 use super::Grid;
 use crate::model::Scene;
 
-/// The effect of a preference on a field.
+/// The drift that a preference adds to the field in its region.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Zone {
     /// The user's name for the preference.
     pub name: String,
-    /// Strength of the drift, per grid cell.
+    /// Strength of the drift, as a number per grid cell.
     pub epsilon: f64,
     /// Direction of the drift in joint space, of length 1. `None` if the preference gives none.
     pub direction: Option<[f64; 2]>,
 }
 
-/// A grid whose cells know the preference that applies at their centres.
+/// A grid that knows, for each cell, the preference that applies at the cell's centre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ZonedGrid {
     /// The grid of free and blocked cells.

@@ -23,6 +23,6 @@ pub struct Additions {
 pub struct LooseObstacle {
     /// The obstacle, with its shape in its own frame.
     pub obstacle: Obstacle,
-    /// Angle of that frame in the plane, radians. `None` if the angle differs between places.
+    /// Angle of the object's frame in the plane, radians. `None` if the angle differs between places.
     pub angle: Option<f64>,
 }

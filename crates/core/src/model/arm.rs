@@ -175,8 +175,8 @@ impl Arm {
         [first, first * second, at_zero * second]
     }
 
-    /// Returns an upper bound, in metres and positive, on the distance from joint 1 to the tip and to any point of
-    /// the links' outlines, with both joints at zero. Tolerances are relative to it.
+    /// Returns an upper bound, in metres and positive, on the distance from joint 1 to the tip and to any point of the
+    /// links' outlines, with both joints at zero. Tolerances are multiples of this bound.
     #[must_use]
     pub fn reach(&self) -> f64 {
         let of = |link: usize| self.links[link].parts.iter().map(|p| p.shape.reach_from(Point::zeros()));

@@ -20,7 +20,7 @@ pub struct Attachment {
     pub grip: Grip,
     /// The shapes, in the attachment's own frame.
     pub parts: Vec<AttachedPart>,
-    /// The supports, by their number among the static obstacles.
+    /// The supports, by their indices among the static obstacles.
     pub supports: Vec<usize>,
 }
 
@@ -45,7 +45,7 @@ pub enum Grip {
 pub struct AttachedPart {
     /// The shape, in the attachment's frame.
     pub shape: Convex,
-    /// Number of the attachment's piece that this shape is, or is a part of.
+    /// Index of the attachment's piece that this shape comes from.
     pub number: usize,
     /// True for a copy of a piece that is shrunk, so that it may press slightly into the supports. It can meet only the
     /// supports, without clearance. All other parts can meet all obstacles except the supports.
@@ -166,7 +166,7 @@ impl Attachment {
     }
 }
 
-/// Returns the disc about the tip that covers a level shape at every angle.
+/// Returns a disc about the tip that covers a level attachment's shape at every angle of the link.
 fn all_round(level: &Convex) -> Convex {
     Convex::trusted(vec![Point::zeros()], level.reach_from(Point::zeros()))
 }

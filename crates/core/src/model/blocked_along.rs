@@ -17,7 +17,7 @@ const ROUNDING: f64 = 1e-12;
 /// A part of a segment on which one obstruction is proven to remain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockedStretch {
-    /// The configurations of that part.
+    /// The configurations of the blocked part.
     pub stretch: Segment,
     /// The deepest obstruction found. Its link and obstacle collide on all of the stretch.
     pub obstruction: Obstruction,

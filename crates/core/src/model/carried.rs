@@ -38,12 +38,8 @@ impl CarriedPart {
         self.features.shape()
     }
 
-    /// Appends to `out` the values of the joint at which the part is within `grow` of the piece, with the joint at
-    /// `pivot` on a link whose x axis points along `heading` (a unit vector). Exact up to
-    /// [`cplan_geometry::ROUNDING`]. `O(n m)`.
-    ///
-    /// Returns whether they meet never, always, or within the intervals in `out`. Angles are wrapped as in
-    /// [`Hits::Within`]. A prismatic joint yields at most one interval. The joint's limits are not applied.
+    /// Appends to `out` the values of the joint at which the part is within `grow` of the piece. The joint is at
+    /// `pivot`, on a link whose x axis points along the unit vector `heading`.
     pub fn hits(&self, pivot: Point, heading: Vector, piece: &Features, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         match self.joint_type {
             JointType::Revolute { sign } => {
@@ -71,8 +67,8 @@ impl CarriedPart {
     }
 }
 
-/// Calls `f` with each copy, by whole turns, of the intervals, clipped to the joint's range. For [`Hits::Always`]
-/// calls `f` once, with the whole range.
+/// Calls `f` with every copy of the intervals, by whole turns, that meets the joint's range, clipped to the range. For
+/// [`Hits::Always`] calls `f` once, with the whole range.
 pub fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl FnMut([f64; 2])) {
     let (lower, upper) = joint.range.domain();
     match hits {

@@ -20,8 +20,7 @@ pub struct Contacts<'a> {
     pairs: Vec<PairIndices>,
     parts: Vec<PreparedPart>,
     pieces: Vec<PreparedPiece>,
-    /// Numbers of the first part and of the first pair of link 2. Pairs of link 2 relative to link 1 count among
-    /// them.
+    /// Index of the first part of link 2, and of its first pair. Pairs of link 2 with link 1 count as pairs of link 2.
     second: (usize, usize),
     /// Position of joint 2 and direction of link 1's x axis, both with joint 1 at zero.
     at_zero: (Point, Vector),
@@ -149,8 +148,8 @@ impl<'a> Contacts<'a> {
         self.second.0..self.parts.len()
     }
 
-    /// Fills `found` with numbers of pairs of a part of link 2, ascending: all in which the part can be within
-    /// `grow` of its piece with joint 2 at `elbow`, and possibly some others.
+    /// Fills `found` with numbers of pairs of a part of link 2, ascending. These are all pairs in which the part can be
+    /// within `grow` of its piece with joint 2 at `elbow`, and possibly some others.
     pub fn near(&self, part: usize, elbow: Point, grow: f64, found: &mut Vec<u32>) {
         let part = &self.parts[part];
         part.near(if part.link == 2 { self.at_zero.0 } else { elbow }, grow, found);
@@ -169,7 +168,7 @@ impl<'a> Contacts<'a> {
         self.scene
     }
 
-    /// Appends the values of joint 1 at which pair `index`, of link 1, is within `grow` of contact to `out`.
+    /// Appends to `out` the values of joint 1 at which pair `index`, of link 1, is within `grow` of contact.
     ///
     /// # Panics
     /// If the pair is of link 2, or there is no pair of that number.
@@ -179,8 +178,8 @@ impl<'a> Contacts<'a> {
         self.part(pair).carried.hits(self.scene.arm().base, Vector::x(), self.piece(pair), grow, out)
     }
 
-    /// Appends the values of joint 2 at which pair `index`, of link 2, is within `grow` of contact to `out`, with
-    /// joint 1 at `q1`.
+    /// Appends to `out` the values of joint 2 at which pair `index`, of link 2, is within `grow` of contact, with joint
+    /// 1 at `q1`.
     ///
     /// # Panics
     /// If the pair is of link 1, or there is no pair of that number.
@@ -189,10 +188,10 @@ impl<'a> Contacts<'a> {
         self.at_elbow(index, elbow, heading, grow, out)
     }
 
-    /// Appends the values of joint 1 at which pair `index`, of link 2, may be within `grow` of contact for some
-    /// value of joint 2. At all other values the pair is farther apart. The intervals are those at which the part's
-    /// sweep meets the piece. For a revolute joint 2 the sweep is the disc about the elbow that contains the part at
-    /// every angle. For a prismatic one it is a capsule that contains the part over the joint's whole range.
+    /// Appends values of joint 1 at which pair `index`, of link 2, may be within `grow` of contact for some value of
+    /// joint 2. At all other values the pair is farther apart. The intervals are those at which the part's sweep meets
+    /// the piece. For a revolute joint 2 the sweep is the disc about the elbow that contains the part at every angle.
+    /// For a prismatic one it is a capsule that contains the part over the joint's whole range.
     ///
     /// # Panics
     /// If the pair is of link 1, or there is no pair of that number.
@@ -211,10 +210,8 @@ impl<'a> Contacts<'a> {
         self.second.1..self.pairs.len()
     }
 
-    /// Returns an upper bound on the motion, in metres, of those points of pair `index`'s part that are within
-    /// `clearance` of the piece, while joint 1 moves by at most `step` and joint 2 stands still. A revolute joint
-    /// moves a point along a chord proportional to its distance from the base. A point near the piece is at most
-    /// `clearance` farther from the base than the piece.
+    /// Returns an upper bound, in metres, on how far points move while joint 1 moves by at most `step` and joint 2
+    /// stands still. The points are those of pair `index`'s part that are within `clearance` of the piece.
     #[must_use]
     pub fn motion(&self, index: usize, step: f64, clearance: f64) -> f64 {
         let pair = self.pairs[index];

@@ -20,16 +20,17 @@ const LIMIT_ROUNDING: f64 = 1e-9;
 pub struct Inverse {
     /// The solutions, at most two; empty if the tip cannot reach the target.
     pub branches: Vec<Configuration>,
-    /// The freedom that leaves the tip at the target; `None` if the solutions are isolated. With a freedom there are
-    /// infinitely many solutions. `branches` has the one or two with the preferred value of the free quantity.
+    /// The freedom of the joints that leaves the tip at the target; `None` if the solutions are isolated. With a
+    /// freedom there are infinitely many solutions. `branches` then has the one or two with the preferred value of the
+    /// free quantity.
     pub free: Option<Freedom>,
 }
 
 /// A freedom of the joints that does not affect the tip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Freedom {
-    /// The value of this joint, 0 or 1. For joint 2 (index 1) the tip is on the joint's axis. For joint 1 (index 0)
-    /// the target is.
+    /// The value of the joint with this index, 0 or 1. Joint 2 (index 1) is free if the tip is on its axis. Joint 1
+    /// (index 0) is free if the target is on its axis.
     Joint(usize),
     /// The split of one angle between two revolute joints on a common axis.
     Share,
@@ -73,8 +74,8 @@ fn angle(v: Vector) -> f64 {
     v.y.atan2(v.x)
 }
 
-/// Returns a value of a joint that turns `arm` towards `d`, and whether the value is free. It is free if both
-/// vectors vanish; then it is the preferred one.
+/// Returns a value of a joint that turns the vector `arm` towards `d`, and whether the value is free. It is free if
+/// both vectors vanish. Then the preferred value is returned.
 fn turning(sign: f64, arm: Vector, d: Vector, preferred: f64) -> (f64, bool) {
     let free = arm.norm() <= ZERO_DISTANCE && d.norm() <= ZERO_DISTANCE;
     (if free { preferred } else { sign * (angle(d) - angle(arm)) }, free)

@@ -11,7 +11,8 @@ pub const DEFAULT_TURNING_SPEED: f64 = 1.0;
 /// Top speed of a prismatic joint if none is given, m/s.
 pub const DEFAULT_SLIDING_SPEED: f64 = 0.25;
 
-/// Time to reach the top speed, seconds, from which the acceleration of a joint without a limit on it is computed.
+/// Time in which a joint reaches its top speed if no acceleration is given, seconds. The assumed acceleration follows
+/// from it.
 pub const DEFAULT_TIME_TO_TOP_SPEED: f64 = 0.25;
 
 /// Returns the acceleration assumed for a joint without a limit on it. It reaches `velocity`, the joint's top speed,

@@ -30,7 +30,7 @@ pub struct Dynamics {
     pub gravity: Vector,
     /// Greatest torque (N m) or force (N) of each joint.
     pub effort: [f64; 2],
-    /// True for each joint whose greatest acceleration is assumed because none is given.
+    /// True for each joint whose greatest acceleration is a default, because none is given.
     pub assumed: [bool; 2],
     /// True if motions must stay within `effort`.
     pub limits: bool,

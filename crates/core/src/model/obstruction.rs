@@ -18,7 +18,7 @@ pub struct Obstruction {
 /// Depths below this, metres, are printed as "just touching".
 const TOUCHING_DEPTH: f64 = 1e-9;
 
-/// Depths of at least this, metres, are printed with four decimals; smaller ones in scientific notation.
+/// Depths of at least this, metres, are printed with four decimals. Smaller depths are printed in scientific notation.
 const FOUR_DECIMALS_DEPTH: f64 = 1e-3;
 
 impl Scene {

@@ -30,7 +30,7 @@ impl Goal {
         }
     }
 
-    /// Returns the place for the tip that is nearest to `is`, its present one. `None` for joint values.
+    /// Returns the point for the tip that is nearest to `is`, the tip's present position. `None` for joint values.
     #[must_use]
     pub fn nearest_tip(&self, is: Point) -> Option<Point> {
         match self {
@@ -40,7 +40,7 @@ impl Goal {
     }
 }
 
-/// The reason why a scene, a start and goals make no problem.
+/// The reason why a scene, a start and goals do not form a valid problem.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MotionProblemError {
     /// The start lies outside a joint's limits, or is not a number.
@@ -63,7 +63,7 @@ pub enum MotionProblemError {
     /// A goal lies outside a joint's limits, or is not a number.
     #[error("goal {} is outside the limits of joint \"{joint}\": {value}", goal + 1)]
     GoalOutside {
-        /// Number of the goal, from 0.
+        /// Index of the goal, from 0.
         goal: usize,
         /// The joint's name.
         joint: String,
@@ -74,7 +74,7 @@ pub enum MotionProblemError {
     /// clearance.
     #[error("goal {} is not free: {why}", goal + 1)]
     GoalBlocked {
-        /// Number of the goal, from 0.
+        /// Index of the goal, from 0.
         goal: usize,
         /// The link, the obstacle, and the depth or distance, in words.
         why: String,
@@ -127,7 +127,7 @@ impl MotionProblem {
         Ok(Self { scene, start, goals })
     }
 
-    /// Creates a problem without checks, for a start and goals that are valid or never used.
+    /// Creates a problem without checks. The start and the goals must be known to be valid, or never be used.
     #[must_use]
     #[doc(hidden)]
     pub fn trusted(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> Self {

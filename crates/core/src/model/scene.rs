@@ -16,15 +16,14 @@ use std::borrow::Cow;
 /// into the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Pair {
-    /// 0 or 1 for that link. 2 for a part of link 2 and an obstacle that joint 1 carries; their distance depends on
-    /// joint 2 alone.
+    /// Index of the link, 0 or 1. 2 for a part of link 2 and an obstacle that joint 1 carries; their distance depends
+    /// on joint 2 alone.
     pub link: usize,
     /// Index into the link's parts.
     pub part: usize,
-    /// Number of the obstacle. It counts the workspace's obstacles, then the loose ones, then the arm's self
-    /// obstacles.
+    /// Index of the obstacle: first the workspace's obstacles, then the loose ones, then the arm's self obstacles.
     pub obstacle: usize,
-    /// Number of the piece. It counts the obstacle's pieces, then the shapes derived from them for an attachment.
+    /// Index of the piece: first the obstacle's pieces, then the shapes derived from them for an attachment.
     pub piece: usize,
 }
 
@@ -60,8 +59,8 @@ pub struct Scene {
     differences: Vec<Vec<Convex>>,
 }
 
-/// [`Scene::within_reach`] is of use only if it omits more pairs than this; searches are as fast with a few pairs
-/// more.
+/// [`Scene::within_reach`] returns a scene only if it omits more pairs than this. A few pairs more do not slow down a
+/// search.
 const MIN_PAIRS_TO_OMIT: usize = 200;
 
 /// Bound on the relative rounding error of distances and of the reach, with a wide margin.
@@ -99,7 +98,7 @@ impl Scene {
         Self::assembled(arm, workspace, additions, PairPolicy::ALL)
     }
 
-    /// Creates the scene without checks.
+    /// Creates the scene without checks. `policy` decides which pairs it includes.
     fn assembled(mut arm: Arm, workspace: Workspace, additions: Additions, policy: PairPolicy) -> Self {
         debug_assert_eq!(check(&arm, &workspace, &additions), Ok(()));
         let Additions { loose, attachment, allowed_contacts } = &additions;
@@ -124,9 +123,8 @@ impl Scene {
         Self { arm, workspace, additions, own_parts, policy, pairs, loose_pairs, differences }
     }
 
-    /// Returns the scene for proofs of collisions. Where an outline covers more than the real part, the scene uses
-    /// the inner shape. Its pairs have heights that certainly overlap, and pieces that are not empty in exact
-    /// arithmetic.
+    /// Returns the scene for proofs of collisions. It uses a part's inner shape where the outline covers more than the
+    /// real part. Its pairs have heights that certainly overlap, and pieces that are not empty in exact arithmetic.
     #[must_use]
     pub fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
@@ -164,8 +162,8 @@ impl Scene {
         ))
     }
 
-    /// Returns the scene with other shapes of the arm's own parts and other pieces of obstacles. The numbers of
-    /// parts and obstacles, and the attachment, stay the same.
+    /// Returns the scene with other shapes of the arm's own parts and other pieces of obstacles. How many parts and
+    /// obstacles there are, and the attachment, stay the same.
     #[must_use]
     pub fn reshaped(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>) -> Self {
         self.remade(reshape, pieces, self.policy)
@@ -393,8 +391,8 @@ impl Scene {
         pair.link > 0 && pair.part >= self.own_parts
     }
 
-    /// Returns the piece of the obstacle in a pair, in plane coordinates, even if the pair uses a shape derived from
-    /// it for an attachment.
+    /// Returns the obstacle's piece of a pair, in plane coordinates. For an attachment, a pair may use a shape that is
+    /// derived from this piece; this function still returns the piece itself.
     #[must_use]
     pub fn obstacle_piece(&self, pair: Pair) -> &Convex {
         let pieces = &self.obstacle(pair.obstacle).pieces;

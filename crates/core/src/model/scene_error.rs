@@ -7,14 +7,14 @@ use super::{
 use crate::space::JointRange;
 use cplan_geometry::{Convex, Point, Pose, separation};
 
-/// Tolerance for the length of unit vectors: far above the rounding of normalised vectors, far below any robot's
-/// accuracy.
+/// Tolerance for the length of unit vectors. It is far above the rounding of normalised vectors and far below any
+/// robot's accuracy.
 const UNIT_ROUNDING: f64 = 1e-9;
 
 /// Fraction of a shape's greatest distance from the origin by which rounding may move its corners.
 const SHAPE_ROUNDING: f64 = 1e-9;
 
-/// The reason why an arm, a workspace and additions make no scene.
+/// The reason why a scene cannot be made from an arm, a workspace and additions.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SceneError {
     /// A joint's range is empty, not finite, or too long.
@@ -107,10 +107,10 @@ pub enum SceneError {
         /// The attachment's name.
         object: String,
     },
-    /// An allowed contact or a support has the number of no obstacle.
+    /// The index of an allowed contact or of a support is not that of an obstacle.
     #[error("obstacle number {number} does not exist: there are {count} obstacles, numbered from 0")]
     NoObstacle {
-        /// The number as given; the first obstacle is 0.
+        /// The index as given; the first obstacle has index 0.
         number: usize,
         /// Number of obstacles.
         count: usize,

@@ -4,10 +4,10 @@ use super::{Obstacle, Pair, Scene, SelfObstacle};
 use std::ops::Range;
 
 impl Scene {
-    /// Returns the obstacle with a number: a static one, a loose one (in its own frame), or a link of the robot.
+    /// Returns the obstacle with this index: a static one, a loose one (in its own frame), or a link of the robot.
     ///
     /// # Panics
-    /// If there is no obstacle of that number.
+    /// If there is no obstacle with this index.
     #[must_use]
     pub fn obstacle(&self, number: usize) -> &Obstacle {
         let static_obstacles = self.workspace().obstacles.len();
@@ -18,20 +18,20 @@ impl Scene {
         loose.unwrap_or_else(|| &self.arm().self_obstacles[number - static_obstacles - self.loose().len()].obstacle)
     }
 
-    /// Returns the arm's self obstacle with a number; `None` for static and loose obstacles.
+    /// Returns the arm's self obstacle with this index; `None` for static and loose obstacles.
     #[must_use]
     pub fn self_obstacle(&self, number: usize) -> Option<&SelfObstacle> {
         self.arm().self_obstacles.get(number.checked_sub(self.self_obstacles().start)?)
     }
 
-    /// Returns the numbers of the arm's self obstacles. They follow those of the static and the loose obstacles.
+    /// Returns the indices of the arm's self obstacles. They follow those of the static and the loose obstacles.
     #[must_use]
     pub fn self_obstacles(&self) -> Range<usize> {
         let first = self.workspace().obstacles.len() + self.loose().len();
         first..first + self.arm().self_obstacles.len()
     }
 
-    /// Returns the number of a link's first layer, if the obstacle is one of several layers of a link of the robot.
+    /// Returns the index of a link's first layer if the obstacle is one of several layers of a link of the robot.
     /// Otherwise returns `number`.
     #[must_use]
     pub fn first_layer(&self, number: usize) -> usize {

@@ -13,7 +13,8 @@ pub enum Carrier {
     FirstJoint,
 }
 
-/// A shape of a link of the robot, or one layer of such a shape, that links farther along the chain can hit.
+/// A shape of a link of the robot that links farther along the chain can hit. The shape may be cut into layers of
+/// different heights; then each layer is a self obstacle.
 ///
 /// A [`super::Scene`] numbers self obstacles after the static and the loose obstacles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -24,19 +25,19 @@ pub struct SelfObstacle {
     /// The shape as an obstacle of one piece, in plane coordinates with both joints at zero. Its name is that of the
     /// URDF link.
     pub obstacle: Obstacle,
-    /// Number of the shape. It counts the shapes of the URDF link that have a size.
+    /// Index of the shape among the shapes of the URDF link that have a size.
     pub number: usize,
     /// True if the shape is `<visual>` geometry.
     pub is_visual: bool,
-    /// URDF links that may meet the shape: neighbours in the chain, and those that the world allows.
+    /// URDF links that are allowed to meet the shape: neighbours in the chain, and those that the world file allows.
     pub ignored: Vec<String>,
-    /// Other URDF links that may meet the shape, because they meet it in every configuration.
+    /// Other URDF links that are allowed to meet the shape, because they meet it in every configuration.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub permanent: Vec<String>,
 }
 
 impl SelfObstacle {
-    /// Returns true if a URDF link may meet the shape.
+    /// Returns true if a URDF link is allowed to meet the shape.
     #[must_use]
     pub fn ignores(&self, link: &str) -> bool {
         self.ignored.iter().chain(&self.permanent).any(|ignored| ignored == link)

@@ -17,11 +17,12 @@ pub struct Heights {
     pub upper: f64,
 }
 
-/// Bound on the rounding of heights, metres. Heights are sums of products of stated numbers.
+/// Bound on the rounding error of heights, metres. Heights are sums of products of numbers that the input files state.
 const ROUNDING: f64 = 1e-9;
 
-/// Depth, metres, by which an object's bottom may be below the top of its support without a contact. It is above the
-/// rounding of heights that drawings state and stacks add up. It is far below the compliance of any gripper.
+/// Depth, metres, by which the bottom of an object may be below the top of its support without counting as a contact.
+/// It is above the rounding of heights that drawings state and stacks add up. It is far below the compliance of any
+/// gripper.
 pub const RESTING_TOLERANCE: f64 = 1e-6;
 
 impl Heights {
@@ -61,7 +62,8 @@ impl Heights {
         self.definitely_meet(other) && !self.is_above(other, RESTING_TOLERANCE + ROUNDING)
     }
 
-    /// Returns the union of these heights after all lifts from `least` to `most`, metres.
+    /// Returns the heights that an object at these heights passes through when it is lifted by `least` to `most`
+    /// metres.
     #[must_use]
     pub fn lifted(self, [least, most]: [f64; 2]) -> Self {
         Self { lower: self.lower + least, upper: self.upper + most }
@@ -108,8 +110,8 @@ impl Shape {
         }
     }
 
-    /// Changes the shape to [`Shape::Pieces`] unless it consists of exactly these pieces, so that pictures show what
-    /// is judged.
+    /// Changes the shape to [`Shape::Pieces`] unless it consists of exactly these pieces. So pictures show the shape
+    /// that collision checks use.
     pub fn restrict_to(&mut self, pieces: &[Convex]) {
         let own = match self {
             // Predicates could overflow on larger coordinates. Obstacles with such corners are invalid anyway.
@@ -204,7 +206,8 @@ impl Obstacle {
         Self { name: self.name.clone(), shape: self.shape.at(pose), pieces, heights: self.heights }
     }
 
-    /// Makes the shape in pictures agree with the pieces that are judged. For obstacles read from files.
+    /// Changes the shape in pictures so that it agrees with the pieces that collision checks use. For obstacles that
+    /// are read from files.
     pub fn hold_shape(&mut self) {
         self.shape.restrict_to(&self.pieces);
     }
@@ -222,7 +225,8 @@ impl Workspace {
         Self { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() }
     }
 
-    /// Makes the shapes in pictures agree with the pieces that are judged. For workspaces read from files.
+    /// Changes the shapes in pictures so that they agree with the pieces that collision checks use. For workspaces that
+    /// are read from files.
     pub fn restrict_shapes(&mut self) {
         self.obstacles.iter_mut().for_each(Obstacle::hold_shape);
     }

@@ -11,14 +11,14 @@ use cplan_text::listed;
 /// free.
 const SEARCHED_RINGS: i64 = 3;
 
-/// The cells at which a configuration, or a segment of goals, joins the grid.
+/// The cells by which a configuration, or a segment of goals, is joined to the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attachment {
-    /// The cell that contains the configuration, if that cell is free. Otherwise all free cells of the nearest ring
-    /// that has any, nearest first. For a segment, all free cells that contain a part of it. There is at least one
+    /// If the configuration's own cell is free: that cell alone. Otherwise: the free cells of the nearest ring around
+    /// it that has any, nearest first. For a segment: all free cells that contain a part of it. There is at least one
     /// cell.
     pub cells: Vec<usize>,
-    /// True if a free cell contains the configuration. Always true for a segment.
+    /// True if one of the cells contains the configuration. Always true for a segment.
     pub contained: bool,
 }
 
@@ -54,7 +54,7 @@ impl JoinedQuery {
     }
 }
 
-/// Returns a goal in the form that the grid needs: a segment is cut at the domain's ends, a single configuration is
+/// Returns a goal in the form that the grid needs. A segment is cut at the domain's ends; a single configuration is
 /// unchanged.
 fn in_domain(grid: &Grid, piece: &Segment) -> Vec<Segment> {
     if piece.is_point() { vec![*piece] } else { piece.within_domain(&grid.topology).collect() }

@@ -32,9 +32,9 @@ pub(super) struct Adjacency {
 /// One end of a passage.
 #[derive(Debug, Clone, Copy)]
 enum PassageEnd {
-    /// The start, or a cell's centre.
+    /// The start, or the centre of a cell.
     At(Point),
-    /// Alternative goals, of which the nearest counts.
+    /// Alternative goals, of which the nearest is used.
     Any(Segment),
 }
 
@@ -51,7 +51,7 @@ impl PassageEnd {
 /// A connection between two ends, through a portal or within a cell.
 #[derive(Debug, Clone, Copy)]
 struct Passage {
-    /// The portal's number; `None` within a cell.
+    /// Index of the portal; `None` for a connection within a cell.
     portal: Option<usize>,
     /// Length of the path through the portal's middle.
     cost: f64,
@@ -82,7 +82,7 @@ impl Adjacency {
         Passage { portal, cost: (last - from).norm() + (to.nearest(last) - last).norm() }
     }
 
-    /// Returns a channel from the start to any goal, and the places that the search expanded, in order.
+    /// Returns a channel from the start to any goal, and the cells' centres that the search expanded, in order.
     /// `start_cells` are the cells that contain the start.
     ///
     /// A passage from one cell to the next costs the distance from centre to centre through the portal's middle. For
@@ -133,7 +133,7 @@ impl Adjacency {
         (path.map(|places| self.passed(portals, terminals, &graph, start, &places)), expanded)
     }
 
-    /// Returns the channel along the route that the search found.
+    /// Returns the channel for the route that the search found.
     fn passed(
         &self,
         portals: &[CellPortal],

@@ -124,8 +124,8 @@ impl Decomposition {
     }
 }
 
-/// Neighbouring vertices on the sweep line, between the two sides next to them that continue across the line. All
-/// sides in between end or begin at one of the vertices.
+/// A run of neighbouring vertices on the sweep line. It lies between two sides that continue across the line. All sides
+/// between these two begin or end at one of the vertices.
 #[derive(Debug, Clone, Copy)]
 struct Cluster {
     vertices: (usize, usize),
@@ -133,9 +133,9 @@ struct Cluster {
     above: Option<usize>,
 }
 
-/// Free space between two neighbouring sides on the sweep line that ends or begins at a cluster. The ends of the gap
-/// on the line are given as ranks: 0 for the side below the cluster, `i` for the cluster's `i`th vertex, and one
-/// more than the number of vertices for the side above.
+/// A gap of free space between two neighbouring sides that ends or begins at a cluster. Its two ends on the sweep line
+/// are given as ranks: 0 for the side below the cluster, `i` for the cluster's `i`th vertex, and one more than the
+/// number of vertices for the side above.
 #[derive(Debug, Clone, Copy)]
 struct Gap {
     cell: usize,
@@ -183,8 +183,8 @@ impl Sweep<'_> {
         }
     }
 
-    /// Moves the sweep line past a cluster: finishes the cells to the left, replaces the sides that end by those
-    /// that begin, starts the cells to the right, and joins the cells by portals.
+    /// Moves the sweep line past a cluster. Finishes the cells to the left, and replaces the sides that end by those
+    /// that begin. Then starts the cells to the right, and joins the cells by portals.
     fn replace(&mut self, cluster: Cluster) {
         let (first, last) = cluster.vertices;
         let x = self.boundary.vertices[first].x;
@@ -272,7 +272,7 @@ impl Sweep<'_> {
         }
     }
 
-    /// Returns the portal between two cells, from one rank to another.
+    /// Returns the portal between two cells, from the rank `low` to the rank `high` (see [`Gap`]).
     fn portal(&self, cluster: Cluster, cells: [usize; 2], low: usize, high: usize) -> CellPortal {
         let (first, last) = cluster.vertices;
         let vertices = &self.boundary.vertices;

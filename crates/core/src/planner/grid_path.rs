@@ -69,9 +69,9 @@ pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
     line
 }
 
-/// Returns the goal for a path that ends at `cell`, and the goal's cells. Of the goals joined to this cell, it
-/// chooses the one nearest to `near` (the unwrapped centre of the cell), as its copy nearest to `near`. Of goals
-/// along a segment, only the part in the cell counts.
+/// Returns the goal for a path that ends at `cell`, and the goal's cells. It chooses among the goals joined to this
+/// cell: the one nearest to `near`, the unwrapped centre of the cell. It returns the copy of that goal nearest to
+/// `near`. Of goals along a segment, only the part in the cell is considered.
 fn goal_at<'a>(
     grid: &Grid,
     joined: &'a JoinedQuery,
@@ -90,9 +90,11 @@ fn goal_at<'a>(
 }
 
 /// Returns the path from the exact start through the centres of `cells` to the exact goal, pulled taut for
-/// [`PathKind::Taut`]. Consecutive cells must be neighbours; the first is joined to the start and the last to a
-/// goal, otherwise the result is `None`. The grid proves nothing about the segment between a configuration and a
-/// cell that does not contain it.
+/// [`PathKind::Taut`].
+///
+/// Consecutive cells must be neighbours. The first must be joined to the start and the last to a goal; otherwise the
+/// result is `None`. A configuration may be joined to a cell that does not contain it. The grid proves nothing about
+/// the segment between the two.
 pub fn path(grid: &Grid, query: &Query, joined: &JoinedQuery, cells: &[usize], kind: PathKind) -> Option<Path> {
     let line = unwrap(grid, cells, query.start);
     let goal = goal_at(grid, joined, *cells.last()?, from_lattice(grid, *line.last()?))?;
@@ -111,10 +113,10 @@ const MAX_CURVE_DISTANCE: f64 = 0.05;
 /// curve's direction.
 const BLENDED_CELLS: f64 = 12.0;
 
-/// Returns the path from the exact start along a field ([`follow`]) to the exact goal. For [`PathKind::Taut`] the
-/// path is pulled taut. Otherwise it stays within `MAX_CURVE_DISTANCE` of the curve, except in the last
-/// `BLENDED_CELLS`. The path stays in free cells, except for the segment between a configuration and a cell that
-/// does not contain it. `home` is the cell joined to the start.
+/// Returns the path from the exact start to the exact goal, between which it goes along a field ([`follow`]). For
+/// [`PathKind::Taut`] the path is pulled taut. Otherwise it stays within `MAX_CURVE_DISTANCE` of the curve, except in
+/// the last `BLENDED_CELLS`. The path stays in free cells, except at an end that is not in the cell to which it is
+/// joined: the segment between the two may leave the free cells. `home` is the cell joined to the start.
 ///
 /// # Errors
 /// If the field does not lead to a goal.
@@ -158,8 +160,8 @@ fn within_cell(center: [f64; 2], at: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|k| at[k].clamp(center[k] - HALF_CELL, center[k] + HALF_CELL))
 }
 
-/// Returns the line with its end moved to `goal`. Points before the end move less, the farther they are from it. If
-/// the moved line would leave the free cells, returns the line unchanged.
+/// Returns the line with its end moved to `goal`. The points before the end move as well, less and less with their
+/// distance from it. If the moved line would leave the free cells, returns the line unchanged.
 fn arriving(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
     let end = line[line.len() - 1];
     let by = [0, 1].map(|k| goal[k] - end[k]);

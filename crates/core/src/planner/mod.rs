@@ -69,7 +69,7 @@ pub struct Query {
 pub enum Proposal {
     /// A path in free space. It starts exactly at the start and ends exactly at a goal or a copy of one.
     Found(Path),
-    /// Free space has no path. [`crate::cspace::Proves`] states whether that proves that there is none at all.
+    /// Free space has no path. [`crate::cspace::Proves`] states whether this proves that no path exists.
     NoPath,
     /// The planner cannot answer. The text is the reason.
     GaveUp(String),
@@ -120,12 +120,12 @@ pub enum Size {
         /// Number of cells that were reached.
         labeled: usize,
     },
-    /// Nothing was built.
+    /// The planner built no structure.
     Nothing,
 }
 
 impl Size {
-    /// Returns the numbers with their names in results.
+    /// Returns the sizes, with the names that they have in results.
     #[must_use]
     pub fn figures(self) -> Vec<(&'static str, usize)> {
         match self {
@@ -251,8 +251,8 @@ pub enum Trace {
         /// Boxes that are proven neither free nor colliding.
         mixed: Vec<[Configuration; 2]>,
     },
-    /// For each cell of a grid, the number of steps to the goal, or from the start for a forward search. `u32::MAX`
-    /// for cells that were not reached.
+    /// One label per cell of a grid: the number of steps to the goal, or from the start for a forward search. The label
+    /// is `u32::MAX` for cells that were not reached.
     Wavefront {
         /// Number of cells along each axis.
         cells: [usize; 2],
@@ -280,7 +280,7 @@ pub enum Trace {
         /// The potential; `None` if the start is in none of these cells.
         potential: Option<Potential>,
     },
-    /// A potential that paths descend, for each cell. Infinite where there is no potential.
+    /// A potential, with one value for each cell. Paths descend it. It is infinite in cells without a potential.
     Potential {
         /// Number of cells along each axis.
         cells: [usize; 2],
@@ -320,9 +320,9 @@ pub enum Note {
         /// The measured change in the last pass.
         change: f64,
     },
-    /// The path left local minima by moves that are not along the forces.
+    /// The path left local minima of the potential by moves in other directions than that of the forces.
     Escaped {
-        /// The method, as words that follow "escaped from a local minimum".
+        /// How the path left them, in words that follow "escaped from a local minimum".
         how: &'static str,
         /// Number of local minima.
         minima: usize,

@@ -60,8 +60,8 @@ enum Step {
     Arrive(u32),
 }
 
-/// An entry of the open list: whether it is an arrival, its number, and the step. Among equal estimates an arrival
-/// comes first, then the latest entry.
+/// An entry of the open list: whether it is an arrival, its sequence number, and the step. Among equal estimates an
+/// arrival comes first, then the latest entry.
 type Open = (Reverse<bool>, Reverse<u32>, Step);
 
 impl<'a> Polyanya<'a> {
@@ -142,7 +142,7 @@ impl<'a> Polyanya<'a> {
         }
     }
 
-    /// Follows a cone while its estimate is the least of all.
+    /// Follows a cone from triangle to triangle as long as its estimate is the least on the open list.
     fn follow(&mut self, mut cone: Cone, root: u32) {
         let node = self.nodes[root as usize];
         if self.is_stale(node) {
@@ -174,8 +174,8 @@ impl<'a> Polyanya<'a> {
         }
     }
 
-    /// Adds the edge from a node to a corner that it sees, and the corner as a node if this path is the shortest so
-    /// far.
+    /// Adds the edge from a node to a corner that it sees. If this path to the corner is the shortest so far, adds the
+    /// corner as a node.
     fn see(&mut self, root: u32, number: u32) {
         let corner = &self.mesh.corners()[number as usize];
         let node = self.nodes[root as usize];

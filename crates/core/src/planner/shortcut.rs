@@ -42,8 +42,9 @@ fn length(grid: &Grid, line: &[[f64; 2]]) -> f64 {
     line.windows(2).map(|w| ((w[1][0] - w[0][0]) * step[0]).hypot((w[1][1] - w[0][1]) * step[1])).sum()
 }
 
-/// Returns a line that goes from each corner to a visible one far along the line. The search doubles the distance
-/// along the line while the corner there is visible, then bisects. The next corner always counts as visible.
+/// Returns a line whose corners are some of the given ones. From each corner it goes to a visible one far along the
+/// line. The search doubles the distance along the line while the corner there is visible, then bisects. The next
+/// corner always counts as visible.
 fn farthest(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut corners = vec![line[0]];
     let mut at = 0;

@@ -5,9 +5,9 @@ use super::shortcut::is_clear;
 use crate::cspace::Grid;
 use cplan_interrupt::checkpoint;
 
-/// Returns some of a line's points, including its ends. All other points are within `tolerance` (in cells) of the
-/// segment that replaces them. New segments pass only through free cells. Takes about `n log n` distances for `n`
-/// points.
+/// Returns a line through some of the points of a line, its ends included. Each omitted point is within `tolerance` (in
+/// cells) of the segment that replaces it. New segments pass only through free cells. Takes about `n log n` distances
+/// for `n` points.
 pub(super) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line {
     let mut kept = vec![line[0]];
     let mut at = 0;

@@ -7,8 +7,8 @@ use crate::space::{Measure, Metric, Segment};
 use cplan_geometry::Point;
 use std::f64::consts::TAU;
 
-/// Number of evenly spaced points of a goal segment that roadmaps add as goals, besides the point nearest to the
-/// start. An odd number, so the middle is among them.
+/// Number of evenly spaced points of a goal segment that roadmaps add as goals. The point nearest to the start is added
+/// as well. The number is odd, so the middle is among them.
 const PLACES_PER_SEGMENT: usize = 17;
 
 /// The start and the goals of the paths that answer a query.

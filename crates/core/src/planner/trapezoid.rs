@@ -116,9 +116,9 @@ impl TrapezoidMap {
         }
     }
 
-    /// Returns the path through the middles of the portals and the centres of the cells between them. If `sparing`,
-    /// it visits a centre only if the path enters and leaves the cell through the same vertical side; otherwise it
-    /// would run along that side.
+    /// Returns the path through the middles of the portals and the centres of the cells between them. If `sparing`, the
+    /// path visits a centre only if it enters and leaves the cell through the same vertical side. Without the centre,
+    /// such a path would run along that side.
     fn middle_path(&self, channel: &Channel, sparing: bool) -> Vec<Point> {
         let mut waypoints = vec![channel.start];
         for (k, &cell_portal) in channel.portals.iter().enumerate() {

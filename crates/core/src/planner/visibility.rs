@@ -174,8 +174,8 @@ impl Visibility {
 }
 
 impl VisibilityMap {
-    /// Returns the whole reduced graph with the start and the goals of a query. From the start and from each corner,
-    /// an edge leads to the nearest visible point of each goal.
+    /// Returns the whole reduced graph, with the start and the goals of a query. Edges lead from the start, and from
+    /// each corner, to the nearest visible point of each goal.
     fn query_graph(&self, measure: Measure, terminals: &Terminals) -> QueryGraph {
         let (mesh, corners) = (&self.mesh, self.mesh.corners());
         let mut roadmap = Roadmap::new(measure);

@@ -19,15 +19,17 @@ pub enum GridSearch {
     /// alike.
     #[default]
     Wave,
-    /// Breadth-first, until it meets the start. Finds a path with the fewest moves.
+    /// Breadth-first search, until it meets the start. Finds a path with the fewest moves.
     BreadthFirst,
-    /// Depth-first. Finds any path.
+    /// Depth-first search. Finds any path.
     DepthFirst,
-    /// Least cost first, where a diagonal move costs the square root of 2 straight ones. Finds a path of least cost.
+    /// Expands the cell of least cost first, where a diagonal move costs the square root of 2 straight ones. Finds a
+    /// path of least cost.
     Dijkstra,
-    /// Least sum of cost and distance from the target first. Finds a path of least cost.
+    /// Expands the cell with the least sum of its cost and its distance from the target first. Finds a path of least
+    /// cost.
     AStar,
-    /// The cell nearest to the target first. Finds any path, soon.
+    /// Expands the cell nearest to the target first. Finds any path, soon.
     Greedy,
     /// Depth-first within a limit of moves, which grows until the search meets its target. Finds a path with the
     /// fewest moves.

@@ -4,15 +4,15 @@ use super::{Configuration, JointRange, Segment, Topology};
 use std::f64::consts::TAU;
 
 impl Segment {
-    /// Returns the copy of the segment by whole turns of each joint.
+    /// Returns the segment moved by whole turns: `turns` has the number of turns of each joint.
     #[must_use]
     pub fn turned(&self, turns: [f64; 2]) -> Self {
         let [from, to] = self.ends().map(|q| Configuration::from_fn(|k, _| JointRange::Circle.turned(q[k], turns[k])));
         Self::new(from, to)
     }
 
-    /// Returns the copies of the segment that overlap the fundamental domain, uncut. A segment across a seam has
-    /// several.
+    /// Returns the copies of the segment that overlap the fundamental domain. They are not cut at the domain's ends. A
+    /// segment across a seam has several copies.
     pub fn wrapped(&self, topology: &Topology) -> impl Iterator<Item = Self> + use<> {
         let [from, to] = self.ends();
         let [first, second] = [0, 1].map(|k| into_domain(topology.ranges[k], [from[k], to[k]]));
@@ -34,7 +34,7 @@ impl Segment {
     }
 
     /// Returns the copies of the segment that may be nearest to `q`. On a circle these are the copy whose middle is
-    /// nearest and the ones a turn lower and higher.
+    /// nearest to `q`, and the copies one turn below and above it.
     pub fn copies_near(&self, topology: &Topology, q: Configuration) -> impl Iterator<Item = Self> + use<> {
         let middle = self.at(0.5);
         let turns = [0, 1].map(|k| {

@@ -93,7 +93,7 @@ const LEFT_SIDE: usize = 1;
 struct Funnel {
     apex: Point,
     chains: [VecDeque<Turn>; 2],
-    /// The turns of the path up to the apex, which is the last of them.
+    /// The turns of the path up to the apex, which is the last turn.
     path: Vec<Turn>,
 }
 
@@ -198,8 +198,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(2000))]
 
-        /// Compares with the shortest of all paths from one portal end to another that cross the portals in between.
-        /// On a coarse lattice many ends are collinear.
+        /// Compares the result with the shortest path through the ends of portals. All paths from one portal end to
+        /// another are tried that cross the portals in between. On a coarse lattice many ends are collinear.
         #[test]
         fn no_path_from_end_to_end_is_shorter(
             ends in prop::collection::vec((-4..4i32, 0..4i32), 0..12), start in -4..4i32, goal in -4..4i32,

@@ -3,9 +3,9 @@
 use super::{Metric, Segment};
 use cplan_geometry::{Point, Vector, cross};
 
-/// Weight of the Euclidean length in a sum with travel time. Among paths of equal time the sum prefers the shortest.
-/// The time that is lost is at most this fraction of the path's Euclidean length divided by the higher top speed.
-/// The weight is far above the rounding of sums of lengths.
+/// Weight of the Euclidean length in a sum with travel time. Among paths of equal time, the sum prefers the shortest.
+/// The path of least sum may take longer than the fastest one. The extra time is at most this fraction of the path's
+/// Euclidean length divided by the higher top speed. The weight is far above the rounding of sums of lengths.
 const TIE_BREAK_WEIGHT: f64 = 1e-10;
 
 /// A norm whose unit ball has no flat sides, so that pulling a path taut always shortens it.
@@ -56,9 +56,9 @@ impl Measure {
     /// Returns a lower bound on the length of paths from `root` to the nearest of the `goals` that cross a segment.
     /// `ends` are the right and left end of that segment as seen from the root.
     ///
-    /// The bound is the length of the shortest such path, except for [`Measure::Rectangle`] with goals on the root's
-    /// side. `line` has two points farther apart on the line of the segment, in the same direction, because the
-    /// segment may be a point.
+    /// The bound is the length of the shortest such path, with one exception: [`Measure::Rectangle`] with goals on the
+    /// root's side. The segment may be a point. Therefore `line` has two points farther apart on the segment's line, in
+    /// the same direction.
     #[must_use]
     pub fn through(self, root: Point, ends: [Point; 2], line: [Point; 2], goals: &Segment) -> f64 {
         let along = line[1] - line[0];
@@ -105,7 +105,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares with the minimum over the points of the segment, found by ternary search on a convex function.
+        /// Compares the bound with the shortest crossing. A ternary search over the points of the segment finds it,
+        /// because the length is a convex function.
         #[test]
         fn bounds_are_the_shortest_crossing(
             root in (-3.0..3.0, 0.1..2.0f64), goal in (-3.0..3.0, -2.0..2.0f64), ends in (-2.0..1.9f64, 0.05..2.0f64),

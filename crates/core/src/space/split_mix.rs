@@ -16,7 +16,7 @@ impl SplitMix64 {
         Self(seed)
     }
 
-    /// Creates sequence `number` of a seed.
+    /// Creates the sequence with this number among the sequences of a seed.
     #[must_use]
     pub fn nth(seed: u64, number: u64) -> Self {
         // Numbers of a sequence are random enough to be seeds themselves.
@@ -38,8 +38,8 @@ impl SplitMix64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Returns a uniform configuration within the limits, on circles within one turn. Draws the value of joint 1
-    /// first.
+    /// Returns a uniformly distributed configuration within the limits; on circles, within one turn. Draws the value of
+    /// joint 1 first.
     pub fn configuration(&mut self, topology: &Topology) -> Configuration {
         let [q1, q2] = topology.ranges.map(|axis| {
             let (lower, upper) = axis.domain();

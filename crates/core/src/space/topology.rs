@@ -4,12 +4,12 @@ use super::Configuration;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
-/// Exact 2 pi less the double [`TAU`], to double precision. Over 80 000 turns (half a million radians) the
-/// difference adds up to 2e-11 rad, far more than the margins of certificates.
+/// The difference between the exact value of 2 pi and the double [`TAU`], to double precision. Over 80 000 turns (half
+/// a million radians) it adds up to 2e-11 rad, far more than the margins of certificates.
 const TAU_REMAINDER: f64 = 2.449_293_598_294_706_4e-16;
 
-/// Returns the angle of `turns` whole turns as the sum of two doubles. The error is far below a rounding of the
-/// second. `turns` must be an integer.
+/// Returns the angle of `turns` whole turns as the sum of two doubles. The error is far below one rounding of the
+/// second double. `turns` must be an integer.
 fn whole_turns(turns: f64) -> [f64; 2] {
     let high = turns * TAU;
     // The multiplication's rounding error, exactly.
@@ -234,7 +234,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares with exact arithmetic, for angles of any size that worlds allow.
+        /// Tests that whole turns are taken off exactly: compares with exact arithmetic, for angles of any size that
+        /// worlds allow.
         #[test]
         fn turns_are_taken_off_exactly(
             mantissa in -10.0..10.0_f64, decade in 0..6_i32, other in -10.0..10.0_f64, far in -1e6..1e6_f64,

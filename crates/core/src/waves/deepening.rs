@@ -9,10 +9,10 @@ use super::{FreeCells, Neighborhood, UNREACHED};
 use cplan_interrupt::checkpoint;
 use std::collections::BTreeSet;
 
-/// Searches from `sources`, which are labelled already, until a round expands a target or labels no new cell.
-///
-/// The round with limit `d` expands the cells within `d` moves, each once, so it is linear in their number. All
-/// rounds together take time proportional to the number of cells times the number of moves to the target.
+/// Searches from `sources`, which are labelled already, in rounds with increasing limits, until a round expands a
+/// target or labels no new cell. Each round expands the cells within its limit of moves, each once, so its time is
+/// linear in their number. All rounds together take time proportional to the number of cells times the number of moves
+/// to the target.
 pub(super) fn deepen(
     search: &mut Search,
     free: &FreeCells,

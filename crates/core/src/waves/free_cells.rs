@@ -114,7 +114,7 @@ impl FreeCells {
         moves(straight, false).chain(moves(diagonals, true))
     }
 
-    /// Returns the rows or columns before and after number `at`; `None` beyond a limit.
+    /// Returns the rows or columns before and after number `at`. Returns `None` for one that lies beyond a limit.
     pub(super) fn beside(&self, axis: usize, at: usize) -> [Option<usize>; 2] {
         let (last, is_circle) = (self.cells[axis] - 1, self.circles[axis]);
         let before = if at > 0 { Some(at - 1) } else { is_circle.then_some(last) };
@@ -140,7 +140,7 @@ impl FreeCells {
         &self.bits[i * self.words..(i + 1) * self.words]
     }
 
-    /// Returns the number of runs in all rows. A run is a maximal sequence of free cells in a row.
+    /// Returns the number of runs in all rows. A run is a sequence of free cells in a row that cannot be extended.
     pub(super) fn runs(&self) -> usize {
         let mut runs = 0;
         for line in self.bits.chunks_exact(self.words.max(1)) {
@@ -153,8 +153,8 @@ impl FreeCells {
         runs
     }
 
-    /// Returns the first column from `from` to before `to` that is free (or blocked, if `free` is false); `to` if
-    /// there is none.
+    /// Returns the first column from `from` to before `to` that is free (or blocked, if `free` is false). Returns `to`
+    /// if there is none.
     pub(super) fn next(&self, i: usize, from: usize, to: usize, free: bool) -> usize {
         if from >= to {
             return to;

@@ -4,16 +4,16 @@ use super::{FreeCells, UNREACHED};
 use cplan_geometry::farthest;
 use std::ops::Range;
 
-/// Number of levels per bucket of waiting stretches. The last stretch of a bucket is taken first, while the row that
-/// it came from is still in the cache. With more levels per bucket, more labels are too great initially and must be
+/// Number of levels per bucket of waiting stretches. The last stretch of a bucket is taken first, while the row from
+/// which it came is still in the cache. With more levels per bucket, more labels are too great at first and must be
 /// written again.
 const LEVELS_PER_BUCKET: usize = 16;
 
 /// Cost of handling a stretch besides copying its cells, in cells (measured; about 100 ns).
 const STRETCH_COST: usize = 64;
 
-/// Greatest work, in cells, as a multiple of the number of cells. A wave cell by cell would be finished by then, so
-/// the method gives up.
+/// Greatest work, in cells, as a multiple of the number of cells. A wave that proceeds cell by cell would be finished
+/// by then, so the method gives up.
 const MAX_WORK_PER_CELL: usize = 5;
 
 /// Labels every cell that a wave from `sources` (free cells) reaches over shared sides with the number of moves to
@@ -142,7 +142,8 @@ impl RunWave<'_> {
         here
     }
 
-    /// Does the same up to a limit or the seam. Returns the end of the change and the next value.
+    /// Does the same as [`Self::spread`], but stops at a limit or at the seam. Returns the end of the change and the
+    /// next value.
     fn rise(&mut self, row: usize, edge: usize, side: Side, value: u32, rows: AffectedRows) -> (usize, u32) {
         let columns = self.free.cells()[1];
         let run = match side {

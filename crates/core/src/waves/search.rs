@@ -99,7 +99,7 @@ pub struct Search {
     pub expanded: Vec<u32>,
     /// Number of cells that were labelled, sources included.
     pub labeled: usize,
-    /// The target that ended the search; `None` if it met none.
+    /// The target that ended the search. `None` if the search reached no target.
     pub met: Option<usize>,
     /// Number of rounds: 1, except for iterative deepening.
     pub rounds: usize,
@@ -202,7 +202,8 @@ impl Search {
         (self.parents[cell] != UNREACHED).then(|| self.costs[cell])
     }
 
-    /// Returns, for each cell, the number of moves on the path by which it was reached; [`UNREACHED`] if it was not.
+    /// Returns, for each cell, the number of moves on the path by which it was reached. It is [`UNREACHED`] for cells
+    /// that were not reached.
     #[must_use]
     pub fn labels(&self) -> Vec<u32> {
         let label = |(cost, &parent): (&Cost, &u32)| if parent == UNREACHED { UNREACHED } else { cost.moves() };
@@ -249,8 +250,8 @@ enum OpenCells {
     Stack(Vec<(usize, Cost)>),
     /// The cell of least estimate first. The number counts the cells that were added.
     Least(OpenList<WaitingCell>, Ties, u64),
-    /// The cell of least remaining cost first, and the latest of equal ones. The number counts the cells that were
-    /// added.
+    /// The cell of least remaining cost comes first. If several are equal, the latest comes first. The number counts
+    /// the cells that were added.
     Nearest(OpenList<WaitingCell>, u64),
 }
 

@@ -149,8 +149,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares with a breadth-first search, on grids that do and do not fill their tiles, including single rows
-        /// and columns.
+        /// Compares the labels with those of a breadth-first search, on grids that do and do not fill their tiles,
+        /// including single rows and columns.
         #[test]
         fn labels_are_those_of_a_search(
             rows in 1..28_usize, columns in 1..28_usize, circles in any::<[bool; 2]>(), seed in any::<u64>(), density in 0..45_u64,

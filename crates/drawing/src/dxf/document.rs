@@ -31,7 +31,7 @@ pub(super) struct Document<'a> {
     pub entities: Vec<Entity<'a>>,
     /// Dictionary entries: handles by the dictionary's handle and the entry's name.
     entries: HashMap<(&'a str, &'a str), &'a str>,
-    /// Handles of clips that are on.
+    /// Handles of the clips that are switched on.
     clips: HashSet<&'a str>,
 }
 
@@ -84,8 +84,8 @@ impl<'a> Document<'a> {
         Ok(document)
     }
 
-    /// Reads the section OBJECTS: stores the entries of dictionaries, and the handles of the spatial filters (clips) that
-    /// are on.
+    /// Reads the section OBJECTS. Stores the entries of dictionaries, and the handles of the spatial filters (clips)
+    /// that are switched on.
     fn objects(&mut self, records: &[Record<'a>]) -> Result<(), Error> {
         for record in records {
             let Some(handle) = record.text(5) else { continue };

@@ -19,7 +19,7 @@ struct Corner {
 }
 
 impl<'a> Reader<'_, 'a> {
-    /// Adds an entity to the sheet, or adds a note about the omission.
+    /// Adds an entity to the sheet. If the entity cannot be used, adds a note that it is omitted.
     pub(super) fn entity(
         &mut self,
         entity: &Entity<'a>,
@@ -102,7 +102,7 @@ impl<'a> Reader<'_, 'a> {
         if is_closed { self.sheet.closed(points, origin) } else { self.open(points, place, origin) }
     }
 
-    /// Adds the area of a polyline with width. Segments of width 0 become lines.
+    /// Adds the area that a polyline with widths covers. Segments of width 0 become lines.
     fn wide(
         &mut self,
         ways: &[(&Corner, &Corner)],
@@ -237,7 +237,7 @@ fn is_tilted(record: &Record) -> Result<bool, Error> {
     Ok(x.hypot(y) > NORMAL_TOLERANCE)
 }
 
-/// Returns the corners of a polyline in one record.
+/// Returns the corners of a polyline that is stored in one record.
 fn corners(record: &Record) -> Result<Vec<Corner>, Error> {
     let width = record.number_or(43, 0.0)?.abs();
     let corner = |at: Point| Corner { at, bulge: 0.0, widths: [width; 2] };

@@ -20,7 +20,7 @@ const MAX_ENTITIES: usize = 1 << 20;
 /// Reads a DXF.
 ///
 /// # Errors
-/// If the text is not a DXF or is incomplete, a number is not one, or a block contains itself.
+/// If the text is not a DXF or is incomplete, if the text of a number is not a number, or if a block contains itself.
 pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> {
     let binary = binary::as_text(bytes)?;
     let text = tags::decoded(binary.as_deref().unwrap_or(bytes))?;
@@ -75,14 +75,14 @@ impl Default for BlockPlacement<'_> {
 struct Reader<'d, 'a> {
     document: &'d Document<'a>,
     sheet: Sheet,
-    /// Group numbers by insertion and layer.
+    /// Numbers of the groups of curves that may be joined, by insertion and layer.
     groups: HashMap<(usize, String), usize>,
     instances: usize,
     entities: usize,
 }
 
 impl<'d, 'a> Reader<'d, 'a> {
-    /// Reads entities with a placement. `within` has the names of the blocks that contain them.
+    /// Reads entities with a placement. `within` has the names of the blocks that contain the entities.
     fn all(
         &mut self,
         entities: &'d [Entity<'a>],

@@ -60,7 +60,7 @@ impl<'a> Record<'a> {
         Ok(self.integer_or(70, 0)? & bit != 0)
     }
 
-    /// Returns a number that the record must have.
+    /// Returns the number with this code, which the record must have.
     pub fn needed(&self, code: i32) -> Result<f64, Error> {
         self.number(code)?.ok_or_else(|| {
             let message = format!("{} has no group {code}", self.kind);
@@ -73,7 +73,7 @@ impl<'a> Record<'a> {
         Ok([self.needed(code)?, self.needed(code + 10)?])
     }
 
-    /// Returns all points with that code, in order.
+    /// Returns all points whose x coordinates have this code, in order.
     pub fn points(&self, code: i32) -> Result<Vec<Point>, Error> {
         let x = self.numbers(code)?;
         let y = self.numbers(code + 10)?;
@@ -108,7 +108,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Error> {
     })
 }
 
-/// Splits the text into pairs up to EOF, without comments. Also returns the line of any text after EOF.
+/// Splits the text into tags up to EOF, without comments. Also returns the line of any text after EOF.
 pub(super) fn tags(text: &str) -> Result<(Vec<Tag<'_>>, Option<usize>), Error> {
     let mut tags = Vec::new();
     let mut lines = text.lines().zip(1..);
@@ -147,7 +147,7 @@ pub(super) fn cut(line: usize) -> Error {
     Error::new(line, message, "copy or export the drawing again")
 }
 
-/// Groups the pairs into records.
+/// Groups the tags into records.
 pub(super) fn records<'a>(tags: &'a [Tag<'a>]) -> Vec<Record<'a>> {
     let begins: Vec<usize> = (0..tags.len()).filter(|&i| tags[i].code == 0).collect();
     let ends = begins.iter().skip(1).copied().chain([tags.len()]);

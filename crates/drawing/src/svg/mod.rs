@@ -175,7 +175,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Error::new(self.line(node), message, "save the drawing again, as a plain SVG")
     }
 
-    /// Returns a length in units of its coordinates. Percentages refer to `whole`.
+    /// Returns a length in units of the element's coordinates. Percentages refer to `whole`.
     fn length(&self, node: Node, name: &str, whole: f64) -> Result<Option<f64>, Error> {
         const PIXELS_PER_INCH: f64 = 96.0;
         let Some(Length { number, unit }) = self.parsed(node, name)? else { return Ok(None) };
@@ -194,7 +194,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok(Some(number * factor).filter(|length| length.is_finite()))
     }
 
-    /// Same as [`Self::length`], with 0 for a missing attribute.
+    /// Does the same as [`Self::length`], but returns 0 for a missing attribute.
     fn length_or_0(&self, node: Node, name: &str, whole: f64) -> Result<f64, Error> {
         Ok(self.length(node, name, whole)?.unwrap_or(0.0))
     }
@@ -298,7 +298,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
     }
 
-    /// Returns the properties within an `svg` or a `symbol` element of the size that `sized` gives.
+    /// Returns the properties within an `svg` or a `symbol` element, whose size is given by `sized`.
     fn viewport(
         &self,
         node: Node<'a, 'i>,
@@ -400,7 +400,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.sheet.ellipse(&Ellipse { center, u: [rx, 0.0], v: [0.0, ry] }.mapped(&inside.map), origin)
     }
 
-    /// Adds the stretches of one element. Together, those that are closed or filled form a solid shape.
+    /// Adds the stretches of one element. Those that are closed or filled form one solid shape.
     fn stretches(&mut self, stretches: Vec<Stretch>, style: Style, origin: &Origin) -> Result<(), Error> {
         let mut rings = Vec::new();
         for Stretch { points, is_closed } in stretches {

@@ -31,10 +31,10 @@ struct Pen<'m> {
     tolerance: f64,
     at: Point,
     begin: Point,
-    /// The last control point, for smooth curves of degree 3 and of degree 2.
+    /// The last control points, which smooth curves mirror: of a cubic and of a quadratic curve.
     control: [Option<Point>; 2],
     stretches: Vec<Stretch>,
-    /// True if the next segment starts a new stretch.
+    /// True if the pen is lifted, so the next segment starts a new stretch.
     is_up: bool,
 }
 

@@ -20,8 +20,8 @@ impl Default for Style {
 }
 
 impl Style {
-    /// Returns the style of an element inside one of this style: its attributes, overridden by style sheets, overridden
-    /// by its own declarations.
+    /// Returns the style of an element whose parent has this style. Style sheets override the element's attributes, and
+    /// the element's own declarations override style sheets.
     pub fn of(mut self, node: Node, sheet: &StyleSheet) -> Self {
         for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
             self.set(attribute.name(), attribute.value());

@@ -6,7 +6,8 @@ use cplan_drawing::{Format, Geometry, Settings, Shape, read};
 
 const CELL: &[u8] = include_bytes!("../../../../workspaces/drawings/cell.dxf");
 
-/// Layer, block, and the expected area (mm2) with its allowance, or the expected length (mm).
+/// The expected size of a shape. An area in mm2 comes with its allowance, a length is in mm. Both come with a layer and
+/// a block.
 enum Measure {
     Area(f64),
     Length(f64),

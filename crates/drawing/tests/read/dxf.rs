@@ -25,7 +25,7 @@ fn dxf(entities: &str) -> Drawing {
 
 const TOLERANCE: f64 = 1e-4;
 
-/// Asserts that points lie on a circle, and the middles of their chords near it and inside.
+/// Asserts that points lie on a circle, and that the middles of their chords lie near the circle and inside it.
 fn on_circle(points: &[Point], center: Point, radius: f64) {
     for p in points {
         near(apart(*p, center), radius, 1e-12);
@@ -433,7 +433,7 @@ fn content_after_the_end_and_empty_circles_are_noted() {
     assert!(!notes(&drawing(&(text + "\n\u{1a}\n"), Format::Dxf)).iter().any(|note| note.contains("EOF")));
 }
 
-/// An insertion with a clip, one whose clip is off, and one without.
+/// Tests three insertions: with a clip, with a clip that is switched off, and without a clip.
 #[test]
 fn clipped_blocks_are_noted() {
     let insert = |dictionary: &str| format!("0 INSERT 8 a 2 b {dictionary} 10 0 20 0 ");

@@ -34,7 +34,7 @@ proptest! {
         prop_assert_eq!(ring(one(&given)), &corners);
     }
 
-    /// Compares elliptical arcs of paths with kurbo: its ellipse, its angle.
+    /// Compares the elliptical arcs of paths with those of the library kurbo: the ellipse and the angle.
     #[test]
     fn arcs_are_those_of_another_library(
         from in (0.0..500.0, 0.0..500.0), to in (0.0..500.0, 0.0..500.0), radii in (5.0..400.0, 5.0..400.0),
@@ -65,7 +65,7 @@ proptest! {
         prop_assert!((turned - arc.sweep_angle).abs() < 1e-4, "{turned} against {arc:?}");
     }
 
-    /// Removes parts of a file. The rest is refused, or at least read without a panic.
+    /// Tests that after parts of a file are removed, the reader refuses the file, or at least reads it without a panic.
     #[test]
     fn no_input_makes_a_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..400), at in 0_usize..20_000) {
         let cell = include_bytes!("../../../../workspaces/drawings/cell.dxf");

@@ -21,7 +21,8 @@ pub(super) struct LeastLength {
     pub potentials: Vec<Potential>,
 }
 
-/// A lower bound on the lengths of all paths from the start to an end of a wall.
+/// A lower bound on the lengths of all paths from the start to one end of a wall. A wall is a segment of colliding
+/// configurations, which paths cannot cross.
 pub(super) struct Potential {
     pub wall: usize,
     pub end: usize,
@@ -29,23 +30,23 @@ pub(super) struct Potential {
     pub value: f64,
 }
 
-/// Fraction by which a leg counts as shorter than it is.
+/// Fraction by which the evidence reduces the length of each straight leg of a path. It allows for rounding.
 const LEG_ROUNDING: f64 = 1e-8;
 
-/// Fraction of the whole length that is subtracted from every leg in addition. It is far above rounding.
+/// Fraction of the whole length by which the evidence reduces every leg in addition. It is far above rounding.
 const TOTAL_ROUNDING: f64 = 1e-11;
 
-/// A leg counts as crossing a wall if it does so at least this far from the wall's ends, as a fraction of the wall's
-/// length.
+/// Least distance from a wall's ends at which a leg must cross the wall to count as crossing it, as a fraction of the
+/// wall's length.
 const WALL_END_MARGIN: f64 = 1e-9;
 
-/// Number of rounds in which walls are dropped. Each round drops fewer than the one before.
+/// Number of rounds in which walls that are not needed are dropped. Each round drops fewer than the one before.
 const PRUNING_ROUNDS: usize = 2;
 
 /// Largest number of wall ends from which paths are extended.
 const MAX_EXTENDED_ENDS: usize = 20_000;
 
-/// Start and goals of the paths, and limits of their search.
+/// The start and the goals of the paths, and the limits of the search for paths.
 pub(super) struct PathLimits<'a> {
     pub topology: &'a Topology,
     pub metric: Metric,
@@ -84,11 +85,11 @@ struct Source {
     potential: f64,
 }
 
-/// A line on which joint 1 has one value: the bits of the value, and the number of turns.
+/// A line on which joint 1 is constant: the bits of its value, and the number of whole turns.
 type Line = (u64, i64);
 
-/// Overlapping walls on one line, as a single range of joint 2. `beside` lists the walls that come from either side and
-/// end within the range.
+/// Overlapping walls on one line, as a single range of joint 2. `beside` lists the walls that lead to the line from
+/// either side and end within the range.
 struct WallRun {
     ends: [f64; 2],
     walls: Vec<usize>,
@@ -120,12 +121,12 @@ impl LeastLength {
 }
 
 impl PathLimits<'_> {
-    /// Returns the fixed amount by which every leg counts as shorter than it is.
+    /// Returns the length by which every leg is reduced in addition to [`LEG_ROUNDING`].
     fn less(&self) -> f64 {
         TOTAL_ROUNDING * self.limit
     }
 
-    /// Returns the length of a leg, reduced as it counts in the evidence.
+    /// Returns the length of a leg, reduced as in the evidence.
     fn leg(&self, from: Configuration, to: Configuration) -> f64 {
         (self.metric.norm(to - from) * (1.0 - LEG_ROUNDING) - self.less()).max(0.0)
     }
@@ -136,8 +137,8 @@ impl PathLimits<'_> {
         (self.metric.norm(displacement) - self.robot_members * self.limit).max(0.0)
     }
 
-    /// Returns the numbers of whole turns that shift the values from `low` to `high` of a joint to where paths can
-    /// reach.
+    /// Returns numbers of whole turns of a joint. With each of them, the range from `low` to `high` is moved to values
+    /// that paths can reach.
     fn turns(&self, joint: usize, low: f64, high: f64) -> std::ops::RangeInclusive<i64> {
         let JointRange::Circle = self.topology.ranges[joint] else { return 0..=0 };
         let reach = self.limit / self.metric.norm(Configuration::from_fn(|k, _| if k == joint { 1.0 } else { 0.0 }));
@@ -250,15 +251,15 @@ impl<'a> Plane<'a> {
         None
     }
 
-    /// Returns the potential of a corner: the length of the shortest path to it. `None` if no path through the corner
-    /// is shorter than `length`.
+    /// Returns the potential of a corner: a lower bound on the length of paths to it. `None` if no path through the
+    /// corner is shorter than `length`.
     fn potential(&self, length: f64, reached: &ReachedEnds, corner: &Corner) -> Option<f64> {
         let potential = *reached.get(&(corner.wall, corner.end, corner.turns))?;
         (potential + corner.rest < length - self.limits.less() / 4.0).then_some(potential)
     }
 
-    /// Returns the walls that bar a leg along which potentials would grow too much. Also returns the walls that contain
-    /// the ends of such walls.
+    /// Returns the walls that are needed for the evidence. A wall is needed if it bars a leg that would make potentials
+    /// too small. Walls that contain an end of a needed wall are needed as well.
     fn needed(&self, length: f64, reached: &ReachedEnds) -> BTreeSet<usize> {
         let known = |corner: &Corner| {
             let potential = self.potential(length, reached, corner)?;
@@ -294,7 +295,7 @@ impl<'a> Plane<'a> {
         Source { at: self.limits.start, line: Some((self.limits.start[0].to_bits(), 0)), potential: 0.0 }
     }
 
-    /// Adds walls that bar a leg, unless a needed wall already does.
+    /// Adds walls that bar a leg, unless a wall that is already needed does.
     fn bar(&self, from: Source, to: Configuration, line: Option<Line>, needed: &mut BTreeSet<usize>) {
         let mut first = None;
         for copy in self.near(from.at, to).filter(|copy| crosses(&copy.ends, from.at, to)) {
@@ -316,7 +317,7 @@ impl<'a> Plane<'a> {
             || self.barred_along(from, line, to, other).is_some()
     }
 
-    /// Iterates over the walls that a leg may cross. Those near its beginning come first.
+    /// Iterates over the walls that a leg may cross. Those near the leg's beginning come first.
     fn near(&self, from: Configuration, to: Configuration) -> impl Iterator<Item = &WallCopy> {
         let first = self.copies.partition_point(|copy| copy.begins() < from[0].min(to[0]) - self.widest);
         let last = self.copies.partition_point(|copy| copy.begins() <= from[0].max(to[0]));
@@ -325,8 +326,8 @@ impl<'a> Plane<'a> {
         onward.iter().chain(back.iter().rev())
     }
 
-    /// Returns the run that bars a leg along its line, with one wall on each side that ends there. Such a leg can pass
-    /// the run on neither side.
+    /// Returns the run of walls that bars a leg along its line, with one wall on each side that ends there. With these
+    /// two walls, the leg cannot pass the run on either side.
     fn barred_along(
         &self,
         from: Configuration,
@@ -358,7 +359,7 @@ impl WallRun {
     }
 }
 
-/// Collects the runs of walls on which joint 1 is constant, with the other walls that end within them.
+/// Collects the runs of walls on which joint 1 is constant, with the other walls that end within each run.
 fn runs(copies: &[WallCopy], walls: &[ClosedSegment]) -> BTreeMap<Line, Vec<WallRun>> {
     let mut runs: BTreeMap<Line, Vec<WallRun>> = BTreeMap::new();
     let lines = |copy: &WallCopy| walls[copy.wall].ends.map(|end| (end[0].to_bits(), copy.turns[0]));

@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// A box in the form in which certificates hold it.
+/// A collision box as certificates contain it.
 #[derive(Serialize)]
 struct CertificateBox {
     lower: [f64; 2],
@@ -17,12 +17,12 @@ struct CertificateBox {
     part: usize,
 }
 
-/// The shapes and parts of obstacles to which the evidence refers, each once.
+/// The lists of shapes and of obstacle parts to which the evidence refers. Each entry occurs once.
 pub(super) struct Contacts<'a> {
     scene: &'a Scene,
     pub shapes: Vec<Value>,
     pub parts: Vec<Value>,
-    /// For each shape of the scene that is named, its index in the list.
+    /// For each shape of the scene that the evidence names, its index in the list of shapes.
     shape_numbers: BTreeMap<(usize, usize), usize>,
     part_numbers: BTreeMap<(usize, usize), usize>,
 }
@@ -40,7 +40,7 @@ impl<'a> Contacts<'a> {
         Self { scene, shapes: vec![], parts: vec![], shape_numbers: BTreeMap::new(), part_numbers: BTreeMap::new() }
     }
 
-    /// Returns the lists as members of a certificate. Empty if no shape is named.
+    /// Returns the lists as members of the certificate's JSON. There are none if the evidence names no shape.
     pub fn named(&self) -> Evidence {
         let lists = [("shapes", &self.shapes), ("parts", &self.parts)].map(|(name, list)| (name, lines(list)));
         if self.shapes.is_empty() { Vec::new() } else { lists.into() }
@@ -55,13 +55,13 @@ impl<'a> Contacts<'a> {
         (*shape, *part)
     }
 
-    /// Returns the list of boxes as a member of a certificate.
+    /// Returns the list of boxes as a member of the certificate's JSON.
     pub fn boxes(&mut self, stuck: &[CollisionBox]) -> (&'static str, String) {
         let boxes: Vec<CertificateBox> = stuck.iter().flat_map(|stuck| self.collision_boxes(stuck)).collect();
         ("boxes", lines(&boxes))
     }
 
-    /// Converts a box to the form of certificates. A box across half a turn becomes two.
+    /// Converts a box to the form of certificates. A box across the seam at half a turn becomes two boxes.
     fn collision_boxes(&mut self, stuck: &CollisionBox) -> Vec<CertificateBox> {
         let (shape, part) = self.numbers(stuck.pair);
         let parts = reaching_out(self.scene, stuck).into_iter();
@@ -69,7 +69,8 @@ impl<'a> Contacts<'a> {
     }
 }
 
-/// Names a part of a link by its URDF link and its index among the shapes there. A bar is the last of a link's parts.
+/// Identifies a part of a link by its URDF link and its index among the shapes of that link. A bar is the last of a
+/// link's own parts.
 fn shape(scene: &Scene, pair: Pair) -> Value {
     let link = scene.link(pair);
     let Part { body, number, is_visual, heights, .. } = &link.parts[pair.part];
@@ -81,7 +82,8 @@ fn shape(scene: &Scene, pair: Pair) -> Value {
     of_layer(json!({ "link": body, kind(*is_visual): number }), *heights, layers)
 }
 
-/// Names a piece of an obstacle by its corners. A disc needs none, because it is the only piece of its obstacle.
+/// Identifies a piece of an obstacle by its corners. A disc needs no corners, because it is the only piece of its
+/// obstacle.
 fn part_of(scene: &Scene, pair: Pair) -> Value {
     let obstacle = pair.obstacle;
     if let Some(own) = scene.self_obstacle(obstacle) {
@@ -104,7 +106,8 @@ fn kind(is_visual: bool) -> &'static str {
     if is_visual { "visual" } else { "collision" }
 }
 
-/// Adds a height within the layer to the name of a shape, if the shape has several layers.
+/// Adds a height to the identification of a shape, if the shape is cut into several layers. The height lies in the
+/// middle of the layer.
 fn of_layer(mut named: Value, own: Heights, mut all: impl Iterator<Item = Heights>) -> Value {
     if all.any(|other| other != own) {
         named["height"] = json!(f64::midpoint(own.lower, own.upper));

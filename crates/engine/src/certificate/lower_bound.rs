@@ -12,10 +12,10 @@ use cplan_solver::Bound;
 use cplan_world::Overrides;
 use serde_json::json;
 
-/// Number of points at which the distance is checked along a wall in either direction. With more points, the checker
-/// takes longer.
+/// Number of points along a wall, in either direction, at which a checker computes the distance. With more points, the
+/// check takes longer.
 const CHECKS_PER_WALL: usize = 60;
-/// The same number if [`CHECKS_PER_WALL`] points lose too much of the bound.
+/// Number of points along a wall that replaces [`CHECKS_PER_WALL`] if too much of the bound would be lost.
 const MORE_CHECKS_PER_WALL: usize = 300;
 
 /// A length, and the evidence that no motion is shorter. The length is the bound of a result, except for a small loss.
@@ -31,8 +31,9 @@ pub(super) struct LowerBound {
 
 impl LowerBound {
     /// Computes evidence for a bound. If more than the fraction `loss` of the bound is lost, computes it again with
-    /// more points per wall: shapes that separate slowly, as in a slot, make walls end too early. Returns `None` if the
-    /// goals are a curve, or if a checker could not separate them from neighbouring configurations.
+    /// more points per wall. The loss occurs where shapes separate slowly, as in a slot, so that walls end too early.
+    /// Returns `None` if the goals are a curve, or if a checker could not separate them from neighbouring
+    /// configurations.
     pub fn of(problem: &MotionProblem, stated: &Bound, asked: &Overrides, loss: f64) -> Option<Self> {
         let scene = problem.scene();
         let topology = scene.arm().topology();
@@ -64,7 +65,7 @@ impl LowerBound {
         self.least.walls.len()
     }
 
-    /// Returns the members of a certificate that are the evidence for the bound.
+    /// Returns the evidence for the bound as members of the certificate's JSON.
     pub fn evidence(&self, contacts: &mut Contacts) -> Evidence {
         let wall = |wall: &ClosedSegment| {
             let (shape, part) = contacts.numbers(wall.pair);
@@ -125,16 +126,17 @@ impl Ends {
     }
 }
 
-/// Tolerance of a checker for the place of the tip, as a fraction of the path length. The checker computes the goal
-/// configurations itself, to 10^-12 of the joints' ranges.
+/// Tolerance with which a checker compares a goal with the place of the tip, as a fraction of the path length. The
+/// checker computes the goal configurations itself, to 10^-12 of the joints' ranges.
 const GOAL_TOLERANCE: f64 = 1e-6;
 
-/// Least value of [`tells_apart`] with which a checker can separate configurations with one place of the tip from their
-/// neighbours. It does so by dividing both joints' ranges into equal parts.
+/// Least value of [`tells_apart`] for goals of a certificate. Below it, a checker cannot separate the configurations
+/// that have one place of the tip from their neighbours. The checker divides both joints' ranges into equal parts.
 const MIN_SEPARATION: f64 = 0.012;
 
-/// Computes the area spanned by the two directions in which the joints move the tip, divided by the square of the sum
-/// of their lengths. At most a quarter; zero if the arm is stretched or folded.
+/// Returns a measure of how well the joints control the tip, from 0 to 1/4. It is the area spanned by the two
+/// directions in which the joints move the tip, divided by the square of the sum of their lengths. It is zero if the
+/// arm is stretched or folded.
 fn tells_apart(arm: &Arm, q: Configuration) -> f64 {
     const DERIVATIVE_STEP: f64 = 1e-6;
     let ranges = arm.topology().ranges;

@@ -36,15 +36,15 @@ pub enum NoCertificate {
     /// The answer is unknown.
     #[error("the answer is \"{}\", which claims nothing", .0.name())]
     Answer(Status),
-    /// The answer is an infeasible task.
+    /// The answer is that a task is infeasible.
     #[error("an infeasible task has no certificate: the result states the step that fails, and why")]
     Task,
-    /// An object rests on another one, but a checker cannot move the corners of its outline inwards.
+    /// An object rests on another one, and its outline has corners that a checker cannot move inwards.
     #[error(
         "object \"{0}\" rests on a support, but its outline is too fine or touches itself: it cannot be shrunk by the depth that it may press in"
     )]
     Outline(String),
-    /// A motion without times in a world with moving obstacles.
+    /// The motion has no times, but the world has moving obstacles.
     #[error("the motion has no times, which decide whether it avoids the moving obstacles")]
     Untimed,
 }
@@ -106,7 +106,7 @@ fn certificate_of_task(
     Ok(written("found", members, evidence))
 }
 
-/// Members of a certificate: names, and values as JSON texts.
+/// Members of a certificate's JSON object: names, and values as JSON texts.
 type Evidence = Vec<(&'static str, String)>;
 
 /// Formats a certificate as text, one member per line.
@@ -119,7 +119,7 @@ fn written(answer: &str, members: JsonMembers, evidence: impl IntoIterator<Item 
     text + "\n}\n"
 }
 
-/// Members of a certificate: names, and values.
+/// Members of a certificate's JSON object: names and values.
 type JsonMembers = Vec<(&'static str, serde_json::Value)>;
 
 /// Formats a list as JSON, one entry per line.
@@ -128,7 +128,8 @@ fn lines(entries: &[impl Serialize]) -> String {
     format!("[\n{}\n  ]", entries.join(",\n"))
 }
 
-/// Returns the members about files, joints, and the robot's links that overlap in every configuration.
+/// Returns the JSON members about the files and the joints, and about links of the robot that overlap in every
+/// configuration.
 fn robot_members(files: Option<&Digests>, arm: &Arm) -> JsonMembers {
     let joints = ("joints", json!(arm.joints.each_ref().map(|joint| &joint.name)));
     let permanent =
@@ -141,7 +142,7 @@ fn robot_members(files: Option<&Digests>, arm: &Arm) -> JsonMembers {
     [("urdf", json!(urdf)), ("world", json!(world))].into_iter().chain(others).chain(joints).collect()
 }
 
-/// Returns the members with values that override the world file.
+/// Returns the JSON members for values that override the world file.
 fn members(problem: &MotionProblem, asked: &Overrides) -> JsonMembers {
     let topology = problem.scene().arm().topology();
     let written = |q| json!(inward(&topology, q));
@@ -161,8 +162,9 @@ const BOX_MARGINS: [f64; 11] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 
 /// Largest number of times that a curve of IK solutions is halved to find boxes around its pieces.
 const MAX_HALVINGS: u32 = 12;
 
-/// Returns boxes around the IK solutions that are not free, and therefore no goals. A checker knows only the place of
-/// the tip, so it would count them as goals. Also returns the middles of pieces for which no box was found.
+/// Returns boxes around the IK solutions that are not free, and therefore are no goals. A checker knows only the place
+/// of the tip; without the boxes, it would count these solutions as goals. Also returns the middles of curves of
+/// solutions for which no box was found.
 fn infeasible_members(problem: &MotionProblem) -> (Vec<CollisionBox>, Vec<Configuration>) {
     let (scene, goals) = (problem.scene(), problem.goals());
     let (arm, topology) = (scene.arm(), scene.arm().topology());
@@ -185,7 +187,8 @@ fn infeasible_members(problem: &MotionProblem) -> (Vec<CollisionBox>, Vec<Config
     (boxes, left)
 }
 
-/// Returns the widest box around a piece in which one obstacle collides everywhere. `None` if there is no such box.
+/// Returns the widest box around a segment in which one pair of shapes collides everywhere. `None` if there is no such
+/// box.
 fn collision_box_about(scene: &Scene, piece: &Segment) -> Option<CollisionBox> {
     let (scene, [from, to]) = (&*scene.inner(), piece.ends());
     let ranges = scene.arm().topology().ranges.map(|range| range.domain());
@@ -200,13 +203,13 @@ fn collision_box_about(scene: &Scene, piece: &Segment) -> Option<CollisionBox> {
     })
 }
 
-/// Values nearer to a limit than this are moved inwards, as a fraction of the limit or of the range, whichever is
+/// Distance from a limit below which values are moved inwards, as a fraction of the limit or of the range, whichever is
 /// larger. It covers rounding: a limit in degrees, or with many digits, may lie up to two units in the last place
 /// inside the double that represents it. Near a limit of 0, control points of polynomials are differences of values
 /// within the range.
 const LIMIT_MARGIN: f64 = 4.0 * f64::EPSILON;
 
-/// Returns a configuration for the certificate. Values at a limit are moved slightly inwards.
+/// Returns a configuration in the form of certificates. Values at a limit are moved slightly inwards.
 fn inward(topology: &Topology, q: Configuration) -> Configuration {
     Configuration::from_fn(|k, _| match topology.ranges[k] {
         JointRange::Interval { lower, upper } => {
@@ -218,8 +221,8 @@ fn inward(topology: &Topology, q: Configuration) -> Configuration {
 }
 
 /// Returns the least and greatest values of a box. A box across half a turn of a circle is split there into two. A part
-/// that ends at the end of the domain is extended slightly: limits are decimals, but half a turn is irrational, so the
-/// nearest double would leave a gap.
+/// that ends at the end of the domain is extended slightly. The reason is that limits are decimals and half a turn is
+/// irrational, so the nearest double would leave a gap.
 fn reaching_out(scene: &Scene, stuck: &CollisionBox) -> Vec<[[f64; 2]; 2]> {
     let mut parts = vec![[stuck.cell.lower, stuck.cell.upper]];
     for (k, range) in scene.arm().topology().ranges.into_iter().enumerate() {

@@ -9,8 +9,8 @@ use cplan_motion::Trajectory;
 use cplan_world::{Digests, Overrides, TipPoint};
 use serde_json::{Value, json};
 
-/// Returns the evidence of a planned motion. It consists of the curves with which programs join the samples of tables
-/// and of ROS 2 messages, and of the curve that the JSON defines.
+/// Returns the evidence of a planned motion: its samples, and the interpolations between them. Programs that read
+/// tables and ROS 2 messages join samples by cubics. The JSON defines quartics between them.
 pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, String) {
     // With limits on jerk, the JSON defines the same cubics.
     let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
@@ -23,9 +23,10 @@ pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, Str
     }
 }
 
-/// Returns the certificate of a recorded motion, whose samples are joined as in its format. It claims that the motion
-/// leads from the world's start to its goal, or to those of `asked`. If `ends` has no start or goal, the motion's own
-/// end counts. A recorded task leads from the start through all its steps. The certificate refers to `files`.
+/// Returns the certificate of a recorded motion, whose samples are joined as in the recording's format. It claims that
+/// the motion leads from the start of the world, or of `asked`, to the goal. If `ends` has no start or goal, the
+/// motion's own start or end is claimed instead. A recorded task leads from the start through all its steps. The
+/// certificate refers to `files`.
 ///
 /// # Errors
 /// [`NoCertificate::Untimed`] and [`NoCertificate::Outline`].
@@ -76,8 +77,8 @@ fn written_inward(topology: &Topology, positions: &[[f64; 2]]) -> Vec<[f64; 2]> 
     positions.iter().map(|&q| inward(topology, q.into()).into()).collect()
 }
 
-/// Returns the member with the motion: knots, each with a time and the values of the columns at that time. `readings`
-/// are the names of the interpolations.
+/// Returns the motion as a member of the certificate's JSON. It consists of knots, each with a time and the values of
+/// the columns at that time. `readings` are the names of the interpolations.
 fn played(readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> (&'static str, String) {
     let knot =
         |k: usize| json!([times[k]].into_iter().chain(columns.iter().flat_map(|rows| rows[k])).collect::<Vec<f64>>());

@@ -22,8 +22,8 @@ pub struct BoundCertificate {
     pub text: String,
 }
 
-/// Returns a certificate that claims that boxes separate the start from all goals, whether or not that is true. It
-/// includes the values in `asked`, which override the world file.
+/// Returns a certificate with the claim that boxes separate the start from all goals. Does not check whether that is
+/// true. The certificate includes the values in `asked`, which override the world file.
 ///
 /// # Errors
 /// The first box whose shapes are not part of the problem, or never meet.

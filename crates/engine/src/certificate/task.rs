@@ -8,7 +8,8 @@ use cplan_handling::{Action, Object, Payload, RecordedStep, Step, Task};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
-/// Returns the member with the steps of a planned task, whose motion is part of the result.
+/// Returns the steps of a planned task as a member of the certificate's JSON. The motion of such a task is part of the
+/// result.
 pub(super) fn steps(steps: &[StepReport]) -> (&'static str, String) {
     let step = |step: &StepReport| {
         let turn = step.turn.as_ref().map(|turn| turn.to - turn.from);
@@ -17,7 +18,7 @@ pub(super) fn steps(steps: &[StepReport]) -> (&'static str, String) {
     ("steps", lines(&steps.iter().map(step).collect::<Vec<_>>()))
 }
 
-/// Returns the member with the steps of a recorded task.
+/// Returns the steps of a recorded task as a member of the certificate's JSON.
 pub(super) fn steps_of_recording(steps: &[RecordedStep]) -> (&'static str, String) {
     let step = |step: &RecordedStep| {
         let knots = [*step.samples.start(), *step.samples.end()];
@@ -33,7 +34,7 @@ fn done(step: usize, knots: [usize; 2], turn: Option<f64>) -> Value {
     }
 }
 
-/// Returns the objects that rest on supports when a step picks or places them.
+/// Returns the indices of the objects that rest on supports when a step picks or places them.
 fn pressed(task: &Task) -> BTreeSet<usize> {
     let mut picked = None;
     let rests = |step: &Step| {
@@ -44,7 +45,8 @@ fn pressed(task: &Task) -> BTreeSet<usize> {
     task.steps().filter_map(rests).collect()
 }
 
-/// Checks that a checker can move the corners of all objects that rest on supports inwards.
+/// Checks that the corners of all objects that rest on supports can be moved inwards, as a checker of the certificate
+/// must do.
 ///
 /// # Errors
 /// [`NoCertificate::Outline`].

@@ -19,11 +19,11 @@ use cplan_motion::recorded::{
 use cplan_robot::InputError;
 use cplan_world::{LoadedRecording, LoadedScene, LoadedTask, Overrides};
 
-/// Judges a recording. It must lead from the world's start to its goal, or to those of `overrides`. With `anywhere`, it
-/// may begin and end at any configuration. A recording with steps is judged as the world's task.
+/// Judges a recording. It must lead from the world's start to its goal, or to those of `overrides`. If `anywhere` is
+/// true, it may begin and end at any configuration. A recording with steps is judged as the world's task.
 ///
 /// # Errors
-/// Overrides that do not suit the world, and steps that an arm like this one cannot do.
+/// Overrides that do not suit the world, and steps that an arm of this kind cannot do.
 pub fn verify(
     loaded: &LoadedScene,
     recorded: &LoadedRecording,
@@ -98,7 +98,7 @@ fn judge_motion(
     Ok(findings.but(Judgement::Ends, misses).but(Judgement::Claims, false_claims))
 }
 
-/// Judges the recording as the task of the world.
+/// Judges the recording as the world's task.
 fn judge_task(
     loaded: &LoadedScene,
     recording: &Recording,
@@ -118,7 +118,7 @@ fn judge_task(
     Ok(task::judged(&task, &scene, &loaded.robot.assumed, (recording, steps), replay, claims, notes))
 }
 
-/// Describes steps that look like jumps of wrapped angles.
+/// Describes steps between samples that look like jumps because angles were wrapped. `None` if there are none.
 fn turns(scene: &Scene, recording: &Recording) -> Option<String> {
     let turns = recording.turns(&scene.arm().topology());
     let &(sample, k) = turns.first()?;

@@ -15,7 +15,7 @@ pub enum Judgement {
     Free,
     /// Neither proven free nor proven to collide.
     Undecided,
-    /// Free, but some values that the file states are wrong.
+    /// Free, but the file states some wrong values.
     Claims,
     /// Not known to collide, but does not lead from the start to the goal.
     Ends,
@@ -64,8 +64,8 @@ pub struct MotionFindings {
     pub collisions: CollisionFinding,
     /// Violated limits, each listed once.
     pub limits_broken: Vec<LimitFinding>,
-    /// Assumed limits that the motion exceeds, each listed once. The files do not state them, so they do not affect the
-    /// verdict.
+    /// Assumed limits that the motion exceeds, each listed once. The input files do not state these limits, so they do
+    /// not affect the verdict.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assumed_exceeded: Vec<LimitFinding>,
     /// Differences from the requested motion or task, and false statements in the file.
@@ -94,13 +94,13 @@ pub struct CollisionFinding {
     /// The first contact of a motion that collides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_contact: Option<EncounterFinding>,
-    /// Time before which a colliding motion is proven free. It counts as the time of `first_contact` does.
+    /// Time before which a colliding motion is proven free, on the same clock as the time of `first_contact`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free_until: Option<f64>,
     /// The deepest penetration found on a motion that collides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deepest: Option<EncounterFinding>,
-    /// The place for which it is not known whether the motion collides.
+    /// The place where it is not known whether the motion collides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub undecided: Option<EncounterFinding>,
 }
@@ -130,8 +130,8 @@ pub struct MomentFinding {
     /// Time as in the file, in seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
-    /// For a motion without times: the number of the waypoint, counted from 0, plus the fraction of the segment to the
-    /// next waypoint.
+    /// Place on a motion without times: the index of the waypoint, from 0, plus the fraction of the segment to the next
+    /// waypoint.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub waypoint: Option<f64>,
     /// Index of the last sample at or before this moment, from 0.
@@ -147,7 +147,7 @@ pub struct LimitFinding {
     pub joint: String,
     /// The quantity that is limited, such as `velocity`.
     pub limit: &'static str,
-    /// The value that the motion reaches, in rad or m, per second, second squared or cubed.
+    /// The value that the motion reaches, in rad or m: per second, per second squared or per second cubed.
     pub value: f64,
     /// The allowed value, in the same unit.
     pub allowed: f64,
@@ -168,7 +168,7 @@ pub(super) struct ExceededLimits {
 }
 
 impl ExceededLimits {
-    /// Separates violations of stated limits from those of assumed ones.
+    /// Splits violations of limits into those of stated limits and those of assumed ones.
     pub fn new(joints: &[Joint; 2], broken: &[LimitViolation], assumed: &AssumedLimits) -> Self {
         let is_assumed = |excess: &LimitViolation| {
             let name = &joints[excess.joint].name;
@@ -204,7 +204,7 @@ impl MotionFindings {
         }
     }
 
-    /// Creates the findings about a recording without any result.
+    /// Creates findings about a recording before any check: free, with clearance and limits not yet judged.
     pub(super) fn of_nothing(scene: &Scene, recording: &Recording) -> Self {
         let joints = &scene.arm().joints;
         Self {
@@ -224,7 +224,7 @@ impl MotionFindings {
         }
     }
 
-    /// Adds faults. If there are any, the verdict becomes at least as bad as `verdict`.
+    /// Adds faults. If there are any, and the verdict is better than `verdict`, it becomes `verdict`.
     pub(super) fn but(mut self, verdict: Judgement, faults: Vec<impl ToString>) -> Self {
         if !faults.is_empty() {
             self.verdict = self.verdict.max(verdict);

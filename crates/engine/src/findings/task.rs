@@ -128,8 +128,8 @@ impl TurnFinding {
     }
 }
 
-/// Judges all steps. Collisions and clearance of the whole task are those of the decisive step: the first that
-/// collides, otherwise the first that is undecided, otherwise the one with the least clearance.
+/// Judges all steps. Collisions and clearance of the whole task are those of one step: the first that collides,
+/// otherwise the first that is undecided, otherwise the one with the least clearance.
 pub(super) fn judged(
     task: &Task,
     scene: &Scene,
@@ -171,7 +171,7 @@ pub(super) fn judged(
     .but(Judgement::Claims, false_claims)
 }
 
-/// Returns collisions and clearance along the whole path.
+/// Returns collisions and clearance of the whole task, from those of its steps.
 fn collisions(steps: &[StepFinding]) -> CollisionFinding {
     let undecided = steps.iter().position(|step| step.collisions.undecided.is_some());
     let turn_hits = |step: &StepFinding| step.turn.as_ref().is_some_and(|turn| turn.contact.is_some());

@@ -7,13 +7,13 @@ use cplan_motion::{Format, JointMotion, Trajectory, csv, ros_yaml};
 use cplan_motion::{Stage, mcap};
 
 impl Plan {
-    /// Returns the result as a file in this format. `None` if the format holds only a trajectory and there is no
+    /// Returns the result as a file in this format. `None` if the format can contain only a trajectory and there is no
     /// motion. All formats except MCAP are text in UTF-8.
     ///
-    /// In the table of a task, a column has the number of each sample's step, counted from 1 in the order of execution.
-    /// A ROS 2 message holds the whole motion. A recording has a message for each step: its motion, followed by the
-    /// turns of the wrist and strokes of the tool. Such a recording includes nothing to display; see
-    /// `PlanOutput::bytes` of the crate `view`.
+    /// The table of a task has a column with the number of each sample's step, counted from 1 in the order of
+    /// execution. A ROS 2 message has the whole motion. A recording has a message for each step: its motion, followed
+    /// by the turns of the wrist and strokes of the tool. This recording has nothing to display; see
+    /// `PlanOutput::bytes` of the crate `view` for one that has.
     #[must_use]
     pub fn encoded(&self, format: Format) -> Option<Vec<u8>> {
         Some(match format {
@@ -38,8 +38,9 @@ impl Plan {
         Some(mcap(&steps.iter().map(|(begin, motion)| (motion, *begin)).collect::<Vec<_>>(), stage))
     }
 
-    /// Returns the motion of each step of a task as a file of its own, without waits and with times from its beginning.
-    /// `None` for a single motion, and for formats that do not hold single trajectories.
+    /// Returns the motion of each step of a task as a file of its own. The files have no waits, and their times count
+    /// from the beginning of the motion. `None` for a single motion, and for formats that cannot contain single
+    /// trajectories.
     #[must_use]
     pub fn encoded_per_step(&self, format: Format) -> Option<Vec<Vec<u8>>> {
         let (_, answer) = self.task()?;
@@ -54,7 +55,7 @@ impl Plan {
         Some(text.into_iter().map(String::into_bytes).collect())
     }
 
-    /// Returns a motion as a table. `steps` has the number of each sample's step.
+    /// Returns a motion as a table. If given, `steps` has the number of each sample's step.
     fn table(&self, motion: &Trajectory, steps: Option<&[usize]>) -> String {
         let joints = self.arm().joints.each_ref().map(|joint| joint.name.clone());
         csv(&joints, motion, self.options().accelerations, steps)

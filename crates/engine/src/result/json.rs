@@ -21,7 +21,7 @@ use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// Writes fields in order.
+/// A writer that writes selected fields, in the order in which they are passed to it.
 struct Fields<'a, M> {
     map: M,
     /// Names of the fields to write. Empty for all fields.
@@ -35,13 +35,13 @@ impl<M: SerializeMap> Fields<'_, M> {
         if is_written { self.map.serialize_entry(name, value) } else { Ok(()) }
     }
 
-    /// Writes a field. Omits it if it has no value.
+    /// Writes a field. Writes nothing if `value` is `None`.
     fn some(&mut self, name: &'static str, value: Option<impl Serialize>) -> Result<(), M::Error> {
         value.map_or(Ok(()), |value| self.put(name, &value))
     }
 }
 
-/// The whole motion, with the number of each sample's step.
+/// The samples of the whole motion, with the number of each sample's step.
 #[derive(Serialize)]
 struct Samples<'a> {
     #[serde(flatten)]
@@ -50,7 +50,7 @@ struct Samples<'a> {
     step: Option<Vec<usize>>,
 }
 
-/// Assumed limits by joint, and their description.
+/// Descriptions of the assumed limits, by joint, and in one text.
 #[derive(Serialize)]
 struct AssumedLimitTexts {
     #[serde(flatten)]
@@ -147,7 +147,8 @@ impl PlanResult<'_> {
         self.trajectory(fields, plan.trajectory().map(|trajectory| Samples { trajectory, step: None }))
     }
 
-    /// Writes the fields of a task. The path follows the steps; in a motion, it precedes the bounds.
+    /// Writes the fields of a task. The path follows the steps. (In the result of a motion, the path precedes the
+    /// bounds.)
     fn task<M: SerializeMap>(&self, fields: &mut Fields<M>, task: &Task, answer: &TaskAnswer) -> Result<(), M::Error> {
         let Self { plan, .. } = self;
         let motion = answer.outcome.found();

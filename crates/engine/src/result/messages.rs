@@ -49,7 +49,7 @@ pub enum MessageError {
 pub struct Messages {
     /// The motion of the whole task, including the times at which the arm stands still.
     pub whole: JointMotion,
-    /// For each step, the time at which it begins, in seconds, and its motion until all of the joints are at rest.
+    /// For each step, the time in seconds at which it begins, and its motion until all of the joints are at rest.
     pub steps: Vec<(f64, JointMotion)>,
 }
 
@@ -105,7 +105,7 @@ struct Row {
     pull: [f64; 2],
 }
 
-/// Rows in chronological order.
+/// Rows in chronological order, each with a different time.
 #[derive(Debug, Default)]
 struct Rows(Vec<Row>);
 
@@ -195,7 +195,7 @@ impl Tool<'_> {
         }
     }
 
-    /// Returns the angle of link 2, or its velocity.
+    /// Returns the angle of link 2, or its angular velocity if `planned` has velocities.
     fn turned(&self, planned: [f64; 2]) -> f64 {
         let of = |k: usize| match self.task.arm.joints[k].joint_type {
             JointType::Revolute { sign } => sign * planned[k],
@@ -250,8 +250,8 @@ impl Tool<'_> {
     }
 }
 
-/// Returns the part of a distance that the wrist can cover in a given time, from rest to rest along a cubic. The top
-/// speed of a cubic is 1.5 times the mean speed, and its greatest acceleration is 6 times the distance over the squared
+/// Returns the part of `distance` that the wrist can cover in `duration`, from rest to rest along a cubic. The top
+/// speed of a cubic is 1.5 times the mean speed. Its greatest acceleration is 6 times the distance over the squared
 /// time.
 fn back(distance: f64, duration: f64, limits: Wrist) -> f64 {
     let most = (limits.velocity * duration / 1.5).min(limits.acceleration * duration * duration / 6.0);

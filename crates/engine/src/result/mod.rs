@@ -111,7 +111,7 @@ fn waypoints(path: &Path) -> Vec<[f64; 2]> {
     path.waypoints().iter().map(|q| [q[0], q[1]]).collect()
 }
 
-/// Describes the step that fails, in a sentence.
+/// Describes the step that fails and the reason, in a sentence.
 fn reason(task: &Task, FailedStep { step, .. }: &FailedStep, status: Status) -> String {
     let cycle = if step.cycle > 1 { format!(" of cycle {}", step.cycle) } else { String::new() };
     let which = format!("step {}{cycle}, {} ({})", step.number, step.action.describe(&task.objects), step.place);

@@ -46,7 +46,7 @@ pub struct TurnReport {
     pub clearance: Option<f64>,
 }
 
-/// The stroke of the tool while the arm stands still: the tool is lowered, the gripper acts, and the tool is raised.
+/// The stroke of the tool while the arm stands still. The tool is lowered, the gripper acts, and the tool is raised.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct StrokeReport {
     /// The joint's value while the tool is raised, metres.
@@ -59,7 +59,7 @@ pub struct StrokeReport {
     pub clearance: Option<f64>,
 }
 
-/// A step of the answer: a motion from rest to rest, and a rest after it.
+/// A step of the answer: a motion that begins and ends at rest, and a rest after it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StepReport {
     /// The step's number in the world file, from 1.
@@ -97,13 +97,13 @@ pub struct StepReport {
     /// Index of the motion's first sample in the whole trajectory, from 0. `None` if the result has no whole
     /// trajectory.
     pub first_sample: Option<usize>,
-    /// Index of the motion's last sample, at which the arm stands still.
+    /// Index of the motion's last sample, at which the arm stands still. `None` if the result has no whole trajectory.
     pub last_sample: Option<usize>,
 }
 
 impl StepReport {
-    /// Creates the report of step `index` of a sequence. `is_whole` is true if the sequence's trajectory is part of the
-    /// result.
+    /// Creates the report of step `index` of a sequence. `is_whole` is true if the result includes the trajectory of
+    /// the whole sequence.
     fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize, is_whole: bool) -> Self {
         let curve = &leg.timed.curve;
         let path = curve.curve().path();
@@ -238,7 +238,7 @@ impl From<&RefusedIkSolution> for IkSolutionReport {
     }
 }
 
-/// A step that cannot be done, or is not known to be possible.
+/// A step that is infeasible, or not known to be feasible.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FailedStepReport {
     /// The step's number in the world file, from 1.

@@ -5,10 +5,10 @@ use cplan_core::cspace::Grid;
 use cplan_interrupt::checkpoint;
 use std::f64::consts::TAU;
 
-/// The effect on every cell of obstacle cells with charge 1: the sum of `1 / d`, and the sum of the forces `1 / d^2`
-/// away from the obstacle cells. `d` is the distance of the cells' centres, in cells; for continuous joints, in the
-/// shorter direction. If cells are not square, the unit of length is the side of a square with the same area. With
-/// [`Limits::High`], a frame of one cell beyond the limits of intervals also counts as obstacle.
+/// The effect of all obstacle cells on every cell, as that of charges. It has the sum of `1 / d`, and the sum of the
+/// forces `1 / d^2` away from the obstacle cells. `d` is the distance of the cells' centres, in cells; for continuous
+/// joints, in the shorter direction. If cells are not square, the unit of length is the side of a square with the same
+/// area. With [`Limits::High`], a frame of one cell beyond the limits of intervals also counts as obstacle.
 ///
 /// The sum of `1 / d^2` approximates the integral of area over squared distance, so it hardly depends on the size of
 /// cells. The result equals the direct sums up to rounding. Takes `O(n log n)` for `n` cells.
@@ -88,7 +88,8 @@ impl Plane {
         Self { cells, values: vec![[0.0; 2]; cells[0] * cells[1]] }
     }
 
-    /// Computes the Fourier transform (`sign` 1), or the inverse one times the number of cells (-1).
+    /// Computes the Fourier transform if `sign` is 1. If it is -1, computes the inverse transform, multiplied by the
+    /// number of cells.
     fn transform(&mut self, sign: f64) {
         for _ in 0..2 {
             let columns = self.cells[1];

@@ -4,13 +4,13 @@ use super::{Escape, ForceField, Trap};
 use cplan_harmonic::{Guide, Place};
 use std::collections::BTreeSet;
 
-/// The forces as a [`Guide`]. The curve descends the potential. Saturated forces have no potential: then the curve
-/// follows the forces, as long as these lead to cells that it has not visited.
+/// The forces as a [`Guide`] for a curve. The curve descends the potential. Saturated forces have no potential; then
+/// the curve follows the forces, as long as these lead to cells that it has not visited.
 pub struct ForceGuide<'a, F> {
     field: &'a ForceField<'a>,
     goals: BTreeSet<usize>,
     visited: BTreeSet<usize>,
-    /// The free cell at a place; none for others, and beyond limits.
+    /// Returns the free cell at a place; `None` for cells that are not free, and beyond limits.
     at: F,
     /// Method of leaving local minima. With `None`, a local minimum ends the path.
     escape: Option<Escape>,
@@ -33,8 +33,8 @@ impl<'a, F: Fn(Place) -> Option<usize>> ForceGuide<'a, F> {
         Self { field, goals, visited: BTreeSet::new(), at, escape: None, escaped: EscapedMinima::default() }
     }
 
-    /// Sets the method of leaving local minima. It has no effect with saturated forces: the path ends where they trap
-    /// it.
+    /// Sets the method of leaving local minima. It has no effect with saturated forces: where they trap the path, the
+    /// path ends.
     #[must_use]
     pub fn with_escape(self, escape: Option<Escape>) -> Self {
         Self { escape, ..self }

@@ -39,8 +39,8 @@ pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
     nearest
 }
 
-/// Returns the number of steps from each cell of a row to the nearest blocked cell in the row. Of two that are equally
-/// near, it is the one with the lower index. `None` if no cell of the row is blocked.
+/// Returns, for each cell of a row, the number of steps to the nearest blocked cell in the row. If two are equally
+/// near, takes the one with the lower index. Returns `None` if no cell of the row is blocked.
 fn in_row(row: &[bool], wraps: bool, solid: bool) -> Vec<Option<i64>> {
     let n = row.len() as i64;
     let blocked = |j: i64| match (0..n).contains(&j) {
@@ -80,7 +80,7 @@ struct Site {
     offset: i64,
 }
 
-/// The lower envelope of parabolas that differ only in their position.
+/// The lower envelope of parabolas that have the same shape and different positions.
 #[derive(Default)]
 struct Envelope {
     sites: Vec<Site>,
@@ -138,7 +138,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(300))]
 
-        /// Compares with all pairs of cells and of their copies.
+        /// Compares the distances with the least over all pairs of cells and their copies.
         #[test]
         fn distances_are_those_to_the_nearest_of_all_blocked_cells(
             (rows, columns, blocked) in (1..9_usize, 1..9_usize).prop_flat_map(|(rows, columns)| {

@@ -20,8 +20,9 @@ pub enum Escape {
         /// Seed of the random numbers: the same seed gives the same walks.
         seed: u64,
     },
-    /// A search that fills the basin of the minimum, always with the lowest cell at the edge of the filled part, until
-    /// it reaches a cell that is lower than the minimum. It succeeds if free cells connect the minimum with a goal.
+    /// A search that fills the basin of the minimum. It always adds the lowest cell at the edge of the filled part,
+    /// until it reaches a cell that is lower than the minimum. It succeeds if free cells connect the minimum with a
+    /// goal.
     Wave,
 }
 
@@ -36,7 +37,7 @@ impl Escape {
     }
 }
 
-/// The words of the command line.
+/// Writes the method in the words of the command line.
 impl fmt::Display for Escape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -46,7 +47,7 @@ impl fmt::Display for Escape {
     }
 }
 
-/// Largest number of random walks from one minimum.
+/// Largest number of random walks from one minimum before the search gives up.
 const MAX_WALKS: usize = 256;
 
 /// Number of steps of the first walk. Each further walk has this many steps more than the one before.

@@ -45,7 +45,7 @@ pub struct Khatib {
     /// Repulsion by the obstacles.
     pub repulsion: Repulsion,
     /// True if each component of both forces is replaced by its tanh before the forces are added, so that no component
-    /// exceeds 1 (Gonçalves da Silva). Such a force is not a gradient: it has no potential.
+    /// of either exceeds 1 (Gonçalves da Silva). Such a force is not a gradient: it has no potential.
     pub saturated: bool,
 }
 
@@ -92,7 +92,7 @@ impl Repulsion {
     }
 }
 
-/// The words of the command line.
+/// Writes the law in the words of the command line.
 impl fmt::Display for Attraction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -102,7 +102,7 @@ impl fmt::Display for Attraction {
     }
 }
 
-/// The words of the command line.
+/// Writes the law in the words of the command line.
 impl fmt::Display for Repulsion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -131,7 +131,7 @@ enum Obstacles {
     Sum(Charges),
 }
 
-/// A cell that the forces do not leave.
+/// A cell from which the forces do not lead on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trap {
     /// The cell that cannot be left.
@@ -202,12 +202,13 @@ impl<'a> ForceField<'a> {
         self.laws.saturated
     }
 
-    /// Moves from cell to cell until it reaches one of `targets`, and returns the cells. Each move leads to the one of
-    /// eight neighbours with the lowest potential. With saturated forces, it leads to the neighbour that lies most in
-    /// the direction of the force. Moves do not cut corners of obstacles. There is at most one move per cell.
+    /// Moves from cell to cell until it reaches one of `targets`, and returns the cells. Each move leads to that one of
+    /// the eight neighbours that has the lowest potential. With saturated forces, it leads to the neighbour that lies
+    /// most in the direction of the force. Moves do not cut corners of obstacles. There is at most one move per cell.
     ///
-    /// # Errors [`Trap`] if no neighbour has a lower potential, or if saturated forces do not lead to a cell that was
-    /// not visited.
+    /// # Errors
+    /// [`Trap`] if no neighbour has a lower potential, or if saturated forces do not lead to a cell that was not
+    /// visited.
     pub fn descend(&self, from: usize, targets: &[usize]) -> Result<Vec<usize>, Trap> {
         let mut visited = vec![false; if self.laws.saturated { self.grid.blocked.len() } else { 0 }];
         let mut cells = vec![from];
@@ -254,8 +255,8 @@ impl<'a> ForceField<'a> {
         displacements.min_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap_or_else(Configuration::zeros)
     }
 
-    /// Iterates over the free neighbours that share a side or a corner, with their displacements. A corner counts only
-    /// between two free cells.
+    /// Iterates over the free neighbours that share a side or a corner, with their displacements. A neighbour across a
+    /// corner counts only if both cells beside the corner are free.
     pub(super) fn neighbors(&self, at: usize) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
         const NEIGHBOR_OFFSETS: [[i64; 2]; 8] = [[-1, 0], [1, 0], [0, -1], [0, 1], [-1, -1], [-1, 1], [1, -1], [1, 1]];
         let step = self.grid.step();
@@ -266,7 +267,7 @@ impl<'a> ForceField<'a> {
         })
     }
 
-    /// Returns the cell this many rows and columns away. `None` if there is none, or if it is not free.
+    /// Returns the cell that is this many rows and columns away. `None` if there is no such cell, or if it is not free.
     fn free(&self, from: usize, by: [i64; 2]) -> Option<usize> {
         let [rows, columns] = self.grid.cells;
         let place = |k: usize, at: usize, n: usize| {

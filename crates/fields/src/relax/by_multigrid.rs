@@ -6,7 +6,7 @@ use super::{Boundary, Convergence, Domain, Equation, Measure, RelaxError, Relaxe
 use cplan_interrupt::checkpoint;
 use cplan_multigrid::{Ends, Multigrid, Workspace};
 
-/// Number of steps after which GMRES restarts, and so the number of vectors that it keeps.
+/// Number of steps after which GMRES restarts. It is also the number of vectors that GMRES keeps.
 const RESTART_STEPS: usize = 16;
 
 /// Relative error to which a step solves the equation without its drift. That solution only gives a direction, so one
@@ -16,8 +16,8 @@ const PRECONDITIONER_ERROR: f64 = 0.1;
 /// Least relative error to which a step solves an equation without a drift: about what single precision allows.
 const MIN_STEP_ERROR: f64 = 1e-6;
 
-/// Fraction of the requested change at which steps stop by the estimate of the residual. It is less than 1, because the
-/// residual itself is checked, and rounding makes it greater than the estimate.
+/// Fraction of the requested change at which steps stop, according to the estimate of the residual. It is less than 1,
+/// because the residual itself is checked afterwards, and rounding makes it greater than the estimate.
 const STEP_STOP_FRACTION: f64 = 0.5;
 
 /// Solves a linear equation from `start`, such as the field before obstacles moved slightly. The method is flexible
@@ -129,8 +129,8 @@ pub fn by_multigrid_in(
     }
 }
 
-/// The equations of all cells. Vectors have one entry per cell, row by row, 0 for cells that are not unknowns, so that
-/// neighbours are at constant offsets.
+/// The equations of all cells. A vector has one entry per cell, row by row, so that neighbours are at constant offsets.
+/// Cells that are not unknowns have the entry 0.
 struct System {
     cells: [usize; 2],
     boundaries: [Boundary; 2],
@@ -234,8 +234,8 @@ impl System {
         residual
     }
 
-    /// Takes steps until the estimated residual is below `below`, at most `most` steps, and adds them to the values.
-    /// Returns the number of steps.
+    /// Takes up to `most` steps, until the estimated residual is below `below`, and adds their corrections to the
+    /// values. Returns the number of steps.
     fn round(
         &self,
         advice: &mut Preconditioner,
@@ -315,8 +315,8 @@ impl Preconditioner {
         Self { workspace, multigrid, right: vec![0.0; system.sought.len()] }
     }
 
-    /// Returns the correction that reduces the residual by `residual`, up to an `error`: one entry per cell, and 0 last
-    /// for the boundary.
+    /// Returns the correction of the values that would remove `residual`, with the relative error `error`. It has one
+    /// entry per cell, and 0 last for the boundary.
     fn correction(&mut self, system: &System, residual: &[f64], error: f64) -> Vec<f64> {
         let asked = residual.iter().zip(&system.sums).map(|(residual, sum)| sum * residual);
         self.right.iter_mut().zip(asked).for_each(|(to, asked)| *to = asked);

@@ -16,17 +16,16 @@ pub struct DeadEnd {
 }
 
 /// Moves from cell to neighbouring cell until it reaches a goal, and returns the cells. Each move leads to the
-/// neighbour whose value is nearest to the goals' level, or to the first of several: down if obstacles are high, up if
-/// they are low.
+/// neighbour whose value is nearest to the goals' level; if several are equal, to the first of them. So the path leads
+/// down if obstacles are high, and up if they are low.
 ///
 /// If no neighbour is better, the path crosses cells of equal value to the nearest better cell, because a field may be
 /// level around a point of symmetry. It does not cross cells that have exactly the level of obstacles or goals, where
 /// the field gives no direction. No cell is visited twice.
 ///
 /// # Errors
-/// [`DeadEnd`] if there is no better cell. Converged fields of monotone equations have two kinds of such cells: where
-/// values differ by less than the precision of doubles, and where only goals bound a region, so that the field is
-/// constant.
+/// [`DeadEnd`] if there is no better cell. Converged fields of monotone equations have such cells only where values
+/// differ by less than the precision of doubles, and where only goals bound a region, so that the field is constant.
 ///
 /// # Panics
 /// If there is not one value per cell, or `from` is not a cell.
@@ -103,8 +102,8 @@ impl Values<'_> {
     }
 }
 
-/// The values of a field as a [`Guide`]. The curve follows the gradient of the logarithm of the difference between the
-/// value and the obstacles' level, by central differences, towards the goals.
+/// The values of a field as a [`Guide`] for a curve. The curve leads towards the goals. It follows the gradient of the
+/// logarithm of the difference between the value and the obstacles' level, by central differences.
 pub struct ValueGuide<'a, F> {
     values: Values<'a>,
     /// Returns the cell at a place; `None` beyond limits.

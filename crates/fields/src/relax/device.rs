@@ -3,7 +3,7 @@
 use super::{Domain, Equation, RelaxError, Relaxation, RelaxedField, Stopping, relax};
 use serde::{Deserialize, Serialize};
 
-/// A device that computes the sweeps of a relaxation.
+/// A device on which a field is relaxed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Device {
@@ -46,11 +46,12 @@ impl Device {
 #[cfg(not(feature = "gpu"))]
 const NO_GPU_MESSAGE: &str = "this program was built without GPU; build it with --features gpu, or relax on the CPU";
 
-/// Same as [`relax`], on a device. On a GPU, values are rounded to single precision. A stage that cannot improve in
-/// single precision ends unconverged before `stopping.max_sweeps`.
+/// Does the same as [`relax`], on a device. On a GPU, values are rounded to single precision. A stage that cannot
+/// improve in single precision ends before `stopping.max_sweeps`, without convergence.
 ///
-/// # Errors Same as [`relax`]. Also [`RelaxError::Refused`] if there is no GPU, or if the GPU does not support the
-/// order of updates or the number of cells.
+/// # Errors
+/// Those of [`relax`]. Also [`RelaxError::Refused`] if there is no GPU, or if the GPU does not support the order of
+/// updates or the number of cells.
 pub fn relax_on(
     device: Device,
     domain: &Domain,

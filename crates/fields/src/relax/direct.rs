@@ -57,7 +57,7 @@ pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
     fits(domain, &unknowns, &weights, &values).then_some(values)
 }
 
-/// Returns the unknown cells, row by row, with rows alternately from both ends.
+/// Returns the unknown cells row by row. The rows come alternately from the two ends.
 fn folded(domain: &Domain) -> Vec<u32> {
     let [rows, columns] = domain.cells();
     let row = |k: usize| if k.is_multiple_of(2) { k / 2 } else { rows - 1 - k / 2 };

@@ -59,8 +59,8 @@ impl Levels {
     /// rise.
     pub const PROBABILITY: Self = Self { obstacle: 0.0, goal: 1.0, free: 0.0 };
 
-    /// Returns 1 if obstacles are high, and -1 if they are low. With this factor, differences of values have the sign
-    /// of the literature.
+    /// Returns 1 if obstacles are high, and -1 if they are low. Differences of values times this factor have the sign
+    /// that they have in the literature.
     pub(super) fn orientation(self) -> f64 {
         if self.obstacle < self.goal { -1.0 } else { 1.0 }
     }
@@ -217,8 +217,8 @@ impl Domain {
         ]
     }
 
-    /// Returns true if a cell is free and has a neighbour other than itself. A free cell without such a neighbour keeps
-    /// its value.
+    /// Returns true if the value of a cell is an unknown: the cell is free and has a neighbour other than itself. A
+    /// free cell without such a neighbour keeps its value.
     pub(super) fn is_sought(&self, cell: usize) -> bool {
         let has_neighbors = self.kinds.len() > 1 || self.boundaries.contains(&Boundary::High);
         self.kinds[cell] == Cell::Free && has_neighbors

@@ -42,7 +42,8 @@ pub struct Direction([f64; 2]);
 impl TryFrom<[f64; 2]> for Direction {
     type Error = &'static str;
 
-    /// Keeps a vector of length 1 unchanged, so that a written direction is read back the same.
+    /// Accepts a vector of length 1 without changing it, so that a direction that was written to a file is read back
+    /// unchanged.
     fn try_from(vector: [f64; 2]) -> Result<Self, &'static str> {
         let length = vector[0].hypot(vector[1]);
         ((length - 1.0).abs() <= UNIT_ROUNDING)
@@ -161,7 +162,7 @@ impl Equation {
         self.is_monotone_with(1.0)
     }
 
-    /// Same as [`Equation::is_monotone`], for the cells of a domain, which need not be square.
+    /// Does the same as [`Equation::is_monotone`] for the cells of a domain, which need not be square.
     #[must_use]
     pub fn is_monotone_on(&self, domain: &Domain) -> bool {
         self.is_monotone_with(domain.beta())

@@ -17,7 +17,7 @@ pub(super) fn shared() -> Result<&'static Gpu, String> {
     GPU.get_or_init(|| Gpu::open().map_err(|error| error.to_string())).as_ref().map_err(Clone::clone)
 }
 
-/// Same as [`super::relax`], on the GPU.
+/// Does the same as [`super::relax`], on the GPU.
 pub(super) fn relax(
     domain: &Domain,
     equation: &Equation,

@@ -55,7 +55,7 @@ pub enum Scheme {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Factor {
-    /// This number.
+    /// This factor.
     Given(f64),
     /// `4 / (2 + sqrt(4 - c^2))` with `c = cos(pi / m) + cos(pi / n)` for `m x n` cells. This is the best factor for
     /// Laplace's equation in an empty rectangle of `m` by `n` steps (Young 1954). Between limits that lie one cell
@@ -88,11 +88,11 @@ pub enum Order {
     /// Line by line from another corner in each sweep: `(0, 0)`, then the end of the first line, the beginning of the
     /// last line, and the end of the last line. Deicu 2012 calls this order "simultaneous", and also counts each sweep.
     Corners(Lines),
-    /// All cells whose indices have an even sum, then the others. On circles of odd length, neighbours across the seam
-    /// have the same colour and are updated one after the other.
+    /// First all cells whose two indices have an even sum, then the others. On circles of odd length, neighbours across
+    /// the seam have the same colour and are updated one after the other.
     RedBlack,
-    /// Four colours: cells whose row and column are both even, then the other cells with an even row, then the other
-    /// cells with an even column, then the rest. No two cells of one colour share a side or a corner.
+    /// First the cells whose row and column are both even, then the other cells with an even row, then the other cells
+    /// with an even column, then the rest. No two cells of one colour share a side or a corner.
     FourColors,
 }
 
@@ -255,7 +255,7 @@ impl Order {
 mod tests {
     use super::*;
 
-    /// Cells of a 2 x 3 domain in the order of each sweep.
+    /// Returns the cells of a 2 x 3 domain in the order of each sweep.
     fn passes_of(order: Order) -> Vec<Vec<u32>> {
         order.passes([2, 3], &[0, 1, 2, 3, 4, 5])
     }

@@ -3,7 +3,7 @@
 use super::sweeps::{normalized_gradient, strengths};
 use super::{Difference, Domain, Equation, RelaxError};
 
-/// A device that relaxes stages. Each stage starts with the final values of the previous one.
+/// A device that relaxes the stages of an equation. Each stage starts with the final values of the previous one.
 pub(super) trait Stages {
     /// Relaxes the equation without a drift.
     fn harmonic(&mut self) -> Result<(), RelaxError>;

@@ -2,14 +2,14 @@
 
 use super::{Difference, Domain, Neighbor};
 
-/// Computes the value that a cell's neighbours imply for it.
+/// A rule for the value that a cell's neighbours imply for the cell.
 pub(super) trait Stencil {
     /// Returns the implied value for the unknown at `position` with the value `own`, from its neighbours in the order
     /// `-q1, +q1, -q2, +q2`.
     fn target(&self, position: usize, own: f64, around: [f64; 4]) -> f64;
 }
 
-/// The mean of the four neighbours. It does not apply at reflecting limits; see [`WeightedMean`].
+/// The mean of the four neighbours. It is wrong at reflecting limits, where [`WeightedMean`] applies.
 pub(super) struct Mean;
 
 impl Stencil for Mean {
@@ -58,8 +58,8 @@ pub(super) fn weights(domain: &Domain, cell: usize, drift: [f64; 2], difference:
     weights
 }
 
-/// Same as [`weights`], for a cell that is not its own neighbour. Along axis 2, second differences have the factor
-/// `beta^2`, and first differences the factor `beta`.
+/// Does the same as [`weights`] for a cell that is not its own neighbour. Along axis 2, second differences have the
+/// factor `beta^2`, and first differences the factor `beta`.
 pub(super) fn sides(beta: f64, drift: [f64; 2], difference: Difference) -> [f64; 4] {
     let side = |beta: f64, b: f64| match difference {
         Difference::Central => beta * (beta + 0.5 * b),

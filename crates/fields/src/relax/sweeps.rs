@@ -48,7 +48,7 @@ pub enum RelaxError {
         sweeps: usize,
         /// The first cell with such a value, as row and column.
         cell: [usize; 2],
-        /// The value of that cell.
+        /// The value of the cell.
         value: f64,
         /// Possible reason, and advice.
         hint: String,
@@ -72,8 +72,8 @@ impl fmt::Display for RelaxError {
 impl std::error::Error for RelaxError {}
 
 /// Ratio of a value to the greatest initial value above which a relaxation counts as diverged. The ratio is large
-/// because over-relaxation may overshoot and still converge: against a drift `b`, by a factor of `exp(b / 2)` per cell,
-/// which may be many orders of magnitude in total.
+/// because over-relaxation may overshoot and still converge. Against a drift `b` it overshoots by a factor of `exp(b /
+/// 2)` per cell, which may be many orders of magnitude in total.
 const DIVERGENCE_FACTOR: f64 = 1e100;
 
 /// Largest change in a sweep, as a fraction of the difference between the obstacles' and the goals' value, at which a
@@ -110,11 +110,11 @@ pub fn relax(
     relax_from(domain, equation, relaxation, stopping, domain.start())
 }
 
-/// Relaxes an equation from the values `start`, such as those of a field before obstacles moved a little. Obstacles and
-/// goals get their levels first.
+/// Relaxes an equation from the values `start`, such as those of a field before obstacles moved a little. First sets
+/// obstacles and goals to their levels.
 ///
 /// # Errors
-/// Same as [`relax`], and if there is not one value per cell.
+/// Those of [`relax`], and if there is not one value per cell.
 pub fn relax_from(
     domain: &Domain,
     equation: &Equation,
@@ -137,11 +137,11 @@ pub struct SweepSnapshot<'a> {
     pub values: &'a [f64],
 }
 
-/// Same as [`relax_from`], but also calls `watch` with the values before the first sweep of each stage, and after every
-/// sweep. The values may be NaN if the relaxation diverges.
+/// Does the same as [`relax_from`], but also calls `watch` with the values before the first sweep of each stage, and
+/// after every sweep. The values may be NaN if the relaxation diverges.
 ///
 /// # Errors
-/// Same as [`relax_from`].
+/// Those of [`relax_from`].
 pub fn relax_watched(
     domain: &Domain,
     equation: &Equation,
@@ -222,8 +222,8 @@ pub(super) fn hint(domain: &Domain, equation: &Equation, factor: f64) -> String 
     }
 }
 
-/// Returns the direction in which each free cell's value rises towards that of obstacles, by central differences; 0
-/// where values are level.
+/// Returns, for each free cell, the unit direction in which its value rises towards that of obstacles, by central
+/// differences. It is 0 where values are level.
 pub(super) fn normalized_gradient(domain: &Domain, values: &[f64]) -> Vec<[f64; 2]> {
     let levels = domain.levels();
     let at = |cell: usize| {
@@ -294,7 +294,7 @@ impl<'a> Engine<'a> {
         Self { domain, equation, relaxation, stopping, values, greatest, unknowns, around, stages: Vec::new(), watch }
     }
 
-    /// Returns true if the neighbours of some cell have unequal weights without a drift.
+    /// Returns true if the neighbours of some cell have unequal weights even without a drift.
     fn is_weighted(&self) -> bool {
         let has_mirrors = self.domain.boundaries().contains(&Boundary::Reflecting) || self.domain.cells().contains(&1);
         has_mirrors || self.domain.beta() != 1.0
@@ -415,7 +415,8 @@ impl Changes {
 struct Step<'a, S> {
     stencil: &'a S,
     factor: f64,
-    /// If no value may pass that of obstacles: 1 if obstacles are high or -1 if they are low, and their value.
+    /// `None` if values may pass that of obstacles. Otherwise two numbers: 1 if obstacles are high or -1 if they are
+    /// low, and the obstacles' value.
     guard: Option<[f64; 2]>,
     clamp: Option<[f64; 2]>,
     precision: Precision,

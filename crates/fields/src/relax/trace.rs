@@ -32,9 +32,9 @@ pub struct Sample {
 /// Measurements of a whole relaxation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
-    /// Samples after each of the first hundred sweeps. Later, the number of sweeps grows by one percent from sample to
-    /// sample. There are also samples after the first and the last sweep of each stage. Sweeps whose squares or error
-    /// are not finite are omitted.
+    /// Samples after each of the first hundred sweeps, and then less often: from sample to sample, the number of sweeps
+    /// grows by one percent. There are also samples after the first and the last sweep of each stage. Sweeps whose
+    /// squares or error are not finite are omitted.
     pub samples: Vec<Sample>,
     /// Number of sweeps of all stages together.
     pub sweeps: usize,
@@ -58,7 +58,7 @@ pub struct Leap {
 /// Distance from a sampled sweep to the next one, as a share of the number of sweeps so far.
 const SAMPLE_SPACING: f64 = 0.01;
 
-/// Share of the sweeps, counted from the end, over which [`Trace::rate`] is measured.
+/// Fraction of the sweeps, counted from the end, over which [`Trace::rate`] is measured.
 const RATE_WINDOW: f64 = 0.5;
 
 /// Error below which only rounding remains, so that no rate can be measured.

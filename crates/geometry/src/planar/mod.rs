@@ -78,7 +78,7 @@ impl Boundary {
         noding::planar(Self::bare(contours))
     }
 
-    /// Collects vertices and sides, in arbitrary order.
+    /// Collects vertices and sides, in arbitrary order, without the lists by vertex.
     fn bare(contours: &[&[Point]]) -> Self {
         let mut order: Vec<(Point, u32)> =
             contours.iter().copied().flatten().zip(0..).map(|(p, index)| (unsigned_zero(*p), index)).collect();
@@ -219,7 +219,7 @@ fn below_at(apex: Point, a: Point, b: Point) -> Ordering {
     }
 }
 
-/// Returns, for each number up to `count`, how many of the `keys` are less than it.
+/// Returns, for each number from 0 to `count`, how many of the `keys` are less than it.
 fn starts(count: usize, keys: impl Iterator<Item = usize>) -> Vec<u32> {
     let mut starts = vec![0; count + 1];
     for key in keys {

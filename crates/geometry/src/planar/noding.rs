@@ -9,8 +9,8 @@ use std::cmp::Ordering;
 /// few units in the last place of the values from which the corners were computed.
 const CROSSING_TOLERANCE: f64 = 64.0 * f64::EPSILON;
 
-/// Number of passes after which crossings that remain are ignored. The first pass joins each corner to the side that
-/// rounding has moved it across. The pieces of these sides turn slightly, which rarely causes another crossing.
+/// Largest number of passes. Crossings that remain after them are ignored. The first pass joins each corner to the side
+/// that rounding has moved it across. The pieces of these sides turn slightly, which rarely causes another crossing.
 const MAX_PASSES: usize = 16;
 
 /// Returns a boundary whose sides meet in vertices only, with the side below each vertex. Each pass takes `O(n log n)`,
@@ -30,8 +30,8 @@ pub(super) fn planar(mut boundary: Boundary) -> Boundary {
     boundary
 }
 
-/// Replaces sides by pieces between the vertices at which they are cut. `cuts` has pairs of a side and a vertex,
-/// sorted.
+/// Replaces sides by pieces between the vertices at which they are cut. `cuts` has pairs of a side and a vertex, sorted
+/// by side.
 fn cut(sides: &mut Vec<Side>, cuts: &[(usize, u32)]) {
     for of_side in cuts.chunk_by(|a, b| a.0 == b.0) {
         let whole = sides[of_side[0].0];
@@ -52,7 +52,7 @@ struct Sweep<'a> {
     boundary: &'a mut Boundary,
     status: Status,
     below: Vec<u32>,
-    /// [`CROSSING_TOLERANCE`] as a length.
+    /// [`CROSSING_TOLERANCE`] as a length, in the unit of the coordinates.
     hair: f64,
     /// Sides, each with a vertex at which it must be cut.
     cuts: Vec<(usize, u32)>,
@@ -136,7 +136,8 @@ impl<'a> Sweep<'a> {
     }
 }
 
-/// For two sides that cross, returns a side and the end of the other one that is nearest to it, with the distance.
+/// Returns, for two sides that cross, the end of one side that is nearest to the other side. The result has that other
+/// side, the vertex, and the distance. `None` if all ends are common to both sides.
 fn nearest_end(boundary: &Boundary, a: usize, b: usize) -> Option<((usize, u32), f64)> {
     let candidates = [(a, b), (b, a)].into_iter().flat_map(|(side, other)| {
         let Side { from, to } = boundary.sides[other];

@@ -4,9 +4,9 @@ use super::{Boundary, Orientation, Point, Status};
 use cplan_interrupt::checkpoint;
 use std::cmp::Ordering;
 
-/// Finds the first side of a closed ring that meets an earlier side which is not its neighbour. Side `i` runs from
-/// corner `i` to the next one, and the greater number is returned second. Exact, `O(n log n)`, with another factor of
-/// `log n` if there is one.
+/// Finds the first side of a closed ring that meets an earlier side which is not its neighbour. Returns the earlier
+/// side and this one. Side `i` runs from corner `i` to the next one. Exact. Takes `O(n log n)`, and another factor of
+/// `log n` if there is such a side.
 ///
 /// The corners must be distinct and finite, and no side may fold back onto the previous one.
 pub fn first_meeting(ring: &[Point]) -> Option<(usize, usize)> {

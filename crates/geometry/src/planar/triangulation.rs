@@ -137,7 +137,8 @@ impl Sweep<'_> {
         self.cut_downwards(region);
     }
 
-    /// Splits a region at a vertex from which sides start within it. Returns the regions below and above.
+    /// Splits a region at a vertex at which sides start inside the region. Returns the regions below and above these
+    /// sides.
     fn split(&mut self, region: Region, v: u32) -> (Option<Region>, Option<Region>) {
         // The segment from the vertex to the chain's rightmost vertex crosses nothing.
         let middle = region.rightmost;
@@ -205,8 +206,8 @@ impl Sweep<'_> {
         }
     }
 
-    /// Returns true if the inside lies in the angle at `b`. The three vertices follow each other on a chain from
-    /// bottom to top.
+    /// Returns true if the inside lies in the angle at `b`. The vertices `a`, `b` and `c` follow each other on a chain
+    /// from bottom to top.
     fn is_open(&self, a: u32, b: u32, c: u32) -> bool {
         let [a, b, c] = [a, b, c].map(|v| self.vertices[v as usize]);
         orientation(a, b, c) == Orientation::Clockwise

@@ -15,23 +15,23 @@ use super::RingError;
 use super::noding::{Loop, NodedGraph};
 use cplan_interrupt::checkpoint;
 
-/// A graph with its diagonals.
+/// A graph of rings, and diagonals that connect the holes with their surroundings.
 pub(super) struct BridgedGraph {
     pub noded: NodedGraph,
     pub bridges: Vec<Bridge>,
 }
 
-/// A diagonal. The region lies on both sides of it.
+/// A diagonal between a hole and its surroundings. The region lies on both sides of it.
 pub(super) struct Bridge {
     pub ends: [usize; 2],
     /// The hole for which the diagonal was made.
     pub ring: usize,
 }
 
-/// Joins every hole to its surroundings.
+/// Connects every hole with its surroundings by diagonals.
 ///
 /// # Errors
-/// If a hole sees nothing on one side, because it is not inside.
+/// If on one side of a hole nothing is visible from it, because the hole is not inside.
 pub(super) fn bridged(noded: NodedGraph) -> Result<BridgedGraph, RingError> {
     let NodedGraph { points, edges, around, loops } = &noded;
     let sight = Visibility::new(points, edges);
@@ -107,7 +107,7 @@ impl<'a> Visibility<'a> {
         })
     }
 
-    /// Returns true if an edge shares more with a sight line than a common end.
+    /// Returns true if an edge obstructs a sight line: the two share more than a common end.
     fn hides(&self, [from, to]: [usize; 2], edge: [usize; 2]) -> bool {
         let [a, b] = [self.points[from], self.points[to]];
         let [c, d] = edge.map(|v| self.points[v]);

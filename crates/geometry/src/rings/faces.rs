@@ -10,10 +10,10 @@ use super::noding::counter_clockwise;
 struct End {
     /// The vertex at the other end.
     to: usize,
-    /// True if the region is to its left (and `right`: to its right), seen from the vertex.
+    /// True if the region is to the left of the edge, seen from the vertex. `right` states the same for the right side.
     left: bool,
     right: bool,
-    /// The hole for which the diagonal was made, if it is one.
+    /// The hole for which the edge was made as a diagonal; `None` for other edges.
     bridge: Option<usize>,
 }
 

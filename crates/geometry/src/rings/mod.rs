@@ -14,7 +14,8 @@ use std::fmt;
 /// The closed region inside an outer ring and outside its holes.
 ///
 /// Rings may touch themselves and each other in single points (a corner on a corner or on a side). They must not cross
-/// or share a stretch. Holes lie inside the outer ring and outside each other. All conditions are decided exactly.
+/// or have a stretch in common. Holes lie inside the outer ring and outside each other. All conditions are decided
+/// exactly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
     parts: Vec<SimplePolygon>,

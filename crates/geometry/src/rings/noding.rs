@@ -14,8 +14,8 @@ pub(super) struct NodedGraph {
     pub points: Vec<Point>,
     /// Directed edges, as pairs of vertices.
     pub edges: Vec<[usize; 2]>,
-    /// For each vertex, its neighbours counter-clockwise from straight down, and whether the edge leads to the
-    /// neighbour.
+    /// For each vertex, its neighbours counter-clockwise from straight down. The flag is true if the edge is directed
+    /// to the neighbour.
     pub around: Vec<Vec<(usize, bool)>>,
     /// The rings, split where they touch themselves. No loop passes a vertex twice.
     pub loops: Vec<Loop>,
@@ -35,6 +35,8 @@ struct Piece {
 }
 
 impl NodedGraph {
+    /// Builds the graph of some rings.
+    ///
     /// # Errors
     /// If two sides cross or overlap.
     pub fn of(rings: &[Vec<Point>]) -> Result<Self, RingError> {

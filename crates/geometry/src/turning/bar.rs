@@ -64,8 +64,8 @@ impl Bar {
         })
     }
 
-    /// Does the same as [`super::turning_from`] without radii and growth. Returns `None` if the joint is too close to the
-    /// piece, or if only the front corners of the bar reach it. `O(n)`.
+    /// Does the same as [`super::turning_from`] for a bar, without radii and growth. Returns `None` if the joint is too
+    /// close to the piece, or if only the front corners of the bar reach the piece. `O(n)`.
     pub fn arc(&self, pivot: Point, zero: Vector, piece: &Features, out: &mut Vec<[f64; 2]>) -> Option<Hits> {
         let side_gap = |normal: Vector, offset: f64| normal.dot(&pivot) - offset;
         let (gap, toward) = piece.sides.iter().map(|s| (side_gap(s.normal, s.offset), -s.normal)).fold(
@@ -136,8 +136,8 @@ struct Extremes {
 }
 
 impl Extremes {
-    /// Adds a point. The bar touches it if the point is `along` from the joint along the axis, and `across` beside
-    /// the axis.
+    /// Adds a point. The bar touches it when the point is at the distance `along` from the joint along the axis, and
+    /// `across` beside the axis.
     fn add(&mut self, at: Vector, along: f64, across: f64) {
         let first = Vector::new(along * at.x + across * at.y, along * at.y - across * at.x);
         let last = Vector::new(along * at.x - across * at.y, along * at.y + across * at.x);
@@ -176,7 +176,8 @@ mod tests {
         assert!(Bar::of(&Convex::trusted(vec![Point::zeros(), Point::new(1.0, 0.0)], 0.0)).is_none());
     }
 
-    /// Rounding moves the touching corner further inside the bar's side than the distance along its normal says.
+    /// Tests shapes that touch. Rounding moves the touching corner farther inside the bar's side than its distance
+    /// along the normal suggests.
     #[test]
     fn touching_shapes_have_no_gap() {
         let part = bar(0.8, 0.14258016639302604, 0.01648044041409189, -1.856738282955592);
@@ -198,9 +199,9 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(20_000))]
 
-        /// Compares with the exhaustive method: all critical angles, sorted, with one distance between neighbours.
-        /// An independent distance confirms that the shapes touch at the ends. Some positions have corners exactly
-        /// at the reach of the bar.
+        /// Compares the arcs with those of the exhaustive method. That method sorts all critical angles, and computes
+        /// one distance between neighbours. An independent distance confirms that the shapes touch at the ends. Some
+        /// positions have corners exactly at the reach of the bar.
         #[test]
         fn arcs_are_those_of_all_critical_angles(
             (back, half_width, turn) in (-0.2..0.2f64, 0.01..0.15f64, -PI..PI),

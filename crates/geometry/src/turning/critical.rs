@@ -10,10 +10,10 @@ use std::f64::consts::{PI, TAU};
 /// tenth of [`ROUNDING`].
 const ANGLE_TOLERANCE: f64 = 1e-12;
 
-/// A cosine may exceed 1 by this much and still count as grazing, so that a contact lost to rounding is examined.
+/// Excess of a cosine over 1 that still counts as grazing. So a contact that rounding would hide is examined.
 const GRAZING_COSINE: f64 = 1e-7;
 
-/// Computes the arcs of [`super::turning_from`] correctly in every degenerate position. The distance decides, at the
+/// Computes the arcs of [`super::turning_from`] correctly even in degenerate positions. It computes the distance at the
 /// critical angles and halfway between neighbours, with a margin of [`ROUNDING`] in favour of contact. `O(n m)` angles
 /// and distances.
 pub(super) fn critical_arcs(placement: &Placement<'_>, out: &mut Vec<[f64; 2]>) -> Hits {
@@ -108,7 +108,7 @@ mod tests {
         Convex::trusted((0..corners).map(corner).collect(), radius)
     }
 
-    /// In general position no comparison is in doubt, and both methods give the same arcs.
+    /// Tests that in general position both methods give the same arcs, and that no comparison is undecided.
     #[test]
     fn the_local_and_the_exhaustive_test_agree() {
         let bar = [(0.0, -0.05), (0.8, -0.05), (0.8, 0.05), (0.0, 0.05)].map(|(x, y)| Point::new(x, y)).to_vec();

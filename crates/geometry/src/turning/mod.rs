@@ -32,7 +32,7 @@ use touching::Placement;
 /// be as large as the square root of this, where shapes graze each other.
 pub const ROUNDING: f64 = 1e-9;
 
-/// Whether a part meets a piece for no, all, or some values of a joint.
+/// States whether a part meets a piece for no, all, or some values of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hits {
     /// The shapes meet for no value.

@@ -4,9 +4,9 @@ use super::features::{Corner, Features, product, quotient};
 use crate::{Point, Vector};
 use std::f64::consts::{PI, TAU};
 
-/// Lengths that differ by less than this, metres, are not compared, because rounding could change the result. The
-/// same is true for ends of arcs, radians. Coordinates up to about 100 m lose about 1e-11 m, except where a corner's
-/// circle grazes a line.
+/// Lengths that differ by less than this, metres, are not compared, because rounding could change the result. The same
+/// is true for ends of arcs that differ by less than this, radians. Coordinates up to about 100 m lose about 1e-11 m,
+/// except where a corner's circle grazes a line.
 const COMPARISON_TOLERANCE: f64 = 1e-9;
 
 /// A corner's circle grazes a line if its squared distance exceeds that of the line by less than this fraction. The
@@ -20,10 +20,11 @@ const DIRECTION_TOLERANCE: f64 = 1e-13;
 /// Two circles graze each other if the gap between their radii equals the contact distance up to this fraction.
 const CIRCLE_GRAZING_TOLERANCE: f64 = 1e-6;
 
-/// Largest number of arcs of one pair of convex shapes. With more, which is rare, the exhaustive method takes over.
+/// Largest number of arcs of one pair of convex shapes. For the rare pairs with more arcs, an exhaustive method is used
+/// instead.
 const MAX_ARCS: usize = 8;
 
-/// The result of a comparison that was too close for rounding.
+/// The error of a comparison whose values are too close for the result to be certain.
 pub(super) struct UndecidedComparison;
 
 /// Two shapes and their positions.
@@ -94,7 +95,7 @@ impl Ends {
 }
 
 impl Placement<'_> {
-    /// Finds all true contacts.
+    /// Finds the ends of the arcs: all angles at which the shapes touch.
     pub(super) fn ends(&self) -> Result<Ends, UndecidedComparison> {
         let mut ends = Ends::default();
         self.corners_on_fixed_sides(&mut ends)?;
@@ -208,9 +209,10 @@ impl Placement<'_> {
     }
 }
 
-/// Returns where a circle about the origin crosses the side at `along` on its normal, from `from` to `to` on its
-/// tangent. There are up to two positions. Each has its value of `start`: the first value for the positive root, the
-/// second for the negative one. Positions clearly off the side are omitted. Undecided if the circle grazes the side.
+/// Returns the positions where a circle about the origin crosses a side, at most two. The side is at `along` on its
+/// normal, from `from` to `to` on its tangent. Each position has its value of `start`: the first value for the positive
+/// root, the second for the negative one. Positions clearly off the side are omitted. Undecided if the circle grazes
+/// the side.
 fn crossings(
     distance2: f64,
     along: f64,

@@ -5,7 +5,8 @@ use crate::lattice::{Corner, cross, meet, points};
 use cplan_geometry::{Convex, MAX_CORNERS, Point, PolygonError, SimplePolygon, decompose};
 use proptest::prelude::*;
 
-/// Returns a ring around the origin on the lattice, with one corner in each of `count` directions; `radius` of each.
+/// Returns a ring around the origin on the lattice, with one corner in each of `count` directions. `radius` returns the
+/// distance of a corner.
 fn around(count: usize, radius: impl Fn(usize) -> f64) -> Vec<Corner> {
     let corner = |k: usize| {
         let angle = k as f64 / count as f64 * std::f64::consts::TAU;
@@ -97,7 +98,8 @@ fn one_crossing_among_20_000_sides_is_found() {
     assert!((8_998..=9_001).contains(&first) && (9_000..=9_003).contains(&second), "{error}");
 }
 
-/// Returns the first side in the list that meets an earlier side which is not its neighbour, and that side.
+/// Returns two sides that meet but are not neighbours: the first such side in the list, and the earlier side that it
+/// meets.
 fn first_meeting(ring: &[Corner]) -> Option<(usize, usize)> {
     let n = ring.len();
     let side = |i: usize| [ring[i], ring[(i + 1) % n]];

@@ -8,14 +8,15 @@ use proptest::prelude::*;
 use crate::lattice::{core, points};
 use crate::parry;
 
-/// Rounding of the library's measures for coordinates up to some tens.
+/// Bound on the rounding errors of the library's distances, for coordinates up to some tens.
 const ROUNDING: f64 = 1e-13;
-/// parry iterates (GJK) and stops at a relative error of about the square root of epsilon. Its penetration depths (EPA)
-/// are no oracle: for some overlapping lattice polygons version 0.31 answers 2/3 where every direction needs 1 or more.
+/// Relative tolerance for distances of parry. parry iterates (GJK) and stops at a relative error of about the square
+/// root of epsilon. Its penetration depths (EPA) are not compared: for some overlapping lattice polygons version 0.31
+/// answers 2/3, although every direction needs 1 or more.
 const PARRY: f64 = 1e-6;
 
-/// Generates lattice shapes with a scale that is not a binary fraction, so that collinear and touching sides are so up
-/// to rounding.
+/// Generates lattice shapes with a scale that is not a binary fraction. So sides are collinear, or touch, only up to
+/// rounding.
 fn lattice_shape() -> impl Strategy<Value = Convex> {
     let scale = prop::sample::select(vec![1.0, 0.1, 1.0 / 3.0]);
     let radius = prop::sample::select(vec![0.0, 0.0, 0.05, 1.0]);

@@ -81,8 +81,8 @@ fn hangs_together(cells: &BTreeSet<Corner>) -> bool {
     seen.len() == cells.len()
 }
 
-/// Returns the boundary of cells as rings, with cells to the left. Where four sides meet, all rings turn left or all
-/// turn right.
+/// Returns the boundary of cells as rings, with the cells to the left. Where four sides meet in a point, all rings turn
+/// left if `turn_left`, otherwise right.
 fn boundary(cells: &BTreeSet<Corner>, turn_left: bool) -> Vec<Vec<Corner>> {
     let mut sides: BTreeMap<Corner, Vec<Corner>> = BTreeMap::new();
     for &(x, y) in cells {
@@ -178,8 +178,8 @@ fn cells_are_covered_whatever_the_rings_touch() {
     assert!(!usual() || holed > 40 && touching > 40, "{holed} {touching}");
 }
 
-/// An accepted polygon covers the area that counting crossings gives. A refused one has a crossing, an overlap, or a
-/// ring on the wrong side; the other tests name the cases without any of these.
+/// Tests that an accepted polygon covers the area that counting crossings gives. A refused one has a crossing, an
+/// overlap, or a ring on the wrong side; other tests name the cases without any of these.
 #[test]
 fn random_rings_are_refused_or_covered() {
     let mut dice = dice(7);
@@ -239,7 +239,7 @@ fn impossible_rings_are_reported() {
     }
 }
 
-/// Cutting a plate with many holes takes little more than linear time.
+/// Tests that cutting a plate with many holes takes little more than linear time.
 #[test]
 fn a_perforated_plate() {
     let rows = 40;

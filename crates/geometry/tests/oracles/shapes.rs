@@ -2,17 +2,17 @@
 
 use cplan_geometry::{Convex, Point};
 
-/// A convex polygon grown by a radius, which must be one.
+/// Returns a convex polygon grown by a radius. The arguments must be valid.
 pub fn convex(core: Vec<Point>, radius: f64) -> Convex {
     Convex::new(core, radius).expect("a convex shape")
 }
 
-/// A disc; with radius 0 a point.
+/// Returns a disc, or a point if the radius is 0.
 pub fn disc(center: Point, radius: f64) -> Convex {
     Convex::disc(center, radius).expect("a disc")
 }
 
-/// A wall without thickness.
+/// Returns a wall without thickness.
 pub fn wall(a: Point, b: Point) -> Convex {
     Convex::segment(a, b).expect("a wall")
 }

@@ -3,7 +3,7 @@
 use cplan_gpu::{Gpu, GpuError};
 use std::process::Command;
 
-/// The variable that tells the Vulkan loader where drivers are, and a path without drivers.
+/// The variable that states where Vulkan looks for drivers. The tests set it to a path without drivers.
 const DRIVERS: &str = "VK_DRIVER_FILES";
 const NOWHERE: &str = "/nowhere/driver.json";
 

@@ -31,7 +31,8 @@ impl Case {
         GridEquations::new(cells, edges, outside, values, unknown, stencil).unwrap()
     }
 
-    /// Returns the cells around a cell (possibly the same cell), with `None` outside.
+    /// Returns the four neighbours of a cell. On a short circle, a neighbour may be the cell itself. It is `None`
+    /// outside of the grid.
     fn around(&self, cell: usize) -> [Option<usize>; 4] {
         let [rows, columns] = self.cells.map(|n| n as isize);
         let (i, j) = (cell as isize / columns, cell as isize % columns);

@@ -22,15 +22,15 @@ const MAX_CONNECTIONS: usize = 32;
 /// Time limit for a client to send the head of a request.
 const HEAD_TIME: Duration = Duration::from_secs(10);
 
-/// Time limit of a connection, except for WebSockets, which have their own. After it, a browser opens another
-/// connection. Without the limit, clients that send requests but never read would block all others.
+/// Time limit of a connection, except for WebSockets, which have their own. After it, a browser simply opens another
+/// connection. Without the limit, clients that send requests but never read responses would block all others.
 const CONNECTION_TIME: Duration = Duration::from_secs(10);
 
 /// Largest size of the head of a request, in bytes.
 const MAX_HEAD_BYTES: usize = 16 << 10;
 
 /// Headers of every response. The page is one file that is the same for every world. Data comes over the WebSocket and
-/// is never treated as HTML. So scripts and styles may be inline, and nothing is loaded from elsewhere.
+/// is never treated as HTML. So it is safe that scripts and styles are inline, and nothing is loaded from elsewhere.
 const HEADERS: [(HeaderName, &str); 6] = [
     (
         header::CONTENT_SECURITY_POLICY,
@@ -81,7 +81,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) {
     }
 }
 
-/// Refuses requests that the page does not make. Adds [`HEADERS`] to all responses.
+/// Refuses requests that the page never makes. Adds [`HEADERS`] to all responses.
 async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next) -> Response {
     let mut response = match refusal(&server, request.headers()) {
         Some((status, why)) => (status, why).into_response(),

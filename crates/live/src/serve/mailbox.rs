@@ -8,7 +8,7 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 /// Largest number of waiting requests. At most one of them is a plan, the latest.
 const MAX_WAITING: usize = 8;
 
-/// A mailbox. A connection adds requests to it, and a worker takes them.
+/// A mailbox for requests. A connection adds requests to it, and a worker takes them.
 #[derive(Default)]
 pub struct Mailbox {
     inside: Mutex<MailboxState>,
@@ -29,8 +29,8 @@ impl Mailbox {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Adds a request. Waiting plans are dropped in favour of a newer one, and the request in progress is interrupted.
-    /// Returns false if the mailbox is full.
+    /// Adds a request. A newer plan replaces a waiting one. The request in progress is interrupted. Returns false if
+    /// the mailbox is full.
     pub fn post(&self, request: Request) -> bool {
         let mut inside = self.inside();
         if matches!(request, Request::Plan(_)) {

@@ -33,7 +33,7 @@ struct Server {
 /// Serves until it is interrupted. Plans in progress end with the process.
 ///
 /// # Errors
-/// A machine that cannot wait for connections.
+/// The system cannot wait for connections.
 pub fn run(listener: TcpListener, host: Host) -> std::io::Result<()> {
     let address = listener.local_addr()?;
     let server = Server { address, sessions: Arc::new(Semaphore::new(MAX_PAGES)), host: Arc::new(host) };

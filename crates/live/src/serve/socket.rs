@@ -14,7 +14,7 @@ use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
 /// Largest size of a message from a page, in bytes. It suffices for a world of a megabyte.
 pub const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
-/// Largest number of messages that wait for the page. With more, the worker waits.
+/// Largest number of messages that wait to be sent to the page. If there are more, the worker waits.
 const MAX_QUEUED_MESSAGES: usize = 4;
 
 /// Time limit for the page to receive a message.
@@ -23,10 +23,10 @@ const SEND_TIME: Duration = Duration::from_secs(20);
 /// Interval at which the server checks whether a page is still connected.
 const PING_INTERVAL: Duration = Duration::from_secs(20);
 
-/// A page that sends nothing for this time counts as gone.
+/// Time without any message from a page after which the page counts as gone.
 const MAX_SILENCE: Duration = Duration::from_secs(70);
 
-/// Size of a worker's stack, in bytes: that of the main thread.
+/// Size of a worker's stack, in bytes. It is that of the main thread.
 const WORKER_STACK_BYTES: usize = 8 << 20;
 
 /// Serves one page until it is closed. `permit` is the page's permit, one for each open page.

@@ -86,8 +86,9 @@ pub const POINTS: Type = Type {
 };
 
 impl Type {
-    /// Returns the definition in the encoding `ros2msg` (MCAP registry): its own fields, then those of every nested
-    /// type, each after a line of 80 equals signs and a line with its name. So readers can decode messages without ROS.
+    /// Returns the definition in the encoding `ros2msg` (MCAP registry), so that readers can decode messages without
+    /// ROS. It has the type's own fields, then those of every nested type. A line of 80 equals signs and a line with
+    /// the type's name precede each nested type.
     #[must_use]
     pub fn definition(&self) -> String {
         let parts = self.parts.iter().map(|(name, fields)| format!("{}\nMSG: {name}\n{fields}", "=".repeat(80)));
@@ -107,8 +108,8 @@ pub fn joint_state(joints: &[String], time: u64, position: &[f64], velocity: &[f
     cdr.into_bytes()
 }
 
-/// Returns the bytes of a [`JOINT_TRAJECTORY`]. As in [`super::super::ros_yaml`] the stamp is 0, which means "begin
-/// now".
+/// Returns the bytes of a [`JOINT_TRAJECTORY`]. As in [`super::super::ros_yaml`], its time stamp is 0, which means
+/// "begin now".
 #[must_use]
 pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
     let mut cdr = Cdr::new();
@@ -125,10 +126,10 @@ pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
     cdr.into_bytes()
 }
 
-/// Name of the frame in which all others are given: that of the robot's root.
+/// Name of the frame of the robot's root. All other frames are given relative to it.
 const WORLD_FRAME: &str = "world";
 
-/// Returns the bytes of [`TRANSFORMS`]: names of frames, and their poses from a time on.
+/// Returns the bytes of [`TRANSFORMS`]: names of frames, with the poses that they have from `time` on.
 #[must_use]
 pub fn transforms(time: u64, frames: &[(&str, (Place, [f64; 4]))]) -> Vec<u8> {
     let mut cdr = Cdr::new();
@@ -142,7 +143,7 @@ pub fn transforms(time: u64, frames: &[(&str, (Place, [f64; 4]))]) -> Vec<u8> {
     cdr.into_bytes()
 }
 
-/// Returns the bytes of [`MARKERS`]: a list of triangles for each solid of all bodies, which move with their frames.
+/// Returns the bytes of [`MARKERS`]. Each solid of a body is a list of triangles, which moves with the body's frame.
 #[must_use]
 pub fn markers(stage: &Stage) -> Vec<u8> {
     /// Value of `TRIANGLE_LIST` in the definition of markers.
@@ -183,7 +184,7 @@ pub fn markers(stage: &Stage) -> Vec<u8> {
     cdr.into_bytes()
 }
 
-/// Returns the bytes of [`POINTS`]: the rims of a body.
+/// Returns the bytes of [`POINTS`]: points on the rims of a body.
 #[must_use]
 pub fn points(stage: &Stage, body: &Body) -> Vec<u8> {
     /// Value of `FLOAT32` in the definition of points, and the size of such a number in bytes.
@@ -233,7 +234,7 @@ mod tests {
         ["a".into(), "bc".into()]
     }
 
-    /// Bytes written as people read them.
+    /// Converts hexadecimal text to bytes.
     fn hex(text: &str) -> Vec<u8> {
         text.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).expect("two hexadecimal digits")).collect()
     }

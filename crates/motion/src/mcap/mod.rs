@@ -14,14 +14,16 @@ use messages::{JOINT_STATE, JOINT_TRAJECTORY, MARKERS, POINTS, TRANSFORMS, Type}
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
-/// Writes motions as an MCAP file (version 0, profile `ros2`), like a recording of a robot. `/joint_states` has a
-/// `sensor_msgs/msg/JointState` per sample, and `/joint_trajectory` a `trajectory_msgs/msg/JointTrajectory` per motion,
-/// at its beginning. The definitions of all messages are in the file. Chunks are not compressed.
+/// Writes motions as an MCAP file (version 0, profile `ros2`), like a recording of a robot. The topic `/joint_states`
+/// has a `sensor_msgs/msg/JointState` per sample. The topic `/joint_trajectory` has a
+/// `trajectory_msgs/msg/JointTrajectory` per motion, at its beginning. The file includes the definitions of all
+/// messages. Chunks are not compressed.
 ///
-/// With a `stage`, the file also has data for display. `/tf` has the poses of bodies whenever they move
-/// (`tf2_msgs/msg/TFMessage`, relative to the frame `world`, that of the robot's root). `/scene` has their surfaces,
-/// once (`visualization_msgs/msg/MarkerArray`, for RViz and Foxglove). Topics below `/outlines`, one per body, have
-/// points along their rims (`sensor_msgs/msg/PointCloud2`, for Rerun).
+/// With a `stage`, the file also has data for display:
+/// - `/tf` has the poses of bodies whenever they move (`tf2_msgs/msg/TFMessage`, relative to the frame `world`, that of
+///   the robot's root).
+/// - `/scene` has their surfaces, once (`visualization_msgs/msg/MarkerArray`, for RViz and Foxglove).
+/// - Topics below `/outlines`, one per body, have points along their rims (`sensor_msgs/msg/PointCloud2`, for Rerun).
 ///
 /// Each motion comes with its start time, in seconds from the beginning of the recording. The caller puts the motions
 /// in order. If a motion begins when the previous one ends, there is only one state for that moment. Times of the log,
@@ -64,7 +66,7 @@ fn write(motions: &[(&JointMotion, f64)], stage: Option<&Stage>) -> McapResult<V
     Ok(file.writer.into_inner().into_inner())
 }
 
-/// A file in memory.
+/// A recording that is being written to memory.
 struct Recording {
     writer: Writer<Cursor<Vec<u8>>>,
 }
@@ -77,7 +79,7 @@ impl Recording {
         self.writer.add_channel(schema, topic, "cdr", &metadata)
     }
 
-    /// Writes the stage.
+    /// Writes the data for display.
     fn show(&mut self, stage: &Stage) -> McapResult<()> {
         let scene = self.channel("/scene", &MARKERS)?;
         self.message(scene, 0, &messages::markers(stage))?;

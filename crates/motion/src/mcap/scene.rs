@@ -6,15 +6,15 @@ use cplan_geometry::{Convex, Point, Pose, Vector};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use std::f64::consts::TAU;
 
-/// Bodies, and their motion in the plane.
+/// Bodies to display, and their motion in the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
     /// The plane of motion.
     pub plane: Plane,
     /// The bodies. The first one contains everything static, and does not move.
     pub bodies: Vec<Body>,
-    /// Poses in order of time: the time in seconds from the beginning, the number of a body, its pose from that time
-    /// on, and its lift along the plane's normal, metres.
+    /// Changes of poses in order of time. Each has the time in seconds from the beginning, the index of a body, its
+    /// pose from that time on, and its lift along the plane's normal, metres.
     pub poses: Vec<(f64, usize, Pose, f64)>,
     /// Size of the arm, metres, to which the sizes of displayed details are relative.
     pub size: f64,
@@ -46,7 +46,7 @@ pub type Place = [f64; 3];
 /// Number of chords around a full circle. Each chord is nearer than 2 % of the radius to its arc.
 const CHORDS_PER_CIRCLE: f64 = 16.0;
 
-/// Height that is shown for bodies with infinite heights if no body has finite ones, as a share of the arm's size.
+/// Height with which bodies of infinite height are shown if no body has a finite height, as a share of the arm's size.
 const THIN_BODY_HEIGHT: f64 = 0.02;
 
 /// Distance between points of outlines, as a share of the arm's size.
@@ -85,7 +85,8 @@ impl Stage {
         (at.into(), [turn.i, turn.j, turn.k, turn.w])
     }
 
-    /// Returns the movements of bodies: nanoseconds, numbers and transforms. Bodies that stay in place are omitted.
+    /// Returns the movements of bodies: the time in nanoseconds, the body's index, and its transform. Bodies that never
+    /// move are omitted.
     pub fn moves(&self) -> Vec<(u64, usize, (Place, [f64; 4]))> {
         let mut last = vec![None; self.bodies.len()];
         let moved = |&(time, body, pose, raised): &(f64, usize, Pose, f64)| {
@@ -95,7 +96,7 @@ impl Stage {
         self.poses.iter().filter_map(moved).collect()
     }
 
-    /// Returns the corners of triangles, three by three, of a solid in its frame.
+    /// Returns the surface of a solid in its frame as triangles. Three consecutive points are the corners of one.
     pub fn triangles(&self, solid: &Solid) -> Vec<Place> {
         let mut corners = Vec::new();
         for (piece, heights) in &solid.pieces {
@@ -131,7 +132,7 @@ impl Stage {
         points
     }
 
-    /// Returns the ends of a piece along the third axis of its frame, the lower one first.
+    /// Returns the lower and the upper end of a piece along the third axis of its frame.
     fn ends(&self, heights: Heights) -> [f64; 2] {
         let usual = self.heights();
         let or = |end: f64, usual: f64| if end.is_finite() { end } else { usual };

@@ -10,25 +10,24 @@ use cplan_handling::{HeldMotion, Piece, Recording, TimedScene};
 use cplan_interrupt::checkpoint;
 use std::borrow::Cow;
 
-/// The proven clearance is at least this share of the true one, as for [`super::certify`].
+/// Least ratio of the proven clearance to the true one, as for [`super::certify`].
 const TIGHTNESS: f64 = 0.9;
 
-/// Greatest number of checks, each of a pair on a span. They take some seconds.
+/// Greatest number of checks of a pair of shapes on a span. They take some seconds.
 const MAX_EVALUATIONS: usize = 20_000_000;
 
 /// Greatest number of further checks after the first span that stays undecided. From then on, the motion cannot be
-/// proven free, and only a contact can still decide. A motion that slides along an obstacle has very many undecided
-/// spans.
+/// proven free; it can only be found to collide. A motion that slides along an obstacle has very many undecided spans.
 const EVALUATIONS_AFTER_UNDECIDED: usize = 200_000;
 
 /// Number of configurations that are sampled before the search, evenly over the pieces. They show how close the motion
-/// comes to obstacles, and so which resolution is useful.
+/// comes to obstacles, and thus how finely it must be examined.
 const INITIAL_SAMPLES: usize = 1024;
 
-/// Step between the samples that are taken first, in samples.
+/// Step, in samples, between those samples that are taken first.
 const COARSE_STRIDE: usize = 32;
 
-/// Deviation of a single configuration from itself.
+/// The set of deviations that contains only the configuration itself.
 const NO_DEVIATION: Deviation = Deviation::Box([0.0; 2]);
 
 /// A time during a recorded motion, with the configuration at that time.
@@ -37,7 +36,7 @@ pub struct Moment {
     /// Time on the recording's clock, seconds. For a recording without times, the index of the waypoint plus the
     /// fraction of the distance to the next waypoint.
     pub time: f64,
-    /// Number of the sample at or before the moment, from 0.
+    /// Index of the last sample at or before the moment, from 0.
     pub sample: usize,
     /// Configuration of the arm.
     pub at: Configuration,
@@ -66,7 +65,7 @@ pub enum CollisionCheck {
     /// Proven: the whole motion keeps more than zero and at least the required clearance.
     Free {
         /// Lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if nothing
-        /// can meet. At least 0.9 of the true value, unless the required clearance is nearer to it.
+        /// can meet. It is at least 0.9 of the true value, or at least the required clearance.
         clearance: f64,
         /// The nearest place found; `None` if nothing can meet.
         nearest: Option<Encounter>,
@@ -75,25 +74,25 @@ pub enum CollisionCheck {
     Collision {
         /// The earliest contact found.
         first: Encounter,
-        /// Time before which the motion is proven free, on the same clock. Unless the motion grazes an obstacle
-        /// earlier, it is a trillionth of a piece before `first`.
+        /// Time before which the motion is proven free, on the same clock. Usually it is a trillionth of a piece before
+        /// `first`. It is earlier if the motion grazes an obstacle earlier.
         free_until: f64,
         /// The least signed distance that was seen anywhere on the motion.
         deepest: Encounter,
     },
-    /// Undecided: at this moment, and none before it, the distance is too close to the clearance to decide, or the
-    /// search reached its limit.
+    /// Undecided: this is the first moment at which the distance is too close to the clearance to decide, or at which
+    /// the search reached its limit.
     Undecided(Encounter),
 }
 
-/// Checks the whole motion against every pair that can meet, in order of time: the distance must be positive and at
-/// least `clearance` metres. Joint limits are checked by [`super::limit_violations`].
+/// Checks the whole motion against every pair of shapes that can meet, in order of time. The distance must be positive
+/// and at least `clearance` metres. [`super::limit_violations`] checks joint limits.
 ///
-/// A span within one piece is enclosed by a tube around its chord: in each joint, a curve deviates from its chord by at
+/// A span within one piece is enclosed by a tube around its chord. In each joint, a curve deviates from its chord by at
 /// most an eighth of its greatest second derivative times the squared width. A span of several pieces is enclosed by
 /// the box around their control points. If the bound of [`Posture::bound`] does not decide a span, both its halves are
-/// examined. So many samples cost little if no obstacle is near. After a contact is found, only earlier spans are
-/// examined.
+/// examined. So a motion of many samples costs little if no obstacle is near. After a contact is found, only earlier
+/// spans are examined.
 ///
 /// Moving obstacles follow the recording's clock, from its first sample on. If the recording has no times, they are not
 /// checked.
@@ -103,9 +102,9 @@ pub fn check_collision<'a>(scene: impl Into<TimedScene<'a>>, recording: &Recordi
     check_pairs(scene, all_pairs(scene, recording), recording, clearance)
 }
 
-/// Same as [`check_collision`], while joints move that the scene holds still. Parts are at the heights that these
-/// joints give them at each moment. A part that a wrist turns counts as the disc that it sweeps. These joints must not
-/// move carried objects.
+/// Does the same as [`check_collision`], while other joints move that the scene holds still, such as a tool's. Parts
+/// have the heights that these joints give them at each moment. For a part that a wrist turns, the disc that it sweeps
+/// is checked. These joints must not move carried objects.
 #[must_use]
 pub fn check_collision_with(
     scene: TimedScene,
@@ -131,15 +130,16 @@ fn all_pairs<'a>(scene: TimedScene<'a>, recording: &Recording) -> Cow<'a, [Pair]
     if moving.is_empty() { standing.into() } else { [standing, moving].concat().into() }
 }
 
-/// Checks a motion against moving obstacles only, on the recording's clock from its first sample on. Together with a
-/// [`crate::CertifiedCurve`], which is free of static obstacles, this certifies the motion in time.
+/// Checks a motion against moving obstacles only, on the recording's clock from its first sample on. A
+/// [`crate::CertifiedCurve`] is free of static obstacles. If it also passes this check, the motion is certified in
+/// time.
 #[must_use]
 pub fn certify_in_time(scene: TimedScene, recording: &Recording, clearance: f64) -> CollisionCheck {
     check_pairs(scene, scene.moving_pairs().into(), recording, clearance)
 }
 
 /// Returns the first encounter with a moving obstacle that is too close, or for which this cannot be decided. `None` if
-/// the motion is free. Does not compute the clearance, and so is much faster than [`certify_in_time`].
+/// the motion is free. Does not compute the clearance, so it is much faster than [`certify_in_time`].
 pub fn first_moving_contact(scene: TimedScene, recording: &Recording, clearance: f64) -> Option<Encounter> {
     let pieces = recording.pieces();
     let mut search = Search::new(scene, scene.moving_pairs(), &pieces, clearance);
@@ -167,7 +167,7 @@ struct Search<'a> {
     required: f64,
     /// Changes of heights and shapes during the motion.
     tool: Option<&'a ToolMotion<'a>>,
-    /// Least share of the least distance so far at which a lower bound on the distance is accepted.
+    /// A lower bound on a distance is accepted if it is at least this share of the least distance so far.
     tightness: f64,
     /// Least of the accepted bounds, metres.
     proven: f64,
@@ -249,12 +249,12 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns true if a pair with at least this distance may be in contact, or closer than all before.
+    /// Returns true if a pair with at least this distance may be in contact, or closer than all pairs before.
     fn is_of_interest(&self, apart: f64) -> bool {
         apart <= 0.0 || apart < self.required || apart < self.seen()
     }
 
-    /// Drops pairs whose heights do not meet during a span.
+    /// Removes from `pairs` those whose heights do not meet during a span.
     fn keep_meeting(&self, span: Span, pairs: &mut Vec<Pair>) {
         if let Some(tool) = self.tool {
             let extents = tool.extents(span);
@@ -295,8 +295,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns true if a lower bound is good enough. After a contact has been found, each bound that excludes a contact
-    /// is.
+    /// Returns true if a lower bound is good enough. After a contact has been found, any bound that excludes a contact
+    /// is good enough.
     fn suffices(&self, bound: f64) -> bool {
         let is_tight = self.tightness > 0.0 && self.hit.is_none();
         let target = if is_tight { (self.tightness * self.seen()).max(self.required) } else { self.required };
@@ -322,7 +322,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Drops the pairs that are proven to keep their distance in the whole span.
+    /// Removes from `pairs` those that are proven to keep their distance in the whole span.
     fn judge(&mut self, span: Span, pairs: &mut Vec<Pair>) {
         self.keep_meeting(span, pairs);
         let (middle, deviation) = span.deviation(self.pieces);
@@ -358,7 +358,7 @@ impl<'a> Search<'a> {
         });
     }
 
-    /// Handles a span that can neither be proven free nor halved: only its ends are examined.
+    /// Handles a span that is not proven free and cannot be halved. Only its ends are examined.
     fn leave_open(&mut self, span: Span, pairs: &[Pair]) {
         let mut nearest: Option<Encounter> = None;
         for place in span.ends() {
@@ -395,8 +395,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Returns the distance of a pair in the middle of a span, and a lower bound within it. Stops improving the bound once
-/// it suffices.
+/// Returns the distance of a pair in the middle of a span, and a lower bound on it within the span. Stops improving the
+/// bound as soon as it suffices.
 fn bound(
     posture: &Posture,
     pair: Pair,
@@ -415,7 +415,7 @@ fn here(posture: &Posture, pair: Pair, drift: Option<&Drift>) -> Separation {
     bound(posture, pair, NO_DEVIATION, drift, |_| f64::NEG_INFINITY).here
 }
 
-/// Returns a lower bound on the distance of a pair, by discs around both shapes.
+/// Returns a lower bound on the distance of a pair over `deviation`, from discs around both shapes.
 fn apart(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Drift>) -> f64 {
     match drift {
         Some(drift) => posture.apart_drifting(pair, deviation, drift),

@@ -5,8 +5,9 @@ use cplan_core::space::Configuration;
 use cplan_handling::Recording;
 use thiserror::Error;
 
-/// Largest distance of a motion from its start or goal, radians or metres. Six printed decimals of joint values move a
-/// tip several metres from its joints by about this much. It is less than the repeatability of any arm.
+/// Largest distance of a motion's ends from the required start and goal, radians or metres. If joint values are printed
+/// with six decimals, a tip several metres from its joints moves by about this much. It is less than the repeatability
+/// of any arm.
 pub const END_TOLERANCE: f64 = 1e-5;
 
 /// A difference from the required start or goal.
@@ -31,19 +32,20 @@ pub enum EndpointError {
     /// The tip is not at its required start.
     #[error("the motion begins with the tip {off:.6} m from the start")]
     TipAtStart {
-        /// Distance of the tip from there, metres.
+        /// Distance of the tip from its required place, metres.
         off: f64,
     },
     /// The tip does not end at its required place.
     #[error("the motion ends with the tip {off:.6} m from the goal")]
     Tip {
-        /// Distance of the tip from there, metres.
+        /// Distance of the tip from its required place, metres.
         off: f64,
     },
 }
 
-/// Returns the differences from the start and from all goals that exceed [`END_TOLERANCE`], up to whole turns of joints
-/// on circles. With several goals, the difference from the first one is reported.
+/// Returns the differences from the start and from the goals that exceed [`END_TOLERANCE`], up to whole turns of joints
+/// on circles. It suffices if the motion ends at one of the goals. If it ends at none, the difference from the first
+/// one is reported.
 #[must_use]
 pub fn endpoint_errors(arm: &Arm, recording: &Recording, start: Option<Goal>, goals: &[Goal]) -> Vec<EndpointError> {
     let positions = recording.positions();

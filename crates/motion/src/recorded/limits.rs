@@ -7,23 +7,23 @@ use cplan_core::space::{Configuration, JointRange};
 use cplan_dynamics::Torques;
 use cplan_handling::{Derivative, Piece, Recording};
 
-/// Relative excess of a limit that is tolerated. Programs that plan up to a limit exceed it by rounding and by six
-/// printed digits. No drive can distinguish such values.
+/// Relative excess over a limit that is tolerated. Programs that plan up to a limit exceed it by rounding and by
+/// printing six digits. No drive can distinguish such values.
 const LIMIT_TOLERANCE: f64 = 1e-6;
 
-/// Least number of decimals of numbers that count as rounded in their last decimal.
+/// Number of decimals from which a number counts as rounded in its last decimal.
 const MIN_ROUNDED_DECIMALS: i32 = 6;
 
-/// Number of decimals to which numbers with fewer than [`MIN_ROUNDED_DECIMALS`] decimals count as exact: `0.5` is a
-/// half. Nine decimals of a time are a nanosecond.
+/// Number of decimals to which numbers with fewer than [`MIN_ROUNDED_DECIMALS`] decimals count as exact: `0.5` is
+/// exactly a half. Nine decimals of a time in seconds are a nanosecond.
 const EXACT_DECIMALS: i32 = 9;
 
 /// Rounding error of a computed sample and of the piece through it, in units in the last place of a double.
 const ULPS: f64 = 4.0;
 
-/// Largest share of a speed limit that rounding of positions and times may explain between samples. Six decimals at a
-/// kilohertz explain a thousandth of a radian per second. Numbers that are coarser for their spacing define another
-/// motion, and a controller executes that motion.
+/// Largest share of a speed limit by which a speed between samples may exceed it because of rounded positions and
+/// times. With six decimals at a kilohertz, rounding causes a thousandth of a radian per second. Numbers that are
+/// coarser for their spacing define another motion, and a controller executes that motion.
 const MAX_ROUNDING_SHARE: f64 = 0.01;
 
 /// A limit of a joint.
@@ -39,7 +39,7 @@ pub enum Limit {
     Jerk,
     /// The greatest torque or force of the joint's drive.
     Torque,
-    /// The acceleration must not jump if the jerk is limited.
+    /// The acceleration must not jump, because the jerk is limited.
     AccelerationJump,
     /// A motion must start at rest.
     RestAtStart,
@@ -50,7 +50,7 @@ pub enum Limit {
 /// A violated limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LimitViolation {
-    /// Number of the joint, 0 or 1.
+    /// Index of the joint, 0 or 1.
     pub joint: usize,
     /// The violated limit.
     pub limit: Limit,
@@ -69,21 +69,21 @@ pub struct LimitViolation {
 /// at both ends, apply if there are velocities. Without velocities, the velocity jumps at the samples, so the
 /// accelerations of the intended motion are unknown.
 ///
-/// Velocities and accelerations in a file are judged as stated. Between samples, the interpolation by the file's
-/// consumer ([`cplan_handling::Interpolation`]) is judged by the extremes of each piece. A limit counts as violated if
-/// it is exceeded by more than 1e-6 of it, and by more than rounding of the recording's numbers explains. Rounding of a
-/// stated number is half a unit of its last decimal. Between samples, it is the error that such rounding causes in a
-/// motion within the limits. (With six decimals and samples a millisecond apart, the acceleration of a cubic is
-/// uncertain by some radians per squared second.)
+/// Velocities and accelerations in a file are compared with the limits as stated. Between samples, the extremes of each
+/// piece are compared, with the interpolation by the file's consumer ([`cplan_handling::Interpolation`]). A limit
+/// counts as violated if it is exceeded by more than 1e-6 of it, and by more than rounding of the recording's numbers
+/// explains. Rounding of a stated number is half a unit of its last decimal. Between samples, it is the error that such
+/// rounding causes in a motion within the limits. (With six decimals and samples a millisecond apart, the acceleration
+/// of a cubic is uncertain by some radians per squared second.)
 ///
 /// Rounding may explain an excess on a short piece, but not over a long stretch. So between any two samples, the joint
-/// must not move farther than its top speed allows, and its stated velocity must not change by more than its greatest
+/// must not move farther than its top speed allows. Its stated velocity must not change by more than its greatest
 /// acceleration allows.
 ///
-/// If a joint has a limit on its jerk and there are velocities, the third derivative of each piece is judged, and the
-/// continuity of the acceleration between pieces and at the ends of the motion. This is exact for motions with constant
-/// jerk between samples. The cubics of other motions jump at the samples, so motions must be sampled where their jerk
-/// changes.
+/// If a joint has a limit on its jerk and there are velocities, the third derivative of each piece is compared with it.
+/// The acceleration must then be continuous between pieces and at the ends of the motion. This is exact for motions
+/// with constant jerk between samples. The accelerations of cubics through other motions jump at the samples, so a
+/// motion must have samples where its jerk changes.
 #[must_use]
 pub fn limit_violations(joints: &[Joint; 2], recording: &Recording) -> Vec<LimitViolation> {
     let precision = Precision::of(recording);
@@ -121,9 +121,9 @@ const TORQUE_TOLERANCE: f64 = 1e-4;
 /// Returns, for each joint, the moment at which the torque exceeds the joint's effort the most. Returns nothing if
 /// motions of the scene's arm need not respect efforts.
 ///
-/// Torques are judged if there are velocities, with the interpolation of the file's consumer, and with the same
+/// Torques are checked if there are velocities, with the interpolation of the file's consumer, and with the same
 /// allowance for rounding as accelerations. Between the examined moments, a torque may be greater by a ten-thousandth
-/// of the effort. For a recording of a single sample, the torque that holds the arm there is judged.
+/// of the effort. For a recording of a single sample, the torque that holds the arm there is checked.
 #[must_use]
 pub fn torque_violations(scene: &Scene, recording: &Recording) -> Vec<LimitViolation> {
     let Some(torques) = Torques::limited(scene).filter(|_| recording.velocities().is_some()) else {
@@ -212,7 +212,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Judges the stated velocities or accelerations.
+    /// Checks the velocities or accelerations that the file states.
     fn stated(&mut self, limit: Limit, values: &[f64]) {
         let (allowed, may) = match limit {
             Limit::Velocity => (self.joint.velocity, self.precision.velocity),
@@ -247,7 +247,8 @@ impl<'a> Judge<'a> {
         self.stretches(Limit::Acceleration, allowed, self.precision.velocity, velocities, times);
     }
 
-    /// Judges a derivative of a piece at its least and its greatest value.
+    /// Checks the least and the greatest value of a derivative of a piece. `explained` is the part that rounding
+    /// explains.
     fn extremes(&mut self, limit: Limit, allowed: f64, explained: f64, index: usize) {
         let piece = &self.pieces[index];
         let of = match limit {
@@ -264,8 +265,9 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Judges the mean rate of change between any two samples, of values with the rounding error `rounded`. Let `s` be
-    /// the value minus the allowed change until then. The rate is too large where `s` exceeds the least earlier `s`.
+    /// Checks the mean rate of change of values between any two samples. The values have the rounding error `rounded`.
+    /// Let `s` be the value at a sample minus the change that is allowed until then. The rate is too large where `s`
+    /// exceeds the least earlier `s`.
     fn stretches(&mut self, limit: Limit, allowed: f64, rounded: f64, values: &[f64], times: &[f64]) {
         let most = allowed * (1.0 + LIMIT_TOLERANCE);
         let may = 2.0 * rounded + most * 2.0 * self.precision.time;
@@ -284,7 +286,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Judges the jerks of all pieces, and the jumps of the acceleration at their ends.
+    /// Checks the jerks of all pieces, and the jumps of the acceleration at their ends.
     fn jerks(&mut self, most: f64) {
         // A joint at rest has no acceleration and no error.
         let still = (0.0, 0.0);
@@ -306,7 +308,7 @@ impl<'a> Judge<'a> {
         self.jump(before, still, self.sample(self.pieces.len()));
     }
 
-    /// Judges a jump between two accelerations, each with its error.
+    /// Checks a jump between two accelerations, each given with its error.
     fn jump(&mut self, before: (f64, f64), after: (f64, f64), moment: Moment) {
         let value = after.0 - before.0;
         if value.abs() > before.1 + after.1 + LIMIT_TOLERANCE * self.joint.acceleration {
@@ -341,8 +343,8 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// How much a derivative changes per unit of change in the positions, velocities or accelerations that define the
-/// piece. Time is in units of the piece's duration.
+/// Changes of a derivative per unit of change in the positions, velocities or accelerations that define a piece. Time
+/// is in units of the piece's duration.
 struct Sensitivity {
     order: i32,
     position: f64,
@@ -442,7 +444,7 @@ fn decimals(value: f64) -> i32 {
 mod tests {
     use super::*;
 
-    /// Compares with samples of pieces whose data are unit changes.
+    /// Compares the sensitivities with samples of pieces whose data are unit changes.
     #[test]
     fn sensitivities_are_those_of_the_pieces() {
         let unit = |i: usize, k: usize| Configuration::repeat(if i == k { 1.0 } else { 0.0 });

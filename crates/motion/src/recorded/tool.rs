@@ -17,14 +17,14 @@ const AXIS_TOLERANCE: f64 = 1e-9;
 /// A joint that lifts some bodies.
 struct Lift<'a> {
     pieces: Vec<Piece>,
-    /// The value at which it is held, and the direction of increasing values.
+    /// The value of the joint in the scene that holds it still, and the direction of increasing values.
     rest: f64,
     sign: f64,
     bodies: &'a [String],
 }
 
 impl Lift<'_> {
-    /// Returns bounds on its lift during a span, relative to the held value.
+    /// Returns bounds on the joint's lift during a span, in metres relative to the held value.
     fn extent(&self, span: Span) -> [f64; 2] {
         let (middle, deviation) = span.deviation(&self.pieces);
         let half = match deviation {
@@ -37,14 +37,15 @@ impl Lift<'_> {
     }
 }
 
-/// The arm's scene while other joints move.
+/// The arm's scene while joints move that the scene holds still.
 pub(super) struct ToolMotion<'a> {
     lifts: Vec<Lift<'a>>,
-    /// The scene with parts at their held heights, and discs for parts that turn.
+    /// The scene with parts at the heights of the held joints, and with discs in place of parts that turn.
     still: Scene,
-    /// The scene with parts at all heights of the motion, with the pairs that meet at some of them.
+    /// The scene with parts at all heights that they take during the motion, and with the pairs that meet at some of
+    /// them.
     swept: Scene,
-    /// For each part of both links, true if it covers more than the part itself.
+    /// For each part of both links, true if its shape covers more than the part, as a disc for a turning part does.
     covers: [Vec<bool>; 2],
 }
 

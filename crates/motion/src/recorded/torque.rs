@@ -10,13 +10,13 @@ const MAX_SAMPLES_PER_PIECE: f64 = 4096.0;
 /// A sample of the torques.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueSample {
-    /// Share of the piece's time.
+    /// Fraction of the piece's time.
     pub u: f64,
     /// Torques of both joints, N m or N.
     pub torque: Configuration,
     /// Torques that hold the arm at rest there.
     pub holding: Configuration,
-    /// Bound on the increase of each torque before the next sample.
+    /// Bound on the increase of each torque until the next sample.
     pub off: [f64; 2],
 }
 

@@ -14,17 +14,17 @@ pub struct WristTurn {
     /// The payload's orientation at the end, radians. It differs from `from` by less than one turn, with the sign of
     /// the direction.
     pub to: f64,
-    /// Proven lower bound on the distance between payload and obstacles, metres, except its supports; infinite if
-    /// nothing can meet.
+    /// Proven lower bound on the distance between the payload and obstacles other than its supports, metres; infinite
+    /// if nothing can meet.
     pub clearance: f64,
 }
 
 /// The first place where a turn touches an obstacle, or comes too close to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TurnContact {
-    /// The payload's orientation then, radians, between both ends of the turn.
+    /// The payload's orientation at the contact, radians. It lies between both ends of the turn.
     pub angle: f64,
-    /// The obstacle's number in the workspace.
+    /// The obstacle's index in the workspace.
     pub obstacle: usize,
 }
 
@@ -57,12 +57,12 @@ pub fn wrist_turn(
     ends.into_iter().find_map(|end| turning.judge([from, end]).ok())
 }
 
-/// Judges the turn about the tip from one orientation to another, in the direction from the first to the second, while
-/// the arm rests at `q`. The payload's point `point` is at the tip. `O(n m)` for each pair of pieces; exact up to
+/// Checks the turn about the tip from one orientation to another, in the direction from the first to the second, while
+/// the arm rests at `q`. The payload's point `point` is at the tip. `O(n m)` for each pair of pieces. Exact up to
 /// rounding, which is added to the required distance.
 ///
 /// # Errors
-/// The first place where it touches an obstacle, or comes closer than the workspace's clearance.
+/// The first place where the payload touches an obstacle, or comes closer than the workspace's clearance.
 pub fn judge_given_turn(
     task: &Task,
     workspace: &Workspace,
@@ -77,7 +77,7 @@ pub fn judge_given_turn(
 /// A payload that turns about the tip, and the obstacles that it can touch.
 struct Turning {
     tip: Point,
-    /// A piece of the payload about the tip, one of an obstacle, and the obstacle's number.
+    /// The pairs of a piece of the payload, relative to the tip, and a piece of an obstacle, with the obstacle's index.
     pairs: Vec<(Features, Features, usize)>,
     clearance: f64,
     reach: f64,
@@ -133,7 +133,7 @@ impl Turning {
         Ok(WristTurn { from, to, clearance: kept })
     }
 
-    /// Iterates over the pairs that do not keep more than `distance` everywhere, with the first place where they fail.
+    /// Iterates over the pairs that come nearer than `distance` somewhere, each with the first such place.
     fn contacts(&self, turn: [f64; 2], distance: f64) -> impl Iterator<Item = TurnContact> {
         let mut arcs = Vec::new();
         self.pairs.iter().filter_map(move |(part, piece, obstacle)| {
@@ -151,7 +151,7 @@ impl Turning {
     }
 }
 
-/// Returns where a turn first meets a copy of an arc by whole turns.
+/// Returns the value at which a turn first meets an arc or a copy of it by whole turns. `None` if it meets none.
 fn entry([start, end]: [f64; 2], [from, to]: [f64; 2]) -> Option<f64> {
     if to < from {
         return entry([-end, -start], [-from, -to]).map(|angle| -angle);
@@ -168,7 +168,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares with 4000 sampled angles of the turn, which are in the arc or not.
+        /// Compares the result with 4000 sampled angles of the turn, each of which is in the arc or not.
         #[test]
         fn a_turn_meets_an_arc_where_it_first_is_in_it(
             start in -9.0..9.0_f64, width in 0.01..6.2_f64, from in -9.0..9.0_f64, displacement in -6.2..6.2_f64,

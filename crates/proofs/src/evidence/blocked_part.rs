@@ -9,8 +9,8 @@ use cplan_geometry::penetration_depth;
 /// greater than rounding errors.
 const ROUNDING: f64 = 1e-12;
 
-/// Least share of the segment that a test must cover. If a test covers less, the shapes come apart there, and the tests
-/// end.
+/// Least share of the segment that one test must cover. If a test covers less, the shapes come apart there, and testing
+/// ends.
 const MIN_TEST_SHARE: f64 = 1e-12;
 
 /// Returns the part of a straight motion, around its middle, along which a pair is proven to be nearer than
@@ -18,9 +18,11 @@ const MIN_TEST_SHARE: f64 = 1e-12;
 /// one half if nothing is proven. There are at most `looks` tests in either direction.
 ///
 /// Shapes that overlap by a depth still overlap until a point has moved that far. So each test covers a stretch of the
-/// motion, and the next test is at the end of that stretch. If the link's part moves without turning, its positions
-/// relative to the piece lie on a straight line, and the overlapping positions form a convex set, the Minkowski
-/// difference. Then an overlap at both ends implies an overlap between them.
+/// motion, and the next test is at the end of that stretch.
+///
+/// If the link's part moves without turning, its positions relative to the piece lie on a straight line. The
+/// overlapping positions form a convex set, the Minkowski difference. Then an overlap at both ends implies an overlap
+/// between them.
 pub(super) fn held(scene: &Scene, pair: Pair, ends: [Configuration; 2], clearance: f64, looks: usize) -> [f64; 2] {
     if scene.pairs().binary_search(&pair).is_err() {
         return [0.5; 2];

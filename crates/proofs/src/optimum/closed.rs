@@ -11,33 +11,34 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Number of times that a motion is halved before it counts as not proven.
+/// Number of times that a motion is halved. If it is not proven then, it counts as not proven.
 const MAX_MOTION_HALVINGS: usize = 4;
 
 /// An interval of joint 2 in which a pair is too near. For a joint with limits it lies within the domain. For a
-/// continuous joint it may end beyond the domain, by at most a turn.
+/// continuous joint it may extend beyond the domain, by at most a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Wall {
-    /// Number of the pair among those of link 2.
+    /// Index of the pair among those of link 2.
     pub pair: usize,
     pub lower: f64,
     pub upper: f64,
 }
 
-/// Maximum number of pairs of link 2 that are examined. Without the other pairs, less is closed, so the bound stays
-/// valid. It hardly gets lower: among so many pieces, the link usually collides with several at once.
+/// Maximum number of pairs of link 2 that are examined. If pairs are omitted, fewer configurations count as closed, so
+/// the bound stays valid. It hardly gets lower, because among so many pieces the link usually collides with several at
+/// once.
 pub(super) const MAX_PAIRS: usize = 4096;
 
-/// Maximum number of slices, times the number of pairs. The limit corresponds to some seconds.
+/// Maximum product of the number of slices and the number of pairs. It corresponds to some seconds.
 const MAX_SLICE_TESTS: usize = 4_000_000;
 
-/// A pair of link 2.
+/// A pair of link 2, with data to find its walls.
 struct PreparedPair {
-    /// Number among all pairs.
+    /// Index among all pairs.
     index: usize,
     /// The eroded shape of the pair. `None` if the shapes are too thin to overlap by more than the rounding error.
     eroded: Option<ErodedShape>,
-    /// Half-planes of the piece's core.
+    /// The piece's core as an intersection of half-planes.
     sides: Vec<(Vector, f64)>,
 }
 
@@ -45,7 +46,7 @@ struct PreparedPair {
 pub(super) struct SecondLinkWalls<'a> {
     contacts: Contacts<'a>,
     clearance: f64,
-    /// Half-planes of the cores of link 2's parts.
+    /// For each part of link 2, its core as an intersection of half-planes.
     sides: Vec<Vec<(Vector, f64)>>,
     pairs: Vec<PreparedPair>,
     /// Position of each pair in `pairs`.
@@ -91,7 +92,7 @@ impl<'a> SecondLinkWalls<'a> {
         self.scene().pairs()[..first].iter().filter(|_| few).chain(self.numbers.keys()).copied().collect()
     }
 
-    /// Returns the maximum number of slices that can be examined in a few seconds.
+    /// Returns the number of slices that can be examined in a few seconds.
     pub fn most_slices(&self) -> usize {
         MAX_SLICE_TESTS / self.pairs.len().max(1)
     }
@@ -165,8 +166,8 @@ impl<'a> SecondLinkWalls<'a> {
         }
     }
 
-    /// Returns true if a pair is proven too near all along the straight motion between two configurations. False means
-    /// that this is unknown.
+    /// Returns true if a pair is proven too near along the whole straight motion between two configurations. If it
+    /// returns false, this is unknown.
     pub fn all_along(&self, pair: usize, from: Configuration, to: Configuration) -> bool {
         self.halved(&self.pairs[pair], [from, to], MAX_MOTION_HALVINGS)
     }
@@ -195,14 +196,14 @@ impl<'a> SecondLinkWalls<'a> {
         (self.contacts.moving(pair.index).shape(), self.contacts.static_shape(pair.index).shape())
     }
 
-    /// Returns true if one point, fixed in one of the shapes, provably stays in both shapes all along the motion.
+    /// Returns true if some point that is fixed in one of the two shapes is proven to stay in both along the whole
+    /// motion.
     ///
     /// A point of the part moves smoothly. It deviates from a straight motion between its end positions by at most half
     /// the bound on its second derivative. The distance from a convex set, negative inside, is a convex function. So
     /// the point's distance from the piece is at most its greater distance at the two ends, plus that deviation. The
     /// same holds for a point of the piece as seen from the link. If the point's distances from both cores add up to at
-    /// most
-    /// `radius`, the distance of the cores is at most `radius`.
+    /// most `radius`, the distance of the cores is at most `radius`.
     fn follows(&self, pair: &PreparedPair, posture: &Posture, ends: [Configuration; 2]) -> bool {
         let (part, piece) = self.shapes(pair);
         let of_part = &self.sides[self.scene().pairs()[pair.index].part];
@@ -234,8 +235,8 @@ impl<'a> SecondLinkWalls<'a> {
     }
 }
 
-/// Returns the numbers, in order, of the pairs of link 2 that can collide in some configuration. If there are too many,
-/// keeps the pairs with the largest pieces; among pieces of similar size, keeps pairs that are spread over the list.
+/// Returns the indices, ascending, of the pairs of link 2 that can collide in some configuration. If there are too
+/// many, keeps those with the largest pieces. Among pieces of similar size, keeps pairs that are spread over the list.
 fn chosen(contacts: &Contacts, clearance: f64) -> Vec<usize> {
     let arm = contacts.scene().arm();
     let in_reach = |index: &usize| {
@@ -300,7 +301,8 @@ fn half_planes(core: &[Point]) -> Vec<(Vector, f64)> {
         .collect()
 }
 
-/// Returns how far a point is outside the half-planes; negative inside.
+/// Returns the greatest distance of a point from the half-planes. The result is negative if the point is inside all of
+/// them.
 fn outside(p: Point, sides: &[(Vector, f64)]) -> f64 {
     sides.iter().map(|(normal, offset)| normal.dot(&p) - offset).fold(f64::NEG_INFINITY, f64::max)
 }

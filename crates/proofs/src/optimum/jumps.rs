@@ -7,12 +7,12 @@ use cplan_core::model::Pair;
 use cplan_geometry::Point;
 use std::f64::consts::TAU;
 
-/// Least share of a wall's change over a strip that must fall into one half of it for a jump there. The share of a
-/// smooth tip is less.
+/// Least share of a wall's change over a strip that occurs in one half of the strip if the wall jumps there. At a
+/// smooth tip, the share is smaller.
 const MIN_JUMP_SHARE: f64 = 0.85;
 
-/// Returns the sum of the changes of the walls' ends from one slice to another; infinite if the numbers of walls
-/// differ.
+/// Returns how much walls change from one slice to another: the sum of the changes of their ends. Infinite if the
+/// numbers of walls differ.
 fn change(there: &[[f64; 2]], beyond: &[[f64; 2]]) -> f64 {
     if there.len() != beyond.len() {
         return f64::INFINITY;
@@ -22,9 +22,9 @@ fn change(there: &[[f64; 2]], beyond: &[[f64; 2]]) -> f64 {
 }
 
 impl Strips<'_> {
-    /// Returns values of joint 1, ascending, that approach the place where a wall jumps. The place lies between
-    /// `closed`, where the pair makes the wall, and `until`. It is bisected down to `width`. Returns nothing if the
-    /// wall changes smoothly.
+    /// Returns values of joint 1, ascending, that approach a place where a wall jumps. The place lies between `closed`,
+    /// where the pair makes the wall, and `until`. Bisection locates it to within `width`. Returns nothing if the wall
+    /// changes smoothly.
     fn towards_jump(&mut self, number: usize, [closed, until]: [f64; 2], wall: [f64; 2], width: f64) -> Vec<f64> {
         let (mut with, mut without) = (closed, until);
         let (mut there, mut beyond) = (vec![wall], self.walls_about(number, until, wall));
@@ -57,8 +57,8 @@ impl Strips<'_> {
         walls.iter().map(near).filter(|at| at[0] <= wall[1] && wall[0] <= at[1]).collect()
     }
 
-    /// Returns the values of joint 1 at which to cut a strip in which a path enters a wall of a pair. They approach the
-    /// jumps of the wall on either side.
+    /// Returns the values of joint 1 at which a strip must be cut because a path enters a wall of a pair in it. The
+    /// values approach the jumps of the wall on either side.
     pub fn towards_jumps(&mut self, index: usize, pair: Pair, at: Point, width: f64) -> Vec<f64> {
         let Some(number) = self.closed.number(pair) else { return Vec::new() };
         let walls = self.walls_about(number, at.x, [at.y; 2]);
@@ -69,8 +69,9 @@ impl Strips<'_> {
         cuts
     }
 
-    /// Returns the values of joint 1 at which to cut a strip in which a wall ends. The wall contains `q2` on the slice
-    /// after the strip, or before it if `after` is false. Returns nothing if the wall continues through the strip.
+    /// Returns the values of joint 1 at which a strip must be cut because a wall ends in it. The wall contains `q2` on
+    /// the slice after the strip, or before it if `after` is false. Returns nothing if the wall continues through the
+    /// strip.
     pub fn towards_tip(&mut self, index: usize, after: bool, q2: f64, width: f64) -> Vec<f64> {
         let [from, to] = self.ends(index);
         let (with, without) = if after { (to, from) } else { (from, to) };

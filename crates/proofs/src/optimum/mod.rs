@@ -30,30 +30,30 @@ const COORDINATE_ROUNDING: f64 = 1024.0 * f64::EPSILON;
 /// Maximum number of refinements of the strips.
 const MAX_REFINEMENTS: usize = 64;
 
-/// Number of paths at the beginning that are always searched, rather than pulled taut. Among wide strips, paths often
-/// lead through passages that do not exist.
+/// Number of paths at the beginning that are always found by a search, not by pulling the path before taut. Among wide
+/// strips, paths often lead through passages that do not exist.
 const MIN_SEARCHED_PATHS: usize = 2;
 
-/// Maximum number of paths, searched or pulled taut. Most paths follow a refused certificate.
+/// Maximum number of paths, whether found by a search or by pulling taut. Most paths follow a refused certificate.
 const MAX_PATHS: usize = 128;
 
-/// Maximum number of searches, times the number of pairs. The limit corresponds to about a second.
+/// Maximum product of the number of searches and the number of pairs. It corresponds to about a second.
 const MAX_SEARCH_WORK: usize = 80_000;
 
-/// Largest growth of a path's length since the path before it, as a share, with which the path is certified.
+/// Growth of the path's length from one round to the next, as a share, below which the path is certified.
 const SETTLED_GROWTH: f64 = 1e-6;
 
-/// Maximum number of refused certificates, times the number of pairs. The limit corresponds to some seconds.
+/// Maximum product of the number of refused certificates and the number of pairs. It corresponds to some seconds.
 const MAX_REFUSAL_WORK: usize = 500_000;
 
-/// Number of pairs that are added around a place where a path collides with a pair that is not in use.
+/// Number of pairs that are added where a path collides with a pair that was not used so far.
 const PAIRS_PER_COLLISION: usize = 256;
 
 /// Number of consecutive rounds with hardly any improvement after which the search ends.
 const MAX_IDLE_ROUNDS: usize = 3;
 
-/// Share of the extra clearance `kept` by which paths may enter grown obstacles within strips. The rest is enough for a
-/// certificate. A greater share needs fewer slices.
+/// Fraction of the extra clearance `kept` by which paths may enter the grown obstacles within strips. The rest suffices
+/// for a certificate. With a greater fraction, fewer slices are needed.
 const STRIP_CLEARANCE_SHARE: f64 = 0.9;
 
 /// Number of pairs up to which [`STRIP_CLEARANCE_SHARE`] applies. Among more pairs, a path passes many small pieces,
@@ -63,10 +63,10 @@ const FEW_PAIRS: usize = 1000;
 /// Value that replaces [`STRIP_CLEARANCE_SHARE`] among more than [`FEW_PAIRS`] pairs.
 const STRIP_CLEARANCE_SHARE_OF_MANY: f64 = 0.5;
 
-/// Share of the requested gap that a single strip may leave open without being halved.
+/// Gap that a single strip may leave without being halved, as a share of the requested gap.
 const MAX_STRIP_GAP_SHARE: f64 = 1e-3;
 
-/// Least initial limit on the length of searched paths, as a share of the final limit.
+/// Least initial limit on the length of paths in a search, as a share of the final limit.
 const MIN_LIMIT_SHARE: f64 = 1.0 / 64.0;
 
 /// The requested motions, and the metric of their lengths.
@@ -90,7 +90,8 @@ pub struct MotionQuery<'a> {
 ///
 /// *Slices* cut joint 1's domain into strips. On a slice, contact angles give exactly the values of joint 2 that are
 /// closed: *walls*. If a pair makes walls on both slices of a strip, a straight *barrier* between them is proven to be
-/// closed all along. No motion crosses walls or barriers, so no motion is shorter than the shortest path around them.
+/// closed along its whole length. No motion crosses walls or barriers, so no motion is shorter than the shortest path
+/// around them.
 ///
 /// Between two slices, this path may cut into closed regions. The error is of second order in the strip's width for a
 /// smooth boundary. Strips are cut where the path does this, so the bound needs only some dozens of slices, most of
@@ -134,14 +135,15 @@ fn bounded<'a>(motions: &MotionQuery<'a>, limit: f64, gap: f64, slices: &[f64]) 
 /// Finds a certified motion that is about the shortest of the `motions`, and shorter than `limit`. Returns `None` if it
 /// finds none, for example because a passage is too narrow for `kept`.
 ///
-/// `judge` takes a [`ProposedPath`], and certifies that path or a path derived from it. The path keeps the clearance,
-/// plus a part of the extra clearance `kept`, metres. It is longer than the shortest motion by the cost of this extra
-/// clearance.
+/// `judge` receives a [`ProposedPath`], and certifies that path or a path derived from it. The path keeps the
+/// clearance, plus a part of the extra clearance `kept`, metres. It is longer than the shortest motion by the cost of
+/// this extra clearance.
 ///
-/// The path is the shortest path of [`least_length`] among obstacles grown by `kept`. Strips are cut where the path
-/// enters the grown obstacles by more than a share of `kept` (0.9, or 0.5 among many pairs), and where the judge refuses
-/// it. Among the finer strips, the path is pulled taut through its portals, which is much faster than a search. If the
-/// judge finds such a path too long, or refuses the same path twice, all later paths are searched.
+/// The proposed path is the shortest path of [`least_length`] among obstacles grown by `kept`. Strips are cut in two
+/// cases: where the path enters the grown obstacles by more than a share of `kept` (0.9, or 0.5 among many pairs), and
+/// where the judge refuses it. Among the finer strips, the path is pulled taut through its portals, which is much
+/// faster than a search. If the judge finds such a path too long, or refuses the same path twice, all later paths are
+/// found by a search.
 #[must_use]
 pub fn short_motion(
     motions: &MotionQuery,
@@ -203,14 +205,15 @@ pub struct ProposedPath {
     pub path: Path,
     /// Values of joint 1 at all slices. They are dense where the path touches obstacles.
     pub slices: Vec<f64>,
-    /// True if no path among these slices is shorter. If false, no path through the same portals is shorter.
+    /// True if this is the shortest path among these slices. If false, it is only the shortest path through its own
+    /// portals.
     pub is_shortest: bool,
 }
 
-/// Reason why the judge refuses a proposed path.
+/// The reason why a proposed path is refused.
 #[derive(Debug, Clone)]
 pub enum RefusalReason {
-    /// The path cannot be certified.
+    /// The path cannot be certified, for this reason.
     By(Rejection),
     /// There may be a shorter path. This reason is not valid if [`ProposedPath::is_shortest`] is true.
     TooLong,
@@ -236,12 +239,12 @@ struct ShortestPathSearch<'a> {
     /// Copies of the goals on all turns.
     goals: Vec<Segment>,
     limit: f64,
-    /// Length below which paths are searched first. Longer paths could reach goals and portals on more turns, which
-    /// costs time.
+    /// Length below which paths are searched in the first place. Longer paths could reach goals and portals on more
+    /// turns, which costs time.
     near: f64,
     /// Greatest absolute coordinate of start and goals.
     largest: f64,
-    /// Pieces of paths that need no refinement. All refinements must use the same [`PathTolerance`].
+    /// Pieces of paths that are known to need no refinement. All refinements must use the same [`PathTolerance`].
     fine: RefinedPieces,
 }
 
@@ -265,8 +268,8 @@ impl<'a> ShortestPathSearch<'a> {
         Self { motions, vicinity, strips, measure, start, goals, limit, near, largest, fine: RefinedPieces::default() }
     }
 
-    /// Returns the length and the corners of the shortest path around the known walls and barriers. If there are no
-    /// corners, no path is shorter than the limit.
+    /// Returns the length and the corners of the shortest path around the known walls and barriers. If all paths are
+    /// longer than the limit, there are no corners.
     fn shortest(&mut self) -> (f64, Vec<Point>) {
         let straight = |goals: &Segment| goals.distance(self.measure, self.start);
         if self.strips.count() == 0 {
@@ -326,7 +329,7 @@ impl<'a> ShortestPathSearch<'a> {
         is_new
     }
 
-    /// Halves the strips that contain a value of joint 1.
+    /// Halves the strips that contain a value of joint 1. Returns true if any strip was halved.
     fn halve_at(&mut self, q1: f64) -> bool {
         let value = self.strips.topology().ranges[0].wrap(q1);
         let mut which: Vec<usize> =
@@ -341,13 +344,13 @@ impl<'a> ShortestPathSearch<'a> {
         (length - f64::max(length * ROUNDING, self.largest * COORDINATE_ROUNDING)).max(0.0)
     }
 
-    /// Returns the path with these corners, on the start's own turns.
+    /// Returns the path with these corners, shifted to the turns of the start's own joint values.
     fn path(&self, start: Configuration, corners: &[Point]) -> Path {
         let lift = start - self.start;
         Path::new(std::iter::once(start).chain(corners[1..].iter().map(|corner| corner + lift)).collect())
     }
 
-    /// Returns the portals through which a path passes, on the start's own turns.
+    /// Returns the portals through which a path passes, shifted to the turns of the start's own joint values.
     fn passed(&mut self, start: Configuration, corners: &[Point]) -> Vec<[Configuration; 2]> {
         let lift = start - self.start;
         let mut passed = Vec::new();

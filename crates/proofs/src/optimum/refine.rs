@@ -16,16 +16,16 @@ use std::hash::BuildHasherDefault;
 /// Distance between the configurations at which a path is tested for obstacles thinner than a strip, radians or metres.
 const TEST_STEP: f64 = 0.01;
 
-/// Towards an end of a path's piece, the distance of each tested configuration from the end is this share of the
-/// distance before.
+/// Factor by which the distance from the end of a path's piece decreases from one tested configuration to the next. The
+/// tested configurations approach the end.
 const TEST_STEP_RATIO: f64 = 0.1;
 
 /// Distance from the tip of a wall down to which a strip is cut at once, as a multiple of the detour that a strip may
 /// leave open. A path around the tip is longer by at most twice this distance.
 const CUT_DISTANCE_RATIO: f64 = 16.0;
 
-/// Number of cuts towards a jump below which a strip is also cut evenly. So few cuts mean that the strip is narrow, and
-/// that the path may go around many small obstacles side by side.
+/// Number of cuts towards a jump below which a strip is also cut into equal parts. So few cuts mean that the strip is
+/// narrow. The path may then go around many small obstacles side by side.
 const FEW_CUTS: usize = 4;
 
 /// Resolution of positions along a piece of a path, as a share of its length, in double precision.
@@ -34,7 +34,7 @@ const POSITION_RESOLUTION: f64 = 1e-15;
 /// The error that is allowed for paths that lead through closed regions.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum PathTolerance {
-    /// A path around the region may be longer by at most this, in units of the metric.
+    /// The path may be shorter than one around the region by at most this, in units of the metric.
     Detour(f64),
     /// The path may enter the region up to this depth, metres.
     Depth(f64),
@@ -42,7 +42,7 @@ pub(super) enum PathTolerance {
 
 /// The part of a path within one strip.
 struct Crossing {
-    /// Number of the strip.
+    /// Index of the strip.
     index: usize,
     /// Value of joint 1 on the path minus the value in the strip: a multiple of a turn, radians.
     turns: f64,
@@ -52,8 +52,9 @@ struct Crossing {
     middle: Option<Point>,
 }
 
-/// Returns the parts of a path within the strips. A part along a slice lies in no strip. Instead, `beside` gets the
-/// strips next to it, with the values of joint 1 at which to cut them towards the tip that the path may go around.
+/// Returns the parts of a path within the strips. A part along a slice lies in no strip. For such a part, the strips
+/// next to it are added to `beside`, with the values of joint 1 at which to cut them. The values approach the tip that
+/// the path may go around.
 fn crossings(
     strips: &mut Strips,
     corners: &[Point],
@@ -86,8 +87,8 @@ fn crossings(
     crossings
 }
 
-/// Returns the strips next to a part of a path along a slice, with the values of joint 1 at which to cut them towards
-/// the tip that the path goes around. Returns nothing if there is no such tip, or if it is near enough.
+/// Returns the strips next to a part of a path along a slice, with the values of joint 1 at which to cut them. The
+/// values approach the tip that the path goes around. Returns nothing if there is no such tip, or if it is near enough.
 fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, Vec<f64>)> {
     let q1 = ends[0].x;
     let mut cuts = Vec::new();
@@ -110,9 +111,9 @@ fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, V
 /// of the strip. Most pieces of a path are the same as in the path before.
 pub(super) type RefinedPieces = HashSet<[u64; 6], BuildHasherDefault<MixingHasher>>;
 
-/// Returns the strips, by index, in which a path enters a closed region by more than the tolerance, with the values of
-/// joint 1 at which to cut them. A strip that this overlooks makes a bound lower, but never wrong. Pieces in `fine` are
-/// skipped.
+/// Returns the strips, by index, in which a path enters a closed region by more than the tolerance. Each has the values
+/// of joint 1 at which to cut it. If this function overlooks a strip, the bound is lower, but never wrong. Pieces in
+/// `fine` are skipped.
 pub(super) fn passed(
     motions: &MotionQuery,
     vicinity: &Vicinity,
@@ -165,7 +166,7 @@ pub(super) fn passed(
     passed.into_iter().collect()
 }
 
-/// The place where a straight motion is deepest in a closed region.
+/// The place where a straight motion is deepest inside a closed region.
 struct DeepestPlace {
     /// Depth in excess of the allowed depth, metres.
     by: f64,
@@ -175,8 +176,8 @@ struct DeepestPlace {
     pair: Pair,
 }
 
-/// Finds the place where a straight motion is deepest in a closed region. `None` if the motion stays within the
-/// tolerance. Tests sample configurations: at regular distances, and ever closer towards the ends, where a path may
+/// Finds the place where a straight motion is deepest inside a closed region. `None` if the motion stays within the
+/// tolerance. Tests sampled configurations: at regular distances, and ever closer towards the ends, where a path may
 /// turn at a closed region.
 fn deepest(
     scene: &Scene,
@@ -251,8 +252,8 @@ fn deepest(
     Some(DeepestPlace { by: beyond(pair, share), share, pair })
 }
 
-/// Returns the number of parts into which to cut a strip in which a path exceeds the allowed depth in a closed region.
-/// The error along a smooth boundary falls with the square of a strip's width.
+/// Returns the number of parts into which to cut a strip in which a path is too deep inside a closed region. The error
+/// along a smooth boundary falls with the square of a strip's width.
 fn pieces(by: f64, allowed: PathTolerance) -> usize {
     match allowed {
         PathTolerance::Depth(depth) => (1.1 * ((by.max(0.0) + depth) / depth).sqrt()).ceil().min(16.0) as usize,

@@ -12,9 +12,9 @@ use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// Maximum number of entries that are taken from the open list: a thousand times the usual number, or half a second.
-/// After that, the search ends with the bound so far. Along an arc, the number of entries grows with the square of the
-/// number of slices.
+/// Maximum number of entries that the search takes from the open list. It is a thousand times the usual number, or half
+/// a second. The search then ends with the bound so far. Along an arc, the number of entries grows with the square of
+/// the number of slices.
 const MAX_ENTRIES: usize = 1_000_000;
 
 /// Initial capacity of the lists of the search.
@@ -24,8 +24,8 @@ const USUAL_ENTRIES: usize = 1024;
 const COST_TOLERANCE: f64 = 1e-12;
 
 /// Margin by which a cone of sight extends past the end of a portal, as a share of the coordinates. It is greater than
-/// rounding errors. Without it, the end of a portal in line with two others, as on a straight side, could lie in a gap
-/// between two cones.
+/// rounding errors. Without it, a portal's end that is in line with two others, as on a straight side, could lie in a
+/// gap between two cones.
 const SIGHT_MARGIN: f64 = 4.0 * f64::EPSILON;
 
 /// Result of the search.
@@ -73,11 +73,12 @@ struct Root {
 
 #[derive(Clone, Copy)]
 enum Entry {
-    /// The part of a slice that a root sees, and through which it sees the strip beyond.
+    /// The part of a slice that a root sees. Through it, the root sees the strip beyond.
     Cone(Cone),
-    /// A goal, by its number, with its point nearest to the root that sees it.
+    /// A goal, by its node, with its point nearest to the root that sees it.
     Goal(u32, Point),
-    /// A root on the edge of a strip, by the numbers of both. It sees the whole cell of the strip that it touches.
+    /// A root on the edge of a strip, by the root's index and the strip's number. It sees the whole cell of the strip
+    /// that it touches.
     Root(u32, i64),
 }
 
@@ -103,13 +104,13 @@ impl Cone {
 }
 
 /// A search by A* whose open list holds cones of sight, similar to Polyanya (Cui, Harabor, Grastien 2017). It covers
-/// the strips' cells and all their copies. Cells are convex, so only walls on slices obstruct sight, and paths turn
-/// only at the ends of portals. There a path continues beyond the slice, towards the wall whose end it passes, or along
-/// the slice to the next portal, which leads back.
+/// the cells of the strips and all their copies on other turns. Cells are convex, so only walls on slices obstruct
+/// sight, and paths turn only at the ends of portals. At such an end a path continues in one of two ways: beyond the
+/// slice, towards the wall whose end it passes, or along the slice to the next portal, which leads back.
 ///
-/// The search finds the shortest path, on any turns. Among paths that reach the end of a portal, only the shortest is
-/// followed. This is enough: if that path could not continue taut where a longer one could, cutting its corner would be
-/// shorter still.
+/// The search finds the shortest path, on any turns. Of all paths that reach the end of a portal, only the shortest is
+/// followed. This is enough. Suppose that a longer path could continue taut where the shortest could not; then cutting
+/// the corner of the shortest would make it shorter still.
 pub(super) struct Search<'s, 'a> {
     strips: &'s mut Strips<'a>,
     measure: Measure,
@@ -121,8 +122,8 @@ pub(super) struct Search<'s, 'a> {
     /// Range of joint 2 for paths shorter than the limit.
     range: [f64; 2],
     roots: Vec<Root>,
-    /// Least cost so far of each end of a portal. The key is the slice, the value of joint 2, and whether joint 1 grows
-    /// from there.
+    /// Least cost so far at each end of a portal. The key has the slice and whether joint 1 grows from there (first
+    /// number), and the value of joint 2 (second number).
     least: HashMap<(i64, u64), f64, BuildHasherDefault<MixingHasher>>,
     open: OpenList<usize>,
     entries: Vec<Entry>,
@@ -191,7 +192,7 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// Adds the point of some goals that is nearest to a root, which must see all of them.
+    /// Adds the goal nearest to a root among some goals, all of which the root must see.
     fn push_goal(&mut self, root: u32, goals: &Segment, parent: f64) {
         let Root { at, cost, .. } = self.roots[root as usize];
         let goal = goals.nearest(self.measure, at);
@@ -234,8 +235,8 @@ impl<'s, 'a> Search<'s, 'a> {
         u32::try_from(self.roots.len() - 1).ok()
     }
 
-    /// Returns the portals of a slice, with all their copies, that meet a range of joint 2 and that paths shorter than
-    /// the limit can reach. The caller gives the list back to `spare`.
+    /// Returns the portals of a slice that meet a range of joint 2, with all their copies. Omits portals that no path
+    /// shorter than the limit can reach. The caller returns the list to `spare`.
     fn portals(&mut self, slice: i64, [lower, upper]: [f64; 2]) -> Vec<Portal> {
         let (lower, upper) = (lower.max(self.range[0]), upper.min(self.range[1]));
         let mut portals = self.spare.pop().unwrap_or_default();
@@ -309,8 +310,8 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// Follows paths along a slice, from a root on the slice to other portals, through which paths lead to the strip on
-    /// the other side. `ahead` is true if the paths so far lie in the strip after the slice.
+    /// Follows paths along a slice, from a root on it to other portals of that slice. Through these portals, paths lead
+    /// to the strip on the other side. `ahead` is true if the strip from which the paths come lies after the slice.
     fn along<'p>(
         &mut self,
         root: u32,
@@ -337,7 +338,7 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// Adds everything seen through a cone, and everything reached by turning at its ends.
+    /// Adds everything that is seen through a cone, and everything that a path reaches by turning at the cone's ends.
     fn expand(&mut self, cone: &Cone, bound: f64) {
         let Cone { root, slice, ahead, seen } = *cone;
         let x = self.strips.q1(slice);

@@ -4,15 +4,17 @@ use super::strips::{Cell, Strips};
 use cplan_core::space::Portal;
 use cplan_geometry::Point;
 
-/// Returns a free interval of joint 2 on a slice as a portal, passed with joint 1 growing (`ahead`) or falling.
+/// Returns a free interval of joint 2 on a slice as a portal. `ahead` is true if paths pass it with joint 1 growing,
+/// false if falling.
 fn portal(slice: f64, [lower, upper]: [f64; 2], ahead: bool) -> Portal {
     let (left, right) = if ahead { (upper, lower) } else { (lower, upper) };
     Portal { left: Point::new(slice, left), right: Point::new(slice, right) }
 }
 
 impl Strips<'_> {
-    /// Returns the portals that a path passes, in order. On each new slice, chooses the portal nearest to the path
-    /// among those that the cell before it reaches. Returns `None` if these portals do not lead to the path's end.
+    /// Returns the portals that a path passes, in order. On each slice that is new since then, chooses the portal
+    /// nearest to the path among those that the cell before it reaches. Returns `None` if these portals do not lead to
+    /// the path's end.
     ///
     /// Where the path turns back along a slice, around the end of a wall, the portals follow the wall to its current
     /// end.
@@ -49,9 +51,9 @@ impl Strips<'_> {
         (from <= goal.x && goal.x <= to && lower <= goal.y && goal.y <= upper).then_some(sleeve)
     }
 
-    /// Adds the portals of a path that goes around the end of a wall, between two places on a slice: along one side of
-    /// the wall to its end, and back along the other. Returns the place where the path is then. Returns `None` if the
-    /// wall has no end, because it goes all around a continuous joint.
+    /// Adds the portals of a path that goes around the end of a wall, between two places on a slice. They lead along
+    /// one side of the wall to its end, and back along the other. Returns the place where the path is then. Returns
+    /// `None` if the wall has no end, because it goes all around a continuous joint.
     fn around_end(&mut self, from: Point, to: Point, ahead: bool, sleeve: &mut Vec<Portal>) -> Option<Point> {
         let slice = self.around(to.x).last().copied().filter(|slice| self.q1(*slice) == to.x && from.x == to.x)?;
         let mut sides = [from, to];
@@ -87,7 +89,7 @@ impl Strips<'_> {
         Some((if ahead { strip + 1 } else { strip }, cell))
     }
 
-    /// Returns the free interval nearest to a value on the slice where a path leaves a cell.
+    /// Returns the free interval nearest to `q2` on the slice where a path leaves a cell.
     fn free_in(&mut self, slice: i64, q2: f64, cell: Cell, ahead: bool) -> Option<[f64; 2]> {
         let [lower, upper] = cell.at(if ahead { 1.0 } else { 0.0 });
         self.nearest_free(slice, q2, |portal| lower <= portal.lower && portal.upper <= upper)

@@ -7,14 +7,14 @@ use cplan_core::space::{Configuration, JointRange, Segment, Topology};
 use cplan_geometry::merge_in_place;
 use std::f64::consts::{PI, TAU};
 
-/// Number of initial strips over the domain; those beside values that link 1 closes are narrower. At least three, so
-/// that across a seam no strip is its own neighbour.
+/// Number of initial strips over the domain. Strips beside values of joint 1 at which link 1 collides are narrower. The
+/// number must be at least three, so that no strip is its own neighbour across a seam.
 const INITIAL_STRIPS: usize = 64;
 
 /// Maximum number of strips.
 const MAX_STRIPS: usize = 100_000;
 
-/// Maximum number of barriers tried in a strip.
+/// Maximum number of barriers that are tried in a strip.
 const MAX_BARRIERS: usize = 512;
 
 /// Least width of a strip that is halved, radians or metres: about the rounding error.
@@ -24,8 +24,8 @@ pub(super) const MIN_STRIP_WIDTH: f64 = 1e-9;
 /// put them slightly outside.
 pub(super) const PORTAL_TOLERANCE: f64 = 1e-9;
 
-/// Least distance of slices, radians or metres, so that they also differ on other turns. For reaches up to a kilometre,
-/// it moves shapes by less than their erosion.
+/// Least distance between slices, radians or metres. It ensures that slices also differ on other turns. For reaches up
+/// to a kilometre, it moves shapes by less than their erosion.
 const MIN_SLICE_DISTANCE: f64 = 1e-12;
 
 /// A straight closed line across a strip: its values of joint 2 on the slice before and the slice after.
@@ -60,13 +60,13 @@ impl Cell {
 pub(super) struct Strip {
     pub(super) from: f64,
     pub(super) to: f64,
-    /// True if link 1 closes the strip.
+    /// True if link 1 collides in the whole strip.
     pub(super) closed: bool,
     /// Barriers, ascending on both slices, each with the number of its pair. `None` until they are needed.
     pub(super) barriers: Option<Vec<(Barrier, usize)>>,
     /// Walls halfway through the strip. `None` until they are needed.
     middle: Option<Vec<Wall>>,
-    /// Walls on the slice at `from`; the next field has the portals between them. `None` until they are needed.
+    /// Walls on the slice at `from`, and in the next field the portals between them. `None` until they are needed.
     pub(super) walls: Option<Vec<Wall>>,
     portals: Option<Vec<Portal>>,
 }
@@ -147,7 +147,7 @@ impl<'a> Strips<'a> {
         self.strips.iter().map(|strip| strip.from).collect()
     }
 
-    /// Returns true if there are so many strips that no more are made.
+    /// Returns true if the largest number of strips is reached, so that no more are made.
     pub fn are_too_many(&self) -> bool {
         self.strips.len() > MAX_STRIPS.min(self.closed.most_slices())
     }
@@ -166,7 +166,8 @@ impl<'a> Strips<'a> {
         self.place(number).0
     }
 
-    /// Returns the shift from a strip's own values of joint 1 to those on the turn of its number.
+    /// Returns the shift of joint 1, in radians, from a strip's own values to those on the turn that its number
+    /// implies.
     pub fn turns(&self, number: i64) -> f64 {
         self.place(number).1
     }
@@ -215,7 +216,7 @@ impl<'a> Strips<'a> {
         (near - 1..=near + 1).filter(holds).collect()
     }
 
-    /// Returns the cell of a strip that contains `q2` at a position within the strip: `share` is 0 on the slice before
+    /// Returns the cell of a strip that contains `q2`. `share` is the position within the strip: 0 on the slice before
     /// it and 1 on the slice after it. Returns `None` if the strip is closed.
     pub fn cell(&mut self, strip: i64, share: f64, q2: f64) -> Option<Cell> {
         let index = self.index(strip);
@@ -274,7 +275,7 @@ impl<'a> Strips<'a> {
         })
     }
 
-    /// Returns the free interval nearest to the value among those that satisfy a condition.
+    /// Returns the free interval nearest to `q2` among those that satisfy a condition.
     pub fn nearest_free(
         &mut self,
         slice: i64,
@@ -296,8 +297,8 @@ impl<'a> Strips<'a> {
         within.filter(|[lower, upper]| lower <= upper)
     }
 
-    /// Returns the parts of a goal segment that are not closed, if joint 1 has one value on the segment. Otherwise
-    /// returns the whole segment; closed strips then exclude parts of it in the search.
+    /// Returns the parts of a goal segment that are not closed, if joint 1 is constant on the segment. Otherwise
+    /// returns the whole segment; the search then excludes the parts in closed strips.
     pub fn open_goals(&mut self, piece: &Segment) -> Vec<Segment> {
         let [from, to] = piece.ends();
         let axis = self.topology.ranges[1];
@@ -458,7 +459,7 @@ fn of_the_same_pairs<'w>(before: &'w [Wall], after: &'w [Wall]) -> Vec<(&'w Wall
 }
 
 /// Returns all candidates for barriers. If there are too many, sorts them by the middles of their first walls, and
-/// returns a selection spread over that list.
+/// returns some that are spread over that list.
 fn some<'w>(mut candidates: Vec<(&'w Wall, &'w Wall)>) -> Vec<(&'w Wall, &'w Wall)> {
     if candidates.len() > MAX_BARRIERS {
         candidates.sort_by(|a, b| (a.0.lower + a.0.upper).total_cmp(&(b.0.lower + b.0.upper)));

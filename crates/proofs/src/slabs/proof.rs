@@ -9,7 +9,7 @@ use cplan_geometry::merge_in_place;
 use cplan_interrupt::checkpoint;
 
 impl Slabs<'_> {
-    /// Returns, for each span, whether free and undecided spans connect it with any of the places.
+    /// Returns, for each span, whether it is connected with any of the places through free and undecided spans.
     fn reached(&self, places: &GoalSet) -> Vec<bool> {
         let mut reached = vec![false; self.spans.len()];
         let mut waiting: Vec<u32> = ends(self, places).into_iter().map(|end| end.0).collect();
@@ -26,8 +26,8 @@ impl Slabs<'_> {
 
     /// Returns the proof that start and goals are not connected. Spans that may be free must not connect them. The
     /// proof consists of the collision boxes around the region that is reachable from the start, or of those around the
-    /// region reachable from the goals, whichever are fewer. Returns `None` if the bounds that judge boxes do not
-    /// confirm a box, or if there are more than `most` boxes.
+    /// region reachable from the goals, whichever are fewer. Returns `None` if there are more than `most` boxes, or if
+    /// the check of a proof would refuse one of them.
     pub(super) fn disconnection(
         &mut self,
         start: Configuration,
@@ -44,8 +44,8 @@ impl Slabs<'_> {
     }
 
     /// Returns the collision boxes beside the region that is reachable from the places, and the collision boxes that
-    /// contain places. Returns `None` if the bounds that judge boxes do not confirm a box, or if there are more than
-    /// `most` boxes.
+    /// contain places. Returns `None` if there are more than `most` boxes, or if the check of a proof would refuse one
+    /// of them.
     fn around(&mut self, places: &GoalSet, most: usize) -> Option<Vec<CollisionBox>> {
         let reached = self.reached(places);
         let places: Vec<Segment> = places.wrapped(&self.topology).collect();
@@ -95,7 +95,7 @@ impl Slabs<'_> {
         runs.all(|run| lay(scene, self.second.clearance(), run, [bottom, top], most, &mut boxes)).then_some(boxes)
     }
 
-    /// Computes the verdicts on a slab again.
+    /// Computes the colliding intervals of a slab again.
     fn judge_again(&mut self, number: u32) {
         let Slab { from, to, level, .. } = self.slabs[number as usize];
         let half = half_of_level(&self.topology, level) * (1.0 + 2.0 * LEVEL_TOLERANCE);

@@ -4,14 +4,16 @@ use super::site::{CONTACT_DISTANCE, Site};
 use cplan_geometry::cross;
 use std::f64::consts::PI;
 
-/// Two sides whose directions differ by less follow each other on a line, so they have no bisector.
+/// Sine of the angle between two sides below which they count as parallel. Such sides follow each other on a line, so
+/// they have no bisector.
 const PARALLEL_SINE: f64 = 1e-9;
 
-/// The height on each ray of a site at which another site is equally near. The height is the distance along the ray.
+/// The points at which a site and another site are equally near, given as a height on each ray of the site. The height
+/// is the distance along the ray.
 ///
-/// For each parameter `t` of a ray, a quadratic polynomial is stored that increases with the height `h`. For a side
-/// it is the height itself, for a corner `-(1 + t^2) / h`. The sign of the difference of two such polynomials tells
-/// which of two other sites is nearer.
+/// For each parameter `t` of a ray, a quadratic polynomial is stored that increases with the height `h`. For a side it
+/// is the height itself, for a corner `-(1 + t^2) / h`. The sign of the difference of two such polynomials shows which
+/// of two other sites is nearer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bisector {
     /// Coefficients of `1, t, t^2`.
@@ -21,13 +23,13 @@ pub(super) struct Bisector {
     /// is not one of its ends.
     pub from: f64,
     pub to: f64,
-    /// Number of the other site.
+    /// Index of the other site.
     pub other: usize,
 }
 
 impl Bisector {
-    /// Returns the bisectors of a site with another one, whose number is `other`. There are two if a corner sees
-    /// both ends of a side better than its middle.
+    /// Returns the bisectors of a site with another site, whose index is `other`. There are two if the site is a corner
+    /// and both ends of a side are nearer to it than the side's middle.
     pub fn between(site: &Site, with: &Site, other: usize) -> impl Iterator<Item = Self> + use<> {
         let (parts, on_side) = match (site.is_side, with.is_side) {
             (true, true) => ([side_and_side(site, with), None, None], true),
@@ -72,6 +74,7 @@ impl Bisector {
     }
 
     /// Returns the parameter at which the value falls below that of `other`. There is at most one such parameter.
+    /// `None` if there is none.
     pub fn falls_below(&self, other: &Self) -> Option<f64> {
         let [c, b, a] = [0, 1, 2].map(|k| self.coefficients[k] - other.coefficients[k]);
         let square = b * b - 4.0 * a * c;

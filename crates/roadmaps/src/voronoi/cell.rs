@@ -4,10 +4,10 @@ use super::bisector::Bisector;
 use super::site::Site;
 use cplan_interrupt::checkpoint;
 
-/// Parameters that differ by less are equal up to the rounding of points where bisectors meet.
+/// Difference below which two parameters count as equal. It covers the rounding of points where bisectors meet.
 const PARAMETER_TOLERANCE: f64 = 1e-11;
 
-/// Values that differ by less, relative to their size, count as equal when a bisector is chosen.
+/// Relative difference below which two values count as equal when a bisector is chosen.
 const VALUE_TOLERANCE: f64 = 1e-10;
 
 /// Number of times that a range of parameters is halved: enough to reach the last bits.
@@ -67,13 +67,13 @@ pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Ve
 struct Envelope<'a> {
     others: &'a [Site],
     bisectors: &'a [Bisector],
-    /// Parameters that differ by less count as equal.
+    /// Difference below which two parameters count as equal.
     slack: f64,
 }
 
 impl<'a> Envelope<'a> {
-    /// Returns the bisector of least value right after a parameter; the one with the least slope if several are
-    /// equal. `None` if there is none.
+    /// Returns the bisector of least value right after a parameter. If several have the least value, returns the one
+    /// with the least slope. Returns `None` if there is no bisector.
     fn lowest(&self, at: f64) -> Option<&'a Bisector> {
         let here = || self.bisectors.iter().filter(|b| self.is_after(b, at));
         let least = here().map(|b| b.value(at)).fold(f64::INFINITY, f64::min);
@@ -95,14 +95,14 @@ impl<'a> Envelope<'a> {
         self.others[b.other].is_side
     }
 
-    /// Returns true if one bisector is with a side and the other with an end of that side.
+    /// Returns true if one bisector belongs to a side and the other to an end of that side.
     fn touching(&self, a: &Bisector, b: &Bisector) -> bool {
         let (a, b) = (&self.others[a.other], &self.others[b.other]);
         a.is_side != b.is_side && [(a, b), (b, a)].iter().any(|(x, y)| x.is_side && (x.at == y.at || x.to == y.at))
     }
 
-    /// Returns the bisector with a side, if `now` is with an end of that side. Where a side has a bisector, it is
-    /// nearer than its ends.
+    /// If `now` is the bisector with an end of a side, returns the bisector with that side. Otherwise returns `now`.
+    /// Where a side has a bisector, the side is nearer than its ends.
     fn side_of(&self, now: &'a Bisector, at: f64) -> &'a Bisector {
         if self.is_of_side(now) {
             return now;
@@ -111,8 +111,8 @@ impl<'a> Envelope<'a> {
         self.bisectors.iter().find(is_seen).unwrap_or(now)
     }
 
-    /// Returns the parameter at which the envelope leaves a bisector that it follows from `at` on, and the next
-    /// bisector, if it is known.
+    /// Returns the parameter at which the envelope leaves a bisector that it follows from `at` on. Also returns the
+    /// next bisector, if it is known.
     fn end(&self, now: &Bisector, at: f64) -> (f64, Option<&'a Bisector>) {
         let (mut end, mut next) = (now.to, None);
         for b in self.bisectors {
@@ -126,7 +126,7 @@ impl<'a> Envelope<'a> {
         self.hidden(now, at, end).unwrap_or((end, next))
     }
 
-    /// Returns the parameter at which another bisector takes over within a range; `None` if it does not.
+    /// Returns the parameter at which another bisector becomes the lowest within a range; `None` if it does not.
     fn crossing(&self, b: &Bisector, now: &Bisector, [at, end]: [f64; 2]) -> Option<f64> {
         let event = if self.touching(b, now) {
             (self.is_of_side(b) && b.from > at).then_some(b.from)
@@ -139,8 +139,8 @@ impl<'a> Envelope<'a> {
         event.filter(|t| *t < end)
     }
 
-    /// Returns a takeover that rounding has hidden: the parameter and the lower bisector. The test is whether
-    /// another bisector is lower in the middle of the range.
+    /// Returns a change of the lowest bisector that rounding has hidden: the parameter and the lower bisector. For this
+    /// it tests whether another bisector is lower in the middle of the range.
     fn hidden(&self, now: &Bisector, at: f64, end: f64) -> Option<(f64, Option<&'a Bisector>)> {
         let is_below = |b: &Bisector, t: f64| {
             b.from <= t

@@ -10,15 +10,15 @@ use cplan_interrupt::checkpoint;
 use petgraph::graph::NodeIndex;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Ends of arcs nearer together than this are one node, radians or metres. Where bisectors meet at a small angle,
-/// the error of their intersection is the square root of the rounding error of coordinates.
+/// Distance below which ends of arcs become one node, radians or metres. Where bisectors meet at a small angle, the
+/// error of their intersection is the square root of the rounding error of coordinates.
 const JOIN_DISTANCE: f64 = 1e-7;
 
-/// Chords nearer to the boundary than this are not used. They lead into corners of the boundary, or between
-/// obstacles that touch.
+/// Distance from the boundary below which chords are not used, radians or metres. Such chords lead into corners of the
+/// boundary, or between obstacles that touch.
 pub(super) const MIN_CHORD_CLEARANCE: f64 = JOIN_DISTANCE;
 
-/// Number of nearest chords, and of nearest nodes, that are tried to join a configuration to the diagram.
+/// Number of nearest chords, and of nearest nodes, to which the planner tries to join a configuration.
 const MAX_TRIED_CONNECTIONS: usize = 12;
 
 /// The chords in a window as a graph.
@@ -51,7 +51,7 @@ impl ChordGraph {
         graph
     }
 
-    /// Returns the node at a point, up to [`JOIN_DISTANCE`]; adds one if there is none.
+    /// Returns the node at a point, up to [`JOIN_DISTANCE`]. Adds a node if there is none.
     fn node(&mut self, places: &mut BTreeMap<[i64; 2], Vec<NodeIndex>>, at: Point) -> NodeIndex {
         let cell = [at.x, at.y].map(|value| (value / JOIN_DISTANCE).floor() as i64);
         let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [cell[0] + i, cell[1] + j]));

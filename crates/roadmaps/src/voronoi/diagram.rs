@@ -26,12 +26,12 @@ pub(super) struct Chord {
     pub width: f64,
 }
 
-/// The diagram over one turn of each circle, since all turns are equal, and over whole intervals.
+/// The diagram over whole intervals, and over one turn of each circle, since all turns are equal.
 #[derive(Debug, Clone)]
 pub(super) struct Diagram {
     /// The sites within that range, with sides cut at its ends, followed by copies of sites around it.
     sites: Vec<Site>,
-    /// For each site, the number of the original site and the turns from there.
+    /// For each site, the index of the original site, and the whole turns of each joint by which it is moved.
     originals: Vec<(usize, [i32; 2])>,
     lower: [f64; 2],
     ranges: [JointRange; 2],
@@ -78,7 +78,7 @@ impl Diagram {
         diagram
     }
 
-    /// Returns all chords of the first `count` sites, each once.
+    /// Returns all chords of the cells of the first `count` sites, each chord once.
     fn drawn(&self, count: usize) -> Vec<Chord> {
         let bounds = |site: &Site| [site.at.inf(&site.to), site.at.sup(&site.to)];
         let tree = BoxTree::new(self.sites.iter().map(bounds).collect());
@@ -97,8 +97,8 @@ impl Diagram {
         chords
     }
 
-    /// Returns the border of a site's cell among nearby sites, after it has proven that sites farther away do not
-    /// matter.
+    /// Returns the border of a site's cell. Uses only nearby sites, after a proof that those farther away have no
+    /// effect.
     fn cell(&self, tree: &BoxTree, number: usize, bounds: Bounds) -> Vec<Arc> {
         let most = self.most;
         let site = &self.sites[number];
@@ -185,8 +185,8 @@ impl Diagram {
     }
 }
 
-/// Returns a distance from the boundary that no configuration exceeds. The limits of an interval are nearer, or, on
-/// two circles, the copies of any site.
+/// Returns a distance from the boundary that no configuration exceeds. The limits of an interval are nearer than that,
+/// and on two circles so are the copies of any site.
 fn farthest(space: &Regions) -> f64 {
     let extents = [0, 1].map(|k| space.window[k].1 - space.window[k].0);
     let circles = space.topology.ranges.map(JointRange::is_circle);

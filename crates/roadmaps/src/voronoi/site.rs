@@ -4,7 +4,7 @@ use cplan_core::planner::mesh::Corner;
 use cplan_core::space::Segment;
 use cplan_geometry::{Point, Vector, cross, perpendicular};
 
-/// Two points nearer together than this are in contact, radians or metres. It exceeds the rounding of coordinates.
+/// Distance below which two points count as in contact, radians or metres. It exceeds the rounding of coordinates.
 pub(super) const CONTACT_DISTANCE: f64 = 1e-12;
 
 /// A side of the boundary without its ends, or a convex corner of an obstacle.
@@ -100,8 +100,8 @@ impl Site {
         of_ends.into_iter().chain(of_site).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the length up to which points of a ray are nearer to the ray's start than to this site. It is
-    /// infinite if all are, or if the ray starts on this site.
+    /// Returns the length up to which the points of a ray are nearer to the ray's start than to this site. Infinite if
+    /// all its points are, or if the ray starts on this site.
     pub fn limit(&self, (from, direction): Ray) -> f64 {
         if (from - self.nearest(from)).norm() < CONTACT_DISTANCE {
             return f64::INFINITY;

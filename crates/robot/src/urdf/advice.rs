@@ -19,7 +19,7 @@ const MAX_PLAUSIBLE_LENGTH: f64 = 50.0;
 /// Greatest plausible distance of an arm's shapes from its joints, as a multiple of the arm's length.
 const MAX_PLAUSIBLE_OUTREACH: f64 = 20.0;
 
-/// Shapes within this distance of the joints, in metres, are not compared with the arm's length: the joints may be
+/// Distance from the joints, in metres, within which shapes are not compared with the arm's length. The joints may be
 /// almost at the same place.
 const MIN_COMPARED_OUTREACH: f64 = 5.0;
 

@@ -7,7 +7,8 @@ use crate::source::Source;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
-/// Attributes of links, joints and their elements that are numbers. Those in [`UNLIMITED_ATTRIBUTES`] are numbers, too.
+/// Attributes of links, joints and their elements whose values are numbers. Those in [`UNLIMITED_ATTRIBUTES`] are
+/// numbers as well.
 const NUMERIC_ATTRIBUTES: [&str; 22] = [
     "xyz",
     "rpy",
@@ -33,7 +34,7 @@ const NUMERIC_ATTRIBUTES: [&str; 22] = [
     "izz",
 ];
 
-/// Attributes that are numbers and in which an infinity means that there is no limit.
+/// Attributes whose values are numbers. In these, an infinity means that there is no limit.
 const UNLIMITED_ATTRIBUTES: [&str; 9] = [
     "lower",
     "upper",
@@ -86,8 +87,8 @@ impl Attributes<'_> {
         self.diagnostics.push(diagnostic.help(help));
     }
 
-    /// Refuses NaN in all attributes below `node` that are numbers, even in unused ones. Refuses infinities, unless
-    /// they mean that there is no limit. A file with such values was not written correctly.
+    /// Refuses NaN in all numeric attributes below `node`, even in unused ones. Refuses infinities, unless they mean
+    /// that there is no limit. A file with such values was not written correctly.
     pub fn finite_everywhere(&mut self, node: Node) {
         for element in node.descendants().filter(Node::is_element) {
             for attribute in element.attributes() {
@@ -170,7 +171,7 @@ impl Attributes<'_> {
         self.numbers(node, name, 1).map(|v| v[0])
     }
 
-    /// Returns the text of `<origin>` for the copy of the document; empty if the element is missing.
+    /// Returns the text of `<origin>` for the copy of the document. Returns an empty text if the element is missing.
     pub fn origin(&mut self, node: Node) -> String {
         let Some(origin) = self.only(node, "origin", false) else { return String::new() };
         let mut copy = "<origin".to_owned();
@@ -239,8 +240,8 @@ impl Attributes<'_> {
     }
 
     /// Returns lower, upper, velocity and acceleration of a `<limit>`. `absent` has the defaults of lower and upper.
-    /// Lower may exceed upper only if the joint type ignores both. If `ranged`, this is reported, and both are swapped
-    /// so that further checks work.
+    /// Lower may exceed upper only if the joint type ignores both. If `ranged`, the joint type does not ignore them:
+    /// this is reported, and both are swapped so that further checks work.
     pub fn limit(&mut self, limit: Node, absent: [f64; 2], ranged: bool) -> [Option<f64>; 4] {
         let mut values = ["lower", "upper", "velocity", "acceleration"].map(|name| self.number(limit, name));
         for (value, name) in values.iter_mut().zip(["lower", "upper"]) {
@@ -269,7 +270,8 @@ impl Attributes<'_> {
         values
     }
 
-    /// Returns the soft limits, by default 0. `None` if both are 0, because exporters write that for missing ones.
+    /// Returns the soft limits. A limit that is not given is 0. Returns `None` if both are 0, because exporters write 0
+    /// for missing limits.
     pub fn soft_limits(&mut self, safety: Node) -> Option<[f64; 2]> {
         let [lower, upper] = ["soft_lower_limit", "soft_upper_limit"].map(|name| self.number(safety, name));
         let [lower, upper] = [lower, upper].map(|limit| limit.unwrap_or(0.0));

@@ -15,7 +15,7 @@ use cplan_text::counted;
 use nalgebra::Isometry3;
 use std::collections::BTreeSet;
 
-/// Largest number of corners with which an outline remains a single shape. The time of queries grows with the number.
+/// Largest number of corners of an outline that remains a single shape. The time of queries grows with the number.
 const MAX_CORNERS: usize = 1024;
 
 /// The data from which outlines are made.
@@ -29,8 +29,8 @@ pub(super) struct Bodies<'a> {
     pub poses: &'a [Isometry3<f64>],
 }
 
-/// Returns a region that contains the shape at every orientation about a point, and a region that the shape contains at
-/// every orientation, if any. `certain` is a region within the shape.
+/// Returns a region that contains the shape at every orientation about a point. Also returns a region that the shape
+/// contains at every orientation, if there is one. `certain` is a region that certainly lies within the shape.
 fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, Option<Convex>)> {
     let is_disc = |convex: &Convex| convex.core().len() == 1 && (convex.core()[0] - axis).norm() <= AXIS_TOLERANCE;
     if is_disc(shape) && is_disc(certain) {
@@ -41,8 +41,8 @@ fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, O
     (within > 0.0).then(|| (disc(shape.reach_from(axis)), Some(disc(within))))
 }
 
-/// A disc is centred on an axis if its centre is at most this far from it, in metres. For other shapes, it is a
-/// relative tolerance.
+/// Tolerance for a shape that is a disc about an axis. For the centre of a disc, it is the distance from the axis in
+/// metres. For other shapes, it is relative.
 const AXIS_TOLERANCE: f64 = 1e-9;
 
 /// The outlines of both links, the robot's links that are obstacles, and notes for the user.
@@ -56,7 +56,7 @@ pub(super) struct Outlines {
     pub warnings: Vec<String>,
 }
 
-/// Returns the message about a link that has no outline because its mesh cannot be read.
+/// Returns the message that a link has no outline because its mesh cannot be read.
 fn left_out(unread: &Diagnostic) -> String {
     format!("{}; the link is ignored, so the arm may collide with it", unread.message)
 }
@@ -143,7 +143,7 @@ impl Bodies<'_> {
         (!bodies.is_empty()).then(|| format!("link {link} \"{name}\": shapes of size zero are ignored (in {bodies})"))
     }
 
-    /// Creates an arm link from these parts, which are all that could be read.
+    /// Creates an arm link from these parts. Shapes that could not be read are missing among them.
     fn link(
         &self,
         index: usize,
@@ -273,7 +273,8 @@ impl Bodies<'_> {
         }
     }
 
-    /// Returns the wrist's axis in the plane if a link turns about it during steps.
+    /// Returns the position in the plane of the wrist's axis, if a link turns about it during steps. Otherwise returns
+    /// `None`.
     fn wrist_axis(&self, body: usize) -> Option<Point> {
         let name = self.settings.table.wrist_joint().filter(|_| self.settings.has_steps)?;
         let joint = self.document.robot.joints.iter().position(|joint| joint.name == *name.get_ref())?;

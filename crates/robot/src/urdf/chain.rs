@@ -9,7 +9,7 @@ use crate::settings::RobotSettings;
 use toml::Spanned;
 use urdf_rs::JointType;
 
-/// The choice that turns a robot into a two-joint arm. Links and joints are given by their indices in the file.
+/// The choices that reduce a robot to a two-joint arm. Links and joints are given by their indices in the file.
 #[derive(Debug)]
 pub(super) struct Chain {
     /// The two arm joints, base to tip.
@@ -18,7 +18,7 @@ pub(super) struct Chain {
     pub tip: usize,
     /// Value of every joint, with 0 for the two arm joints.
     pub values: Vec<f64>,
-    /// The other movable joints whose values matter to the arm. They are held.
+    /// The other movable joints whose values affect the arm. They are held still.
     pub held: Vec<usize>,
     /// Notes about the held joints.
     pub notes: Vec<String>,
@@ -79,7 +79,7 @@ pub(super) fn pairs(document: &Document, tree: &Tree) -> Vec<[usize; 2]> {
     movable.iter().flat_map(|a| carried(*a)).collect()
 }
 
-/// Checks that the choice is valid.
+/// The choice of joints, with checks of its validity.
 pub(super) struct Chooser<'a> {
     pub document: &'a Document,
     pub tree: &'a Tree,
@@ -139,7 +139,8 @@ impl Chooser<'_> {
         InputError::check(diagnostics)
     }
 
-    /// Returns the two joints. Their reason is empty if the world names them, or if no others can move.
+    /// Returns the two joints, and the reason for choosing them. The reason is empty if the world names them, or if no
+    /// others can move.
     fn joints(&self) -> Result<ImpliedPair, Diagnostic> {
         let implied = |joints: [usize; 2]| ImpliedPair { joints, reason: String::new() };
         let ImpliedPair { joints: pair, reason } = match &self.settings.table.joints {
@@ -286,7 +287,7 @@ impl Chooser<'_> {
         Ok(())
     }
 
-    /// Returns true if a joint moves a link with shapes.
+    /// Returns true if a joint carries a link with shapes.
     pub(super) fn has_shapes(&self, joint: usize) -> bool {
         let links = self.document.robot.links.iter().enumerate().filter(|(link, _)| self.tree.carries(joint, *link));
         links.map(|(_, link)| link).any(|link| !link.collision.is_empty() || !link.visual.is_empty())

@@ -15,8 +15,8 @@ use std::fmt::Write;
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// The valid part of a URDF: all numbers are finite, every element has its attributes, and names are unique. Each
-/// invalid element is left out and has a diagnostic.
+/// The valid part of a URDF: all numbers are finite, every element has its attributes, and names are unique. Invalid
+/// elements are omitted, each with a diagnostic.
 #[derive(Debug)]
 pub(super) struct Document {
     pub source: Source,
@@ -52,13 +52,13 @@ pub(super) struct JointPlace {
     pub child: Range<usize>,
     pub limit: Option<Range<usize>>,
     pub mimic: Option<Range<usize>>,
-    /// Position of the `safety_controller`. `None` unless it states both soft limits and they are not both 0, which
-    /// exporters write for missing ones.
+    /// Position of the `safety_controller`. `None` if it lacks a soft limit, or if both are 0, which exporters write
+    /// for missing limits.
     pub soft_limits: Option<Range<usize>>,
     /// True if the limit gives a `velocity`.
     pub has_velocity: bool,
-    /// The `acceleration` of the limit. It is part of URDF 1.2. This reader also reads it in older files, for which
-    /// `urdf-rs` drops it.
+    /// The `acceleration` of the limit. It is part of URDF 1.2. This reader also reads it in older files, where
+    /// `urdf-rs` ignores it.
     pub acceleration: Option<f64>,
 }
 
@@ -125,7 +125,8 @@ impl Document {
     }
 }
 
-/// Returns an `<inertial>` for `urdf-rs`. `None` if it is incomplete, which is frequent; only torques need it.
+/// Returns the text of an `<inertial>` element for `urdf-rs`. `None` if the element is incomplete, which is frequent;
+/// only torques need it.
 fn inertial(node: Node) -> Option<String> {
     const INERTIA_ATTRIBUTES: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
     let mass = numbers(children(node, "mass").next()?, "value", 1)?;
@@ -147,7 +148,7 @@ fn inertial(node: Node) -> Option<String> {
     Some(copy)
 }
 
-/// Returns the text of an attribute that consists of `count` finite numbers. `None` for other attributes.
+/// Returns the text of an attribute that consists of `count` finite numbers. `None` if it does not.
 fn numbers<'a>(node: Node<'a, '_>, name: &str, count: usize) -> Option<&'a str> {
     let text = node.attribute(name)?;
     let numbers: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
@@ -332,7 +333,7 @@ pub(super) fn tag(node: Node) -> Range<usize> {
     range.start..end
 }
 
-/// Returns true for URDF elements. Elements of other namespaces (`<drake:joint>`) are none.
+/// Returns true for URDF elements. Elements of other namespaces, such as `<drake:joint>`, are not.
 fn is_ours(node: Node, root: Node) -> bool {
     node.is_element() && node.tag_name().namespace() == root.tag_name().namespace()
 }

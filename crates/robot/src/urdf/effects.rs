@@ -22,7 +22,7 @@ impl Reduction<'_> {
         self.chain.held.iter().map(held).collect()
     }
 
-    /// Returns the effect of a joint's motion, or the reason why it cannot be judged.
+    /// Returns the effect of a joint's motion, or the reason why cplan cannot check such a motion.
     fn effect(&self, index: usize, plane: &Plane) -> Result<HeldEffect, String> {
         let chooser = Chooser { document: self.document, tree: self.tree, settings: self.settings };
         let joints = chooser.all();

@@ -9,7 +9,7 @@ use roxmltree::{Document, Error, Node};
 /// Namespace of xacro.
 const XACRO_NAMESPACE: &str = "ros.org/wiki/xacro";
 
-/// Adds the hint for xacro, which must be expanded before it is read here.
+/// Adds the hint that xacro must be expanded before it is read here.
 fn xacro(diagnostic: Diagnostic) -> Diagnostic {
     diagnostic.help(
         "save it as a file, which cplan expands: `cplan robot.urdf.xacro world.toml`; `cplan inspect robot.urdf.xacro \
@@ -17,8 +17,8 @@ fn xacro(diagnostic: Diagnostic) -> Diagnostic {
     )
 }
 
-/// Refuses document types that define entities, because these can expand without end. Ignores other document types,
-/// which are harmless.
+/// Refuses documents that define entities, because entities can expand without end. Other document types are harmless
+/// and ignored.
 pub(super) fn without_entities(source: &Source) -> Result<(), Diagnostic> {
     const ENTITY_DECLARATION: &str = "<!ENTITY";
     match source.text().find(ENTITY_DECLARATION).filter(|at| source.text()[..*at].contains("<!DOCTYPE")) {
@@ -76,7 +76,7 @@ pub(super) fn recognize(source: &Source, root: Node) -> Result<(), Diagnostic> {
     }
 }
 
-/// Returns the first element that only xacro understands.
+/// Returns the first element that only xacro understands. `None` if there is none.
 fn xacro_trace<'a, 'i>(document: &'a Document<'i>) -> Option<Node<'a, 'i>> {
     document.descendants().filter(Node::is_element).find(|node| {
         let foreign =

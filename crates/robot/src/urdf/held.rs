@@ -7,7 +7,7 @@ use crate::quantity::Quantity;
 use cplan_core::space::JointRange;
 use urdf_rs::{JointType, Mimic};
 
-/// Values of all joints, with the list of held joints whose values matter.
+/// Values of all joints, with the list of held joints whose values affect the arm.
 pub(super) struct HeldValues {
     pub values: Vec<f64>,
     pub held: Vec<usize>,
@@ -94,7 +94,8 @@ impl Chooser<'_> {
         Ok(HeldValues { values, held, notes })
     }
 
-    /// Returns the value at which a joint is held: the world's, or otherwise 0 clamped into its limits.
+    /// Returns the value at which a joint is held. It is the world's value. If the world states none, it is 0, or the
+    /// limit nearest to 0.
     fn held_at(&self, index: usize) -> Result<f64, Diagnostic> {
         let joint = &self.all()[index];
         let range = Limits { document: self.document, settings: self.settings }.range(index)?;

@@ -16,7 +16,7 @@ pub(super) fn elements(document: &Document) -> Vec<String> {
     vec![format!("elements that are neither links nor joints: {}", names.join(", "))]
 }
 
-/// Lists links that do not move, and joints that the arm does not depend on.
+/// Lists links that do not move, and joints whose values do not affect the arm.
 pub(super) fn beside_the_arm(reduction: &Reduction) -> Vec<String> {
     let Reduction { document, tree, chain, .. } = reduction;
     let mut ignored = Vec::new();

@@ -10,22 +10,22 @@ use std::f64::consts::{PI, TAU};
 use toml::Spanned;
 use urdf_rs::JointType;
 
-/// Longest range of a prismatic joint, in metres. It spans all coordinates that a world may have, so a longer one would
-/// reach nothing more.
+/// Longest range of a prismatic joint, in metres. It spans all coordinates that a world may have, so a longer range
+/// would be of no use.
 const MAX_SLIDE: f64 = 2.0 * MAX_LENGTH;
 
-/// A revolute joint counts as unlimited if both limits are at least this, in radians. Simulators write 1e16 for no
-/// limit, and exporters 1e9 or infinity. No valid start is that far out.
+/// Magnitude in radians from which limits of a revolute joint mean that there is no limit. Both limits must reach it.
+/// Simulators write 1e16 for no limit, and exporters 1e9 or infinity. No valid start is that far out.
 const UNLIMITED_TURN: f64 = MAX_LENGTH;
 
-/// Limits of a revolute joint look like degrees if they are between this and [`MAX_LIMIT_LIKE_DEGREES`]. This is four
-/// turns in radians.
+/// Magnitude from which limits of a revolute joint may be degrees: four turns in radians. The upper end is
+/// [`MAX_LIMIT_LIKE_DEGREES`].
 const MIN_LIMIT_LIKE_DEGREES: f64 = 4.0 * TAU;
 
 /// Two turns in degrees. No joint has a larger range, whether in radians or in degrees.
 const MAX_LIMIT_LIKE_DEGREES: f64 = 720.0;
 
-/// A limit that is at most this far from a multiple of half a turn, in radians, is rounded to it. It covers the
+/// Largest difference in radians between a limit and a multiple of half a turn to which it is rounded. It covers the
 /// rounding to three decimals.
 const HALF_TURN_ROUNDING: f64 = 1e-3;
 
@@ -33,9 +33,9 @@ const HALF_TURN_ROUNDING: f64 = 1e-3;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Range {
     Known(JointRange),
-    /// A range that differs from the file's, with a note.
+    /// A range that differs from that of the file, with a note that explains it.
     Taken(JointRange, String),
-    /// There is no range, with the reason.
+    /// No range is known, with the reason.
     Unset(String),
 }
 
@@ -48,7 +48,7 @@ pub(super) struct Rates {
     pub assumed: MissingRates,
 }
 
-/// For each limit, true if it is missing.
+/// One flag for each limit, true if the limit is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct MissingRates {
     pub velocity: bool,
@@ -231,8 +231,9 @@ impl Limits<'_> {
     }
 }
 
-/// Returns true if limits of a revolute joint look like degrees: they exceed the range of any drive with end stops,
-/// would be at most two turns in degrees, and are not multiples of half turns in radians.
+/// Returns true if limits of a revolute joint look like degrees. Three conditions must hold. They exceed the range of
+/// any drive with end stops. They would be at most two turns in degrees. They are not multiples of half a turn in
+/// radians.
 fn are_degrees(lower: f64, upper: f64) -> bool {
     let is_half_turns = |limit: f64| ((limit / PI).round() * PI - limit).abs() < HALF_TURN_ROUNDING;
     let farthest = lower.abs().max(upper.abs());

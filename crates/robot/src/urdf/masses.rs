@@ -14,9 +14,9 @@ use nalgebra::{Matrix3, Vector3};
 /// Default acceleration of free fall in the root frame, whose z axis points up, in m/s2.
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
-/// A joint moves no mass if the determinant of an inertia matrix is below this fraction of the product of its diagonal.
-/// Likewise, an effort below this fraction of the effort for the greatest inertia counts as zero. Below it, only
-/// rounding is left.
+/// Share below which a number counts as rounding error. A joint moves no mass if the determinant of an inertia matrix
+/// is below this share of the product of its diagonal. An effort counts as zero if it is below this share of the effort
+/// for the greatest inertia.
 const NEGLIGIBLE_SHARE: f64 = 1e-12;
 
 /// Checks the world's values for efforts and gravity, even if they are not used.

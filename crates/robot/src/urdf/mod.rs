@@ -46,7 +46,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use tree::Tree;
 
-/// Returns the meshes that a robot's file finds, but that would not be found if the same text were in the file `other`.
+/// Returns the meshes that can be found from a robot's file, but not from the file `other` with the same text.
 #[must_use]
 pub fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
     let (Ok(here), Ok(xml)) = (robot.anchor(), roxmltree::Document::parse(robot.text())) else { return Vec::new() };

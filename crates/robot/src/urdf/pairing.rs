@@ -24,7 +24,7 @@ pub(super) struct PlanarPair {
     plane: Plane,
 }
 
-/// A pair that is chosen although the world names none.
+/// A pair of joints that is chosen although the world names none.
 pub(super) struct ImpliedPair {
     pub joints: [usize; 2],
     /// The reason for this pair, as a clause that follows the names of the joints.
@@ -41,9 +41,12 @@ pub(super) fn planar(document: &Document, tree: &Tree, settings: RobotSettings) 
     pairs.filter_map(|joints| Some(PlanarPair { joints, plane: plane(joints)? })).collect()
 }
 
-/// Returns the pair of joints that can be the only one meant. If there is only one planar pair and no revolute joint
-/// between its joints, it is that. Otherwise, consider the planar pairs without movable joints between their joints: it
-/// is the only one of them, or the first one along the chain if all share its plane.
+/// Returns the pair of joints that is evidently meant; `None` if there is none. Movable joints between the two joints
+/// of a pair speak against it.
+///
+/// - If there is only one planar pair, it is chosen unless a revolute joint lies between its joints.
+/// - Otherwise only planar pairs without movable joints between their joints are considered. If there is one, it is
+///   chosen. If there are several that share a plane along one chain, the first one is chosen.
 pub(super) fn evident(document: &Document, tree: &Tree, planar: &[PlanarPair]) -> Option<ImpliedPair> {
     let between = |pair: &PlanarPair| -> Vec<&urdf_rs::Joint> {
         let [a, b] = &pair.joints;
@@ -81,7 +84,7 @@ pub(super) fn choices(document: &Document, pairs: &[PlanarPair]) -> String {
     shown.join(", or ") + more
 }
 
-/// Returns the table without its joints, tip and held values.
+/// Returns the table without the entries for joints, tip and held values.
 pub(super) fn freed(table: &RobotTable) -> RobotTable {
     RobotTable { joints: None, tip: None, fixed: PerJoint::new(), ..table.clone() }
 }

@@ -4,8 +4,9 @@ use cplan_core::model::{JointType, Plane};
 use cplan_geometry::{Point, Vector};
 use nalgebra::Vector3;
 
-/// Directions within this angle, in radians, count as parallel (or perpendicular). Exported files have axes like
-/// `-1.19e-5 0 0.9999` and angles like 1.57. Over a length of a metre, the angle is a deviation of a millimetre.
+/// Largest angle, in radians, between directions that count as parallel. Also the largest difference from a right angle
+/// of directions that count as perpendicular. Exported files have axes like `-1.19e-5 0 0.9999` and angles like 1.57.
+/// Over a length of a metre, the angle is a deviation of a millimetre.
 pub(super) const ALIGNMENT_TOLERANCE: f64 = 1e-3;
 
 /// A joint's axis in the root frame.
@@ -20,9 +21,11 @@ pub(super) struct SpatialAxis<'a> {
 /// Returns the common plane of motion of two joints.
 ///
 /// Its normal is the axis of the revolute joints, or the cross product of two prismatic axes. A normal within 1e-3 rad
-/// of a root axis becomes that axis: about z the plane coordinates are the root's `(x, y)`, about y `(x, z)`, about x
-/// `(y, z)`, and heights count along the positive axis. Any other plane has the first revolute axis `n` as its normal,
-/// the root's x (y if that is close to `n`) projected on it as `u`, and `v = n x u`.
+/// of a root axis becomes that axis. About z the plane coordinates are the root's `(x, y)`, about y `(x, z)`, about x
+/// `(y, z)`, and heights increase along the positive axis.
+///
+/// Any other plane has the first revolute axis `n` as its normal. Its `u` is the root's x projected on the plane, or y
+/// if x is close to `n`, and `v = n x u`.
 ///
 /// # Errors
 /// If the joints do not move in one plane, with the directions of the axes.
@@ -45,8 +48,8 @@ pub(super) fn common_plane(axes: [SpatialAxis; 2]) -> Result<Plane, String> {
     Ok(basis(normal))
 }
 
-/// Describes how much revolute axes deviate from the plane's normal, or prismatic axes from the plane. `None` if it is
-/// not noticeable.
+/// Describes how much revolute axes deviate from the plane's normal, or prismatic axes from the plane. `None` if the
+/// deviation is negligible.
 pub(super) fn deviation(plane: &Plane, axes: [SpatialAxis; 2]) -> Option<String> {
     /// Least deviation that is reported, in radians: a micrometre over a metre.
     const NOTICED_DEVIATION: f64 = 1e-6;
@@ -107,7 +110,7 @@ pub(super) fn joint_type_in(plane: &Plane, axis: SpatialAxis) -> JointType {
     JointType::Prismatic { direction: clean(project(plane, &axis.direction).normalize()) }
 }
 
-/// Returns a unit direction without rounding errors. Within 1e-12 of an axis, it becomes that axis.
+/// Returns a unit direction without rounding errors. A direction within 1e-12 of an axis becomes that axis.
 fn clean(direction: Vector) -> Vector {
     const ROUNDING: f64 = 1e-12;
     let snapped = direction.map(|c| if c.abs() < ROUNDING { 0.0 } else { c });

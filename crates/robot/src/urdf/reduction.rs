@@ -68,12 +68,12 @@ impl<'a> Reduction<'a> {
         })
     }
 
-    /// Returns the plane of motion. The error is the reason alone.
+    /// Returns the plane of motion. Unlike [`Reduction::plane`], fails with the reason alone.
     pub fn common_plane(&self) -> Result<Plane, String> {
         plane::common_plane(self.axes())
     }
 
-    /// Returns the limits of the two joints. The error reports all missing ones together.
+    /// Returns the limits of the two joints. The error reports all missing limits together.
     pub fn bounds(&self) -> Result<[Bounds; 2], InputError> {
         let limits = Limits { document: self.document, settings: self.settings };
         let mut diagnostics = Vec::new();

@@ -93,8 +93,8 @@ impl<'a> SelfCollision<'a> {
         !between(&above_a).into_iter().chain(between(&above_b)).chain(middle).any(|link| self.solid.contains(&link))
     }
 
-    /// Returns the heights at which a link's meshes are cut into layers, in ascending order. They are the ends of the
-    /// heights of shapes from which the link is kept apart.
+    /// Returns the heights at which a link's meshes are cut into layers, in ascending order. They are the lower and
+    /// upper ends of the shapes from which the planner keeps the link apart.
     pub fn cuts(&self, link: usize, all: &[PlacedShape]) -> Vec<f64> {
         let others = all.iter().filter(|other| self.checked(link, other.link));
         let mut cuts: Vec<f64> = others.flat_map(|other| [other.heights.lower, other.heights.upper]).collect();

@@ -26,7 +26,7 @@ pub(super) struct PlacedShape {
     pub at: Range<usize>,
 }
 
-/// The shapes of some URDF links.
+/// The shapes of some URDF links, and the problems that occurred in reading them.
 #[derive(Default)]
 pub(super) struct GatheredShapes {
     pub shapes: Vec<PlacedShape>,

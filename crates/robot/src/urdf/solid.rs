@@ -29,11 +29,11 @@ pub(super) enum Solid {
     Mesh(Mesh),
 }
 
-/// A corner nearer than this to the one before is removed, in metres. Such corners come from the rounding of rotations.
-/// Removing them moves the outline inwards by at most this.
+/// Distance in metres from the corner before, within which a corner is removed. Such corners come from the rounding of
+/// rotations. Removing them moves the outline inwards by at most this distance.
 const CORNER_ROUNDING: f64 = 1e-9;
 
-/// The outline of an oblique cylinder may exceed its exact projection by at most this fraction of its radius.
+/// Greatest excess of an oblique cylinder's outline over its exact projection, as a fraction of its radius.
 const MAX_OUTLINE_EXCESS: f64 = 0.005;
 
 /// Number of sides of the polygon around the end of an oblique cylinder. Since the polygon is circumscribed, it must
@@ -47,8 +47,8 @@ const ELLIPSE_STEPS: usize = ELLIPSE_SIDES / 2;
 /// Least thickness of a mesh's layers, in metres. It is far above the rounding of heights.
 pub(super) const MIN_LAYER_THICKNESS: f64 = 1e-6;
 
-/// A cylinder counts as perpendicular (or parallel) to the normal if the cosine of the angle between its axis and the
-/// normal differs from 0 (or 1) by at most this.
+/// Largest difference from 0 (or 1) of the cosine of the angle between a cylinder's axis and the normal. Within it, the
+/// cylinder counts as perpendicular (or parallel) to the normal.
 const EXACT_ALIGNMENT: f64 = 1e-13;
 
 impl Solid {
@@ -90,11 +90,11 @@ impl Solid {
     }
 
     /// Returns the outlines of the layers between consecutive `cuts`, which are ascending, with the least and greatest
-    /// height of each. Only meshes are cut: for another solid, or a mesh through which no cut goes, returns the whole
+    /// height of each. Only meshes are cut. If the solid is not a mesh, or no cut goes through it, returns the whole
     /// outline.
     ///
-    /// A layer's outline is the convex hull of the part of the mesh's surface within the layer. This is the hull of the
-    /// vertices in the layer, and of the points where edges cross its two boundary heights.
+    /// A layer's outline is the convex hull of the part of the mesh's surface within the layer. This is the hull of two
+    /// sets of points: the vertices in the layer, and the points where edges cross its two boundary heights.
     pub fn layers(&self, pose: &Isometry3<f64>, plane: &Plane, cuts: &[f64]) -> Vec<(Convex, Heights)> {
         let heights = self.heights(pose, plane);
         let is_within =

@@ -23,8 +23,8 @@ use cplan_core::space::{Configuration, JointRange};
 use nalgebra::Vector3;
 use urdf_rs::JointType;
 
-/// Examines a robot without stopping at the first defect. The report's scene contains only the arm, where the URDF
-/// places it.
+/// Examines a robot. Does not stop at the first defect. The report's scene contains only the arm, where the URDF places
+/// it.
 #[must_use]
 pub fn survey(robot: &RobotFile, settings: RobotSettings) -> Inspection {
     let mut report = Inspection { urdf: robot.path.display().to_string(), ..Inspection::default() };
@@ -211,7 +211,7 @@ fn range(limits: &Limits, index: usize) -> LimitEntry {
     }
 }
 
-/// Returns the table without joints and tip, and without values for these two joints.
+/// Returns the table without the entries for joints and tip, and without values for these two joints.
 fn neutral(document: &Document, table: &RobotTable, joints: [usize; 2]) -> RobotTable {
     let mut table = RobotTable { joints: None, tip: None, ..table.clone() };
     table.fixed.retain(|name, _| joints.iter().all(|j| document.robot.joints[*j].name != *name.get_ref()));

@@ -12,11 +12,11 @@ use cplan_handling::{Driver, RobotJoint, RobotJoints, Stroke, ToolJoint};
 use toml::Spanned;
 use urdf_rs::JointType;
 
-/// An axis is parallel to the plane's normal if 1 minus the cosine of the angle between them is at most this. It covers
-/// rounding.
+/// Largest difference between 1 and the cosine of the angle between an axis and the plane's normal, for which the two
+/// count as parallel. It covers rounding.
 pub(super) const PARALLEL_TOLERANCE: f64 = 1e-9;
 
-/// The tip is on the wrist's axis if it is at most this far from it, in metres. It covers rounding.
+/// Largest distance in metres from the wrist's axis at which the tip counts as on the axis. It covers rounding.
 const AXIS_TOLERANCE: f64 = 1e-6;
 
 /// The function of a tool's joint.
@@ -96,7 +96,8 @@ impl Reduction<'_> {
         Ok(Stroke { joint, travel, velocity, acceleration: acceleration.unwrap_or(own), bodies })
     }
 
-    /// Returns the name of a joint that mimics a joint of the tool and moves the tip or a link that can collide.
+    /// Returns the name of a joint that follows a joint of the tool by a mimic rule, and moves the tip or a link that
+    /// can collide. `None` if there is none.
     fn follower_with_shapes(&self, chooser: &Chooser, leader: usize) -> Result<Option<String>, Diagnostic> {
         for (index, joint) in chooser.all().iter().enumerate().filter(|(_, joint)| joint.mimic.is_some()) {
             let counts = chooser.has_shapes(index) || self.tree.carries(index, self.chain.tip);

@@ -7,13 +7,13 @@ use std::collections::HashMap;
 use std::ops::Range;
 use urdf_rs::JointType;
 
-/// The links of a URDF as a tree. Links and joints are indices into the file's lists. If the root is a link `world`
-/// that the file does not declare, as in Drake's files, its index follows those of the others.
+/// The links of a URDF as a tree. Links and joints are given by indices into the file's lists. In Drake's files, the
+/// root may be a link `world` that the file does not declare. Its index then follows those of the other links.
 #[derive(Debug)]
 pub(super) struct Tree {
     /// Names of the links, in the order of the file.
     pub links: Vec<String>,
-    /// The link above each joint (`parent`) and the link below it (`child`).
+    /// For each joint, the link above it (`parent`) and the link below it (`child`).
     pub parent: Vec<usize>,
     pub child: Vec<usize>,
     /// The joint above each link. `None` for the root.
@@ -182,7 +182,7 @@ fn joints_above(document: &Document, links: &[String], child: &[usize]) -> Resul
     Ok(above)
 }
 
-/// Returns the links below the roots, each before its descendants.
+/// Returns the links in the order from the roots downwards: each link comes before its descendants.
 fn downwards(roots: &[usize], links: usize, parent: &[usize], child: &[usize]) -> Vec<usize> {
     let mut below = vec![Vec::new(); links];
     for (&parent, &child) in parent.iter().zip(child) {

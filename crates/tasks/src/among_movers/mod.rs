@@ -35,21 +35,25 @@ use std::collections::BinaryHeap;
 use std::sync::Arc;
 use timed_candidates::{Choices, Moment, TimedCandidate, TimedState};
 
-/// Largest number of motions that are planned in time until all steps are done: a fixed number, and a number per step.
+/// Largest number of motions that the search plans in time before all steps are done: a fixed number, and a number per
+/// step.
 const MOTION_BUDGET: [usize; 2] = [150, 40];
 
-/// The same limit for finding an earlier end of the task.
+/// Largest number of further motions that the search plans in time to find an earlier end of the task: a fixed number,
+/// and a number per step.
 const IMPROVEMENT_BUDGET: [usize; 2] = [10, 8];
 
-/// Largest number of motions with rounded corners if jerks are limited: a fixed number, and a number per step. Each
-/// takes tenths of a second. Later motions stop at their corners.
+/// Largest number of motions that are planned with rounded corners if jerks are limited: a fixed number, and a number
+/// per step. Each takes tenths of a second. Later motions stop at their corners.
 const ROUNDED_MOTION_BUDGET: [usize; 2] = [12, 4];
 
-/// Number of parts of the time between a moment that is possible and the one tried before it. Repeatedly, the ends of
-/// the parts are tried as earlier moments.
+/// Number of parts into which a time span is cut in the search for an earlier moment to pick a moving object. The span
+/// lies between a moment that is possible and the one tried before it. The ends of the parts are tried. Then the search
+/// continues with the part that remains.
 const PARTS_PER_SPAN: usize = 4;
 
-/// The search for an earlier moment ends when the two moments are at most this far apart, in seconds.
+/// Least distance of two moments, in seconds. The search for an earlier moment ends when the possible moment is this
+/// close to the one tried before it.
 const MIN_MOMENT_DISTANCE: f64 = 5e-3;
 
 /// Number of motions between two progress messages.
@@ -101,7 +105,7 @@ pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str
     TaskAnswer { outcome, legs, lower_bound, motions: search.motions, expanded: search.nodes.len() }
 }
 
-/// Returns the failed step if it is proven that a moving object is never within reach while it may be picked.
+/// Returns the failed step if a moving object is proven never to be within reach while it may be picked.
 fn out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
     let mut moving: Vec<usize> = start.moving.to_vec();
     let step = task.steps().find(|step| match &step.action {
@@ -122,8 +126,8 @@ fn out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
     })
 }
 
-/// Returns the failed step if it is proven that the task cannot be done even without moving obstacles. Proves nothing
-/// if moving objects are picked, because then their places are unknown.
+/// Returns the failed step if the task is proven to be infeasible even without moving obstacles. Returns `None` if
+/// moving objects are picked, because then their places are unknown.
 fn if_nothing_moved(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> Option<FailedStep> {
     if task.initially_moving().next().is_some() {
         return None;
@@ -136,7 +140,7 @@ fn if_nothing_moved(task: &Task, options: &Options, progress: &mut dyn FnMut(&st
     }
 }
 
-/// Returns a lower bound on the end of the task, in seconds: each moving object that is picked must first come within
+/// Returns a lower bound on the end of the task, in seconds. Each moving object that is picked must first come within
 /// reach, one after the other.
 fn last_passage(task: &Task) -> f64 {
     let mut moving: Vec<usize> = task.initially_moving().collect();
@@ -171,7 +175,7 @@ struct Node<'a> {
     stage: Stage<'a>,
 }
 
-/// Whether the motion to a node is planned.
+/// The stages of a node: whether the motion to it is already planned.
 enum Stage<'a> {
     /// The motion is not planned yet.
     Pending(Box<TimedCandidate<'a>>),
@@ -186,8 +190,8 @@ struct ExecutedStep {
     timing: Timing,
 }
 
-/// Rank of a node in the search. Until a solution is known, nodes with more steps come first. Then follow the earliest
-/// end of the task, and the node's index.
+/// Rank of a node in the search. Until a solution is known, nodes with more steps come first. If several have as many,
+/// the node with the earliest end of the task comes first, then the node with the lowest index.
 type Rank = (Reverse<usize>, OrderedF64, usize);
 
 struct Search<'a> {
@@ -209,7 +213,8 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Runs the search. Returns the node in which all steps are done, with the earliest end that was found.
+    /// Runs the search. Returns the node in which all steps are done, with the earliest end that was found. `None` if
+    /// there is none.
     fn run(&mut self, progress: &mut dyn FnMut(&str)) -> Option<usize> {
         let steps = self.task.steps().count();
         let budget = |[some, each]: [usize; 2]| some + each * steps;
@@ -269,7 +274,7 @@ impl<'a> Search<'a> {
         node.seconds + left
     }
 
-    /// Records the node at which the search stopped, unless a solution is known.
+    /// Records the node at which the search stopped. Does nothing if a solution is known.
     fn give_up(&mut self, index: usize, is_known: bool) {
         let node = &self.nodes[index];
         let next = match (&node.stage, node.parent) {
@@ -336,7 +341,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Raises the lower limit of the next moment of a pick, because an earlier moment is now known to be possible.
+    /// Raises the lower limit of the next moment that is tried for a pick, because an earlier moment is now known to be
+    /// possible.
     fn leave_later_moments(&mut self, parent: usize, done: &TimedCandidate) {
         let Some(done_at) = done.moment else { return };
         for node in self.nodes.iter_mut().filter(|node| node.parent == Some(parent)) {
@@ -373,7 +379,7 @@ impl<'a> Search<'a> {
         best
     }
 
-    /// Does a step. Returns the state after it, and its end in seconds.
+    /// Performs a step. Returns the state after it, and its end in seconds.
     fn done(
         &mut self,
         here: TimedState<'a, '_>,
@@ -483,7 +489,7 @@ impl<'a> Search<'a> {
         safe.first().filter(|[_, until]| until.is_finite()).map(|[_, until]| node.seconds + until)
     }
 
-    /// Explains why the search got no farther than the steps to a node, which is also returned.
+    /// Explains why the search got no farther. Also returns the node that it reached.
     fn failure(&mut self) -> (FailedStep, usize) {
         let state = |node: usize| match &self.nodes[node].stage {
             Stage::Reached(state, _) => Some(&**state),

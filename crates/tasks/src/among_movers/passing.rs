@@ -5,7 +5,7 @@ use cplan_core::space::JointRange;
 use cplan_geometry::{Interval, Point};
 use cplan_handling::{Leg, Object, ObstacleTrajectory};
 
-/// Fraction by which radii are enlarged. It is far more than rounding.
+/// Fraction by which radii are enlarged, to make up for rounding.
 const RADIUS_ENLARGEMENT: f64 = 1e-9;
 
 /// An interval of time in which an object may be within reach, on one leg of its trajectory.
@@ -16,7 +16,7 @@ pub(super) struct Passage {
     pub is_still: bool,
 }
 
-/// Number of parts of a passage. The moments between the parts are tried.
+/// Number of parts into which a passage is cut. The moments between the parts are tried.
 const PARTS_PER_PASSAGE: usize = 24;
 
 impl Passage {
@@ -30,9 +30,9 @@ impl Passage {
     }
 }
 
-/// Returns the passages, in order, during which the point `grasp` of a moving object may be picked, from the time
-/// `from` on. At all other times the point is certainly out of the arm's reach, or the object must not be picked.
-/// `when` lists the allowed times; if it is empty, all times are allowed.
+/// Returns the passages, in order, during which a moving object may be picked at its point `grasp`, not before the time
+/// `from`. At all other times the point is certainly out of the arm's reach, or the object must not be picked. `when`
+/// lists the allowed times; if it is empty, all times are allowed.
 pub(super) fn passages(arm: &Arm, object: &Object, grasp: Point, when: &[Interval], from: f64) -> Vec<Passage> {
     let legs = object.course.as_ref().map_or(&[][..], ObstacleTrajectory::legs);
     let reach = (tip_reach(arm) + grasp.norm()) * (1.0 + RADIUS_ENLARGEMENT);

@@ -15,8 +15,8 @@ use cplan_movers::MovingObstacles;
 /// Largest number of intervals of arrival for each IK solution.
 const MAX_ARRIVALS: usize = 3;
 
-/// Least time between the latest arrival and the moment for which the arm waits, in seconds. Shorter waits cannot be
-/// represented in a trajectory.
+/// Least time between the latest arrival of the arm and the moment of a pick for which it waits, in seconds. Shorter
+/// waits cannot be represented in a trajectory.
 const MIN_WAIT: f64 = 2.0 * MIN_INTERVAL;
 
 /// A candidate for the next step, with times from the beginning of the task in seconds.
@@ -25,7 +25,8 @@ pub(super) struct TimedCandidate<'a> {
     pub candidate: Candidate<'a>,
     /// Interval within which the motion may arrive.
     pub arrival: Interval,
-    /// The moment at which the object is picked. `None` if it does not move then, or if the step is no pick.
+    /// The moment at which the object is picked. `None` if the object is at rest at that time, or if the step is no
+    /// pick.
     pub moment: Option<Moment>,
     /// Index of the candidate.
     pub branch: usize,
@@ -37,7 +38,7 @@ pub(super) struct TimedCandidate<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moment {
     pub time: f64,
-    /// From this time on, a pick may be possible as well, unless obstacles prevent it.
+    /// Start of the time in which a pick may be possible as well, unless obstacles prevent it.
     pub since: f64,
 }
 
@@ -164,7 +165,8 @@ impl<'a> TimedState<'a, '_> {
         all.flat_map(|candidates| candidates.ways).collect()
     }
 
-    /// Returns the candidates for picking a passing object at a moment. The arm arrives before and waits for it.
+    /// Returns the candidates for picking a passing object at a moment. The arm arrives before that moment and waits
+    /// for the object.
     fn passing(&self, movers: &MovingObstacles, step: &Step, object: usize, moment: Moment) -> Vec<TimedCandidate<'a>> {
         let choice = |(branch, candidate): (usize, Candidate<'a>)| {
             let [safe, stays] = self.safe(movers, &candidate);
@@ -220,7 +222,7 @@ impl<'a> TimedState<'a, '_> {
         })
     }
 
-    /// Explains why a moving object cannot be picked any more. `passed` returns the object's passages from a time on.
+    /// Explains why a moving object cannot be picked any more. `passed` returns the object's passages after a time.
     fn missed(&self, step: &Step, object: usize, passed: impl Fn(f64) -> Vec<Passage>) -> Refusal {
         let name = &self.task.objects[object].name;
         let (all, left) = (passed(0.0), passed(self.time));

@@ -6,7 +6,8 @@ use super::super::motion_cache::{Blockers, Refusal};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Precedence(pub usize, pub usize);
 
-/// A condition on orders. An order satisfies it if it satisfies all requirements of at least one alternative.
+/// A condition on orders, made of alternatives. An order satisfies it if it satisfies all requirements of at least one
+/// alternative.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Condition {
     alternatives: Vec<Vec<Precedence>>,
@@ -33,9 +34,9 @@ impl Condition {
     /// Derives a condition from the reasons why `pair` could not be done after exactly the pairs that are `done`.
     /// `pair_of` returns the pair that moves an obstacle.
     ///
-    /// Such a condition is not proven, because an obstacle that blocks the path to one IK solution, or from one place,
-    /// may not block others. If the reasons name no obstacle of another pair, the condition is only that the pair comes
-    /// earlier or later in the order.
+    /// Such a condition is not proven. An obstacle that blocks the path to one IK solution, or from one place, may not
+    /// block others. If the reasons name no obstacle of another pair, the condition is only that the pair comes earlier
+    /// or later in the order.
     pub fn learned(pair: usize, done: &[bool], refusals: &[Refusal], pair_of: impl Fn(usize) -> Option<usize>) -> Self {
         let elsewhere = |other: usize| if done[other] { Precedence(pair, other) } else { Precedence(other, pair) };
         let mut alternatives = Vec::new();

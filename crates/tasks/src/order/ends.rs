@@ -10,7 +10,8 @@ use cplan_geometry::Pose;
 use cplan_handling::{Action, Item, Step, Task};
 use std::sync::Arc;
 
-/// Poses of all objects. If the orientation of an object depends on IK solutions, its initial one is assumed.
+/// Poses of all objects; `None` for a carried object. If the orientation of an object depends on IK solutions, its
+/// initial orientation is assumed.
 type Poses = Arc<[Option<Pose>]>;
 
 /// Returns the poses of all objects before an item of a task.
@@ -40,8 +41,8 @@ fn follow(step: &Step, poses: &mut [Option<Pose>], held: &mut Option<(usize, Opt
     }
 }
 
-/// Returns the conditions that follow from the ends of a group's motions: one for each pick and each place that could
-/// collide with objects of other pairs.
+/// Returns the conditions on the order that follow from the ends of a group's motions. There is one for each pick and
+/// each place that could collide with objects of other pairs.
 pub(super) fn conditions(task: &Task, group: &Group) -> Vec<Condition> {
     let before = poses_before(task, group.item);
     let after = poses_before(task, group.item + 1);
@@ -108,7 +109,7 @@ impl Ends<'_> {
     }
 
     /// Returns the requirements for the arm to be at `q`: which pairs must come before or after. The two scenes are the
-    /// worlds before and after the group. `None` if no order of the group satisfies the requirements.
+    /// worlds before and after the group. `None` if no order of the group makes `q` free.
     fn alternative(&self, [before, after]: &[Scene; 2], q: Configuration) -> Option<Vec<Precedence>> {
         let hit = |scene: &Scene, ahead: bool| {
             let others = scene.obstructions(q).into_iter().map(move |hit| {

@@ -18,10 +18,10 @@ use std::collections::BTreeSet;
 use tour::Tour;
 use walk::{Layer, advance, walk};
 
-/// Largest number of paths that are examined in the search for an order. They take some seconds.
+/// Largest number of paths that the search for an order examines. They take some seconds.
 const MAX_EXAMINED_PATHS: usize = 20_000;
 
-/// Largest number of orders that are proposed for a group. After them, an order is built pair by pair.
+/// Largest number of orders that are proposed for a group. If all of them fail, an order is built pair by pair.
 const MAX_PROPOSALS: usize = 64;
 
 /// Largest number of pairs of a group for which conditions are derived from the ends of motions.
@@ -38,15 +38,15 @@ struct Group<'a> {
     /// Index of the item in the task.
     item: usize,
     pairs: &'a [[Step; 2]],
-    /// Times between the pairs. `None` if the group is too large.
+    /// Times of motions between the stops of the pairs. `None` if the group is too large.
     tour: Option<Tour>,
     /// The order, as indices of pairs.
     order: Vec<usize>,
     conditions: Vec<Condition>,
 }
 
-/// For an item of a task in a fixed order: the group from which it comes, and the number of the group's pairs before
-/// it. `None` if it comes from no group.
+/// Origin of an item in a task whose order is chosen: the group from which it comes, and the number of the group's
+/// pairs before it. `None` if the item belongs to no group.
 type Origin = Option<(usize, usize)>;
 
 /// The result of a search for an order.
@@ -57,8 +57,8 @@ pub(super) enum OrderSearch {
     Stuck {
         /// Index of the group among the items of the task.
         item: usize,
-        /// Pairs of the group. The first could not be done in the last order, and the others are those of the condition
-        /// that followed.
+        /// Pairs of the group. The first could not be done in the last order. The others are those of the condition
+        /// that was learned from this.
         pairs: Vec<usize>,
     },
     /// A step outside the groups cannot be done after the steps before it.
@@ -151,8 +151,8 @@ impl<'a> Orders<'a> {
         }
     }
 
-    /// Looks for orders that are faster by the recorded times and that no inexpensive check rules out. Returns true if
-    /// it found any.
+    /// Looks for orders that are faster according to the recorded times, and that no inexpensive check rules out.
+    /// Returns true if it found any.
     pub fn improve(&mut self, legs: &mut MotionCache) -> bool {
         for _ in 0..MAX_PROPOSALS {
             let before = self.order();
@@ -224,8 +224,8 @@ impl Group<'_> {
         self.pairs.iter().position(|[pick, _]| pick.action.picked() == Some(object))
     }
 
-    /// Replaces the order by one that violates fewer conditions, or as many and is faster. Returns true if it satisfies
-    /// all.
+    /// Replaces the order by another one: one that violates fewer conditions, or one that violates as many and is
+    /// faster. Returns true if it satisfies all conditions.
     fn propose(&mut self) -> bool {
         let Some(tour) = &self.tour else { return false };
         let (order, (broken, _)) = tour.improved(self.order.clone(), &self.conditions);
@@ -233,8 +233,8 @@ impl Group<'_> {
         broken == 0
     }
 
-    /// Derives a condition from the reasons why a pair cannot be done after the first `before` pairs. Returns this
-    /// pair, followed by the other pairs of the condition.
+    /// Learns a condition from the reasons why a pair cannot be done after the first `before` pairs. Returns this pair,
+    /// followed by the other pairs of the condition.
     fn learn(&mut self, task: &Task, before: usize, refusals: &[super::motion_cache::Refusal]) -> Vec<usize> {
         let pair = self.order[before];
         let mut done = vec![false; self.pairs.len()];
@@ -257,12 +257,12 @@ fn entered(task: &Task, legs: &mut MotionCache, item: usize) -> Option<Layer> {
     Some(layer)
 }
 
-/// Builds an order pair by pair. Tries pairs in the sequence of the proposed order.
+/// A search that builds an order pair by pair. It tries pairs in the sequence of the proposed order.
 struct OrderBuilder<'a, 'g> {
     group: &'a mut Group<'g>,
     legs: &'a mut MotionCache,
     most: usize,
-    /// Dead ends, each given by the set of pairs that are done and the last of them.
+    /// Dead ends of the search. Each is given by the set of pairs that are done, and by the pair that was done last.
     dead: BTreeSet<(Vec<bool>, Option<usize>)>,
     /// A task with a single pair, and another step after it.
     alone: Task,

@@ -8,19 +8,19 @@ use cplan_core::space::Configuration;
 use cplan_geometry::OrderedF64;
 use cplan_handling::Task;
 
-/// Greatest length of a run of pairs that is moved to another position in the order.
+/// Greatest length of a run of pairs that is moved to another position when an order is improved.
 const MAX_MOVED_RUN: usize = 3;
 
-/// Largest number of pairs in all orders that are evaluated, counted together. The evaluation takes some tenths of a
+/// Largest number of pairs in all orders that are evaluated, counted together. Their evaluation takes some tenths of a
 /// second.
 const MAX_EVALUATED_PAIRS: usize = 20_000_000;
 
-/// Largest number of pairs for which the table of times between them is made, so that it fits into memory. Larger
-/// groups keep their order.
+/// Largest number of pairs for which the table of times between them is computed. A larger table would not fit into
+/// memory. Larger groups keep their order.
 const MAX_TABLE_PAIRS: usize = 300;
 
-/// Times between the stops of a group, in seconds. They are lower bounds without obstacles, for each IK solution, to
-/// which learned times are added. If the IK solutions of a stop are unknown, times to and from it are 0.
+/// Times of motions between the stops of a group, in seconds. For each IK solution they are lower bounds without
+/// obstacles; learned times are added to them. If the IK solutions of a stop are unknown, times to and from it are 0.
 pub(super) struct Tour {
     /// Times from the beginning of the group to the pick of each pair.
     entry: Vec<Vec<f64>>,
@@ -30,11 +30,11 @@ pub(super) struct Tour {
     transfer: Vec<Vec<Vec<Vec<f64>>>>,
     /// Times from the place of each pair to the step after the group.
     exit: Vec<Vec<f64>>,
-    /// Learned times, in seconds: how much longer than in `carry` the planned motion takes that carries each pair's
-    /// object.
+    /// Learned times, in seconds. They state, for the motion that carries each pair's object, how much longer than in
+    /// `carry` the planned motion takes.
     carry_more: Vec<f64>,
-    /// Learned times, in seconds: how much longer than in `transfer` the planned motion takes. An unknown one counts as
-    /// half the mean of the known ones.
+    /// Learned times, in seconds. They state, for the motion between two pairs, how much longer than in `transfer` the
+    /// planned motion takes. A time that is not known counts as half the mean of the known times.
     way_more: Vec<Vec<Option<f64>>>,
     unknown_more: f64,
 }
@@ -43,7 +43,7 @@ pub(super) struct Tour {
 pub(super) type Merit = (usize, OrderedF64);
 
 impl Tour {
-    /// Creates the times for the group with index `index`, in a task with these stops. `None` if the item is no group
+    /// Creates the times for the group at the item `index` of a task with these stops. `None` if the item is no group
     /// or is too large.
     pub fn new(task: &Task, stops: &[Stops], index: usize) -> Option<Self> {
         let Stops::Pairs(pairs) = &stops[index] else { return None };
@@ -85,7 +85,8 @@ impl Tour {
         })
     }
 
-    /// Records that the motion which carries a pair's object takes `more` seconds longer than without obstacles.
+    /// Records that a motion takes `more` seconds longer than without obstacles. It is the motion that carries a pair's
+    /// object.
     pub fn learn_carry(&mut self, pair: usize, more: f64) {
         self.carry_more[pair] = more;
     }
@@ -125,8 +126,8 @@ impl Tour {
         (broken, OrderedF64(if broken > most { f64::INFINITY } else { self.seconds(order) }))
     }
 
-    /// Improves an order until no change helps, and takes the first improvement each time. A change moves a run of up
-    /// to [`MAX_MOVED_RUN`] pairs to another position, or reverses a run of any length.
+    /// Improves an order until no change helps. It makes the first change that helps, again and again. A change moves a
+    /// run of up to [`MAX_MOVED_RUN`] pairs to another position, or reverses a run of any length.
     pub fn improved(&self, mut order: Vec<usize>, conditions: &[Condition]) -> (Vec<usize>, Merit) {
         let count = order.len();
         let mut best = self.merit(&order, conditions, usize::MAX);
@@ -169,7 +170,7 @@ impl Tour {
     }
 }
 
-/// Computes the least times after a stage from those before it.
+/// Computes the least times after a stage of the order from those before it.
 fn through(times: &mut Vec<f64>, stage: &[Vec<f64>], next: &mut Vec<f64>) {
     next.clear();
     next.resize(stage.first().map_or(0, Vec::len), f64::INFINITY);

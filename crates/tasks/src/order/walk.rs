@@ -9,10 +9,10 @@ use cplan_interrupt::checkpoint;
 use std::collections::BTreeMap;
 
 /// Largest number of states after a step that are kept, the earliest first. It suffices for all states with level
-/// payloads, whose places do not depend on IK solutions.
+/// payloads, because their places do not depend on IK solutions.
 const MAX_STATES: usize = 8;
 
-/// States after the same steps, each with a lower bound on its time in seconds. Never empty.
+/// States after the same steps, each with a lower bound in seconds on the time at which it is reached. Never empty.
 pub(super) type Layer = Vec<(f64, State)>;
 
 /// An item that cannot be done after those before it.
@@ -22,7 +22,7 @@ pub(super) struct Failure {
     pub refusals: Vec<Refusal>,
 }
 
-/// Goes through all items of a task without groups in any order, using only inexpensive checks.
+/// Checks all items of a task without free groups, one after the other. Uses only inexpensive checks.
 ///
 /// # Errors
 /// The first item that cannot be done.

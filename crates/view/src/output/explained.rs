@@ -11,7 +11,7 @@ use cplan_explain::{
 use cplan_solver::BoundedPath;
 use cplan_text::{fixed, length_down, listed, nonzero, percent, round_down, round_up, short};
 
-/// If an explanation was stopped early, cplan suggests its time limit times this factor.
+/// If an explanation was stopped early, cplan suggests a time limit that is longer by this factor.
 const TIME_LIMIT_FACTOR: f64 = 12.0;
 
 /// Returns the verdict, and then the reasons.
@@ -30,7 +30,7 @@ pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
     format!("{}\n{}", title_of(scene), laid_out(&lines))
 }
 
-/// Returns the content of its pictures and pages.
+/// Returns the content of the explanation's pictures and pages.
 #[must_use]
 pub fn view(explanation: &Explanation) -> View {
     let question = &explanation.question;

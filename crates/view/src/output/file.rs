@@ -24,10 +24,10 @@ pub enum FileFormat {
 /// The reason why a file is not written.
 #[derive(Debug, Error)]
 pub enum SaveError {
-    /// The extension does not name a picture format of this program.
+    /// The extension is not that of a picture format of this program.
     #[error(transparent)]
     Picture(#[from] PictureFormatError),
-    /// The extension does not name a format.
+    /// The extension is not that of any format.
     #[error(transparent)]
     Format(#[from] FormatError),
     /// The picture cannot be made.
@@ -49,10 +49,10 @@ pub enum SaveError {
 impl FileFormat {
     /// Returns the format of a file's extension: `.json`, `.csv`, `.yaml`, `.mcap`, `.svg`, `.png`, `.gif`, `.html` or
     /// `.geojson`. The names `cspace.json` and `cspace.csv`, and those that end in `.cspace.json` or `.cspace.csv`,
-    /// stand for the configuration space.
+    /// mean the configuration space.
     ///
     /// # Errors
-    /// Any other extension, and those that this build of the program does not have.
+    /// Any other extension, and those that this build of the program does not support.
     pub fn from_path(path: &Path) -> Result<Self, SaveError> {
         if let Some(format) = CSpaceFormat::from_path(path) {
             return Ok(Self::CSpace(format));
@@ -81,11 +81,11 @@ pub fn bytes(plan: &Plan, format: FileFormat) -> Result<Option<Vec<u8>>, DrawErr
     }
 }
 
-/// Writes the plan into a file, completely or not at all. The extension chooses the content, see
+/// Writes the plan into a file, completely or not at all. The extension determines the content, see
 /// [`FileFormat::from_path`].
 ///
 /// # Errors
-/// An unknown extension, a missing trajectory or grid, a picture that cannot be made, I/O.
+/// An unknown extension, a missing trajectory or grid, a picture that cannot be made, and I/O errors.
 pub fn save(plan: &Plan, path: &Path) -> Result<(), SaveError> {
     let format = FileFormat::from_path(path)?;
     let Some(contents) = bytes(plan, format)? else {

@@ -31,32 +31,34 @@ use std::path::Path;
 
 /// The forms in which a [`Plan`] can be written.
 pub trait PlanOutput {
-    /// Returns the planner's configuration space as data. It traces the C-obstacles again, which takes as long as for a picture.
+    /// Returns the planner's configuration space as data. Computes the C-obstacles again, which takes as long as for a
+    /// picture.
     #[must_use]
     fn cspaces(&self) -> CSpaces;
 
-    /// Returns the plan as a file of this format, or `None` if the format holds only a trajectory or a grid, and the
-    /// plan has neither. All formats except MCAP, PNG and GIF are text in UTF-8.
+    /// Returns the plan as a file of this format. Returns `None` if the format contains only a trajectory or a grid,
+    /// and the plan has neither. All formats except MCAP, PNG and GIF are text in UTF-8.
     ///
     /// # Errors
     /// A picture that cannot be rendered.
     fn bytes(&self, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError>;
 
-    /// Writes the plan into a file, whole or not at all. The extension chooses the format, see [`FileFormat::from_path`].
+    /// Writes the plan into a file, completely or not at all. The extension determines the format, see
+    /// [`FileFormat::from_path`].
     ///
     /// # Errors
-    /// An unknown extension, a missing trajectory, a picture that cannot be made, I/O.
+    /// An unknown extension, a missing trajectory, a picture that cannot be made, and I/O errors.
     fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError>;
 
-    /// Returns the content of its pictures and pages.
+    /// Returns the content of the plan's pictures and pages.
     #[must_use]
     fn view(&self) -> View;
 
-    /// Returns the view with a replay of the planner, for pictures and pages that play.
+    /// Returns the view with a replay of the planner, for formats that can show it.
     #[must_use]
     fn view_with_replay(&self) -> View;
 
-    /// Returns workspace and configuration space side by side, as an SVG document, with the steps of a task.
+    /// Returns an SVG document with workspace and configuration space side by side, and with the steps of a task.
     #[must_use]
     fn svg(&self) -> String;
 
@@ -64,11 +66,12 @@ pub trait PlanOutput {
     #[must_use]
     fn html(&self) -> String;
 
-    /// Returns the result in some ten lines for people, the verdict first, with a line for each step of a task.
+    /// Returns the result in some ten lines for people. The verdict comes first. There is a line for each step of a
+    /// task.
     #[must_use]
     fn summary(&self) -> String;
 
-    /// Returns the verdict of the summary: the result, or the reason why there is none.
+    /// Returns the first line of the summary: the result, or the reason why there is none.
     #[must_use]
     fn verdict(&self) -> String;
 }

@@ -68,7 +68,7 @@ fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motio
     lines
 }
 
-/// Returns a line with the number of cells, if the planner used another number than the requested one.
+/// Returns a line with the number of cells. `None` if the planner used the number that was requested.
 fn cells(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let Space::Grid(grid) = &answer.space else { return None };
     let asked = plan.options().planner.cells().filter(|asked| asked.0 != grid.cells)?;
@@ -76,7 +76,7 @@ fn cells(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     Some(("cells", format!("{used}: {asked} show no certified path")))
 }
 
-/// Returns a line about planning among exact polygons, for planners that use them and if a path was found.
+/// Returns a line about planning among exact polygons. `None` if the planner does not use them, or no path was found.
 fn exact(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let Space::Regions(_) = &answer.space else { return None };
     let is_found = matches!(answer.outcome, Outcome::Found(_));
@@ -97,8 +97,8 @@ fn exact(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
 /// Number of boxes that each decision about blocking obstacles may examine. `cplan explain` searches longer.
 const BOXES_PER_DECISION: usize = 500;
 
-/// Largest number of pairs of shapes with which blocking obstacles are sought. With more pairs, the decisions can take
-/// seconds.
+/// Largest number of pairs of shapes for which blocking obstacles are determined. With more pairs, the decisions can
+/// take seconds.
 const MAX_PAIRS: usize = 1000;
 
 /// Returns the obstacles that block the motion, if there is no motion and they can be found within milliseconds. `cplan
@@ -142,7 +142,7 @@ pub(super) fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
     lines
 }
 
-/// Describes the treatment of the path's corners, if it has any.
+/// Describes how the motion passes the path's corners. Empty if there are none.
 fn corners(curve: &CertifiedCurve) -> String {
     let radii = curve.radii();
     let corners = radii.len().saturating_sub(2);
@@ -157,7 +157,7 @@ fn corners(curve: &CertifiedCurve) -> String {
     }
 }
 
-/// Describes how near the motion is to the fastest.
+/// Describes how near the motion's duration is to the least possible one.
 fn least_time(fastest: &DurationOptimality) -> String {
     let DurationOptimality { lower_bound, gap, .. } = *fastest;
     let longer = gap.map_or_else(String::new, |gap| format!(", so at most {} longer than the fastest", percent(gap)));

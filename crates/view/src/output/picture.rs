@@ -15,19 +15,19 @@ use thiserror::Error;
 /// A format of pictures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PictureFormat {
-    /// Vector graphics.
+    /// Vector graphics, as SVG.
     Svg,
-    /// Pixels.
+    /// Pixels, as PNG.
     #[cfg(feature = "png")]
     Png,
-    /// Animated pixels.
+    /// Animated pixels, as GIF.
     #[cfg(feature = "png")]
     Gif,
-    /// A page with both spaces, in which the arm can be moved.
+    /// An HTML page with both spaces, in which the arm can be moved.
     Html,
 }
 
-/// The reason why a file's name does not name a picture format.
+/// The reason why no picture format follows from a file's name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PictureFormatError {
     /// The extension is unknown.
@@ -56,7 +56,7 @@ const GIF_WIDTH: f64 = 960.0;
 pub(super) const PICTURE_TOLERANCE: f64 = 1e-3;
 
 impl PictureFormat {
-    /// Returns the format of a picture's extension, in upper or lower case.
+    /// Returns the format for the extension of a picture's file, in upper or lower case.
     ///
     /// # Errors
     /// Any other extension than `.svg`, `.png`, `.gif` and `.html`, and `.png` and `.gif` without the feature `png`.
@@ -112,8 +112,8 @@ impl PictureFormat {
         }
     }
 
-    /// Returns the content of a file that shows anything with an SVG document and a page. As a GIF, it is a single
-    /// picture.
+    /// Returns the content of a file that shows anything for which there are an SVG document and a page. A GIF has a
+    /// single picture.
     ///
     /// # Errors
     /// A picture that cannot be rendered.
@@ -234,12 +234,12 @@ pub fn title_of(scene: &Scene) -> String {
     }
 }
 
-/// Limit on the number of times of a motion for which C-obstacles of moving obstacles are computed. Each takes as long
-/// as a picture of a static world.
+/// Largest number of times during a motion for which C-obstacles of moving obstacles are computed. For each time, this
+/// takes as long as a picture of a static world.
 const MAX_MOMENTS: usize = 60;
 
-/// Returns the C-obstacles of moving obstacles at 20 times per second between `from` and `to`, both included. If that
-/// is more than `most + 1` times, they are `most + 1`, evenly spaced.
+/// Returns the C-obstacles of moving obstacles between `from` and `to`, both included, 20 times per second. If these
+/// are more than `most + 1` times, uses `most + 1` evenly spaced ones instead.
 fn contours_in_time(TimedScene { scene, courses }: TimedScene, [from, to]: [f64; 2], most: usize) -> Moments {
     if courses.is_empty() {
         return Vec::new();
@@ -263,7 +263,7 @@ fn contours_of(options: &Options) -> fn(&Scene) -> Vec<CObstacle> {
     if options.planner.is_exact() { exact_contours } else { contours }
 }
 
-/// Returns the exact C-obstacles for pictures if the arm has exact ones; otherwise the same as [`contours`].
+/// Returns the exact C-obstacles for pictures if the arm has exact ones. Otherwise does the same as [`contours`].
 fn exact_contours(scene: &Scene) -> Vec<CObstacle> {
     exact_c_obstacles(scene).map_or_else(|| contours(scene), |(exact, _)| exact)
 }

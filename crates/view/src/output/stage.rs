@@ -9,9 +9,9 @@ use cplan_motion::{Body, Solid, Stage};
 use cplan_tasks::{Event, Leg, TaskAnswer};
 use cplan_theme::{GRAY, INK, Rgb, obstacle as obstacle_color};
 
-/// Numbers of the first link (`FIRST_LINK`) and of the first object (`FIRST_OBJECT`) among the bodies of the recording.
-/// The workspace has number 0.
+/// Index of the first link among the bodies of the recording. The workspace has index 0.
 const FIRST_LINK: usize = 1;
+/// Index of the first object among the bodies of the recording.
 const FIRST_OBJECT: usize = 3;
 
 /// Returns the bodies and their poses during the motion; `None` if there is no motion.
@@ -55,7 +55,7 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
     Some(stage)
 }
 
-/// Adds moving obstacles, which are numbered after the static ones, with a pose for each of these times.
+/// Adds moving obstacles, which are numbered after the static ones. Each gets a pose for each of `times`.
 fn with_movers<'a>(
     stage: &mut Stage,
     standing: usize,
@@ -70,8 +70,8 @@ fn with_movers<'a>(
     }
 }
 
-/// Adds the objects with their poses over time: at their initial places or on their trajectories, then carried, then
-/// where they are released.
+/// Adds the objects with their poses over time. They are at their initial places or on their trajectories, then
+/// carried, then at the places where they are released.
 fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f64]) {
     for (number, object) in task.objects.iter().enumerate() {
         let of_all = task.obstacle_number(number);

@@ -2,7 +2,7 @@
 
 use cplan_text::{SECOND_COLUMN, counted, wrapped};
 
-/// Width of a line, in characters. Beside the first column of the summary, it fits a terminal of 80 characters.
+/// Width of a line, in characters. Together with the first column of the summary, it fits a terminal of 80 characters.
 const LINE_WIDTH: usize = 80 - SECOND_COLUMN;
 
 /// Number of repetitions of a step that are listed. Later repetitions are only counted.
@@ -18,8 +18,8 @@ pub struct StepLine {
     pub columns: [String; 4],
 }
 
-/// Returns the lines of the steps. Consecutive steps that are only counted share one line. If all columns are too wide
-/// for one line, payload and motion are in the line below the action.
+/// Returns the lines of the steps. Consecutive steps that are only counted share one line. If the columns do not fit in
+/// one line, payload and motion are in the line below the action.
 pub fn step_lines(steps: &[StepLine]) -> Vec<String> {
     let shown = |step: &StepLine| step.matters || step.cycle <= MAX_SHOWN_CYCLES;
     let width = |k: usize| {

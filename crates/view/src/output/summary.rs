@@ -93,13 +93,13 @@ fn summary_lines(plan: &Plan) -> SummaryLines {
 
 /// The lines of a summary that are specific to a single motion or a task.
 pub(super) struct SummaryLines {
-    /// Lines about the result, which a page shows, too: the verdict first.
+    /// Lines about the result, which pages show as well. The verdict comes first.
     pub found: Vec<Line>,
     /// Lines about the problem.
     pub asked: Vec<Line>,
 }
 
-/// A line of the summary: its key, empty if the line continues the one before, and its text.
+/// A line of the summary: its key and its text. The key is empty if the line continues the one before.
 pub type Line = (&'static str, String);
 
 /// Describes the arm and its joints.
@@ -120,7 +120,7 @@ fn arm_lines(arm: &Arm) -> Vec<Line> {
     lines
 }
 
-/// Describes the greatest torques of a motion whose torques stay within the effort limits of the joints.
+/// Describes the greatest torques of a motion. `None` if the motion need not respect the effort limits of the joints.
 pub(super) fn torque(arm: &Arm, trajectory: &Trajectory) -> Option<Line> {
     let dynamics = arm.dynamics.filter(|dynamics| dynamics.limits)?;
     let joint = |k: usize| {

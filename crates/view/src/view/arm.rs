@@ -13,10 +13,10 @@ struct JointView<'a> {
     name: &'a str,
     /// Unit: `rad` or `m`.
     unit: &'static str,
-    /// Sign of a revolute joint: +1 or -1.
+    /// Sign of a revolute joint: +1 or -1. `None` for a prismatic joint.
     #[serde(skip_serializing_if = "Option::is_none")]
     sign: Option<f64>,
-    /// Direction of a prismatic joint.
+    /// Direction of a prismatic joint. `None` for a revolute joint.
     #[serde(skip_serializing_if = "Option::is_none")]
     direction: Option<[f64; 2]>,
     /// Least and greatest value on the axis.
@@ -25,7 +25,7 @@ struct JointView<'a> {
     circle: bool,
     velocity: f64,
     acceleration: f64,
-    /// Effort limit, if motions respect it.
+    /// Effort limit. `None` if motions need not respect it.
     #[serde(skip_serializing_if = "Option::is_none")]
     torque: Option<f64>,
 }
@@ -43,7 +43,7 @@ struct PartView<'a> {
     shape: ShapeView,
 }
 
-/// The arm in the document; see [`Arm`] for the kinematics.
+/// The arm as pages read it; see [`Arm`] for the kinematics.
 #[derive(Serialize)]
 struct ArmView<'a> {
     name: &'a str,
@@ -123,8 +123,8 @@ pub fn titles(plane: &Plane) -> [String; 2] {
     [name(plane.u, "u"), name(plane.v, "v")]
 }
 
-/// Returns the region that the tip can never leave. If joint 1 is revolute, it is the disc of the greatest distance
-/// from the base; otherwise it is the set of places that the prismatic joints reach, grown by the reach of a revolute
+/// Returns a region that the tip can never leave. If joint 1 is revolute, it is the disc of the tip's greatest distance
+/// from the base. Otherwise it is the set of places that the prismatic joints reach, grown by the reach of a revolute
 /// second link.
 pub fn reach_shape(arm: &Arm) -> Convex {
     let topology = arm.topology();

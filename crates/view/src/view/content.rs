@@ -15,21 +15,21 @@ use cplan_core::space::Configuration;
 use cplan_explain::Reach;
 use serde::{Serialize, Serializer};
 
-/// Serialises the outcome for colours and symbols. A view without a query (a comparison, or a single configuration) has
-/// the outcome `shown`.
+/// Serialises the outcome, from which pages choose colours and symbols. A view without a query (a comparison, or a
+/// single configuration) has the outcome `shown`.
 fn ending<S: Serializer>(status: &Option<Status>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(status.map_or("shown", Status::name))
 }
 
-/// The content of a picture or a page. Lengths in metres, angles in radians, times in seconds, rounded to the visible
-/// resolution.
+/// The content of a picture or a page. Lengths are in metres, angles in radians, and times in seconds. Numbers are
+/// rounded to the visible resolution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct View {
     /// The first line is the title; the others follow in smaller type.
     pub title: Vec<String>,
     /// The outcome, in a word or two.
     pub status: String,
-    /// The outcome, for colours and symbols.
+    /// The outcome, from which colours and symbols follow. `None` for a view without a query.
     #[serde(serialize_with = "ending")]
     pub ending: Option<Status>,
     /// Facts about the result: names and values, such as `length` and `4.4963 rad`.
@@ -59,7 +59,7 @@ pub struct View {
     pub(crate) still: StillContent,
 }
 
-/// A frame, drawn by its axes: see [`AxesFrame`].
+/// A frame that is drawn by its axes: see [`AxesFrame`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct FrameView {
     pub name: String,
@@ -67,18 +67,19 @@ pub(crate) struct FrameView {
     pub axes: [[f64; 3]; 3],
 }
 
-/// Content that pictures show at once, and pages over time or not at all.
+/// Content that a picture shows all at once. Pages show it over time or not at all.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct StillContent {
     /// The configuration spaces; empty for the view of an arm alone.
     pub panels: Vec<PanelView>,
     /// The lines of a field to draw.
     pub field_lines: FieldLines,
-    /// Objects at the places where the task puts them, each place once.
+    /// Objects at the places where the task puts them. Each place occurs once.
     pub placed: Vec<ObstacleView>,
     /// The places that the tip can reach.
     pub reach: Option<Reach>,
-    /// During an animation of the motion: the arm's configuration, and the index of the current world.
+    /// During an animation of the motion: the arm's configuration, and the index of the current world. `None` in a
+    /// still picture.
     pub now: Option<([f64; 2], usize)>,
     /// The time of `now`, in seconds since the start of the motion.
     pub time: f64,
@@ -99,7 +100,7 @@ pub(crate) struct PanelView {
     pub title: String,
     /// Indices of the worlds of this space. They differ only in the obstacles that link 2 may reach into.
     pub worlds: Vec<usize>,
-    /// Indices of the paths to draw. Of repeated paths, only one is listed.
+    /// Indices of the paths to draw. If a path is repeated, only one is listed.
     pub paths: Vec<usize>,
     /// The arm's initial configuration.
     pub start: [f64; 2],
@@ -118,7 +119,7 @@ impl View {
         self.replays.iter().filter_map(|replay| replay.trace.as_ref())
     }
 
-    /// Returns the view with a choice of the field lines that pictures show. On a page, the user shows and hides them.
+    /// Returns the view with these field lines for pictures. (On a page, the user shows and hides them.)
     #[must_use]
     pub fn with_field_lines(mut self, lines: FieldLines) -> Self {
         self.still.field_lines = lines;
@@ -177,9 +178,9 @@ impl View {
         worlds.flat_map(|(index, world)| world.unreached.iter().map(move |&q| (index, q.into())))
     }
 
-    /// Returns the ends of the motions in a panel, found or intended: the configuration, the number of the step (0 for
-    /// a goal of the whole query), and true if its marker is filled. The marker of a goal that no motion reached is
-    /// hollow; without any path in the panel, the goals of the query are filled.
+    /// Returns the ends of the motions in a panel, whether found or intended. Each has the configuration, the number of
+    /// the step (0 for a goal of the whole query), and a flag that is true if its marker is filled. The marker of a
+    /// goal that no motion reached is hollow. If the panel has no path, the goals of the query are filled.
     pub(crate) fn ends(&self, panel: &PanelView) -> Vec<(Configuration, usize, bool)> {
         let paths = panel.paths.iter().map(|&index| &self.paths[index]).filter(|path| !path.grows);
         let is_alone = paths.clone().next().is_none();

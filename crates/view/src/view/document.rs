@@ -9,7 +9,7 @@ use crate::legend;
 use crate::reach::ReachView;
 use serde::Serialize;
 
-/// A view, the meaning of its signs, the obstacles that block a missing motion, the findings about a checked
+/// The data of a page: a view, its legend, the obstacles that block the motion, the findings about a checked
 /// configuration, and the places that the tip can reach.
 #[derive(Serialize)]
 struct Document<'a> {

@@ -5,11 +5,11 @@ use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, Pose};
 
-/// Number of samples along each axis from which the extent of the arm's motion is taken.
+/// Number of samples along each axis from which the extent of the arm's motion is computed.
 const SAMPLES_PER_AXIS: usize = 17;
 
-/// Returns the least and greatest coordinates of everything that the arm can sweep, and of obstacles that are not much
-/// farther away.
+/// Returns the least and greatest coordinates of all that the arm can sweep, and of obstacles that are not much farther
+/// away.
 #[must_use]
 pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     /// Fraction of the swept extent by which the panel may grow to include obstacles.
@@ -29,7 +29,7 @@ pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     sides.map(|(lower, upper)| (lower - MARGIN_SHARE * size, upper + MARGIN_SHARE * size))
 }
 
-/// Returns the box around the arm in many of its configurations, enough of them for a picture.
+/// Returns the box around the arm in many of its configurations. They are enough for a picture.
 fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     let arm = scene.arm();
     let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];

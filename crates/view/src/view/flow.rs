@@ -10,9 +10,9 @@ const STEP_LENGTH: f64 = 0.5;
 /// Length of the shortest step, in cells. On a ridge, a long step would cross to the other side; short steps follow the
 /// ridge.
 const MIN_STEP_LENGTH: f64 = 0.03;
-/// Greatest length of a line, in widths of the grid. A longer line winds around and adds nothing to the picture.
+/// Greatest length of a line, in widths of the grid. A longer line winds around and makes the picture no clearer.
 const MAX_LINE_LENGTH: f64 = 4.0;
-/// Of this many consecutive points of a line, one is kept.
+/// Number of consecutive points of a line of which one is kept.
 const POINTS_PER_KEPT_POINT: usize = 4;
 
 /// Returns lines of steepest ascent, as polylines. A line ends at the goal, at a local maximum, or where the field has
@@ -118,7 +118,7 @@ mod tests {
         Samples { x: axis.clone(), y: axis, values }
     }
 
-    /// Near a maximum, the lines are rays: the angle about the maximum stays constant.
+    /// Tests that near a maximum the lines are rays: the angle about the maximum stays constant.
     #[test]
     fn lines_run_straight_to_a_peak() {
         let peak = [0.3, -0.2];

@@ -37,7 +37,7 @@ pub fn drawing() -> String {
     format!("/** Names of the colours in the style sheet. */\nconst ROLES = {roles:?};\n{}", SCRIPTS.concat())
 }
 
-/// Returns a self-contained page that loads nothing and that the browser does not allow to load anything. The element
+/// Returns a self-contained page. It loads nothing, and the browser does not allow it to load anything. The element
 /// `id` contains `json`, which `code` reads.
 #[must_use]
 pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> String {
@@ -48,8 +48,8 @@ pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> Str
     shell(title, &policy, style, &format!("<script id=\"{id}\" type=\"application/json\">{data}</script>\n"), code)
 }
 
-/// Returns a page on which code draws within the element `main`. `head` has further elements of the page's head,
-/// `style` its own styles, and `before` the elements before the code.
+/// Returns a page on which code draws within the element `main`. `head` has further elements for the page's head,
+/// `style` its own styles, and `before` the elements that precede the code.
 #[must_use]
 pub fn shell(title: &str, head: &str, style: &str, before: &str, code: &str) -> String {
     let title = markup(title);

@@ -134,7 +134,7 @@ mod tests {
         assert!(Samples { x: vec![], y: vec![], values: vec![] }.isolines(0.0).is_empty());
     }
 
-    /// Checks that all lines together visit each side that the level crosses once (twice where a loop begins and ends).
+    /// Tests that all lines together visit each side that the level crosses once (twice where a loop begins and ends).
     #[test]
     fn every_crossing_is_used_once() {
         let field = samples(40, |x, y| (5.0 * x).sin() * (7.0 * y).cos() + 0.3 * x);

@@ -7,10 +7,11 @@ use cplan_motion::Trajectory;
 use cplan_theme::{GRAY, INK, Rgb};
 use serde::Serialize;
 
-/// Number of poses shown between the ends of a path.
+/// Number of poses of the arm that are shown between the ends of a path.
 const GHOST_POSES: usize = 5;
-/// Width of a highlighted path (`HIGHLIGHTED_WIDTH`) and of another path (`LINE_WIDTH`), in pixels.
+/// Width of a highlighted path, in pixels.
 const HIGHLIGHTED_WIDTH: f64 = 2.4;
+/// Width of a path that is not highlighted, in pixels.
 const LINE_WIDTH: f64 = 1.6;
 
 /// A path in a world.
@@ -18,7 +19,7 @@ const LINE_WIDTH: f64 = 1.6;
 pub struct PathView {
     pub name: String,
     pub world: usize,
-    /// Colour of the line. `None` for the colour of ink.
+    /// Colour of the line. `None` for [`color::INK`](crate::color::INK).
     #[serde(skip_serializing_if = "Option::is_none")]
     color: Option<Rgb>,
     /// Width of the line, in pixels.
@@ -27,12 +28,12 @@ pub struct PathView {
     dash: &'static [f64],
     /// Unwrapped configurations.
     pub points: Chain,
-    /// Configurations of the poses that are shown between start and goal. They divide the path into equal parts.
+    /// Configurations between start and goal whose poses are shown. They divide the path into equal parts.
     pub ghosts: Chain,
     /// Number of the step in a task, from 1; 0 for a single motion.
     #[serde(skip_serializing_if = "is_none")]
     pub step: usize,
-    /// True while an animation draws the path and has not reached its goal.
+    /// True if an animation is drawing the path and has not reached its goal.
     #[serde(skip)]
     pub grows: bool,
 }
@@ -73,7 +74,8 @@ impl PathView {
         Self { name, world, color, width, step, ..Self::of_several("", path, [0, 1], grain) }
     }
 
-    /// Returns the part of this line that has been drawn so far, through `points`, without poses between its ends.
+    /// Returns the part of this line that an animation has drawn so far, through `points`. It has no poses between its
+    /// ends.
     pub fn along(&self, points: Chain) -> Self {
         Self { points, ghosts: Chain::default(), grows: true, ..self.clone() }
     }

@@ -8,13 +8,13 @@ use cplan_core::space::Configuration;
 use cplan_geometry::{Point, pole_of_inaccessibility};
 use serde::Serialize;
 
-/// Largest number of obstacles with names. With more names, nobody could tell which C-obstacle each belongs to.
+/// Largest number of obstacles with names. With more names, it would be unclear to which C-obstacle each belongs.
 const MAX_NAMED_OBSTACLES: usize = 100;
-/// Ratio of width to height of a typical name. It decides which place has the most room for a name.
+/// Ratio of width to height of a typical name. It determines in which place a name has the most room.
 const NAME_PROPORTION: f64 = 2.5;
-/// Precision of the places (`PLACE_PRECISION`), and the size of details of outlines that the search may ignore
-/// (`OUTLINE_PRECISION`), as fractions of an axis.
+/// Precision of the places for names, as a fraction of an axis.
 const PLACE_PRECISION: f64 = 0.004;
+/// Size of details of outlines that the search for a place may ignore, as a fraction of an axis.
 const OUTLINE_PRECISION: f64 = 0.005;
 
 /// A place for the name of a C-obstacle.

@@ -7,8 +7,8 @@ use cplan_geometry::{Convex, Point};
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
-/// Number of decimal digits of a length after the first digit of the arm's reach. On a screen-wide picture, the last
-/// one is a hundredth of a pixel.
+/// Number of decimal digits of a length after the first digit of the arm's reach. On a picture as wide as a screen, the
+/// last one is a hundredth of a pixel.
 const LENGTH_DIGITS: i32 = 5;
 
 /// Numbers of rounding steps per unit, for lengths and for joint values. Each is a power of ten, so that rounded
@@ -19,7 +19,7 @@ pub struct RoundingSteps {
     joints: [f64; 2],
 }
 
-/// Rounds a number to a multiple of `1 / grains`. Never returns negative zero.
+/// Rounds a number to a multiple of `1 / grains`. The result is never negative zero.
 fn rounded(value: f64, grains: f64) -> f64 {
     (value * grains).round() / grains + 0.0
 }
@@ -36,8 +36,8 @@ pub fn number(value: f64) -> f64 {
 }
 
 impl RoundingSteps {
-    /// Returns the rounding steps of an arm. Lengths are rounded by its reach. Joint values are rounded by a radian if
-    /// the joint is revolute, and by its stroke if it is prismatic.
+    /// Returns the rounding steps of an arm. Those of lengths follow from its reach. Those of joint values follow from
+    /// a radian if the joint is revolute, and from its stroke if it is prismatic.
     #[must_use]
     pub fn of(arm: &Arm) -> Self {
         let stroke = |k: usize| arm.joints[k].range.extent().max(f64::MIN_POSITIVE);
@@ -75,7 +75,7 @@ impl RoundingSteps {
         ShapeView(shape.mapped(|corner| self.point(corner), self.length(shape.radius())))
     }
 
-    /// Rounds a shape of the world file.
+    /// Rounds the coordinates of a shape of the world file.
     #[must_use]
     pub fn outline(self, shape: &Shape) -> Shape {
         match shape {

@@ -15,7 +15,7 @@ pub struct MotionReplayView {
     pub phases: Vec<PhaseView>,
 }
 
-/// A phase of the planner's run. If `shows` has no data, the phase shows a part of the trace.
+/// A phase of the planner's run. If `shows` contains no data, the phase shows a part of the trace.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PhaseView {
     pub caption: String,
@@ -41,8 +41,8 @@ pub enum ShowsView {
     Slices,
     Wave,
     Levels,
-    /// Boxes of the trace. `order` has their numbers in the order of display, where the free boxes count first, then
-    /// the colliding ones, then the undecided ones.
+    /// Boxes of the trace. `order` has their indices in the order of display. Free boxes are counted first, then
+    /// colliding ones, then undecided ones.
     Boxes {
         order: Vec<usize>,
     },
@@ -53,7 +53,7 @@ pub enum ShowsView {
         mixed: Chain,
         order: Vec<usize>,
     },
-    /// A field during its relaxation: for some sweeps, the number of the sweep and the values as levels.
+    /// A field during its relaxation. For some sweeps, it has the number of the sweep and the values as levels.
     Sweeps {
         frames: Vec<(usize, Waves)>,
     },

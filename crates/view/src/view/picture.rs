@@ -17,8 +17,8 @@ use cplan_handling::TimedScene;
 use cplan_motion::Trajectory;
 use nalgebra::Vector3;
 
-/// The content of a picture of a scene. A picture with one path shows the arm's poses along it. A picture with several
-/// paths compares them in different colours and dashes. A picture without a path shows the problem.
+/// The content of a picture of a scene. With one path, a picture shows the arm's poses along it. With several paths, it
+/// compares them in different colours and dashes. Without a path, it shows the problem.
 #[derive(Debug, Clone)]
 pub struct Picture<'a> {
     /// The first line is the title; the others follow in smaller type.
@@ -29,14 +29,14 @@ pub struct Picture<'a> {
     pub ending: Option<Status>,
     /// Facts about the result: names and values.
     pub facts: Vec<[String; 2]>,
-    /// Arm and obstacles, with the trajectories of those that move.
+    /// Arm and obstacles, with the trajectories of moving obstacles.
     pub scene: TimedScene<'a>,
     /// Start configuration.
     pub start: Configuration,
-    /// Goals: single configurations and segments. A picture without a path shows the arm at the first goal. If that is
-    /// a segment, it shows the configuration on it that is nearest to the start.
+    /// Goals: single configurations and segments. Without a path, a picture shows the arm at the first goal. If that is
+    /// a segment, it shows the configuration on the segment that is nearest to the start.
     pub goals: &'a [Segment],
-    /// Names and paths, in unwrapped values.
+    /// Paths with their names, in unwrapped values.
     pub paths: Vec<(String, &'a Path)>,
     /// The motion along the only path.
     pub trajectory: Option<&'a Trajectory>,
@@ -46,12 +46,12 @@ pub struct Picture<'a> {
     pub proof: Option<&'a CheckedProof>,
     /// Contours of the C-obstacles in joint space.
     pub c_obstacles: &'a [CObstacle],
-    /// C-obstacles of moving obstacles at some times in ascending order, in seconds. `obstacle` is the number of the
-    /// moving obstacle.
+    /// C-obstacles of moving obstacles at some times in ascending order, in seconds. Their `obstacle` is the index of
+    /// the moving obstacle.
     pub moments: &'a [(f64, Vec<CObstacle>)],
 }
 
-/// A frame, drawn by its axes.
+/// A frame that is drawn by its axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxesFrame {
     /// Text beside the frame.
@@ -83,7 +83,8 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Returns the single goals. Without a path, it also returns the place nearest to the start on each segment.
+    /// Returns the goals that are single configurations. If there is no path, also returns the place nearest to the
+    /// start on each segment.
     fn single_goals(&self) -> Vec<Configuration> {
         let shown = self.goals.iter().filter(|goal| goal.is_point() || self.paths.is_empty());
         shown.map(|goal| goal.nearest(Measure::from(Metric::Euclidean), self.start)).collect()

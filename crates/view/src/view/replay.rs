@@ -10,23 +10,22 @@ use cplan_core::space::{Configuration, Topology};
 use cplan_solver::{Phase, Replay, Shows, SlabBoxes, Sweeps};
 use cplan_tasks::TaskReplay;
 
-/// Shortest and longest duration of a phase, in seconds. Within these limits, the duration is `SECONDS_PER_ROOT` times
-/// the square root of the number of events.
+/// Shortest and longest duration of a phase, in seconds. Between these, the duration is `SECONDS_PER_ROOT` times the
+/// square root of the number of events.
 const PHASE_SECONDS: [f64; 2] = [1.2, 2.2];
 const SECONDS_PER_ROOT: f64 = 0.1;
 
 /// Longest duration of all phases together, in seconds. Nobody would watch a longer replay.
 const MAX_REPLAY_SECONDS: f64 = 6.0;
 
-/// Limit of the size of a page's replays for the motions of a task, in bytes. Once it is reached, later motions have no
-/// replay.
+/// Size of the replays for the motions of a task on a page, in bytes, from which on later motions have no replay.
 const MAX_REPLAY_BYTES: usize = 200_000;
 
 /// Largest number of slab boxes, for all motions of a task together.
 const MAX_BOXES: usize = 5_000;
 
-/// If there are more boxes than `MAX_BOXES`, the replay leaves out those narrower than one of these fractions of a
-/// joint's range: the first fraction that suffices.
+/// Fractions of a joint's range for the case that there are more boxes than `MAX_BOXES`. The replay omits boxes
+/// narrower than one of these: the first fraction that suffices.
 const BOX_WIDTH_LIMITS: [f64; 4] = [1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0];
 
 impl PhaseView {
@@ -75,8 +74,8 @@ impl PhaseView {
     }
 }
 
-/// Returns the replay with at most `most` boxes of slabs, as far as the widths in [`BOX_WIDTH_LIMITS`] suffice. It
-/// leaves out the narrowest boxes.
+/// Returns the replay without its narrowest boxes of slabs. It has at most `most` boxes, if one of the widths in
+/// [`BOX_WIDTH_LIMITS`] suffices for that.
 fn thinned(replay: &Replay, topology: &Topology, most: usize) -> Replay {
     let extents = topology.ranges.map(|axis| axis.extent());
     let mut replay = replay.clone();
@@ -96,8 +95,8 @@ fn thinned(replay: &Replay, topology: &Topology, most: usize) -> Replay {
     replay
 }
 
-/// Returns the numbers of the boxes, from large to small, and from left to right for boxes of one size. The size is how
-/// often the sides were halved, weighted by axis.
+/// Returns the indices of the boxes in the order of display: from large to small, and boxes of one size from left to
+/// right. The size is how often the sides were halved, weighted by axis.
 fn coarse_to_fine(kinds: [&Chain; 3], topology: &Topology, weights: [f64; 2]) -> Vec<usize> {
     let extents = topology.ranges.map(|axis| axis.extent());
     let level = |[lower, upper]: [Configuration; 2]| {
@@ -114,7 +113,7 @@ fn coarse_to_fine(kinds: [&Chain; 3], topology: &Topology, weights: [f64; 2]) ->
     order
 }
 
-/// Converts values to levels between the greatest and the least value of the last frame.
+/// Converts values to levels. The levels divide the range between the greatest and the least value of the last frame.
 fn frames(sweeps: &Sweeps) -> Vec<(usize, Waves)> {
     let finite = |values: &[f64]| values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::min);
     let least = sweeps.frames.last().map_or(0.0, |(_, values)| finite(values)).min(-f64::MIN_POSITIVE);
@@ -243,17 +242,17 @@ fn left(cell: &Chain) -> f64 {
     cell.0.iter().map(|corner| corner[0]).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns how many of `all` items have appeared when `part` of the phase has been shown.
+/// Returns how many of `all` items are visible when `part` of the phase has been shown.
 fn count(all: usize, part: f64) -> usize {
     ((all as f64 * part).round() as usize).min(all)
 }
 
-/// Returns the items that have appeared. Each item consists of `each` configurations.
+/// Returns the items that are visible. Each item consists of `each` configurations.
 fn begun(chain: &Chain, each: usize, part: f64) -> Chain {
     Chain(chain.0[..each * count(chain.0.len() / each, part)].to_vec())
 }
 
-/// Returns the boxes that have appeared. The others form undecided boxes.
+/// Returns the boxes that are visible. The other boxes are shown as undecided.
 fn cut(kinds: [&Chain; 3], order: &[usize], part: f64) -> TraceView {
     let boxes: Vec<[Configuration; 2]> = kinds.iter().flat_map(|chain| chain.pairs()).collect();
     let ends = [kinds[0].0.len() / 2, (kinds[0].0.len() + kinds[1].0.len()) / 2];
@@ -267,7 +266,7 @@ fn cut(kinds: [&Chain; 3], order: &[usize], part: f64) -> TraceView {
     TraceView::Boxes { free, stuck, mixed, rest }
 }
 
-/// Returns the beginning of a path: `part` of its length.
+/// Returns the beginning of a path, with the fraction `part` of its length.
 fn gone(points: &Chain, part: f64) -> Chain {
     let lengths = || points.0.windows(2).map(|ends| (ends[1] - ends[0]).norm());
     let mut left = part * lengths().sum::<f64>();

@@ -7,10 +7,10 @@ use std::borrow::Cow;
 
 /// Number of equipotentials that are drawn.
 const EQUIPOTENTIALS: usize = 20;
-/// Fraction of the cells that may lie below the lowest equipotential. In dead ends the field falls far below its other
-/// values; with these ends included, few lines would remain for the rest.
+/// Fraction of the cells that may have values below the lowest equipotential. In dead ends the field falls far below
+/// its other values. If these ends were included, few lines would remain for the rest.
 const IGNORED_SHARE: f64 = 0.02;
-/// The same fraction for potentials that grow without bound towards obstacles.
+/// Fraction of the cells that replaces [`IGNORED_SHARE`] for potentials that grow without bound towards obstacles.
 const IGNORED_SHARE_OF_UNBOUNDED: f64 = 0.15;
 
 /// A field that paths follow upwards, sampled coarsely enough to be drawn.
@@ -43,8 +43,8 @@ impl Slope {
         Some(Self { span: span(&values, tail)?, samples: samples(cells, &values, topology) })
     }
 
-    /// Returns equipotentials at equal steps of the value. Each comes with its place in the span of values, where 0 is
-    /// the goal and 1 the far end.
+    /// Iterates over equipotentials at equal steps of the value. Each comes with its place in the span of values, from
+    /// 0 at the goal to 1 at the far end.
     pub fn equipotentials(&self) -> impl Iterator<Item = (f64, Vec<Vec<[f64; 2]>>)> + '_ {
         let (low, high) = self.span;
         let part = |k: usize| (k as f64 + 0.5) / EQUIPOTENTIALS as f64;

@@ -5,19 +5,19 @@ use cplan_core::space::{Configuration, Topology};
 use cplan_tasks::Leg;
 use std::sync::Arc;
 
-/// Two configurations nearer than this count as equal, in radians or metres. It covers rounding.
+/// Distance, in radians or metres, below which two configurations count as equal. It covers rounding.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 /// Consecutive motions with the same payload in the same world.
 #[derive(Debug, Clone)]
 pub struct PayloadState<'a> {
-    /// Motions, each with its number among all motions of the task. Of repeated motions, only one is listed.
+    /// Motions, each with its index among all motions of the task. If motions are repeated, only one is listed.
     pub motions: Vec<(usize, &'a Leg)>,
     /// Number of times that the motions are executed.
     pub times: usize,
 }
 
-/// Returns the payload states in the order of their first occurrence. Repetitions that look the same are merged.
+/// Returns the payload states in the order of their first occurrence. Repetitions that look the same are merged. Takes
 /// `O(n^2)` for `n` motions in the worst case, and `O(n)` if the repetitions of a step look the same.
 #[must_use]
 pub fn payload_states<'a>(legs: &'a [Leg], topology: &Topology) -> Vec<PayloadState<'a>> {
@@ -72,8 +72,8 @@ impl PayloadState<'_> {
         numbers
     }
 
-    /// Returns steps, payload and repetitions: `1–2 empty-handed`, `3 carrying "part" (×100)`. In a task of several
-    /// `rounds`, it can also be `4 empty-handed, round 2`.
+    /// Returns a title with steps, payload and repetitions, such as `1–2 empty-handed` or `3 carrying "part" (×100)`.
+    /// In a task of several `rounds`, it can also be `4 empty-handed, round 2`.
     #[must_use]
     pub fn title(&self, rounds: usize, order: &Order) -> String {
         let first = self.motions.first().map(|(_, leg)| leg);
@@ -93,7 +93,7 @@ pub fn describe(object: Option<&str>) -> String {
     object.map_or("empty-handed".to_owned(), |object| format!("carrying \"{object}\""))
 }
 
-/// Writes numbers, consecutive ones as a range: `1–3, 5`.
+/// Formats numbers. Consecutive ones become a range: `1–3, 5`.
 #[must_use]
 pub fn ranges(numbers: &[usize]) -> String {
     let runs = numbers.chunk_by(|a, b| a + 1 == *b).map(|run| match run {

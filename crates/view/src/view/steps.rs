@@ -26,7 +26,7 @@ impl Row {
     }
 }
 
-/// Numbers of steps in pictures: in the order of their first execution, which can differ from the order in the file.
+/// Numbers of steps in pictures. They have the order of first execution, which can differ from the order in the file.
 pub struct Order(Vec<usize>);
 
 impl Order {
@@ -46,7 +46,7 @@ impl Order {
         self.0.iter().position(|&number| number == step.number).map_or(step.number, |place| place + 1)
     }
 
-    /// Describes the action of a step. If its number in the file differs from its number in pictures, adds the former.
+    /// Describes the action of a step. If the step has a different number in the file, adds that number.
     pub fn describe(&self, step: &Step, objects: &[Object]) -> String {
         let what = step.action.describe(objects);
         if self.number(step) == step.number { what } else { format!("{what} ({} in the file)", step.number) }

@@ -16,14 +16,14 @@ use cplan_handling::{Object, ObstacleTrajectory, Task, TimedScene};
 use cplan_tasks::{Event, FailedStep, Leg, Sequence};
 use std::sync::Arc;
 
-/// Two poses nearer than this count as equal, in metres or radians. It covers rounding.
+/// Distance, in metres or radians, below which two poses count as equal. It covers rounding.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 /// Largest number of times at which C-obstacles of moving obstacles are computed, for all worlds together.
 const MAX_MOMENTS: usize = 120;
 
 impl View {
-    /// Returns the view of a task: a world for each set of motions that share one.
+    /// Returns the view of a task. It has one world for each set of motions that have the same scene.
     #[must_use]
     pub fn of_task(picture: &TaskPicture) -> Self {
         let (task, legs) = (picture.task, &picture.answer.legs);
@@ -148,8 +148,8 @@ struct Worlds<'a> {
 }
 
 impl Worlds<'_> {
-    /// Returns the number of the world with this scene, in which the objects `moving` move; adds the world if it is
-    /// new. Repetitions of a step often share one scene, or have equal ones.
+    /// Returns the index of the world with this scene, in which the objects `moving` move. Adds the world if it is new.
+    /// Repetitions of a step often share one scene, or have equal ones.
     fn of(&mut self, scene: &Arc<Scene>, moving: &[usize]) -> usize {
         let known = |(other, _): &(Arc<Scene>, Vec<ObstacleTrajectory>)| Arc::ptr_eq(other, scene) || other == scene;
         self.scenes.iter().position(known).unwrap_or_else(|| self.add(scene, moving))
@@ -182,8 +182,8 @@ impl Worlds<'_> {
         }
     }
 
-    /// Returns the C-obstacles that obstacles would have if link 2 were not allowed to reach into them. Only obstacles
-    /// that it may reach into are included.
+    /// Returns the C-obstacles that obstacles would have if link 2 must not reach into them. Omits obstacles that it
+    /// must not reach into anyway.
     fn open(&self, scene: &Scene) -> Vec<ContourView> {
         let mut workspace = scene.workspace().clone();
         let whole = |workspace| {
@@ -207,7 +207,7 @@ impl Worlds<'_> {
         contours(all.iter().filter(|c| c.link == 1), self.grain)
     }
 
-    /// Adds the world of the failed step, with the proofs that it fails, and returns its number.
+    /// Adds the world of the failed step, with the proofs that it fails, and returns the index of the world.
     fn failing(&mut self, fails: &FailedStep) -> usize {
         let world = self.add(&fails.scene, &fails.moving);
         let proofs = fails.ik_solutions.iter().filter_map(|to| to.proof.as_ref());
@@ -231,7 +231,7 @@ fn at_the_end(task: &Task, legs: &[Leg]) -> (Vec<Option<Pose>>, Vec<usize>) {
     (poses, moving)
 }
 
-/// Returns placed objects with their numbers, each place once. Initial places are not included.
+/// Returns placed objects with their indices. Each place occurs once. Initial places are not included.
 fn placed(task: &Task, legs: &[Leg]) -> Vec<(usize, Obstacle)> {
     let mut seen: Vec<(usize, Pose)> = task.objects.iter().map(|object| object.at).enumerate().collect();
     let first = seen.len();

@@ -8,8 +8,8 @@ use cplan_tasks::TaskAnswer;
 /// C-obstacles of moving obstacles at several times, in seconds.
 pub type Moments = Vec<(f64, Vec<CObstacle>)>;
 
-/// The content of a task's picture. Objects count as obstacles, numbered after the static ones: they have the same
-/// colour at every place and in every world.
+/// The content of a task's picture. Objects count as obstacles and are numbered after the static ones. So an object has
+/// the same colour at every place and in every world.
 #[derive(Debug, Clone)]
 pub struct TaskPicture<'a> {
     /// The first line is the title; the others follow in smaller type.
@@ -25,10 +25,10 @@ pub struct TaskPicture<'a> {
     pub task: &'a Task,
     /// The answer.
     pub answer: &'a TaskAnswer,
-    /// Computes contours of a scene's C-obstacles in joint space. It is called for each world, and once more if link 2
-    /// may reach into an object.
+    /// Function that computes contours of a scene's C-obstacles in joint space. It is called for each world, and once
+    /// more if link 2 may reach into an object.
     pub c_obstacles: fn(&Scene) -> Vec<CObstacle>,
-    /// Computes C-obstacles of moving obstacles at times between the two given ones. The last argument limits the
-    /// number of times.
+    /// Function that computes C-obstacles of moving obstacles at times between the two given ones. The last argument
+    /// limits the number of times.
     pub in_time: fn(TimedScene, [f64; 2], usize) -> Moments,
 }

@@ -8,20 +8,20 @@ use cplan_core::planner::{Trace, VisibilityGraph};
 use cplan_core::space::{Configuration, Topology};
 use serde::Serialize;
 
-/// Lines of one value of a field.
+/// Lines on which a field has one value.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LevelView {
-    /// Place of the value between that of the goal (0) and that at the far end (1).
+    /// Position of the value, from 0 (the value at the goal) to 1 (that at the far end).
     pub part: f64,
     pub lines: Vec<Chain>,
 }
 
-/// Title of a scale of colours, and the values at its dark end and at its light end.
+/// Scale of colours: its title, and the values at its dark end and at its light end.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScaleView {
     pub title: &'static str,
     pub ends: [String; 2],
-    /// True if the colours fill surfaces that have lines on them. Then they are paler, so that the lines stay legible.
+    /// True if the colours fill surfaces with lines on them. They are then paler, so that the lines stay legible.
     pub soft: bool,
 }
 

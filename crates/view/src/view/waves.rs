@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-/// Largest number of blocks of cells along an axis. A block is nearly one and a half pixels wide.
+/// Largest number of blocks of cells along an axis. A block is then nearly one and a half pixels wide.
 const MAX_BLOCKS: usize = 192;
 /// Letters for the levels, one letter per block of cells. `NO_LEVEL` is the letter of a block without a level.
 const LEVEL_LETTERS: &[u8; LEVELS] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -19,10 +19,10 @@ pub const LEVELS: usize = 64;
 pub struct Waves {
     /// Number of blocks of cells along each axis.
     pub blocks: [usize; 2],
-    /// Fraction of each axis that the blocks cover. It exceeds 1 if blocks extend beyond the last cell.
+    /// Fraction of each axis that the blocks cover. It exceeds 1 if the last blocks extend beyond the last cell.
     pub extent: [f64; 2],
-    /// One letter per block for its least label, as a fraction of the greatest label. `NO_LEVEL` if the wave did not
-    /// reach the block.
+    /// One letter per block: its level. The level is the least label in the block, as a fraction of the greatest label.
+    /// The letter is `NO_LEVEL` if the wave did not reach the block.
     levels: String,
     /// One letter per block for the position of its first cell in the order of expansion. Empty if there is no order.
     #[serde(skip_serializing_if = "String::is_empty")]
@@ -91,8 +91,8 @@ impl Waves {
         }
     }
 
-    /// Returns the wavefront when `part` (0 to 1) of the cells have been expanded. Without an order of expansion,
-    /// returns the blocks up to that part of the levels.
+    /// Returns the wavefront at the time when the fraction `part` (0 to 1) of the cells have been expanded. If there is
+    /// no order of expansion, returns the blocks up to that fraction of the levels.
     pub fn up_to(&self, part: f64) -> Self {
         let last = (part * LEVELS as f64).floor() as usize;
         let order = if self.order.is_empty() { &self.levels } else { &self.order };

@@ -21,12 +21,12 @@ pub struct ObstacleView {
     pub name: String,
     /// Colour, the same in both spaces.
     pub color: Rgb,
-    /// Shape in the world file. If the file has none, this is the union of the pieces.
+    /// Shape in the world file. If the file has none, it is the union of the pieces.
     #[serde(serialize_with = "outline")]
     pub outline: Shape,
-    /// Number of pieces that form the obstacle itself. The pieces after them are tested against a payload instead. For
-    /// a level payload they are its Minkowski differences with the obstacle, which the tip must not enter. For
-    /// supports, they are shapes that may be nearer than the clearance.
+    /// Number of pieces that form the obstacle itself. The pieces after them are used for collisions with a payload
+    /// instead. For a level payload they are its Minkowski differences with the obstacle, which the tip must not enter.
+    /// For supports, they are shapes to which the payload may be nearer than the clearance.
     own: usize,
     pieces: Vec<ShapeView>,
 }
@@ -53,7 +53,7 @@ impl ObstacleView {
         self.pieces[..self.own].iter().map(|piece| &piece.0)
     }
 
-    /// Returns true unless the obstacle is an object that is carried.
+    /// Returns true if the obstacle is at a place. Returns false for an object that is carried.
     pub fn lies(&self) -> bool {
         self.own > 0
     }
@@ -100,8 +100,8 @@ impl MovingObstacleView {
         ObstacleView { name: name.clone(), color: *color, outline: outline.at(&pose), own: *own, pieces }
     }
 
-    /// Returns the times at which its trajectory changes, then the end of the motion, or the time when it is picked if
-    /// that is earlier.
+    /// Returns the times at which the trajectory of the obstacle changes. The last one is the end of the motion, or the
+    /// time of the pick if that is earlier.
     pub fn moments(&self, duration: f64) -> Vec<f64> {
         let duration = duration.min(self.until.unwrap_or(f64::INFINITY));
         let stops = self.course.stops().iter().map(|stop| stop.time).filter(|&time| 0.0 < time && time < duration);
@@ -118,14 +118,14 @@ impl MovingObstacleView {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PayloadView {
     pub object: String,
-    /// Colour that the object has while it lies somewhere. If it never does, this is the colour after those of all
-    /// obstacles.
+    /// Colour that the object has while it lies somewhere. An object that never lies anywhere has the next colour after
+    /// those of all obstacles.
     pub color: Rgb,
     /// Shapes in its own frame.
     pub pieces: Vec<ShapeView>,
     #[serde(serialize_with = "grip")]
     pub grip: Grip,
-    /// Shapes in the frame of link 2. In the numbering of the link's parts, they follow the link's own.
+    /// Shapes in the frame of link 2. They are numbered after the link's own parts.
     parts: Vec<ShapeView>,
 }
 
@@ -186,8 +186,8 @@ pub struct WorldView {
     pub moments: Vec<MomentView>,
     /// Places for the names of C-obstacles.
     pub names: Vec<NameView>,
-    /// C-obstacles that obstacles would have if link 2 were not allowed to reach into them. Pages do not need these,
-    /// because they show one world at a time.
+    /// C-obstacles that obstacles would have if link 2 must not reach into them. Pages do not need these, because they
+    /// show one world at a time.
     #[serde(skip)]
     pub open: Vec<ContourView>,
     pub regions: Vec<RegionView>,
@@ -276,14 +276,14 @@ pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Roundin
     all.into_iter().map(contour).collect()
 }
 
-/// Returns the number of an obstacle in the view's list, where links of the robot follow the obstacles of the
+/// Returns the index of an obstacle in the view's list. In that list, links of the robot follow the obstacles of the
 /// workspace. Moving obstacles have a list of their own.
 fn shown_number(scene: &Scene, number: usize) -> usize {
     let links = scene.self_obstacles();
     if links.contains(&number) { number - links.start + scene.workspace().obstacles.len() } else { number }
 }
 
-/// Creates the view of an obstacle from its number in the scene and its number in the view. An obstacle that joint 1
+/// Creates the view of an obstacle from its index in the scene and its index in the view. An obstacle that joint 1
 /// carries has no fixed place.
 fn obstacle(scene: &Scene, number: usize, shown: usize, grain: RoundingSteps) -> ObstacleView {
     let mut view = ObstacleView::new(scene.obstacle(number), shown, grain);
@@ -297,7 +297,7 @@ fn obstacle(scene: &Scene, number: usize, shown: usize, grain: RoundingSteps) ->
     view
 }
 
-/// Returns the moving obstacles. Their colours follow those of the static obstacles; a moving object keeps the colour
+/// Returns the moving obstacles. Their colours follow those of the static obstacles. A moving object keeps the colour
 /// that it has when it lies.
 fn movers(TimedScene { scene, courses }: TimedScene, grain: RoundingSteps) -> Vec<MovingObstacleView> {
     let obstacles = &scene.workspace().obstacles;
@@ -322,7 +322,7 @@ fn payload(scene: &Scene, grain: RoundingSteps) -> Option<PayloadView> {
     })
 }
 
-/// Merges pairs of one part with consecutive pieces of one obstacle.
+/// Merges pairs that consist of the same part and consecutive pieces of one obstacle.
 fn ranges(scene: &Scene) -> Vec<[usize; 5]> {
     let mut ranges: Vec<[usize; 5]> = Vec::new();
     for pair in scene.pairs() {

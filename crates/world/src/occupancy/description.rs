@@ -20,11 +20,12 @@ struct File {
     mode: Option<Spanned<String>>,
 }
 
-/// The keys that are read. Other programs add keys of their own.
+/// The keys that this reader uses. Other programs add keys of their own.
 const READ_KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
 
-/// Darkness (of 255) that ROS's map savers give to cells that nobody has seen: the shade 205. They write it for any
-/// `free_thresh`. With the `free_thresh: 0.25` that they usually write beside it, such a cell would count as free.
+/// Darkness, from 0 to 255, of cells that nobody has seen in pictures of ROS's map savers: the shade 205. The map
+/// savers write it whatever `free_thresh` is. With the `free_thresh: 0.25` that they usually write beside it, such a
+/// cell would count as free.
 const UNSEEN_DARKNESS: f64 = 50.0;
 
 /// The key `negate`. ROS writes 0 or 1, and people also write false or true.
@@ -108,7 +109,7 @@ impl Description {
         Ok(Self { image: file.image, resolution, origin, negate, occupied, free, unused })
     }
 
-    /// Returns the darkness of a shade: 0 for white, and the value of white for black; reversed with `negate`.
+    /// Returns the darkness of a shade: 0 for white, and `white` for black; reversed with `negate`.
     fn dark(&self, Shade { value, white }: Shade) -> f64 {
         if self.negate { value } else { white - value }
     }
@@ -118,8 +119,8 @@ impl Description {
         self.dark(shade) * 255.0 == UNSEEN_DARKNESS * shade.white
     }
 
-    /// Returns the occupancy of a cell by its shade. A transparent pixel has no shade. Quotient and thresholds are
-    /// rounded alike, so that a quotient that equals a threshold also compares as equal.
+    /// Returns the occupancy of a cell, given its shade. A transparent pixel has no shade. Quotient and thresholds are
+    /// rounded alike, so a quotient that equals a threshold also compares as equal.
     pub fn judge(&self, shade: Option<Shade>) -> Occupancy {
         match shade.map(|shade| (self.dark(shade) / shade.white, self.is_unseen(shade))) {
             Some((p, _)) if p > self.occupied => Occupancy::Occupied,

@@ -44,13 +44,13 @@ pub struct OccupancyMap {
 impl OccupancyMap {
     /// Reads a description and the picture that it names, relative to itself: PGM (P2, P5; 8 or 16 bits) or PNG.
     ///
-    /// With `p = 1 - shade` (`p = shade` with `negate`), where black is 0 and white is 1, a cell is occupied if `p >
+    /// Let `p = 1 - shade` (`p = shade` with `negate`), where black is 0 and white is 1. A cell is occupied if `p >
     /// occupied_thresh`, free if `p < free_thresh`, and unknown otherwise. The modes `trinary` and `scale` give the
     /// same obstacles.
     ///
-    /// The shade 205 of 255 (50 with `negate`) is an exception: ROS's map savers use it for unknown cells, so it is
-    /// unknown even where `free_thresh` is above its `p` of 0.196. The mode `raw` is refused, because its values are
-    /// costs. Colours are averaged. Pixels that are not opaque are unknown.
+    /// There is one exception: the shade 205 of 255 (50 with `negate`). ROS's map savers use it for unknown cells, so
+    /// it is unknown even where `free_thresh` is above its `p` of 0.196. The mode `raw` is refused, because its values
+    /// are costs. Colours are averaged. Pixels that are not opaque are unknown.
     ///
     /// # Errors
     /// An invalid description; a picture that is damaged, of another format or of more than [`MAX_CELLS`]; and a place
@@ -102,9 +102,9 @@ impl OccupancyMap {
         Some(self.cells[(height - 1 - cell.y as usize) * width + cell.x as usize])
     }
 
-    /// Returns the solid cells as rectangles with disjoint interiors. Occupied cells are solid, and unknown ones too
-    /// unless `unknown_is_free`. [`rectangles`] bounds their number; returns `None` if it exceeds `most`. Corners that
-    /// rectangles share are exactly equal.
+    /// Returns the solid cells as rectangles with disjoint interiors. Occupied cells are solid. Unknown cells are solid
+    /// as well, unless `unknown_is_free`. Returns `None` if there are more than `most` rectangles; see [`rectangles`].
+    /// Corners that rectangles share are exactly equal.
     #[must_use]
     pub fn pieces(&self, unknown_is_free: bool, most: usize) -> Option<Vec<Convex>> {
         let is_solid = |cell: usize| match self.cells[cell] {

@@ -7,7 +7,7 @@ use super::picture::{Judge, Picture, Shade, UnusablePicture, checked_size};
 /// The hint of most diagnostics.
 const SAVE_HINT: &str = "save the picture again";
 
-/// Reads a greymap.
+/// Reads a greymap in the format PGM.
 pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePicture> {
     let in_text = bytes[1] == b'2';
     let mut header = Words { bytes, at: 2 };
@@ -57,7 +57,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
     Ok(Picture { width, height, cells })
 }
 
-/// Checks that the file ends with the picture, before byte `at`.
+/// Checks that byte `at` is the end of the file, apart from white space.
 fn ended(at: usize, bytes: &[u8]) -> Result<(), UnusablePicture> {
     if at >= bytes.len() {
         return Ok(());
@@ -69,7 +69,7 @@ fn ended(at: usize, bytes: &[u8]) -> Result<(), UnusablePicture> {
     ))
 }
 
-/// A reader of white space, comments and whole numbers.
+/// A reader of a file that consists of white space, comments and whole numbers.
 struct Words<'a> {
     bytes: &'a [u8],
     at: usize,

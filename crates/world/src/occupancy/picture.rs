@@ -45,7 +45,7 @@ pub(super) struct Shade {
 /// Converts a shade to the state of a cell. A pixel that is not opaque has no shade.
 pub(super) type Judge<'a> = &'a dyn Fn(Option<Shade>) -> Occupancy;
 
-/// Returns the number of pixels, before memory for them is allocated.
+/// Returns the number of pixels, before memory is allocated for them.
 ///
 /// # Errors
 /// No pixels, or more than [`MAX_CELLS`].

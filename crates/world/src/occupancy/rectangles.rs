@@ -1,6 +1,6 @@
 //! Divides pixels into few rectangles.
 
-/// A rectangle of pixels. Columns and rows are given by the first one inside and the first one beyond.
+/// A rectangle of pixels. Columns and rows are each given by the first index inside and the first index beyond.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PixelRectangle {
     /// Columns, from left to right.
@@ -13,11 +13,12 @@ pub struct PixelRectangle {
 /// number of pixels. Returns `None` if there are more than `most` rectangles.
 ///
 /// Rows are cut into runs of solid pixels, and equal runs in successive rows form one rectangle. The same is done with
-/// columns, and the smaller result is returned. Each result cuts along one line through every concave corner of the
-/// outline. A minimal partition needs at least one cut for every two concave corners. So the result has at most twice
-/// the minimal number of rectangles for an outline without holes, and at most three times with holes. Computing the
-/// minimal number would require a matching of the lines that join two concave corners (Lipski et al. 1979, Ohtsuki
-/// 1982).
+/// columns, and the smaller result is returned.
+///
+/// Each result cuts along one line through every concave corner of the outline. A minimal partition needs at least one
+/// cut for every two concave corners. So the result has at most twice the minimal number of rectangles for an outline
+/// without holes, and at most three times with holes. Computing the minimal number would require a matching of the
+/// lines that join two concave corners (Lipski et al. 1979, Ohtsuki 1982).
 #[must_use]
 pub fn rectangles(size: [usize; 2], solid: impl Fn(usize, usize) -> bool, most: usize) -> Option<Vec<PixelRectangle>> {
     let [width, height] = size;
@@ -37,8 +38,8 @@ struct Open {
     since: usize,
 }
 
-/// Returns rectangles by lines and by positions in the line, in the order in which they end. Returns `None` if there
-/// are more than `most`.
+/// Returns rectangles in the order in which they end, given by ranges of lines and of positions in the line. Returns
+/// `None` if there are more than `most`.
 fn merged_runs(
     [lines, length]: [usize; 2],
     solid: impl Fn(usize, usize) -> bool,

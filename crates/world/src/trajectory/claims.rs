@@ -6,10 +6,10 @@ use cplan_handling::{BlendsClaim, Claims, EventClaim, OptimumClaim, StepClaims, 
 use cplan_robot::{Diagnostic, InputError, Source};
 use serde::{Deserialize, Deserializer};
 
-/// Largest valid number. A larger one is a mistake.
+/// Largest valid number. A larger one must be a mistake.
 const MAX_NUMBER: f64 = 1e12;
 
-/// Members that make no claim here: they are read elsewhere, or state how to read others.
+/// Members that are no claims. They are read elsewhere, or state how to read others.
 const OTHER_MEMBERS: [&str; 5] = ["joints", "trajectory", "interpolation", "steps", "events"];
 
 /// The members that make claims.
@@ -97,16 +97,16 @@ struct PoseMember {
     angle: f64,
 }
 
-/// Deserialises a member that may be null, so that null differs from a missing member.
+/// Deserialises a member that may be null. So a member that is null differs from one that is missing.
 fn nullable<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<Option<T>>, D::Error> {
     Option::deserialize(deserializer).map(Some)
 }
 
-/// Reads the claims that a result makes about its samples. Returns `None` if the file is no result of cplan, which
-/// would have a status.
+/// Reads the claims that a result makes about its samples. Returns `None` if the file is not a result of cplan, because
+/// it has no status.
 ///
 /// # Errors
-/// Invalid members: of another type, with too large numbers, or with paths of other joints.
+/// Members of a wrong type, with too large numbers, or with paths of other joints.
 pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, InputError> {
     let wrong = |error: serde_json::Error| json_diagnostic(source, &error).help("verify an unchanged result of cplan");
     let members: serde_json::Map<String, serde_json::Value> = serde_json::from_str(source.text()).map_err(wrong)?;
@@ -156,7 +156,7 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
     Ok(Some(claims))
 }
 
-/// Returns the indices of the arm's joints among `joints`. `None` if they differ.
+/// Returns the indices of the arm's joints among `joints`. `None` if one of them is missing.
 fn order(joints: &[String], arm: [&str; 2]) -> Option<[usize; 2]> {
     let at = |name: &str| joints.iter().position(|joint| joint == name);
     Some([at(arm[0])?, at(arm[1])?])

@@ -30,9 +30,9 @@ const QUANTITY_WORDS: [(Quantity, &[&str]); 4] = [
     (Quantity::Torque, &["torque", "torques"]),
 ];
 
-/// Returns all possible meanings of a column's name. A joint's quantity is `elbow`, `elbow_velocity`, `elbow.velocity`,
-/// `velocities_elbow` or similar, also after a topic (`/joint_states/elbow/position`); other names stand for times. The
-/// caller must refuse names with several meanings.
+/// Returns all possible meanings of a column's name. A joint's quantity has a name such as `elbow`, `elbow_velocity`,
+/// `elbow.velocity` or `velocities_elbow`, possibly after a topic (`/joint_states/elbow/position`). Other names denote
+/// times. The caller must refuse names with several meanings.
 pub(super) fn meanings(column: &str, joints: &[&str]) -> Vec<Meaning> {
     let mut found = Vec::new();
     if TIME_COLUMNS.contains(&column.to_lowercase().as_str()) {

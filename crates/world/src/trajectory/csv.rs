@@ -61,7 +61,8 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
     Ok(samples)
 }
 
-/// Returns the separator of a table: the first of comma, semicolon and tab with which a line names a joint.
+/// Returns the separator of a table: comma, semicolon or tab. It is the first of these with which some line names a
+/// joint.
 fn separator(text: &str, names: &Names) -> char {
     let names_some = |separator: &char| {
         let mut heads = Records::new(text, *separator).take(MAX_HEADER_LINES);
@@ -70,7 +71,7 @@ fn separator(text: &str, names: &Names) -> char {
     [',', ';', '\t'].into_iter().find(names_some).unwrap_or(',')
 }
 
-/// Number of lines in which the header is sought.
+/// Number of lines at the beginning among which the header is sought.
 const MAX_HEADER_LINES: usize = 64;
 
 fn is_comment(record: &[Field]) -> bool {
@@ -118,7 +119,8 @@ struct Columns {
     joints: Vec<String>,
     /// The columns that are read, in the order of the file.
     used: Vec<Column>,
-    /// Whole seconds of the first time if times are dates. They are subtracted from all times.
+    /// Whole seconds of the first time, if times are dates. They are subtracted from all times. `None` if times are not
+    /// dates.
     epoch: Option<i64>,
     notes: Vec<String>,
 }
@@ -176,8 +178,8 @@ impl Columns {
         self.used.iter().any(|column| column.meaning == Meaning::Time)
     }
 
-    /// Returns true if a line has no joint values. Such lines occur in tables of several sources that log at different
-    /// times.
+    /// Returns true if a record has no joint values. Such lines occur in tables of several sources that log at
+    /// different times.
     fn is_blank(&self, record: &[Field]) -> bool {
         let mut joints = self.used.iter().filter(|column| column.meaning != Meaning::Time);
         joints.all(|column| record[column.index].text.is_empty())
@@ -226,7 +228,7 @@ impl Columns {
     }
 }
 
-/// Largest time that counts as relative to a start, in seconds (eleven days). Larger ones are dates.
+/// Largest time that counts as relative to a start, in seconds (eleven days). Larger times count as dates.
 const MAX_RELATIVE_TIME: f64 = 1e6;
 
 /// Returns the possible meanings of a column, and the unit after its name if there is one.

@@ -10,7 +10,7 @@ use serde::de::IgnoredAny;
 /// The members that are read. Other members are ignored.
 #[derive(Deserialize)]
 struct Document {
-    /// The status, which only a result of cplan has.
+    /// The status. Only results of cplan have one.
     status: Option<String>,
     joints: Option<Vec<String>>,
     path: Option<Vec<Vec<f64>>>,
@@ -46,7 +46,7 @@ struct Point {
     time_from_start: Option<Stamp>,
 }
 
-/// A `builtin_interfaces/msg/Duration`, a duration with ROS 1's names of members, or plain seconds.
+/// A duration: a `builtin_interfaces/msg/Duration`, the same with ROS 1's names of members, or a number of seconds.
 #[derive(Deserialize)]
 #[serde(
     untagged,
@@ -64,7 +64,8 @@ enum Stamp {
 }
 
 impl Stamp {
-    /// Returns seconds, correctly rounded, so that their shortest decimal has at most nine digits after the point.
+    /// Returns the duration in seconds, correctly rounded. Its shortest decimal has at most nine digits after the
+    /// point.
     fn seconds(&self) -> f64 {
         match *self {
             Stamp::Parts { sec, nanosec } => (sec as f64 * 1e9 + f64::from(nanosec)) / 1e9,
@@ -141,7 +142,7 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
     })
 }
 
-/// Returns how accelerations join the samples, as the member `interpolation` of a cplan result states it.
+/// Returns the interpolation that the member `interpolation` of a cplan result states.
 fn own_rule(stated: Option<&str>, notes: &mut Vec<String>) -> Option<Interpolation> {
     match stated {
         Some(INTERPOLATION) => Some(Interpolation::Quartic),

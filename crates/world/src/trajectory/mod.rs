@@ -45,21 +45,23 @@ pub struct LoadedRecording {
     pub notes: Vec<String>,
 }
 
-/// Reads a joint path or trajectory; the file's extension tells the format: `.json`, `.csv`, `.yaml`, `.yml` or `.mcap`.
+/// Reads a recorded motion: a joint path or a trajectory. The file's extension determines the format: `.json`, `.csv`,
+/// `.yaml`, `.yml` or `.mcap`.
 ///
-/// - JSON: a result of cplan's own (its trajectory, else its path), with the steps if it and the world have any; or a ROS 2
-///   message;
-/// - CSV: a header of names, then a sample a line. A column is a joint's position if its name is the joint's, or the
-///   joint's with `position` before or after it; velocities likewise; `time`, `t`, `time_from_start` or `__time` are seconds. A unit may
-///   follow in brackets: `elbow [deg]`;
-/// - MCAP (a feature): what ROS 2 recorded on the one topic of type `trajectory_msgs/msg/JointTrajectory` that has both of the
-///   arm's joints, else on the one of type `sensor_msgs/msg/JointState`; see [`load_topic`] for recordings with several;
-/// - YAML: `trajectory_msgs/msg/JointTrajectory`, also as a member `joint_trajectory` or `trajectory`.
+/// - JSON: a result of cplan, or a ROS 2 message. Of a result, the trajectory is read, or the path if there is none. If
+///   it and the world have steps, these are read as well.
+/// - CSV: a header with names of columns, then one line per sample. A column has a joint's positions if its name is
+///   that of the joint, possibly with `position` before or after it. The same holds for velocities. `time`, `t`,
+///   `time_from_start` and `__time` are seconds. A unit may follow in brackets: `elbow [deg]`.
+/// - MCAP (a feature of the crate): a recording of ROS 2. It must have exactly one topic of type
+///   `trajectory_msgs/msg/JointTrajectory` with both of the arm's joints, or otherwise exactly one of type
+///   `sensor_msgs/msg/JointState`. See [`load_topic`] for recordings with several topics.
+/// - YAML: a `trajectory_msgs/msg/JointTrajectory`, which may be a member `joint_trajectory` or `trajectory`.
 ///
 /// # Errors
-/// # Errors
-/// Files that cannot be read or have another format, invalid steps, a missing joint, a held joint that moves other than
-/// along the plane's normal or about it, and samples that are not a motion; with the place in the file and a hint.
+/// Files that cannot be read or have another format, invalid steps, a missing joint, and samples that are not a motion.
+/// A held joint whose motion is neither along the plane's normal nor about it. Each error has the place in the file and
+/// a hint.
 pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     load(path, None, scene)
 }
@@ -183,7 +185,7 @@ impl<'a> Names<'a> {
     }
 }
 
-/// Describes how the samples are joined.
+/// Describes how the samples are joined, in words.
 fn rule(recording: &Recording) -> &'static str {
     match (recording.interpolation(), recording.times()) {
         (Interpolation::Cubic, _) => "between samples: the cubic that positions and velocities imply",

@@ -6,12 +6,12 @@ use cplan_core::space::Configuration;
 use cplan_handling::{HeldEffect, HeldJoint, HeldMotion, Interpolation, Recording, RecordingError};
 use cplan_robot::{Diagnostic, Source};
 
-/// Largest deviation of a recorded value from the value at which the world holds the joint, in radians or metres, with
-/// which the joint counts as still. It exceeds a controller's jitter and the rounding to six digits, and is too small
-/// to cause a collision.
+/// Largest deviation of a recorded value from the value at which the world holds the joint, in radians or metres, for
+/// the joint to count as still. It exceeds a controller's jitter and the rounding to six digits. It is too small to
+/// cause a collision.
 const HELD_TOLERANCE: f64 = 1e-4;
 
-/// Returns the reason why motions of held joints cannot be judged in a scene. `None` if they can.
+/// Returns the reason why motions of held joints cannot be checked in a scene. `None` if they can.
 pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
     if scene.attachment().is_some() {
         return Some("the tool carries an object, which would move with the joint");
@@ -24,7 +24,7 @@ impl Names<'_> {
     /// Returns the motions of held joints that move, and notes about all other joints.
     ///
     /// # Errors
-    /// Joints whose motion cannot be judged.
+    /// Joints whose motion cannot be checked.
     pub(super) fn moved(
         &self,
         source: &Source,
@@ -69,7 +69,7 @@ impl Names<'_> {
         Ok(moved)
     }
 
-    /// Returns the reason why the motion of a joint cannot be judged, as a clause. `None` if it can.
+    /// Returns the reason why the motion of a joint cannot be checked, as a clause. `None` if it can.
     fn why_not(&self, joint: &HeldJoint, at_samples: bool, moved: &[HeldMotion]) -> Option<String> {
         let turns = |joint: &HeldJoint| matches!(joint.effect, HeldEffect::Turns { .. });
         let also_turns = |other: &&HeldMotion| {
@@ -104,7 +104,7 @@ fn described(joint: &HeldJoint, series: &Series) -> String {
     }
 }
 
-/// Returns the values of a joint at the samples of a recording, joined as in the recording.
+/// Returns the values of a joint at the samples of a recording, with the recording's interpolation.
 fn values(series: &Series, recording: &Recording, samples: &Samples) -> Result<Recording, RecordingError> {
     let single = |values: &Vec<f64>| values.iter().map(|value| Configuration::new(*value, 0.0)).collect::<Vec<_>>();
     let velocity = series.velocity.as_ref().filter(|_| recording.velocities().is_some());

@@ -14,20 +14,20 @@ pub(super) struct Series {
     pub acceleration: Option<Vec<f64>>,
 }
 
-/// The samples of a file, and how it describes them.
+/// The samples of a file, and the file's description of them.
 #[derive(Debug, Default)]
 pub(super) struct Samples {
     pub time: Option<Vec<f64>>,
     pub joints: Vec<Series>,
-    /// Positions of joints at other times than those of the samples.
+    /// Positions of joints at times that are not those of the samples.
     pub aside: Vec<Series>,
-    /// How samples with accelerations are joined. `None` if accelerations do not determine the motion between samples.
-    /// See [`Interpolation`].
+    /// Interpolation of samples with accelerations. `None` if accelerations do not determine the motion between
+    /// samples.
     pub joined: Option<Interpolation>,
     /// Indices of samples after which the arm stands still until the next sample.
     pub rests: Vec<usize>,
     pub has_torques: bool,
-    /// The file's name for a sample. In messages, its index follows in brackets.
+    /// The word that the file uses for a sample. In messages, the sample's index follows in brackets.
     pub what: Cow<'static, str>,
     /// Position of each sample in the text. Empty if the reader does not know the positions.
     pub places: Vec<Range<usize>>,
@@ -40,7 +40,7 @@ pub(super) struct Names<'a> {
     /// For each of the arm's joints, true if it is revolute.
     pub turns: [bool; 2],
     pub held: &'a [HeldJoint],
-    /// The reason why no motion of held joints can be judged. `None` if it can.
+    /// The reason why no motion of held joints can be checked. `None` if it can.
     pub rigid: Option<&'static str>,
     /// True if the world has steps, during which a wrist turns and the tool's joint moves up and down.
     pub has_steps: bool,

@@ -31,7 +31,7 @@ const KNOWN_UNITS: [(&[&str], Dimension, f64, f64); 8] = [
     (&["ns"], Dimension::Time, 1.0, 1e9),
 ];
 
-/// The known units, as listed in messages.
+/// The known units, as messages list them.
 pub(super) const KNOWN_UNITS_TEXT: &str =
     "rad, deg, m, cm, mm, s, ms or ns, with /s for velocities and /s^2 for accelerations";
 

@@ -11,7 +11,7 @@ pub(super) struct Evaluator<'n> {
 }
 
 impl Evaluator<'_> {
-    /// Evaluates an expression, one level deeper.
+    /// Evaluates an expression that is nested one level deeper.
     pub fn value(&mut self, expression: &Expression) -> Result<Value, Fault> {
         self.names.budget().enter()?;
         let value = self.inner(expression)?;

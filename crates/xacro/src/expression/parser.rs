@@ -86,7 +86,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Parses an expression, one level deeper, starting with the weakest operator.
+    /// Parses an expression that is nested one level deeper. Begins with the weakest operator.
     fn choice(&mut self) -> Result<Expression, Fault> {
         self.depth += 1;
         if self.depth > MAX_EXPRESSION_DEPTH {
@@ -284,7 +284,7 @@ impl<'t> Parser<'t> {
         })
     }
 
-    /// Parses items up to a closing sign. Also returns true if there is a comma between or after them.
+    /// Parses items up to a closing sign. The second value is true if there is a comma between or after the items.
     fn items(&mut self, close: &str) -> Result<(Vec<Expression>, bool), Fault> {
         let (mut items, mut has_comma) = (Vec::new(), false);
         while !self.takes_sign(close) {

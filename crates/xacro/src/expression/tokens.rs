@@ -12,7 +12,7 @@ pub(super) enum Token {
     Sign(&'static str),
 }
 
-/// Signs of expressions. A sign comes before all signs that are its beginning.
+/// Signs of expressions. A longer sign comes before those with which it begins, so that it is recognised as a whole.
 const SIGNS: [&str; 24] = [
     "**", "//", "==", "!=", "<=", ">=", "<", ">", "+", "-", "*", "/", "%", "(", ")", "[", "]", "{", "}", ",", ":", ".",
     "=", "!",

@@ -152,7 +152,7 @@ fn numbers_come_from_yaml() {
     assert_eq!(content(&files.expand(&[]).unwrap().text), "<v v=\"0.25 True left\"/>");
 }
 
-/// Other namespaces, text and escaped characters stay unchanged.
+/// Checks that other namespaces, text and escaped characters stay unchanged.
 #[test]
 fn plain_urdf_stays_unchanged() {
     let text = "<robot name=\"r\" xmlns:xacro=\"http://wiki.ros.org/xacro\" xmlns:s=\"http://x/s\"><!-- gone -->\

@@ -3,7 +3,8 @@
 use crate::common::{Files, robot};
 use std::time::{Duration, Instant};
 
-/// Returns the error message, which must contain all parts, and come quickly on a stack of ordinary size.
+/// Returns the error message. The message must contain all parts. It must come quickly, and the program must not need
+/// more than a stack of ordinary size.
 fn refused(files: &[(&str, &str)], arguments: &[(&str, &str)], parts: &[&str]) {
     let begun = Instant::now();
     let message = std::thread::scope(|scope| {

@@ -17,7 +17,8 @@ use cplan_check::scene::{PlacedObstacle, stay_off};
 use num_bigint::BigInt;
 use std::iter;
 
-/// Maximum distance of a moving object from its required position when it is picked, metres: `10^-3`.
+/// Number of decimals of the maximum distance of a moving object from its required position when it is picked: `10^-3`
+/// m.
 const PICK_TOLERANCE_DECIMALS: u32 = 3;
 
 /// Maximum turn of the wrist, radians, in either direction. More than one full turn is implausible.
@@ -27,11 +28,11 @@ const MAX_WRIST_TURN: i128 = 7;
 pub(super) struct HeldObject {
     pub(super) object: usize,
     pub(super) on: Attachment,
-    /// The object in the frame to which it is attached. The next field, `pressed`, is the part of the object that must
+    /// The object in the frame to which it is attached. The next field, `pressed`, has the part of the object that must
     /// keep away from supports; `None` if there are no supports.
     pub(super) hanging: Obstacle,
     pub(super) pressed: Option<Obstacle>,
-    /// Shapes of `hanging` and of `pressed`.
+    /// Shapes of `hanging`, and shapes of `pressed`.
     pub(super) solids: [Vec<Solid>; 2],
     /// A disc that covers the object in all orientations about the tip, if it is held level.
     pub(super) round: Option<Solid>,
@@ -75,7 +76,7 @@ impl Replay<'_> {
         }
     }
 
-    /// Picks an object, which may move, at its pose at a time. The tip is at the position `at`.
+    /// Picks an object, which may move, at the pose that it has at a time. The tip is at the position `at`.
     pub(super) fn grasp(
         &mut self,
         object: usize,

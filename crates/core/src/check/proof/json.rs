@@ -5,8 +5,8 @@ use crate::model::Pair;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// A collision box in a file: all configurations from `lower` to `upper`, and the two shapes that are too near in
-/// all of them. All numbers count from 0.
+/// A collision box as result files contain it: all configurations from `lower` to `upper`, and the two shapes that are
+/// too near in all of them. All indices start from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProofBox {
@@ -14,13 +14,14 @@ pub struct ProofBox {
     pub lower: [f64; 2],
     /// Greatest value of each joint, radians or metres.
     pub upper: [f64; 2],
-    /// Carrier of the part: 0 for joint 1, 1 for joint 2; 2 for joint 2 if joint 1 carries the obstacle.
+    /// Link of the part, as in [`Pair::link`]: 0 for link 1, 1 for link 2, and 2 for link 2 if joint 1 carries the
+    /// obstacle.
     pub link: usize,
-    /// Number of the convex part of the link.
+    /// Index of the convex part of the link.
     pub part: usize,
-    /// Number of the obstacle. Those of the world file come first.
+    /// Index of the obstacle. The obstacles of the world file come first.
     pub obstacle: usize,
-    /// Number of the convex piece of the obstacle.
+    /// Index of the convex piece of the obstacle.
     pub piece: usize,
 }
 
@@ -38,7 +39,7 @@ impl From<ProofBox> for CollisionBox {
     }
 }
 
-/// The reason why a text has no proof.
+/// The reason why no proof can be read from a text.
 #[derive(Debug, Error)]
 pub enum ProofFormatError {
     /// The text is not JSON, or does not have the fields of a proof.

@@ -86,19 +86,19 @@ pub enum ProofError {
     /// The box is empty, or extends beyond the domain.
     #[error("collision box {0} is empty or extends beyond the configuration space")]
     NotInDomain(usize),
-    /// The shapes may come apart within the box.
+    /// The shapes may separate within the box.
     #[error(
         "collision box {index}: the shapes overlap by {depth:e} m in its middle, but can move by {motion:e} m within it"
     )]
     NotColliding {
-        /// Number of the box, from 0.
+        /// Index of the box, from 0.
         index: usize,
         /// Penetration depth in the middle, clearance included, metres.
         depth: f64,
-        /// Greatest distance that points of the part can move from there within the box, metres.
+        /// Greatest distance that points of the part can move within the box, from its middle, metres.
         motion: f64,
     },
-    /// The start is connected with this piece of the goals outside the boxes.
+    /// The boxes do not separate the start from this piece of the goals.
     #[error("the collision boxes do not separate the start from goal {0}")]
     NotSeparated(usize),
 }
@@ -116,7 +116,7 @@ impl Disconnection {
         &self.stuck
     }
 
-    /// Returns the same claim for a scene with other numbers of shapes. `pair` translates each pair.
+    /// Returns the same claim for a scene that numbers its shapes differently. `pair` translates each pair.
     pub fn of_pairs(mut self, pair: impl Fn(Pair) -> Pair) -> Self {
         self.stuck.iter_mut().for_each(|stuck| stuck.pair = pair(stuck.pair));
         self

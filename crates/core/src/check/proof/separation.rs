@@ -5,8 +5,8 @@ use crate::space::{Configuration, GoalSet, Segment, Topology};
 use cplan_interrupt::checkpoint;
 use petgraph::unionfind::UnionFind;
 
-/// Returns the number of the first goal of which some part is connected with the start outside the boxes. It counts
-/// the copies in the domain ([`GoalSet::wrapped`]). `None` if the boxes separate all goals from the start.
+/// Returns the index of the first goal that has a part connected with the start outside the boxes. Goals are indexed as
+/// in [`GoalSet::wrapped`]. Returns `None` if the boxes separate all goals from the start.
 pub(super) fn not_separated(
     topology: &Topology,
     boxes: &[CollisionBox],
@@ -80,7 +80,8 @@ impl Slabs {
         strips.into_iter().find_map(within)
     }
 
-    /// Returns the gaps that contain a part of a segment, their sides included. For a point it returns only one.
+    /// Returns the gaps that contain a part of a segment; the sides of a gap belong to it. For a point it returns only
+    /// one gap.
     fn holding(&self, piece: &Segment) -> Vec<usize> {
         let [from, to] = piece.ends();
         if piece.is_point() {
@@ -132,7 +133,8 @@ mod tests {
     use crate::space::JointRange;
     use std::f64::consts::PI;
 
-    /// A box along a whole axis leaves two parts. They are connected if the other axis is a circle, across its seam.
+    /// Tests a box along a whole axis. It leaves two parts, which are connected across the seam if the other axis is a
+    /// circle.
     #[test]
     fn a_seam_joins_what_a_band_leaves() {
         let turn = JointRange::Circle;

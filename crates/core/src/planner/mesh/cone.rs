@@ -21,7 +21,7 @@ impl Bound {
         orientation(self.from, self.to, p)
     }
 
-    /// Returns true if the direction has a greater abscissa, or is straight up.
+    /// Returns true if the line's direction points to greater abscissae, or straight up.
     fn is_forward(&self) -> bool {
         (self.to.x, self.to.y) > (self.from.x, self.from.y)
     }
@@ -40,18 +40,18 @@ pub struct Cone {
 }
 
 impl Cone {
-    /// Returns true if the direction of any ray has a greater abscissa, or is straight up.
+    /// Returns true if the direction of any ray in the cone points to greater abscissae, or straight up.
     fn is_forward(&self) -> bool {
         self.right.is_forward() || self.left.is_forward()
     }
 
-    /// Returns true if `p` lies on one of the rays, or on the extension of one backwards from the root.
+    /// Returns true if `p` lies on one of the rays, or on a ray extended backwards beyond the root.
     fn holds(&self, p: Point) -> bool {
         self.right.side(p) != Orientation::Clockwise && self.left.side(p) != Orientation::CounterClockwise
     }
 
-    /// Returns the part of a segment on the rays or their backward extensions; `None` if there is none. Exact for a
-    /// point.
+    /// Returns the part of a segment that lies on the rays or on their extensions backwards; `None` if there is none.
+    /// Exact for a point.
     pub fn part(&self, segment: &Segment) -> Option<Segment> {
         if segment.is_point() {
             return self.holds(segment.ends()[0]).then_some(*segment);
@@ -63,7 +63,7 @@ impl Cone {
 /// The crossing of a cone and the triangle beyond its edge.
 #[derive(Debug, Clone, Copy)]
 pub struct Crossing {
-    /// The half-edge, of that triangle, by which the cone enters.
+    /// The half-edge of the triangle by which the cone enters it.
     pub entry: u32,
     /// The half-edge that begins at the corner opposite the entry; `None` if the root does not see that corner.
     pub seen: Option<u32>,
@@ -101,8 +101,8 @@ pub enum ViewDirections {
 }
 
 impl Corner {
-    /// Returns the directions in which a shortest path from `p` may continue after a turn at this corner: from
-    /// straight ahead to along the obstacle. `None` if the line from `p` enters the obstacle.
+    /// Returns the directions in which a shortest path that comes from `p` may continue after a turn at this corner.
+    /// They range from straight ahead to along the obstacle. Returns `None` if the line from `p` enters the obstacle.
     pub fn beyond(&self, p: Point) -> Option<ViewDirections> {
         let ahead = Bound { from: p, to: self.at };
         match self.tangency(p) {
@@ -176,9 +176,8 @@ impl Mesh {
         }
     }
 
-    /// Calls `see` with the half-edges that begin at the corners that the root sees in a cone, in no particular
-    /// order. Drops cones none of whose rays is forward (see `is_forward`). Exact; linear in the number of triangles
-    /// crossed.
+    /// Calls `see` with the half-edges that begin at the corners that the root sees in a cone, in no particular order.
+    /// Skips cones that have no forward ray (see `is_forward`). Exact; linear in the number of triangles crossed.
     pub fn look_forward(&self, root: Point, cone: Cone, stack: &mut Vec<Cone>, mut see: impl FnMut(u32)) {
         stack.extend(Some(cone).filter(Cone::is_forward));
         while let Some(mut cone) = stack.pop() {
@@ -235,7 +234,8 @@ impl Mesh {
         })
     }
 
-    /// Returns the view through an edge opposite the root; `None` if no part of the edge lies in these directions.
+    /// Returns the view through an edge opposite the root; `None` if no part of the edge lies in the directions of
+    /// `gaze`.
     fn successor(&self, root: Point, edge: u32, gaze: ViewDirections) -> Option<Successor> {
         let ends = [edge, next(edge)];
         let [x, y] = ends.map(|h| Bound { from: root, to: self.origin(h) });

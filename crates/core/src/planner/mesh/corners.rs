@@ -49,7 +49,8 @@ impl Corner {
 #[derive(Debug, Clone)]
 pub struct Corners {
     pub list: Vec<Corner>,
-    /// For each half-edge, the number of the corner; `NO_ENTRY` if the sector is at most half a turn.
+    /// For each half-edge, the index of the corner at its origin; `NO_ENTRY` if the sector there is at most half a
+    /// turn.
     pub of_half_edge: Vec<u32>,
 }
 

@@ -10,8 +10,9 @@ use cplan_interrupt::checkpoint;
 /// grows like the square of their size. After fewer flips the triangulation is correct, but slower to walk through.
 const MAX_FLIPS_PER_EDGE: usize = 16;
 
-/// Makes a triangulation the constrained Delaunay triangulation (Lawson 1977) by flipping edges. Its edges are
-/// short, so lines of sight cross few. The boundary stays. Four corners on a circle keep either diagonal.
+/// Turns a triangulation into the constrained Delaunay triangulation (Lawson 1977) by flipping edges. Its edges are
+/// short, so few of them cross a line of sight. The boundary does not change. If four corners lie on a circle, either
+/// diagonal may remain.
 pub fn flip(vertices: &[Point], edges: &mut HalfEdges) {
     let at = |v: u32| vertices[v as usize];
     let mut left = MAX_FLIPS_PER_EDGE * edges.origin.len();
@@ -50,8 +51,8 @@ pub fn flip(vertices: &[Point], edges: &mut HalfEdges) {
     }
 }
 
-/// Returns true if three corners are in counter-clockwise order. This fails for flipped edges only if coordinates
-/// are so small that the sign of `in_circle` underflows.
+/// Returns true if three corners are in counter-clockwise order. Flipping edges preserves this order, unless
+/// coordinates are so small that the sign of `in_circle` underflows.
 fn is_triangle(a: Point, b: Point, c: Point) -> bool {
     orientation(a, b, c) == Orientation::CounterClockwise
 }

@@ -56,8 +56,9 @@ impl Columns {
         columns
     }
 
-    /// Returns the strip at an abscissa; the outermost one if it is outside. Rounding keeps this function monotone,
-    /// so a point within a triangle's range of abscissae is in one of the triangle's strips.
+    /// Returns the strip that contains an abscissa. If the abscissa is outside of all strips, returns the outermost
+    /// strip on that side. The function is monotone in spite of rounding, so a point within a triangle's range of
+    /// abscissae is in one of the triangle's strips.
     fn strip(&self, x: f64) -> usize {
         // A cast from a float saturates: it gives 0 to the left of all strips.
         (((x - self.left) * self.density) as usize).min(self.first.len() - 2)

@@ -130,8 +130,9 @@ mod tests {
     use cplan_geometry::{Orientation, in_circle, orientation};
     use proptest::prelude::*;
 
-    /// Returns a window of 7 x 7 squares around a board of 5 x 5, transformed by an integer matrix of determinant 1.
-    /// Each blocked square is a separate hole, so holes touch along sides and in corners.
+    /// Returns free space with a window of 7 x 7 squares around a board of 5 x 5 squares. An integer matrix of
+    /// determinant 1 transforms both. Each blocked square is a separate hole, so holes touch along sides and in
+    /// corners.
     fn board(blocked: &[bool], [a, b, c, d]: [f64; 4]) -> Regions {
         let square = |x: f64, y: f64, size: f64| {
             [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)]
@@ -199,8 +200,8 @@ mod tests {
             }
         }
 
-        /// Compares with the squares that a segment meets. If the segment passes through no vertex, the two must
-        /// agree. Otherwise a segment that is reported to be clear must meet no square.
+        /// Compares the result with the squares that a segment meets. If the segment passes through no vertex, the two
+        /// must agree. Otherwise a segment that is reported to be clear must meet no square.
         #[test]
         fn straight_motions_are_clear_where_no_square_is_met(
             blocked in proptest::collection::vec(any::<bool>(), 25), matrix in matrices(),

@@ -80,7 +80,7 @@ pub struct QueryGraph {
     roadmap: Roadmap,
     /// The node of the start.
     pub start: NodeIndex,
-    /// The goals' nodes, by the bits of their coordinates.
+    /// The node of each goal, by the bits of the goal's two coordinates.
     goals: BTreeMap<[u64; 2], NodeIndex>,
     /// The nodes of the goals.
     ends: BTreeSet<NodeIndex>,

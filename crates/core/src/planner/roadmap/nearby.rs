@@ -61,7 +61,7 @@ impl Nearby {
         [0, 1].map(|k| (((p[k] - self.lower[k]) / self.side) as usize).min(self.shape[k] - 1))
     }
 
-    /// Returns the `count` points nearest to `p`, nearest first; equally near ones in their original order. About
+    /// Returns the `count` points nearest to `p`, nearest first. Equally near points have their original order. About
     /// `O(count)` if points are spread evenly.
     pub fn nearest(&self, p: Point, count: usize) -> Vec<usize> {
         let mut found: Vec<(OrderedF64, usize)> = Vec::new();
@@ -96,8 +96,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares with a sort of all distances. The points are on a small lattice, where many distances are equal,
-        /// or in a slender box.
+        /// Compares the result with a sort of all distances. The points are on a small lattice, where many distances
+        /// are equal, or in a slender box.
         #[test]
         fn are_those_of_all_that_are_nearest(
             places in proptest::collection::vec([0i8..9, 0i8..9], 0..60), from in [-4i8..13, -4i8..13], count in 0usize..12,

@@ -101,9 +101,9 @@ pub struct SearchProblem<G, C, A, B> {
     pub behind: B,
 }
 
-/// Searches a graph from the start to any goal, or back. For `n` nodes and `m` edges it takes `O(n + m)`
-/// breadth-first and depth-first, otherwise `O((n + m) log n)`. Forward, only the expanded part counts, besides
-/// tables of all nodes; backward, the graph is copied first.
+/// Searches a graph from the start to any goal, or from the goals to the start. For `n` nodes and `m` edges,
+/// breadth-first and depth-first search take `O(n + m)`; the others take `O((n + m) log n)`. A forward search visits
+/// only the part that it expands, apart from tables of all nodes. A backward search first copies the graph.
 pub fn search<N, E, G, C, A, B>(
     graph: &UnGraph<N, E>,
     how: RoadmapSearch,
@@ -264,7 +264,7 @@ mod tests {
             search(&graph, how, &question)
         }
 
-        /// Returns for all pairs of places the least sum of `of` over the edges of a route, by the algorithm of
+        /// Returns, for all pairs of places, the least sum of `of` over the edges of a route. Uses the algorithm of
         /// Floyd and Warshall.
         fn least(&self, of: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
             let n = self.places.len();
@@ -288,8 +288,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(512))]
 
-        /// A route is found if and only if there is one. It follows edges, and has the length and the number of
-        /// edges that its order promises, both backward and forward. No node is expanded twice.
+        /// Tests that a route is found if and only if there is one. The route follows edges, and has the length and the
+        /// number of edges that its order promises, both backward and forward. No node is expanded twice.
         #[test]
         fn each_order_finds_what_it_claims_in_both_directions(case in cases()) {
             let to_goal = |all: &[Vec<f64>]| case.goals.iter().map(|&goal| all[0][goal]).fold(f64::INFINITY, f64::min);
@@ -321,8 +321,8 @@ mod tests {
             }
         }
 
-        /// Neither A\* nor Dijkstra's algorithm expands a node whose cost, plus the estimate for A\*, exceeds the
-        /// cost of the goal.
+        /// Tests that neither A\* nor Dijkstra's algorithm expands too much. No expanded node has a cost (plus the
+        /// estimate for A\*) above the cost of the goal.
         #[test]
         fn nothing_beyond_the_goal_is_expanded(case in cases()) {
             let least = case.least(|a, b| case.apart(a, b));

@@ -38,8 +38,8 @@ pub fn side<T: Number>(a: &Pair<T>, b: &Pair<T>, c: &Pair<T>) -> Ordering {
     sign(&cross(&minus(b, a), &minus(c, a)))
 }
 
-/// Returns true if two closed segments meet, and whether they cross in a point interior to both. Uses Cramer's rule for
-/// the parameters of the common point, and projection for parallel segments.
+/// Returns two flags: whether two closed segments meet, and whether they cross in a point interior to both. Uses
+/// Cramer's rule for the parameters of the common point, and projection for parallel segments.
 pub fn segments<T: Number>([a, b]: [&Pair<T>; 2], [c, d]: [&Pair<T>; 2]) -> (bool, bool) {
     let (u, v, w) = (minus(b, a), minus(d, c), minus(c, a));
     let determinant = cross(&u, &v);

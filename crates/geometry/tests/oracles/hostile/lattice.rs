@@ -40,7 +40,7 @@ fn turned(side: Ordering) -> Orientation {
     }
 }
 
-/// All triples of a 10 x 10 lattice, a million, in each place.
+/// Tests all triples of points of a 10 x 10 lattice, a million, in each place.
 #[test]
 fn all_triples_of_a_lattice() {
     let lattice: Vec<(i64, i64)> = (0..100).map(|i| (i / 10, i % 10)).collect();

@@ -15,7 +15,7 @@ fn shape(corners: &[Corner], unit: f64) -> Shape<i128> {
     Shape::hull(&points, corners)
 }
 
-/// Returns even coordinates, so that midpoints are also on the lattice.
+/// Returns corners with even coordinates, so that midpoints are also on the lattice.
 fn corners(dice: &mut Dice, reach: i64, at: Corner) -> Vec<Corner> {
     let count = 1 + dice.below(7);
     let mut even = |x: i128| x + 2 * i128::from(dice.about_zero(reach));
@@ -76,7 +76,7 @@ fn a_hundred_thousand_pairs_that_touch_or_miss_by_a_unit() {
     assert!((30_000..95_000).contains(&met), "{met}");
 }
 
-/// With corners in the middle of sides, the convex hull is the same.
+/// Tests that corners in the middle of sides do not change the convex hull.
 #[test]
 fn straight_corners_change_nothing() {
     let mut dice = dice(4);
@@ -96,7 +96,7 @@ fn straight_corners_change_nothing() {
     }
 }
 
-/// Returns the same polygon with additional corners in the middle of sides.
+/// Returns the same polygon with additional corners in the middle of sides, in both representations.
 fn padded(dice: &mut Dice, shape: &Shape<i128>, unit: f64) -> Shape<i128> {
     let n = shape.exact.len();
     let mut exact = Vec::new();
@@ -132,7 +132,7 @@ fn kinds_of_contact() {
     assert!(has_area(&square));
 }
 
-/// Points on the line of a wall, but beyond its ends, are outside.
+/// Tests that points on the line of a wall, but beyond its ends, are outside.
 #[test]
 fn a_wall_ends_where_its_ends_are() {
     let [from, to, beyond, farther] = [0.0, 3.0, 4.0, 5.0].map(|x| Point::new(x, x));

@@ -15,7 +15,7 @@ fn exact(p: Point) -> Exact {
     (number(p.x), number(p.y))
 }
 
-/// Returns zero, or any number of magnitude 1e-`most` to 1e`most`.
+/// Returns zero, or a random number of magnitude 1e-`most` to 1e`most`.
 fn coordinate(dice: &mut Dice, most: i32) -> f64 {
     let magnitude = 10_f64.powi(dice.about_zero(most.into()) as i32);
     let digits = match dice.below(4) {
@@ -76,7 +76,7 @@ fn points<const N: usize>(dice: &mut Dice, most: i32) -> [Point; N] {
     points
 }
 
-/// Compares this many draws of four points.
+/// Compares the results for `draws` random draws of four points.
 fn attack_segments(seed: u64, draws: usize, most: i32) {
     let mut dice = dice(seed);
     let mut counts = [0; 3];
@@ -99,7 +99,7 @@ fn attack_segments(seed: u64, draws: usize, most: i32) {
     assert!(counts.iter().all(|n| (draws / 50..draws).contains(n)), "{counts:?}");
 }
 
-/// Compares this many pairs of polygons.
+/// Compares the results for `draws` random pairs of polygons.
 fn attack_shapes(seed: u64, draws: usize, most: i32) {
     let mut dice = dice(seed);
     let mut met = 0;
@@ -128,7 +128,8 @@ fn shapes_from_1e_12_to_1e12() {
     attack_shapes(6, 400, 12);
 }
 
-/// The full range of the predicates' guarantee: products of differences neither overflow nor underflow.
+/// Tests the full range for which the predicates are guaranteed: products of differences neither overflow nor
+/// underflow.
 #[test]
 fn all_that_is_promised() {
     attack_segments(7, 2_000, 140);

@@ -31,7 +31,8 @@ impl<T: Number + Debug> Shape<T> {
         convex(self.points.clone(), 0.0)
     }
 
-    /// Compares points with this polygon: the side of every line, and the location.
+    /// Compares the library's results for points with the exact ones: the side of every line on which the point lies,
+    /// and its location in the polygon.
     pub fn check_point(&self, p: Point, exact: &Pair<T>) {
         let n = self.points.len();
         let found = point_penetration(p, &self.convex());
@@ -47,7 +48,8 @@ impl<T: Number + Debug> Shape<T> {
         }
     }
 
-    /// Compares all verdicts on this polygon and another. Returns true if they meet.
+    /// Compares all results of the library for this polygon and another with the exact ones. Returns true if the
+    /// polygons meet.
     pub fn check(&self, other: &Self) -> bool {
         let (a, b) = (self, other);
         let meet = exact::meet(&a.exact, &b.exact);
@@ -69,7 +71,7 @@ impl<T: Number + Debug> Shape<T> {
         meet
     }
 
-    /// The Minkowski difference is the hull of all differences, each rounded once.
+    /// Checks that the Minkowski difference is the hull of all differences, each rounded once.
     fn check_minkowski(&self, other: &Self) {
         let mut rounded = Vec::new();
         let mut exact = Vec::new();

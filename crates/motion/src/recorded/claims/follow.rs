@@ -4,15 +4,15 @@ use cplan_core::space::{Configuration, Path};
 use cplan_handling::Recording;
 
 /// Largest deviation of a motion from its path, in each joint, radians or metres. It is a thousand times the rounding
-/// of both, and equals the tolerance of blends.
+/// of either, and equals the tolerance of blends.
 pub(super) const PATH_TOLERANCE: f64 = 1e-6;
 
 /// Number of samples per piece of the motion.
 const SAMPLES_PER_PIECE: u8 = 4;
 
-/// Checks that a motion follows a path from beginning to end, by samples of the whole motion. At rounded corners it may
-/// deviate by half of `radius`, the greatest radius that the result states; without `radius`, corners must not be
-/// rounded.
+/// Checks, by samples of the whole motion, that a motion follows a path from beginning to end. At rounded corners it
+/// may deviate by half of `radius`, the greatest radius that the result states. If `radius` is `None`, corners must not
+/// be rounded.
 ///
 /// # Errors
 /// Returns a description of the deviation.
@@ -76,7 +76,8 @@ mod tests {
         follows(&Path::new(all(path)), &motion, radius).is_ok()
     }
 
-    /// One joint moves 100 m and turns back, while the other moves by less than the tolerance of cut corners.
+    /// Tests a joint that moves 100 m and turns back, while the other joint moves by less than the tolerance of cut
+    /// corners.
     #[test]
     fn legs_that_turn_back_are_followed_to_the_end() {
         let path = [[0.0, 0.0], [1.0, 100.0], [1.6, 60.0], [5.0, 60.0]];

@@ -23,21 +23,21 @@ const NUMBER_TOLERANCE: f64 = 1e-9;
 /// and far less than the precision of grippers.
 const TIME_TOLERANCE: f64 = 1e-6;
 
-/// A claim that is false.
+/// A statement in a result that is false.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{claim}: {why}")]
 pub struct FalseClaim {
-    /// Name of the member of the result that makes the claim.
+    /// Name of the JSON member that makes the statement.
     pub claim: String,
-    /// The reason why the claim is false, in words.
+    /// The reason why the statement is false, in words.
     pub why: String,
 }
 
-/// Collects false claims.
+/// A list of the false claims that were found.
 #[derive(Default)]
 struct Ledger {
     found: Vec<FalseClaim>,
-    /// Prefix of the members' names.
+    /// Prefix of the members' names, such as that of a step.
     within: String,
 }
 
@@ -46,21 +46,22 @@ impl Ledger {
         self.found.push(FalseClaim { claim: format!("{}{claim}", self.within), why });
     }
 
-    /// Checks a claim that must equal a value.
+    /// Checks a stated value that must equal an actual one.
     fn same<T: PartialEq + Display>(&mut self, claim: &str, stated: &T, is: &T) {
         if stated != is {
             self.note(claim, format!("stated as {stated}, but it is {is}"));
         }
     }
 
-    /// Checks a stated number that must equal a recomputed one up to `within`.
+    /// Checks a stated number that may differ from the actual number `is` by at most `within`.
     fn number(&mut self, claim: &str, stated: Option<f64>, is: f64, within: f64) {
         if let Some(stated) = stated.filter(|stated| (stated - is).abs() > within) {
             self.note(claim, format!("stated as {stated}, but it is {is}"));
         }
     }
 
-    /// Checks that a bound is not above a length or a time, and that the stated gap is their ratio minus 1.
+    /// Checks that a stated lower bound does not exceed a length or a time, and that the stated gap is their ratio
+    /// minus 1.
     fn gap(&mut self, at: &str, length: f64, lower_bound: Option<f64>, gap: Option<f64>) {
         let Some(bound) = lower_bound else { return };
         if bound.is_nan() || bound > length * (1.0 + NUMBER_TOLERANCE) {
@@ -129,7 +130,8 @@ impl Ledger {
         }
     }
 
-    /// Checks a stated clearance in a scene, by the check of the motion with the required clearance.
+    /// Checks a stated clearance in a scene. Uses the check of the motion with the required clearance, and if necessary
+    /// one with the stated clearance.
     fn clearance(
         &mut self,
         stated: Option<Option<f64>>,
@@ -164,7 +166,8 @@ impl Ledger {
     }
 }
 
-/// Returns a distance below the stated one somewhere on the motion, with its pair.
+/// Returns a place on the motion where the distance is below the stated one, with the pair of shapes. `None` if there
+/// is none.
 fn nearer(
     scene: TimedScene,
     recording: &Recording,
@@ -185,9 +188,13 @@ fn nearer(
 
 /// Returns the false claims of a result, given the collision check `found` of its motion with the scene's clearance.
 ///
-/// It checks that there is a motion (`status`, `certified`), `units`, `duration`, that the motion follows the `path`,
-/// that the path itself is free and as long as stated, that no obstacle is nearer than the stated `clearance`, and that
-/// bounds and gaps agree with lengths. It does not check that lower bounds are valid.
+/// The function checks:
+/// - that there is a motion (`status`, `certified`), and its `units` and `duration`;
+/// - that the motion follows the `path`, and that the path itself is free and as long as stated;
+/// - that no obstacle is nearer than the stated `clearance`;
+/// - that bounds and gaps agree with lengths.
+///
+/// It does not check that lower bounds are valid.
 #[must_use]
 pub fn false_claims<'a>(
     scene: impl Into<TimedScene<'a>>,

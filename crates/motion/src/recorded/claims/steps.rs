@@ -98,7 +98,8 @@ pub fn false_task_claims(
 }
 
 impl Ledger {
-    /// Checks a stated clearance of a turn of the wrist. The proven distance is a bound with a known resolution.
+    /// Checks a stated clearance of a turn of the wrist. The replay proves a lower bound on it, with a known
+    /// resolution.
     fn turn(&mut self, task: &Task, replayed: &ReplayedStep, stated: Option<Option<f64>>, claim: &str) {
         let (Some(stated), Some(Ok(free))) = (stated, replayed.turn.map(|turn| turn.verdict)) else { return };
         let most = free.clearance + turn_resolution(&task.arm, task.workspace.fixed.clearance);

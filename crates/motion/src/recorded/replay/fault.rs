@@ -32,7 +32,7 @@ pub enum Fault {
     /// The placed object is not at its required place.
     #[error("the object's origin ends {off:.6} m from its target")]
     Origin {
-        /// Distance of the object from there, metres.
+        /// Distance of the placed object from its required place, metres.
         off: f64,
     },
     /// The placed object does not have its required orientation.
@@ -49,7 +49,7 @@ pub enum Fault {
         /// The required rest: for the step's dwell, the turn of the wrist and the stroke of the tool.
         asked: f64,
     },
-    /// The wrist turns from an orientation that the object does not have.
+    /// The recorded turn of the wrist begins at an orientation that the object does not have.
     #[error("the recorded turn of the wrist begins {off:.6} rad away from the object's orientation")]
     Turn {
         /// Difference from that orientation, radians.
@@ -66,12 +66,12 @@ pub enum Fault {
     /// The world has no wrist that could turn.
     #[error("the wrist turns, but the world has no wrist")]
     NoWrist,
-    /// There is no carried object that a wrist could turn.
+    /// No object is carried that a wrist could turn.
     #[error("the wrist turns, but holds no level object")]
     Nothing,
 }
 
-/// The point at which a record departs from the sequence of its task.
+/// The point at which the recorded steps deviate from the sequence of the task.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum OrderDeviation {
     /// Another step was required.
@@ -115,7 +115,7 @@ pub enum OrderDeviation {
 }
 
 impl OrderDeviation {
-    /// Returns the number of recorded steps before it.
+    /// Returns the number of recorded steps before the deviation.
     #[must_use]
     pub fn index(&self) -> usize {
         match *self {

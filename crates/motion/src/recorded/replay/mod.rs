@@ -20,15 +20,15 @@ use cplan_handling::{Action, ObstacleTrajectory, RecordedStep, RecordedTurn, Rec
 use order::{MatchedStep, matched};
 use state::{State, stroke_seconds};
 
-/// Largest difference between an actual and a required place, metres or radians: a thousand times the error of inverse
-/// kinematics, and below the repeatability of any arm.
+/// Largest difference between an actual and a required place, metres or radians. It is a thousand times the error of
+/// inverse kinematics, and below the repeatability of any arm.
 pub(super) const PLACE_TOLERANCE: f64 = 1e-6;
 
-/// Largest amount by which times may be too short, seconds: far above the rounding of clocks and rests too short to be
-/// sampled, far below the precision of grippers.
+/// Largest amount by which times may be too short, seconds. It is far above the rounding of clocks and above rests that
+/// are too short to be sampled. It is far below the precision of grippers.
 const TIME_TOLERANCE: f64 = 1e-6;
 
-/// A turn of the wrist that was judged.
+/// A turn of the wrist that was checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReplayedTurn {
     /// The recorded turn.
@@ -55,7 +55,7 @@ pub struct GripperEvent {
     pub pose: Option<Pose>,
 }
 
-/// A step that was judged.
+/// A recorded step that was checked.
 #[derive(Debug, Clone)]
 pub struct ReplayedStep<'a> {
     /// The required step.
@@ -80,7 +80,7 @@ pub struct ReplayedStep<'a> {
     pub event: Option<GripperEvent>,
     /// The check of the motion among the obstacles of the scene; moments are those of the whole recording.
     pub collision_check: CollisionCheck,
-    /// Violations of joint limits. The joints' own limits count, even if the step states a lower speed.
+    /// Violations of joint limits. The joints' own limits apply, even if the step states a lower speed.
     pub broken: Vec<LimitViolation>,
     /// The turn of the wrist after the motion. Also `None` if a turn was recorded without a payload, which is a fault.
     pub turn: Option<ReplayedTurn>,
@@ -88,7 +88,7 @@ pub struct ReplayedStep<'a> {
     pub faults: Vec<Fault>,
 }
 
-/// An iterator that judges recorded steps, one after the other.
+/// An iterator that checks recorded steps, one after the other.
 #[derive(Debug, Clone)]
 pub struct Replay<'a> {
     task: &'a Task,
@@ -101,13 +101,12 @@ pub struct Replay<'a> {
 }
 
 /// Matches the steps of a record with those of the task. Steps must come in the task's order, except that pairs of a
-/// free group may come in any order. The arm must be at rest between steps. Iteration then judges each step, up to the
-/// point where the record departs from the task. It judges:
-///
+/// free group may come in any order. The arm must be at rest between steps. Iteration then checks each step, up to the
+/// point where the record deviates from the task. It checks:
 /// - Each motion from rest to rest, by [`check_collision`] with the workspace's clearance, and by [`limit_violations`].
 ///   Objects are where previous steps have left them, and the load has the pose in which it was taken. Link 2 may touch
 ///   the object that it takes, and the object that it released last. Payloads may rest on their supports. The state
-///   after the last step is judged as well.
+///   after the last step is checked as well.
 /// - Moving obstacles, which move on the clock of the record from its first sample on. Moving objects must be picked
 ///   within their windows of time, and the resting arm must stay free between motions.
 /// - The end of each step. The tip must be at the grasp, and the object or the arm at its target, within a micrometre.
@@ -131,13 +130,14 @@ impl Replay<'_> {
         [since(*recorded.samples.start()), since(*recorded.samples.end()), since(self.next_begins(index))]
     }
 
-    /// Returns the first sample of the next step, or the last sample.
+    /// Returns the index of the first sample of the next step, or of the last sample if there is no next step.
     fn next_begins(&self, index: usize) -> usize {
         let last = self.recording.positions().len() - 1;
         self.recorded.get(index + 1).map_or(last, |next| *next.samples.start())
     }
 
-    /// Returns the point where the record departs from the sequence of the task, or `None` if it is the whole task.
+    /// Returns the point where the record deviates from the sequence of the task. `None` if the record is the whole
+    /// task.
     #[must_use]
     pub fn departure(&self) -> Option<&OrderDeviation> {
         self.departure.as_ref()
@@ -288,7 +288,7 @@ fn same(task: &Task, a: Configuration, b: Configuration) -> bool {
     task.arm.topology().displacement(a, b).amax() <= PLACE_TOLERANCE
 }
 
-/// Returns the distance of a motion's end from the goal of a move.
+/// Returns the difference between a motion's end and the goal of a move. `None` if the goal is reached.
 fn missed(task: &Task, q: Configuration, goal: &Goal) -> Option<Fault> {
     match goal {
         Goal::Joints(target) => (!same(task, q, *target)).then_some(Fault::Joints { is: q, target: *target }),
@@ -305,7 +305,8 @@ pub(super) fn angle_between(a: f64, b: f64) -> f64 {
     JointRange::Circle.displacement(b, a).abs()
 }
 
-/// Returns the check with samples counted from the beginning of the whole recording.
+/// Returns the check with the indices of samples increased by `by`, so that they count from the beginning of the whole
+/// recording.
 fn shifted(mut collision_check: CollisionCheck, by: usize) -> CollisionCheck {
     match &mut collision_check {
         CollisionCheck::Free { nearest, .. } => nearest.iter_mut().for_each(|nearest| nearest.moment.sample += by),

@@ -10,11 +10,11 @@ pub(super) struct MatchedStep<'a> {
     pub step: &'a Step,
     /// Objects that are supplied before the step.
     pub renewed: Vec<usize>,
-    /// Rest after the step's motion, seconds. `None` if the record departs from the task after the step.
+    /// Rest after the step's motion, seconds. `None` if the record deviates from the task after the step.
     pub rest: Option<f64>,
 }
 
-/// Returns the steps of the task in the order of the record, up to the point where it departs from the task.
+/// Returns the steps of the task in the order of the record, up to the point where the record deviates from the task.
 pub(super) fn matched<'a>(
     task: &'a Task,
     recording: &Recording,
@@ -52,11 +52,11 @@ pub(super) fn matched<'a>(
     (all, None)
 }
 
-/// Returns the seconds of rest from one sample to another.
+/// Returns the duration, in seconds, of the rest from one sample to another.
 ///
 /// # Errors
-/// The sample at or after which it moves. There is no tolerance for rounding: at rest all positions are equal and
-/// velocities 0.
+/// The sample at which the arm moves, or after which its place has changed. There is no tolerance for rounding: at rest
+/// all positions are equal and velocities 0.
 fn stands(recording: &Recording, first: usize, last: usize) -> Result<f64, usize> {
     let (positions, zero) = (recording.positions(), Configuration::zeros());
     for sample in first..last {
@@ -68,7 +68,7 @@ fn stands(recording: &Recording, first: usize, last: usize) -> Result<f64, usize
     Ok(recording.times().map_or(0.0, |times| times[last] - times[first]))
 }
 
-/// The next items of a task.
+/// The items of a task that remain.
 struct Order<'a> {
     items: &'a [Item],
     item: usize,
@@ -80,7 +80,7 @@ struct Order<'a> {
 }
 
 impl<'a> Order<'a> {
-    /// Advances to the next item with a step.
+    /// Skips finished items, up to the next one that has a step.
     fn advance_past_done(&mut self) {
         while self.open.is_empty() && self.half.is_none() {
             match self.items.get(self.item) {

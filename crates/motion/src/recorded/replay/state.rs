@@ -50,7 +50,7 @@ impl State {
         self.held.as_ref().map(|payload| payload.object)
     }
 
-    /// Returns the object that was released last. `None` after a motion since then.
+    /// Returns the object that was released last. `None` after the next motion.
     pub fn released(&self) -> Option<usize> {
         self.released
     }
@@ -60,13 +60,13 @@ impl State {
         task.scene(&self.poses, &self.moving, self.held.as_ref(), self.released.into_iter().chain(touched))
     }
 
-    /// Returns the trajectories of the moving obstacles, on a clock that begins at a time of the task's.
+    /// Returns the trajectories of the moving obstacles, on a clock that starts at the time `begin` of the task.
     pub fn courses(&self, task: &Task, begin: f64) -> Vec<ObstacleTrajectory> {
         task.courses_since(&self.moving, begin)
     }
 
-    /// Takes the object that a step picks with the arm at `q`, in the current relative pose. `then` lists its next
-    /// supports. Returns the difference from the required grasp.
+    /// Grasps the object that a step picks, with the arm at `q`. The object keeps its current pose relative to the
+    /// gripper. `then` lists its next supports. Returns the difference from the required grasp.
     pub fn grasp(&mut self, task: &Task, q: Configuration, step: &Step, grasp: Point, then: &[usize]) -> Option<Fault> {
         let Action::Pick { object, supports, .. } = &step.action else { return None };
         let (object, arm) = (*object, &task.arm);
@@ -110,13 +110,13 @@ impl State {
         task.lowered_scene(payload.object, is_placed, &self.poses, Some(payload), self.released)
     }
 
-    /// Forgets the released object.
+    /// Forgets the object that was released last, since the arm has moved.
     pub fn moved(&mut self) {
         self.released = None;
     }
 
-    /// Judges and performs a turn of the wrist with the arm at `q`. Returns `None` if nothing can turn. Adds its
-    /// faults.
+    /// Checks and performs a turn of the wrist with the arm at `q`. Returns `None` if there is no object or no wrist
+    /// that could turn. Adds its faults to the list.
     pub fn turn(
         &mut self,
         task: &Task,
@@ -153,7 +153,7 @@ impl State {
     }
 }
 
-/// Returns the least seconds in which the tool moves down to an object and up again.
+/// Returns the least time, in seconds, in which the tool moves down to an object and up again.
 pub(super) fn stroke_seconds(task: &Task, object: usize) -> f64 {
     task.stroke.as_ref().map_or(0.0, |stroke| {
         let depth = stroke.depth(&task.objects[object]).abs();
@@ -161,8 +161,8 @@ pub(super) fn stroke_seconds(task: &Task, object: usize) -> f64 {
     })
 }
 
-/// Returns the least seconds for a distance from rest to rest: up to the top speed, at top speed, and down; or, if the
-/// distance is too short, up and down.
+/// Returns the least time, in seconds, for a distance from rest to rest. The motion speeds up, moves at top speed, and
+/// slows down. If the distance is too short for the top speed, it only speeds up and slows down.
 fn least_seconds(distance: f64, velocity: f64, acceleration: f64) -> f64 {
     let ramps = velocity * velocity / acceleration;
     if distance > ramps {

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-/// Number of samples along a line at which the shapes are compared.
+/// Number of samples along a line at which the distance of the shapes is computed.
 const SAMPLES: usize = 96;
 
 /// A test case: a link, an obstacle, and two slices.
@@ -21,7 +21,7 @@ struct Case {
     others: [f64; 2],
 }
 
-/// A thin segment, a capsule, a disc or a polygon; segments begin at the origin.
+/// Generates a thin segment, a capsule, a disc or a polygon. Segments begin at the origin.
 fn shape(spread: f64) -> impl Strategy<Value = Convex> {
     let at = move || (-spread..spread, -spread..spread).prop_map(|(x, y)| Point::new(x, y));
     let thin = at().prop_map(|end| Convex::trusted(vec![Point::zeros(), end], 0.0));
@@ -63,7 +63,7 @@ fn scene(turns: [bool; 2], ranges: [JointRange; 2], offset: Vector, part: Convex
     Scene::trusted(arm, Workspace { name, obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
-/// All kinds of arms, including those with joint 2 on the axis of joint 1.
+/// Generates cases with all kinds of arms, including those with joint 2 on the axis of joint 1.
 fn case() -> impl Strategy<Value = Case> {
     let far = JointRange::Interval { lower: -4.0, upper: 5.0 };
     let arm = ([any::<bool>(); 2], any::<bool>(), prop_oneof![Just((0.0, 0.0)), (-0.7..0.7_f64, -0.7..0.7_f64)]);
@@ -147,7 +147,8 @@ impl Case {
 proptest! {
     #![proptest_config(cplan_cases::cases(10))]
 
-    /// Also requires that a good part of the lines is reported as closed.
+    /// Tests that motions reported as closed collide everywhere, and that a good part of the lines is reported as
+    /// closed.
     #[test]
     fn reported_closed_motions_collide_everywhere(cases in prop::collection::vec(case(), 60)) {
         let (mut lines, mut closed_lines) = (0, 0);

@@ -49,8 +49,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     Ok(scene.points)
 }
 
-/// Returns the text from its XML declaration on, if only comments precede that. XML does not allow comments there, but
-/// some programs write them.
+/// Returns the text from its XML declaration on, if only comments precede the declaration. XML does not allow comments
+/// there, but some programs write them.
 fn from_declaration(text: &str) -> &str {
     let text = text.trim_start_matches('\u{feff}');
     let mut rest = text.trim_start();
@@ -83,7 +83,7 @@ impl<'a, 'i> Scene<'a, 'i> {
         self.ids.get(id).copied()
     }
 
-    /// Reads the nodes and geometries in a node. `pose` maps its coordinates to those of the file.
+    /// Reads the nodes and geometries in a node. `pose` maps the node's coordinates to those of the file.
     fn children(&mut self, node: Node<'a, 'i>, pose: &Matrix4<f64>, depth: usize) -> Result<(), String> {
         self.nodes += 1;
         if depth > MAX_NODE_DEPTH || self.nodes > MAX_NODES {
@@ -140,8 +140,8 @@ fn numbers(node: Node) -> Result<Vec<f64>, String> {
     words.map(|word| word.parse().map_err(|_| format!("\"{word}\" is not a number"))).collect()
 }
 
-/// Returns the map from a node's coordinates to those of its parent: the product of its transformations, of which the
-/// last is applied first.
+/// Returns the map from a node's coordinates to those of its parent. It is the product of the node's transformations,
+/// of which the last one is applied first.
 fn transform(node: Node) -> Result<Matrix4<f64>, String> {
     let mut all = Matrix4::identity();
     for part in node.children() {

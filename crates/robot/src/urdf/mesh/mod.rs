@@ -77,7 +77,7 @@ pub(super) fn read(filename: &str, scale: [f64; 3], document: &Document) -> Resu
     }
 }
 
-/// Returns the error about a vertex that is not finite after scaling, or too far away for any arm.
+/// Returns the error about a vertex that is not finite after scaling, or is too far away for any arm.
 fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> UnreadableMesh {
     let [x, y, z] = vertex.coords.into();
     let [a, b, c] = scale;

@@ -47,8 +47,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
     Ok(mesh)
 }
 
-/// Returns the content of a line that continues on the next line, which a final backslash announces. Comments end with
-/// their line, because they may contain Windows paths.
+/// Returns the content of a line that continues on the next line, because it ends in a backslash. Returns `None` for
+/// other lines. Comments do not continue, because they may contain Windows paths.
 fn continued(line: &[u8]) -> Option<&[u8]> {
     line.trim_ascii_end().strip_suffix(b"\\").filter(|begun| !begun.trim_ascii_start().starts_with(b"#"))
 }

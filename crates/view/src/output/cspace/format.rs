@@ -15,9 +15,9 @@ pub enum CSpaceFormat {
 }
 
 impl CSpaceFormat {
-    /// Returns the format for a file name, in upper or lower case. JSON and CSV are for the names `cspace.json` and
-    /// `cspace.csv`, and for those that end in `.cspace.json` and `.cspace.csv`; GeoJSON for names that end in
-    /// `.geojson`. Returns `None` for other names.
+    /// Returns the format for a file name, in upper or lower case. `cspace.json`, and names that end in `.cspace.json`,
+    /// mean JSON. `cspace.csv`, and names that end in `.cspace.csv`, mean CSV. Names that end in `.geojson` mean
+    /// GeoJSON. Returns `None` for other names.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
         let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
@@ -31,7 +31,7 @@ impl CSpaceFormat {
         }
     }
 
-    /// Returns the file's text; `None` for a matrix if there is no grid.
+    /// Returns the text of the file. `None` for a matrix if there is no grid.
     #[must_use]
     pub fn text(self, spaces: &CSpaces) -> Option<String> {
         match self {

@@ -3,8 +3,9 @@
 use super::FieldGrid;
 
 impl FieldGrid {
-    /// Returns the values in the arrangement of a picture, separated by commas: joint 1 from left to right, joint 2
-    /// from the last line to the first. Blocked cells have `inf`, free ones without a value `nan`.
+    /// Returns the values as lines of text, arranged as in a picture and separated by commas. Joint 1 increases from
+    /// left to right, and joint 2 from the last line to the first. Blocked cells have `inf`, free ones without a value
+    /// `nan`.
     pub(super) fn matrix(&self) -> String {
         let [columns, rows] = self.shape;
         let value = |cell: usize| match self.values.get(cell) {

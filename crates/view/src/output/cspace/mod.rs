@@ -147,7 +147,7 @@ pub fn cspace_schema() -> serde_json::Value {
     schema
 }
 
-/// Returns the planner's configuration space as data. It traces the C-obstacles again, which takes as long as for a
+/// Returns the planner's configuration space as data. Computes the C-obstacles again, which takes as long as for a
 /// picture.
 #[must_use]
 pub fn cspaces(plan: &Plan) -> CSpaces {
@@ -297,7 +297,7 @@ impl CSpace {
 }
 
 /// Largest growth of obstacles, as a multiple of the tolerance of pictures. It is the sum of the margin itself, twice
-/// the flattening error, and two margins more around shapes with many corners (see [`cspace::c_obstacles`]).
+/// the flattening error, and two more margins around shapes with many corners (see [`cspace::c_obstacles`]).
 const MAX_GROWTH: f64 = 5.0;
 
 impl PathData {
@@ -307,7 +307,7 @@ impl PathData {
     }
 }
 
-/// Returns a space for each world, in the order of the arm's motion; the space of the failed step comes last.
+/// Returns a space for each world, in the order of the arm's motion. The space of a failed step comes last.
 fn spaces_of_task(task: &Task, answer: &TaskAnswer, is_exact: bool) -> Vec<CSpace> {
     let mut scenes: Vec<&Arc<Scene>> = Vec::new();
     let mut spaces: Vec<CSpace> = Vec::new();

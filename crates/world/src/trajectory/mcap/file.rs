@@ -6,14 +6,15 @@ use mcap::{Channel, McapError, McapResult};
 use std::borrow::Cow;
 use std::io::Read;
 
-/// Largest number of bytes of a decompressed chunk. Recorders begin a new chunk after some megabytes. The limit stops
+/// Largest number of bytes of a decompressed chunk. Recorders begin a new chunk after some megabytes. The limit refuses
 /// files that claim more than fits into memory.
 const MAX_CHUNK_BYTES: u64 = 256 << 20;
 
-/// Calls `visit` with the channel, the log time in nanoseconds and the content of each message, in the order of the file.
+/// Calls `visit` with the channel, the log time in nanoseconds and the content of each message, in the order of the
+/// file.
 ///
 /// # Errors
-/// Files that are no MCAP, end early or are compressed by an unknown method.
+/// Files that are not MCAP, end too early, or are compressed by an unknown method.
 pub(super) fn each_message(bytes: &[u8], mut visit: impl FnMut(&Channel, u64, &[u8])) -> McapResult<()> {
     let mut channels = ChannelAccumulator::default();
     let mut take = |record: Record, channels: &mut ChannelAccumulator<'static>| -> McapResult<()> {
@@ -47,7 +48,7 @@ pub(super) fn each_message(bytes: &[u8], mut visit: impl FnMut(&Channel, u64, &[
     Ok(())
 }
 
-/// Returns the decompressed records of a chunk, with a header that describes them.
+/// Returns the decompressed records of a chunk, with a header that fits them.
 fn decompressed(header: ChunkHeader, data: &[u8]) -> McapResult<(ChunkHeader, Cow<'_, [u8]>)> {
     let wrong = |why: String| McapError::DecompressionError(why);
     let size = header.uncompressed_size;

@@ -23,20 +23,20 @@ impl Kind {
     }
 }
 
-/// A sample: its time, and the positions, velocities and accelerations of all joints. Velocities and accelerations may
-/// be empty.
+/// A sample: its time in nanoseconds, and the positions, velocities and accelerations of all joints. Velocities and
+/// accelerations may be empty.
 pub(super) struct Row {
     pub nanoseconds: i64,
     pub values: [Vec<f64>; 3],
 }
 
-/// A message: the times of its stamp and of its recording in nanoseconds, the names of the joints, and its samples.
+/// A message: its time stamp and the time of its recording in nanoseconds, the names of the joints, and its samples.
 pub(super) struct Message {
-    /// Time of the stamp; 0 if the message has none.
+    /// Time stamp of the message, nanoseconds; 0 if it has none.
     pub stamp: i64,
     pub logged: i64,
     pub joints: Rc<[String]>,
-    /// The samples. The times of a trajectory count from the message's own time; that of a state is 0.
+    /// The samples. The times of a trajectory count from the message's own time. The sample of a state has time 0.
     pub rows: Vec<Row>,
 }
 

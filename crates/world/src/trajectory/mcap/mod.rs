@@ -11,8 +11,8 @@ use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use message::{Kind, Message, Row};
 use topics::Topic;
 
-/// Reads a recording: consecutive motions, between which the arm stands still, or states. The topic is the `asked` one,
-/// or the one that [`topics::choose`] chooses.
+/// Reads a recording. It consists of consecutive motions, between which the arm stands still, or of states. If the
+/// topic `asked` is given, it is read; otherwise [`topics::choose`] chooses one.
 ///
 /// # Errors
 /// Files that are not MCAP, no topic or several topics with the arm's joints, invalid messages, and motions that do not
@@ -28,10 +28,10 @@ pub(super) fn read(source: &Source, bytes: &[u8], asked: Option<&str>, names: &N
     Ok(samples)
 }
 
-/// Returns the messages that have both of the arm's joints, with their times and sorted by these, and the other
-/// messages.
+/// Returns the messages that have both of the arm's joints, sorted by time, and the other messages. Each of the former
+/// comes with its time.
 ///
-/// The time of a message is that of its stamp, or that of its recording if any message lacks a stamp.
+/// The time of a message is its stamp. If any message lacks a stamp, it is the time of recording for all of them.
 fn in_time(topic: &mut Topic, arm: [&str; 2]) -> (Vec<(i64, Message)>, Vec<Message>) {
     let (messages, others): (Vec<Message>, Vec<Message>) = std::mem::take(&mut topic.messages)
         .into_iter()
@@ -117,7 +117,7 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
     Ok(Samples { what: format!("point on {name}").into(), joined: Some(Interpolation::Quintic), rests, ..samples })
 }
 
-/// Rows of values of the same joints, collected from messages.
+/// Rows of values of some joints, collected from messages.
 struct Table<'a> {
     source: &'a Source,
     topic: &'a str,
@@ -127,7 +127,7 @@ struct Table<'a> {
     others: Vec<String>,
     /// Values in the order of `joints`.
     rows: Vec<Row>,
-    /// All values of the other joints, at whatever times.
+    /// All values of the other joints, with no regard to times.
     aside: Vec<(String, Vec<f64>)>,
 }
 

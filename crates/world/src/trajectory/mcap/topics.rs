@@ -7,7 +7,8 @@ use mcap::{McapError, McapResult};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// Message types that display a motion instead of stating joint values. Recordings that cplan writes have such topics.
+/// Message types that display a motion and do not state joint values. Recordings that cplan writes have topics of these
+/// types.
 const DISPLAY_TYPES: [&str; 3] =
     ["tf2_msgs/msg/TFMessage", "visualization_msgs/msg/MarkerArray", "sensor_msgs/msg/PointCloud2"];
 
@@ -20,8 +21,7 @@ pub(super) struct Topic {
     pub kind: Option<Kind>,
     /// Messages of a known kind that have positions, in the order of the file.
     pub messages: Vec<Message>,
-    /// Time in nanoseconds at which the first message was recorded that does not fit the type. `None` if all messages
-    /// fit.
+    /// Time of recording, in nanoseconds, of the first message that does not fit the type. `None` if all messages fit.
     broken: Option<u64>,
 }
 
@@ -31,7 +31,7 @@ impl Topic {
         self.messages.iter().any(|message| arm.iter().all(|joint| message.names(joint)))
     }
 
-    /// Formats name, type and joints of the topic for a list.
+    /// Formats name, type and joints of the topic for a list in a message.
     fn described(&self) -> String {
         let schema = if self.schema.is_empty() { "no type" } else { &self.schema };
         let mut joints: Vec<&String> = Vec::new();
@@ -75,8 +75,9 @@ pub(super) fn all(bytes: &[u8]) -> McapResult<Vec<Topic>> {
     Ok(topics.into_values().collect())
 }
 
-/// Chooses the topic to judge, and returns notes about the others. If a topic is requested, it is chosen. Otherwise the
-/// only motion topic with both of the arm's joints is chosen; if there is none, the only state topic with them.
+/// Chooses the topic to read, and returns notes about the others. A requested topic is chosen. Otherwise, the only
+/// motion topic with both of the arm's joints is chosen. If there is no such topic, the only state topic with both
+/// joints is chosen.
 ///
 /// # Errors
 /// No topic or several topics qualify, or a message of the topic is damaged. The error lists all topics with their
@@ -133,7 +134,7 @@ pub(super) fn choose(
     Ok((topic, notes))
 }
 
-/// Returns the note about a topic with joint values that is not judged.
+/// Returns the note about a topic with joint values that is not read.
 fn not_judged(other: &Topic, judged: &Topic) -> String {
     let why = match (judged.kind, other.kind) {
         (Some(Kind::Trajectory), Some(Kind::State)) => "is the one that a controller executes",
