@@ -64,7 +64,7 @@ fn samples_follow_from_the_seed() {
     let [few, more] =
         [100, 400].map(|n| length(&json(&format!("--planner prm --path own --nearest 1000 --samples {n}"))));
     assert!(more <= few, "{few} {more}");
-    let report = String::from_utf8(cplan("--planner prm --search greedy --backward").stdout).expect("text");
+    let report = String::from_utf8(cplan("--planner prm --search greedy --backward --verbose").stdout).expect("text");
     assert!(report.contains("prm (greedy, backward): "), "{report}");
 }
 

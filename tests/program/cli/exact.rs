@@ -73,7 +73,7 @@ fn margin_0_keeps_flat_sides_where_corners_are_round() {
 fn a_path_that_touches_exact_polygons_is_not_what_is_certified() {
     let place = Place::new();
     for planner in ["shortest", "visibility", "visibility --graph full"] {
-        let done = place.run(&maze(), &format!("--margin 0 --planner {planner}"));
+        let done = place.run(&maze(), &format!("--margin 0 --planner {planner} --verbose"));
         assert_eq!(done.code, 0, "{}", done.stderr);
         let output: Vec<&str> = done.stdout.lines().filter(|line| line.starts_with("exact")).collect();
         assert!(
@@ -87,7 +87,7 @@ fn a_path_that_touches_exact_polygons_is_not_what_is_certified() {
         assert!(result["certified"] == true && clearance > 0.0, "{clearance}");
         assert!(length > exact - 1e-4 && length < exact * (1.0 + 1e-3), "{length} {exact}");
     }
-    let own = place.run(&maze(), "--margin 0 --planner trapezoid --path own");
+    let own = place.run(&maze(), "--margin 0 --planner trapezoid --path own --verbose");
     assert!(own.stdout.contains("the path was planned among the exact polygons and touches none"), "{}", own.stdout);
 }
 
@@ -117,7 +117,7 @@ fn the_full_visibility_graph_of_the_maze_has_all_arcs() {
     assert_eq!(of(""), (11, "reduced".to_owned()));
     assert_eq!(of("--search dijkstra").1, "reduced");
     assert_eq!(of("--graph full"), (64, "full".to_owned()));
-    let done = place.run(&maze(), "--planner visibility --graph full --picture graph.svg");
+    let done = place.run(&maze(), "--planner visibility --graph full --verbose --picture graph.svg");
     assert!(done.stdout.contains("visibility (astar, full graph): 26 nodes, 64 edges"), "{}", done.stdout);
     assert!(place.read("graph.svg").contains("full visibility graph"));
     place.run(&maze(), "--planner visibility --picture graph.svg");

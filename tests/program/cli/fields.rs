@@ -167,7 +167,7 @@ fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {
         let field = &done.json()["field"];
         let named = if escape == "walk" { "walk:1" } else { escape };
         assert!(field["escape"] == named && field["escaped"].as_u64() >= Some(1), "{field}");
-        let text = place.run(&cup, &format!("{} {options}", forces.replace("--json", ""))).stdout;
+        let text = place.run(&cup, &format!("{} --verbose {options}", forces.replace("--json", ""))).stdout;
         assert!(text.contains(report) && text.contains(&format!(", escape {named}; limits high")), "{options}: {text}");
     }
 }
@@ -183,7 +183,7 @@ fn regions_of_the_world_are_followed() {
         assert_eq!(done.code, 0, "{}", done.stderr);
         assert_eq!(done.json()["field"]["equation"], json!(field));
     }
-    let text = place.plan(&world, "--planner harmonic --cells 48 --field local --picture field.svg").stdout;
+    let text = place.plan(&world, "--planner harmonic --cells 48 --field local --verbose --picture field.svg").stdout;
     assert!(
         text.contains("field      oriented by region, central differences; gauss-seidel, corners; limits high"),
         "{text}"
@@ -257,7 +257,7 @@ fn on_map(map: &str, options: &str) -> (u64, u64) {
     let result = done.json();
     assert_eq!((&result["status"], &result["field"]["converged"]), (&json!("found"), &json!(true)), "{map} {options}");
     let all = result["size"]["sweeps"].as_u64().unwrap();
-    let text = place.run(&files, &format!("--planner harmonic --cells 100 {options}")).stdout;
+    let text = place.run(&files, &format!("--planner harmonic --cells 100 --verbose {options}")).stdout;
     let first =
         text.split_once("the measure was met after ").and_then(|(_, rest)| rest.split(' ').next()?.parse().ok());
     (first.unwrap_or(all), all)

@@ -118,7 +118,7 @@ fn coarse_grids_are_kept_or_refused_with_the_reason() {
     assert_eq!(space(&place)["grid"]["shape"], serde_json::json!([16, 16]));
     let reason = done.json()["reason"].as_str().unwrap().to_owned();
     assert!(reason.contains("16 x 16 cells") && reason.ends_with("more --cells or --levels may find one"), "{reason}");
-    let more = place.run(&shelf(), "--planner wavefront --cells 16 --levels 6");
+    let more = place.run(&shelf(), "--planner wavefront --cells 16 --levels 6 --verbose");
     assert_eq!(more.code, 0, "{}", more.stderr);
     assert!(more.stdout.contains("32 x 32: 16 x 16 show no certified path"), "{}", more.stdout);
     // The option does not affect planners without cells.

@@ -22,7 +22,7 @@ fn init(place: &Place, kind: &str) -> Done {
 #[test]
 fn the_demo_needs_no_files() {
     let place = Place::new();
-    let done = place.run(&["demo"], "");
+    let done = place.run(&["demo"], "--verbose");
     assert_eq!((done.code, done.stderr.as_str()), (0, ""));
     for part in ["arm        scara (RR)", "found and certified", "file       plan.json", "next       open plan.html"] {
         assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
@@ -87,8 +87,9 @@ fn what_init_writes_can_be_planned_at_once() {
                     assert_eq!(ran.stdout.matches("found").count(), Method::ALL.len(), "{kind}: {}", ran.stdout)
                 }
                 _ => {
-                    assert!(ran.stdout.contains(&format!("({arm})")), "{}", ran.stdout);
                     assert!(ran.stdout.contains("found and certified"), "{}", ran.stdout);
+                    let verbose = place.run(&words, "--verbose").stdout;
+                    assert!(verbose.contains(&format!("({arm})")), "{verbose}");
                 }
             }
         }

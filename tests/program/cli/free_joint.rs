@@ -98,9 +98,10 @@ fn without_obstacles_only_the_joint_that_matters_moves() {
         let gap = result["optimum"]["gap"].as_f64().unwrap();
         assert!(gap < 1e-8, "{metric}: {gap}");
     }
-    let words = run(&place, "");
+    let words = run(&place, "--verbose");
     assert!(
-        words.stdout.contains("any from -2.5000 rad") && words.stdout.contains("for all values of joint \"elbow\"")
+        words.stdout.contains("any from -143.24 deg (-2.5000 rad)")
+            && words.stdout.contains("for all values of joint \"elbow\"")
     );
     assert!(words.stdout.contains("reached"), "{}", words.stdout);
 }

@@ -100,7 +100,7 @@ fn every_search_finds_a_path_from_either_end() {
 #[test]
 fn iterative_deepening_says_how_often_it_began() {
     let place = Place::new();
-    let done = place.run(&map(), &format!("{} --search deepening", MAP.replace(" --quiet", "")));
+    let done = place.run(&map(), &format!("{} --search deepening --verbose", MAP.replace(" --quiet", "")));
     // 22 moves: rounds of limits 0 to 22.
     assert!(done.stdout.contains("wavefront (deepening, 4 neighbours), centers: 23 rounds, "), "{}", done.stdout);
     let json = place.run(&map(), &format!("{MAP} --search deepening --json")).json();

@@ -16,8 +16,10 @@ fn world(motion: &str) -> String {
 fn the_arm_waits_until_the_cart_has_gone() {
     let place = Place::new();
     let [urdf, world] = moving("crossing");
-    let done = place
-        .run(&moving("crossing"), "--output m.json --output m.csv --output m.yaml --picture m.html --picture m.svg");
+    let done = place.run(
+        &moving("crossing"),
+        "--verbose --output m.json --output m.csv --output m.yaml --picture m.html --picture m.svg",
+    );
     assert_eq!(done.code, 0, "{}", done.stderr);
     for part in ["moving     1 obstacle", "waits      from ", "1 obstacle, 1 moving"] {
         assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
@@ -159,7 +161,7 @@ fn what_knows_no_time_refuses_what_moves() {
 fn bottles_are_picked_from_a_belt() {
     let place = Place::new();
     let [urdf, world] = moving("belt_pick");
-    let files = "--output m.json --output m.csv --output m.mcap --picture m.html --picture m.svg";
+    let files = "--verbose --output m.json --output m.csv --output m.mcap --picture m.html --picture m.svg";
     let done = place.run(&moving("belt_pick"), files);
     assert_eq!(done.code, 0, "{}", done.stderr);
     for part in ["found and certified: 6 steps", "3 objects, 3 moving", "moving     3 obstacles", "pick \"bottle 3\""] {

@@ -42,7 +42,7 @@ fn ways_through_walls_are_searched_for_anew() {
          polyline = [[513, -13], [987, 889], [-18, 717], [-729, 1447], [-876, 438], [-1790, -13], [-876, -464], [-729, -1473], \
          [-18, -743], [987, -916], [513, -13]]\n",
     );
-    let done = place.run(&["crane.urdf", "w.toml"], "--output plan.json");
+    let done = place.run(&["crane.urdf", "w.toml"], "--verbose --output plan.json");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let plan: serde_json::Value = serde_json::from_str(&place.read("plan.json")).unwrap();
     assert!(plan["optimum"]["gap"].as_f64().unwrap() <= 1e-4, "{}", done.stdout);

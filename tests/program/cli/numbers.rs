@@ -16,8 +16,8 @@ fn a_tiny_clearance_is_no_zero() {
     place.write("motion.csv", "shoulder,elbow\n0,0\n0,0.0000001\n");
     let robot = shipped("robots/planar_2r.urdf");
     let report = place.run(&["verify", &robot, "world.toml", "motion.csv"], "--anywhere").stdout;
-    assert!(!report.contains("-0.0000") && !report.contains(" 0.000000 m proven"), "{report}");
-    assert!(report.contains("e-7 m proven") || report.contains("e-7 m apart"), "{report}");
+    assert!(!report.contains("-0.0000") && !report.contains(" 0.000 mm proven"), "{report}");
+    assert!(report.contains("e-4 mm proven") || report.contains("e-4 mm apart"), "{report}");
 }
 
 #[test]
@@ -26,9 +26,9 @@ fn a_value_just_beyond_its_limits_is_told_from_them() {
     place.write("world.toml", FREE);
     let robot = shipped("robots/planar_2r.urdf");
     let report = place.run(&["check", &robot, "world.toml"], "--at -2.900001,-0.0").stdout;
-    let limits = "shoulder: -2.900001 rad (-166.15782 deg) is OUTSIDE -2.900000 rad (-166.15776 deg) to 2.900000 rad";
+    let limits = "shoulder: -166.15782 deg (-2.900001 rad) is OUTSIDE -166.15776 deg (-2.900000 rad) to 166.15776 deg";
     assert!(report.contains(limits), "{report}");
-    assert!(report.contains("elbow: 0.0000 rad (0.00 deg) is within"), "{report}");
+    assert!(report.contains("elbow: 0.00 deg (0.0000 rad) is within"), "{report}");
     let sliding = std::fs::read_to_string(&robot).unwrap();
     let sliding =
         sliding.replace("type=\"revolute\"", "type=\"prismatic\"").replacen("xyz=\"0 0 1\"", "xyz=\"1 0 0\"", 1);

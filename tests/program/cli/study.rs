@@ -401,13 +401,17 @@ fn the_page_tells_apart_what_colours_mean() {
     // Of two measures with equal plots against the objective, one is shown.
     let (html, _) = page("measure = [\"duration\", \"length\", \"lower_bound\"]");
     assert!(html.contains("length against duration, s") && !html.contains("lower_bound against"));
-    for part in
-        ["Scale of colours", ">duration, s</text>", "<title>best: layout ", "#9aa1a9", "<table class=\"words\">"]
-    {
+    for part in [
+        "Scale of colours",
+        ">duration, s</text>",
+        "<title>best: layout ",
+        "fill=\"var(--undecided)\"",
+        "<table class=\"words\">",
+    ] {
         assert!(html.contains(part), "{part}");
     }
     // Cells of layouts with a motion that is too long are neither grey nor in the colour of a proof.
-    let unfit = "fill=\"#f2b8cf\"><title>";
+    let unfit = "fill=\"var(--unknown)\"><title>";
     assert!(!html.contains(unfit));
     let (html, _) = page("conditions = [\"duration <= 0.01\"]");
     assert!(html.contains(unfit) && html.contains("a motion, but not one that meets the conditions"));

@@ -203,7 +203,7 @@ fn repeated_tasks_are_counted_in_cycles() {
     consistent(&place.arm(), &result);
     let cycles: Vec<_> = result["steps"].as_array().unwrap().iter().map(|s| s["cycle"].as_u64().unwrap()).collect();
     assert_eq!(cycles, (0..30).map(|i| i / 6 + 1).collect::<Vec<_>>());
-    let text = place.task(&world, "").stdout;
+    let text = place.task(&world, "--verbose").stdout;
     for part in
         ["1 obstacle, 2 objects", "1 (cycle 3)", "... 12 steps in cycles 4 to 5", "found and certified: 30 steps"]
     {

@@ -69,9 +69,13 @@ fn names_of_files_are_shown_with_escapes() {
 
 #[test]
 fn the_verdict_comes_first_and_what_was_taken_for_granted_last() {
+    let keys = |text: &str| {
+        let keys = text.lines().filter_map(|line| line.split(' ').next()).filter(|k| !k.is_empty());
+        keys.map(str::to_owned).collect::<Vec<_>>()
+    };
     let done = Place::new().run(&shelf(), "");
-    let keys: Vec<&str> =
-        done.stdout.lines().filter_map(|line| line.split(' ').next()).filter(|k| !k.is_empty()).collect();
+    assert_eq!(keys(&done.stdout), ["result", "optimum", "motion", "clearance", "note"], "{}", done.stdout);
+    let verbose = Place::new().run(&shelf(), "-v").stdout;
     let order = [
         "result",
         "optimum",
@@ -84,12 +88,12 @@ fn the_verdict_comes_first_and_what_was_taken_for_granted_last() {
         "goal",
         "arm",
         "joint",
+        "robot",
         "note",
     ];
-    assert_eq!(keys, order, "{}", done.stdout);
+    assert_eq!(keys(&verbose), order, "{verbose}");
     assert!(done.stdout.contains("no acceleration limit given; "), "{}", done.stdout);
     assert!(!done.stdout.contains("heights along"), "{}", done.stdout);
-    let verbose = Place::new().run(&shelf(), "-v").stdout;
     assert!(
         verbose.contains("\nrobot      plane: coordinates are (x, y)") && verbose.contains("outline from"),
         "{verbose}"
@@ -106,7 +110,7 @@ fn colours_are_for_terminals_that_want_them() {
     let plain = message(&[]);
     assert!(!plain.contains('\u{1b}'), "{plain:?}");
     let forced = message(&[("CLICOLOR_FORCE", "1"), ("COLUMNS", "40")]);
-    assert!(forced.starts_with("result     \u{1b}[1m\u{1b}[32mfound and certified\u{1b}[0m: "), "{forced:?}");
+    assert!(forced.starts_with("result     \u{1b}[1m\u{1b}[32m✓ found and certified\u{1b}[0m: "), "{forced:?}");
     assert_eq!(timeless(&message(&[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")])), timeless(&plain));
     // Output that is not for a terminal is never wrapped.
     assert_eq!(forced.lines().count(), plain.lines().count());
@@ -135,5 +139,5 @@ fn lines_keep_to_the_terminal() {
         lines.flat_map(str::split_whitespace).map(str::to_owned).collect::<Vec<_>>()
     };
     assert_eq!(words(&narrow), words(&usual), "nothing is lost");
-    assert!(on_a_terminal("60", false).contains("\u{1b}[32mfound and certified\u{1b}[0m"));
+    assert!(on_a_terminal("60", false).contains("\u{1b}[32m✓ found and certified\u{1b}[0m"));
 }

@@ -18,7 +18,7 @@ fn greatest(result: &Value) -> [f64; 2] {
 fn torques_are_kept_told_and_judged() {
     let place = Place::new();
     let [urdf, world] = upright();
-    let done = place.run(&upright(), "--output m.json --output m.csv --output m.yaml --picture m.html");
+    let done = place.run(&upright(), "--verbose --output m.json --output m.csv --output m.yaml --picture m.html");
     assert_eq!(done.code, 0, "{}", done.stderr);
     for part in ["at most 2 rad/s, 36 N m", "at most 3 rad/s, 12 N m", "torque     at most shoulder 35."] {
         assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
