@@ -31,7 +31,7 @@ fn drawn_worlds(_: &mut Criterion) {
     let (mut times, mut found, mut proven): (Vec<Duration>, _, _) = (Vec::new(), 0, 0);
     let kinds = |seed| world::KINDS.into_iter().filter_map(move |kind| Moving::drawn(kind, seed, Some(MOVERS)));
     for world in (0..).flat_map(kinds) {
-        let problem = world.asked();
+        let problem = world.problem();
         let clock = Instant::now();
         let plan = plan(black_box(&problem), &options).expect("the defaults make sense");
         let took = clock.elapsed();

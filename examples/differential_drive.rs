@@ -61,11 +61,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut guided = Robot::new(&floor, behind, heading);
         let marks = waypoints(&path);
         let drive = follow(&mut guided, &LAW, &marks, 1_000.0);
-        tell("along the plan", &guided, &drive, marks.len());
+        report("along the plan", &guided, &drive, marks.len());
         let mut alone = Robot::new(&floor, behind, heading);
         let goal = [TARGETS[0].1.into()];
         let drive = follow(&mut alone, &ALONE, &goal, 300.0);
-        tell("without a plan", &alone, &drive, 1);
+        report("without a plan", &alone, &drive, 1);
         if let Some(folder) = &folder {
             let ways = [
                 ("plan".to_owned(), path.iter().map(|&corner| corner.into()).collect()),
@@ -121,7 +121,7 @@ fn along_cells(
     Ok(())
 }
 
-fn tell(how: &str, robot: &Robot, drive: &Drive, waypoints: usize) {
+fn report(how: &str, robot: &Robot, drive: &Drive, waypoints: usize) {
     let gap = robot.track.iter().map(|pose| robot.floor.gap(pose.at)).fold(f64::INFINITY, f64::min);
     let Drive { passed, repelled, fastest: [ahead, about] } = drive;
     println!(

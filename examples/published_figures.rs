@@ -116,14 +116,14 @@ fn factors() -> Result<(), Box<dyn Error>> {
                 let shown = |point: Option<cplan::report::Point>| {
                     point.map_or_else(|| "-".into(), |p| format!("{:.2} ({} sweeps)", p.at, p.sweeps))
                 };
-                println!("  {:<13} {}, lost at {}", scan.equation, shown(scan.best()), shown(scan.lost_from()));
+                println!("  {:<13} {}, lost at {}", scan.equation, shown(scan.best()), shown(scan.divergence_start()));
             }
         }
         println!(
             "Figure 6.4, Gauss-Seidel {order}: published: central differences diverge above 3.4, upwind ones do not"
         );
         for scan in &measured.strengths {
-            match scan.lost_from() {
+            match scan.divergence_start() {
                 Some(p) => println!("  {}: lost from {:.1} on ({:?})", scan.difference, p.at, p.ending),
                 None => println!("  {}: converge up to 6", scan.difference),
             }

@@ -39,7 +39,7 @@ pub struct Manner {
     /// robot stands still while it faces more than 10 degrees away from the force. The program tests whether the error
     /// is less than `degrees(10)`, which is 573, radians, so its robot never stands still. In the text, a reached
     /// target is not an obstacle. The program marks the bin as an obstacle while the robot stands at it.
-    pub mended: bool,
+    pub follows_text: bool,
 }
 
 /// Detects whether a robot no longer makes progress.
@@ -120,7 +120,7 @@ pub fn drive(robot: &mut Robot, map: &mut Occupancy, target: Point, manner: Mann
         let force = force(map, target, robot.pose.at).ok_or(Ending::OnObstacle)?;
         let error = wrapped(force.y.atan2(force.x) - robot.pose.heading);
         let speed = match distance {
-            _ if manner.mended && error.abs() >= 10_f64.to_radians() => 0.0,
+            _ if manner.follows_text && error.abs() >= 10_f64.to_radians() => 0.0,
             d if d > slow => speed_gain * force.norm(),
             d => speed_gain * d / slow,
         };

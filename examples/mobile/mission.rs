@@ -55,14 +55,14 @@ fn legs(floor: &Floor, mut drive: impl FnMut(&mut Robot, usize) -> Ending) -> Ve
     (0..TARGETS.len()).map(leg).collect()
 }
 
-/// Drives the mission by forces, in an unknown room or with a known map. `mended` is explained at [`Manner`].
-pub fn by_forces(floor: &Floor, known: Option<&Occupancy>, mended: bool) -> Vec<Leg> {
+/// Drives the mission by forces, in an unknown room or with a known map. `follows_text` is explained at [`Manner`].
+pub fn by_forces(floor: &Floor, known: Option<&Occupancy>, follows_text: bool) -> Vec<Leg> {
     let mut map = known.cloned().unwrap_or_else(Occupancy::unknown);
-    let manner = Manner { maps: known.is_none(), mended };
+    let manner = Manner { maps: known.is_none(), follows_text };
     legs(floor, |robot, leg| {
         let target = TARGETS[leg].1.into();
         map.set(cell(target), 0.0);
-        let is_here = |at: Point| mended && (at - robot.pose.at).norm() < SIDE;
+        let is_here = |at: Point| follows_text && (at - robot.pose.at).norm() < SIDE;
         for (_, at) in in_the_way(leg).into_iter().filter(|&(_, at)| !is_here(at)) {
             map.set(cell(at), 1.0);
         }

@@ -9,7 +9,7 @@
 use super::row::{Claim, Count};
 use cplan::field::{
     Boundary, Cell, Difference, Direction, Domain, Equation, Factor, Influence, Levels, Measure, Order, Relaxation,
-    Scan, Stopping, around, relax_from,
+    Scan, Stopping, drift_around_robots, relax_from,
 };
 use std::f64::consts::TAU;
 
@@ -92,7 +92,7 @@ impl Kind {
                 let drift = direction.drift(EPSILON);
                 let influences =
                     [0, 1, 2].map(|robot| Influence { center: place(robot, seconds), radius: RADIUS, drift });
-                Equation::LocallyOriented { drift: around(domain, &influences), difference }
+                Equation::LocallyOriented { drift: drift_around_robots(domain, &influences), difference }
             }
         })
     }

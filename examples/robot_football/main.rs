@@ -16,14 +16,14 @@ use std::error::Error;
 use std::process::ExitCode;
 
 /// The options on the command line.
-struct QueryGraph {
+struct MatchOptions {
     frames: usize,
     seed: u64,
     page: Option<String>,
 }
 
-fn asked(mut arguments: impl Iterator<Item = String>) -> Result<QueryGraph, String> {
-    let mut asked = QueryGraph { frames: 600, seed: 1, page: None };
+fn parse_options(mut arguments: impl Iterator<Item = String>) -> Result<MatchOptions, String> {
+    let mut asked = MatchOptions { frames: 600, seed: 1, page: None };
     while let Some(key) = arguments.next() {
         let value =
             arguments.next().ok_or_else(|| format!("{key} needs a value: --frames N, --seed N, --page FILE"))?;
@@ -40,7 +40,7 @@ fn asked(mut arguments: impl Iterator<Item = String>) -> Result<QueryGraph, Stri
 }
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
-    let asked = match asked(std::env::args().skip(1)) {
+    let asked = match parse_options(std::env::args().skip(1)) {
         Ok(asked) => asked,
         Err(message) => {
             eprintln!("{message}");
@@ -51,7 +51,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let (mut frames, mut film) = (Vec::new(), page::Film::default());
     for _ in 0..asked.frames {
         let frame = game.next()?;
-        film.see(&frame, game.fields(), game.score);
+        film.add_frame(&frame, game.fields(), game.score);
         frames.push(frame);
     }
     println!("blue {} : {} red", game.score[0], game.score[1]);

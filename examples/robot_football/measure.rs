@@ -4,7 +4,7 @@
 use super::play::{CELLS, Frame, MOST, RATE, walls};
 use cplan::field::{
     Boundary, Difference, Equation, Factor, Moment, MovingField, Order, RelaxError, Relaxation, Scan, Solver,
-    ValueGuide, around, direction, eliminated,
+    ValueGuide, direction, drift_around_robots, eliminated,
 };
 use std::fmt;
 use std::time::Instant;
@@ -196,7 +196,7 @@ impl fmt::Display for Row {
 
 /// Solves the fields of the red robots as if the strategy needed them `times` times per frame, although the camera sees
 /// a change only once.
-pub fn asked(frames: &[Frame], times: usize, case: &Case) -> Result<Run, RelaxError> {
+pub fn run_after_every_frame(frames: &[Frame], times: usize, case: &Case) -> Result<Run, RelaxError> {
     let moments: Vec<&Moment> = frames.iter().flat_map(|frame| std::iter::repeat_n(&frame.moments[3], times)).collect();
     run(moments.into_iter(), case, PUBLISHED_BELOW, false)
 }
@@ -236,7 +236,7 @@ pub fn exact(frames: &[Frame]) -> Result<Vec<Exact>, RelaxError> {
         let mut field = standing(Difference::Upwind)?;
         field.next(&moment, &sor(1.0), 1.0, 0)?;
         let domain = field.domain();
-        let drift = around(domain, &moment.robots);
+        let drift = drift_around_robots(domain, &moment.robots);
         let equation = Equation::LocallyOriented { drift, difference: Difference::Upwind };
         let Some(values) = eliminated(domain, &equation) else { continue };
         let is_led = domain.cell_at(at.map(|x| x.round() as i64)).is_some_and(|cell| 1.0 - values[cell] > LEVEL);
@@ -249,7 +249,12 @@ pub fn exact(frames: &[Frame]) -> Result<Vec<Exact>, RelaxError> {
 
 /// Returns the angles between two directions of the seeker of the blue team, in degrees, in ascending order: the
 /// direction in its relaxed field and that in its exact field.
-pub fn astray(frames: &[Frame], exact: &[Exact], solver: &Solver, below: f64) -> Result<Vec<f64>, RelaxError> {
+pub fn direction_errors(
+    frames: &[Frame],
+    exact: &[Exact],
+    solver: &Solver,
+    below: f64,
+) -> Result<Vec<f64>, RelaxError> {
     let mut field = standing(Difference::Upwind)?;
     let mut angles = Vec::new();
     let mut sought = exact.iter().peekable();
@@ -297,7 +302,8 @@ pub fn report(frames: &[Frame]) -> Result<(), RelaxError> {
         print!("  {:>4} queries per second", (times as f64 * RATE).round());
         for (name, factor) in [("GS", 1.0), ("SOR 1.8", 1.8)] {
             let (kind, difference) = (Kind::LocallyOriented, Difference::Central);
-            let run = asked(frames, times, &Case { kind, difference, solver: sor(factor), published: None })?;
+            let run =
+                run_after_every_frame(frames, times, &Case { kind, difference, solver: sor(factor), published: None })?;
             let rate = 1e3 / run.milliseconds;
             print!("   {name} {:>5.1} %, {:>6.2}, {rate:>5.0}", 100.0 * run.share_at_once(), run.mean_sweeps());
         }
@@ -323,7 +329,7 @@ fn directions(frames: &[Frame]) -> Result<(), RelaxError> {
         ("1e-18, multigrid", Solver::Multigrid, 1e-18),
     ];
     for (name, solver, below) in tried {
-        let angles = astray(frames, &exact, &solver, below)?;
+        let angles = direction_errors(frames, &exact, &solver, below)?;
         let at = |part: f64| angles.get((part * angles.len() as f64) as usize).copied().unwrap_or(0.0);
         let wrong = angles.iter().filter(|&&angle| angle > 90.0).count();
         let (middle, most, all) = (at(0.5), at(0.95), angles.len());

@@ -24,11 +24,11 @@ pub struct Film {
 
 impl Film {
     /// Adds a frame. `fields` are the fields that guide the robots in the frame, and `score` is the score after it.
-    pub fn see(&mut self, frame: &Frame, fields: &[MovingField], score: [usize; 2]) {
+    pub fn add_frame(&mut self, frame: &Frame, fields: &[MovingField], score: [usize; 2]) {
         let places = frame.robots.iter().chain([&frame.ball]).flatten().map(|&x| rounded(x));
         self.frames.push(json!([places.collect::<Vec<_>>(), frame.seekers, score]));
         if (self.frames.len() - 1).is_multiple_of(EVERY) {
-            let ways = frame.robots.iter().enumerate().map(|(robot, &at)| way(&fields[robot.min(3)], at));
+            let ways = frame.robots.iter().enumerate().map(|(robot, &at)| streamline(&fields[robot.min(3)], at));
             let shown: Vec<Value> = fields.iter().map(picture).collect();
             let drifts = frame.moments.iter().flat_map(|moment| &moment.robots).map(|robot| robot.drift.map(rounded));
             self.fields.push(json!([shown, ways.collect::<Vec<_>>(), drifts.collect::<Vec<_>>()]));
@@ -69,7 +69,7 @@ fn picture(field: &MovingField) -> Value {
 }
 
 /// Returns the curve that a robot would follow in a static world.
-fn way(field: &MovingField, at: [f64; 2]) -> Vec<f64> {
+fn streamline(field: &MovingField, at: [f64; 2]) -> Vec<f64> {
     let is_free = field.direction(at).is_some();
     let way = is_free.then(|| field.follow(at).ok()).flatten();
     let points = way.map(|way| way.points).unwrap_or_default();

@@ -145,8 +145,9 @@ impl Match {
         let at = self.state.robots[robot];
         let field = &self.fields[robot.min(3)];
         let kind = field.domain().cell_at(at.map(|x| x.round() as i64)).map(|cell| field.domain().kinds()[cell]);
-        let others = self.state.others(robot);
-        let holds_back = team == 1 && robot != self.state.seekers[1] && far(at, self.state.ball) < KEEPS_OFF;
+        let others = self.state.other_positions(robot);
+        let holds_back =
+            team == 1 && robot != self.state.seekers[1] && distance_between(at, self.state.ball) < KEEPS_OFF;
         let to = match kind {
             Some(Cell::Goal) => return,
             Some(Cell::Free) if holds_back => return,
@@ -156,7 +157,8 @@ impl Match {
             }
             // Another robot has come so near that this cell is blocked. The robot moves back by half a step.
             _ => {
-                let nearest = others.iter().min_by(|a, b| far(**a, at).total_cmp(&far(**b, at)));
+                let nearest =
+                    others.iter().min_by(|a, b| distance_between(**a, at).total_cmp(&distance_between(**b, at)));
                 let away = nearest.and_then(|nearest| Direction::of([0, 1].map(|k| at[k] - nearest[k])));
                 let away = away.map_or([0.0; 2], Direction::components);
                 [0, 1].map(|k| at[k] + 0.5 * REACH * away[k])
@@ -166,7 +168,9 @@ impl Match {
         // mates that share it. So a step is shortened if it would lead too near to another robot.
         let shorter = [1.0, 0.5, 0.25].map(|part| [0, 1].map(|k| at[k] + part * (to[k] - at[k])));
         let fits = |to: &[f64; 2]| {
-            let apart = others.iter().all(|&other| far(*to, other) >= (2.0 * BODY + CLOSE).min(far(at, other)));
+            let apart = others
+                .iter()
+                .all(|&other| distance_between(*to, other) >= (2.0 * BODY + CLOSE).min(distance_between(at, other)));
             apart && is_open(to.map(f64::round))
         };
         self.refused[team] += usize::from(!fits(&to));
@@ -178,9 +182,12 @@ impl Match {
     /// Pushes the ball away from a robot that touches it, towards the other goal.
     fn push(&mut self) {
         let ball = self.state.ball;
-        let nearest =
-            (0..6).min_by(|&a, &b| far(self.state.robots[a], ball).total_cmp(&far(self.state.robots[b], ball)));
-        let Some(robot) = nearest.filter(|&robot| far(self.state.robots[robot], ball) <= CONTACT) else { return };
+        let nearest = (0..6).min_by(|&a, &b| {
+            distance_between(self.state.robots[a], ball).total_cmp(&distance_between(self.state.robots[b], ball))
+        });
+        let Some(robot) = nearest.filter(|&robot| distance_between(self.state.robots[robot], ball) <= CONTACT) else {
+            return;
+        };
         let at = self.state.robots[robot];
         let target = if robot < 3 { [CELLS[0] as f64, 31.5] } else { [-1.0, 31.5] };
         let unit = |a: [f64; 2], b: [f64; 2]| {
@@ -213,7 +220,7 @@ impl Match {
             }
         }
         let (ball, State { left, frame, .. }) = (self.state.ball, &mut self.state);
-        if far(ball, left.0) > STALE.1 {
+        if distance_between(ball, left.0) > STALE.1 {
             *left = (ball, *frame);
         } else if *frame - left.1 >= STALE.0 {
             self.free_ball();
@@ -222,7 +229,9 @@ impl Match {
 
     /// Moves a blocked ball to the mark that is farthest from all robots.
     fn free_ball(&mut self) {
-        let room = |mark: &[f64; 2]| self.state.robots.iter().map(|&at| far(at, *mark)).fold(f64::INFINITY, f64::min);
+        let room = |mark: &[f64; 2]| {
+            self.state.robots.iter().map(|&at| distance_between(at, *mark)).fold(f64::INFINITY, f64::min)
+        };
         let mark = MARKS.into_iter().max_by(|a, b| room(a).total_cmp(&room(b)));
         let State { ball, rolls, left, frame, .. } = &mut self.state;
         (*ball, *rolls) = (mark.unwrap_or(*ball), [0.0; 2]);
@@ -235,7 +244,7 @@ impl Match {
 const CLOSE: f64 = 0.25;
 
 impl State {
-    fn others(&self, robot: usize) -> Vec<[f64; 2]> {
+    fn other_positions(&self, robot: usize) -> Vec<[f64; 2]> {
         (0..6).filter(|&other| other != robot).map(|other| self.robots[other]).collect()
     }
 
@@ -245,7 +254,7 @@ impl State {
         for (team, first) in [(0, 1), (1, 3)] {
             let distance = |robot: usize| {
                 let goes_on = if robot == self.seekers[team] { TAKES_OVER } else { 0.0 };
-                far(self.robots[robot], self.ball) - goes_on
+                distance_between(self.robots[robot], self.ball) - goes_on
             };
             let nearest = (first..3 * team + 3).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
             self.seekers[team] = nearest.unwrap_or(first);
@@ -309,6 +318,6 @@ fn drawn(state: &mut u64) -> f64 {
     2.0 * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 1.0
 }
 
-fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
+fn distance_between(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }

@@ -61,9 +61,9 @@ fn time(text: &str) -> Result<f64, String> {
 /// Bad input and I/O. A configuration that is not free is no error, because the report states it.
 pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
-    let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.keeping(args.clearance)?;
+    let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
     loaded.scene = loaded.timed().frozen(args.time);
-    sinks::spare_inputs(sinks.iter().map(Sink::path), &loaded.files())?;
+    sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path), &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
     let scene = &loaded.scene;
     let q = args.at.resolve(&scene.arm().joints, "--at").map_err(input::InputError::from)?;
@@ -111,7 +111,7 @@ fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindin
     let [x, y] = findings.tip.map(|c| fixed(c, 4));
     line("tip", format!("({x}, {y}) m"));
     for (k, joint) in arm.joints.iter().enumerate() {
-        let (name, value) = (&joint.name, joint.shown(q[k]));
+        let (name, value) = (&joint.name, joint.format_value(q[k]));
         line(
             "limits",
             match joint.range {

@@ -100,7 +100,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     let files = || outputs.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(Sink::path));
     sinks::distinct(files())?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
-    sinks::spare_inputs(files(), &loaded.files())?;
+    sinks::refuse_to_overwrite_inputs(files(), &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
     loaded.require_static_obstacles("fields are for worlds without moving obstacles")?;
     let problem = Problem::of_scene(loaded, &args.query.overrides())?;

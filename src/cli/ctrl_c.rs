@@ -6,7 +6,7 @@ use std::process::exit;
 const EXIT_STOPPED: i32 = 130;
 
 /// Runs `last` before Ctrl-C ends the process. On systems that cannot handle Ctrl-C, it ends the process as usual.
-pub fn before_it_ends(last: impl FnOnce() + Send + 'static) {
+pub fn run_before_exit(last: impl FnOnce() + Send + 'static) {
     let mut last = Some(last);
     let _ = ctrlc::set_handler(move || {
         if let Some(last) = last.take() {

@@ -2,11 +2,11 @@
 
 use super::exit::DONE;
 use super::failure::Failure;
-use super::fresh::{folder, spare, word};
+use super::fresh::{folder, refuse_existing_files, word};
 use super::plan::PlanArgs;
 use super::{plan, sinks};
 use crate::input::{Source, scene_from};
-use crate::output::laid_out;
+use crate::output::format_columns;
 use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
 
@@ -51,7 +51,7 @@ pub struct DemoArgs {
 /// Existing files, I/O, and options that do not suit the cell.
 pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
     let [result, picture] = [RESULT_FILE, PICTURE_FILE].map(|name| in_folder(&args.dir, name));
-    spare(&[result.clone(), picture.clone()], args.force, "--dir DIR writes elsewhere")?;
+    refuse_existing_files(&[result.clone(), picture.clone()], args.force, "--dir DIR writes elsewhere")?;
     folder(&args.dir)?;
     args.plan.output.insert(0, result);
     args.plan.picture.insert(0, picture.clone());
@@ -85,5 +85,5 @@ fn next(picture: &Path) -> String {
     ];
     let labeled: Vec<_> =
         lines.into_iter().enumerate().map(|(i, line)| (if i == 0 { "next" } else { "" }, line)).collect();
-    laid_out(&labeled)
+    format_columns(&labeled)
 }

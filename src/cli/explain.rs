@@ -77,7 +77,7 @@ pub struct ExplainArgs {
 pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
-    sinks::spare_inputs(sinks.iter().map(Sink::path), &loaded.files())?;
+    sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path), &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|warning| args.print.print_status(&format!("warning: {warning}")));
     let explained = ExplanationResult::of(loaded, &args.query.overrides(), Duration::from_secs_f64(args.time))?;
     if !sinks.is_empty() {
@@ -103,7 +103,7 @@ pub fn hint(files: &Files, query: &QueryArgs) -> Option<String> {
     };
     let words = ["cplan".to_owned(), "explain".to_owned()].into_iter().chain(files.words()).chain(query.words());
     let command = words.map(|word| for_a_shell(&word)).collect::<Vec<_>>().join(" ");
-    (has_ends && loaded.courses.is_empty()).then_some(command)
+    (has_ends && loaded.trajectories.is_empty()).then_some(command)
 }
 
 /// The explanation of a world's motion or task.

@@ -14,7 +14,7 @@ use crate::grammar::{PlannerArgs, positive, word};
 use crate::input::{self, Explorable, OccupancyMap};
 use crate::model::{Scene, Status};
 use crate::motion::{Format, JointMotion, check_writable, csv, ros_yaml, write_whole_set};
-use crate::output::{Line, contours, laid_out, title_of};
+use crate::output::{Line, contours, format_columns, title_of};
 use crate::space::{Configuration, Path as JointPath};
 use crate::text::{counted, short};
 use clap::{Args, ValueEnum, ValueHint};
@@ -138,7 +138,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     let settings = args.settings(world.goals.is_some())?;
     inputs.extend(args.known.clone());
     inputs.extend(settings.known.as_ref().and_then(|map| map.picture.clone()));
-    sinks::spare_inputs(files(), &inputs)?;
+    sinks::refuse_to_overwrite_inputs(files(), &inputs)?;
     let mut print_status = |text: &str| args.print.print_status(&format!("{text} ..."));
     let done = explore(&world.scene, &world.sensor, world.start, world.goals.as_ref(), &settings, &mut print_status)
         .map_err(|error| args.refused(&error))?;
@@ -312,5 +312,5 @@ fn summary(world: &Explorable, done: &Exploration, timed: bool) -> String {
         lines.push(("decision", format!("{median:.1} ms (median), {most:.1} ms (99 %), {longest:.1} ms (longest)")));
     }
     lines.extend(world.notes.iter().map(|note| ("note", note.clone())));
-    format!("{}\n{}", title_of(&world.scene), laid_out(&lines))
+    format!("{}\n{}", title_of(&world.scene), format_columns(&lines))
 }

@@ -22,7 +22,7 @@ pub fn folder(path: &Path) -> Result<(), Failure> {
 ///
 /// # Errors
 /// An existing file; the message names all existing ones.
-pub fn spare(files: &[PathBuf], force: bool, elsewhere: &str) -> Result<(), Failure> {
+pub fn refuse_existing_files(files: &[PathBuf], force: bool, elsewhere: &str) -> Result<(), Failure> {
     // A symbolic link without a target counts as an existing file.
     let there: Vec<String> =
         files.iter().filter(|f| f.symlink_metadata().is_ok()).map(|f| f.display().to_string()).collect();

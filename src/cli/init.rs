@@ -3,10 +3,10 @@
 use super::demo::{self, in_folder};
 use super::exit::DONE;
 use super::failure::Failure;
-use super::fresh::{folder, spare, word};
+use super::fresh::{folder, refuse_existing_files, word};
 use super::{schema, sinks};
 use crate::motion::write_whole_set;
-use crate::output::laid_out;
+use crate::output::format_columns;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 
@@ -205,7 +205,11 @@ impl Kind {
 /// Files that exist already, and I/O. If there is an error, no file is written.
 pub fn run(args: &InitArgs) -> Result<u8, Failure> {
     let [robot, world, schema_file] = [ROBOT_FILE, WORLD_FILE, SCHEMA_FILE].map(|name| in_folder(&args.dir, name));
-    spare(&[robot.clone(), world.clone(), schema_file.clone()], args.force, "`cplan init DIR` writes elsewhere")?;
+    refuse_existing_files(
+        &[robot.clone(), world.clone(), schema_file.clone()],
+        args.force,
+        "`cplan init DIR` writes elsewhere",
+    )?;
     folder(&args.dir)?;
     let files = [
         (robot.clone(), args.kind.robot().to_owned()),
@@ -220,7 +224,7 @@ pub fn run(args: &InitArgs) -> Result<u8, Failure> {
 /// Describes the written files and the next commands.
 fn description(robot: &Path, world: &Path, schema: &Path) -> String {
     let both = format!("{} {}", word(robot), word(world));
-    laid_out(&[
+    format_columns(&[
         ("file", format!("{}: the robot", robot.display())),
         ("file", format!("{}: start, goal and obstacles, every key explained", world.display())),
         ("file", format!("{}: lets editors complete and explain the keys of the world", schema.display())),

@@ -79,7 +79,7 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let robot = args.xacro.robot(&args.urdf);
     let inspection = input::inspect(&robot, args.world.as_deref());
-    sinks::spare_inputs(sinks.iter().map(Sink::path).chain(args.expanded.as_deref()), &inspection.files)?;
+    sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path).chain(args.expanded.as_deref()), &inspection.files)?;
     if let Some(path) = &args.expanded {
         write_expanded(&robot, path)?;
     }
@@ -147,7 +147,7 @@ fn view(inspection: &Inspection) -> Option<View> {
         } else {
             "planning is not possible".into()
         },
-        ..Picture::new(TimedScene { scene, courses: &inspection.courses }, Configuration::zeros())
+        ..Picture::new(TimedScene { scene, trajectories: &inspection.trajectories }, Configuration::zeros())
     };
     let frame = |f: &input::Frame| AxesFrame { name: f.name.clone(), at: f.at, axes: f.axes };
     Some(View::of_arm(&picture, &inspection.frames.iter().map(frame).collect::<Vec<_>>()))

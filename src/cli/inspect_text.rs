@@ -65,7 +65,7 @@ pub fn text(report: &Inspection) -> String {
 /// Adds a link and all links below it, indented by depth.
 fn tree(lines: &mut Columns, report: &Inspection, link: &str, depth: usize) {
     if depth == 0 {
-        lines.add("tree", &described(report, link));
+        lines.add("tree", &describe_link(report, link));
     }
     for joint in report.joints.iter().filter(|j| j.parent == link) {
         lines.add("tree", &format!("{}{}", "  ".repeat(depth + 1), branch(report, joint)));
@@ -76,11 +76,11 @@ fn tree(lines: &mut Columns, report: &Inspection, link: &str, depth: usize) {
 fn branch(report: &Inspection, joint: &JointEntry) -> String {
     let above = if report.root.is_some() { String::new() } else { format!("\"{}\" - ", joint.parent) };
     let JointEntry { name, kind, line, child, .. } = joint;
-    format!("{above}{name} ({kind}, line {line}) - {}", described(report, child))
+    format!("{above}{name} ({kind}, line {line}) - {}", describe_link(report, child))
 }
 
 /// Describes a link and its shapes.
-fn described(report: &Inspection, name: &str) -> String {
+fn describe_link(report: &Inspection, name: &str) -> String {
     let Some(LinkEntry { collision, visual, .. }) = report.links.iter().find(|l| l.name == name) else {
         return format!("\"{name}\" (not declared)");
     };

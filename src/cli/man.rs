@@ -98,7 +98,7 @@ fn section(title: &str, paragraphs: &[&str]) -> String {
                 roff += if is_indented { ".EX\n" } else { ".EE\n" };
                 in_lines = is_indented;
             }
-            roff += &format!("{}\n", escaped(line.trim()));
+            roff += &format!("{}\n", escape_roff(line.trim()));
         }
         if in_lines {
             roff += ".EE\n";
@@ -108,7 +108,7 @@ fn section(title: &str, paragraphs: &[&str]) -> String {
 }
 
 /// Returns text in which roff finds no escapes and no requests, and from which hyphens can be copied.
-fn escaped(line: &str) -> String {
+fn escape_roff(line: &str) -> String {
     let text = line.replace('\\', "\\e").replace('-', "\\-").replace('\'', "\\(aq");
     if text.starts_with('.') { format!("\\&{text}") } else { text }
 }

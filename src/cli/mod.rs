@@ -196,7 +196,7 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
         Ok(cli) => cli,
         Err(error) => {
             let is_word = matches!(error.kind(), ErrorKind::ArgumentConflict | ErrorKind::MissingRequiredArgument);
-            let misspelled = first.filter(|_| is_word).and_then(misspelled);
+            let misspelled = first.filter(|_| is_word).and_then(misspelled_command_error);
             return unread(&misspelled.unwrap_or(error), in_json);
         }
     };
@@ -220,7 +220,7 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
 
 /// Returns an error if the first word is neither a subcommand nor a file. Without this check, clap would take the third
 /// of several words for a subcommand, and report a conflict with two files.
-fn misspelled(first: OsString) -> Option<clap::Error> {
+fn misspelled_command_error(first: OsString) -> Option<clap::Error> {
     let word = first.to_string_lossy();
     let is_meant = Path::new(&first).extension().is_none() && !word.starts_with('-');
     let is_known = Cli::command().find_subcommand(&*word).is_some() || Path::new(&first).exists();

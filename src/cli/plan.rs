@@ -17,7 +17,7 @@ use crate::grammar::{MotionArgs, PlannerArgs, word};
 use crate::input::{self, DiagnosticKind, Digests, InputError, JointValues, LoadedScene, Overrides};
 use crate::model::{MotionProblem, Status};
 use crate::motion::write_whole;
-use crate::output::{CSpaceFormat, Line, PlanOutput as _, laid_out, summary_with};
+use crate::output::{CSpaceFormat, Line, PlanOutput as _, format_columns, summary_with};
 use crate::space::Configuration;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
@@ -147,7 +147,7 @@ pub fn answer(
     let inputs = loaded.files();
     let certified = given.filter(|_| certificate.is_some());
     let about = certified.map(|files| Digests::of(&files.robot(), &files.world, &inputs)).transpose()?;
-    sinks::spare_inputs(sinks.iter().map(Sink::path), &inputs)?;
+    sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path), &inputs)?;
     if args.per_step && !loaded.has_steps() {
         return Err(Failure::Usage("--per-step needs a world with steps ([[step]])".into()));
     }
@@ -157,8 +157,9 @@ pub fn answer(
     let ignored = args.options.ignored(args.planner);
     loaded.robot.warnings.iter().chain(&ignored).for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let explanation = || given.and_then(|files| explain::hint(files, &args.query));
-    let problem = Problem::of_scene(loaded, &asked).map_err(|error| blocked(error, explanation))?.read_since(begun);
-    if let Some(lack) = options.planner.lack(&problem.scene().workspace().preferences) {
+    let problem =
+        Problem::of_scene(loaded, &asked).map_err(|error| with_hint_to_explain(error, explanation))?.read_since(begun);
+    if let Some(lack) = options.planner.missing_preference(&problem.scene().workspace().preferences) {
         return Err(Failure::Usage(lack));
     }
     let steps = problem.task().map_or(1, |task| task.steps().count());
@@ -180,14 +181,14 @@ pub fn answer(
     let summary = || {
         let hint = if code == INFEASIBLE { explanation() } else { None };
         let hint: Vec<Line> = hint.into_iter().map(|hint| ("hint", hint)).collect();
-        summary_with(&plan, &written, &after, args.verbose) + &laid_out(&hint)
+        summary_with(&plan, &written, &after, args.verbose) + &format_columns(&hint)
     };
     args.print.report(code, || Ok(plan.to_json()), summary)?;
     Ok(code)
 }
 
 /// Adds a hint to an error about a blocked start or goal that `cplan explain` can explain.
-fn blocked(error: InputError, hint: impl FnOnce() -> Option<String>) -> Failure {
+fn with_hint_to_explain(error: InputError, hint: impl FnOnce() -> Option<String>) -> Failure {
     let is_end = |kind| matches!(kind, DiagnosticKind::Start | DiagnosticKind::Goal);
     let hint = if error.diagnostics().iter().all(|found| is_end(found.kind)) { hint() } else { None };
     match hint {
@@ -238,13 +239,13 @@ fn written(
     let certificate = args.certificate.as_deref().and_then(|path| match plan.certificate(asked, about) {
         Ok(certificate) => Some((path, certificate)),
         Err(why) => {
-            sinks::print_status(&format!("warning: {} is not written: {why}", shown(path, sinks)));
+            sinks::print_status(&format!("warning: {} is not written: {why}", describe_sink(path, sinks)));
             None
         }
     });
     let member = certificate.as_ref().and_then(|(path, text)| Some((*path, serde_json::from_str(text).ok()?)));
     let mut written = files.write(plan, member)?;
-    let plays = sinks.iter().any(|sink| matches!(sink, Sink::Picture(format, _) if format.plays()));
+    let plays = sinks.iter().any(|sink| matches!(sink, Sink::Picture(format, _) if format.is_animated()));
     let seen = || {
         let view = if plays { plan.view_with_replay() } else { plan.view() };
         view.with_field_lines(args.field_lines.into())
@@ -275,7 +276,7 @@ fn written(
 }
 
 /// Describes the place of a certificate: a file of its own, or a member of another file.
-fn shown(path: &Path, sinks: &[Sink]) -> String {
+fn describe_sink(path: &Path, sinks: &[Sink]) -> String {
     let is_file = sinks.iter().any(|sink| matches!(sink, Sink::Certificate(own) if own == path));
     if is_file { path.display().to_string() } else { format!("the certificate in {}", path.display()) }
 }

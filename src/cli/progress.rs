@@ -38,7 +38,7 @@ enum ProgressMode {
 pub struct Progress {
     mode: ProgressMode,
     /// Plural name of the counted items: runs or layouts.
-    things: &'static str,
+    noun: &'static str,
     total: usize,
     started: Instant,
     state: Mutex<State>,
@@ -53,10 +53,10 @@ struct State {
 }
 
 impl Progress {
-    /// Creates a display for `total` runs, or other items named `things`. It shows a bar on a terminal,
+    /// Creates a display for `total` runs, or other items named `noun`. It shows a bar on a terminal,
     /// which vanishes at the end. Otherwise it prints a line every ten seconds and, unless there is a `single` problem, a
     /// last line.
-    pub fn new(total: usize, things: &'static str, single: bool, quiet: bool) -> Self {
+    pub fn new(total: usize, noun: &'static str, single: bool, quiet: bool) -> Self {
         let mode = match (quiet, single) {
             (true, _) => ProgressMode::Silent,
             (false, _) if std::io::stderr().is_terminal() => ProgressMode::Bar,
@@ -64,7 +64,7 @@ impl Progress {
             (false, false) => ProgressMode::Lines,
         };
         let now = Instant::now();
-        Self { mode, things, total, started: now, state: Mutex::new(State { done: 0, now: String::new(), shown: now }) }
+        Self { mode, noun, total, started: now, state: Mutex::new(State { done: 0, now: String::new(), shown: now }) }
     }
 
     /// Shows the beginning of a run.
@@ -91,7 +91,7 @@ impl Progress {
             ProgressMode::Silent | ProgressMode::Bar => {}
             ProgressMode::Lines | ProgressMode::LongLines if state.shown.elapsed() >= LINE_INTERVAL => {
                 state.shown = Instant::now();
-                sinks::print_status(&line(state.done, self.total, self.things, self.started.elapsed()));
+                sinks::print_status(&line(state.done, self.total, self.noun, self.started.elapsed()));
             }
             ProgressMode::Lines | ProgressMode::LongLines => {}
         }
@@ -101,17 +101,17 @@ impl Progress {
     pub fn end(&self) {
         match self.mode {
             ProgressMode::Silent | ProgressMode::LongLines => {}
-            ProgressMode::Bar => put(&format!("\r{:LINE_WIDTH$}\r", "")),
+            ProgressMode::Bar => print_on_stderr(&format!("\r{:LINE_WIDTH$}\r", "")),
             ProgressMode::Lines => {
                 // A search may end before it has made all the runs that were allowed.
                 let done = self.state().done;
-                sinks::print_status(&line(done, done, self.things, self.started.elapsed()));
+                sinks::print_status(&line(done, done, self.noun, self.started.elapsed()));
             }
         }
     }
 
     fn draw(&self, state: &State) {
-        put(&format!("\r{}", bar(state.done, self.total, self.started.elapsed(), &state.now)));
+        print_on_stderr(&format!("\r{}", bar(state.done, self.total, self.started.elapsed(), &state.now)));
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -120,7 +120,7 @@ impl Progress {
 }
 
 /// Prints on stderr. Ignores a closed stream.
-fn put(text: &str) {
+fn print_on_stderr(text: &str) {
     let mut stderr = std::io::stderr().lock();
     let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
@@ -144,10 +144,10 @@ fn time(seconds: f64) -> String {
 }
 
 /// Returns a line such as `37 of 1000 runs, 12.3 a second, 78 s left`.
-fn line(done: usize, total: usize, things: &str, elapsed: Duration) -> String {
+fn line(done: usize, total: usize, noun: &str, elapsed: Duration) -> String {
     let (rate, left) = rate(done, total, elapsed);
     let left = left.map_or_else(String::new, |left| format!(", {left} left"));
-    format!("{done} of {total} {things}, {rate:.1} a second{left}")
+    format!("{done} of {total} {noun}, {rate:.1} a second{left}")
 }
 
 /// Returns a progress bar with the numbers of [`line`]. It includes the name of the current run if there is room. The

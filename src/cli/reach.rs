@@ -12,7 +12,7 @@ use crate::engine::{Access, MAX_PLACES, Reach, reach};
 use crate::grammar::positive;
 use crate::input::{self, Explorable, JointValues, Overrides};
 use crate::motion::{check_writable, write_whole_set};
-use crate::output::{PictureFormat, contours, laid_out, title_of};
+use crate::output::{PictureFormat, contours, format_columns, title_of};
 use crate::text::counted;
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
@@ -71,7 +71,7 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
         "the name of a reach file must end in .json or .csv",
     )?;
     let pictures = args.picture.iter().map(|path| match PictureFormat::from_path(path)? {
-        format if format.plays() && format != PictureFormat::Html => {
+        format if format.is_animated() && format != PictureFormat::Html => {
             Err(Failure::Usage(format!("{}: a reach is drawn as .svg, .png or .html", path.display())))
         }
         format => Ok((path.clone(), format)),
@@ -82,7 +82,7 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     sinks::distinct(files())?;
     let overrides = Overrides { start: args.home, clearance: args.clearance, ..Overrides::default() };
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
-    sinks::spare_inputs(files(), &loaded.files())?;
+    sinks::refuse_to_overwrite_inputs(files(), &loaded.files())?;
     let world = loaded.explorable(&overrides);
     let world = world.map_err(|error| error.with_option("--start", "--home"))?;
     world.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
@@ -172,7 +172,7 @@ fn facts(world: &Explorable, reach: &Reach) -> Vec<(&'static str, String)> {
 fn summary(world: &Explorable, reach: &Reach) -> String {
     let mut lines = facts(world, reach);
     lines.extend(world.notes.iter().map(|note| ("note", note.clone())));
-    format!("{}\n{}", title_of(&world.scene), laid_out(&lines))
+    format!("{}\n{}", title_of(&world.scene), format_columns(&lines))
 }
 
 fn view(world: &Explorable, reach: &Reach) -> View {

@@ -62,19 +62,19 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     let evidence = Evidence::of(source.text());
     // A certificate states start and goal itself.
     let stated_ends = if asked == Overrides::default() && evidence.certificate {
-        format!("the certificate holds: {}", judged(args, "certificate", source.text())?)
+        format!("the certificate holds: {}", check_certificate(args, "certificate", source.text())?)
     } else {
         let problem = scene.clone().problem(&asked)?.problem;
-        let asked = in_full(&problem, &scene, asked);
+        let asked = complete_overrides(&problem, &scene, asked);
         match read_proof(source.text()) {
             Ok(claim) => proof_holds(args, &problem, claim.collision_boxes(), &asked)?,
             Err(missing @ ProofFormatError::Missing) => {
                 // A file with neither a proof nor a bound need not be a result.
-                let stated = if evidence.bound { stated(args, &scene)? } else { None };
-                let none = || failed(args, format!("{missing}, and it has no bound in \"optimum\""));
+                let stated = if evidence.bound { read_stated_bound(args, &scene)? } else { None };
+                let none = || evidence_failure(args, format!("{missing}, and it has no bound in \"optimum\""));
                 bound_holds(args, &problem, &stated.ok_or_else(none)?, &asked)?
             }
-            Err(error) => return Err(failed(args, error)),
+            Err(error) => return Err(evidence_failure(args, error)),
         }
     };
     sinks::print(&(stated_ends + "\n"))?;
@@ -82,7 +82,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
 }
 
 /// Creates a failure about the file with the evidence.
-fn failed(args: &RecheckArgs, why: impl Display) -> Failure {
+fn evidence_failure(args: &RecheckArgs, why: impl Display) -> Failure {
     Failure::Option(format!("{}: {why}", args.proof.display()))
 }
 
@@ -118,15 +118,15 @@ impl Evidence {
 ///
 /// # Errors
 /// Evidence that does not hold, and files that the checker does not understand.
-fn judged(args: &RecheckArgs, what: &str, certificate: &str) -> Result<String, Failure> {
+fn check_certificate(args: &RecheckArgs, what: &str, certificate: &str) -> Result<String, Failure> {
     let (robot, world) = (args.files.robot(), &args.files.world);
     let at = |path: &Path, why: &dyn Display| Failure::Option(format!("{}{why}", path.display()));
     let whole = |path: &Path| std::fs::read_to_string(path).map_err(|error| at(path, &format!(": {error}")));
     let urdf = robot.read()?;
     let urdf = if urdf.is_expanded() { urdf.text().to_owned() } else { whole(&robot.path)? };
     check_beside([&urdf, &whole(world)?, certificate], [&robot.path, world]).map_err(|error| match error {
-        CheckError::Fails(why) => failed(args, format!("the {what} does not hold: {why}")),
-        CheckError::Input { input: Input::Certificate, message, .. } => failed(args, message),
+        CheckError::Fails(why) => evidence_failure(args, format!("the {what} does not hold: {why}")),
+        CheckError::Input { input: Input::Certificate, message, .. } => evidence_failure(args, message),
         CheckError::Input { input, line, message } => {
             let path = if input == Input::Urdf { &robot.path } else { world };
             let line = line.map_or_else(String::new, |line| format!(":{line}"));
@@ -137,14 +137,14 @@ fn judged(args: &RecheckArgs, what: &str, certificate: &str) -> Result<String, F
 
 /// Returns the overrides. If the world does not state start and goal as joint values, adds the joint values that were
 /// found for them.
-fn in_full(problem: &MotionProblem, scene: &LoadedScene, asked: Overrides) -> Overrides {
+fn complete_overrides(problem: &MotionProblem, scene: &LoadedScene, asked: Overrides) -> Overrides {
     let stated_ends = scene.resolved_ends();
     let goal = stated_ends[1].map(|_| problem.goals().pieces()[0].ends()[0]);
     with_ends(asked, stated_ends, [Some(problem.start()), goal])
 }
 
 /// Reads the lower bound that a result file states. Returns `None` if there is none.
-fn stated(args: &RecheckArgs, scene: &LoadedScene) -> Result<Option<Bound>, Failure> {
+fn read_stated_bound(args: &RecheckArgs, scene: &LoadedScene) -> Result<Option<Bound>, Failure> {
     let claims = input::load_recording(&args.proof, scene)?.claims.unwrap_or_default();
     let speeds = scene.scene.arm().joints.each_ref().map(|joint| joint.velocity);
     Ok(claims.optimum.and_then(|optimum| {
@@ -163,9 +163,10 @@ fn proof_holds(
     stuck: &[CollisionBox],
     asked: &Overrides,
 ) -> Result<String, Failure> {
-    let never = |odd| failed(args, format!("the proof does not hold: box {odd} names shapes that cannot meet"));
+    let never =
+        |odd| evidence_failure(args, format!("the proof does not hold: box {odd} names shapes that cannot meet"));
     let certificate = certificate_of_boxes(problem, stuck, asked).map_err(never)?;
-    judged(args, "proof", &certificate)?;
+    check_certificate(args, "proof", &certificate)?;
     let count = counted(stuck.len(), "box");
     Ok(format!("the proof holds: collisions separate the start from every goal ({count})"))
 }
@@ -183,9 +184,9 @@ fn bound_holds(
     let (lower, upper) = (stated.lower, stated.upper);
     let is_length = |length: f64| length.is_finite() && length >= 0.0;
     if !is_length(lower) || !is_length(upper) || lower > upper {
-        return Err(failed(args, format!("`optimum`: {lower} to {upper} are not bounds on a length")));
+        return Err(evidence_failure(args, format!("`optimum`: {lower} to {upper} are not bounds on a length")));
     }
-    let unconfirmed = |why: String| failed(args, format!("the bound is not confirmed: {why}"));
+    let unconfirmed = |why: String| evidence_failure(args, format!("the bound is not confirmed: {why}"));
     let found = certificate_of_bound(problem, stated, asked).ok_or_else(|| {
         unconfirmed(
             "bounds for a goal that leaves a joint free, or at which the arm is nearly stretched, have no certificate"
@@ -195,7 +196,7 @@ fn bound_holds(
     if found.length < lower * (1.0 - EVIDENCE_LOSS) {
         return Err(unconfirmed(format!("the file states {lower}, but only {} is proven", found.length)));
     }
-    judged(args, "bound", &found.text)?;
+    check_certificate(args, "bound", &found.text)?;
     let walls = counted(found.walls, "wall");
     let missed = 1.0 - found.length / lower;
     let (holds, stated) = if missed > UNREPORTED_LOSS {

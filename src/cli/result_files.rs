@@ -44,7 +44,7 @@ impl ResultFiles {
         parts.iter().try_for_each(|part| check_writable(part))?;
         let others = sinks.iter().map(Sink::path).filter(|path| !per_step || !parted.contains(path));
         sinks::distinct(others.chain(parts.iter().map(PathBuf::as_path)))?;
-        sinks::spare_inputs(parts.iter().map(PathBuf::as_path), inputs)?;
+        sinks::refuse_to_overwrite_inputs(parts.iter().map(PathBuf::as_path), inputs)?;
         Ok(files)
     }
 

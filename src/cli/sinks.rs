@@ -94,7 +94,7 @@ pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failu
     let mut known: Vec<(&Path, FileIdentity)> = Vec::new();
     for path in outputs {
         let Some(identity) = FileIdentity::of(path) else { continue };
-        if let Some((other, _)) = known.iter().find(|(_, other)| other.is(&identity)) {
+        if let Some((other, _)) = known.iter().find(|(_, other)| other.is_same_file(&identity)) {
             let (one, other) = (path.display(), other.display());
             let message = format!("the outputs {other} and {one} are the same file; nothing was written");
             return Err(Failure::Option(format!("{message}\n  hint: give each output its own file")));
@@ -108,11 +108,14 @@ pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failu
 ///
 /// # Errors
 /// An output that is an input; the message names both.
-pub fn spare_inputs<'a>(mut outputs: impl Iterator<Item = &'a Path>, inputs: &[PathBuf]) -> Result<(), Failure> {
+pub fn refuse_to_overwrite_inputs<'a>(
+    mut outputs: impl Iterator<Item = &'a Path>,
+    inputs: &[PathBuf],
+) -> Result<(), Failure> {
     let inputs: Vec<_> = inputs.iter().filter_map(|path| Some((path, FileIdentity::of(path)?))).collect();
     let onto = outputs.find_map(|path| {
         let output = FileIdentity::of(path)?;
-        Some((path, inputs.iter().find(|(_, input)| input.is(&output))?.0))
+        Some((path, inputs.iter().find(|(_, input)| input.is_same_file(&output))?.0))
     });
     onto.map_or(Ok(()), |(path, input)| {
         let (path, input) = (path.display(), input.display());

@@ -95,12 +95,12 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     let files = contents(&args.output, args.layout.is_some())?;
     let study = Study::load(&args.study, &|words| super::read_words(words))?;
     let inputs = study.files();
-    sinks::spare_inputs(files.iter().map(|(path, _)| path.as_path()), &inputs)?;
+    sinks::refuse_to_overwrite_inputs(files.iter().map(|(path, _)| path.as_path()), &inputs)?;
     if let Some(layout) = args.layout {
         return write_layout(&study, layout, &files);
     }
     let journal = files.first().map(|(path, _)| part(path));
-    sinks::spare_inputs(journal.iter().map(PathBuf::as_path), &inputs)?;
+    sinks::refuse_to_overwrite_inputs(journal.iter().map(PathBuf::as_path), &inputs)?;
     let opened = journal.map(|path| Journal::open(&path, &study, args.fresh)).transpose()?;
     study.remarks().iter().for_each(|remark| args.print.print_status(remark));
     let (journal, mut rows) = opened.map_or((None, Vec::new()), |(journal, rows)| (Some(journal), rows));
@@ -109,7 +109,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     }
     let total = study.count() + study.searched;
     let kept = SharedRows::new(journal, rows.len());
-    ctrl_c::before_it_ends({
+    ctrl_c::run_before_exit({
         let kept = kept.clone();
         move || sinks::print_status(&kept.stopped(total))
     });

@@ -28,15 +28,15 @@ fn width(is_terminal: bool, size: Option<(Width, Height)>) -> Option<usize> {
 pub fn summary(text: &str, code: u8) -> String {
     let stdout = std::io::stdout();
     let width = width(stdout.is_terminal(), terminal_size_of(&stdout));
-    let text = width.map_or_else(|| text.to_owned(), |width| narrowed(text, width));
-    if AutoStream::choice(&stdout) == ColorChoice::Never { text } else { painted(&text, code) }
+    let text = width.map_or_else(|| text.to_owned(), |width| wrap_summary(text, width));
+    if AutoStream::choice(&stdout) == ColorChoice::Never { text } else { color_verdict(&text, code) }
 }
 
 /// Returns a message for stderr with a coloured label. On a terminal, its lines are wrapped.
 pub fn message(text: &str) -> String {
     let stderr = std::io::stderr();
     let width = width(stderr.is_terminal(), terminal_size_of(&stderr));
-    let text = width.map_or_else(|| text.to_owned(), |width| folded(text, width.min(WIDEST)));
+    let text = width.map_or_else(|| text.to_owned(), |width| wrap_message(text, width.min(WIDEST)));
     for (label, color) in [("error:", AnsiColor::Red), ("warning:", AnsiColor::Yellow)] {
         if let Some(rest) = text.strip_prefix(label) {
             return format!("{}{rest}", in_color(label, color));
@@ -50,7 +50,7 @@ const COMMAND: &str = "cplan ";
 
 /// Wraps the lines of a message. Does not wrap commands. Does not wrap lines quoted from files either, because carets
 /// below such a line point at a column of it.
-fn folded(text: &str, width: usize) -> String {
+fn wrap_message(text: &str, width: usize) -> String {
     let folded = |line: &str| {
         let blanks = line.chars().take_while(|c| *c == ' ').count();
         let is_command = line.trim_start().strip_prefix("hint: ").is_some_and(|hint| hint.starts_with(COMMAND));
@@ -60,7 +60,7 @@ fn folded(text: &str, width: usize) -> String {
 }
 
 /// Wraps the lines of a summary, except commands. Continuation lines begin at the second column.
-fn narrowed(text: &str, width: usize) -> String {
+fn wrap_summary(text: &str, width: usize) -> String {
     let narrowed = |line: &str| {
         let blanks = line.chars().take_while(|c| *c == ' ').count();
         if line.get(SECOND_COLUMN..).is_some_and(|text| text.starts_with(COMMAND)) {
@@ -74,7 +74,7 @@ fn narrowed(text: &str, width: usize) -> String {
 
 /// Colours the verdict, which ends at the first punctuation mark, by the exit code, and puts a sign before it: a green tick
 /// for what was found, a red cross for what is infeasible.
-fn painted(text: &str, code: u8) -> String {
+fn color_verdict(text: &str, code: u8) -> String {
     let (color, sign) = match code {
         DONE => (AnsiColor::Green, '\u{2713}'),
         INFEASIBLE => (AnsiColor::Red, '\u{2715}'),
@@ -110,19 +110,19 @@ mod tests {
         let text = "shelf: planar_2r\nresult     there is no path; proven\n             without it there is one\n";
         let narrow = "shelf: planar_2r\nresult     there is no\n           path;\n           proven\n             without\n             \
                       it there\n             is one\n";
-        assert_eq!(narrowed(text, 22), narrow);
-        assert_eq!(narrowed(text, 80), text);
+        assert_eq!(wrap_summary(text, 22), narrow);
+        assert_eq!(wrap_summary(text, 80), text);
     }
 
     #[test]
     fn only_the_verdict_is_colored() {
         let text = "shelf\nresult     free: proven\nresult     free\n";
-        let green = painted(text, DONE);
+        let green = color_verdict(text, DONE);
         assert_eq!(anstream::adapter::strip_str(&green).to_string(), text.replacen("free", "\u{2713} free", 1));
         assert_eq!(green.matches("\u{1b}[32m").count(), 1);
         assert!(green.contains("free\u{1b}[0m: proven\nresult     free\n"), "{green:?}");
-        assert!(painted("result     free", INFEASIBLE).contains("\u{1b}[31m\u{2715} free\u{1b}[0m"));
-        assert_eq!(painted("no verdict\n", DONE), "no verdict\n");
+        assert!(color_verdict("result     free", INFEASIBLE).contains("\u{1b}[31m\u{2715} free\u{1b}[0m"));
+        assert_eq!(color_verdict("no verdict\n", DONE), "no verdict\n");
     }
 
     #[test]
@@ -140,8 +140,8 @@ mod tests {
         let command = "  hint: cplan explain a.urdf b.toml";
         let text = format!("error: one two three four\n{quoted}  hint: five six seven\n{command}");
         let narrow = format!("error: one two\n  three four\n{quoted}  hint: five\n    six seven\n{command}");
-        assert_eq!(folded(&text, 14), narrow);
-        assert_eq!(folded(&text, WIDEST), text);
-        assert_eq!(narrowed("next       cplan explain a.urdf\n", 20), "next       cplan explain a.urdf\n");
+        assert_eq!(wrap_message(&text, 14), narrow);
+        assert_eq!(wrap_message(&text, WIDEST), text);
+        assert_eq!(wrap_summary("next       cplan explain a.urdf\n", 20), "next       cplan explain a.urdf\n");
     }
 }

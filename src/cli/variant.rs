@@ -37,8 +37,8 @@ impl Variant {
 
     /// Returns the planner, and the number of attempts with it. `base` has the settings that the variant does not
     /// state.
-    pub fn or_from(&self, base: &EffortArgs) -> (Planner, usize) {
-        let effort = self.options.effort.or_from(base);
+    pub fn completed_by(&self, base: &EffortArgs) -> (Planner, usize) {
+        let effort = self.options.effort.completed_by(base);
         let planner = effort.apply_to(self.planner);
         (planner, effort.levels(&planner))
     }

@@ -39,15 +39,15 @@ pub(super) struct ParsedWords {
 /// # Errors
 /// The defect, in a line or two.
 pub fn read_words(words: &[String]) -> Result<(Options, Overrides), String> {
-    asked(words).map(|asked| (asked.options, asked.overrides)).map_err(|failure| failure.to_string())
+    parse_settings(words).map(|asked| (asked.options, asked.overrides)).map_err(|failure| failure.to_string())
 }
 
 /// Parses words, and returns all settings.
 ///
 /// # Errors
 /// The defect, in a line or two.
-pub(super) fn asked(words: &[String]) -> Result<ParsedWords, Failure> {
-    let refused = |error| Failure::Usage(misplaced(&error).unwrap_or_else(|| message(&error)));
+pub(super) fn parse_settings(words: &[String]) -> Result<ParsedWords, Failure> {
+    let refused = |error| Failure::Usage(message_about_misplaced_option(&error).unwrap_or_else(|| message(&error)));
     let words = Words::try_parse_from(words).map_err(refused)?;
     let Words { planner, query, motion, message, options: given } = words;
     let options = plan::options(planner, &given, &motion, &message)?;
@@ -55,7 +55,7 @@ pub(super) fn asked(words: &[String]) -> Result<ParsedWords, Failure> {
 }
 
 /// Returns a message if an option concerns files and printing instead of planning. Returns `None` for other errors.
-fn misplaced(error: &clap::Error) -> Option<String> {
+fn message_about_misplaced_option(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else { return None };
     let main_job = PlanArgs::augment_args(Files::augment_args(Command::new("cplan")));
     let is_known = error.kind() == ErrorKind::UnknownArgument

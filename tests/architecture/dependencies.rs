@@ -59,7 +59,7 @@ impl Build {
     }
 
     /// Returns true if a package is a crate of this repository.
-    fn is_ours(package: &str) -> bool {
+    fn is_workspace_crate(package: &str) -> bool {
         package.starts_with("cplan")
     }
 
@@ -77,8 +77,8 @@ impl Build {
 
     /// Returns the names of external packages that our crates use.
     fn direct(&self) -> BTreeSet<&str> {
-        let ours = self.uses.iter().filter(|(package, _)| Self::is_ours(package));
-        let used = ours.flat_map(|(_, used)| used).filter(|package| !Self::is_ours(package));
+        let ours = self.uses.iter().filter(|(package, _)| Self::is_workspace_crate(package));
+        let used = ours.flat_map(|(_, used)| used).filter(|package| !Self::is_workspace_crate(package));
         used.map(|package| Self::name(package)).collect()
     }
 
@@ -88,7 +88,7 @@ impl Build {
         let (mut left, mut next) = (BTreeSet::from([root.as_str()]), vec![root]);
         while let Some(user) = next.pop() {
             for used in &self.uses[user] {
-                let is_out = Self::is_ours(user) && names.contains(&Self::name(used));
+                let is_out = Self::is_workspace_crate(user) && names.contains(&Self::name(used));
                 if !is_out && left.insert(used) {
                     next.push(used);
                 }
@@ -103,7 +103,7 @@ fn dependency_tables_agree_with_cargo() {
     let page = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/dependencies.md")).unwrap();
     let mut build = Build::of_cargo();
     let all = build.without(&[]);
-    let ours = all.iter().filter(|package| Build::is_ours(package)).count();
+    let ours = all.iter().filter(|package| Build::is_workspace_crate(package)).count();
     let total = format!("compiles {} packages from crates.io and {ours} crates of this repository", all.len() - ours);
     assert!(page.contains(&total), "docs/dependencies.md does not say: {total}");
     build.forget_features();

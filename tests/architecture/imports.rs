@@ -4,7 +4,7 @@
 use std::path::Path;
 
 /// Returns the dependencies of a crate that are crates of this repository.
-fn ours(folder: &str, table: &str) -> Vec<String> {
+fn workspace_dependencies(folder: &str, table: &str) -> Vec<String> {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).join("Cargo.toml");
     let manifest: toml::Table = toml::from_str(&std::fs::read_to_string(manifest).unwrap()).unwrap();
     let names = manifest
@@ -16,9 +16,9 @@ fn ours(folder: &str, table: &str) -> Vec<String> {
 
 #[test]
 fn the_checker_shares_no_crate_with_the_planner() {
-    assert_eq!(ours("crates/check", "dependencies"), [""; 0]);
-    assert_eq!(ours("crates/check", "dev-dependencies"), [""; 0]);
-    assert_eq!(ours("crates/check-files", "dependencies"), ["cplan-check"]);
+    assert_eq!(workspace_dependencies("crates/check", "dependencies"), [""; 0]);
+    assert_eq!(workspace_dependencies("crates/check", "dev-dependencies"), [""; 0]);
+    assert_eq!(workspace_dependencies("crates/check-files", "dependencies"), ["cplan-check"]);
     // Its tests share only the choice of random cases.
-    assert_eq!(ours("crates/check-files", "dev-dependencies"), ["cplan-cases"]);
+    assert_eq!(workspace_dependencies("crates/check-files", "dev-dependencies"), ["cplan-cases"]);
 }

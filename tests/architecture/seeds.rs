@@ -33,7 +33,7 @@ fn root() -> &'static Path {
 }
 
 /// Returns the numbers of the lines that choose random cases which differ from run to run.
-fn left_to_chance(text: &str) -> Vec<usize> {
+fn unseeded_lines(text: &str) -> Vec<usize> {
     let code: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
     let wrong = |at: usize| {
         let opens = code[at].contains("proptest! {");
@@ -55,7 +55,7 @@ fn no_random_test_is_left_to_chance() {
             let text = std::fs::read_to_string(&file).unwrap();
             blocks += text.matches("proptest! {").count();
             let name = file.strip_prefix(root()).unwrap().display();
-            wrong.extend(left_to_chance(&text).into_iter().map(|line| format!("{name}:{line}")));
+            wrong.extend(unseeded_lines(&text).into_iter().map(|line| format!("{name}:{line}")));
         }
     }
     assert!(
@@ -111,13 +111,13 @@ fn nothing_is_left_behind_by_a_failure() {
 #[test]
 fn the_search_for_chance_sees_all_forms() {
     let fixed = "proptest! {\n    // why\n    #![proptest_config(cplan_cases::cases(9))]\n";
-    assert!(left_to_chance(fixed).is_empty());
-    assert!(left_to_chance("proptest! {\n    #![proptest_config(cplan_cases::cases(9))]\n").is_empty());
-    assert_eq!(left_to_chance("proptest! {\n    #[test]\n    fn f() {}\n}"), [1]);
+    assert!(unseeded_lines(fixed).is_empty());
+    assert!(unseeded_lines("proptest! {\n    #![proptest_config(cplan_cases::cases(9))]\n").is_empty());
+    assert_eq!(unseeded_lines("proptest! {\n    #[test]\n    fn f() {}\n}"), [1]);
     assert_eq!(
-        left_to_chance("let x = 1;\nproptest! {\n    #![proptest_config(ProptestConfig::with_cases(9))]"),
+        unseeded_lines("let x = 1;\nproptest! {\n    #![proptest_config(ProptestConfig::with_cases(9))]"),
         [2, 3]
     );
-    assert_eq!(left_to_chance("let runner = TestRunner::default();"), [1]);
-    assert!(left_to_chance("// not TestRunner::default()").is_empty());
+    assert_eq!(unseeded_lines("let runner = TestRunner::default();"), [1]);
+    assert!(unseeded_lines("// not TestRunner::default()").is_empty());
 }

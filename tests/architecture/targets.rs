@@ -41,7 +41,7 @@ fn libraries_without_test_targets_have_no_tests() {
 }
 
 #[test]
-fn examples_are_told_from_plain_text() {
+fn examples_are_distinguished_from_plain_text() {
     assert!(has_example("/// ```\n/// f();\n/// ```\n") && has_example("//! ```rust\n//! ```\n"));
     assert!(!has_example("//! ```text\n//! a -> b\n//! ```\n") && !has_example("fn f() {}\n"));
 }

@@ -132,7 +132,7 @@ pub fn placed(arm: Arm, workspace: Workspace) -> Scene {
 }
 
 /// Returns the problem of a motion in a scene. Panics if it is invalid.
-pub fn asked(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> MotionProblem {
+pub fn motion_problem(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> MotionProblem {
     MotionProblem::new(scene, start, goals).expect("a problem")
 }
 
@@ -199,11 +199,11 @@ pub fn w20() -> Scene {
 /// Returns a benchmark problem for the solver.
 pub fn problem(which: Benchmark) -> MotionProblem {
     let (scene, start, goal) = benchmark(which);
-    asked(scene, start, goal)
+    motion_problem(scene, start, goal)
 }
 
 /// Returns the configuration at these fractions `u` and `v` of the joints' ranges.
-pub fn inside(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
+pub fn configuration_at_fractions(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
     let at = |k: usize, t: f64| {
         let (lower, upper) = scene.arm().topology().ranges[k].domain();
         lower + t * (upper - lower)

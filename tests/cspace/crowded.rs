@@ -83,7 +83,7 @@ fn sides(ring: &[Point]) -> impl Iterator<Item = [Point; 2]> + Clone + '_ {
 }
 
 /// Returns the distance between two convex outlines from their corners and sides; 0 if they meet.
-fn apart(a: &[Point], b: &[Point]) -> f64 {
+fn outline_distance(a: &[Point], b: &[Point]) -> f64 {
     let holds = |ring: &[Point], p: Point| ring.len() > 2 && sides(ring).all(|[u, v]| cross(v - u, p - u) >= 0.0);
     // Sides that touch or overlap have an end at distance 0 from the other.
     let beside = |[u, v]: [Point; 2], [p, q]: [Point; 2]| cross(v - u, p - u) * cross(v - u, q - u) < 0.0;
@@ -108,7 +108,7 @@ fn clearance(scene: &Scene, at: Configuration) -> f64 {
     let elbow = Point::new(at[0].cos(), at[0].sin());
     let links = [turned(Point::zeros(), at[0], 1.0), turned(elbow, at[0] + at[1], 0.8)];
     let pieces = scene.workspace().obstacles.iter().flat_map(|o| &o.pieces);
-    pieces.flat_map(|piece| links.iter().map(|link| apart(link, piece.core()))).fold(f64::INFINITY, f64::min)
+    pieces.flat_map(|piece| links.iter().map(|link| outline_distance(link, piece.core()))).fold(f64::INFINITY, f64::min)
 }
 
 fn is_free(regions: &Regions, at: Configuration) -> bool {
@@ -141,7 +141,7 @@ proptest! {
                 prop_assert!(distance <= 3.0 * margin, "{distance} at {at:?}");
             }
         }
-        prop_assert!(!crate::common::random::usual() || free > 10 && blocked > 5, "{free} {blocked}");
+        prop_assert!(!crate::common::random::uses_default_cases() || free > 10 && blocked > 5, "{free} {blocked}");
     }
 }
 

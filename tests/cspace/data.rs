@@ -13,7 +13,7 @@ use cplan::{Configuration, Problem, plan};
 use std::path::Path;
 
 /// Plans in a shipped world.
-fn planned(robot: &str, world: &str, planner: &str) -> (Problem, CSpaces) {
+fn plan_shipped(robot: &str, world: &str, planner: &str) -> (Problem, CSpaces) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let (options, overrides) = read_words(&[format!("--planner={planner}")]).unwrap();
     let [urdf, world] = [format!("robots/{robot}.urdf"), format!("workspaces/{world}.toml")].map(|f| root.join(f));
@@ -54,7 +54,7 @@ fn free(scene: &Scene, q: Values) -> f64 {
 }
 
 /// Returns true if a point is within the polygons, that is, if a ray from it crosses an odd number of sides.
-fn within(polygons: &Polygons, [x, y]: Values) -> bool {
+fn is_inside(polygons: &Polygons, [x, y]: Values) -> bool {
     let sides = polygons.iter().flatten().flat_map(|ring| ring.windows(2));
     sides
         .filter(|s| {
@@ -65,7 +65,7 @@ fn within(polygons: &Polygons, [x, y]: Values) -> bool {
         == 1
 }
 
-fn between([a, b]: [Values; 2], share: f64) -> Values {
+fn interpolate([a, b]: [Values; 2], share: f64) -> Values {
     [0, 1].map(|k| a[k] + (b[k] - a[k]) * share)
 }
 
@@ -78,7 +78,7 @@ fn c_obstacles_contain_collisions_tightly() {
         ("gantry", "gantry_maze"),
         ("polar", "polar_gate"),
     ] {
-        let (problem, spaces) = planned(robot, world, "shortest");
+        let (problem, spaces) = plan_shipped(robot, world, "shortest");
         let (scene, [space]) = (problem.scene(), &spaces.spaces[..]) else { panic!("one space") };
         let Proves::Outer { margin } = space.proves else { panic!("{:?}", space.proves) };
         let clearance = scene.workspace().clearance;
@@ -89,7 +89,7 @@ fn c_obstacles_contain_collisions_tightly() {
             let q = [random.within(first.lower, first.upper), random.within(second.lower, second.upper)];
             for (number, region) in space.c_obstacles.iter().enumerate() {
                 let apart = distance(scene, q, number);
-                if within(&region.polygons, q) {
+                if is_inside(&region.polygons, q) {
                     blocked += 1;
                     assert!(apart <= clearance + margin, "{world}: {q:?} is {apart} m from {}", region.obstacle);
                 } else {
@@ -111,7 +111,7 @@ fn cells_of_planners_are_free() {
     for planner in
         ["shortest", "visibility", "trapezoid", "triangles", "voronoi", "prm", "wavefront", "harmonic", "subdivision"]
     {
-        let (problem, spaces) = planned("planar_2r", "shelf", planner);
+        let (problem, spaces) = plan_shipped("planar_2r", "shelf", planner);
         let (scene, space) = (problem.scene(), &spaces.spaces[0]);
         let mut random = dice(8);
         let mut asked = 0;
@@ -120,11 +120,11 @@ fn cells_of_planners_are_free() {
             assert!(free(scene, q) > 0.0, "{planner}: {what} {q:?} hits");
         };
         for path in space.paths.iter().flat_map(|path| [&path.waypoints, &path.outline]) {
-            path.windows(2).for_each(|side| is_free(between([side[0], side[1]], random.within(0.0, 1.0)), "path"));
+            path.windows(2).for_each(|side| is_free(interpolate([side[0], side[1]], random.within(0.0, 1.0)), "path"));
         }
         if let Some(roadmap) = &space.roadmap {
             for edge in roadmap.edges.iter().take(1000) {
-                is_free(between(edge.map(|v| roadmap.vertices[v]), random.within(0.0, 1.0)), "edge");
+                is_free(interpolate(edge.map(|v| roadmap.vertices[v]), random.within(0.0, 1.0)), "edge");
             }
         }
         for corners in space.cells.iter().flat_map(|cells| &cells.corners) {
@@ -137,7 +137,7 @@ fn cells_of_planners_are_free() {
         space.expanded.iter().for_each(|&q| is_free(q, "expanded"));
         for row in &space.rows {
             assert_eq!(row[0][0], row[1][0]);
-            is_free(between(*row, random.within(1e-6, 1.0 - 1e-6)), "row");
+            is_free(interpolate(*row, random.within(1e-6, 1.0 - 1e-6)), "row");
         }
         if let Some(boxes) = &space.boxes {
             for corners in &boxes.free {
@@ -174,8 +174,8 @@ fn cells_of_planners_are_free() {
 }
 
 #[test]
-fn proofs_are_boxes_that_hit() {
-    let (problem, spaces) = planned("planar_2r", "singular_closed", "shortest");
+fn proofs_consist_of_collision_boxes() {
+    let (problem, spaces) = plan_shipped("planar_2r", "singular_closed", "shortest");
     let (space, mut random) = (&spaces.spaces[0], dice(9));
     assert!(space.paths.is_empty() && space.proof.len() > 1);
     for corners in &space.proof {
@@ -186,7 +186,7 @@ fn proofs_are_boxes_that_hit() {
 
 #[test]
 fn a_task_has_a_space_for_each_world() {
-    let (problem, spaces) = planned("scara", "tasks/kitting_cell", "shortest");
+    let (problem, spaces) = plan_shipped("scara", "tasks/kitting_cell", "shortest");
     let objects = problem.task().unwrap().objects.len();
     let carried: Vec<&str> = spaces.spaces.iter().map(|space| space.payload.as_str()).collect();
     assert!(carried.iter().filter(|name| !name.is_empty()).count() >= objects, "{carried:?}");

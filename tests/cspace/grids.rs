@@ -180,7 +180,7 @@ proptest! {
     }
 
     #[test]
-    fn grids_from_slices_are_those_of_collision_tests(scene in any_scene(), clearance in prop_oneof![Just(0.0), 0.0..0.1f64]) {
+    fn grids_from_slices_equal_those_of_collision_tests(scene in any_scene(), clearance in prop_oneof![Just(0.0), 0.0..0.1f64]) {
         let cells = [23, 31];
         let (slices, sampled) = (grid_from_slices(&scene, cells, clearance), sampled_grid(&scene, cells, clearance));
         for index in 0..slices.blocked.len() {
@@ -212,7 +212,7 @@ proptest! {
 }
 
 #[test]
-fn w20_from_slices_is_that_of_collision_tests() {
+fn w20_from_slices_equals_that_of_collision_tests() {
     let scene = common::w20();
     let cells = [1024, 1024];
     let (slices, sampled) = (grid_from_slices(&scene, cells, 0.0), sampled_grid(&scene, cells, 0.0));

@@ -118,7 +118,7 @@ fn a_buried_arm_has_no_free_configuration() {
 }
 
 #[test]
-fn the_command_names_it_for_configurations_that_are_not_free() {
+fn the_command_names_the_nearest_free_configuration() {
     let check = |at: &str| {
         let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_cplan"));
         let output = command.args(["check", "robots/planar_2r.urdf", "workspaces/shelf.toml", "--json", "--at", at]);

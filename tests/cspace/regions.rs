@@ -165,7 +165,7 @@ fn lattice(window: [(f64, f64); 2], n: usize) -> impl Iterator<Item = Configurat
 
 /// Checks the margin of the regions. Places that are free in the regions must be free. Places with three times the
 /// margin must be free in the regions.
-fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
+fn check_margin_is_kept(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
     let keep = scene.workspace().clearance;
     let regions = regions(scene, margin, Configuration::new(0.3, -0.8), 1);
     prop_assert_eq!(regions.proves, Proves::Outer { margin });
@@ -187,7 +187,7 @@ fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
 
 /// Checks regions that overestimate free space. Places that are blocked in the regions must be blocked. Places that are
 /// too near to an obstacle by more than the margin must be blocked in the regions.
-fn loses_no_more_than_its_margin(scene: &Scene, regions: &Regions, margin: f64) -> Result<(), TestCaseError> {
+fn check_loss_within_margin(scene: &Scene, regions: &Regions, margin: f64) -> Result<(), TestCaseError> {
     let keep = scene.workspace().clearance;
     prop_assert_eq!(regions.proves, Proves::Inner { margin });
     for q in lattice(regions.window, 60) {
@@ -231,13 +231,13 @@ proptest! {
     fn gantry_polygons_lose_at_most_the_margin(scene in any_gantry(), margin in prop_oneof![Just(1e-4), 0.001..0.02f64]) {
         // Pieces and tools that are thinner than the margin vanish.
         if let Some(regions) = inner_regions(&scene, margin) {
-            loses_no_more_than_its_margin(&scene, &regions, margin)?;
+            check_loss_within_margin(&scene, &regions, margin)?;
         }
     }
 
     #[test]
-    fn free_is_free_and_clear_is_free(scene in any_scene(), margin in prop_oneof![Just(0.01), 0.002..0.03f64]) {
-        keeps_its_margin(&scene, margin)?;
+    fn free_regions_are_free_and_clear_places_are_in_them(scene in any_scene(), margin in prop_oneof![Just(0.01), 0.002..0.03f64]) {
+        check_margin_is_kept(&scene, margin)?;
     }
 
     #[test]
@@ -263,7 +263,7 @@ fn a_wall_that_meets_a_point_keeps_its_margin() {
     let offset = Vector::new(0.0, 0.044567284175443776);
     let joints = [turning("first"), turning("second")];
     let scene = scene(joints, offset, [vec![], vec![wall]], vec![point], 0.023837485419749088);
-    keeps_its_margin(&scene, 0.01).unwrap_or_else(|e| panic!("{e}"));
+    check_margin_is_kept(&scene, 0.01).unwrap_or_else(|e| panic!("{e}"));
 }
 
 #[test]
@@ -292,7 +292,7 @@ fn free_area_converges_from_below() {
 }
 
 /// Returns true if one component of free space contains the start and a copy of the goal.
-fn connected(scene: &Scene, margin: f64, goal: Configuration) -> bool {
+fn connects_start_and_goal(scene: &Scene, margin: f64, goal: Configuration) -> bool {
     let start = Configuration::new(-0.7, 0.0);
     let regions = regions(scene, margin, start, 1);
     let from = Some(regions.component(start).expect("the start is free"));
@@ -308,9 +308,9 @@ fn connected(scene: &Scene, margin: f64, goal: Configuration) -> bool {
 #[test]
 fn narrow_passages_stay_open_and_walls_closed() {
     let goal = Configuration::new(1.75, 0.5);
-    assert!(connected(&torus(0.0), 1e-3, goal), "a passage 0.070 rad wide");
-    assert!(connected(&torus(0.04), 1e-3, goal), "a passage 0.022 rad wide");
-    assert!(!connected(&torus(0.0), 1e-3, Configuration::new(-2.8, 0.4)), "an enclosed goal");
+    assert!(connects_start_and_goal(&torus(0.0), 1e-3, goal), "a passage 0.070 rad wide");
+    assert!(connects_start_and_goal(&torus(0.04), 1e-3, goal), "a passage 0.022 rad wide");
+    assert!(!connects_start_and_goal(&torus(0.0), 1e-3, Configuration::new(-2.8, 0.4)), "an enclosed goal");
 }
 
 #[test]
@@ -321,7 +321,7 @@ fn a_thin_wall_of_two_bands_is_closed() {
     let scene = placed(arm, workspace);
     let goal = Configuration::new(1.75, 0.5);
     for margin in [1e-3, 1e-4, 1e-5] {
-        assert!(!connected(&scene, margin, goal), "margin {margin}");
+        assert!(!connects_start_and_goal(&scene, margin, goal), "margin {margin}");
     }
 }
 

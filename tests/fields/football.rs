@@ -9,7 +9,7 @@ mod page;
 mod play;
 
 use cplan::field::{Difference, Solver};
-use measure::{Case, Kind, Run, asked, cases, run, sor};
+use measure::{Case, Kind, Run, cases, run, run_after_every_frame, sor};
 use play::{Frame, Match};
 
 fn played(seed: u64, frames: usize) -> (Match, Vec<Frame>) {
@@ -90,7 +90,7 @@ fn the_last_frame_is_a_better_start_than_nothing() {
 fn fields_take_one_sweep_where_nothing_new_is_seen() {
     let (_, frames) = played(1, 20);
     let case = Case { kind: Kind::LocallyOriented, difference: Difference::Central, solver: sor(1.0), published: None };
-    let share = |times: usize| asked(&frames, times, &case).unwrap().share_at_once();
+    let share = |times: usize| run_after_every_frame(&frames, times, &case).unwrap().share_at_once();
     assert!(share(1) < 0.2, "{}", share(1));
     assert!((0.8..0.9).contains(&share(6)), "{}", share(6));
 }
@@ -101,7 +101,7 @@ fn the_page_has_every_frame_and_loads_nothing() {
     let mut film = page::Film::default();
     for _ in 0..6 {
         let frame = game.next().unwrap();
-        film.see(&frame, game.fields(), game.score);
+        film.add_frame(&frame, game.fields(), game.score);
     }
     let page = film.page(1);
     let data = page.split("type=\"application/json\">").nth(1).and_then(|rest| rest.split("</script>").next()).unwrap();

@@ -110,7 +110,7 @@ fn query(grid: &Grid, start: usize, goal: usize) -> Query {
     Query { start: grid.center(start), goals: grid.center(goal).into() }
 }
 
-fn found(run: &Run) -> Path {
+fn found_path(run: &Run) -> Path {
     match &run.outcome {
         Proposal::Found(path) => path.clone(),
         other => panic!("no path: {other:?}"),
@@ -140,7 +140,7 @@ fn run(is_wavefront: bool, grid: &Grid, query: &Query, path: PathKind) -> Run {
 
 /// Checks that both planners find a path if there is one. The wavefront's plain path must visit free cells, each a
 /// neighbour of the one before, and must be a shortest one.
-fn goes_from_cell_to_cell(grid: &Grid, start: usize, goal: usize) -> Result<(), TestCaseError> {
+fn check_paths_between_cells(grid: &Grid, start: usize, goal: usize) -> Result<(), TestCaseError> {
     let reached = all_steps(grid)[goal][start];
     let step = grid.step();
     for planner in BOTH {
@@ -149,7 +149,7 @@ fn goes_from_cell_to_cell(grid: &Grid, start: usize, goal: usize) -> Result<(), 
             prop_assert_eq!(run.outcome, Proposal::NoPath);
             continue;
         }
-        let path = found(&run);
+        let path = found_path(&run);
         prop_assert_eq!(path.start(), grid.center(start));
         prop_assert!(grid.topology.distance(path.goal(), grid.center(goal)) < 1e-12);
         if !planner {
@@ -207,7 +207,7 @@ proptest! {
     #[test]
     fn plain_paths_visit_neighboring_free_cells((grid, start, goal) in random_problem()) {
         prop_assume!(!grid.blocked[start] && !grid.blocked[goal]);
-        goes_from_cell_to_cell(&grid, start, goal)?;
+        check_paths_between_cells(&grid, start, goal)?;
     }
 
     #[test]
@@ -229,7 +229,7 @@ proptest! {
                 prop_assert_eq!(short.outcome, Proposal::NoPath);
                 continue;
             }
-            let (plain, short) = (found(&plain), found(&short));
+            let (plain, short) = (found_path(&plain), found_path(&short));
             prop_assert!(short.length() <= plain.length() + 1e-9);
             prop_assert!(short.start() == plain.start() && short.goal() == plain.goal());
             prop_assert_eq!(short.start(), from);
@@ -249,7 +249,7 @@ fn a_long_spiral_is_no_flat_field() {
     let free = grid.blocked.iter().filter(|&&blocked| !blocked).count();
     assert!(free > 10_000, "only {free} cells");
     let run = run(false, &grid, &query(&grid, outer, inner), PathKind::Own);
-    assert!(found(&run).length() > 0.7 * free as f64);
+    assert!(found_path(&run).length() > 0.7 * free as f64);
     let (_, potential) = run.trace.logarithms().expect("a field's");
     // In a corridor one cell wide, each cell has 2 - sqrt 3 times the value of the one before. The few cells at its
     // closed end are an exception.
@@ -262,7 +262,7 @@ fn a_long_spiral_is_no_flat_field() {
 fn paths_on_a_ring_of_three_cells_go_the_short_way() {
     let grid = grid([3, 8], [true, false], vec![false; 24]);
     assert_eq!(all_steps(&grid)[16][0], 1);
-    goes_from_cell_to_cell(&grid, 0, 16).unwrap_or_else(|e| panic!("{e}"));
+    check_paths_between_cells(&grid, 0, 16).unwrap_or_else(|e| panic!("{e}"));
 }
 
 /// Checks a torus without walls. The harmonic function is constant there; only the loss at each step of a walk makes
@@ -281,7 +281,7 @@ fn start_at_the_goal_is_a_path_of_one_point() {
     let grid = grid([4, 5], [false, true], vec![false; 20]);
     for planner in BOTH {
         for path in PathKind::ALL {
-            let path = found(&run(planner, &grid, &query(&grid, 7, 7), path));
+            let path = found_path(&run(planner, &grid, &query(&grid, 7, 7), path));
             assert_eq!(path.waypoints(), [grid.center(7)]);
         }
     }
@@ -313,13 +313,13 @@ fn circles_are_crossed_at_the_seam_and_paths_stay_continuous() {
     let tau = std::f64::consts::TAU;
     let end = Configuration::new(-3.0 + tau, 2.9 - tau);
     for planner in BOTH {
-        let path = found(&run(planner, &open, &query, PathKind::Taut));
+        let path = found_path(&run(planner, &open, &query, PathKind::Taut));
         assert_eq!(path.start(), query.start);
         assert!((path.goal() - end).norm() < 1e-14, "{}", path.goal());
         assert!((path.length() - (end - query.start).norm()).abs() < 1e-12);
         // A start that is a turn away remains there.
         let turned = Query { start: query.start + Configuration::new(tau, 0.0), ..query.clone() };
-        let path = found(&run(planner, &open, &turned, PathKind::Taut));
+        let path = found_path(&run(planner, &open, &turned, PathKind::Taut));
         assert_eq!(path.start(), turned.start);
         assert!((path.goal() - end - Configuration::new(tau, 0.0)).norm() < 1e-12);
     }
@@ -330,7 +330,7 @@ fn a_blocked_start_is_joined_to_a_free_cell_nearby() {
     let grid = drawn("....... .###... .###... .###... .......");
     for planner in BOTH {
         let start = Configuration::new(2.5, 1.2);
-        let path = found(&run(planner, &grid, &Query { start, goals: grid.center(6).into() }, PathKind::Taut));
+        let path = found_path(&run(planner, &grid, &Query { start, goals: grid.center(6).into() }, PathKind::Taut));
         assert_eq!((path.start(), path.goal()), (start, grid.center(6)));
     }
 }
@@ -357,6 +357,6 @@ fn the_nearest_of_several_goals_is_taken() {
     let query =
         Query { start: grid.center(2), goals: [29, 12, 20].map(|cell| grid.center(cell)).into_iter().collect() };
     for planner in BOTH {
-        assert_eq!(found(&run(planner, &grid, &query, PathKind::Taut)).goal(), grid.center(12));
+        assert_eq!(found_path(&run(planner, &grid, &query, PathKind::Taut)).goal(), grid.center(12));
     }
 }

@@ -47,7 +47,7 @@ fn relaxation() -> impl Strategy<Value = Relaxation> {
     ]
 }
 
-fn apart(domain: &Domain, equation: &Equation, relaxation: &Relaxation, stopping: &Stopping) -> f64 {
+fn difference_from_cpu(domain: &Domain, equation: &Equation, relaxation: &Relaxation, stopping: &Stopping) -> f64 {
     let [cpu, gpu] =
         [Device::Cpu, Device::Gpu].map(|on| relax_on(on, domain, equation, relaxation, stopping).expect("a field"));
     assert_eq!(cpu.stages.len(), gpu.stages.len());
@@ -62,11 +62,11 @@ proptest! {
 
     #[test]
     #[ignore = "needs a Vulkan driver: .ci/gpu"]
-    fn sweeps_of_linear_equations_are_those_of_the_cpu(
+    fn sweeps_of_linear_equations_equal_those_of_the_cpu(
         domain in domain(), drift in [-1.3..1.3_f64, -1.3..1.3], which in 0..6_usize, relaxation in relaxation(),
     ) {
         let stopping = Stopping { measure: Measure::SumOfSquares, below: 0.0, max_sweeps: SWEEPS };
-        let off = apart(&domain, &linear(&domain, drift, which), &relaxation, &stopping);
+        let off = difference_from_cpu(&domain, &linear(&domain, drift, which), &relaxation, &stopping);
         // Over-relaxation magnifies rounding.
         let magnified = if relaxation.factor(domain.cells()) > 1.0 { 20.0 } else { 1.0 };
         prop_assert!(off <= SWEEPS as f64 * ROUNDING * magnified, "off by {off:e}");
@@ -74,7 +74,7 @@ proptest! {
 
     #[test]
     #[ignore = "needs a Vulkan driver: .ci/gpu"]
-    fn converged_preferences_are_those_of_the_cpu(domain in domain(), epsilon in -0.9..0.9_f64, which in 0..3_usize) {
+    fn converged_preferences_equal_those_of_the_cpu(domain in domain(), epsilon in -0.9..0.9_f64, which in 0..3_usize) {
         let epsilon: Vec<f64> =
             (0..domain.kinds().len()).map(|cell| if cell % 3 == 0 { epsilon } else { 0.0 }).collect();
         let equation = match which {
@@ -86,7 +86,7 @@ proptest! {
         let relaxation = Relaxation::gauss_seidel(Order::RedBlack);
         // If the harmonic field is nearly level, rounding decides its direction. The values hardly depend on that
         // direction.
-        let off = apart(&domain, &equation, &relaxation, &stopping);
+        let off = difference_from_cpu(&domain, &equation, &relaxation, &stopping);
         prop_assert!(off <= 5e-3, "off by {off:e}");
     }
 }

@@ -351,7 +351,7 @@ fn collada_without_a_scene_and_with_a_comment_first() {
 }
 
 #[test]
-fn meshes_are_held_to_a_range_as_they_are_scaled() {
+fn scaled_meshes_must_be_within_a_range() {
     let folder = tempfile::tempdir().unwrap();
     let [urdf, world] = ["arm.urdf", "world.toml"].map(|file| folder.path().join(file));
     fs::write(&world, "").unwrap();

@@ -87,7 +87,7 @@ fn the_healthy_files_load() {
 }
 
 #[test]
-fn numbers_that_are_none() {
+fn invalid_numbers_are_refused() {
     bad_arm("xyz=\"0.5 0 0\"", "xyz=\"0.5 nan 0\"", &["line 9", "link \"upper\"", "not finite"]);
     bad_arm("lower=\"-3\"", "lower=\"-inf\"", &["line 6", "joint \"j1\"", "too long", "continuous"]);
     bad_arm("lower=\"-3\"", "lower=\"nan\"", &["line 6", "joint \"j1\"", "not finite", "continuous"]);
@@ -97,7 +97,7 @@ fn numbers_that_are_none() {
 }
 
 #[test]
-fn joints_that_cannot_move() {
+fn joints_that_cannot_move_are_refused() {
     bad_arm(
         "<axis xyz=\"0 0 1\"/>",
         "<axis xyz=\"0 0 0\"/>",
@@ -113,7 +113,7 @@ fn joints_that_cannot_move() {
 }
 
 #[test]
-fn trees_that_are_none() {
+fn links_that_form_no_tree_are_refused() {
     bad_arm(
         "<parent link=\"upper\"/>",
         "<parent link=\"uper\"/>",
@@ -137,7 +137,7 @@ fn trees_that_are_none() {
 }
 
 #[test]
-fn files_that_are_no_urdf() {
+fn files_other_than_urdf_are_refused() {
     bad_arm("<link name=\"tool\"/>", "<link name=\"tool\">", &["line 22", "not well-formed XML"]);
     bad_arm("</robot>", "", &["not well-formed XML", "never closed"]);
     bad_arm("</robot>", "<xacro:include filename=\"a\"/></robot>", &["line 22", "not declared", "xmlns:xacro="]);
@@ -168,7 +168,7 @@ fn files_that_are_no_urdf() {
 }
 
 #[test]
-fn arms_that_are_none() {
+fn robots_without_a_planar_arm_are_refused() {
     bad_arm("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 1 0\"/>", &["line 14", "common plane", "about (0, 1, 0)", "90.00"]);
     bad_arm("type=\"revolute\"", "type=\"fixed\"", &["two joints", "only one movable joint, \"j2\" (revolute)"]);
     bad_arm("type=\"revolute\"", "type=\"floating\"", &["two joints", "only one"]);
@@ -198,7 +198,7 @@ fn arms_that_are_none() {
 }
 
 #[test]
-fn robot_tables_that_do_not_fit() {
+fn robot_tables_that_do_not_fit_are_refused() {
     with_robot("joints = [\"j1\", \"elbow\"]", &["line 3, column", "no joint \"elbow\"", "\"j1\", \"j2\"", "^"]);
     with_robot("joints = [\"j2\", \"j1\"]", &["line 3", "not the other way round", "joints = [\"j1\", \"j2\"]"]);
     with_robot("joints = [\"j1\", \"j1\"]", &["line 3", "named twice"]);
@@ -220,7 +220,7 @@ fn robot_tables_that_do_not_fit() {
 }
 
 #[test]
-fn obstacles_that_are_none() {
+fn invalid_obstacles_are_refused() {
     let shape = "circle = { center = [-1.5, 0], radius = 0.2 }";
     for (text, parts) in [
         ("polygon = [[5, 0], [6, 0]]", &["line 8, column 11", "obstacle \"post\"", "three corners", "^"][..]),
@@ -249,7 +249,7 @@ fn obstacles_that_are_none() {
 }
 
 #[test]
-fn starts_and_goals_that_cannot_be() {
+fn invalid_starts_and_goals_are_refused() {
     bad_world(
         "joints = [0.0, 0.5]",
         "joints = [0.0, 2.5]",
@@ -359,7 +359,7 @@ polygon = [[0, 0], [0, 1], [1, 1]]
 
 /// Checks that the message about a number that is too large states the bound.
 #[test]
-fn numbers_that_are_too_large_say_the_bound() {
+fn too_large_numbers_are_refused_with_the_bound() {
     bad_arm("xyz=\"0.5 0 0\"", "xyz=\"1000500 0 0\"", &["line 9", "at most 1e6", "from -1e6 to 1e6"]);
     bad_arm("size=\"1 0.1 0.1\"", "size=\"2e6 0.1 0.1\"", &["line 9", "at most 1e6", "from -1e6 to 1e6"]);
     with_robot("at = [1000500, 0]", &["at most 1e6", "from -1e6 to 1e6"]);

@@ -4,18 +4,18 @@ use super::errors::{ARM, WORLD, load_files};
 use cplan::input::Overrides;
 
 /// Returns a file with a piece of its text replaced.
-fn with(text: &str, from: &str, to: &str) -> String {
+fn with_replacement(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "{from}");
     text.replacen(from, to, 1)
 }
 
 /// Returns the world with a `[robot]` table.
 fn robot(table: &str) -> String {
-    with(WORLD, "[start]", &format!("[robot]\n{table}\n[start]"))
+    with_replacement(WORLD, "[start]", &format!("[robot]\n{table}\n[start]"))
 }
 
 /// Checks that files are refused with a hint. Also checks that they load after each change that the hint suggests.
-fn holds([urdf, world]: [&str; 2], hint: &str, mended: &[[&str; 2]]) {
+fn check_hint([urdf, world]: [&str; 2], hint: &str, mended: &[[&str; 2]]) {
     let refused = load_files("arm.urdf", urdf, world, &Overrides::default()).expect_err(hint).to_string();
     let hints = refused.split("hint: ").skip(1).collect::<Vec<_>>().join("\n");
     assert!(hints.contains(hint), "no \"{hint}\" in:\n{refused}");
@@ -27,23 +27,23 @@ fn holds([urdf, world]: [&str; 2], hint: &str, mended: &[[&str; 2]]) {
 
 /// Checks a mistake in the URDF, and the corrections that the hint suggests.
 fn of_arm(from: &str, slip: &str, hint: &str, mended: &[&str]) {
-    let mended: Vec<String> = mended.iter().map(|text| with(ARM, from, text)).collect();
+    let mended: Vec<String> = mended.iter().map(|text| with_replacement(ARM, from, text)).collect();
     let mended: Vec<[&str; 2]> = mended.iter().map(|urdf| [urdf.as_str(), WORLD]).collect();
-    holds([&with(ARM, from, slip), WORLD], hint, &mended);
+    check_hint([&with_replacement(ARM, from, slip), WORLD], hint, &mended);
 }
 
 /// Checks a mistake in the world file, and the corrections that the hint suggests.
 fn of_world(from: &str, slip: &str, hint: &str, mended: &[&str]) {
-    let mended: Vec<String> = mended.iter().map(|text| with(WORLD, from, text)).collect();
+    let mended: Vec<String> = mended.iter().map(|text| with_replacement(WORLD, from, text)).collect();
     let mended: Vec<[&str; 2]> = mended.iter().map(|world| [ARM, world.as_str()]).collect();
-    holds([ARM, &with(WORLD, from, slip)], hint, &mended);
+    check_hint([ARM, &with_replacement(WORLD, from, slip)], hint, &mended);
 }
 
 /// Checks an invalid `[robot]` table, and the corrections that the hint suggests.
 fn of_robot(slip: &str, hint: &str, mended: &[&str]) {
     let mended: Vec<String> = mended.iter().map(|table| robot(table)).collect();
     let mended: Vec<[&str; 2]> = mended.iter().map(|world| [ARM, world.as_str()]).collect();
-    holds([ARM, &robot(slip)], hint, &mended);
+    check_hint([ARM, &robot(slip)], hint, &mended);
 }
 
 #[test]
@@ -66,21 +66,21 @@ fn hints_about_limits_of_the_robot() {
     of_arm(limits, "lower=\"3\" upper=\"-3\"", "swap lower and upper", &[limits]);
     let world = robot("limits = { j1 = [-3.1, 3.1] }");
     for none in ["", "lower=\"-inf\" upper=\"3\"", "lower=\"-1\" upper=\"1e16\""] {
-        let urdf = with(ARM, limits, none);
-        let continuous = with(&urdf, "type=\"revolute\"", turns);
-        let mended = [[urdf.as_str(), &world], [&with(ARM, "type=\"revolute\"", turns), WORLD]];
-        holds([&urdf, WORLD], "[robot] limits = { j1 = [-3.1, 3.1] }, or make it type=\"continuous\"", &mended);
+        let urdf = with_replacement(ARM, limits, none);
+        let continuous = with_replacement(&urdf, "type=\"revolute\"", turns);
+        let mended = [[urdf.as_str(), &world], [&with_replacement(ARM, "type=\"revolute\"", turns), WORLD]];
+        check_hint([&urdf, WORLD], "[robot] limits = { j1 = [-3.1, 3.1] }, or make it type=\"continuous\"", &mended);
         assert!(none.contains("inf") || load_files("arm.urdf", &continuous, WORLD, &Overrides::default()).is_ok());
     }
     let soft = "<safety_controller soft_lower_limit=\"4\" soft_upper_limit=\"5\" k_velocity=\"1\"/></joint>";
-    let urdf = with(ARM, "</joint>", soft);
-    holds([&urdf, WORLD], "limits = { j1 = [-3, 3] }", &[[&urdf, &robot("limits = { j1 = [-3, 3] }")]]);
+    let urdf = with_replacement(ARM, "</joint>", soft);
+    check_hint([&urdf, WORLD], "limits = { j1 = [-3, 3] }", &[[&urdf, &robot("limits = { j1 = [-3, 3] }")]]);
     // The limits in degrees, or correct as they are written.
-    let urdf = with(ARM, limits, "lower=\"-150\" upper=\"132.5\"");
+    let urdf = with_replacement(ARM, limits, "lower=\"-150\" upper=\"132.5\"");
     let [degrees, radians] = ["[\"-150deg\", \"132.5deg\"]", "[-150, 132.5]"];
     let mended = [degrees, radians].map(|range| robot(&format!("limits = {{ j1 = {range} }}")));
     let hint = format!("limits = {{ j1 = {degrees} }}; if they are meant in radians: {{ j1 = {radians} }}");
-    holds([&urdf, WORLD], &hint, &mended.each_ref().map(|world| [urdf.as_str(), world.as_str()]));
+    check_hint([&urdf, WORLD], &hint, &mended.each_ref().map(|world| [urdf.as_str(), world.as_str()]));
 }
 
 #[test]
@@ -113,14 +113,14 @@ fn hints_about_shapes_of_the_robot() {
     let shape = "<box size=\"1 0.1 0.1\"/>";
     let bars = robot("bar = 0.05");
     for missing in ["<mesh filename=\"a.dae\"/>", "<mesh filename=\"package://p/a.stl\"/>"] {
-        let urdf = with(ARM, shape, missing);
-        holds([&urdf, WORLD], "[robot] bar = 0.05", &[[&urdf, &bars]]);
+        let urdf = with_replacement(ARM, shape, missing);
+        check_hint([&urdf, WORLD], "[robot] bar = 0.05", &[[&urdf, &bars]]);
     }
     let others = [shape, "<cylinder radius=\"0.1\" length=\"1\"/>", "<sphere radius=\"0.1\"/>"];
     of_arm(shape, "<cone/>", "box, cylinder, sphere, capsule or mesh", &others);
     let solid = "<collision><origin xyz=\"0.5 0 0\"/><geometry><box size=\"1 0.1 0.1\"/></geometry></collision>";
     let bare = ARM.replace(solid, "");
-    holds([&bare, WORLD], "bar = 0.05", &[[&bare, &bars]]);
+    check_hint([&bare, WORLD], "bar = 0.05", &[[&bare, &bars]]);
 }
 
 #[test]
@@ -200,12 +200,12 @@ fn hints_about_start_and_goal() {
     let (start, goal) = ("joints = [0.0, 0.5]", "joints = [1.0, -0.5]");
     let limits = "choose values within the limits, or override [robot] limits in the world file";
     let wide = "[robot]\nlimits = { j1 = [-3.2, 3.2], j2 = [-3.1, 3.1] }\n[start]";
-    let override_limits = |world: &str| with(world, "[start]", wide);
-    let beyond = with(WORLD, start, "joints = [0.0, 2.5]");
-    holds(
+    let override_limits = |world: &str| with_replacement(world, "[start]", wide);
+    let beyond = with_replacement(WORLD, start, "joints = [0.0, 2.5]");
+    check_hint(
         [ARM, &beyond],
         limits,
-        &[[ARM, &with(WORLD, start, "joints = [0.0, 1.5]")], [ARM, &override_limits(&beyond)]],
+        &[[ARM, &with_replacement(WORLD, start, "joints = [0.0, 1.5]")], [ARM, &override_limits(&beyond)]],
     );
     let away = "move it away from the obstacle (touching counts as contact)";
     of_world(start, "joints = [3.0, 0.0]", away, &["joints = [2.7, 0.0]"]);
@@ -217,18 +217,30 @@ fn hints_about_start_and_goal() {
     of_world(goal, "tip = [3, 0]", "choose a point nearer to joint 1", &["tip = [1.5, 0]"]);
     // If only limits are violated, there is no obstacle to move away from.
     let points = "choose another point, or override [robot] limits in the world file";
-    let folded = with(WORLD, goal, "tip = [0, 0.1]");
-    holds([ARM, &folded], points, &[[ARM, &with(WORLD, goal, "tip = [0, 1.5]")], [ARM, &override_limits(&folded)]]);
+    let folded = with_replacement(WORLD, goal, "tip = [0, 0.1]");
+    check_hint(
+        [ARM, &folded],
+        points,
+        &[[ARM, &with_replacement(WORLD, goal, "tip = [0, 1.5]")], [ARM, &override_limits(&folded)]],
+    );
     of_world(goal, "tip = [-1.5, 0.1]", "move it away from the obstacle", &["tip = [-1.0, 0.9]"]);
     // Some IK solutions are past limits, and the others are in contact. A point farther away is free.
-    let one_sided = with(ARM, "lower=\"-2\" upper=\"2\"", "lower=\"0\" upper=\"2\"");
-    let both = with(WORLD, goal, "tip = [-1.5, 0.1]");
-    let mended = with(WORLD, goal, "tip = [-1.0, 0.9]");
-    holds([&one_sided, &both], &format!("{away}, or {points}"), &[[&one_sided, &mended]]);
+    let one_sided = with_replacement(ARM, "lower=\"-2\" upper=\"2\"", "lower=\"0\" upper=\"2\"");
+    let both = with_replacement(WORLD, goal, "tip = [-1.5, 0.1]");
+    let mended = with_replacement(WORLD, goal, "tip = [-1.0, 0.9]");
+    check_hint([&one_sided, &both], &format!("{away}, or {points}"), &[[&one_sided, &mended]]);
     // A point near the base is out of reach, because the arm cannot fold that far.
-    let long = with(ARM, "<origin xyz=\"1 0 0\"/></joint>", "<origin xyz=\"0.4 0 0\"/></joint>");
-    let near = with(WORLD, goal, "tip = [0.1, 0.0]");
-    holds([&long, &near], "choose a point farther from joint 1", &[[&long, &with(WORLD, goal, "tip = [1.2, 0.0]")]]);
-    let clearance = with(WORLD, "name = \"test\"", "clearance = 2.0");
-    holds([ARM, &clearance], "or require less clearance", &[[ARM, &with(WORLD, "name = \"test\"", "clearance = 0.1")]]);
+    let long = with_replacement(ARM, "<origin xyz=\"1 0 0\"/></joint>", "<origin xyz=\"0.4 0 0\"/></joint>");
+    let near = with_replacement(WORLD, goal, "tip = [0.1, 0.0]");
+    check_hint(
+        [&long, &near],
+        "choose a point farther from joint 1",
+        &[[&long, &with_replacement(WORLD, goal, "tip = [1.2, 0.0]")]],
+    );
+    let clearance = with_replacement(WORLD, "name = \"test\"", "clearance = 2.0");
+    check_hint(
+        [ARM, &clearance],
+        "or require less clearance",
+        &[[ARM, &with_replacement(WORLD, "name = \"test\"", "clearance = 0.1")]],
+    );
 }

@@ -43,7 +43,7 @@ fn report(urdf: &str, world: Option<&str>) -> Inspection {
     inspect(&u, world.map(|_| w.as_path()))
 }
 
-fn with(from: &str, to: &str) -> Inspection {
+fn inspection_with(from: &str, to: &str) -> Inspection {
     assert!(ARM.contains(from), "{from}");
     report(&ARM.replacen(from, to, 1), None)
 }
@@ -103,7 +103,7 @@ fn single_diagnostics_leave_the_rest_of_the_report() {
         ("lower=\"-3\"", "lower=\"nan\"", ["line 6", "not finite"]),
         ("type=\"fixed\"", "type=\"glued\"", ["line 22", "\"glued\" is unknown"]),
     ] {
-        let found = with(from, to);
+        let found = inspection_with(from, to);
         assert!(!found.is_plannable());
         for part in parts {
             assert!(messages(&found).contains(part), "no {part} in {}", messages(&found));
@@ -132,7 +132,7 @@ fn several_stages_report_their_diagnostics_together() {
 
 #[test]
 fn links_that_form_no_tree_are_listed_all_the_same() {
-    let found = with("<parent link=\"base\"/>", "<parent link=\"tool\"/>");
+    let found = inspection_with("<parent link=\"base\"/>", "<parent link=\"tool\"/>");
     assert!(messages(&found).contains("cycle"));
     assert!(found.root.is_none() && found.joints.len() == 3 && found.links.len() == 4);
     let broken = report("<robot", None);
@@ -311,7 +311,7 @@ fn reversed_limits_of_a_held_joint_are_reported_and_no_more() {
             "<joint name=\"j3\" type=\"revolute\"><parent link=\"tool\"/><child link=\"hand\"/><axis xyz=\"0 0 1\"/>\
              <limit {limit} effort=\"1\" velocity=\"2\"/></joint><link name=\"hand\"/><transmission name=\"t\"/>"
         );
-        let found = with("<transmission name=\"t\"/>", &joint);
+        let found = inspection_with("<transmission name=\"t\"/>", &joint);
         let text = messages(&found);
         assert_eq!(text.matches("reversed").count(), 1, "{text}");
         text
@@ -321,6 +321,6 @@ fn reversed_limits_of_a_held_joint_are_reported_and_no_more() {
     assert!(text.contains("lower 2.5 is above upper 0 (no upper is given)") && text.contains("give upper"), "{text}");
     assert!(wrist("upper=\"-1\"").contains("lower 0 is above upper -1 (no lower is given)"));
     let soft = "soft_lower_limit=\"4\" soft_upper_limit=\"-2\"";
-    let text = messages(&with("soft_lower_limit=\"-2\" soft_upper_limit=\"4\"", soft));
+    let text = messages(&inspection_with("soft_lower_limit=\"-2\" soft_upper_limit=\"4\"", soft));
     assert_eq!(text.matches("soft limits").count(), 1, "{text}");
 }

@@ -12,7 +12,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn kept() -> String {
+fn committed_schema() -> String {
     std::fs::read_to_string(root().join("docs/world.schema.json")).unwrap()
 }
 
@@ -38,8 +38,12 @@ fn worlds(folder: &str) -> Vec<PathBuf> {
 #[test]
 fn the_committed_schema_is_up_to_date() {
     let printed = Command::new(env!("CARGO_BIN_EXE_cplan")).arg("schema").output().unwrap();
-    assert_eq!(String::from_utf8(printed.stdout).unwrap(), kept(), "run `cplan schema > docs/world.schema.json`");
-    assert_eq!(serde_json::from_str::<Value>(&kept()).unwrap(), cplan::input::world_schema());
+    assert_eq!(
+        String::from_utf8(printed.stdout).unwrap(),
+        committed_schema(),
+        "run `cplan schema > docs/world.schema.json`"
+    );
+    assert_eq!(serde_json::from_str::<Value>(&committed_schema()).unwrap(), cplan::input::world_schema());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The controller of a differential drive: the signs of its terms, its closed form, and plans that it follows.
 
 use crate::common::dice;
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use crate::mobile::floor::Floor;
 use crate::mobile::robot::{Pose, Robot};
 use crate::mobile::tanh::{AHEAD, CYCLE, DEVIATION, Nearest, PASSED, Tanh, follow, nearest, speeds, waypoints};
@@ -96,7 +96,7 @@ fn repulsion_pushes_away_and_its_printed_sign_does_not() {
 }
 
 /// Returns the distance between a point and a line through corners.
-fn off_line(p: Point, corners: &[[f64; 2]]) -> f64 {
+fn distance_to_line(p: Point, corners: &[[f64; 2]]) -> f64 {
     let side = |w: &[[f64; 2]]| {
         let ([dx, dy], [px, py]) = ([w[1][0] - w[0][0], w[1][1] - w[0][1]], [p.x - w[0][0], p.y - w[0][1]]);
         let share = ((px * dx + py * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
@@ -106,7 +106,7 @@ fn off_line(p: Point, corners: &[[f64; 2]]) -> f64 {
 }
 
 /// Plans among the obstacles and follows the plan. Returns true if there was a plan.
-fn followed(arm: &Arm, obstacles: Vec<Obstacle>, start: [f64; 2], goal: [f64; 2], what: &str) -> bool {
+fn plan_and_follow(arm: &Arm, obstacles: Vec<Obstacle>, start: [f64; 2], goal: [f64; 2], what: &str) -> bool {
     let workspace = Workspace { clearance: DEVIATION, ..Workspace::new(obstacles) };
     let Ok(problem) = Problem::new(arm.clone(), workspace, start, goal) else { return false };
     let plan = plan(&problem, &Options { bounded: false, ..Options::default() }).unwrap();
@@ -121,7 +121,7 @@ fn followed(arm: &Arm, obstacles: Vec<Obstacle>, start: [f64; 2], goal: [f64; 2]
     assert_eq!((drive.passed, drive.repelled, robot.refused.len()), (marks.len(), 0, 0), "{what}");
     assert!((robot.pose.ahead(AHEAD) - Point::from(goal)).norm() <= PASSED + 1e-9, "{what}: {}", robot.pose.at);
     assert!(least_gap(&floor.scene, &robot.way()) > 0.0, "{what}: it touches something");
-    let off = robot.way().into_iter().map(|p| off_line(p, &path)).fold(0.0, f64::max);
+    let off = robot.way().into_iter().map(|p| distance_to_line(p, &path)).fold(0.0, f64::max);
     assert!(off <= DEVIATION, "{what}: {off} m off the plan");
     // Neither component of the point's velocity exceeds 1.
     let most = std::f64::consts::SQRT_2;
@@ -134,7 +134,7 @@ fn plans_in_both_rooms_are_followed() {
     for world in ["explore/hall.toml", "explore/house.toml"] {
         let floor = Floor::load(world).unwrap_or_else(|e| panic!("{e}"));
         let obstacles = floor.scene.workspace().obstacles.clone();
-        assert!(followed(floor.scene.arm(), obstacles, START, TARGETS[0].1, world), "{world}: no plan");
+        assert!(plan_and_follow(floor.scene.arm(), obstacles, START, TARGETS[0].1, world), "{world}: no plan");
     }
 }
 
@@ -154,9 +154,9 @@ fn plans_in_random_worlds_are_followed() {
         });
         let obstacles = obstacles.collect();
         let [start, goal] = [-5.5, 5.5].map(|x| [x, dice.within(-4.0, 4.0)]);
-        plans += usize::from(followed(&arm, obstacles, start, goal, &format!("seed {seed}")));
+        plans += usize::from(plan_and_follow(&arm, obstacles, start, goal, &format!("seed {seed}")));
     }
-    assert!(plans >= 8 || !usual(), "only {plans} plans");
+    assert!(plans >= 8 || !uses_default_cases(), "only {plans} plans");
 }
 
 /// Checks that the controller without a plan passes free-standing obstacles, and that corners of a room trap it, as the

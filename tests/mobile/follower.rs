@@ -38,7 +38,7 @@ fn sonars_read_what_a_straight_wall_asks_for() {
 /// Checks that the robot turns until it is parallel to the wall, and keeps its distance: `turn = -10 (s7 - s8)` is
 /// about `-2.3 tan(angle)`.
 #[test]
-fn it_lines_up_with_a_wall() {
+fn the_robot_lines_up_with_a_wall() {
     let floor = floor("hall");
     for seed in seeds(20) {
         let mut dice = dice(seed);
@@ -58,7 +58,7 @@ fn it_lines_up_with_a_wall() {
 /// from everything. In the hall it scrapes a corner of the cupboard that no sonar sees, because its rules guarantee no
 /// distance. After three minutes it has seen most of the room, as the source says.
 #[test]
-fn it_goes_round_both_rooms() {
+fn the_robot_circles_both_rooms() {
     let corner = Point::new(-3.0, 7.0);
     for (name, [nearest, farthest]) in [("hall", [RADIUS, 3.0]), ("house", [1.0, 4.0])] {
         let floor = floor(name);

@@ -41,7 +41,7 @@ fn rays_end_where_steps_of_the_free_distance_end() {
         assert!((range - expected).abs() < 1e-3, "seed {seed}: {range} from {from} at {angle}, not {expected}");
         met += usize::from(range < 8.0);
     }
-    assert!(met > 100 || !crate::common::random::usual(), "{met}");
+    assert!(met > 100 || !crate::common::random::uses_default_cases(), "{met}");
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn a_scan_frees_what_rays_cross_and_marks_what_they_meet() {
 /// Checks the forces of a single cell, which are computed by hand. Also checks the force of a long wall, whose sum is
 /// close to the integral `2 / D`.
 #[test]
-fn forces_add_up() {
+fn forces_of_cells_add_up() {
     let (at, target) = (Point::new(0.0, 0.0), Point::new(3.0, 4.0));
     let mut map = Occupancy::unknown();
     let alone = force(&map, target, at).unwrap();

@@ -36,7 +36,7 @@ fn check(floor: &Floor, legs: &[Leg], stop: f64, what: &str) {
     }
 }
 
-fn reached(legs: &[Leg]) -> Vec<bool> {
+fn reached_targets(legs: &[Leg]) -> Vec<bool> {
     legs.iter().map(|leg| leg.ending == Ending::Reached).collect()
 }
 
@@ -47,13 +47,13 @@ fn forces_arrive_in_the_hall_and_are_trapped_in_the_house() {
     for (known, what) in [(None, "unknown hall"), (Some(&in_hall), "hall")] {
         let mended = by_forces(&hall, known, true);
         check(&hall, &mended, 0.01, what);
-        assert_eq!(reached(&mended), [true; 4], "{what}");
+        assert_eq!(reached_targets(&mended), [true; 4], "{what}");
         assert!(mended.iter().all(|leg| leg.refused == 0), "{what}: it pushes against something");
     }
     // The method as printed marks the bin as an obstacle while the robot stands at it.
     let printed = by_forces(&hall, None, false);
     check(&hall, &printed, 0.01, "unknown hall, as printed");
-    assert_eq!(reached(&printed), [true, true, false, true]);
+    assert_eq!(reached_targets(&printed), [true, true, false, true]);
     assert_eq!(printed[2].ending, Ending::OnObstacle);
     for (known, what) in [(None, "unknown house"), (Some(&in_house), "house")] {
         let mended = by_forces(&house, known, true);
@@ -76,7 +76,7 @@ fn fields_on_the_followers_map_take_about_the_published_sweeps_and_lead_to_the_t
     assert!(ratios.len() == 6 && ratios.iter().all(|ratio| (0.85..1.05).contains(ratio)), "{ratios:?}");
     let legs = by_fields(&hall, &|leg| Some(alves::harmonic(TARGETS[leg].1, &is_solid, &alves::STOPPING)?.values));
     check(&hall, &legs, 0.5, "harmonic");
-    assert_eq!(reached(&legs), [true; 4]);
+    assert_eq!(reached_targets(&legs), [true; 4]);
 }
 
 /// Checks that around furniture, a field with the published tolerance leads nowhere, and a field with a smaller
@@ -92,8 +92,8 @@ fn around_furniture_the_published_tolerance_is_too_coarse() {
         check(&house, &legs, 0.5, "harmonic");
         legs
     });
-    assert_eq!(reached(&published), [false, false, true, false]);
-    assert_eq!(reached(&further), [false, true, true, true]);
+    assert_eq!(reached_targets(&published), [false, false, true, false]);
+    assert_eq!(reached_targets(&further), [false, true, true, true]);
     for legs in [&published, &further] {
         assert!(matches!(legs[0].ending, Ending::Trapped(short) if short < 0.7), "{:?}", legs[0].ending);
     }

@@ -50,7 +50,7 @@ fn the_desired_point_goes_along_the_line_and_rests_at_its_end() {
 }
 
 /// Returns the distance of a point to a line through corners.
-fn off_line(p: Point, corners: &[[f64; 2]]) -> f64 {
+fn distance_to_line(p: Point, corners: &[[f64; 2]]) -> f64 {
     let side = |w: &[[f64; 2]]| {
         let ([dx, dy], [px, py]) = ([w[1][0] - w[0][0], w[1][1] - w[0][1]], [p.x - w[0][0], p.y - w[0][1]]);
         let share = ((px * dx + py * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
@@ -86,7 +86,7 @@ fn cells_of_the_wave_and_of_a_star_are_followed() {
             assert!(least_gap(&floor.scene, &driven.way()) > 0.0, "{what}: it touches something");
             // The robot begins at the desired point, and a command lasts a hundredth of a second.
             assert!(tracked.farthest < 3.0 * LAW.speed * CYCLE, "{what}: {tracked:?}");
-            let off = driven.way().into_iter().map(|p| off_line(p, &path)).fold(0.0, f64::max);
+            let off = driven.way().into_iter().map(|p| distance_to_line(p, &path)).fold(0.0, f64::max);
             assert!(off < AHEAD + 3.0 * LAW.speed * CYCLE, "{what}: {off} m off the cells");
             let length: f64 = path.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
             assert!((driven.time - length / LAW.speed).abs() < 0.1, "{what}: {} s for {length} m", driven.time);

@@ -9,7 +9,7 @@ use cplan::space::{Configuration, Path, Recording};
 use proptest::prelude::*;
 
 /// Returns the least distance at `n` places of each blend, by the definition of the curve.
-fn sampled(scene: &Scene, waypoints: &[Configuration], radii: &[f64], n: u32) -> f64 {
+fn least_sampled_distance(scene: &Scene, waypoints: &[Configuration], radii: &[f64], n: u32) -> f64 {
     let mut least = f64::INFINITY;
     for i in 1..waypoints.len() - 1 {
         let corner = waypoints[i];
@@ -41,7 +41,7 @@ proptest! {
         let curve = blend(&scene, &path, f64::INFINITY, asked);
         let radii = curve.curve().radii();
         prop_assert!(radii[1..radii.len() - 1].iter().all(|radius| *radius > 0.0), "room for some radius: {radii:?}");
-        let seen = sampled(&scene, &waypoints, radii, 2000);
+        let seen = least_sampled_distance(&scene, &waypoints, radii, 2000);
         prop_assert!(curve.clearance() <= path.clearance() && curve.clearance() <= seen, "{} {seen}", curve.clearance());
         prop_assert!(curve.clearance() >= asked + 0.5 * (path.clearance() - asked));
         let nearest = curve.nearest().expect("there are obstacles");
@@ -87,7 +87,7 @@ fn the_clearance_bounds_the_radius() {
 }
 
 #[test]
-fn legs_are_shared() {
+fn neighbouring_blends_share_the_leg_between_them() {
     let scene = crate::empty([1.0, 1.0], [1.0, 1.0]);
     let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [3.0, 1.0]];
     assert_eq!(curve(&scene, &points, f64::INFINITY).curve().radii(), [0.0, 0.45, 0.45, 0.0]);

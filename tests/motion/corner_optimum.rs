@@ -111,7 +111,7 @@ fn conditions(nodes: &[[Configuration; 3]], step: f64, [v, a, j]: Most) -> Vec<C
 
 /// Solves `A x = b` for a symmetric matrix `A` with five diagonals: `middle`, and in `beside` the two diagonals above
 /// it. Returns `None` if `A` is not positive definite.
-fn solved(middle: &[f64], beside: [&[f64]; 2], b: &[f64]) -> Option<Vec<f64>> {
+fn solve_pentadiagonal(middle: &[f64], beside: [&[f64]; 2], b: &[f64]) -> Option<Vec<f64>> {
     let n = middle.len();
     let (mut d, mut l, mut x) = (vec![0.0; n], [vec![0.0; n], vec![0.0; n]], b.to_vec());
     for i in 0..n {
@@ -184,7 +184,7 @@ fn newton(z: &[f64], step: f64, conditions: &[Condition], height: f64) -> (Vec<f
     let mut more = 0.0;
     loop {
         let lifted: Vec<f64> = middle.iter().zip(z).map(|(m, z)| m + more * step * z.powf(-2.5)).collect();
-        if let Some(direction) = solved(&lifted, [&one, &two], &minus) {
+        if let Some(direction) = solve_pentadiagonal(&lifted, [&one, &two], &minus) {
             let decrease = -gradient.iter().zip(&direction).map(|(g, d)| g * d).sum::<f64>();
             return (direction, decrease);
         }
@@ -259,7 +259,7 @@ const OFF: f64 = 5e-3;
 const MAX_STEPS: usize = 20_000;
 
 #[test]
-fn near_the_least_time_along_the_same_curve() {
+fn motions_are_near_the_least_time_along_the_same_curve() {
     for (i, &(waypoints, most)) in PATHS.iter().enumerate() {
         let motion = driven(waypoints, most);
         let (mut steps, mut fine) = (2400, optimum(&motion, most, 1200, 0.97));

@@ -1,7 +1,7 @@
 //! Motions with a limit on the jerk, compared with closed forms, integrated, and judged by `verify`.
 
 use crate::common::{placed, q};
-use crate::sampled::{as_vector, between, recording};
+use crate::sampled::{as_vector, recording, state_between};
 use crate::{curve, empty, waypoints};
 use cplan::check::{Limit, limit_violations};
 use cplan::model::{Joint, Scene};
@@ -73,7 +73,7 @@ fn check(joints: &[Joint; 2], timed: &TimedMotion) {
         assert_eq!(trajectory.acceleration[0][k], 0.0);
         for i in 0..n - 1 {
             let h = trajectory.time[i + 1] - trajectory.time[i];
-            let at = |t: f64| between(trajectory, i, t).map(|row| row[k]);
+            let at = |t: f64| state_between(trajectory, i, t).map(|row| row[k]);
             // The stated acceleration is linear in time, and continuous.
             let [first, middle, last] = [0.0, h / 2.0, h].map(|t| at(t)[2]);
             let noise = 64.0 * rounding / (h * h);
@@ -186,7 +186,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(192))]
 
     #[test]
-    fn random_paths(
+    fn motions_along_random_paths_keep_the_limits(
         waypoints in waypoints(), [velocity, acceleration, jerk] in joints(), period in prop_oneof![Just(0.01), 0.003..1.0_f64],
         unlimited in 0..4_usize,
     ) {
@@ -207,7 +207,7 @@ proptest! {
 
     /// Checks motions of one joint, with limits from those of an arm to far beyond.
     #[test]
-    fn as_fast_as_in_closed_form(
+    fn one_joint_is_as_fast_as_in_closed_form(
         length in -12.0..2.0_f64, speed in -3.0..4.0_f64, acceleration in -3.0..6.0_f64, jerk in -3.0..9.0_f64,
     ) {
         let [length, speed, acceleration, jerk] = [length, speed, acceleration, jerk].map(|e| 10f64.powf(e));

@@ -182,7 +182,7 @@ fn motions_without_a_pause_between_them_share_a_state() {
 }
 
 #[test]
-fn a_file_of_many_chunks() {
+fn a_file_of_many_chunks_is_read_back() {
     // A sample has some 250 bytes, and a chunk is a megabyte.
     let many = 20_000;
     let values: Vec<[f64; 6]> = (0..many).map(|k| [k as f64; 6]).collect();

@@ -49,7 +49,7 @@ fn grids(curve: &CertifiedCurve, per_unit: f64) -> Vec<Vec<Grid>> {
 
 /// Returns the possible accelerations of the parameter at a node, as a range, for a squared speed `z`. Returns `None`
 /// if the joints cannot follow the path at that speed.
-fn allowed([at, first, second]: [Configuration; 3], z: f64, limits: &Limits) -> Option<[f64; 2]> {
+fn acceleration_range([at, first, second]: [Configuration; 3], z: f64, limits: &Limits) -> Option<[f64; 2]> {
     let mut range = [f64::NEG_INFINITY, f64::INFINITY];
     if let Some(tip) = limits.tip {
         // Central differences: the tip's velocity by the parameter.
@@ -78,7 +78,7 @@ fn allowed([at, first, second]: [Configuration; 3], z: f64, limits: &Limits) -> 
 
 /// Returns by bisection the greatest value for which `good` is true. `good` must be true below some limit, and false
 /// above it.
-fn bisected(good: impl Fn(f64) -> bool) -> f64 {
+fn greatest_by_bisection(good: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, 1e6);
     for _ in 0..80 {
         let middle = (low + high) / 2.0;
@@ -99,15 +99,15 @@ fn optimum(curve: &CertifiedCurve, limits: &Limits, per_unit: f64) -> f64 {
             .collect();
         let mut most = vec![0.0; steps.len() + 1];
         for (i, &(step, node)) in steps.iter().enumerate().rev() {
-            most[i] = bisected(|z| {
-                allowed(node, z, limits).is_some_and(|[least, greatest]| {
+            most[i] = greatest_by_bisection(|z| {
+                acceleration_range(node, z, limits).is_some_and(|[least, greatest]| {
                     z + 2.0 * step * least <= most[i + 1] && z + 2.0 * step * greatest >= 0.0
                 })
             });
         }
         let mut z = 0.0;
         for (i, &(step, node)) in steps.iter().enumerate() {
-            let greatest = allowed(node, z, limits).map_or(0.0, |range| range[1]);
+            let greatest = acceleration_range(node, z, limits).map_or(0.0, |range| range[1]);
             let next = (z + 2.0 * step * greatest).min(most[i + 1]).max(0.0);
             total += 2.0 * step / (z.sqrt() + next.sqrt());
             z = next;
@@ -145,7 +145,7 @@ const PATHS: [Case; 12] = [
 ];
 
 #[test]
-fn within_a_hundredth_of_the_optimum() {
+fn motions_are_within_a_hundredth_of_the_optimum() {
     for (i, (waypoints, velocity, acceleration, radius)) in PATHS.iter().enumerate() {
         let scene = empty(*velocity, *acceleration);
         let curve = curve(&scene, waypoints, *radius);
@@ -206,7 +206,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(128))]
 
     #[test]
-    fn never_slower_than_with_stops(
+    fn blends_are_never_slower_than_stops(
         waypoints in waypoints(), [velocity, acceleration] in limits(), radius in -3.0..0.5_f64,
     ) {
         let scene = empty(velocity, acceleration);
@@ -216,7 +216,7 @@ proptest! {
     }
 
     #[test]
-    fn near_the_optimum_on_random_paths(waypoints in waypoints(), [velocity, acceleration] in limits()) {
+    fn motions_on_random_paths_are_near_the_optimum(waypoints in waypoints(), [velocity, acceleration] in limits()) {
         let scene = empty(velocity, acceleration);
         let timed = time(curve(&scene, &waypoints, 10.0), &Limits::from(&scene.arm().joints), 0.01).unwrap();
         let least = |per_unit| optimum(&timed.curve, &Limits::from(&scene.arm().joints), per_unit);

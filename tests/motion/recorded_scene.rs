@@ -46,7 +46,7 @@ fn number(from: &mut Decoder) -> f64 {
     f32::from_le_bytes(from.take()).into()
 }
 
-fn shown(file: &[u8]) -> Shown {
+fn decode_scene(file: &[u8]) -> Shown {
     let mut shown = Shown::default();
     for message in MessageStream::new(file).unwrap() {
         let message = message.unwrap();
@@ -133,7 +133,7 @@ fn frames_follow_the_states_and_surfaces_are_closed() {
     let problem = Problem::new(arm, workspace, [-0.6, 0.2], [0.6, 0.2]).unwrap();
     let made = plan(&problem, &Options::default()).unwrap();
     let file = made.bytes(FileFormat::Result(Format::Mcap)).unwrap().unwrap();
-    let shown = shown(&file);
+    let shown = decode_scene(&file);
 
     let (states, motions) = crate::mcap::read(&file);
     assert_eq!(motions.len(), 1);
@@ -186,12 +186,12 @@ fn frames_follow_the_states_and_surfaces_are_closed() {
 #[test]
 fn moving_obstacles_have_moving_frames() {
     let stop = |time: f64, x: f64| Stop { time, at: Point::new(x, 0.2), angle: time / 2.0 };
-    let course = ObstacleTrajectory::new(vec![stop(0.0, 3.0), stop(0.5, 2.2)], Vector::zeros()).unwrap();
-    let cart = MovingObstacle { obstacle: Obstacle::circle("cart", [0.0, 0.0], 0.1).unwrap(), course };
+    let trajectory = ObstacleTrajectory::new(vec![stop(0.0, 3.0), stop(0.5, 2.2)], Vector::zeros()).unwrap();
+    let cart = MovingObstacle { obstacle: Obstacle::circle("cart", [0.0, 0.0], 0.1).unwrap(), trajectory };
     let workspace = TimedWorkspace { movers: vec![cart], ..Workspace::new([]).into() };
     let problem = Problem::new(Arm::rr([1.0, 0.8], 0.06).unwrap(), workspace, [-0.6, 0.2], [0.6, 0.2]).unwrap();
     let file = plan(&problem, &Options::default()).unwrap().bytes(FileFormat::Result(Format::Mcap)).unwrap().unwrap();
-    let shown = shown(&file);
+    let shown = decode_scene(&file);
     let (states, _) = crate::mcap::read(&file);
     assert!(states.len() > 20);
     for state in &states {

@@ -18,7 +18,7 @@ pub fn as_vector(row: [f64; 2]) -> Configuration {
 }
 
 /// Returns position, velocity and acceleration at `t` in interval `k`, by the polynomial that `INTERPOLATION` states.
-pub fn between(trajectory: &Trajectory, k: usize, t: f64) -> [Configuration; 3] {
+pub fn state_between(trajectory: &Trajectory, k: usize, t: f64) -> [Configuration; 3] {
     let [p, v, a] =
         [&trajectory.position, &trajectory.velocity, &trajectory.acceleration].map(|rows| as_vector(rows[k]));
     let h = trajectory.time[k + 1] - trajectory.time[k];
@@ -41,7 +41,7 @@ pub fn recording(trajectory: &Trajectory) -> Recording {
 
 /// Returns the distance between a configuration and a curve, in units of joint space, by Newton's method on every
 /// segment and blend.
-fn off(curve: &CertifiedCurve, at: Configuration) -> f64 {
+fn distance_to_curve(curve: &CertifiedCurve, at: Configuration) -> f64 {
     let (points, radii) = (curve.curve().path().waypoints(), curve.curve().radii());
     let mut least = (at - points[0]).norm();
     for i in 1..points.len() {
@@ -88,7 +88,7 @@ fn check(joints: &[Joint; 2], timed: &TimedMotion, period: f64) {
         let weights = [5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0];
         position += velocity * h;
         for (node, weight) in nodes.into_iter().zip(weights) {
-            let acceleration = between(trajectory, k, node * h)[2];
+            let acceleration = state_between(trajectory, k, node * h)[2];
             velocity += acceleration * (weight * h);
             position += acceleration * (weight * h * h * (1.0 - node));
         }
@@ -108,9 +108,13 @@ fn check(joints: &[Joint; 2], timed: &TimedMotion, period: f64) {
         // The acceleration at a sample is that of the interval that begins within half a nanosecond.
         let late = HALF_A_NANOSECOND * joints[0].acceleration.max(joints[1].acceleration) * h;
         for share in [0.0, 0.3, 0.7, 1.0] {
-            let [at, speed, pull] = between(trajectory, k, share * h);
+            let [at, speed, pull] = state_between(trajectory, k, share * h);
             if step % 5 == 0 {
-                assert!(off(curve, at) <= 1e-10 * size + late, "{} off at {k} + {share}", off(curve, at));
+                assert!(
+                    distance_to_curve(curve, at) <= 1e-10 * size + late,
+                    "{} off at {k} + {share}",
+                    distance_to_curve(curve, at)
+                );
             }
             let rounding = 16.0 * f64::EPSILON * size;
             for i in 0..2 {
@@ -128,15 +132,15 @@ fn check(joints: &[Joint; 2], timed: &TimedMotion, period: f64) {
     for (k, piece) in recording.pieces().iter().enumerate() {
         // The tolerance for each joint.
         let hair = 1.5 * BLEND_TOLERANCE * largest + 1e-13 * size;
-        let (there, h) = (between(trajectory, k, (piece.to - piece.from) / 2.0)[0], piece.to - piece.from);
+        let (there, h) = (state_between(trajectory, k, (piece.to - piece.from) / 2.0)[0], piece.to - piece.from);
         let late = HALF_A_NANOSECOND * joints[0].acceleration.max(joints[1].acceleration) * h;
-        let (apart, aside) = ((piece.at(0.5) - there).amax(), off(curve, piece.at(0.5)));
+        let (apart, aside) = ((piece.at(0.5) - there).amax(), distance_to_curve(curve, piece.at(0.5)));
         assert!(apart <= hair + late && aside <= hair, "{apart}, {aside} aside at {k}");
     }
 }
 
 #[test]
-fn a_right_angle() {
+fn motions_around_a_right_angle_keep_the_limits() {
     let scene = empty([2.0, 3.0], [8.0, 12.0]);
     let limits = Limits::from(&scene.arm().joints);
     let timed = time(curve(&scene, &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], 0.3), &limits, 0.01).unwrap();
@@ -157,7 +161,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(96))]
 
     #[test]
-    fn random_paths(
+    fn motions_along_random_paths_keep_the_limits(
         waypoints in waypoints(), [velocity, acceleration] in limits(), radius in -3.0..0.5_f64,
         period in prop_oneof![Just(0.01), 0.003..1.0_f64],
     ) {

@@ -84,7 +84,7 @@ fn drawn(dice: &mut Dice, mut arm: Arm, strength: f64) -> Arm {
 }
 
 /// Returns a configuration within the joints' ranges.
-fn anywhere(dice: &mut Dice, arm: &Arm) -> [f64; 2] {
+fn random_configuration(dice: &mut Dice, arm: &Arm) -> [f64; 2] {
     arm.joints.each_ref().map(|joint| {
         let (lower, upper) = joint.range.domain();
         dice.within(lower, upper)
@@ -98,7 +98,7 @@ fn torques_move_the_bodies() {
     for kind in (0..50).flat_map(|_| all_kinds()) {
         let arm = drawn(&mut dice, kind, 1.0);
         let dynamics = arm.dynamics.expect("drawn");
-        let q = anywhere(&mut dice, &arm);
+        let q = random_configuration(&mut dice, &arm);
         let [v, a] = [2.0, 5.0].map(|most| [0, 1].map(|_| dice.within(-most, most)));
         let torque = Torques { arm: &arm, dynamics }.torque(q.into(), v.into(), a.into());
         let expected = by_steps(&arm, &dynamics, q, v, a);
@@ -141,7 +141,7 @@ fn between(trajectory: &Trajectory, i: usize, u: f64) -> [[[f64; 2]; 3]; 2] {
 
 /// Checks that torques are within the efforts along the whole motion, for both interpolations of the samples. Returns
 /// the greatest torque as a fraction of the effort.
-fn kept(arm: &Arm, dynamics: &Dynamics, trajectory: &Trajectory, what: &str) -> f64 {
+fn check_torques(arm: &Arm, dynamics: &Dynamics, trajectory: &Trajectory, what: &str) -> f64 {
     let mut greatest = 0.0_f64;
     for i in 0..trajectory.time.len() - 1 {
         for part in 0..=4 {
@@ -211,14 +211,14 @@ fn straight_motions_are_as_fast_as_the_torques_allow() {
     for kind in (0..6).flat_map(|_| all_kinds()) {
         let arm = drawn(&mut dice, kind, 1.3);
         let dynamics = arm.dynamics.expect("drawn");
-        let [from, to] = [0, 1].map(|_| anywhere(&mut dice, &arm));
+        let [from, to] = [0, 1].map(|_| random_configuration(&mut dice, &arm));
         let scene = scene(arm.clone(), vec![]);
         let path = certified(&scene, &[from, to]);
         let timed = Drive::default().along(&scene, &path, 1.0).expect("the efforts hold it");
         let least = least_time(&arm, &dynamics, from, to);
         let longer = timed.trajectory.duration() / least - 1.0;
         assert!((-1e-3..0.03).contains(&longer), "{longer}: {least} s, {arm:?}, {from:?} to {to:?}");
-        assert!(kept(&arm, &dynamics, &timed.trajectory, "straight") > 0.9 || longer < 0.01);
+        assert!(check_torques(&arm, &dynamics, &timed.trajectory, "straight") > 0.9 || longer < 0.01);
         (seen, worst) = (seen + 1, worst.max(longer));
     }
     println!("{seen} motions, at most {:.2} % longer than by brute force", 100.0 * worst);
@@ -235,13 +235,13 @@ fn motions_with_corners_keep_the_efforts_as_they_are_played() {
             arm.joints.iter_mut().for_each(|joint| (joint.jerk, joint.acceleration) = (Some(300.0), 30.0));
         }
         let dynamics = arm.dynamics.expect("drawn");
-        let corners: Vec<Configuration> = (0..4).map(|_| anywhere(&mut dice, &arm).into()).collect();
+        let corners: Vec<Configuration> = (0..4).map(|_| random_configuration(&mut dice, &arm).into()).collect();
         let scene = scene(arm.clone(), vec![]);
         let path = certify(&scene, Path::new(corners), 0.0).expect("nothing is in the way");
         let optimize = if n % 3 == 2 { Objective::Time } else { Objective::Length };
         let drive = Drive { optimize, ..Drive::default() };
         let timed = drive.along(&scene, &path, 1.0).expect("the efforts hold it");
-        kept(&arm, &dynamics, &timed.trajectory, &format!("motion {n}"));
+        check_torques(&arm, &dynamics, &timed.trajectory, &format!("motion {n}"));
     }
 }
 
@@ -266,7 +266,7 @@ fn driven(scene: &Scene, waypoints: &[[f64; 2]]) -> Result<f64, TimingError> {
 }
 
 #[test]
-fn a_slide_as_in_the_book() {
+fn the_slide_of_the_book_has_its_torques() {
     // A mass of 6 kg is moved over 4 m by 24 N, which accelerates it with 4 m/s2 over half the distance.
     let along_x = driven(&scene(gantry([24.0, 5.0], [4.0, 2.0], Vector::zeros()), vec![]), &[[0.0, 0.0], [4.0, 0.0]]);
     assert!((along_x.expect("a motion") / 2.0 - 1.0).abs() < 5e-3);
@@ -292,7 +292,7 @@ fn payload_mass_counts() {
         lift: 0.0,
         holding: Holding::Rigid,
         at: Pose::identity(),
-        course: None,
+        trajectory: None,
         mass: 6.0,
     };
     let bare = gantry([24.0, 30.0], [4.0, 2.0], Vector::zeros());

@@ -76,7 +76,7 @@ fn driven(waypoints: &[[f64; 2]]) -> TimedMotion {
 }
 
 /// Plans from the first of [`WAYPOINTS`] to the last.
-fn planned(obstacle: bool) -> Plan {
+fn plan_waypoints(obstacle: bool) -> Plan {
     let [start, _, goal] = WAYPOINTS.map(Configuration::from);
     let problem = MotionProblem::new(scene(obstacle), start, goal).expect("both are free");
     plan(&problem.into(), &Options { timings: true, ..Method::Visibility.into() }).expect("an ordinary motion")
@@ -99,7 +99,7 @@ fn assert_close(json: &Value, rows: &[[f64; 2]]) {
 
 #[test]
 fn json_holds_the_contract() {
-    let plan = planned(true);
+    let plan = plan_waypoints(true);
     let text = plan.to_json();
     let json: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(json["status"], "found");
@@ -141,7 +141,7 @@ fn blends_are_counted() {
 
 #[test]
 fn infinite_clearance_is_null() {
-    let json: Value = serde_json::from_str(&planned(false).to_json()).expect("JSON");
+    let json: Value = serde_json::from_str(&plan_waypoints(false).to_json()).expect("JSON");
     assert_eq!((&json["certified"], json.get("clearance")), (&Value::Bool(true), Some(&Value::Null)));
 }
 
@@ -205,7 +205,7 @@ fn ros_message_reads_back() {
     // A piece of a nanometre makes samples that are a few microseconds apart.
     for waypoints in [&WAYPOINTS[..], &[[0.0, 0.0], [1e-9, 0.0], [1e-9, 1e-9], [0.3, 0.1]], &[[0.2, 0.1]]] {
         let trajectory = driven(waypoints).trajectory;
-        let robot = RobotJoints::planned(&NAMES.map(str::to_owned));
+        let robot = RobotJoints::only_planned(&NAMES.map(str::to_owned));
         let text = ros_yaml(&JointMotion::new(&robot, &trajectory, true).without_accelerations());
         let message: Value = serde_saphyr::from_str(&text).expect("YAML");
         assert_eq!(message["header"], serde_json::json!({"stamp": {"sec": 0, "nanosec": 0}, "frame_id": ""}));

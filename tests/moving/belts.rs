@@ -3,7 +3,7 @@
 
 use crate::common::dice::Dice;
 use crate::common::{disc, placed, rectangle};
-use crate::drawn::{at, mover, position};
+use crate::drawn::{mover, obstacle_at, position};
 use crate::solid::{Solid, V, add, norm, rotate, sub};
 use crate::world::world;
 use cplan::engine::task::{Event, Leg, TaskAnswer};
@@ -30,7 +30,7 @@ pub fn drawn(kind: &str, seed: u64) -> Option<Task> {
             mover(&mut dice, arm.base, arm.reach(), halfway)
         })
         .collect();
-    let level = dice.chance(0.3) && !workspace.movers.iter().any(|mover| mover.course.turns());
+    let level = dice.chance(0.3) && !workspace.movers.iter().any(|mover| mover.trajectory.turns());
     let objects = (0..count).map(|number| object(&mut dice, &still, number, level)).collect();
     let mut items = Vec::new();
     for object in 0..count {
@@ -72,16 +72,16 @@ fn object(dice: &mut Dice, still: &Scene, number: usize, level: bool) -> Object 
     let speed = Vector::new(direction.cos(), direction.sin()) * dice.within(0.03, 0.25) * still.arm().reach();
     let from = place - speed * dice.within(2.0, 9.0);
     let stop = |time: f64, at: Point, angle: f64| Stop { time, at, angle };
-    let course = match dice.below(4_usize) {
+    let trajectory = match dice.below(4_usize) {
         0 => None,
         1 if !level => {
             // The object comes, stops, turns and leaves.
             let stops = vec![stop(1.0, from, angle), stop(4.0, place, angle + 0.5), stop(5.5, place, angle + 0.5)];
-            Some(ObstacleTrajectory::new(stops, speed).expect("a course"))
+            Some(ObstacleTrajectory::new(stops, speed).expect("a trajectory"))
         }
-        _ => Some(ObstacleTrajectory::new(vec![stop(0.0, from, angle)], speed).expect("a course")),
+        _ => Some(ObstacleTrajectory::new(vec![stop(0.0, from, angle)], speed).expect("a trajectory")),
     };
-    let at = course.as_ref().map_or_else(|| Pose::new(place, angle), |course| course.pose(0.0));
+    let at = trajectory.as_ref().map_or_else(|| Pose::new(place, angle), |trajectory| trajectory.pose(0.0));
     Object {
         name: format!("part {number}"),
         shape: Shape::Pieces,
@@ -90,7 +90,7 @@ fn object(dice: &mut Dice, still: &Scene, number: usize, level: bool) -> Object 
         lift: 0.0,
         holding: if level { Holding::Level } else { Holding::Rigid },
         at,
-        course,
+        trajectory,
         mass: 0.0,
     }
 }
@@ -102,7 +102,7 @@ fn compose(a: Frame, b: Frame) -> Frame {
     (rotate(b.0, a.0), add(a.1, rotate(b.1, a.0)))
 }
 
-fn back(a: Frame) -> Frame {
+fn inverse(a: Frame) -> Frame {
     let turn = [a.0[0], -a.0[1]];
     (turn, rotate([-a.1[0], -a.1[1]], turn))
 }
@@ -121,15 +121,15 @@ pub fn frames(arm: &Arm, q: V) -> [Frame; 3] {
 }
 
 /// Returns the frame of an object on its trajectory, from its stops.
-pub fn on_course(object: &Object, time: f64) -> Frame {
-    let Some(course) = object.course.clone() else {
+pub fn pose_on_trajectory(object: &Object, time: f64) -> Frame {
+    let Some(trajectory) = object.trajectory.clone() else {
         let angle = object.at.rotation.angle();
         return ([angle.cos(), angle.sin()], [object.at.translation.x, object.at.translation.y]);
     };
     // The object's pose follows from two of its points.
     let pieces = vec![disc(Point::zeros(), 0.1), disc(Point::new(1.0, 0.0), 0.1)];
     let points = Obstacle { name: String::new(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
-    let placed = at(&MovingObstacle { obstacle: points, course }, time).pieces;
+    let placed = obstacle_at(&MovingObstacle { obstacle: points, trajectory }, time).pieces;
     let [origin, beside] = [0, 1].map(|k| [placed[k].core()[0].x, placed[k].core()[0].y]);
     (sub(beside, origin), origin)
 }
@@ -154,8 +154,12 @@ pub struct Replayed<'a> {
 pub fn replayed(task: &Task, answer: &TaskAnswer, looks: usize) -> Result<(f64, String), String> {
     let mut world = Replayed {
         task,
-        lies: task.objects.iter().map(|object| object.course.is_none().then(|| on_course(object, 0.0))).collect(),
-        moving: task.objects.iter().map(|object| object.course.is_some()).collect(),
+        lies: task
+            .objects
+            .iter()
+            .map(|object| object.trajectory.is_none().then(|| pose_on_trajectory(object, 0.0)))
+            .collect(),
+        moving: task.objects.iter().map(|object| object.trajectory.is_some()).collect(),
         held: None,
         released: None,
     };
@@ -175,19 +179,19 @@ pub fn replayed(task: &Task, answer: &TaskAnswer, looks: usize) -> Result<(f64, 
         for sample in 0..trajectory.time.len() - 1 {
             for k in 0..looks {
                 let (time, q) = position(trajectory, sample, k as f64 / looks as f64);
-                see(world.room([q[0], q[1]], leg.begin + time, [picked, None]), leg.begin + time);
+                see(world.room_at([q[0], q[1]], leg.begin + time, [picked, None]), leg.begin + time);
             }
         }
         q = trajectory.position[trajectory.time.len() - 1].into();
         let arrival = leg.begin + trajectory.duration();
-        see(world.room([q[0], q[1]], arrival, [picked, None]), arrival);
+        see(world.room_at([q[0], q[1]], arrival, [picked, None]), arrival);
         let before = world.released;
         world.finish(leg, [q[0], q[1]], arrival).map_err(say)?;
         clock = arrival + leg.step.dwell;
         let goes_on = answer.failed().is_none() || !std::ptr::eq(leg, &answer.legs[answer.legs.len() - 1]);
         for k in (0..=10).take_while(|_| goes_on) {
             let time = arrival + leg.step.dwell * f64::from(k) / 10.0;
-            see(world.room([q[0], q[1]], time, [None, before]), time);
+            see(world.room_at([q[0], q[1]], time, [None, before]), time);
         }
     }
     Ok(least)
@@ -196,19 +200,20 @@ pub fn replayed(task: &Task, answer: &TaskAnswer, looks: usize) -> Result<(f64, 
 impl Replayed<'_> {
     /// Returns the distance at a time to shapes that must not be touched, minus the clearance. Link 2 may touch the
     /// objects in `touched`.
-    fn room(&self, q: V, time: f64, touched: [Option<usize>; 2]) -> (f64, String) {
+    fn room_at(&self, q: V, time: f64, touched: [Option<usize>; 2]) -> (f64, String) {
         let Task { arm, workspace: TimedWorkspace { fixed, movers }, objects, .. } = self.task;
         let Workspace { obstacles, clearance, .. } = fixed;
         let frames = frames(arm, q);
         // Obstacles with their heights, and the number of the object.
-        let moved: Vec<Obstacle> = movers.iter().map(|mover| at(mover, time)).collect();
+        let moved: Vec<Obstacle> = movers.iter().map(|mover| obstacle_at(mover, time)).collect();
         let of = |obstacle: &Obstacle| {
             let heights = obstacle.heights;
             obstacle.pieces.iter().map(|piece| (None, Solid::new(piece), heights)).collect::<Vec<_>>()
         };
         let mut others: Vec<(Option<usize>, Solid, Heights)> = obstacles.iter().chain(&moved).flat_map(of).collect();
         for (number, object) in objects.iter().enumerate() {
-            let Some(frame) = self.moving[number].then(|| on_course(object, time)).or(self.lies[number]) else {
+            let Some(frame) = self.moving[number].then(|| pose_on_trajectory(object, time)).or(self.lies[number])
+            else {
                 continue;
             };
             let placed = |piece| (Some(number), Solid::new(piece).placed(frame.0, frame.1), object.heights);
@@ -256,11 +261,14 @@ impl Replayed<'_> {
                 {
                     return Err(format!("picked at {time} s"));
                 }
-                let lies =
-                    if moves { on_course(thing, time) } else { self.lies[*object].take().ok_or("it is nowhere")? };
+                let lies = if moves {
+                    pose_on_trajectory(thing, time)
+                } else {
+                    self.lies[*object].take().ok_or("it is nowhere")?
+                };
                 near("the tip", tip, compose(lies, ([1.0, 0.0], [grasp.x, grasp.y])).1)?;
                 let by = if thing.holding == Holding::Level { 2 } else { 1 };
-                self.held = Some((*object, by, compose(back(frames[by]), lies)));
+                self.held = Some((*object, by, compose(inverse(frames[by]), lies)));
             }
             Action::Place { at, .. } => {
                 let (object, by, frame) = self.held.take().ok_or("nothing is held")?;

@@ -37,7 +37,7 @@ impl Moving {
         let count = movers.unwrap_or_else(|| 2 + dice.below(4));
         workspace.movers = (0..count).map(|_| mover(&mut dice, arm.base, reach, halfway)).collect();
         let drawn = Self { name: format!("{kind} {seed}"), arm, workspace, start, goals };
-        drawn.among(drawn.workspace.clone()).ok().map(|_| drawn)
+        drawn.problem_among(drawn.workspace.clone()).ok().map(|_| drawn)
     }
 
     /// Returns the worlds of these seeds, for all kinds.
@@ -45,17 +45,17 @@ impl Moving {
         seeds.flat_map(|seed| KINDS.iter().filter_map(move |kind| Self::drawn(kind, seed, None)))
     }
 
-    fn among(&self, workspace: TimedWorkspace) -> Result<Problem, ProblemError> {
+    fn problem_among(&self, workspace: TimedWorkspace) -> Result<Problem, ProblemError> {
         Problem::new(self.arm.clone(), workspace, self.start, self.goals.clone())
     }
 
-    pub fn asked(&self) -> Problem {
-        self.among(self.workspace.clone()).expect("a problem")
+    pub fn problem(&self) -> Problem {
+        self.problem_among(self.workspace.clone()).expect("a problem")
     }
 
     /// Returns the problem without moving obstacles.
-    pub fn standing(&self) -> Problem {
-        self.among(TimedWorkspace { movers: Vec::new(), ..self.workspace.clone() }).expect("a problem")
+    pub fn static_problem(&self) -> Problem {
+        self.problem_among(TimedWorkspace { movers: Vec::new(), ..self.workspace.clone() }).expect("a problem")
     }
 
     /// Returns the distance to the nearest obstacle at a time, minus the clearance.
@@ -69,19 +69,19 @@ impl Moving {
     }
 
     fn frozen(&self, standing: &[Obstacle], time: f64) -> Oracle {
-        let moved = self.workspace.movers.iter().map(|mover| at(mover, time));
+        let moved = self.workspace.movers.iter().map(|mover| obstacle_at(mover, time));
         let obstacles = standing.iter().cloned().chain(moved);
         let workspace = Workspace { clearance: self.workspace.fixed.clearance, ..Workspace::new(obstacles) };
         Oracle::new(&Scene::new(self.arm.clone(), workspace).expect("a scene"))
     }
 
     /// Returns the same world with obstacles that move faster between their stops, by the factor `times`.
-    pub fn hurried(mut self, times: f64) -> Self {
+    pub fn sped_up(mut self, times: f64) -> Self {
         for mover in &mut self.workspace.movers {
-            let first = mover.course.stops()[0].time;
+            let first = mover.trajectory.stops()[0].time;
             let sooner = |stop: &Stop| Stop { time: first + (stop.time - first) / times, ..*stop };
-            let stops = mover.course.stops().iter().map(sooner).collect();
-            mover.course = ObstacleTrajectory::new(stops, mover.course.velocity()).expect("a course");
+            let stops = mover.trajectory.stops().iter().map(sooner).collect();
+            mover.trajectory = ObstacleTrajectory::new(stops, mover.trajectory.velocity()).expect("a trajectory");
         }
         self
     }
@@ -92,13 +92,13 @@ impl Moving {
         let of = |mover: &MovingObstacle| {
             let pieces = mover.obstacle.pieces.iter();
             let reach = pieces.map(|piece| piece.reach_from(Point::zeros())).fold(0.0, f64::max);
-            let stops = mover.course.stops();
+            let stops = mover.trajectory.stops();
             let leg = |ends: &[Stop]| {
                 let [a, b] = [ends[0], ends[1]];
                 let gone = (b.at - a.at).norm() + (b.angle - a.angle).abs() * reach;
                 [a.time, b.time, gone / (b.time - a.time)]
             };
-            let last = [stops[stops.len() - 1].time, f64::INFINITY, mover.course.velocity().norm()];
+            let last = [stops[stops.len() - 1].time, f64::INFINITY, mover.trajectory.velocity().norm()];
             stops.windows(2).map(leg).chain([last]).collect::<Vec<_>>()
         };
         self.workspace.movers.iter().flat_map(of).collect()
@@ -106,7 +106,7 @@ impl Moving {
 
     /// Returns the time after which nothing moves near the arm.
     pub fn horizon(&self) -> f64 {
-        self.workspace.movers.iter().flat_map(|m| m.course.stops()).map(|stop| stop.time).fold(0.0, f64::max) + 8.0
+        self.workspace.movers.iter().flat_map(|m| m.trajectory.stops()).map(|stop| stop.time).fold(0.0, f64::max) + 8.0
     }
 }
 
@@ -126,7 +126,7 @@ pub fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Moving
     if dice.chance(0.6) {
         places[1] = halfway;
     }
-    let course = match dice.below(4) {
+    let trajectory = match dice.below(4) {
         0 => {
             let speed = Vector::new(dice.within(-0.5, 0.5), dice.within(-0.5, 0.5));
             ObstacleTrajectory::conveyor(places[0].into(), speed.into())
@@ -146,17 +146,17 @@ pub fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Moving
     };
     let name = "mover".into();
     let obstacle = Obstacle { name, shape: Shape::Pieces, pieces: vec![piece], heights: Heights::ALL };
-    MovingObstacle { obstacle, course: course.expect("a course") }
+    MovingObstacle { obstacle, trajectory: trajectory.expect("a trajectory") }
 }
 
 /// Returns a moving obstacle at its pose, from its stops.
-pub fn at(mover: &MovingObstacle, time: f64) -> Obstacle {
-    let stops = mover.course.stops();
+pub fn obstacle_at(mover: &MovingObstacle, time: f64) -> Obstacle {
+    let stops = mover.trajectory.stops();
     let (first, last) = (stops[0], stops[stops.len() - 1]);
     let (place, angle) = if time <= first.time {
         (first.at, first.angle)
     } else if time >= last.time {
-        (last.at + mover.course.velocity() * (time - last.time), last.angle)
+        (last.at + mover.trajectory.velocity() * (time - last.time), last.angle)
     } else {
         let next = stops.iter().position(|stop| stop.time > time).expect("before the last");
         let [a, b] = [stops[next - 1], stops[next]];

@@ -1,6 +1,6 @@
 //! Motions that are found are free at all times, and end as early as those that brute force finds.
 
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use crate::drawn::{Moving, position};
 use cplan::{Options, Outcome, plan};
 
@@ -18,7 +18,7 @@ const APART: f64 = 2e-2;
 fn motions_are_free_at_all_times_and_early() {
     let (mut found, mut waited, mut detours) = (0, 0, 0);
     for world in Moving::all(seeds(16)) {
-        let plan = plan(&world.asked(), &Options { bounded: false, ..Options::default() }).expect("a plan");
+        let plan = plan(&world.problem(), &Options { bounded: false, ..Options::default() }).expect("a plan");
         let Outcome::Found(trajectory) = plan.outcome() else { continue };
         let timing = plan.timing().expect("of a world in which something moves");
         found += 1;
@@ -52,13 +52,13 @@ fn motions_are_free_at_all_times_and_early() {
         }
     }
     println!("{found} found, {waited} with waits, {detours} after more than one way");
-    assert!(!usual() || (found > 10 && waited > 1), "{found} found, {waited} with waits");
+    assert!(!uses_default_cases() || (found > 10 && waited > 1), "{found} found, {waited} with waits");
 }
 
 /// Returns the earliest end of a motion that begins as soon as the path is free and stays at the goal. Returns `None`
 /// if the arm cannot wait at the start, or if there is no motion.
 fn waiting_at_the_start(world: &Moving) -> Option<f64> {
-    let standing = plan(&world.standing(), &Options { bounded: false, ..Options::default() }).expect("a plan");
+    let standing = plan(&world.static_problem(), &Options { bounded: false, ..Options::default() }).expect("a plan");
     let trajectory = standing.trajectory()?;
     let last = trajectory.time.len() - 1;
     let steps: Vec<_> = (0..last).map(|sample| position(trajectory, sample, 0.0)).collect();

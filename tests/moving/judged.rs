@@ -1,6 +1,6 @@
 //! Verification of recordings among moving obstacles, against checks at single moments.
 
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use crate::drawn::Moving;
 use cplan::check::{CollisionCheck, check_collision};
 use cplan::space::{Configuration, Recording};
@@ -12,14 +12,15 @@ const LOOKS: usize = 400;
 fn motions_planned_without_moving_obstacles_are_judged() {
     let (mut free, mut hit) = (0, 0);
     for world in Moving::all(seeds(6)) {
-        let standing = plan(&world.standing(), &Options { bounded: false, ..Options::default() }).expect("a plan");
+        let standing =
+            plan(&world.static_problem(), &Options { bounded: false, ..Options::default() }).expect("a plan");
         let Some(trajectory) = standing.trajectory() else { continue };
         let rows = |values: &[[f64; 2]]| values.iter().map(|&row| Configuration::from(row)).collect::<Vec<_>>();
         // The times do not begin at 0. The trajectories of obstacles begin with the recording.
         let time = trajectory.time.iter().map(|time| 100.0 + time).collect();
         let recording = Recording::new(rows(&trajectory.position), Some(time), Some(rows(&trajectory.velocity)));
         let recording = recording.expect("a recording");
-        let problem = world.asked();
+        let problem = world.problem();
         let scene = problem.scene();
         let pieces = recording.pieces();
         let least = (0..LOOKS).map(|look| {
@@ -45,5 +46,5 @@ fn motions_planned_without_moving_obstacles_are_judged() {
         }
     }
     println!("{free} free, {hit} hit");
-    assert!(!usual() || (free > 5 && hit > 5), "{free} free, {hit} hit");
+    assert!(!uses_default_cases() || (free > 5 && hit > 5), "{free} free, {hit} hit");
 }

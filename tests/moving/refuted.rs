@@ -1,8 +1,8 @@
 //! If it is proven that no timing along a path avoids the obstacles, brute force finds none either.
 
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use crate::common::{obstacle, placed, q, rectangle, rr};
-use crate::drawn::{Moving, at as moved};
+use crate::drawn::{Moving, obstacle_at as moved};
 use crate::oracle::Oracle;
 use cplan::geometry::{Point, Vector};
 use cplan::model::{MovingObstacle, ObstacleTrajectory, Stop, TimedWorkspace, Workspace};
@@ -16,27 +16,27 @@ const STEP: f64 = 0.02;
 const GOES: f64 = 0.05;
 
 #[test]
-fn where_no_timing_helps_a_flood_in_place_and_time_does_not_get_through() {
-    let (refuted, unknown) = flooded(Moving::all(seeds(10)));
+fn a_flood_fill_confirms_that_no_timing_helps() {
+    let (refuted, unknown) = compare_with_flood_fill(Moving::all(seeds(10)));
     println!("{refuted} refuted, {unknown} open");
-    assert!(!usual() || refuted > 0, "nothing was refuted");
+    assert!(!uses_default_cases() || refuted > 0, "nothing was refuted");
 }
 
 /// Checks worlds in which some obstacles cross the workspace in hundredths of a second. Checks at regular intervals
 /// would miss these obstacles.
 #[test]
 fn refuted_timings_agree_with_a_flood_fill() {
-    let (refuted, unknown) = flooded(Moving::all(seeds(8)).map(|world| world.hurried(100.0)));
+    let (refuted, unknown) = compare_with_flood_fill(Moving::all(seeds(8)).map(|world| world.sped_up(100.0)));
     println!("{refuted} refuted, {unknown} open");
-    assert!(!usual() || refuted > 0, "nothing was refuted");
+    assert!(!uses_default_cases() || refuted > 0, "nothing was refuted");
 }
 
 /// Compares proofs that no timing is possible with a flood fill. Returns the numbers of refuted and of undecided
 /// worlds.
-fn flooded(worlds: impl Iterator<Item = Moving>) -> (usize, usize) {
+fn compare_with_flood_fill(worlds: impl Iterator<Item = Moving>) -> (usize, usize) {
     let (mut refuted, mut unknown) = (0, 0);
     for world in worlds {
-        let plan = plan(&world.asked(), &Options { bounded: false, ..Options::default() }).expect("a plan");
+        let plan = plan(&world.problem(), &Options { bounded: false, ..Options::default() }).expect("a plan");
         let Outcome::Unknown(reason) = plan.outcome() else { continue };
         if !reason.contains("obstacle") || !reason.contains("move") {
             continue;
@@ -47,7 +47,7 @@ fn flooded(worlds: impl Iterator<Item = Moving>) -> (usize, usize) {
         }
         refuted += 1;
         let standing =
-            cplan::plan(&world.standing(), &Options { bounded: false, ..Options::default() }).expect("a plan");
+            cplan::plan(&world.static_problem(), &Options { bounded: false, ..Options::default() }).expect("a plan");
         let Some(trajectory) = standing.trajectory() else { panic!("{}: there was a way", world.name) };
         assert!(trajectory.duration() > 0.0);
         let path = standing.waypoints().expect("a path");
@@ -66,7 +66,7 @@ fn a_momentary_block_refutes_every_timing() {
     let stops = vec![at(0.1036, 9.0), at(0.1046, 0.0), at(0.1056, 9.0)];
     let mover = MovingObstacle {
         obstacle: obstacle("bar", rectangle(0.4, 0.6, -1.0, 1.0)),
-        course: ObstacleTrajectory::new(stops, Vector::zeros()).expect("a course"),
+        trajectory: ObstacleTrajectory::new(stops, Vector::zeros()).expect("a trajectory"),
     };
     let workspace = TimedWorkspace { movers: vec![mover.clone()], ..Workspace::new([]).into() };
     let arm = rr([JointRange::Interval { lower: -1.5, upper: 1.5 }; 2]);
@@ -87,7 +87,7 @@ fn a_momentary_block_refutes_every_timing() {
 }
 
 /// Returns the times of the checks. They are at regular intervals, and more frequent while an obstacle is fast.
-fn looks(world: &Moving) -> Vec<f64> {
+fn check_times(world: &Moving) -> Vec<f64> {
     let count = (world.horizon() / STEP) as usize;
     let mut looks: Vec<f64> = (0..=count).map(|look| look as f64 * STEP).collect();
     for [from, to, speed] in world.speeds().into_iter().filter(|[_, to, _]| to.is_finite()) {
@@ -114,13 +114,13 @@ fn gets_through(world: &Moving, path: &Path) -> bool {
             Some(*gone)
         })
         .collect();
-    let (courses, arm) = (world.speeds(), world.movers_at(0.0).speed(speeds.into()));
+    let (trajectories, arm) = (world.speeds(), world.movers_at(0.0).speed(speeds.into()));
     // The largest movement of an obstacle between two times.
     let goes = |[from, to]: [f64; 2]| {
-        let met = courses.iter().filter(|[begins, ends, _]| *begins < to && from < *ends);
+        let met = trajectories.iter().filter(|[begins, ends, _]| *begins < to && from < *ends);
         (to - from) * (arm + met.map(|[.., speed]| *speed).fold(0.0, f64::max))
     };
-    let looks = looks(world);
+    let looks = check_times(world);
     let mut there = vec![false; PLACES + 1];
     there[0] = true;
     for k in 1..looks.len() {

@@ -1,10 +1,10 @@
 //! Tasks among moving obstacles. Answers are free at all times, pick objects where they are at that time, and end
 //! hardly later than those of brute force.
 
-use crate::belts::{drawn, frames, on_course, replayed};
+use crate::belts::{drawn, frames, pose_on_trajectory, replayed};
 use crate::common::dice::Dice;
 use crate::common::disc;
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use crate::solid::{Solid, V};
 use crate::world::KINDS;
 use cplan::engine::task::plan;
@@ -53,7 +53,7 @@ fn task_motions_are_free_and_pick_present_objects() {
         }
     }
     println!("{found} found, {waited} with waits, {infeasible} infeasible, {unknown} unknown");
-    assert!(!usual() || (found > 8 && waited > 3), "{found} found, {waited} with waits");
+    assert!(!uses_default_cases() || (found > 8 && waited > 3), "{found} found, {waited} with waits");
 }
 
 /// Step between the departures and moments that brute force tries, in seconds.
@@ -78,7 +78,7 @@ fn single_pick(seed: u64) -> Task {
     let (near, angle) = (spot(&mut dice, [0.5, 1.6]), dice.within(-PI, PI));
     let velocity = Vector::new(angle.cos(), angle.sin()) * dice.within(0.1, 0.6);
     let from = near - velocity * dice.within(0.5, 4.0);
-    let course = ObstacleTrajectory::conveyor(from.into(), velocity.into()).expect("a course");
+    let trajectory = ObstacleTrajectory::conveyor(from.into(), velocity.into()).expect("a trajectory");
     let object = Object {
         name: "bottle".into(),
         shape: Shape::Pieces,
@@ -86,8 +86,8 @@ fn single_pick(seed: u64) -> Task {
         heights: Heights::ALL,
         lift: 0.0,
         holding: Holding::Rigid,
-        at: course.pose(0.0),
-        course: Some(course),
+        at: trajectory.pose(0.0),
+        trajectory: Some(trajectory),
         mass: 0.0,
     };
     let action = Action::Pick { object: 0, grasp: Point::zeros(), supports: Vec::new(), when: Vec::new() };
@@ -106,7 +106,7 @@ fn a_pick_is_hardly_later_than_brute_force_finds() {
             continue;
         }
         let answer = plan(&task, &Options::default(), &mut |_| ());
-        let Some(least) = soonest(&task) else { continue };
+        let Some(least) = earliest_pick(&task) else { continue };
         compared += 1;
         assert_eq!(answer.outcome.status(), Status::Found, "seed {seed}: picked at {least} s by brute force");
         let end = answer.duration();
@@ -114,16 +114,16 @@ fn a_pick_is_hardly_later_than_brute_force_finds() {
         assert!(end <= least + 3.0 * STEP, "seed {seed}: at {end} s, brute force at {least} s");
     }
     println!("{compared} compared, {later} s later at the most");
-    assert!(!usual() || compared > 1, "{compared} compared");
+    assert!(!uses_default_cases() || compared > 1, "{compared} compared");
 }
 
 /// Returns the time of the earliest pick. The arm departs at some time, moves straight, and waits for the object.
 /// Returns `None` if there is no such pick within ten seconds.
-fn soonest(task: &Task) -> Option<f64> {
+fn earliest_pick(task: &Task) -> Option<f64> {
     (1..500).map(|k| f64::from(k) * STEP).find(|&moment| {
-        let place = on_course(&task.objects[0], moment).1;
+        let place = pose_on_trajectory(&task.objects[0], moment).1;
         postures(task, place).into_iter().any(|to| {
-            let lasts = straight(task, to);
+            let lasts = straight_duration(task, to);
             let mut departures = (0..).map(|k| k as f64 * STEP).take_while(|departs| departs + lasts <= moment);
             departures.any(|departs| is_free(task, to, [departs, lasts, moment]))
         })
@@ -148,7 +148,7 @@ fn postures(task: &Task, [x, y]: V) -> Vec<V> {
 }
 
 /// Returns the duration of the straight motion to a configuration. Both joints move together, each within its limits.
-fn straight(task: &Task, to: V) -> f64 {
+fn straight_duration(task: &Task, to: V) -> f64 {
     let (velocity, acceleration) = limits(task, to);
     if acceleration <= velocity * velocity {
         2.0 / acceleration.sqrt()
@@ -188,7 +188,7 @@ fn is_free(task: &Task, to: V, [departs, lasts, moment]: [f64; 3]) -> bool {
         let bar = |link: usize| task.arm.links[link].parts.iter().map(move |part| (link, Solid::new(&part.shape)));
         let mut bodies = bar(0).chain(bar(1)).map(|(link, body)| (link, body.placed(frames[link].0, frames[link].1)));
         let posts: Vec<Solid> = task.workspace.fixed.obstacles.iter().map(|post| Solid::new(&post.pieces[0])).collect();
-        let bottle = on_course(&task.objects[0], time);
+        let bottle = pose_on_trajectory(&task.objects[0], time);
         let bottle = Solid::new(&task.objects[0].pieces[0]).placed(bottle.0, bottle.1);
         let is_apart = k < (moment / STEP) as usize || posts.iter().all(|post| bottle.distance(post) > APART);
         is_apart
@@ -200,16 +200,16 @@ fn is_free(task: &Task, to: V, [departs, lasts, moment]: [f64; 3]) -> bool {
 
 /// Checks an object that never comes within reach, and a task that is infeasible even without moving obstacles.
 #[test]
-fn proofs_for_tasks_among_moving_obstacles() {
+fn infeasible_tasks_among_moving_obstacles_have_proofs() {
     let mut task = single_pick(0);
     task.workspace.fixed.obstacles.clear();
-    task.objects[0].course = Some(ObstacleTrajectory::conveyor([2.0, -3.0], [0.0, 0.5]).expect("a course"));
-    task.objects[0].at = task.objects[0].course.as_ref().expect("a course").pose(0.0);
+    task.objects[0].trajectory = Some(ObstacleTrajectory::conveyor([2.0, -3.0], [0.0, 0.5]).expect("a trajectory"));
+    task.objects[0].at = task.objects[0].trajectory.as_ref().expect("a trajectory").pose(0.0);
     let answer = plan(&task, &Options::default(), &mut |_| ());
     let Outcome::Infeasible(why) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert!(why.reasons[0].contains("\"bottle\" is never within the arm's reach"), "{:?}", why.reasons);
     // The object passes within reach, but not at that time.
-    task.objects[0].course = Some(ObstacleTrajectory::conveyor([1.0, -3.0], [0.0, 0.5]).expect("a course"));
+    task.objects[0].trajectory = Some(ObstacleTrajectory::conveyor([1.0, -3.0], [0.0, 0.5]).expect("a trajectory"));
     let found = plan(&task, &Options::default(), &mut |_| ());
     assert_eq!(found.failed(), None);
     let Item::Step(Step { action: Action::Pick { when, .. }, .. }) = &mut task.items[0] else { panic!("a pick") };

@@ -1,6 +1,6 @@
 //! Bounds on the optimum, compared with closed forms, with published figures, and with the paths of all other planners.
 
-use crate::common::{self, Benchmark, asked, disc, obstacle, q, rr, scene, shipped_feasible};
+use crate::common::{self, Benchmark, disc, motion_problem, obstacle, q, rr, scene, shipped_feasible};
 use cplan::Outcome;
 use cplan::engine::{Answer, Bound, Criterion, Method, Planner, Space, bound, solve};
 use cplan::geometry::{Convex, Point};
@@ -94,16 +94,21 @@ fn published_optima_lie_within_the_bounds() {
     }
 }
 
-fn among(axes: [JointRange; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> MotionProblem {
+fn problem_among(
+    axes: [JointRange; 2],
+    pieces: Vec<Convex>,
+    start: Configuration,
+    goals: &[Configuration],
+) -> MotionProblem {
     let obstacles = pieces.into_iter().map(|piece| obstacle("block", piece)).collect::<Vec<_>>();
     let pieces = obstacles.into_iter().flat_map(|o| o.pieces).collect();
-    asked(scene(rr(axes), pieces), start, goals.iter().copied().collect::<GoalSet>())
+    motion_problem(scene(rr(axes), pieces), start, goals.iter().copied().collect::<GoalSet>())
 }
 
 #[test]
 fn without_obstacles_the_bound_is_the_shortest_displacement() {
     let circles = [JointRange::Circle, JointRange::Circle];
-    let problem = among(circles, Vec::new(), q(-3.0, 0.0), &[q(3.0, 0.5)]);
+    let problem = problem_among(circles, Vec::new(), q(-3.0, 0.0), &[q(3.0, 0.5)]);
     let straight = (TAU - 6.0).hypot(0.5);
     let found = bounded(&answer(&problem, Criterion::Euclidean, None));
     assert!((found.lower - straight).abs() < 1e-8 && (found.upper - straight).abs() < 1e-8, "{found:?}");
@@ -118,7 +123,7 @@ fn without_obstacles_the_bound_is_the_shortest_displacement() {
 fn the_bound_covers_all_goals() {
     let interval = JointRange::Interval { lower: -3.0, upper: 3.0 };
     let goals = [q(2.0, 2.0), q(1.0, 0.0), q(-2.0, 1.0)];
-    let problem = among([interval, interval], Vec::new(), q(0.0, 0.0), &goals);
+    let problem = problem_among([interval, interval], Vec::new(), q(0.0, 0.0), &goals);
     let found = bounded(&answer(&problem, Criterion::Euclidean, None));
     assert!((found.lower - 1.0).abs() < 1e-8, "{found:?}");
 }
@@ -134,7 +139,7 @@ fn around_a_block_the_bound_is_the_shortest_path() {
     let links = [common::link("beam", Vec::new()), common::link("tool", vec![tool])];
     let arm = common::arm(joints, links, Point::zeros(), Point::zeros());
     let block = common::rectangle(-0.5, 0.5, -2.5, 0.25);
-    let problem = asked(scene(arm, vec![block]), q(-1.5, 0.0), q(1.5, 0.0));
+    let problem = motion_problem(scene(arm, vec![block]), q(-1.5, 0.0), q(1.5, 0.0));
     let string = 1.0 + 2.0 * 1.0_f64.hypot(0.25);
     let found = bounded(&answer(&problem, Criterion::Euclidean, Some(1e-5)));
     assert!(found.lower <= string && string <= found.upper && found.gap() <= 1e-5, "{found:?} {string}");
@@ -161,7 +166,7 @@ fn gantries_find_paths_into_spirals() {
         }
         let walls: Vec<Convex> =
             corners.windows(2).map(|ends| Convex::segment(ends[0], ends[1]).expect("finite")).collect();
-        let problem = asked(scene(arm, walls), q(size + 2.0, size + 2.0), q(0.5, 0.5));
+        let problem = motion_problem(scene(arm, walls), q(size + 2.0, size + 2.0), q(0.5, 0.5));
         let answer = answer_by(Method::Shortest, &problem, Criterion::Euclidean, None);
         let found = bounded(&answer);
         assert!(found.gap() <= 1e-4 && matches!(answer.space, Space::Regions(_)), "{turns}: {found:?}");

@@ -11,7 +11,7 @@ use cplan::space::{Configuration, JointRange, Path};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-fn inside(scene: &Scene, u: f64, v: f64) -> Configuration {
+fn configuration_at_fractions(scene: &Scene, u: f64, v: f64) -> Configuration {
     let at = |k: usize, t: f64| {
         let (lower, upper) = scene.arm().topology().ranges[k].domain();
         lower + t * (upper - lower)
@@ -20,7 +20,7 @@ fn inside(scene: &Scene, u: f64, v: f64) -> Configuration {
 }
 
 /// Returns the least distance at `n` evenly spaced configurations of each segment.
-fn sampled(scene: &Scene, path: &Path, n: u32) -> f64 {
+fn least_sampled_distance(scene: &Scene, path: &Path, n: u32) -> f64 {
     path.segments()
         .flat_map(|(a, b)| (0..=n).map(move |i| a + (b - a) * (f64::from(i) / f64::from(n))))
         .map(|q| scene.clearance(q))
@@ -35,9 +35,9 @@ proptest! {
         kind in 0_usize..5, a in (0.0..1.0_f64, 0.0..1.0_f64), b in (0.0..1.0_f64, 0.0..1.0_f64), t in 0.05..1.0_f64,
     ) {
         let scene = scene(all_kinds().swap_remove(kind), clutter());
-        let (from, to) = (inside(&scene, a.0, a.1), inside(&scene, b.0, b.1));
+        let (from, to) = (configuration_at_fractions(&scene, a.0, a.1), configuration_at_fractions(&scene, b.0, b.1));
         let path = Path::new(vec![from, from + (to - from) * t]);
-        let seen = sampled(&scene, &path, 4000);
+        let seen = least_sampled_distance(&scene, &path, 4000);
         let keeps = |clearance: f64| StraightMotions::new(&scene, clearance).is_free(path.start(), path.goal());
         prop_assert!(!keeps(0.0) || seen > 0.0);
         prop_assert!(!keeps(0.1) || seen >= 0.1);
@@ -64,7 +64,7 @@ proptest! {
         deviations in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), 64),
     ) {
         let scene = scene(all_kinds().swap_remove(kind), clutter());
-        let middle = inside(&scene, at.0, at.1);
+        let middle = configuration_at_fractions(&scene, at.0, at.1);
         let posture = Posture::new(&scene, middle);
         let along = q(half.0, -half.1);
         for (i, &pair) in scene.pairs().iter().enumerate() {
@@ -229,7 +229,7 @@ fn false_proofs_are_refused() {
 
 /// Returns true if boxes leave a path from `start` to `goal` on the torus. Uses a flood fill over the grid that
 /// consists of all coordinates of the boxes.
-fn flooded(boxes: &[CollisionBox], start: Configuration, goal: Configuration) -> bool {
+fn leave_a_path(boxes: &[CollisionBox], start: Configuration, goal: Configuration) -> bool {
     let ends: [Vec<f64>; 2] = [0, 1].map(|k| {
         let sides = boxes.iter().flat_map(|b| [b.cell.lower[k], b.cell.upper[k]]);
         let mut ends: Vec<f64> = sides.chain([-PI, PI]).collect();
@@ -269,7 +269,7 @@ fn separation_agrees_with_flood_fill() {
         let step = boxes.len().div_ceil(64);
         for gone in (0..boxes.len()).step_by(step) {
             let left = [&boxes[..gone], &boxes[gone + 1..]].concat();
-            let way = flooded(&left, start, goal);
+            let way = leave_a_path(&left, start, goal);
             let expected = if way { Err(ProofError::NotSeparated(0)) } else { Ok(()) };
             assert_eq!(recheck(&left, &scene, start, &goal.into(), 0.0), expected, "{which:?} without box {gone}");
             opened += usize::from(way);
@@ -323,7 +323,7 @@ fn the_boxes_cover_the_domain_with_true_states() {
         let scene = scene(arm, clutter());
         let topology = scene.arm().topology();
         let free = |i: u32| {
-            let at = inside(&scene, f64::from(i % 29) / 28.5, f64::from(i % 31) / 30.5);
+            let at = configuration_at_fractions(&scene, f64::from(i % 29) / 28.5, f64::from(i % 31) / 30.5);
             (scene.clearance(at) > 0.01).then_some(at)
         };
         let [start, goal] = [0, 500].map(|from| (from..).find_map(free).unwrap());
@@ -332,7 +332,8 @@ fn the_boxes_cover_the_domain_with_true_states() {
         let whole = topology.ranges[0].extent() * topology.ranges[1].extent();
         assert!((area - whole).abs() < 1e-9 * whole, "kind {kind}: {area} of {whole}");
         for i in 0..4_000_u32 {
-            let at = inside(&scene, (f64::from(i % 89) + 0.5) / 89.0, (f64::from(i % 97) + 0.5) / 97.0);
+            let at =
+                configuration_at_fractions(&scene, (f64::from(i % 89) + 0.5) / 89.0, (f64::from(i % 97) + 0.5) / 97.0);
             let holds = |c: &cplan::check::Cell| (0..2).all(|k| c.lower[k] <= at[k] && at[k] <= c.upper[k]);
             let clearance = scene.clearance(at);
             let mut held = false;

@@ -1,6 +1,6 @@
 //! Lower bounds, and evidence for them that is computed again. It confirms true bounds, and never a false one.
 
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use crate::common::shipped_feasible;
 use crate::random_worlds::world;
 use cplan::Outcome;
@@ -13,14 +13,14 @@ use cplan::model::MotionProblem;
 const MISSED: f64 = 1e-3;
 
 /// Returns the bound that the program states for a path close to the shortest.
-fn stated(problem: &MotionProblem, criterion: Criterion) -> Option<Bound> {
+fn stated_bound(problem: &MotionProblem, criterion: Criterion) -> Option<Bound> {
     let planner = Planner::named(Method::Shortest).with_criterion(criterion);
     let answer = solve(problem, &planner.into(), &mut |_| {});
     answer.bound().filter(|_| matches!(answer.outcome, Outcome::Found(_)))
 }
 
 /// Returns the certificate of a bound. Returns `None` if the bound has none.
-fn seen(problem: &MotionProblem, stated: &Bound) -> Option<BoundCertificate> {
+fn checked_certificate(problem: &MotionProblem, stated: &Bound) -> Option<BoundCertificate> {
     certificate_of_bound(problem, stated, &Overrides::default())
 }
 
@@ -28,9 +28,9 @@ fn seen(problem: &MotionProblem, stated: &Bound) -> Option<BoundCertificate> {
 fn unseen(problems: impl IntoIterator<Item = (String, MotionProblem, Criterion)>) -> (usize, Vec<String>) {
     let (mut count, mut unseen) = (0, Vec::new());
     for (name, problem, criterion) in problems {
-        let Some(stated) = stated(&problem, criterion) else { continue };
+        let Some(stated) = stated_bound(&problem, criterion) else { continue };
         // Goals that leave a joint free have no certificate.
-        let Some(found) = seen(&problem, &stated) else { continue };
+        let Some(found) = checked_certificate(&problem, &stated) else { continue };
         let share = 1.0 - found.length / stated.lower;
         let words = format!("{name}: {} walls, less by {share:.1e}", found.walls);
         println!("{words}");
@@ -41,7 +41,7 @@ fn unseen(problems: impl IntoIterator<Item = (String, MotionProblem, Criterion)>
 }
 
 #[test]
-fn bounds_of_all_shipped_workspaces_are_seen_to_hold() {
+fn bounds_of_all_shipped_workspaces_are_confirmed() {
     let problems = shipped_feasible().into_iter().map(|(name, problem)| (name, problem, Criterion::Euclidean));
     let (count, unseen) = unseen(problems);
     assert!(count >= 15 && unseen.is_empty(), "{count}, but {unseen:#?}");
@@ -58,22 +58,22 @@ fn random_problems(count: u64) -> impl Iterator<Item = (String, MotionProblem, C
 }
 
 #[test]
-fn bounds_in_random_worlds_are_seen_to_hold() {
+fn bounds_in_random_worlds_are_confirmed() {
     let (count, unseen) = unseen(random_problems(24));
     // Where shapes separate slowly, the walls between them are not found to their ends.
-    assert!(!usual() || count >= 10 && 10 * unseen.len() <= count, "{count}, but {unseen:#?}");
+    assert!(!uses_default_cases() || count >= 10 && 10 * unseen.len() <= count, "{count}, but {unseen:#?}");
 }
 
 #[test]
-fn evidence_for_a_false_bound_shows_no_more_than_is_true() {
+fn evidence_for_a_false_bound_proves_only_the_truth() {
     let mut count = 0;
     // Few problems by default, because evidence with thousands of walls takes half a minute.
     for (name, problem, criterion) in random_problems(2) {
-        let Some(stated) = stated(&problem, criterion) else { continue };
+        let Some(stated) = stated_bound(&problem, criterion) else { continue };
         let boast = Bound { lower: 1.01 * stated.upper, upper: 1.01 * stated.upper, ..stated };
-        let Some(found) = seen(&problem, &boast) else { continue };
+        let Some(found) = checked_certificate(&problem, &boast) else { continue };
         assert!(found.length <= stated.upper, "{name}: {} beyond a path of {}", found.length, stated.upper);
         count += 1;
     }
-    assert!(!usual() || count >= 2, "{count}");
+    assert!(!uses_default_cases() || count >= 2, "{count}");
 }

@@ -49,77 +49,77 @@ impl Spaces {
 
 /// Every type that implements `Planner`, with settings that change its paths.
 const PLANNERS: [(&str, Plan); 26] = [
-    (Visibility::NAME, |spaces, query| answered(&Visibility::default(), &spaces.polygons, query)),
+    (Visibility::NAME, |spaces, query| reproducible_run(&Visibility::default(), &spaces.polygons, query)),
     ("visibility, weighted", |spaces, query| {
         let metric = Metric::Weighted { weights: [1.0, 0.6] };
-        answered(&Visibility { metric, ..Visibility::default() }, &spaces.polygons, query)
+        reproducible_run(&Visibility { metric, ..Visibility::default() }, &spaces.polygons, query)
     }),
     ("visibility, travel time", |spaces, query| {
         let metric = Metric::Time { speeds: [1.0, 1.5] };
-        answered(&Visibility { metric, ..Visibility::default() }, &spaces.polygons, query)
+        reproducible_run(&Visibility { metric, ..Visibility::default() }, &spaces.polygons, query)
     }),
     ("visibility, Dijkstra backward", |spaces, query| {
-        answered(&Visibility { search: BACKWARD, ..Visibility::default() }, &spaces.polygons, query)
+        reproducible_run(&Visibility { search: BACKWARD, ..Visibility::default() }, &spaces.polygons, query)
     }),
-    ("trapezoid, taut", |spaces, query| answered(&Trapezoid::default(), &spaces.polygons, query)),
+    ("trapezoid, taut", |spaces, query| reproducible_run(&Trapezoid::default(), &spaces.polygons, query)),
     ("trapezoid, own", |spaces, query| {
-        answered(&Trapezoid { path: PathKind::Own, ..Trapezoid::default() }, &spaces.polygons, query)
+        reproducible_run(&Trapezoid { path: PathKind::Own, ..Trapezoid::default() }, &spaces.polygons, query)
     }),
     ("trapezoid, Dijkstra backward", |spaces, query| {
-        answered(&Trapezoid { search: BACKWARD, ..Trapezoid::default() }, &spaces.polygons, query)
+        reproducible_run(&Trapezoid { search: BACKWARD, ..Trapezoid::default() }, &spaces.polygons, query)
     }),
-    ("triangles, taut", |spaces, query| answered(&Triangles::default(), &spaces.polygons, query)),
+    ("triangles, taut", |spaces, query| reproducible_run(&Triangles::default(), &spaces.polygons, query)),
     ("triangles, own", |spaces, query| {
-        answered(&Triangles { path: PathKind::Own, ..Triangles::default() }, &spaces.polygons, query)
+        reproducible_run(&Triangles { path: PathKind::Own, ..Triangles::default() }, &spaces.polygons, query)
     }),
-    (Voronoi::NAME, |spaces, query| answered(&Voronoi::default(), &spaces.polygons, query)),
+    (Voronoi::NAME, |spaces, query| reproducible_run(&Voronoi::default(), &spaces.polygons, query)),
     ("voronoi, taut", |spaces, query| {
-        answered(&Voronoi { path: PathKind::Taut, ..Voronoi::default() }, &spaces.polygons, query)
+        reproducible_run(&Voronoi { path: PathKind::Taut, ..Voronoi::default() }, &spaces.polygons, query)
     }),
     ("voronoi, Dijkstra backward", |spaces, query| {
-        answered(&Voronoi { search: BACKWARD, ..Voronoi::default() }, &spaces.polygons, query)
+        reproducible_run(&Voronoi { search: BACKWARD, ..Voronoi::default() }, &spaces.polygons, query)
     }),
-    (Prm::NAME, |spaces, query| answered(&Prm::default(), &spaces.polygons, query)),
+    (Prm::NAME, |spaces, query| reproducible_run(&Prm::default(), &spaces.polygons, query)),
     ("prm, samples, Dijkstra backward", |spaces, query| {
-        answered(&Prm { path: PathKind::Own, search: BACKWARD, ..Prm::default() }, &spaces.polygons, query)
+        reproducible_run(&Prm { path: PathKind::Own, search: BACKWARD, ..Prm::default() }, &spaces.polygons, query)
     }),
     ("wavefront, cells", |spaces, query| {
-        answered(&Wavefront { path: PathKind::Own, ..Wavefront::default() }, &spaces.cells, query)
+        reproducible_run(&Wavefront { path: PathKind::Own, ..Wavefront::default() }, &spaces.cells, query)
     }),
-    ("wavefront, shortcut", |spaces, query| answered(&Wavefront::default(), &spaces.cells, query)),
+    ("wavefront, shortcut", |spaces, query| reproducible_run(&Wavefront::default(), &spaces.cells, query)),
     ("wavefront, 8 neighbours", |spaces, query| {
         let neighborhood = Neighborhood::Eight;
-        answered(&Wavefront { neighborhood, path: PathKind::Own, ..Wavefront::default() }, &spaces.cells, query)
+        reproducible_run(&Wavefront { neighborhood, path: PathKind::Own, ..Wavefront::default() }, &spaces.cells, query)
     }),
     ("wavefront, A*, 8 neighbours", |spaces, query| {
         let (search, neighborhood) = (GridSearch::AStar, Neighborhood::Eight);
         let planner = Wavefront { search, neighborhood, path: PathKind::Own, ..Wavefront::default() };
-        answered(&planner, &spaces.cells, query)
+        reproducible_run(&planner, &spaces.cells, query)
     }),
     ("wavefront, A* from the start", |spaces, query| {
         let (search, ties) = (GridSearch::AStar, Ties::First);
         let planner = Wavefront { search, ties, forward: true, path: PathKind::Own, ..Wavefront::default() };
-        answered(&planner, &spaces.cells, query)
+        reproducible_run(&planner, &spaces.cells, query)
     }),
     ("wavefront, iterative deepening from the start", |spaces, query| {
         let search = GridSearch::IterativeDeepening;
         let planner = Wavefront { search, forward: true, path: PathKind::Own, ..Wavefront::default() };
-        answered(&planner, &spaces.cells, query)
+        reproducible_run(&planner, &spaces.cells, query)
     }),
     ("wavefront, sampled", |spaces, query| {
-        answered(&Wavefront { path: PathKind::Own, ..Wavefront::default() }, &spaces.sampled, query)
+        reproducible_run(&Wavefront { path: PathKind::Own, ..Wavefront::default() }, &spaces.sampled, query)
     }),
-    ("harmonic, sampled", |spaces, query| answered(&Harmonic { path: PathKind::Own }, &spaces.sampled, query)),
-    ("harmonic, cells", |spaces, query| answered(&Harmonic { path: PathKind::Own }, &spaces.cells, query)),
-    ("harmonic, taut", |spaces, query| answered(&Harmonic { path: PathKind::Taut }, &spaces.cells, query)),
+    ("harmonic, sampled", |spaces, query| reproducible_run(&Harmonic { path: PathKind::Own }, &spaces.sampled, query)),
+    ("harmonic, cells", |spaces, query| reproducible_run(&Harmonic { path: PathKind::Own }, &spaces.cells, query)),
+    ("harmonic, taut", |spaces, query| reproducible_run(&Harmonic { path: PathKind::Taut }, &spaces.cells, query)),
     ("oriented, relaxed", |spaces, query| {
         let direction = Direction::of([1.0, 0.5]).expect("not zero");
         let equation = EquationChoice::Oriented { direction, epsilon: 0.1, difference: Difference::Upwind };
-        answered(&relaxed(equation), &spaces.zoned, query)
+        reproducible_run(&relaxed(equation), &spaces.zoned, query)
     }),
     ("altered preferences, relaxed", |spaces, query| {
         let equation = EquationChoice::AlteredPreference { elsewhere: 0.05 };
-        answered(&relaxed(equation), &spaces.zoned, query)
+        reproducible_run(&relaxed(equation), &spaces.zoned, query)
     }),
 ];
 
@@ -151,7 +151,7 @@ fn relaxed(equation: EquationChoice) -> FieldPlanner {
 }
 
 /// Returns the run of a planner. Checks that it depends only on the input.
-fn answered<P: Planner>(planner: &P, space: &P::Space, query: &Query) -> Run {
+fn reproducible_run<P: Planner>(planner: &P, space: &P::Space, query: &Query) -> Run {
     let map = planner.build(space);
     let run = planner.query(space, &map, query);
     assert_eq!(run, planner.query(space, &map, query), "a second query of one map");

@@ -1,6 +1,6 @@
 //! Decisions whether there is a path at all: among thousands of pieces, and in cases that boxes cannot decide.
 
-use crate::common::{asked, placed, q, recheck, rr, wall};
+use crate::common::{motion_problem, placed, q, recheck, rr, wall};
 use cplan::Options;
 use cplan::Outcome;
 use cplan::check::certify;
@@ -28,7 +28,7 @@ fn ring(count: usize, folding: f64) -> MotionProblem {
     let workspace =
         Workspace { name: "ring".into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() };
     let scene = placed(rr([JointRange::Circle, JointRange::Interval { lower: -folding, upper: folding }]), workspace);
-    asked(scene, q(0.0, 0.0), q(3.0, 0.0))
+    motion_problem(scene, q(0.0, 0.0), q(3.0, 0.0))
 }
 
 #[test]

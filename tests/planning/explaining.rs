@@ -7,7 +7,7 @@
 //! CPLAN_WORLDS=250 cargo test --profile quick --test planning explaining -- --nocapture
 //! ```
 
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use crate::random_worlds::world::{KINDS, world};
 use cplan::engine::explain::{BlockingSet, ChangeKind, Element, MotionQuestion, Side, blocking_set, explain};
 use cplan::engine::{Method, Planner, decide, solve};
@@ -30,7 +30,7 @@ const BOXES_AT_LAST: usize = 1_000_000;
 const FAR: f64 = 20.0;
 
 /// Returns the problem with only those blocking elements that are in `there`. The test builds it independently.
-fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
+fn problem_with(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
     let (mut arm, mut workspace) = problem.scene().clone().into_parts();
     let mut number = 0;
     workspace.obstacles.retain(|_| {
@@ -71,14 +71,14 @@ fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
 fn faults(problem: &MotionProblem, set: &BlockingSet) -> Vec<String> {
     let mut faults = Vec::new();
     let elements = set.elements();
-    let truth = decide(&among(problem, &elements), Options::default().boxes).status();
+    let truth = decide(&problem_with(problem, &elements), Options::default().boxes).status();
     if truth != Status::Infeasible {
         faults.push(format!("{elements:?} are not known to be enough: {truth}"));
     }
     for element in &elements {
         let others: Vec<Element> = elements.iter().filter(|other| *other != element).copied().collect();
         let known = set.without(*element);
-        let truth = engine::solve(&among(problem, &others), &Options::default(), &mut |_| ()).outcome.status();
+        let truth = engine::solve(&problem_with(problem, &others), &Options::default(), &mut |_| ()).outcome.status();
         if truth != Status::Found && (known == Status::Found || truth == Status::Infeasible) {
             faults.push(format!("{element:?} is not needed of {elements:?}: {truth}"));
         }
@@ -131,7 +131,7 @@ fn blocking_sets_are_irreducible() {
 /// Checks nearly parallel slides, and walls and points without area. Without any clearance, such a wall neither lets
 /// the arm pass nor proves that it cannot pass.
 #[test]
-fn blocking_sets_of_degenerate_worlds() {
+fn blocking_sets_of_degenerate_worlds_are_irreducible() {
     let long_ways = [722, 931, 1095, 1154, 1393, 1580].map(|seed| ("PP", seed));
     let thin = [("RR", 39), ("RR", 253), ("RP", 615), ("PP", 862), ("PR", 28), ("PR", 684), ("PR", 874)];
     for (kind, seed) in long_ways.into_iter().chain(thin) {
@@ -277,7 +277,7 @@ fn obstacles_that_lengthen_the_path_are_reported_with_their_cost() {
 
 /// Returns the same arm and world in another unit of length. The start and the goals are shifted by whole turns of
 /// continuous joints.
-fn rescaled(problem: &MotionProblem, scale: f64, turns: [f64; 2]) -> MotionProblem {
+fn scaled_problem(problem: &MotionProblem, scale: f64, turns: [f64; 2]) -> MotionProblem {
     let (mut arm, mut workspace) = problem.scene().clone().into_parts();
     let point = |p: Point| p * scale;
     let shape = |piece: &Convex| {
@@ -327,7 +327,7 @@ fn reported_lengths_hold_for_another_planner() {
             arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(|part| part.inner = None);
             let few = Scene::new(arm, workspace).expect("fewer obstacles");
             let few = MotionProblem::new(few, drawn.start(), drawn.goals().clone()).expect("as free as before");
-            let problem = rescaled(&few, scale, turns);
+            let problem = scaled_problem(&few, scale, turns);
             let explanation = explain(&MotionQuestion::from(&problem), &Options::default());
             let Outcome::Found(shaped) = &explanation.outcome else { continue };
             let whole = shaped.answer.bound().expect("a bound");
@@ -339,7 +339,7 @@ fn reported_lengths_hold_for_another_planner() {
             for saving in &shaped.savings {
                 let gone = |element: &Element| *element != saving.element;
                 let there: Vec<Element> = Element::all(problem.scene()).into_iter().filter(gone).collect();
-                let (mut arm, mut workspace) = among(&problem, &there).into_scene().into_parts();
+                let (mut arm, mut workspace) = problem_with(&problem, &there).into_scene().into_parts();
                 // The smaller the arm, the farther an omitted limit extends. No clearance is added here.
                 if scale != 1.0 && matches!(saving.element, Element::Limit { .. }) {
                     continue;
@@ -357,7 +357,7 @@ fn reported_lengths_hold_for_another_planner() {
         }
     }
     println!("{seen} lengths compared");
-    assert!(!usual() || seen > 2, "{seen}");
+    assert!(!uses_default_cases() || seen > 2, "{seen}");
 }
 
 /// Checks an arm of a millimetre, for which a micrometre is large. A bound for paths with that clearance does not hold

@@ -2,7 +2,7 @@
 //! others.
 
 use crate::common::dice::Dice;
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use crate::judged::{self, Question};
 use crate::random_tasks::replay;
 use cplan::Options;
@@ -40,7 +40,7 @@ fn robot() -> PathBuf {
 }
 
 /// Returns a place of a tray around the arm. Rows begin with the innermost, columns with the one nearest to the x axis.
-fn spot(index: usize) -> [f64; 2] {
+fn tray_place(index: usize) -> [f64; 2] {
     let (angle, radius) = (25.0 + 11.0 * (index / ROWS) as f64, 0.95 + 0.16 * (index % ROWS) as f64);
     [radius * angle.to_radians().cos(), radius * angle.to_radians().sin()]
 }
@@ -76,18 +76,18 @@ fn tray(count: usize) -> Vec<[[f64; 2]; 2]> {
     let mut places: Vec<usize> = (0..count).collect();
     places.sort_by_key(|index| (std::cmp::Reverse(index % ROWS), std::cmp::Reverse(index / ROWS)));
     let mirrored = |[x, y]: [f64; 2]| [x, -y];
-    picks.into_iter().zip(places).map(|(pick, place)| [spot(pick), mirrored(spot(place))]).collect()
+    picks.into_iter().zip(places).map(|(pick, place)| [tray_place(pick), mirrored(tray_place(place))]).collect()
 }
 
 /// Returns the result that the program prints for a world. Checks that the motion is free if a plan was found.
-fn asked(world: &str) -> Value {
+fn plan_world(world: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let (file, result) = (folder.path().join("world.toml"), folder.path().join("result.json"));
     std::fs::write(&file, world).unwrap();
-    let answer = judged::planned(&robot(), &file, "");
+    let answer = judged::plan_result(&robot(), &file, "");
     if answer["status"] == "found" {
         std::fs::write(&result, answer.to_string()).unwrap();
-        let found = judged::judged(&robot(), &file, &result, &Question::default()).unwrap();
+        let found = judged::judge(&robot(), &file, &result, &Question::default()).unwrap();
         assert_eq!(found["verdict"], "free", "{found:#}");
     }
     answer
@@ -101,7 +101,7 @@ fn number(answer: &Value, key: &str) -> f64 {
 fn a_free_order_is_found_where_that_of_the_file_can_be_done() {
     for count in [14, 20] {
         let parts = tray(count);
-        let [fixed, free] = ["fixed", "free"].map(|order| asked(&world(order, &parts)));
+        let [fixed, free] = ["fixed", "free"].map(|order| plan_world(&world(order, &parts)));
         assert_eq!(
             (&fixed["status"], &free["status"]),
             (&"found".into(), &"found".into()),
@@ -123,7 +123,7 @@ fn a_free_order_is_found_where_that_of_the_file_cannot_be_done() {
         for last in (1..parts.len()).rev() {
             parts.swap(last, dice.below(last + 1));
         }
-        let [fixed, free] = ["fixed", "free"].map(|order| asked(&world(order, &parts)));
+        let [fixed, free] = ["fixed", "free"].map(|order| plan_world(&world(order, &parts)));
         assert_eq!(
             (&fixed["status"], &free["status"]),
             (&"infeasible".into(), &"found".into()),
@@ -143,7 +143,7 @@ fn infeasibility_in_any_order_is_proven_for_large_groups() {
     let mut blocked = tray(14);
     blocked[3][1] = [1.55, 0.0];
     for (parts, named) in [(swapped, ["\"part 0\"", "\"part 4\""]), (blocked, ["\"part 3\"", ""])] {
-        let answer = asked(&world("free", &parts));
+        let answer = plan_world(&world("free", &parts));
         assert_eq!(answer["status"], "infeasible", "{}", answer["reason"]);
         let reasons = answer["failed"]["reasons"].to_string().replace('\\', "");
         assert!(reasons.contains("in any order") && named.iter().all(|name| reasons.contains(name)), "{reasons}");
@@ -158,7 +158,7 @@ fn task(world: &str) -> Option<Task> {
     Some(load_scene(robot(), &file).unwrap().task(&Overrides::default()).ok()?.task)
 }
 
-fn planned(task: &Task) -> TaskAnswer {
+fn plan_task(task: &Task) -> TaskAnswer {
     let drive = Drive { period: 0.1, ..Drive::default() };
     plan(task, &Options { drive, ..Method::Visibility.into() }, &mut |_| {})
 }
@@ -168,7 +168,7 @@ const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2,
 
 /// Returns the task with nine more pairs in its group. Their objects collide with nothing, and lie at the tip's initial
 /// position. The new task is feasible exactly if the old one is, but it has too many pairs to try all orders.
-fn among_many(task: &Task, pairs: &[[Step; 2]]) -> Task {
+fn with_nine_more_pairs(task: &Task, pairs: &[[Step; 2]]) -> Task {
     let mut many = task.clone();
     let mut group = pairs.to_vec();
     let at = task.arm.tip_at(task.start);
@@ -203,16 +203,16 @@ fn free_orders_agree_with_trying_all() {
                 parts[part][1] = parts[(part + 1) % 3][0];
             }
         }
-        let parts: Vec<[[f64; 2]; 2]> = parts.into_iter().map(|part| part.map(spot)).collect();
+        let parts: Vec<[[f64; 2]; 2]> = parts.into_iter().map(|part| part.map(tray_place)).collect();
         let Some(free) = task(&sized_world("free", 0.05, &parts)) else { continue };
         let Item::AnyOrder(pairs) = &free.items[0] else { unreachable!("one group") };
         let by_order = ORDERS.map(|order| {
             let items = order.iter().flat_map(|&pair| pairs[pair].clone().map(Item::Step)).collect();
-            let answer = planned(&Task { items, ..free.clone() });
+            let answer = plan_task(&Task { items, ..free.clone() });
             (answer.failed().is_none()).then(|| answer.duration())
         });
         let best = by_order.iter().flatten().copied().fold(f64::INFINITY, f64::min);
-        let answer = planned(&free);
+        let answer = plan_task(&free);
         let done = answer.failed().is_none();
         assert_eq!(done, best.is_finite(), "seed {seed}: {:?} for {by_order:?}", answer.outcome);
         if let Err(violation) = replay::replay(&free, &answer, done) {
@@ -224,8 +224,8 @@ fn free_orders_agree_with_trying_all() {
             "seed {seed}: {best}"
         );
 
-        let many = among_many(&free, pairs);
-        let answer = planned(&many);
+        let many = with_nine_more_pairs(&free, pairs);
+        let answer = plan_task(&many);
         match &answer.outcome {
             Outcome::Found(_) => assert!(done, "seed {seed}: done, but no order can be"),
             Outcome::Infeasible(_) => assert!(!done, "seed {seed}: infeasible, but {by_order:?}"),
@@ -243,5 +243,5 @@ fn free_orders_agree_with_trying_all() {
         "{some} with orders that fail, {file_fails} with the file's; {none} without any, {proven} of these proven"
     );
     // Some orders fail, and some tasks have no feasible order, which is proven for part of them.
-    assert!(!usual() || some >= 3 && file_fails >= 2 && none >= 3 && 2 * proven >= none);
+    assert!(!uses_default_cases() || some >= 3 && file_fails >= 2 && none >= 3 && 2 * proven >= none);
 }

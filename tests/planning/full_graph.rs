@@ -53,7 +53,7 @@ fn turn(a: Place, b: Place, c: Place) -> i64 {
     ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)).signum()
 }
 
-fn between(a: Place, b: Place, p: Place) -> bool {
+fn is_between(a: Place, b: Place, p: Place) -> bool {
     let within = |a: i64, b: i64, p: i64| a.min(b) <= p && p <= a.max(b);
     turn(a, b, p) == 0 && within(a.0, b.0, p.0) && within(a.1, b.1, p.1)
 }
@@ -72,9 +72,9 @@ fn joined(rectangles: &[[Place; 4]], a: Place, b: Place) -> bool {
     let meets = |ring: &[Place; 4]| {
         (0..4).any(|k| {
             let (p, q) = (ring[k], ring[(k + 1) % 4]);
-            let touches = |p: Place| p != a && p != b && between(a, b, p);
+            let touches = |p: Place| p != a && p != b && is_between(a, b, p);
             let crosses = turn(a, b, p) * turn(a, b, q) < 0 && turn(p, q, a) * turn(p, q, b) < 0;
-            let ends_on = |e: Place| e != p && e != q && between(p, q, e);
+            let ends_on = |e: Place| e != p && e != q && is_between(p, q, e);
             touches(p) || crosses || ends_on(a) || ends_on(b)
         })
     };

@@ -2,8 +2,8 @@
 //! another notation gives the same result, with every planner.
 
 use crate::common::dice::Dice;
-use crate::common::random::{seeds, usual};
-use crate::common::{asked, disc, rr, scene, wall};
+use crate::common::random::{seeds, uses_default_cases};
+use crate::common::{disc, motion_problem, rr, scene, wall};
 use cplan::Outcome;
 use cplan::engine::{Method, Planner, solve};
 use cplan::geometry::{Point, Vector};
@@ -48,7 +48,7 @@ fn segment(dice: &mut Dice, scene: &Scene) -> Segment {
 }
 
 /// Returns the same set in other notations: reversed, some turns away, and in pieces that end at each seam.
-fn in_other_words(problem: &MotionProblem, goals: Segment) -> Vec<GoalSet> {
+fn equivalent_goal_sets(problem: &MotionProblem, goals: Segment) -> Vec<GoalSet> {
     let axes = problem.scene().arm().topology().ranges;
     let [from, to] = goals.ends();
     let turns = [0, 1].map(|k| if axes[k].is_circle() { 1.0 - 3.0 * k as f64 } else { 0.0 });
@@ -89,10 +89,10 @@ fn world(seed: u64) -> Option<(MotionProblem, Segment)> {
     };
     let start = (0..50).map(|_| anywhere(&mut dice)).find(|&q| scene.clearance(q) > 1e-3)?;
     let goals = segment(&mut dice, &scene);
-    scene.blocked_along(&goals).is_none().then(|| (asked(scene, start, goals), goals))
+    scene.blocked_along(&goals).is_none().then(|| (motion_problem(scene, start, goals), goals))
 }
 
-fn found(problem: &MotionProblem, planner: Planner) -> Option<Path> {
+fn path_found_by(problem: &MotionProblem, planner: Planner) -> Option<Path> {
     match solve(problem, &planner.into(), &mut |_| {}).outcome {
         Outcome::Found(path) => Some(path.path().clone()),
         Outcome::Infeasible(_) | Outcome::Unknown(_) => None,
@@ -106,14 +106,17 @@ fn a_seam_makes_no_difference_to_any_planner() {
         let Some((problem, goals)) = world(seed) else { continue };
         let (scene, start) = (problem.scene(), problem.start());
         let topology = scene.arm().topology();
-        let sets = in_other_words(&problem, goals);
+        let sets = equivalent_goal_sets(&problem, goals);
         across += u64::from(sets[3].pieces().len() > 1);
         worlds += 1;
         for method in Method::ALL {
             let lengths: Vec<Option<f64>> = sets
                 .iter()
                 .map(|set| {
-                    let path = found(&asked(scene.clone(), start, set.clone()), Planner::named(method).with_cells(96))?;
+                    let path = path_found_by(
+                        &motion_problem(scene.clone(), start, set.clone()),
+                        Planner::named(method).with_cells(96),
+                    )?;
                     for set in &sets {
                         assert!(set.contains(&topology, path.goal(), 1e-9), "seed {seed}, {method}: {}", path.goal());
                     }
@@ -131,8 +134,10 @@ fn a_seam_makes_no_difference_to_any_planner() {
                 for k in 0..=TRIED {
                     let goal = goals.at(f64::from(k) / f64::from(TRIED));
                     if scene.clearance(goal) > ROOMY
-                        && let Some(path) =
-                            found(&asked(scene.clone(), start, goal), Planner::named(method).with_cells(96))
+                        && let Some(path) = path_found_by(
+                            &motion_problem(scene.clone(), start, goal),
+                            Planner::named(method).with_cells(96),
+                        )
                     {
                         let other = path.length();
                         assert!(least <= other * (1.0 + 1e-9), "seed {seed}: {least}, but {other} to {goal} of them");
@@ -141,5 +146,5 @@ fn a_seam_makes_no_difference_to_any_planner() {
             }
         }
     }
-    assert!(!usual() || worlds >= 6 && across > worlds / 4, "{worlds} worlds, {across} across a seam");
+    assert!(!uses_default_cases() || worlds >= 6 && across > worlds / 4, "{worlds} worlds, {across} across a seam");
 }

@@ -1,8 +1,8 @@
 //! Goals of the tip that leave a joint free, compared with goals at many values of that joint.
 
 use crate::common::dice::Dice;
-use crate::common::random::{seeds, usual};
-use crate::common::{arm, asked, disc, joint, link, recheck, rectangle, scene, wall};
+use crate::common::random::{seeds, uses_default_cases};
+use crate::common::{arm, disc, joint, link, motion_problem, recheck, rectangle, scene, wall};
 use cplan::Options;
 use cplan::Outcome;
 use cplan::engine::{Method, solve};
@@ -77,16 +77,16 @@ fn world(seed: u64) -> Option<MotionProblem> {
     };
     let pieces = (0..count).map(|_| piece(&mut dice)).collect();
     let scene: Scene = scene(arm, pieces);
-    let start = (0..50).map(|_| anywhere(&mut dice, &scene)).find(|&q| scene.clearance(q) > 1e-3)?;
+    let start = (0..50).map(|_| random_configuration(&mut dice, &scene)).find(|&q| scene.clearance(q) > 1e-3)?;
     let solved = inverse(scene.arm(), tip, start);
     assert!(solved.free.is_some(), "the generator's goals leave a joint free");
     let mut goals = solved.solutions(scene.arm());
     goals.retain(|goals| scene.blocked_along(goals).is_none());
     let goals: GoalSet = goals.into_iter().collect();
-    (!goals.is_empty()).then(|| asked(scene, start, goals))
+    (!goals.is_empty()).then(|| motion_problem(scene, start, goals))
 }
 
-fn anywhere(dice: &mut Dice, scene: &Scene) -> Configuration {
+fn random_configuration(dice: &mut Dice, scene: &Scene) -> Configuration {
     let topology = scene.arm().topology();
     Configuration::from_fn(|k, _| {
         let (lower, upper) = topology.ranges[k].domain();
@@ -95,7 +95,7 @@ fn anywhere(dice: &mut Dice, scene: &Scene) -> Configuration {
 }
 
 /// Returns free goals at several values of the free joint.
-fn tried(problem: &MotionProblem) -> Vec<Configuration> {
+fn goals_with_free_joint(problem: &MotionProblem) -> Vec<Configuration> {
     let along = |goals: &Segment| (0..TRIED).map(|k| goals.at((k as f64 + 0.5) / TRIED as f64)).collect::<Vec<_>>();
     let mut tried: Vec<Configuration> = problem.goals().pieces().iter().flat_map(along).collect();
     tried.retain(|&goal| problem.scene().clearance(goal) > 1e-6);
@@ -110,7 +110,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
         worlds += 1;
         let (scene, start) = (problem.scene(), problem.start());
         let topology = scene.arm().topology();
-        let each: Vec<_> = tried(&problem)
+        let each: Vec<_> = goals_with_free_joint(&problem)
             .into_iter()
             .map(|goal| {
                 let goals = goal.into();
@@ -157,7 +157,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
                 slid += u64::from(problem.goals().pieces().iter().any(|goals| !goals.is_point()));
                 let bound = answer.bound().expect("visibility bounds what it finds");
                 for &goal in &connected {
-                    let single = asked(problem.scene().clone(), problem.start(), goal);
+                    let single = motion_problem(problem.scene().clone(), problem.start(), goal);
                     let other = solve(&single, &Method::Visibility.into(), &mut |_| {});
                     let Outcome::Found(path) = &other.outcome else { continue };
                     let length = path.path().length();
@@ -180,7 +180,10 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
             Outcome::Unknown(reason) => assert!(connected.is_empty(), "seed {seed}: {reason}"),
         }
     }
-    assert!(!usual() || worlds >= 20 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
+    assert!(
+        !uses_default_cases() || worlds >= 20 && slid > worlds / 4,
+        "{worlds} worlds, {slid} with paths, {infeasible} proofs"
+    );
 }
 
 /// Checks a folded arm whose tip must return to the base. The path to the left passes an obstacle at a distance of a
@@ -240,7 +243,7 @@ fn joints_about_one_axis_share_the_angle() {
                 assert!((scene.arm().tip_at(q) - target).norm() < 1e-9, "{q}");
             }
         }
-        asked(scene.clone(), start, goals)
+        motion_problem(scene.clone(), start, goals)
     };
     // The sum is 1.5. The sum 1.5 - tau is beyond both limits, and the obstacle is in between.
     let barred = problem(1.5);

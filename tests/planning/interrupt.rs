@@ -55,7 +55,7 @@ fn a_stopped_plan_prints_and_writes_nothing() {
             let mut stopped = 0;
             for part in 0..6 {
                 let deadline = Instant::now() + took.mul_f64(f64::from(part) / 5.0);
-                match Interrupt::new().by(deadline).run(|| solve(&problem, &options(method), &mut |_| ())) {
+                match Interrupt::new().with_deadline(deadline).run(|| solve(&problem, &options(method), &mut |_| ())) {
                     Ok(answer) => assert_eq!(report(&answer), expected, "{world} {method}"),
                     Err(why) => {
                         assert_eq!(why, Interrupted::TimeUp);

@@ -7,7 +7,7 @@ use cplan::space::Configuration;
 use cplan::{Options, Plan, Planner, Problem, plan};
 use std::path::Path;
 
-fn asked(robot: &str, world: &str, planner: impl Into<Options>) -> Plan {
+fn plan_shipped(robot: &str, world: &str, planner: impl Into<Options>) -> Plan {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let file = |folder: &str, name: &str, extension: &str| root.join(folder).join(name).with_extension(extension);
     let problem = Problem::load(file("robots", robot, "urdf"), file("workspaces", world, "toml")).unwrap();
@@ -25,7 +25,7 @@ fn replayed(plan: &Plan) -> Vec<Phase> {
 }
 
 /// Returns how many items of the trace a phase shows. Returns `None` if the trace has no items for it.
-fn there(shows: &Shows, trace: &Trace) -> Option<usize> {
+fn shown_count(shows: &Shows, trace: &Trace) -> Option<usize> {
     Some(match (shows, trace) {
         (Shows::Nodes | Shows::Edges, Trace::Roadmap { edges, .. } | Trace::Roads { edges, .. }) => edges.len(),
         (Shows::Expanded, Trace::Roads { expanded, .. } | Trace::Channel { expanded, .. }) => expanded.len(),
@@ -44,7 +44,7 @@ fn there(shows: &Shows, trace: &Trace) -> Option<usize> {
 #[test]
 fn every_planner_has_a_replay() {
     for method in Method::ALL {
-        let plan = asked("planar_2r", "workbench", method);
+        let plan = plan_shipped("planar_2r", "workbench", method);
         let ((_, answer), phases) = (plan.motion().unwrap(), replayed(&plan));
         let Some(path) = answer.path() else { panic!("{method} finds it") };
         assert_eq!(phases.last().unwrap().shows, Shows::Path, "{method}");
@@ -57,7 +57,7 @@ fn every_planner_has_a_replay() {
                     assert!(own.length() >= path.length() - 1e-9, "{method} pulls its path taut");
                 }
                 Shows::Slabs(_) | Shows::Sweeps(_) => {}
-                _ => assert_eq!(there(shows, &answer.drawn()), Some(*events), "{method}: {caption}"),
+                _ => assert_eq!(shown_count(shows, &answer.drawn()), Some(*events), "{method}: {caption}"),
             }
         }
         let has_own = phases.iter().any(|phase| matches!(phase.shows, Shows::Own(_)));
@@ -69,7 +69,7 @@ fn every_planner_has_a_replay() {
 fn replays_follow_the_order_of_the_search() {
     for search in GridSearch::ALL {
         let planner = Planner::named(Method::Wavefront).with(Setting::GridSearch, |s| s.grid_search = search);
-        let plan = asked("planar_2r", "shelf", planner);
+        let plan = plan_shipped("planar_2r", "shelf", planner);
         let Trace::Wavefront { cells, labels, expanded, forward: false } = &plan.motion().unwrap().1.run.trace else {
             panic!("a wavefront")
         };
@@ -121,7 +121,7 @@ fn boxes_of_slabs_have_true_states() {
 
 #[test]
 fn a_proof_is_replayed_box_by_box() {
-    let plan = asked("planar_2r_continuous", "no_path", Method::Shortest);
+    let plan = plan_shipped("planar_2r_continuous", "no_path", Method::Shortest);
     let proof = plan.motion().unwrap().1.outcome.infeasible().unwrap().collision_boxes().len();
     let last = replayed(&plan).pop().unwrap();
     assert_eq!((last.shows, last.events), (Shows::Proof, proof));
@@ -144,7 +144,7 @@ fn a_field_is_replayed_sweep_by_sweep() {
         path: PathKind::Own,
     };
     let planner = Planner::named(Method::Harmonic).with_cells(32).with(Setting::Field, |s| s.field = Some(relaxed));
-    let plan = asked("planar_2r", "shelf", planner);
+    let plan = plan_shipped("planar_2r", "shelf", planner);
     let phases = replayed(&plan);
     let Some(Phase { shows: Shows::Sweeps(sweeps), .. }) = phases.first() else { panic!("{phases:?}") };
     let total = plan.motion().unwrap().1.run.size.figures()[1].1;

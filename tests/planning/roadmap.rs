@@ -312,7 +312,7 @@ fn blocks(random: &mut Dice, size: usize, density: f64) -> Vec<(usize, usize, us
 mod contract {
     use super::*;
 
-    fn both(test: impl Fn(&dyn Fn(&Regions, &Query) -> Proposal)) {
+    fn run_all_planners(test: impl Fn(&dyn Fn(&Regions, &Query) -> Proposal)) {
         test(&|regions, query| run(&VISIBILITY, regions, query).outcome);
         test(&|regions, query| run(&TAUT, regions, query).outcome);
         test(&|regions, query| run(&MIDDLES, regions, query).outcome);
@@ -325,7 +325,7 @@ mod contract {
     #[test]
     fn start_at_the_goal_is_a_path_of_length_zero() {
         for at in [(0.5, 0.5), (1.0, 1.0), (1.0, 2.0), (0.0, 0.0), (1.0, 0.5)] {
-            both(|plan| {
+            run_all_planners(|plan| {
                 let Proposal::Found(path) = plan(&square(), &query(at, at)) else { panic!("{at:?}") };
                 assert_eq!(path.waypoints(), [configuration(at.0, at.1)]);
             });
@@ -334,7 +334,7 @@ mod contract {
 
     #[test]
     fn ends_in_obstacles_or_outside_are_given_up_with_the_reason() {
-        both(|plan| {
+        run_all_planners(|plan| {
             for outside in [(2.0, 2.0), (5.0, 1.0), (1.0 + 1e-15, 2.0)] {
                 let Proposal::GaveUp(reason) = plan(&square(), &query(outside, (0.5, 0.5))) else { panic!() };
                 assert!(reason.contains("start"), "{reason}");
@@ -355,7 +355,7 @@ mod contract {
         let polygon = |outer| PolygonWithHoles { outer, holes: vec![] };
         let apart = vec![polygon(rectangle((0.0, 1.0), (0.0, 1.0))), polygon(rectangle((1.0, 2.0), (1.0, 2.0)))];
         let regions = regions([(0.0, 2.0); 2], apart);
-        both(|plan| {
+        run_all_planners(|plan| {
             assert_eq!(plan(&regions, &query((0.5, 0.5), (1.5, 1.5))), Proposal::NoPath);
             assert!(matches!(plan(&regions, &query((1.0, 1.0), (1.5, 1.5))), Proposal::Found(_)));
             assert!(matches!(plan(&regions, &query((0.5, 0.5), (1.0, 1.0))), Proposal::Found(_)));
@@ -364,7 +364,7 @@ mod contract {
 
     #[test]
     fn the_nearest_of_several_goals_is_taken() {
-        both(|plan| {
+        run_all_planners(|plan| {
             let goals = [configuration(3.5, 3.5), configuration(2.0, 2.0), configuration(0.5, 1.5)];
             let goals = goals.into_iter().collect();
             let Proposal::Found(path) = plan(&square(), &Query { start: configuration(0.5, 0.5), goals }) else {
@@ -384,7 +384,7 @@ mod contract {
         let axes = [JointRange::Circle, JointRange::Interval { lower: -1.0, upper: 1.0 }];
         let window = [(-TAU, TAU), (-1.0, 1.0)];
         let regions = Regions { topology: Topology { ranges: axes }, window, ..regions(window, free) };
-        both(|plan| {
+        run_all_planners(|plan| {
             let Proposal::Found(path) = plan(&regions, &query((0.0, 0.0), (PI, 0.0))) else { panic!() };
             let [from, to] = path.waypoints() else { panic!("{:?}", path.waypoints()) };
             assert_eq!(*from, configuration(0.0, 0.0));

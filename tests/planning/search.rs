@@ -20,7 +20,7 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
 }
 
 /// Returns the cell at the offset `by` from `cell`, computed from coordinates. Returns `None` if there is no such cell.
-fn beside(grid: &Grid, cell: usize, by: [i64; 2]) -> Option<usize> {
+fn cell_at_offset(grid: &Grid, cell: usize, by: [i64; 2]) -> Option<usize> {
     let at = [cell / grid.cells[1], cell % grid.cells[1]];
     let to = [0, 1].map(|k| {
         let (to, n) = (at[k] as i64 + by[k], grid.cells[k] as i64);
@@ -31,7 +31,7 @@ fn beside(grid: &Grid, cell: usize, by: [i64; 2]) -> Option<usize> {
 
 /// Returns free cells one move away from a free cell, and whether the move is diagonal.
 fn moves(grid: &Grid, cell: usize, neighborhood: Neighborhood) -> Vec<(usize, bool)> {
-    let free = |by: [i64; 2]| beside(grid, cell, by).filter(|&to| !grid.blocked[to]);
+    let free = |by: [i64; 2]| cell_at_offset(grid, cell, by).filter(|&to| !grid.blocked[to]);
     let mut to = Vec::new();
     for by in (-1..=1).flat_map(|di| [-1, 0, 1].map(|dj| [di, dj])).filter(|by| *by != [0, 0]) {
         let is_diagonal = by[0] != 0 && by[1] != 0;
@@ -218,27 +218,27 @@ proptest! {
     #![proptest_config(cplan_cases::cases(200))]
 
     #[test]
-    fn labels_of_small_grids((grid, sources, start) in with_cells(random_grid(1..12, 1..12, 0.6))) {
+    fn labels_of_small_grids_agree_with_the_oracle((grid, sources, start) in with_cells(random_grid(1..12, 1..12, 0.6))) {
         check_labels(&grid, &sources, start)?;
     }
 
     #[test]
-    fn labels_of_grids_many_words_wide((grid, sources, start) in with_cells(random_grid(1..30, 60..270, 0.04))) {
+    fn labels_of_wide_grids_agree_with_the_oracle((grid, sources, start) in with_cells(random_grid(1..30, 60..270, 0.04))) {
         check_labels(&grid, &sources, start)?;
     }
 
     #[test]
-    fn labels_of_rooms((grid, sources, start) in with_cells(random_rooms())) {
+    fn labels_of_rooms_agree_with_the_oracle((grid, sources, start) in with_cells(random_rooms())) {
         check_labels(&grid, &sources, start)?;
     }
 
     #[test]
-    fn searches_of_small_grids((grid, sources, target) in with_cells(random_grid(1..14, 1..14, 0.5))) {
+    fn searches_of_small_grids_agree_with_the_oracle((grid, sources, target) in with_cells(random_grid(1..14, 1..14, 0.5))) {
         check_searches(&grid, &sources, target)?;
     }
 
     #[test]
-    fn searches_of_rooms((grid, sources, target) in with_cells(random_rooms().prop_filter("small", |g| g.blocked.len() < 2000))) {
+    fn searches_of_rooms_agree_with_the_oracle((grid, sources, target) in with_cells(random_rooms().prop_filter("small", |g| g.blocked.len() < 2000))) {
         check_searches(&grid, &sources, target)?;
     }
 
@@ -296,7 +296,7 @@ fn a_star_goes_straight_in_the_open() {
 /// Checks Fig. 6.14 of the chapter on task planning ("Planejamento de Tarefas", 6.3.3), where the goal is labelled
 /// `q_fin` and the start, `q_ini`, has the label 9. Also checks what the text states about the labels.
 #[test]
-fn the_published_8_by_8_example_and_its_text() {
+fn the_published_8_by_8_example_has_its_labels_and_text() {
     let table = "2 1 2 3 4 5 # #
                  1 0 1 2 3 4 # #
                  2 1 2 3 4 5 # #
@@ -346,7 +346,7 @@ fn table(name: &str) -> Vec<u32> {
 /// Checks Fig. 2 of Gonçalves da Silva: labels of the wave on 20 x 12 cells. The goal's label is 2.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
-fn the_published_20_by_12_wavefront() {
+fn the_published_20_by_12_wavefront_has_its_labels() {
     let expected = table("wavefront_20x12.csv");
     let free = FreeCells::new(&grid([20, 12], [false; 2], expected.iter().map(|&l| l == UNREACHED).collect()));
     let goal = expected.iter().position(|&label| label == 2).expect("a goal");
@@ -360,7 +360,7 @@ fn the_published_20_by_12_wavefront() {
 /// path, and the unvisited cells.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
-fn the_published_20_by_12_a_star() {
+fn the_published_20_by_12_a_star_has_its_costs() {
     let (map, expected) = (table("wavefront_20x12.csv"), table("astar_g_20x12.csv"));
     let free = FreeCells::new(&grid([20, 12], [false; 2], map.iter().map(|&l| l == UNREACHED).collect()));
     let goal = map.iter().position(|&label| label == 2).expect("a goal");

@@ -1,7 +1,7 @@
 //! The shortest path among random obstacles. It is never below proven bounds, rarely far above them, and smooth to
 //! drive.
 
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use crate::random_worlds::world;
 use cplan::Outcome;
 use cplan::check::certify;
@@ -16,7 +16,7 @@ const WORLDS: u64 = 12;
 /// another planner's path. The path is never longer than another planner's path by more than that. All planners agree
 /// on whether there is a path.
 #[test]
-fn it_is_within_a_ten_thousandth_of_the_optimum_in_random_worlds() {
+fn shortest_paths_in_random_worlds_are_within_a_ten_thousandth_of_the_optimum() {
     let (mut found, mut wide) = (0, 0);
     for kind in ["RR", "RP", "PR", "PP"] {
         for seed in seeds(WORLDS) {
@@ -50,7 +50,7 @@ fn it_is_within_a_ten_thousandth_of_the_optimum_in_random_worlds() {
         }
     }
     println!("{found} found, {wide} of them not within 1e-4");
-    assert!(!usual() || found >= 20, "{found}");
+    assert!(!uses_default_cases() || found >= 20, "{found}");
     // In one world of twenty, the path may lead through a passage that is too narrow for that planner.
     assert!(wide * 20 <= found + 20, "{wide} of {found}");
 }

@@ -2,8 +2,8 @@
 //! the independent check.
 
 use crate::common::{
-    Benchmark, all_kinds, arm, benchmark, clutter, convex, disc, inside, joint, link, problem, q, recheck, rectangle,
-    rr, scene, wall,
+    Benchmark, all_kinds, arm, benchmark, clutter, configuration_at_fractions, convex, disc, joint, link, problem, q,
+    recheck, rectangle, rr, scene, wall,
 };
 use cplan::Outcome;
 use cplan::check::{Cell, CertifiedPath, CheckedProof, certify};
@@ -94,7 +94,7 @@ proptest! {
         clearance in prop_oneof![Just(0.0), 0.0..0.05_f64],
     ) {
         let scene = scene(all_kinds().swap_remove(kind), obstacles);
-        let (start, goal) = (inside(&scene, a), inside(&scene, b));
+        let (start, goal) = (configuration_at_fractions(&scene, a), configuration_at_fractions(&scene, b));
         prop_assume!(scene.clearance(start) > clearance + 1e-6 && scene.clearance(goal) > clearance + 1e-6);
         agrees_with_the_boxes(&scene, start, goal, clearance);
     }
@@ -114,12 +114,15 @@ fn agrees_with_the_boxes(scene: &Scene, start: Configuration, goal: Configuratio
 /// Checks a case that `random_scenes_are_answered_as_the_boxes_answer_them` found: collision intervals across the seam
 /// of joint 2 belong to the proof.
 #[test]
-fn a_proof_across_the_seam() {
+fn a_proof_may_reach_across_the_seam() {
     let disc = disc(Point::new(-0.2574244886139003, -0.7541749868020048), 0.03);
     let wall = [(-0.8754122955094447, -0.6096296790282105), (-1.1648286518001902, -0.6096296790282105)];
     let capsule = convex(wall.map(|(x, y)| Point::new(x, y)).to_vec(), 0.04823605938179094);
     let scene = scene(all_kinds().swap_remove(0), vec![disc, capsule]);
-    let (start, goal) = (inside(&scene, (0.14021252832200662, 0.39818998128329575)), inside(&scene, (0.0, 0.0)));
+    let (start, goal) = (
+        configuration_at_fractions(&scene, (0.14021252832200662, 0.39818998128329575)),
+        configuration_at_fractions(&scene, (0.0, 0.0)),
+    );
     assert!(scene.clearance(start) > 0.0 && scene.clearance(goal) > 0.0);
     agrees_with_the_boxes(&scene, start, goal, 0.0);
 }
@@ -127,7 +130,7 @@ fn a_proof_across_the_seam() {
 /// Checks two segments without thickness. A shape without area contains no smaller shape, so only two answers are
 /// possible: a path, or a proof that joint 1 alone closes the space.
 #[test]
-fn thin_links_among_thin_walls() {
+fn thin_links_among_thin_walls_are_decided() {
     let turn = JointType::Revolute { sign: 1.0 };
     let thin = |length| wall(Point::zeros(), Point::new(length, 0.0));
     let arm = arm(
@@ -145,7 +148,7 @@ fn thin_links_among_thin_walls() {
 }
 
 #[test]
-fn nothing_to_meet_is_free() {
+fn a_scene_without_obstacles_is_connected() {
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![]);
     assert_eq!(check(&scene, q(0.1, 0.2), &q(3.0, -3.0).into(), 0.0), Some(true));
     assert_eq!(check(&scene, q(0.1, 0.2), &q(0.1, 0.2).into(), 0.0), Some(true));
@@ -161,7 +164,7 @@ fn a_base_inside_an_obstacle_is_never_connected() {
 
 /// Checks links that do not contain their pivots, and an elbow whose circle passes through an obstacle or touches it.
 #[test]
-fn odd_links_and_elbows_on_obstacles() {
+fn odd_links_and_elbows_on_obstacles_are_decided() {
     let turn = JointType::Revolute { sign: -1.0 };
     let arm = arm(
         [joint("a", turn, JointRange::Circle), joint("b", turn, JointRange::Circle)],
@@ -197,7 +200,7 @@ fn odd_links_and_elbows_on_obstacles() {
 /// Checks limits that are longer than a turn. The same pose of the arm occurs at several configurations, and there may
 /// be no path between two of them.
 #[test]
-fn limits_longer_than_a_turn() {
+fn limits_longer_than_a_turn_are_decided() {
     let long = JointRange::Interval { lower: -5.0, upper: 5.0 };
     let narrow = JointRange::Interval { lower: -0.5, upper: 0.5 };
     let pole = disc(Point::new(0.0, 0.7), 0.1);
@@ -222,7 +225,7 @@ fn clearance_closes_passages() {
 }
 
 #[test]
-fn joints_that_cannot_move_are_left_to_others() {
+fn joints_that_cannot_move_are_left_undecided() {
     let fixed = JointRange::Interval { lower: 0.5, upper: 0.5 };
     let scene = scene(rr([fixed, JointRange::Circle]), clutter());
     assert_eq!(check(&scene, q(0.5, 0.0), &q(0.5, 0.1).into(), 0.0), None);

@@ -1,6 +1,6 @@
 //! The benchmark problems with published answers, with every planner.
 
-use crate::common::{Benchmark, asked, benchmark, problem, q, rectangle, rr, scene, shipped_feasible};
+use crate::common::{Benchmark, benchmark, motion_problem, problem, q, rectangle, rr, scene, shipped_feasible};
 use cplan::Outcome;
 use cplan::cspace::Proves;
 use cplan::engine::{Answer, GridSpace, Method, Options, Planner, Space, solve};
@@ -118,7 +118,7 @@ fn ends_with_little_room_are_answered_at_the_first_level() {
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(1.8 + 1e-6, 2.0, -0.5, 0.5)]);
     let (tight, roomy) = (q(0.0, 0.0), q(2.0, 0.5));
     for (start, goal) in [(tight, roomy), (roomy, tight), (tight, tight)] {
-        let problem = asked(scene.clone(), start, goal);
+        let problem = motion_problem(scene.clone(), start, goal);
         for method in Method::ALL {
             let answer = solve(&problem, &Options { levels: 1, ..method.into() }, &mut |_| {});
             let Outcome::Found(certified) = &answer.outcome else {
@@ -136,7 +136,7 @@ fn ends_with_little_room_are_answered_at_the_first_level() {
 fn a_start_without_room_to_spare_is_answered() {
     let (scene, start, goal) = benchmark(Benchmark::A);
     let clearance = scene.clearance(start);
-    let problem = asked(scene.with_clearance(clearance).unwrap(), start, goal);
+    let problem = motion_problem(scene.with_clearance(clearance).unwrap(), start, goal);
     for method in [Method::Visibility, Method::Trapezoid] {
         let answer = solve(&problem, &Options { levels: 1, boxes: 1000, ..method.into() }, &mut |_| {});
         // With exactly the clearance, no answer can be certified.

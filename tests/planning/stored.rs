@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 
 /// Returns every shipped world with the robot that it names, in the order of their names.
-fn shipped() -> Vec<(String, Problem)> {
+fn shipped_problems() -> Vec<(String, Problem)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files = |folder: &str| std::fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().path());
     let mut worlds: Vec<_> = files("workspaces").chain(files("workspaces/tasks")).collect();
@@ -26,7 +26,7 @@ fn shipped() -> Vec<(String, Problem)> {
 }
 
 fn world(name: &str) -> Problem {
-    shipped().into_iter().find(|(other, _)| other == name).unwrap().1
+    shipped_problems().into_iter().find(|(other, _)| other == name).unwrap().1
 }
 
 /// Returns the data as JSON, as in a file.
@@ -43,7 +43,7 @@ fn refusal(valid: &Value, pointer: &str, other: Value) -> String {
 
 #[test]
 fn every_shipped_problem_is_read_as_it_was_written() {
-    for (name, problem) in shipped() {
+    for (name, problem) in shipped_problems() {
         let text = serde_json::to_string(&problem).unwrap();
         let read: Problem = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(serde_json::to_string(&read).unwrap(), text, "{name}");
@@ -58,7 +58,7 @@ fn every_shipped_problem_is_read_as_it_was_written() {
 
 #[test]
 fn every_shipped_plan_is_read_as_it_was_written() {
-    for (name, problem) in shipped() {
+    for (name, problem) in shipped_problems() {
         // The times differ from run to run, so they are not compared.
         let made = plan(&problem, &Options { timings: true, ..Options::default() }).unwrap();
         let text = serde_json::to_string(&made).unwrap();

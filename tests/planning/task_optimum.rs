@@ -5,7 +5,8 @@ use cplan::engine::task::{TaskAnswer, plan, rest_to_rest};
 use cplan::engine::{Method, Options};
 use cplan::geometry::{Point, Pose, Vector};
 use cplan::model::{
-    Action, Arm, Goal, Heights, Holding, Item, JointType, Object, Shape, Step, Task, Workspace, inverse, within,
+    Action, Arm, Goal, Heights, Holding, Item, JointType, Object, Shape, Step, Task, Workspace, equivalent_values,
+    inverse,
 };
 use cplan::motion::Drive;
 use cplan::space::{Configuration, JointRange};
@@ -15,7 +16,7 @@ fn options() -> Options {
     Options { drive: Drive { period: 0.1, ..Drive::default() }, ..Method::Visibility.into() }
 }
 
-fn planned(task: &Task) -> TaskAnswer {
+fn plan_task(task: &Task) -> TaskAnswer {
     plan(task, &options(), &mut |_| {})
 }
 
@@ -35,7 +36,7 @@ fn cell(limits: [[f64; 2]; 2]) -> (Arm, Workspace) {
 }
 
 /// Returns a flat object far below the arm, which nothing can hit.
-fn thing(name: &str, at: Point) -> Object {
+fn distant_object(name: &str, at: Point) -> Object {
     let below = Heights { lower: -1.0, upper: -0.9 };
     Object {
         name: name.into(),
@@ -45,7 +46,7 @@ fn thing(name: &str, at: Point) -> Object {
         lift: 0.0,
         holding: Holding::Level,
         at: Pose::new(at, 0.0),
-        course: None,
+        trajectory: None,
         mass: 0.0,
     }
 }
@@ -60,7 +61,7 @@ fn task(limits: [[f64; 2]; 2], spots: &[[Point; 2]], free: bool) -> Task {
     let (arm, mut workspace) = cell(limits);
     // The objects are below the posts.
     workspace.obstacles.iter_mut().for_each(|o| o.heights = Heights { lower: -0.5, upper: 0.5 });
-    let objects = spots.iter().enumerate().map(|(i, [from, _])| thing(&format!("thing {i}"), *from)).collect();
+    let objects = spots.iter().enumerate().map(|(i, [from, _])| distant_object(&format!("thing {i}"), *from)).collect();
     let pair = |(object, [_, to]): (usize, &[Point; 2])| {
         let pick = Action::Pick { object, grasp: Point::zeros(), supports: Vec::new(), when: Vec::new() };
         [step(pick, 2 * object + 1), step(Action::Place { at: *to, angle: None, supports: Vec::new() }, 2 * object + 2)]
@@ -78,8 +79,10 @@ fn task(limits: [[f64; 2]; 2], spots: &[[Point; 2]], free: bool) -> Task {
 fn ik_solutions(arm: &Arm, at: Point) -> Vec<Configuration> {
     let mut all = Vec::new();
     for branch in inverse(arm, at, Configuration::zeros()).branches {
-        for first in within(arm.joints[0].range, true, branch[0]) {
-            all.extend(within(arm.joints[1].range, true, branch[1]).into_iter().map(|second| q(first, second)));
+        for first in equivalent_values(arm.joints[0].range, true, branch[0]) {
+            all.extend(
+                equivalent_values(arm.joints[1].range, true, branch[1]).into_iter().map(|second| q(first, second)),
+            );
         }
     }
     all
@@ -87,7 +90,7 @@ fn ik_solutions(arm: &Arm, at: Point) -> Vec<Configuration> {
 
 /// Returns the duration of the fastest sequence through layers of IK solutions, in seconds. Tries all orders of the
 /// pairs.
-fn least(
+fn least_duration(
     start: Configuration,
     layers: &[[Vec<Configuration>; 2]],
     orders: &[Vec<usize>],
@@ -153,7 +156,7 @@ fn the_fastest_of_all_ik_solutions_and_orders_is_found() {
         let mut durations = Vec::new();
         for free in [false, true] {
             let task = task(limits, &spots, free);
-            let answer = planned(&task);
+            let answer = plan_task(&task);
             let layers: Vec<[Vec<Configuration>; 2]> =
                 spots.iter().map(|pair| pair.map(|at| ik_solutions(&task.arm, at))).collect();
             let orders = if free { orders(3) } else { vec![vec![0, 1, 2]] };
@@ -170,11 +173,11 @@ fn the_fastest_of_all_ik_solutions_and_orders_is_found() {
                     if blocked(from) || blocked(to) {
                         return f64::INFINITY;
                     }
-                    let single = planned(&Task { start: from, items: vec![Item::Step(there)], ..task.clone() });
+                    let single = plan_task(&Task { start: from, items: vec![Item::Step(there)], ..task.clone() });
                     if single.failed().is_none() { single.duration() } else { f64::INFINITY }
                 })
             };
-            let expected = least(task.start, &layers, &orders, alone);
+            let expected = least_duration(task.start, &layers, &orders, alone);
             if expected.is_infinite() {
                 assert_ne!(answer.failed(), None, "seed {seed}");
                 continue;
@@ -189,7 +192,7 @@ fn the_fastest_of_all_ik_solutions_and_orders_is_found() {
                 let of = |k: usize| rest_to_rest((to[k] - from[k]).abs(), joints[k].velocity, joints[k].acceleration);
                 of(0).max(of(1))
             };
-            let bound = least(task.start, &layers, &orders, bare);
+            let bound = least_duration(task.start, &layers, &orders, bare);
             assert!((answer.lower_bound - bound).abs() < 1e-6, "seed {seed}: {} for {bound}", answer.lower_bound);
             assert!(answer.lower_bound <= bound, "seed {seed}: rounding is on the safe side");
         }
@@ -214,10 +217,10 @@ fn a_large_group_gets_a_good_order() {
     };
     let spots: Vec<[Point; 2]> = spots(3, 30, &arm).into_iter().filter(|pair| pair.iter().all(free)).take(12).collect();
     assert_eq!(spots.len(), 12);
-    let ours = planned(&task(limits, &spots, true));
+    let ours = plan_task(&task(limits, &spots, true));
     assert_eq!(ours.failed(), None);
     assert!(!is_exact(&ours) && ours.lower_bound < ours.duration());
-    let some = planned(&task(limits, &spots[..4], true));
+    let some = plan_task(&task(limits, &spots[..4], true));
     assert!(is_exact(&some) && some.lower_bound < ours.lower_bound, "more to do takes longer");
     let mut order: Vec<usize> = (0..12).collect();
     for round in 0..12_usize {
@@ -225,7 +228,7 @@ fn a_large_group_gets_a_good_order() {
             order.swap(i, (round * 7 + i * i * 5 + 3) % (i + 1));
         }
         let drawn: Vec<[Point; 2]> = order.iter().map(|&i| spots[i]).collect();
-        let theirs = planned(&task(limits, &drawn, false));
+        let theirs = plan_task(&task(limits, &drawn, false));
         assert_eq!(theirs.failed(), None);
         assert!(ours.duration() < theirs.duration(), "{} and {}", ours.duration(), theirs.duration());
     }

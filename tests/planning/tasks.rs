@@ -9,7 +9,9 @@ use cplan::Outcome;
 use cplan::engine::task::{TaskAnswer, plan};
 use cplan::engine::{Method, Options};
 use cplan::input::{self, Overrides};
-use cplan::model::{Action, Goal, Holding, Item, Object, Step, Task, TimedWorkspace, Workspace, inverse, within};
+use cplan::model::{
+    Action, Goal, Holding, Item, Object, Step, Task, TimedWorkspace, Workspace, equivalent_values, inverse,
+};
 use cplan::space::Configuration;
 use std::path::{Path, PathBuf};
 
@@ -34,11 +36,11 @@ fn load(file: &Path) -> (Task, String) {
     (loaded.task, stated("expect"))
 }
 
-fn shipped(name: &str) -> Task {
+fn shipped_task(name: &str) -> Task {
     load(&folder().join(format!("{name}.toml"))).0
 }
 
-fn planned(task: &Task) -> TaskAnswer {
+fn plan_task(task: &Task) -> TaskAnswer {
     plan(task, &options(), &mut |_| {})
 }
 
@@ -51,7 +53,7 @@ fn every_task_gives_its_stated_outcome() {
     for file in files {
         let (task, expect) = load(&file);
         let name = file.file_stem().unwrap().display().to_string();
-        let answer = planned(&task);
+        let answer = plan_task(&task);
         let outcome = match &answer.outcome {
             Outcome::Found(_) => "done",
             Outcome::Infeasible(_) => "infeasible",
@@ -70,7 +72,7 @@ fn every_task_gives_its_stated_outcome() {
 /// Checks a level and a rigid payload in the same world, which differ only in the key for that.
 #[test]
 fn holding_level_or_rigid_makes_the_difference() {
-    let [level, rigid] = ["slot_level", "slot_rigid"].map(shipped);
+    let [level, rigid] = ["slot_level", "slot_rigid"].map(shipped_task);
     let unnamed = |workspace: &TimedWorkspace| TimedWorkspace {
         fixed: Workspace { name: String::new(), ..workspace.fixed.clone() },
         movers: workspace.movers.clone(),
@@ -83,15 +85,15 @@ fn holding_level_or_rigid_makes_the_difference() {
     };
     assert_eq!(differ(&level), differ(&rigid));
     assert!(level.objects.iter().all(|o| o.holding == Holding::Level));
-    assert_eq!(planned(&level).failed(), None);
-    assert!(matches!(planned(&rigid).outcome, Outcome::Infeasible(_)));
+    assert_eq!(plan_task(&level).failed(), None);
+    assert!(matches!(plan_task(&rigid).outcome, Outcome::Infeasible(_)));
 }
 
 /// Checks a passage through which the arm can move empty-handed, but not with the board.
 #[test]
 fn carrying_closes_a_passage() {
-    let task = shipped("board_and_gate");
-    let answer = planned(&task);
+    let task = shipped_task("board_and_gate");
+    let answer = plan_task(&task);
     let Outcome::Infeasible(impossible) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert_eq!(impossible.step.number, 3, "the board is what does not pass");
     assert_eq!(answer.legs.len(), 2, "the way there and back is done before");
@@ -108,8 +110,8 @@ fn carrying_closes_a_passage() {
 /// Checks a rail that can be picked with two grips, each of which leaves two IK solutions to reach the slot.
 #[test]
 fn reasons_name_the_motions_that_were_tried() {
-    let task = shipped("slot_rigid");
-    let answer = planned(&task);
+    let task = shipped_task("slot_rigid");
+    let answer = plan_task(&task);
     let Outcome::Infeasible(impossible) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert_eq!((impossible.ik_solutions.len(), impossible.reasons.len()), (2, 4));
     let from = format!("from joints ({:.4}, {:.4}) rad to (", impossible.from[0], impossible.from[1]);
@@ -129,7 +131,7 @@ fn ik_solutions(task: &Task, step: &Step) -> Vec<Configuration> {
     };
     let branches = inverse(&task.arm, target, task.start).branches;
     let copies = |q: &Configuration| {
-        let [a, b] = [0, 1].map(|k| within(task.arm.joints[k].range, true, q[k]));
+        let [a, b] = [0, 1].map(|k| equivalent_values(task.arm.joints[k].range, true, q[k]));
         a.into_iter()
             .flat_map(move |a| b.clone().into_iter().map(move |b| Configuration::new(a, b)))
             .collect::<Vec<_>>()
@@ -140,7 +142,7 @@ fn ik_solutions(task: &Task, step: &Step) -> Vec<Configuration> {
 /// Checks that always choosing the IK solution that is nearest in time makes the task at least a fifth slower.
 #[test]
 fn the_greedy_choice_of_ik_solutions_is_slower() {
-    let task = shipped("elbow_choice");
+    let task = shipped_task("elbow_choice");
     let mut taken: Vec<Item> = Vec::new();
     let mut greedy = 0.0;
     for step in task.steps() {
@@ -148,7 +150,7 @@ fn the_greedy_choice_of_ik_solutions_is_slower() {
         let forced = |q: &Configuration| {
             let there = Step { action: Action::Move(Goal::Joints(*q)), dwell: 0.0, ..step.clone() };
             let items = taken.iter().cloned().chain([Item::Step(there), Item::Step(step.clone())]).collect();
-            let answer = planned(&Task { items, ..task.clone() });
+            let answer = plan_task(&Task { items, ..task.clone() });
             (answer.failed().is_none()).then(|| (answer.duration(), *q))
         };
         let all = ik_solutions(&task, step);
@@ -158,7 +160,7 @@ fn the_greedy_choice_of_ik_solutions_is_slower() {
         taken.extend([Item::Step(there), Item::Step(step.clone())]);
         greedy = seconds;
     }
-    let ours = planned(&task).duration();
+    let ours = plan_task(&task).duration();
     assert!(greedy >= 1.2 * ours, "greedy {greedy} s, ours {ours} s");
 }
 
@@ -166,15 +168,15 @@ fn the_greedy_choice_of_ik_solutions_is_slower() {
 /// depends on that of the arm.
 #[test]
 fn identical_cycles_are_planned_once() {
-    let once = planned(&shipped("feeder"));
+    let once = plan_task(&shipped_task("feeder"));
     assert_eq!(once.legs.len(), 300);
     assert!(once.motions < 40, "{} motions", once.motions);
-    let mut task = shipped("elbow_choice");
+    let mut task = shipped_task("elbow_choice");
     let first: Vec<Step> = task.steps().cloned().collect();
     let home = Step { action: Action::Move(Goal::Joints(task.start)), number: 3, ..first[0].clone() };
     let cycle = |cycle| first.iter().chain([&home]).map(move |step| Item::Step(Step { cycle, ..step.clone() }));
     task.items = (1..=50).flat_map(cycle).collect();
-    let answer = planned(&task);
+    let answer = plan_task(&task);
     assert_eq!(answer.failed(), None);
     assert_eq!(answer.legs.len(), 150);
     assert!(answer.motions < 60, "{} motions", answer.motions);

@@ -105,7 +105,7 @@ fn first_contact(scene: &Scene, path: &Path) -> Option<Configuration> {
     samples.into_iter().find(|&q| meets(q))
 }
 
-fn open_ways_are_found_by(method: Method) {
+fn check_feasible_twins(method: Method) {
     for (what, robot) in TWINS {
         let problem = load(&format!("{what}_open"), robot);
         let answer = solve(&problem, &method.into(), &mut |_| {});
@@ -118,17 +118,17 @@ fn open_ways_are_found_by(method: Method) {
 
 #[test]
 fn feasible_twins_are_solved_by_visibility() {
-    open_ways_are_found_by(Method::Visibility);
+    check_feasible_twins(Method::Visibility);
 }
 
 #[test]
 fn feasible_twins_are_solved_by_trapezoids() {
-    open_ways_are_found_by(Method::Trapezoid);
+    check_feasible_twins(Method::Trapezoid);
 }
 
 #[test]
 fn feasible_twins_are_solved_by_subdivision() {
-    open_ways_are_found_by(Method::Subdivision);
+    check_feasible_twins(Method::Subdivision);
 }
 
 #[test]

@@ -3,8 +3,8 @@
 //! start out of range, were reported as infeasible.
 
 use crate::common::dice::Dice;
-use crate::common::random::{seeds, usual};
-use crate::common::{asked, disc, link, obstacle, placed, q, rectangle, rr, wall};
+use crate::common::random::{seeds, uses_default_cases};
+use crate::common::{disc, link, motion_problem, obstacle, placed, q, rectangle, rr, wall};
 use crate::random_worlds::world;
 use cplan::Outcome;
 use cplan::engine::{Method, solve};
@@ -85,7 +85,7 @@ fn workspace(change: impl Fn(&mut Workspace)) -> Workspace {
 }
 
 #[test]
-fn no_scene_is_made_of_an_arm_that_cannot_be() {
+fn invalid_arms_make_no_scene() {
     type Change = fn(&mut Arm);
     let long = arm(|arm| {
         arm.joints[1].joint_type = JointType::Prismatic { direction: Vector::y() * 2.0 };
@@ -129,7 +129,7 @@ fn no_scene_is_made_of_an_arm_that_cannot_be() {
 }
 
 #[test]
-fn no_scene_is_made_of_a_workspace_that_cannot_be() {
+fn invalid_workspaces_make_no_scene() {
     type Change = fn(&mut Workspace);
     let region = || Region::Tip(SimplePolygon::new(points(&[(0., 0.), (1., 0.), (0., 1.)])).unwrap());
     let preference = |epsilon, direction| Preference { name: "wish".into(), region: region(), epsilon, direction };
@@ -184,7 +184,7 @@ fn negative_masses_are_refused() {
 #[test]
 fn invalid_payloads_are_refused() {
     let shape = rectangle(-0.1, 0.1, -0.1, 0.1);
-    let parts = vec![AttachedPart { shape, number: 0, on_supports: false, proves_collisions: true }];
+    let parts = vec![AttachedPart { shape, number: 0, on_supports: false, is_never_empty: true }];
     let carried =
         |grip, heights, supports| Attachment { name: "part".into(), heights, grip, parts: parts.clone(), supports };
     let level = |angle| Grip::Level { angle, point: Point::zeros() };
@@ -297,7 +297,7 @@ fn is_convex(corners: &[(i64, i64)]) -> bool {
 /// Checks that the library accepts scenes and problems of random worlds, and that taking them apart and building them
 /// again changes nothing.
 #[test]
-fn random_problems_are_taken() {
+fn random_problems_are_accepted() {
     let mut made = 0;
     for seed in seeds(300) {
         let kind = world::KINDS[seed as usize % world::KINDS.len()];
@@ -306,10 +306,10 @@ fn random_problems_are_taken() {
         made += 1;
         let (arm, workspace) = problem.scene().clone().into_parts();
         assert_eq!(&placed(arm, workspace), problem.scene());
-        let again = asked(problem.scene().clone(), problem.start(), problem.goals().clone());
+        let again = motion_problem(problem.scene().clone(), problem.start(), problem.goals().clone());
         assert_eq!(again, problem);
     }
-    assert!(!usual() || made > 250, "{made}");
+    assert!(!uses_default_cases() || made > 250, "{made}");
 }
 
 /// Checks corners that differ from a straight line by the last bit. They are judged exactly.

@@ -95,42 +95,42 @@ fn check(method: Method) {
 }
 
 #[test]
-fn visibility() {
+fn visibility_solves_the_shipped_workspaces() {
     check(Method::Visibility);
 }
 
 #[test]
-fn trapezoid() {
+fn trapezoids_solve_the_shipped_workspaces() {
     check(Method::Trapezoid);
 }
 
 #[test]
-fn triangles() {
+fn triangles_solve_the_shipped_workspaces() {
     check(Method::Triangles);
 }
 
 #[test]
-fn voronoi() {
+fn voronoi_solves_the_shipped_workspaces() {
     check(Method::Voronoi);
 }
 
 #[test]
-fn prm() {
+fn prm_solves_the_shipped_workspaces() {
     check(Method::Prm);
 }
 
 #[test]
-fn wavefront() {
+fn the_wavefront_solves_the_shipped_workspaces() {
     check(Method::Wavefront);
 }
 
 #[test]
-fn harmonic() {
+fn the_harmonic_field_solves_the_shipped_workspaces() {
     check(Method::Harmonic);
 }
 
 #[test]
-fn subdivision() {
+fn subdivision_solves_the_shipped_workspaces() {
     check(Method::Subdivision);
 }
 

@@ -5,10 +5,10 @@ mod cli;
 mod common;
 mod docs;
 mod draw;
-mod front_door;
+mod library_api;
 mod pictures;
-mod rounding;
 mod roadmaps;
+mod rounding;
 mod search;
 #[cfg(feature = "serve")]
 mod serve;

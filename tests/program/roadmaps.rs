@@ -1,6 +1,6 @@
 //! Roadmaps on the command line: planners, searches, seeds, and grids with two numbers of cells.
 
-use crate::verify::judged::planned;
+use crate::verify::judged::plan_result;
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -17,7 +17,7 @@ fn cplan(options: &str) -> Output {
 /// Returns the library's result of planning with these options.
 pub fn json(options: &str) -> Value {
     let [robot, world] = FILES.map(Path::new);
-    let result = planned(robot, world, options);
+    let result = plan_result(robot, world, options);
     assert_eq!(result["status"], "found", "{options}");
     result
 }
@@ -69,7 +69,7 @@ fn samples_follow_from_the_seed() {
 }
 
 #[test]
-fn what_a_planner_does_not_have_is_refused() {
+fn unsupported_planner_settings_are_refused() {
     for (options, report) in [
         (
             "--planner harmonic --search dfs",

@@ -9,7 +9,7 @@ fn cplan(options: &[&str]) -> std::process::Output {
 }
 
 #[test]
-fn every_search_with_four_and_eight_neighbours_is_certified_and_told() {
+fn every_search_with_four_and_eight_neighbours_is_certified_and_named() {
     let mut expanded = Vec::new();
     for search in ["wave", "bfs", "dfs", "dijkstra", "astar", "greedy"] {
         for neighbors in ["4", "8"] {
@@ -27,7 +27,7 @@ fn every_search_with_four_and_eight_neighbours_is_certified_and_told() {
 }
 
 #[test]
-fn sampled_grids_are_told_and_their_paths_certified() {
+fn sampled_grids_are_reported_and_their_paths_certified() {
     for planner in
         ["wavefront", "wavefront --search astar", "harmonic", "harmonic --field oriented --epsilon 0.1 --direction 0,1"]
     {

@@ -9,14 +9,14 @@ use std::path::Path;
 use std::process::Command;
 
 /// Returns the path of a file of the repository.
-fn shipped(file: &str) -> String {
+fn repository_file(file: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
 }
 
 /// Returns the program's result in a world. Fails if it is not a path.
-fn planned(robot: &str, world: &str, options: &str) -> Value {
+fn plan_path(robot: &str, world: &str, options: &str) -> Value {
     let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
-    command.args([&shipped(robot), world, "--json", "--planner", "harmonic"]).args(options.split_whitespace());
+    command.args([&repository_file(robot), world, "--json", "--planner", "harmonic"]).args(options.split_whitespace());
     let output = command.output().unwrap();
     let code = output.status.code();
     assert_eq!(code, Some(0), "{world} {options}: {}", String::from_utf8_lossy(&output.stderr));
@@ -29,7 +29,7 @@ fn waypoints(result: &Value) -> Vec<[f64; 2]> {
 }
 
 /// Returns places along a path, `apart` from each other, each with the direction of the path there.
-fn along(path: &[[f64; 2]], apart: f64) -> Vec<([f64; 2], [f64; 2])> {
+fn places_along(path: &[[f64; 2]], apart: f64) -> Vec<([f64; 2], [f64; 2])> {
     let mut places = Vec::new();
     for piece in path.windows(2) {
         let d = [piece[1][0] - piece[0][0], piece[1][1] - piece[0][1]];
@@ -80,7 +80,7 @@ impl<'a> Oracle<'a> {
         oracle.values[source] = 1.0;
         // Over-relaxes row by row, forwards and backwards, until no value changes by more than a millionth. Values far
         // below those along a path need not converge.
-        let neighbors: Vec<[Option<usize>; 4]> = (0..oracle.values.len()).map(|cell| oracle.around(cell)).collect();
+        let neighbors: Vec<[Option<usize>; 4]> = (0..oracle.values.len()).map(|cell| oracle.neighbors(cell)).collect();
         for sweep in 0..20_000 {
             let mut change = 0.0_f64;
             let mut relax = |cell: usize| {
@@ -104,7 +104,7 @@ impl<'a> Oracle<'a> {
         panic!("the oracle does not converge");
     }
 
-    fn around(&self, cell: usize) -> [Option<usize>; 4] {
+    fn neighbors(&self, cell: usize) -> [Option<usize>; 4] {
         let at = [cell / self.cells[1], cell % self.cells[1]].map(|x| x as i64);
         [[-1, 0], [1, 0], [0, -1], [0, 1]].map(|d| self.cell([at[0] + d[0], at[1] + d[1]]))
     }
@@ -131,7 +131,7 @@ impl<'a> Oracle<'a> {
             };
             let cell = self.cell([least[0] + i, least[1] + j])?;
             let weight = part(0, i) * part(1, j) / self.values[cell];
-            let [down, up, left, right] = self.around(cell).map(|next| next.map_or(0.0, |next| self.values[next]));
+            let [down, up, left, right] = self.neighbors(cell).map(|next| next.map_or(0.0, |next| self.values[next]));
             let slope = [(up - down) / self.step[0], (right - left) / self.step[1]];
             sum = [0, 1].map(|k| sum[k] + weight * slope[k]);
         }
@@ -142,7 +142,7 @@ impl<'a> Oracle<'a> {
     fn median_angle(&self, path: &[[f64; 2]]) -> f64 {
         let end = path[path.len() - 1];
         let far = |q: [f64; 2]| (q[0] - end[0]).hypot(q[1] - end[1]) > 3.0 * self.step[0];
-        let places = along(path, 0.5 * self.step[0]);
+        let places = places_along(path, 0.5 * self.step[0]);
         let all = places.len();
         let mut angles: Vec<f64> = places
             .into_iter()
@@ -167,20 +167,21 @@ const WORLDS: [(&str, &str); 5] = [
 #[test]
 fn harmonic_paths_follow_the_gradient_of_an_equation_solved_elsewhere() {
     for (robot, world) in WORLDS {
-        let problem = load(shipped(robot), shipped(world).as_ref(), &Overrides::default()).unwrap().problem;
-        let own = planned(robot, &shipped(world), "");
+        let problem =
+            load(repository_file(robot), repository_file(world).as_ref(), &Overrides::default()).unwrap().problem;
+        let own = plan_path(robot, &repository_file(world), "");
         assert_eq!(own["path_kind"], "own");
         let path = waypoints(&own);
         let end = path[path.len() - 1];
         let oracle = Oracle::new(problem.scene(), Configuration::new(end[0], end[1]), 120.0);
         let median = oracle.median_angle(&path);
         assert!(median <= 5.0, "{world}: {median} degrees off the gradient");
-        let relaxed = planned(robot, &shipped(world), "--relaxation sor --levels 1");
+        let relaxed = plan_path(robot, &repository_file(world), "--relaxation sor --levels 1");
         let median = oracle.median_angle(&waypoints(&relaxed));
         assert!(median <= 5.0, "{world}, relaxed: {median} degrees off the gradient");
         if world.contains("shelf") {
             // For comparison, a taut path through the same cells.
-            let taut = planned(robot, &shipped(world), "--path taut");
+            let taut = plan_path(robot, &repository_file(world), "--path taut");
             assert_eq!(taut["path_kind"], "taut");
             let median = oracle.median_angle(&waypoints(&taut));
             assert!(median > 20.0, "{median} degrees: the measure tells no difference");
@@ -189,7 +190,7 @@ fn harmonic_paths_follow_the_gradient_of_an_equation_solved_elsewhere() {
 }
 
 /// Writes a world: a room of 2 m x 1.5 m without obstacles.
-fn room(place: &tempfile::TempDir, start: [f64; 2], goal: [f64; 2], rest: &str) -> String {
+fn write_empty_room(place: &tempfile::TempDir, start: [f64; 2], goal: [f64; 2], rest: &str) -> String {
     let file = place.path().join("room.toml");
     let text = format!("[start]\njoints = {start:?}\n[goal]\njoints = {goal:?}\n{rest}");
     std::fs::write(&file, text).unwrap();
@@ -207,13 +208,13 @@ fn in_an_empty_room_a_drift_decides_from_where_the_goal_is_reached() {
         let (sin, cos) = angle_of.sin_cos();
         // The start is to the side of the goal, so that the straight direction to the goal is off by 80 degrees.
         let (aside, ahead) = (angle_of + 100_f64.to_radians()).sin_cos();
-        let world = room(&place, [goal[0] + 0.5 * ahead, goal[1] + 0.5 * aside], goal, "");
+        let world = write_empty_room(&place, [goal[0] + 0.5 * ahead, goal[1] + 0.5 * aside], goal, "");
         let options = format!("--cells 96 --field oriented --epsilon 1 --direction {cos},{sin}");
-        let path = waypoints(&planned(GANTRY, &world, &options));
+        let path = waypoints(&plan_path(GANTRY, &world, &options));
         // Checks the last piece, and the straight line to the goal from the last place that is more than two cells
         // away.
         let far = |q: &[f64; 2]| (q[0] - goal[0]).hypot(q[1] - goal[1]) > 2.0 * 0.018;
-        let within = along(&path, 1e-3).into_iter().rev().find(|(q, _)| far(q)).unwrap().0;
+        let within = places_along(&path, 1e-3).into_iter().rev().find(|(q, _)| far(q)).unwrap().0;
         for from in [path[path.len() - 2], within] {
             let off = angle([goal[0] - from[0], goal[1] - from[1]], [cos, sin]);
             assert!(off <= 10.0, "direction ({cos:.2}, {sin:.2}): {off} degrees off from {from:?}");
@@ -225,11 +226,11 @@ fn in_an_empty_room_a_drift_decides_from_where_the_goal_is_reached() {
 #[test]
 fn the_path_bends_the_more_the_greater_epsilon_is() {
     let place = tempfile::tempdir().unwrap();
-    let world = room(&place, [0.5, 0.9], [1.5, 0.9], "");
+    let world = write_empty_room(&place, [0.5, 0.9], [1.5, 0.9], "");
     let mut before = -1.0;
     for epsilon in [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5] {
         let options = format!("--cells 64 --field oriented --epsilon {epsilon} --direction 0,1");
-        let path = waypoints(&planned(GANTRY, &world, &options));
+        let path = waypoints(&plan_path(GANTRY, &world, &options));
         let bend = path.iter().map(|q| 0.9 - q[1]).fold(0.0, f64::max);
         assert!(bend > before + if epsilon > 0.0 { 1e-3 } else { 0.0 }, "epsilon {epsilon}: {bend} after {before}");
         before = bend;
@@ -248,9 +249,9 @@ fn the_share_of_a_path_in_a_region_falls_with_its_preference() {
                 let region = format!(
                     "{block}[[preference]]\nname = \"above\"\nepsilon = {epsilon}\nconfigurations = [[0.5, 0.75], [1.5, 0.75], [1.5, 1.5], [0.5, 1.5]]\n"
                 );
-                let world = room(&place, [0.2, 0.78], [1.8, 0.75], &region);
-                let path = waypoints(&planned(GANTRY, &world, &format!("--cells 64 --field {field}")));
-                let places = along(&path, 0.005);
+                let world = write_empty_room(&place, [0.2, 0.78], [1.8, 0.75], &region);
+                let path = waypoints(&plan_path(GANTRY, &world, &format!("--cells 64 --field {field}")));
+                let places = places_along(&path, 0.005);
                 let inside = places.iter().filter(|(q, _)| (0.5..1.5).contains(&q[0]) && q[1] > 0.75).count();
                 inside as f64 / places.len() as f64
             })
@@ -262,10 +263,10 @@ fn the_share_of_a_path_in_a_region_falls_with_its_preference() {
 
 /// Checks that a curve of many pieces is driven like a curve: the arm does not stop at its corners.
 #[test]
-fn the_motion_along_a_streamline_takes_no_many_times_that_along_a_string() {
+fn a_motion_along_a_streamline_is_not_many_times_slower_than_a_taut_one() {
     for (robot, world) in WORLDS {
         let [own, taut] =
-            ["own", "taut"].map(|kind| planned(robot, &shipped(world), &format!("--cells 96 --path {kind}")));
+            ["own", "taut"].map(|kind| plan_path(robot, &repository_file(world), &format!("--cells 96 --path {kind}")));
         let number = |result: &Value, key: &str| result[key].as_f64().unwrap();
         let slower = number(&own, "duration") / number(&taut, "duration");
         let longer = number(&own, "length") / number(&taut, "length");

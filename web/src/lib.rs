@@ -50,11 +50,11 @@ pub extern "C" fn room(bytes: usize) -> *mut u8 {
 #[unsafe(no_mangle)]
 pub extern "C" fn take() {
     let order = String::from_utf8_lossy(&ORDER_BUFFER.take()).into_owned();
-    PAGE_PROGRAM.with_borrow_mut(|alone| alone.get_or_insert_with(begun).take(&order, &mut send));
+    PAGE_PROGRAM.with_borrow_mut(|alone| alone.get_or_insert_with(start_program).execute(&order, &mut send));
 }
 
 /// Returns the program. The worker provides its clock, and the function that ends it.
-fn begun() -> StandalonePage {
+fn start_program() -> StandalonePage {
     Host { elapsed: || Duration::from_secs_f64(elapsed() / 1e3), stop: || stop() }.serve();
     panic::set_hook(Box::new(|panic| {
         let text = panic.to_string();

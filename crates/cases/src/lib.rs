@@ -79,7 +79,7 @@ pub fn seed() -> u64 {
 /// # Panics
 /// Same as [`cases`].
 #[must_use]
-pub fn usual() -> bool {
+pub fn uses_default_cases() -> bool {
     seed() == 0 && times(1 << 20) == 1 << 20
 }
 

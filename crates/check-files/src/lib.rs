@@ -54,7 +54,7 @@ use world::WorldFile;
 /// contain something that the checker does not know. It also reports references to other files, because their location
 /// is unknown.
 pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, CheckError> {
-    judged([urdf, world, certificate], [None, None])
+    check_texts([urdf, world, certificate], [None, None])
 }
 
 /// Checks a certificate, given the paths of the three files. Other files to which the URDF and the world refer are
@@ -77,11 +77,11 @@ pub fn check_files(urdf: &Path, world: &Path, certificate: &Path) -> Result<Stri
 /// # Errors
 /// The errors of [`check`], and if a file cannot be read.
 pub fn check_beside(texts: [&str; 3], beside: [&Path; 2]) -> Result<String, CheckError> {
-    judged(texts, beside.map(|path| Some(path.to_owned())))
+    check_texts(texts, beside.map(|path| Some(path.to_owned())))
 }
 
 /// Checks a certificate, given three texts, and the paths of the URDF and the world if they are known.
-fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) -> Result<String, CheckError> {
+fn check_texts([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) -> Result<String, CheckError> {
     let certificate = certificate::read(certificate)?;
     let files = Files::new(&certificate, [urdf, world], given)?;
     // Ignore a byte order mark.
@@ -97,7 +97,7 @@ fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) ->
     let mut robot = Robot::read(&document, &world, &files, certificate.joints.as_ref())?;
     robot.arm.ignore(&certificate)?;
     let proven = match &certificate.steps {
-        Some(steps) => task::found(&robot, &world, &certificate, steps)?,
+        Some(steps) => task::check_motion(&robot, &world, &certificate, steps)?,
         None => cplan_check::judge(&robot.arm, &world.world, &certificate)?,
     };
     Ok(proven + &robot.arm.notes)

@@ -75,7 +75,7 @@ impl<'a> Robot<'a> {
         let carried =
             |joint: Node<'a, 'a>| child(joint, "child").and_then(|c| c.attribute("link")).expect("has been read");
         let mut joints = [node(first)?, node(second)?];
-        if tree.above(carried(joints[0]))?[1..].contains(&joints[1]) {
+        if tree.joints_above(carried(joints[0]))?[1..].contains(&joints[1]) {
             if world.robot.joints.is_some() {
                 let message = "[robot] joints: the second joint carries the first; swap them";
                 return Err(CheckError::in_file(Input::World, message));
@@ -91,14 +91,14 @@ impl<'a> Robot<'a> {
                 return Err(CheckError::in_file(Input::World, message));
             }
         }
-        if !tree.above(carried(joints[1]))?[1..].contains(&joints[0]) {
+        if !tree.joints_above(carried(joints[1]))?[1..].contains(&joints[0]) {
             return tree.error(joints[1], "neither of the two joints carries the other");
         }
         for name in movable {
             let joint = tree.named[name];
             let value = match world.robot.fixed.get(name) {
                 _ if joints.contains(&joint) => continue,
-                Some(value) => Interval::around(value),
+                Some(value) => Interval::enclosing(value),
                 None => tree.rest(joint, world)?,
             };
             tree.values.insert(name, value);
@@ -157,8 +157,8 @@ impl<'a> Robot<'a> {
     }
 
     /// Returns the last of the two joints that moves a link, 0 or 1. `None` if the link is static.
-    fn moved_by(&self, link: &'a str) -> ReadResult<Option<usize>> {
-        let above = self.tree.above(link)?;
+    fn moving_joint(&self, link: &'a str) -> ReadResult<Option<usize>> {
+        let above = self.tree.joints_above(link)?;
         let moves = |k: &usize| above.iter().any(|joint| self.tree.joints.get(self.children[*k]) == Some(joint));
         Ok([1, 0].into_iter().find(moves))
     }
@@ -168,8 +168,8 @@ impl<'a> Robot<'a> {
     fn find_tip(&self, named: Option<&str>) -> ReadResult<&'a str> {
         let mut deepest = None;
         for link in self.tree.order.iter().filter(|link| named.is_none_or(|named| named == **link)) {
-            let depth = self.tree.above(link)?.len();
-            if self.moved_by(link)? == Some(1) && deepest.is_none_or(|(deep, _)| deep < depth) {
+            let depth = self.tree.joints_above(link)?.len();
+            if self.moving_joint(link)? == Some(1) && deepest.is_none_or(|(deep, _)| deep < depth) {
                 deepest = Some((depth, *link));
             }
         }

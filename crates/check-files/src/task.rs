@@ -11,14 +11,14 @@ use cplan_check::ends::{End, missed};
 use cplan_check::motion::check_knots;
 use cplan_check::{CheckError, Input};
 use num_bigint::Sign;
-use order::{Order, stands};
+use order::{Order, rest_durations};
 use replay::Replay;
 
 /// Number of decimals of the tolerance of rest times: the arm may rest for `10^-6` s less than required.
 const REST_TOLERANCE_DECIMALS: u32 = 6;
 
 /// Checks that a motion executes all steps of a task.
-pub fn found(
+pub fn check_motion(
     robot: &Robot,
     file: &WorldFile,
     certificate: &Certificate,
@@ -40,7 +40,7 @@ pub fn found(
         return CheckError::fails(format!("steps[{index}] is step {}, but the world has no further steps", done.step));
     }
     let steps = order.matched;
-    let stands = stands(motion, &steps)?;
+    let stands = rest_durations(motion, &steps)?;
     let mut replay = Replay::new(robot, world, task, motion, clearance)?;
     for (index, step) in steps.iter().enumerate() {
         let number = step.step.number;

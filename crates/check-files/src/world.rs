@@ -17,10 +17,10 @@ use task::Task;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+pub mod carried_shapes;
 mod cells;
-mod course;
-pub mod hung;
 mod map;
+mod obstacle_trajectory;
 mod picture;
 mod steps;
 pub mod task;
@@ -131,7 +131,7 @@ impl Reader<'_> {
         Ok((&Interval::from(&degrees) * &Interval::pi().over(180)).ends())
     }
 
-    fn two<T>(&self, value: &Value, read: impl Fn(&Value) -> ReadResult<T>) -> ReadResult<[T; 2]> {
+    fn pair<T>(&self, value: &Value, read: impl Fn(&Value) -> ReadResult<T>) -> ReadResult<[T; 2]> {
         match self.list(value)?[..] {
             [a, b] => Ok([read(a)?, read(b)?]),
             _ => self.error(value, "expected a list of two"),
@@ -139,7 +139,7 @@ impl Reader<'_> {
     }
 
     fn corners(&self, value: &Value) -> ReadResult<Vec<Corner>> {
-        self.list(value)?.into_iter().map(|p| self.two(p, |n| self.number(n))).collect()
+        self.list(value)?.into_iter().map(|p| self.pair(p, |n| self.number(n))).collect()
     }
 
     /// Reads a ring, or a list of rings as in GeoJSON.
@@ -161,12 +161,12 @@ impl Reader<'_> {
     fn place(&self, value: &Value) -> ReadResult<Goal> {
         let table = self.table(value)?;
         if let (Some(areas), 1) = (table.get("areas"), table.len()) {
-            let area = |corners: &Value| self.two(corners, |corner| self.two(corner, |n| self.number(n)));
+            let area = |corners: &Value| self.pair(corners, |corner| self.pair(corner, |n| self.number(n)));
             return self.list(areas)?.into_iter().map(area).collect::<ReadResult<Vec<_>>>().map(Goal::Areas);
         }
         match (table.get("joints"), table.get("tip")) {
-            (Some(joints), None) if table.len() == 1 => Ok(Goal::Joints(self.two(joints, |q| self.quantity(q))?)),
-            (None, Some(tip)) if table.len() == 1 => Ok(Goal::Tip(self.two(tip, |n| self.number(n))?)),
+            (Some(joints), None) if table.len() == 1 => Ok(Goal::Joints(self.pair(joints, |q| self.quantity(q))?)),
+            (None, Some(tip)) if table.len() == 1 => Ok(Goal::Tip(self.pair(tip, |n| self.number(n))?)),
             _ => self.error(value, "give joints = [q1, q2] or tip = [x, y]"),
         }
     }
@@ -181,12 +181,12 @@ impl Reader<'_> {
                 }
                 "fixed" => robot.fixed = self.by_name(value, |q| self.quantity(q))?,
                 "limits" => {
-                    let range = |limits: &Value| self.two(limits, |q| self.quantity(q));
+                    let range = |limits: &Value| self.pair(limits, |q| self.quantity(q));
                     robot.limits = self.by_name(value, range)?;
                 }
                 "tip" => robot.tip = Some(self.text(value)?),
-                "at" => robot.at = self.two(value, |n| self.number(n))?,
-                "angle" => robot.angle = Interval::around(&self.quantity(value)?),
+                "at" => robot.at = self.pair(value, |n| self.number(n))?,
+                "angle" => robot.angle = Interval::enclosing(&self.quantity(value)?),
                 // These keys do not affect the positions of shapes.
                 "velocity" | "acceleration" | "jerk" | "effort" | "dynamics" | "gravity" => {}
                 // These keys affect tasks only.
@@ -197,7 +197,7 @@ impl Reader<'_> {
                     None => return self.error(value, "expected true or false"),
                 },
                 "ignore_contact" => {
-                    let pairs = self.list(value)?.into_iter().map(|pair| self.two(pair, |name| self.text(name)));
+                    let pairs = self.list(value)?.into_iter().map(|pair| self.pair(pair, |name| self.text(name)));
                     robot.ignore_contact = pairs.collect::<ReadResult<_>>()?;
                 }
                 other => return self.error(value, &format!("the checker does not know [robot] {other}")),
@@ -207,7 +207,7 @@ impl Reader<'_> {
     }
 
     fn heights(&self, value: &Value) -> ReadResult<Range> {
-        let [low, high] = self.two(value, |n| self.number(n))?;
+        let [low, high] = self.pair(value, |n| self.number(n))?;
         if low > high {
             return self.error(value, "its upper end is below the lower one");
         }
@@ -235,13 +235,13 @@ impl Reader<'_> {
                     else {
                         return self.error(value, "a circle needs a center and a radius");
                     };
-                    outlines.push(Outline::Circle(self.two(center, |n| self.number(n))?, self.number(radius)?));
+                    outlines.push(Outline::Circle(self.pair(center, |n| self.number(n))?, self.number(radius)?));
                 }
                 "image" => image = Some(self.text(value)?),
                 "unknown" => unknown_is_solid = self.text(value)? != "free",
                 "holes" => holes = self.rings(value)?,
-                "at" => at = point(&self.two(value, |n| self.number(n))?),
-                "angle" => angle = Interval::around(&self.quantity(value)?),
+                "at" => at = point(&self.pair(value, |n| self.number(n))?),
+                "angle" => angle = Interval::enclosing(&self.quantity(value)?),
                 "height" => heights = Some(self.heights(value)?),
                 "name" => name = Some(self.text(value)?),
                 "motion" => motion = Some(value),
@@ -264,9 +264,11 @@ impl Reader<'_> {
             }
             other => other,
         };
-        let course =
-            motion.map(|motion| self.course(motion, &at, &angle)).transpose()?.map(|course| Rc::new(course) as _);
-        Ok(Obstacle { name, own: None, outline, at, turn: angle.sin_cos(), heights, course })
+        let trajectory = motion
+            .map(|motion| self.trajectory(motion, &at, &angle))
+            .transpose()?
+            .map(|trajectory| Rc::new(trajectory) as _);
+        Ok(Obstacle { name, own: None, outline, at, turn: angle.sin_cos(), heights, trajectory })
     }
 
     /// Reads all obstacles.
@@ -274,7 +276,7 @@ impl Reader<'_> {
         for (index, value) in self.list(list)?.into_iter().enumerate() {
             let mut obstacle = self.obstacle(value, false)?;
             obstacle.name.get_or_insert_with(|| format!("obstacle {}", index + 1));
-            let list = if obstacle.course.is_some() { &mut world.movers } else { &mut world.obstacles };
+            let list = if obstacle.trajectory.is_some() { &mut world.movers } else { &mut world.obstacles };
             list.push(obstacle);
         }
         Ok(())

@@ -18,7 +18,7 @@ fn sliding() -> String {
 }
 
 /// Checks a certificate, and returns the exit code and the message.
-fn judged(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
+fn judge(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
     match check(urdf, world, certificate) {
         Ok(report) => (0, report),
         Err(CheckError::Fails(why)) => (3, why),
@@ -38,7 +38,7 @@ fn motion(last: &str) -> String {
 
 #[test]
 fn a_motion_ends_in_any_of_the_areas() {
-    let ends = |areas: &str, last: &str| judged(&sliding(), &world(areas), &motion(last));
+    let ends = |areas: &str, last: &str| judge(&sliding(), &world(areas), &motion(last));
     let area = "[[2.5, 0.5], [3.5, 1.5]]";
     // On the border, inside, and a hundredth outside along either axis.
     for (last, code) in
@@ -56,7 +56,7 @@ fn a_motion_ends_in_any_of_the_areas() {
     assert_eq!((ends(&two, "1, 1").0, ends(&two, "-2.8, -1").0, ends(&two, "-2.8, -0.9").0), (0, 0, 3));
     assert_eq!(ends("[[2.5, 0.5]]", "1, 1").0, 1);
     let beside = world(area) + "goal.tip = [1, 1]\n";
-    assert_eq!(judged(&sliding(), &beside, &motion("1, 1")).0, 1);
+    assert_eq!(judge(&sliding(), &beside, &motion("1, 1")).0, 1);
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn for_an_arm_that_turns_an_area_is_its_middle() {
     let angle = 1f64.min(LIMIT);
     let (x, y) = (1.8 * angle.cos(), 1.8 * angle.sin());
     let about = |dx: f64| format!("[[{}, {}], [{}, {}]]", x - 0.1 + dx, y - 0.1, x + 0.1 + dx, y + 0.1);
-    let ends = |areas: &str| judged(TWO_BARS, &world(areas), &motion("1, 0")).0;
+    let ends = |areas: &str| judge(TWO_BARS, &world(areas), &motion("1, 0")).0;
     assert_eq!((ends(&about(0.0)), ends(&about(0.05))), (0, 3));
 }
 
@@ -76,7 +76,7 @@ fn no_area_is_reached_if_all_are_beyond_the_boxes() {
     let proof = r#"{"format": "cplan certificate 1", "answer": "infeasible",
         "shapes": [{"link": "upper", "collision": 0}], "parts": [{"obstacle": 0, "corners": [[0.3, -10], [0.3, 10]]}],
         "boxes": [{"lower": [-0.1, -3], "upper": [0.1, 3], "shape": 0, "part": 0}]}"#;
-    let closed = |areas: &str| judged(&sliding(), &(world(areas) + wall), proof);
+    let closed = |areas: &str| judge(&sliding(), &(world(areas) + wall), proof);
     let (code, report) = closed("[[2.5, 0.5], [3.5, 1.5]]");
     assert_eq!(code, 0, "{report}");
     // On the start's side entirely, partly, and one of two areas.

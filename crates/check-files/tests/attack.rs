@@ -35,7 +35,7 @@ struct Stuck {
 impl Claim {
     /// Returns a true claim. Its boxes are slices that overlap or have a common end, each cut in two at some value near
     /// 0.
-    fn honest(random: &mut Dice) -> Self {
+    fn random_true(random: &mut Dice) -> Self {
         let mut boxes = Vec::new();
         let mut bottom = -LIMIT;
         while bottom < LIMIT {
@@ -72,11 +72,11 @@ impl Claim {
             _ => self.from = random.within(0.3, 1.1),
         }
         if self.boxes.is_empty() {
-            *self = Self::honest(random);
+            *self = Self::random_true(random);
         }
     }
 
-    fn judged(&self) -> Result<String, CheckError> {
+    fn judge(&self) -> Result<String, CheckError> {
         let world = format!(
             "start.joints = {START:?}\ngoal.joints = {GOAL:?}\n[[obstacle]]\npolyline = [[{:?}, 0.0], [2.5, 0.0]]\n\
              [[obstacle]]\npolyline = [[7.0, 0.0], [8.0, 0.0]]\n",
@@ -111,7 +111,7 @@ impl Claim {
             steps().all(|s| {
                 steps().all(|t| {
                     let q: Vec<f64> = at(stuck, s, t);
-                    apart(&bar([q[0], q[1]], stuck.shape), &wall(stuck.part)) < 1e-9
+                    separation(&bar([q[0], q[1]], stuck.shape), &wall(stuck.part)) < 1e-9
                 })
             })
         })
@@ -166,7 +166,7 @@ fn bar(q: [f64; 2], shape: usize) -> [[f64; 2]; 4] {
 }
 
 /// Returns the distance of two convex shapes along the best separating line; negative if they overlap.
-fn apart(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
+fn separation(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     let normals = |ring: &[[f64; 2]]| -> Vec<[f64; 2]> {
         (0..ring.len())
             .flat_map(|i| {
@@ -188,14 +188,14 @@ fn falsified_certificates_are_refused_or_still_true() {
     let (mut held, mut refused) = (0, 0);
     for seed in random::seeds(600) {
         let mut random = Dice::new(seed);
-        let mut claim = Claim::honest(&mut random);
+        let mut claim = Claim::random_true(&mut random);
         if seed % 100 == 0 {
-            claim.judged().unwrap_or_else(|why| panic!("seed {seed}: {why}"));
+            claim.judge().unwrap_or_else(|why| panic!("seed {seed}: {why}"));
         }
         for _ in 0..=random.below(2) {
             claim.falsify(&mut random);
         }
-        match claim.judged() {
+        match claim.judge() {
             Ok(_) => {
                 assert!(claim.is_collision() && claim.separates(), "seed {seed}: {claim:?}");
                 held += 1;

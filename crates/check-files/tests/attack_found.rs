@@ -40,7 +40,7 @@ const WAYS: [&str; 4] = ["linear", "cubic", "quartic", "quintic"];
 
 impl Claim {
     /// Returns a true claim: a motion with some knots, of a slow and a swinging joint, among obstacles that it avoids.
-    fn honest(random: &mut Dice) -> Self {
+    fn random_true(random: &mut Dice) -> Self {
         loop {
             let count = 2 + random.below(5);
             let mut knots: Vec<Knot> = (0..count)
@@ -97,7 +97,7 @@ impl Claim {
         }
     }
 
-    fn judged(&self) -> Result<String, CheckError> {
+    fn judge(&self) -> Result<String, CheckError> {
         let world = format!(
             "start.joints = {START:?}\ngoal.joints = {GOAL:?}\nclearance = {:?}\n[[obstacle]]\npolygon = {:?}\n\
              [[obstacle]]\npolyline = {:?}\n[[obstacle]]\ncircle = {{ center = {:?}, radius = {:?} }}\n",
@@ -169,13 +169,13 @@ impl Claim {
                 let edges = round(&bar);
                 for edge in &edges {
                     for side in &sides {
-                        least = least.min(between(*edge, *side));
+                        least = least.min(segment_distance(*edge, *side));
                     }
-                    least = least.min(off(self.center, *edge) - self.radius);
+                    least = least.min(distance_to_segment(self.center, *edge) - self.radius);
                 }
-                if within(bar[0], &ring)
-                    || within(self.center, &edges)
-                    || sides.iter().any(|side| within(side[0], &edges))
+                if surrounds(bar[0], &ring)
+                    || surrounds(self.center, &edges)
+                    || sides.iter().any(|side| surrounds(side[0], &edges))
                 {
                     least = -1.0;
                 }
@@ -210,24 +210,27 @@ fn bar(q: P, shape: usize) -> [P; 4] {
 }
 
 /// Returns the distance of a point from a segment.
-fn off(p: P, [a, b]: [P; 2]) -> f64 {
+fn distance_to_segment(p: P, [a, b]: [P; 2]) -> f64 {
     let (u, v) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let share = ((u[0] * v[0] + u[1] * v[1]) / (u[0] * u[0] + u[1] * u[1])).clamp(0.0, 1.0);
     (v[0] - share * u[0]).hypot(v[1] - share * u[1])
 }
 
 /// Returns the distance of two segments; 0 if they cross.
-fn between(s: [P; 2], t: [P; 2]) -> f64 {
+fn segment_distance(s: [P; 2], t: [P; 2]) -> f64 {
     let side = |[a, b]: [P; 2], p: P| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
     if side(s, t[0]) * side(s, t[1]) < 0.0 && side(t, s[0]) * side(t, s[1]) < 0.0 {
         return 0.0;
     }
-    off(s[0], t).min(off(s[1], t)).min(off(t[0], s)).min(off(t[1], s))
+    distance_to_segment(s[0], t)
+        .min(distance_to_segment(s[1], t))
+        .min(distance_to_segment(t[0], s))
+        .min(distance_to_segment(t[1], s))
 }
 
 /// Returns true if a ring, which may cross itself, surrounds a point an odd number of times. It counts the sides that a
 /// ray to the right crosses.
-fn within(p: P, ring: &[[P; 2]]) -> bool {
+fn surrounds(p: P, ring: &[[P; 2]]) -> bool {
     let crossed = ring
         .iter()
         .filter(|[a, b]| (a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (b[0] - a[0]) * (p[1] - a[1]) / (b[1] - a[1]));
@@ -239,15 +242,15 @@ fn falsified_certificates_are_refused_or_still_true() {
     let (mut held, mut refused) = (0, 0);
     for seed in random::seeds(120) {
         let mut random = Dice::new(seed);
-        let mut claim = Claim::honest(&mut random);
+        let mut claim = Claim::random_true(&mut random);
         // A motion that comes too near between two samples is not an honest claim.
         if seed % 4 == 0 && claim.distance(FINE) > claim.clearance + 1e-6 {
-            claim.judged().unwrap_or_else(|why| panic!("seed {seed}: {why}\n{claim:?}"));
+            claim.judge().unwrap_or_else(|why| panic!("seed {seed}: {why}\n{claim:?}"));
         }
         for _ in 0..=random.below(2) {
             claim.falsify(&mut random);
         }
-        match claim.judged() {
+        match claim.judge() {
             Ok(_) => {
                 assert!(claim.is_true(), "seed {seed}: {claim:?}");
                 held += 1;

@@ -50,11 +50,11 @@ impl Pose {
         plus(self.at, turned(p, self.angle))
     }
 
-    fn after(self, inner: Pose) -> Pose {
+    fn compose(self, inner: Pose) -> Pose {
         Pose { at: self.of(inner.at), angle: self.angle + inner.angle }
     }
 
-    fn undone(self, other: Pose) -> Pose {
+    fn relative_to(self, other: Pose) -> Pose {
         Pose { at: turned(minus(other.at, self.at), -self.angle), angle: other.angle - self.angle }
     }
 }
@@ -80,7 +80,7 @@ impl Shape {
     }
 
     /// Makes a disc, a wall, or a polygon with some corners on a circle.
-    fn any(dice: &mut Dice, size: f64, walls: bool) -> Shape {
+    fn random(dice: &mut Dice, size: f64, walls: bool) -> Shape {
         let around = |dice: &mut Dice, n: u32| {
             let first = dice.within(0.0, 6.0);
             let corner =
@@ -189,7 +189,7 @@ struct Object {
     shape: Shape,
     at: Pose,
     /// Its motion until it is picked, if it moves.
-    course: Option<ObstacleTrajectory>,
+    trajectory: Option<ObstacleTrajectory>,
     is_level: bool,
     /// True if it may touch the first obstacle.
     rests: bool,
@@ -211,7 +211,7 @@ struct Claim {
 
 fn links(q: P) -> [Pose; 2] {
     let first = Pose { at: [0.0, 0.0], angle: q[0] };
-    [first, first.after(Pose { at: [1.0, 0.0], angle: q[1] })]
+    [first, first.compose(Pose { at: [1.0, 0.0], angle: q[1] })]
 }
 
 fn tip(q: P) -> P {
@@ -225,7 +225,7 @@ fn bar(length: f64) -> Shape {
 impl Claim {
     /// Returns a claim with random starts and targets of objects. They are carried straight in joint space, or past a
     /// knot or two beside the line.
-    fn any(dice: &mut Dice) -> Claim {
+    fn random(dice: &mut Dice) -> Claim {
         let q = |dice: &mut Dice| [dice.within(-2.0, 2.0), dice.within(-2.5, 2.5)];
         let start = q(dice);
         let is_free = dice.chance(0.3);
@@ -245,7 +245,7 @@ impl Claim {
             let at = Pose { at: tip(ends[0]), angle: dice.within(-3.0, 3.0) };
             let is_level = dice.chance(0.5);
             let (size, rests) = (dice.within(0.02, 0.1), dice.chance(0.3));
-            objects.push(Object { shape: Shape::any(dice, size, false), at, course: None, is_level, rests });
+            objects.push(Object { shape: Shape::random(dice, size, false), at, trajectory: None, is_level, rests });
             let turn = (is_level && dice.chance(0.4)).then(|| dice.within(-3.0, 3.0));
             let angle = turn.map(|turn| at.angle + turn);
             actions.extend([Action::Pick(object), Action::Place(tip(ends[1]), angle)]);
@@ -261,7 +261,7 @@ impl Claim {
         let obstacle = |dice: &mut Dice| {
             let pose = Pose { at: turned([dice.within(0.4, 2.0), 0.0], dice.within(-3.1, 3.1)), angle: 0.0 };
             let size = dice.within(0.02, 0.15);
-            Shape::any(dice, size, true).at(pose)
+            Shape::random(dice, size, true).at(pose)
         };
         let obstacles = (0..1 + dice.below(3)).map(|_| obstacle(dice)).collect();
         let clearance = if dice.chance(0.3) { dice.within(0.0, 0.03) } else { 0.0 };
@@ -295,13 +295,13 @@ impl Claim {
                 && dice.chance(0.5)
             {
                 let object = &mut self.objects[object];
-                object.course = Some(ObstacleTrajectory::past(dice, *time, object.at, !object.is_level));
+                object.trajectory = Some(ObstacleTrajectory::past(dice, *time, object.at, !object.is_level));
             }
         }
         for _ in 0..1 + dice.below(2) {
             let pose = Pose { at: turned([dice.within(0.4, 1.9), 0.0], dice.within(-3.1, 3.1)), angle: 0.0 };
             let (size, time) = (dice.within(0.02, 0.2), dice.within(0.0, 8.0));
-            self.movers.push((Shape::any(dice, size, true), ObstacleTrajectory::past(dice, time, pose, true)));
+            self.movers.push((Shape::random(dice, size, true), ObstacleTrajectory::past(dice, time, pose, true)));
         }
     }
 
@@ -327,20 +327,20 @@ impl Claim {
             4 => other.steps[step].1[0][0] += size,
             // Another place, an earlier or later time, or a turn of the wrist.
             9 | 10 => {
-                let moving = other.objects.iter_mut().filter_map(|object| object.course.as_mut());
-                let mut courses: Vec<&mut ObstacleTrajectory> =
-                    other.movers.iter_mut().map(|(_, course)| course).chain(moving).collect();
-                let k = dice.below(courses.len());
+                let moving = other.objects.iter_mut().filter_map(|object| object.trajectory.as_mut());
+                let mut trajectories: Vec<&mut ObstacleTrajectory> =
+                    other.movers.iter_mut().map(|(_, trajectory)| trajectory).chain(moving).collect();
+                let k = dice.below(trajectories.len());
                 let sign = if dice.chance(0.5) { 1.0 } else { -1.0 };
                 let along = dice.below(2_usize);
-                for (time, pose) in &mut courses[k].stops {
+                for (time, pose) in &mut trajectories[k].stops {
                     if dice.chance(0.5) {
                         pose.at[along] += sign * size;
                     } else {
                         *time += size;
                     }
                 }
-                courses[k].stops.sort_by(|a, b| a.0.total_cmp(&b.0));
+                trajectories[k].stops.sort_by(|a, b| a.0.total_cmp(&b.0));
             }
             11 => other.movers[0].1.velocity[0] += size,
             5 => other.steps[step].2 = Some(dice.within(-3.0, 3.0)),
@@ -364,10 +364,10 @@ impl Claim {
         for obstacle in &self.obstacles {
             let _ = writeln!(text, "[[obstacle]]\n{}", obstacle.text());
         }
-        for (shape, course) in &self.movers {
-            let _ = writeln!(text, "[[obstacle]]\n{}\n{}", shape.text(), course.text());
+        for (shape, trajectory) in &self.movers {
+            let _ = writeln!(text, "[[obstacle]]\n{}\n{}", shape.text(), trajectory.text());
         }
-        for (number, Object { shape, at, course, is_level, rests }) in self.objects.iter().enumerate() {
+        for (number, Object { shape, at, trajectory, is_level, rests }) in self.objects.iter().enumerate() {
             let payload = if *is_level { "level" } else { "rigid" };
             let supports = if *rests { "\nsupports = [\"obstacle 1\"]" } else { "" };
             let Pose { at, angle } = at;
@@ -376,8 +376,8 @@ impl Claim {
                 "[[object]]\nname = \"o{number}\"\n{}\nat = {at:?}\nangle = {angle:?}\npayload = \"{payload}\"{supports}",
                 shape.text()
             );
-            if let Some(course) = course {
-                let _ = writeln!(text, "{}", course.text());
+            if let Some(trajectory) = trajectory {
+                let _ = writeln!(text, "{}", trajectory.text());
             }
         }
         for action in &self.actions {
@@ -416,15 +416,16 @@ impl Claim {
     fn margin(&self) -> f64 {
         let wrong = f64::NEG_INFINITY;
         let mut margin = f64::INFINITY;
-        let at_first = |object: &Object| Some(object.course.clone().unwrap_or(ObstacleTrajectory::still(object.at)));
+        let at_first =
+            |object: &Object| Some(object.trajectory.clone().unwrap_or(ObstacleTrajectory::still(object.at)));
         let mut lies: Vec<Option<ObstacleTrajectory>> = self.objects.iter().map(at_first).collect();
         let mut held: Option<(usize, Pose)> = None;
         let mut released = None;
         let mut at = self.start;
         let mut left: Vec<usize> = (1..=self.actions.len()).collect();
         let pose = |object: usize, grip: Pose, q: P| match self.objects[object].is_level {
-            true => Pose { at: tip(q), angle: 0.0 }.after(grip),
-            false => links(q)[1].after(grip),
+            true => Pose { at: tip(q), angle: 0.0 }.compose(grip),
+            false => links(q)[1].compose(grip),
         };
         // Distance of a payload from things that it must not touch.
         let carried = |object: usize, pose: Pose, time: f64, lies: &[Option<ObstacleTrajectory>]| {
@@ -435,7 +436,7 @@ impl Claim {
             });
             let others =
                 self.objects.iter().zip(lies).filter_map(|(other, on)| Some(other.shape.at(on.as_ref()?.at(time))));
-            let others = others.chain(self.movers.iter().map(|(shape, course)| shape.at(course.at(time))));
+            let others = others.chain(self.movers.iter().map(|(shape, trajectory)| shape.at(trajectory.at(time))));
             fixed.chain(others.map(|other| distance(&own, &other) - self.clearance)).fold(f64::INFINITY, f64::min)
         };
         let scene = |q: P,
@@ -449,8 +450,8 @@ impl Claim {
                 for obstacle in &self.obstacles {
                     least = least.min(distance(&own, obstacle) - self.clearance);
                 }
-                for (shape, course) in &self.movers {
-                    least = least.min(distance(&own, &shape.at(course.at(time))) - self.clearance);
+                for (shape, trajectory) in &self.movers {
+                    least = least.min(distance(&own, &shape.at(trajectory.at(time))) - self.clearance);
                 }
                 for (other, on) in lies.iter().enumerate() {
                     if let Some(on) = on.as_ref().filter(|_| link == 0 || !allowed.contains(&Some(other))) {
@@ -500,7 +501,7 @@ impl Claim {
                     return wrong;
                 }
                 let from = if self.objects[*object].is_level { Pose { at: tip(at), angle: 0.0 } } else { links(at)[1] };
-                held = Some((*object, from.undone(lying)));
+                held = Some((*object, from.relative_to(lying)));
                 released = None;
             }
             if let Some(by) = turn {
@@ -514,7 +515,7 @@ impl Claim {
                 let Some((object, grip)) = held.as_mut().filter(|(object, _)| may_turn(*object)) else {
                     return wrong;
                 };
-                let of = |angle: f64| Pose { at: [0.0, 0.0], angle }.after(*grip);
+                let of = |angle: f64| Pose { at: [0.0, 0.0], angle }.compose(*grip);
                 for k in 0..=SAMPLES {
                     let angle = by * f64::from(k) / f64::from(SAMPLES);
                     margin = margin.min(carried(*object, pose(*object, of(angle), at), time, &lies));
@@ -549,19 +550,19 @@ impl Claim {
 
 #[test]
 fn exactly_the_true_certificates_hold() {
-    compared(false);
+    check_random_claims(false);
 }
 
 #[test]
-fn the_same_in_time() {
-    compared(true);
+fn exactly_the_true_certificates_in_time_hold() {
+    check_random_claims(true);
 }
 
-fn compared(in_time: bool) {
+fn check_random_claims(in_time: bool) {
     let (mut all, mut right, mut false_ones, mut still_true) = (0, 0, 0, 0);
     for seed in random::seeds(150) {
         let mut dice = Dice::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        let mut honest = Claim::any(&mut dice);
+        let mut honest = Claim::random(&mut dice);
         if in_time {
             honest.set_in_motion(&mut dice);
         }
@@ -592,7 +593,7 @@ fn compared(in_time: bool) {
         }
     }
     println!("{all} certificates: {right} right, {false_ones} falsified and refused, {still_true} true still");
-    if random::usual() {
+    if random::uses_default_cases() {
         assert!(right > 15 && false_ones > 30 && still_true > 20, "{right} {false_ones} {still_true}");
     }
 }

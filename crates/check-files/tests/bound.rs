@@ -51,7 +51,7 @@ const EUCLIDEAN: &str = r#""euclidean""#;
 
 /// Returns a bound and the walls that prove it. The bound is the length of the path over the corners (3.6, 7.4) and
 /// (6.4, 7.4), reduced slightly.
-fn over_the_wall() -> (f64, Walls) {
+fn length_and_walls() -> (f64, Walls) {
     let rise = 2.6_f64.hypot(6.4);
     let walls = vec![([3.6, -1.0], [3.6, 7.4], Some(rise - 1e-9)), ([6.4, -1.0], [6.4, 7.4], Some(rise + 2.8 - 2e-9))];
     (2.0 * rise + 2.8 - 3e-9, walls)
@@ -59,7 +59,7 @@ fn over_the_wall() -> (f64, Walls) {
 
 #[test]
 fn paths_around_a_wall_are_bounded_by_its_corners() {
-    let (length, walls) = over_the_wall();
+    let (length, walls) = length_and_walls();
     let of = |length: f64, walls: &Walls| code(GANTRY, WORLD, &certificate(length, EUCLIDEAN, walls));
     assert_eq!(
         check(GANTRY, WORLD, &certificate(16.5, EUCLIDEAN, &walls)).unwrap(),
@@ -95,7 +95,7 @@ fn paths_around_a_wall_are_bounded_by_its_corners() {
 
 #[test]
 fn other_metrics_measure_their_own_lengths() {
-    let (_, mut walls) = over_the_wall();
+    let (_, mut walls) = length_and_walls();
     // With half the weight for y: 2.6 and 3.2, and so on.
     let rise = 2.6_f64.hypot(3.2);
     (walls[0].2, walls[1].2) = (Some(rise - 1e-9), Some(rise + 2.8 - 2e-9));
@@ -160,7 +160,7 @@ fn bounds_above_the_optimum_are_refused() {
     let (mut held, mut longest) = (0, 0.0_f64);
     for seed in random::seeds(300) {
         let mut random = Dice::new(seed);
-        let (length, mut walls) = over_the_wall();
+        let (length, mut walls) = length_and_walls();
         let length = length * random.within(0.9, 1.1);
         for (from, to, potential) in &mut walls {
             let x = from[0] + random.within(-0.2, 0.2);
@@ -194,7 +194,7 @@ const ARM: &str = r#"<robot name="r">
 /// Tests a goal for the tip at (1, 1). The elbow is at (1, 0) or at (0, 1), with the joint values (0, pi/2) or (pi/2,
 /// -pi/2).
 #[test]
-fn to_wherever_the_tip_is_at_a_place() {
+fn bounds_to_a_tip_position_hold_for_all_ik_solutions() {
     let world = |place: &str| {
         format!(
             "start.joints = [0, 1]\ngoal.tip = {place}\nobstacle = [{{ circle = {{ center = [1, 0.5], radius = 0.1 }} }}]"

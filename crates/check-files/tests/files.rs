@@ -59,7 +59,7 @@ impl Place {
         std::fs::write(self.0.join(file), content).unwrap();
     }
 
-    fn judged(&self, world: &str, certificate: &str) -> Result<String, CheckError> {
+    fn judge(&self, world: &str, certificate: &str) -> Result<String, CheckError> {
         self.write("world.toml", world);
         self.write("c.json", certificate);
         let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| self.0.join(file));
@@ -67,7 +67,7 @@ impl Place {
     }
 
     fn is_free(&self, world: &str, motion: &str) -> bool {
-        match self.judged(world, motion) {
+        match self.judge(world, motion) {
             Ok(_) => true,
             Err(CheckError::Fails(_)) => false,
             Err(why) => panic!("{world}: {why}"),
@@ -76,7 +76,8 @@ impl Place {
 
     /// Returns the reason why a world is refused.
     fn refused(&self, world: &str) -> String {
-        let Err(CheckError::Input { message, .. }) = self.judged(world, &straight([0.0; 2], [1.0; 2])) else {
+        let Err(CheckError::Input { message, .. }) = self.judge(world, &straight_certificate([0.0; 2], [1.0; 2]))
+        else {
             panic!("{world}")
         };
         message
@@ -84,7 +85,7 @@ impl Place {
 }
 
 /// Returns the certificate of a straight motion.
-fn straight(from: [f64; 2], to: [f64; 2]) -> String {
+fn straight_certificate(from: [f64; 2], to: [f64; 2]) -> String {
     let ([a, b], [c, d]) = (from, to);
     format!(
         r#"{{"format": "cplan certificate 1", "answer": "found", "start": [{a}, {b}], "goal": [{c}, {d}],
@@ -94,7 +95,7 @@ fn straight(from: [f64; 2], to: [f64; 2]) -> String {
 
 fn motion(dice: &mut Dice) -> String {
     let mut q = || [0; 2].map(|_| dice.within(-2.8, 2.8));
-    straight(q(), q())
+    straight_certificate(q(), q())
 }
 const YAML: &str = "# a map\nimage: \"map.pgm\"\nresolution: 0.4 # metres\norigin: [-1.2, -1, 0.3]\nnegate: 0\noccupied_thresh: 0.65\n\
                     free_thresh: 0.196\n";
@@ -156,7 +157,7 @@ fn a_picture_is_its_dark_squares() {
 fn unseen_cells_are_solid_for_any_free_thresh() {
     let place = Place::new("unseen");
     let yaml = YAML.replace("0.196", "0.25").replace("0.4", "10").replace("[-1.2, -1, 0.3]", "[-5, -5, 0]");
-    let motion = straight([0.0, 0.5], [0.5, 1.0]);
+    let motion = straight_certificate([0.0, 0.5], [0.5, 1.0]);
     for (shade, most, negate, is_solid) in
         [(205, 255, 0, true), (206, 255, 0, false), (52_685, 65_535, 0, true), (50, 255, 1, true), (49, 255, 1, false)]
     {
@@ -176,7 +177,7 @@ fn a_part_of_a_picture_is_a_rectangle_of_solid_squares() {
     place.write("map.yaml", YAML.replace("0.3]", "0]").replace("[-1.2, -1,", "[0.2, -0.4,"));
     place.write("map.pgm", "P2 3 2 1 0 0 1 0 0 0");
     let of = |corners: &str| {
-        place.judged(
+        place.judge(
             "start.joints = [1, 0]\ngoal.joints = [-1, 0]\nobstacle = [{ image = \"map.yaml\" }]",
             &format!(
                 r#"{{"format": "cplan certificate 1", "answer": "infeasible", "shapes": [{{"link": "upper", "collision": 0}}],
@@ -242,20 +243,20 @@ fn a_line_map_is_its_walls() {
             r#"{{"format": "cplan certificate 1", "answer": "infeasible", "start": [1, 0],
                 "parts": [{{"obstacle": {obstacle}{part}}}], "shapes": [], "boxes": []}}"#
         );
-        match place.judged(world, &certificate) {
+        match place.judge(world, &certificate) {
             Err(CheckError::Fails(why)) => why,
             other => panic!("{other:?}"),
         }
     };
     // The tip, which is the origin of the second bar, is 1 m from the origin. So the goal cannot be reached, and only
     // the parts are checked.
-    let goal = place.judged(world, &straight([0.0; 2], [0.0; 2]).replace(", \"goal\": [0, 0]", ""));
+    let goal = place.judge(world, &straight_certificate([0.0; 2], [0.0; 2]).replace(", \"goal\": [0, 0]", ""));
     assert!(matches!(goal, Err(CheckError::Fails(why)) if why.contains("misses the goal")));
     assert!(named(4, "").contains("no obstacle 4"));
     assert!(named(3, ", \"corners\": [[-2.8, -2.6], [3.2, 2.4]]").contains("obstacle 3: its corners"));
     // Steps override the goal of the preferences.
     let moving = format!("{world}[[step]]\nmove = {{ joints = [0, 0] }}\n");
-    let goal = place.judged(&moving, &straight([0.0; 2], [0.0; 2]).replace(", \"goal\": [0, 0]", ""));
+    let goal = place.judge(&moving, &straight_certificate([0.0; 2], [0.0; 2]).replace(", \"goal\": [0, 0]", ""));
     assert!(
         matches!(&goal, Err(CheckError::Input { message, .. }) if message.contains("there is no goal")),
         "{goal:?}"
@@ -273,7 +274,7 @@ fn a_line_map_is_its_walls() {
             "[[object]]\nname = \"nut\"\nat = [1, 1]\ncircle = {{ center = [0, 0], radius = 0.1 }}\nsupports = [\"{name}\"]\n\
              [[step]]\npick = \"nut\"\n"
         );
-        let judged = place.judged(&(world.to_owned() + &object), &straight([0.0; 2], [0.0; 2]));
+        let judged = place.judge(&(world.to_owned() + &object), &straight_certificate([0.0; 2], [0.0; 2]));
         let is_refused = matches!(judged, Err(CheckError::Input { message, .. }) if message.contains("no obstacle and no object of this name"));
         assert_eq!(is_refused, !is_one, "{name}");
     }
@@ -293,7 +294,7 @@ fn a_line_map_is_its_walls() {
 
 /// Tests the order of indices: the file's own obstacles, the walls of the map, then the objects at their initial poses.
 #[test]
-fn numbers_are_those_of_obstacles_then_walls_then_objects() {
+fn obstacles_are_numbered_before_walls_and_objects() {
     let place = Place::new("numbers");
     place.write("one.map", "2D-Map\nLineMinPos: 0 0\nLineMaxPos: 9 9\nNumLines: 1\nLINES\n-3 5 3 5\nDATA\n");
     let world = "start.joints = [2, 0]\ngoal.joints = [-1, 0]\n\
@@ -308,7 +309,7 @@ fn numbers_are_those_of_obstacles_then_walls_then_objects() {
                 "parts": [{{"obstacle": {part}}}],
                 "boxes": [{{"lower": [{low}, -3], "upper": [{high}, 3], "shape": 0, "part": 0}}]}}"#
         );
-        place.judged(world, &certificate)
+        place.judge(world, &certificate)
     };
     infeasible(0.0, "0, \"corners\": [[0.3, 0.3], [0.3, -0.3]]").unwrap();
     infeasible(0.0, "2").unwrap();
@@ -497,7 +498,7 @@ fn a_mesh_is_its_hull() {
 }
 
 #[test]
-fn pictures_that_are_none_are_refused() {
+fn invalid_pictures_are_refused() {
     let place = Place::new("refused");
     let world = "obstacle = [{ image = \"map.yaml\" }]";
     place.write("map.pgm", "P2 1 1 1 0");
@@ -541,7 +542,10 @@ fn pictures_that_are_none_are_refused() {
     let one = |certificate: &str| {
         check(&arm(BOXES), &format!("start.joints = [0, 0]\ngoal.joints = [1, 0]\n{world}"), certificate)
     };
-    assert!(matches!(one(&straight([0.0; 2], [1.0, 0.0])), Err(CheckError::Input { input: Input::World, .. })));
+    assert!(matches!(
+        one(&straight_certificate([0.0; 2], [1.0, 0.0])),
+        Err(CheckError::Input { input: Input::World, .. })
+    ));
     let nothing =
         r#"{"format": "cplan certificate 1", "answer": "infeasible", "shapes": [], "parts": [], "boxes": []}"#;
     assert!(matches!(one(nothing), Err(CheckError::Fails(_))));
@@ -551,7 +555,7 @@ fn pictures_that_are_none_are_refused() {
 #[test]
 fn digests_are_of_the_files_themselves() {
     let of = |digests: &str| {
-        let certificate = straight([0.0; 2], [1.0; 2]).replacen('{', &format!("{{{digests},"), 1);
+        let certificate = straight_certificate([0.0; 2], [1.0; 2]).replacen('{', &format!("{{{digests},"), 1);
         check(&arm(BOXES), "name = \"w\"\n", &certificate)
     };
     let world = "0b9a8b8a";
@@ -566,8 +570,9 @@ fn digests_are_of_the_files_themselves() {
     place.write("map.pgm", "P2 1 1 1 1\n");
     place.write("map.yaml", YAML);
     let of = |others: &str| {
-        let certificate = straight([0.0; 2], [1.0; 2]).replacen('{', &format!("{{\"others\": {others},"), 1);
-        place.judged("obstacle = [{ image = \"map.yaml\" }]", &certificate)
+        let certificate =
+            straight_certificate([0.0; 2], [1.0; 2]).replacen('{', &format!("{{\"others\": {others},"), 1);
+        place.judge("obstacle = [{ image = \"map.yaml\" }]", &certificate)
     };
     let Err(CheckError::Fails(why)) = of("[]") else { panic!() };
     assert!(why.contains("map.yaml"), "{why}");

@@ -45,7 +45,7 @@ fn certificate(extra: &str, interpolation: &str, knots: &str) -> String {
 const LINEAR: &str = r#""linear""#;
 
 /// Checks a certificate, and returns the exit code and the message.
-fn judged(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
+fn judge_certificate(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
     match check(urdf, world, certificate) {
         Ok(report) => (0, report),
         Err(CheckError::Fails(why)) => (3, why),
@@ -54,24 +54,24 @@ fn judged(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
 }
 
 /// Checks a straight motion from the start to the goal among obstacles.
-fn straight(urdf: &str, obstacles: &str) -> (i32, String) {
-    judged(urdf, &world(obstacles), &certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]"))
+fn judge_straight_motion(urdf: &str, obstacles: &str) -> (i32, String) {
+    judge_certificate(urdf, &world(obstacles), &certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]"))
 }
 
 fn is_free(urdf: &str, obstacles: &str) {
-    let (code, report) = straight(urdf, obstacles);
+    let (code, report) = judge_straight_motion(urdf, obstacles);
     assert_eq!(code, 0, "{obstacles}: {report}");
 }
 
 fn fails(urdf: &str, obstacles: &str, part: &str) {
-    let (code, report) = straight(urdf, obstacles);
+    let (code, report) = judge_straight_motion(urdf, obstacles);
     assert!(code == 3 && report.contains(part), "{obstacles}: {code} {report}");
 }
 
 /// Tests distances in closed form. Both bars turn about the origin together, up to 1.8 m and sqrt(1.8^2 + 0.05^2) at
 /// the corners.
 #[test]
-fn distances_are_those_of_the_closed_form() {
+fn distances_agree_with_the_closed_form() {
     let reach = (1.8f64 * 1.8 + 0.05 * 0.05).sqrt();
     for (gap, holds) in [(1e-3, true), (1e-6, true), (1e-9, true), (-1e-9, false), (-0.1, false)] {
         let post = format!("[[obstacle]]\ncircle = {{ center = [{}, 0], radius = 0.5 }}\n", reach + 0.5 + gap);
@@ -100,14 +100,15 @@ fn distances_are_those_of_the_closed_form() {
 #[test]
 fn clearance_counts_and_other_queries_are_described() {
     let post = "[[obstacle]]\ncircle = { center = [2.2, 0], radius = 0.1 }\n";
-    let at = |extra: &str| judged(&arm(), &world(post), &certificate(extra, LINEAR, "[0, -1, 0], [1, 1, 0]"));
+    let at =
+        |extra: &str| judge_certificate(&arm(), &world(post), &certificate(extra, LINEAR, "[0, -1, 0], [1, 1, 0]"));
     assert_eq!(at("").0, 0);
     // 2.1 - sqrt(1.8^2 + 0.05^2) = 0.299305...
     assert_eq!(at(r#""clearance": 0.2993,"#).0, 0);
     let (code, why) = at(r#""clearance": 0.2994,"#);
     assert!(code == 3 && why.contains("farther than 0.2994 from obstacle 0"), "{why}");
     let place = format!("clearance = 0.2994\n{}", world(post));
-    assert_eq!(judged(&arm(), &place, &certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]")).0, 3);
+    assert_eq!(judge_certificate(&arm(), &place, &certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]")).0, 3);
     let (_, report) = at(r#""clearance": 0.25, "start": [-1.0, 0.0], "goal": [1, 5e-10],"#);
     for part in
         ["start (-1, 0) to", "goal (1, 0.0000000005), within 1e-9,", "clearance 0.25", "2 knots, read as linear"]
@@ -123,12 +124,12 @@ fn clearance_counts_and_other_queries_are_described() {
 fn falsified_parts_are_named() {
     // Beside the stretched arm, and on the path of the folded arm.
     let post = "[[obstacle]]\ncircle = { center = [0.7, 0.8], radius = 0.15 }\n";
-    let judge = |knots: &str| judged(&arm(), &world(post), &certificate("", LINEAR, knots));
+    let judge = |knots: &str| judge_certificate(&arm(), &world(post), &certificate("", LINEAR, knots));
     let fold = "[0, -1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0]";
     let (code, why) = judge(fold);
     assert!(code == 3 && why.contains("from knot 1") && why.contains("\"fore\""), "{why}");
     let post = "[[obstacle]]\ncircle = { center = [1.4, 0], radius = 0.15 }\n";
-    let judge = |knots: &str| judged(&arm(), &world(post), &certificate("", LINEAR, knots));
+    let judge = |knots: &str| judge_certificate(&arm(), &world(post), &certificate("", LINEAR, knots));
     assert_eq!(judge(fold).0, 0);
     for (knots, part) in [
         ("[0, -1, 0], [3, 1, 0]", "from knot 0"),
@@ -150,7 +151,7 @@ fn falsified_parts_are_named() {
 
 /// Tests an arm inside an obstacle. It does not touch the obstacle's sides, but collides.
 #[test]
-fn inside_is_not_off() {
+fn an_arm_inside_an_obstacle_collides() {
     let ring = "polygon = [[-9, -9], [9, -9], [9, 9], [-9, 9]]\n";
     fails(&arm(), &format!("[[obstacle]]\n{ring}"), "link \"upper\", collision 0 is inside obstacle 0");
     // In its hole the arm is free.
@@ -171,7 +172,7 @@ fn inside_is_not_off() {
 
 /// Tests all combinations of joint types. The tip passes a wall at a distance known in closed form.
 #[test]
-fn all_kinds_of_joints() {
+fn distances_are_exact_for_all_joint_types() {
     for (first, second, farthest) in [
         // Slid to the right by at most 1, the first bar reaches to 2. The second's corner adds its own distance.
         ("prismatic", "revolute", 2.0 + (0.8f64 * 0.8 + 0.05 * 0.05).sqrt()),
@@ -188,10 +189,10 @@ fn all_kinds_of_joints() {
             )
         };
         let knots = "[0, -1, -1], [1, 1, 0], [2, 1, 1]";
-        let (code, why) = judged(&urdf, &world(1e-6), &certificate("", LINEAR, knots));
+        let (code, why) = judge_certificate(&urdf, &world(1e-6), &certificate("", LINEAR, knots));
         assert_eq!(code, 0, "{first} {second}: {why}");
         if first == "prismatic" {
-            let (code, _) = judged(&urdf, &world(-1e-6), &certificate("", LINEAR, knots));
+            let (code, _) = judge_certificate(&urdf, &world(-1e-6), &certificate("", LINEAR, knots));
             assert_eq!(code, 3, "{first} {second}");
         }
     }
@@ -199,10 +200,13 @@ fn all_kinds_of_joints() {
 
 /// Tests that a pair with disjoint heights cannot collide. If heights touch, it can.
 #[test]
-fn heights() {
+fn disjoint_heights_exclude_a_pair_and_touching_ones_do_not() {
     let at = |height: &str| {
-        straight(&arm(), &format!("[[obstacle]]\ncircle = {{ center = [1.4, 0], radius = 0.1 }}\nheight = {height}\n"))
-            .0
+        judge_straight_motion(
+            &arm(),
+            &format!("[[obstacle]]\ncircle = {{ center = [1.4, 0], radius = 0.1 }}\nheight = {height}\n"),
+        )
+        .0
     };
     assert_eq!((at("[0.06, 0.2]"), at("[-1, -0.06]"), at("[0.05, 0.2]"), at("[-1, 0]")), (0, 0, 3, 3));
     assert_eq!(at("[0.2, 0.06]"), 1);
@@ -210,13 +214,13 @@ fn heights() {
 
 /// Tests interpolations. Between knots, cubics with these velocities make the arm swing out, and lines do not.
 #[test]
-fn interpolations_are_those_of_their_readers() {
+fn the_interpolation_between_knots_matters() {
     // q2 is 2.5 at both knots. With slopes 4 and -4 over a second the cubic rises by 1; with (4, 0) by 8 / 27 = 0.296.
     let world = |limit: &str| {
         format!("start.joints = [0, 1]\ngoal.joints = [0, 1]\nrobot.limits = {{ b = [-2.9, {limit}] }}\n")
     };
     let knots = "[0, 0, 1, 0, 4, 0, -8], [1, 0, 1, 0, -4, 0, -8]";
-    let code = |ways: &str, limit: &str| judged(&arm(), &world(limit), &certificate("", ways, knots)).0;
+    let code = |ways: &str, limit: &str| judge_certificate(&arm(), &world(limit), &certificate("", ways, knots)).0;
     // All are the parabola 1 + 4 t (1 - t), which reaches 2.
     for way in [r#""cubic", "quartic", "quintic""#, r#""quintic", "linear", "cubic""#] {
         assert_eq!((code(way, "2"), code(way, "1.99999999999999999999")), (0, 3), "{way}");
@@ -241,12 +245,13 @@ fn interpolations_are_those_of_their_readers() {
 
 /// Tests a continuous joint, which has no limits. Whole turns are ignored at its goal.
 #[test]
-fn joints_without_end() {
+fn whole_turns_of_continuous_joints_do_not_matter_at_the_goal() {
     let urdf = arm().replacen("revolute", "continuous", 1);
     let post = "[[obstacle]]\ncircle = { center = [1.4, 0], radius = 0.15 }\n";
     let code = |goal: &str, last: &str| {
         let world = format!("start.joints = [-1, 0]\ngoal.joints = [{goal}, 0]\n{post}");
-        let (code, report) = judged(&urdf, &world, &certificate("", LINEAR, &format!("[0, -1, 0], [1, {last}, 0]")));
+        let (code, report) =
+            judge_certificate(&urdf, &world, &certificate("", LINEAR, &format!("[0, -1, 0], [1, {last}, 0]")));
         assert!(code == 3 || report.contains("within 1e-15"), "{report}");
         code
     };
@@ -256,7 +261,7 @@ fn joints_without_end() {
 
 /// Tests a goal that is a tip position. The message states the distance from it.
 #[test]
-fn places_of_the_tip() {
+fn the_distance_from_a_tip_goal_is_stated() {
     let urdf = arm().replace(
         "</robot>",
         r#"<joint name="t" type="fixed"> <parent link="fore"/> <child link="tool"/> <origin xyz="0.8 0 0"/> </joint> <link name="tool"/></robot>"#,
@@ -264,17 +269,17 @@ fn places_of_the_tip() {
     let (x, y) = (1.8 * 1f64.cos(), 1.8 * 1f64.sin());
     let line = certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]");
     let world = |tip: &str| format!("start.tip = [{x}, {}]\n{tip}", -y);
-    let (code, report) = judged(&urdf, &world(&format!("goal.tip = [{x}, {y}]")), &line);
+    let (code, report) = judge_certificate(&urdf, &world(&format!("goal.tip = [{x}, {y}]")), &line);
     assert!(code == 0 && report.contains("the goal, a position of the tip \"tool\", within 1e-1"), "{report}");
-    assert_eq!(judged(&urdf, &world(&format!("goal.tip = [{x}, {}]", y + 2e-5)), &line).0, 3);
+    assert_eq!(judge_certificate(&urdf, &world(&format!("goal.tip = [{x}, {}]", y + 2e-5)), &line).0, 3);
     // Requested at another place, and for another link.
     let asked = certificate(&format!(r#""goal_tip": [{x}, {y}],"#), LINEAR, "[0, -1, 0], [1, 1, 0]");
-    let (code, report) = judged(&urdf, ENDS, &asked);
+    let (code, report) = judge_certificate(&urdf, ENDS, &asked);
     assert!(code == 0 && report.contains("goal (0.97"), "{report}");
-    let (code, why) = judged(&urdf, &format!("{ENDS}robot.tip = \"fore\""), &asked);
+    let (code, why) = judge_certificate(&urdf, &format!("{ENDS}robot.tip = \"fore\""), &asked);
     assert!(code == 3 && why.contains("misses the goal"), "{why}");
     let two = asked.replace("\"motion\"", "\"goal\": [1, 0], \"motion\"");
-    assert!(judged(&urdf, ENDS, &two).1.contains("two goals"));
+    assert!(judge_certificate(&urdf, ENDS, &two).1.contains("two goals"));
     // Robot and surroundings are moved and turned by 45 degrees.
     let turn = std::f64::consts::FRAC_PI_4;
     let place =
@@ -285,23 +290,26 @@ fn places_of_the_tip() {
             place(1.0, 1.8),
             place(0.5, r)
         );
-        judged(&urdf, &world, &line).0
+        judge_certificate(&urdf, &world, &line).0
     };
     assert_eq!((at(1.901), at(1.899)), (0, 3));
 }
 
 /// Tests a single knot, which means an arm at rest.
 #[test]
-fn standing_still() {
+fn a_single_knot_is_an_arm_at_rest() {
     let post =
         "start.joints = [-1, 0]\ngoal.joints = [-1, 0]\n[[obstacle]]\ncircle = { center = [1.4, 0], radius = 0.15 }\n";
-    assert_eq!(judged(&arm(), post, &certificate("", r#""cubic""#, "[0, -1, 0, 0, 0]")).0, 0);
-    assert_eq!(judged(&arm(), &post.replace("-1, 0", "0, 0"), &certificate("", r#""cubic""#, "[0, 0, 0, 0, 0]")).0, 3);
+    assert_eq!(judge_certificate(&arm(), post, &certificate("", r#""cubic""#, "[0, -1, 0, 0, 0]")).0, 0);
+    assert_eq!(
+        judge_certificate(&arm(), &post.replace("-1, 0", "0, 0"), &certificate("", r#""cubic""#, "[0, 0, 0, 0, 0]")).0,
+        3
+    );
 }
 
 /// Tests that the checker refuses unknown input, and never ignores it.
 #[test]
-fn bad_input_is_named() {
+fn unknown_input_is_refused_with_its_place() {
     let place = world("[[obstacle]]\npolyline = [[3, 0], [4, 0]]\n");
     let good = certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]");
     let bad =
@@ -313,7 +321,7 @@ fn bad_input_is_named() {
             }
             other => panic!("{part}: {other:?}"),
         };
-    assert_eq!(judged(&arm(), &place, &good).0, 0);
+    assert_eq!(judge_certificate(&arm(), &place, &good).0, 0);
     let urdf = |from: &str, to: &str, part: &str| {
         assert!(arm().contains(from), "{from}");
         bad(&arm().replace(from, to), &place, &good, Input::Urdf, part);
@@ -337,10 +345,10 @@ fn bad_input_is_named() {
         "<collision> <origin xyz=\"0.4 0 0\"/> <geometry> <box size=\"0.8 0.1 0.1\"/> </geometry> </collision>",
         "",
     );
-    assert_eq!(judged(&bars, &place, &good).0, 0);
+    assert_eq!(judge_certificate(&bars, &place, &good).0, 0);
     // The bar extends from the second joint to the tip, where the wall is.
     let at = |x: f64| format!("robot.bar = 0.05\n{ENDS}[[obstacle]]\npolyline = [[{x}, 0], [4, 0]]\n");
-    assert_eq!((judged(&bars, &at(1.051), &good).0, judged(&bars, &at(1.049), &good).0), (0, 3));
+    assert_eq!((judge_certificate(&bars, &at(1.051), &good).0, judge_certificate(&bars, &at(1.049), &good).0), (0, 3));
     let certificates = |text: String, part: &str| bad(&arm(), &place, &text, Input::Certificate, part);
     certificates(certificate("", "", "[0, -1, 0], [1, 1, 0]"), "no interpolation");
     certificates(certificate("", LINEAR, ""), "no knots");
@@ -356,10 +364,10 @@ fn bad_input_is_named() {
 /// Tests that visual shapes are used if there are no others, separately for each part of the arm. Solids have the
 /// orientations of the file.
 #[test]
-fn every_shape_counts() {
+fn visual_shapes_replace_missing_collision_shapes() {
     let visual = arm().replacen("collision", "visual", 2);
     let wall = |at: f64| format!("[[obstacle]]\npolyline = [[{at}, -3], [{at}, 3]]\n");
-    assert_eq!((straight(&visual, &wall(1.81)).0, straight(&visual, &wall(1.79)).0), (0, 3));
+    assert_eq!((judge_straight_motion(&visual, &wall(1.81)).0, judge_straight_motion(&visual, &wall(1.79)).0), (0, 3));
     // A solid at the tip, in several orientations, and its reach beyond 1.8.
     let tipped = |solid: &str, turn: &str| {
         arm().replace(
@@ -380,12 +388,16 @@ fn every_shape_counts() {
         let urdf = tipped(solid, turn);
         // The stretched arm has its tip at 2.8, and the wall is short and straight: nearly the inner border of a ring.
         let at = |gap: f64| {
-            straight(&urdf, &format!("[[obstacle]]\npolyline = [[{0}, -0.001], [{0}, 0.001]]\n", 2.8 + reach + gap)).0
+            judge_straight_motion(
+                &urdf,
+                &format!("[[obstacle]]\npolyline = [[{0}, -0.001], [{0}, 0.001]]\n", 2.8 + reach + gap),
+            )
+            .0
         };
         let corner = if solid.starts_with("box") || turn.starts_with("0 1.57") { 0.15 } else { 0.02 };
         assert_eq!((at(corner), at(-0.005)), (0, 3), "{solid} {turn}");
     }
     // Turned by such an angle that its orientation is unknown.
     let urdf = tipped("cylinder radius=\"0.2\" length=\"0.6\"", "0 1e14 0");
-    assert_eq!(straight(&urdf, "[[obstacle]]\npolyline = [[2.9, 0], [3, 0]]\n").0, 3);
+    assert_eq!(judge_straight_motion(&urdf, "[[obstacle]]\npolyline = [[2.9, 0], [3, 0]]\n").0, 3);
 }

@@ -287,7 +287,7 @@ fn visual_shapes_replace_missing_collision_shapes() {
 
 /// Tests that unknown or wrong content of each file is bad input. The message names the file and the place.
 #[test]
-fn bad_input_is_named() {
+fn unknown_input_is_refused_with_its_place() {
     let arm = robot("revolute", "revolute");
     let (place, good) = (world(WALL), certificate("", UPPER, WALL_PART, &[("-0.01, -3", "0.01, 3", 0, 0)]));
     assert_eq!(code(&arm, &place, &good), 0);

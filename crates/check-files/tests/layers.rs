@@ -4,7 +4,7 @@
 mod scara;
 
 use cplan_check_files::check_files;
-use scara::{LIMITS, QUILL, fails, folded, holds, output, scara, shut, world};
+use scara::{LIMITS, QUILL, fails, folded, folding_certificate, holds, output, scara, world};
 use std::path::{Path, PathBuf};
 
 /// A separate folder for each test.
@@ -57,7 +57,7 @@ impl Place {
         std::fs::write(self.0.join(format!("{name}.obj")), vertices + &faces).unwrap();
     }
 
-    fn judged(&self, urdf: &str, world: &str, certificate: &str) -> (i32, String) {
+    fn judge(&self, urdf: &str, world: &str, certificate: &str) -> (i32, String) {
         let files = [("arm.urdf", urdf), ("world.toml", world), ("c.json", certificate)];
         let [urdf, world, certificate] = files.map(|(file, content)| {
             std::fs::write(self.0.join(file), content).unwrap();
@@ -81,7 +81,7 @@ fn meshes_are_cut_in_layers() {
     let place = Place::new("layers");
     place.write("base", FOOTED);
     for file in ["base.stl", "base_text.stl", "base.obj"] {
-        let fold = |lowest: f64, robot: &str| place.judged(&of_mesh(lowest, file), &world(robot), &folded(""));
+        let fold = |lowest: f64, robot: &str| place.judge(&of_mesh(lowest, file), &world(robot), &folded(""));
         // The base is cut at the lower end of the quill.
         holds(fold(0.2, ""));
         holds(fold(0.13, ""));
@@ -93,8 +93,7 @@ fn meshes_are_cut_in_layers() {
         fails(fold(0.05, "ignore_contact = [[\"base\", \"fore\"]]"), &["layer 1"]);
     }
     // The base is lower than the upper arm.
-    let (code, why) =
-        place.judged(&of_mesh(0.2, "base.obj"), &world(""), &folded(r#""ignored": [["upper", "base"]],"#));
+    let (code, why) = place.judge(&of_mesh(0.2, "base.obj"), &world(""), &folded(r#""ignored": [["upper", "base"]],"#));
     assert!(code == 3 && why.contains("do not overlap"), "{why}");
 }
 
@@ -103,7 +102,9 @@ fn meshes_are_cut_in_layers() {
 fn proofs_name_layers() {
     let place = Place::new("named");
     place.write("base", FOOTED);
-    let shut = |lowest: f64, part: &str| place.judged(&of_mesh(lowest, "base.stl"), &world(LIMITS), &shut(QUILL, part));
+    let shut = |lowest: f64, part: &str| {
+        place.judge(&of_mesh(lowest, "base.stl"), &world(LIMITS), &folding_certificate(QUILL, part))
+    };
     let own = |height: &str| format!(r#"{{"own": "base", "collision": 0{height}}}"#);
     holds(shut(0.05, &own(r#", "height": 0.1"#)));
     fails(shut(0.05, &own("")), &["has several layers: it needs a height"]);
@@ -119,7 +120,7 @@ fn proofs_name_layers() {
 
 /// Tests that moving links are cut at the heights of the base. The layers also apply to obstacles of the world.
 #[test]
-fn layers_are_those_for_obstacles_too() {
+fn layers_also_apply_to_obstacles() {
     let place = Place::new("moving");
     // A bar with a quill at its end, as one mesh.
     place.write("fore", &[[[-0.05, -0.05, 0.0], [0.45, 0.05, 0.1]], [[0.4, -0.05, -0.4], [0.45, 0.05, 0.0]]]);
@@ -133,7 +134,7 @@ fn layers_are_those_for_obstacles_too() {
     let turned = r#"{"format": "cplan certificate 1", "answer": "found", "start": [-0.5, 0], "goal": [0.5, 0],
         "motion": {"interpolation": ["linear"], "knots": [[0, -0.5, 0], [1, 0.5, 0]]}}"#;
     let low = urdf.replacen("0.4 0.3 0.3", "0.1 0.1 0.3", 1);
-    let among = |robot: &str, post: &str| place.judged(&low, &format!("{}{post}", world(robot)), turned);
+    let among = |robot: &str, post: &str| place.judge(&low, &format!("{}{post}", world(robot)), turned);
     holds(among("", post));
     fails(among("", &post.replace("0.7,", "0.9,")), &["link \"fore\", collision 0, layer 0", "obstacle 0"]);
     fails(among("own_body = false", post), &["link \"fore\", collision 0 is", "obstacle 0"]);
@@ -154,7 +155,7 @@ fn links_that_move_cut_each_other() {
     let post = "[[obstacle]]\ncircle = { center = [-0.25, 0], radius = 0.05 }\nheight = [0.38, 0.44]\n";
     let turned = r#"{"format": "cplan certificate 1", "answer": "found", "start": [-0.5, 0], "goal": [0.5, 0],
         "motion": {"interpolation": ["linear"], "knots": [[0, -0.5, 0], [1, 0.5, 0]]}}"#;
-    let among = |lowest: f64, robot: &str| place.judged(&urdf(lowest), &format!("{}{post}", world(robot)), turned);
+    let among = |lowest: f64, robot: &str| place.judge(&urdf(lowest), &format!("{}{post}", world(robot)), turned);
     let hit = ["link \"upper\", collision 0 is", "obstacle 0"];
     holds(among(0.36, ""));
     // Cuts outside the mesh, or none.
@@ -171,6 +172,6 @@ fn layers_are_scaled() {
         FOOTED.iter().map(|block| block.map(|corner| corner.map(|c| c * 1024.0))).collect();
     place.write("base", &scaled);
     let urdf = |lowest: f64| of_mesh(lowest, "base.stl\" scale=\"0.0009765625 0.0009765625 0.0009765625");
-    holds(place.judged(&urdf(0.13), &world(""), &folded("")));
-    fails(place.judged(&urdf(0.12), &world(""), &folded("")), &["layer 1"]);
+    holds(place.judge(&urdf(0.13), &world(""), &folded("")));
+    fails(place.judge(&urdf(0.12), &world(""), &folded("")), &["layer 1"]);
 }

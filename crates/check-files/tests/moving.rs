@@ -68,7 +68,7 @@ fn tasks_infeasible_among_static_obstacles_stay_infeasible() {
 const DRIVEN: &str = r#""motion": {"interpolation": ["linear"], "knots": [[0, 1, 1], [8, 9, 1]]}"#;
 
 /// Checks a motion as given, among some obstacles.
-fn judged(obstacles: &str, evidence: &str) -> Result<String, CheckError> {
+fn judge_among(obstacles: &str, evidence: &str) -> Result<String, CheckError> {
     let text = format!(r#"{{"format": "cplan certificate 1", "answer": "found", {evidence}}}"#);
     check(GANTRY, &format!("{ENDS}{obstacles}"), &text)
 }
@@ -80,7 +80,7 @@ fn fails(judged: Result<String, CheckError>, with: &str) {
 /// Tests a motion that can be computed by hand. The left side of the square is at `0.5 + t`, its right side at `1.5 +
 /// t`, and its upper side at 1.5. A disc of radius 0.1 moves down along x = 5.
 #[test]
-fn in_time_by_hand() {
+fn motions_among_moving_obstacles_agree_with_results_by_hand() {
     let disc = |motion: &str| {
         format!("[[obstacle]]\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [5, 5]\nmotion = {motion}\n")
     };
@@ -90,7 +90,7 @@ fn in_time_by_hand() {
     for (from, is_free) in
         [("6.21", true), ("6.19", true), ("6.1", false), ("5", false), ("3.9", false), ("3.7", true), ("1.7", true)]
     {
-        let judged = judged(&falling(from), DRIVEN);
+        let judged = judge_among(&falling(from), DRIVEN);
         if is_free {
             judged.unwrap();
         } else {
@@ -102,48 +102,48 @@ fn in_time_by_hand() {
         let until = from + 4.0;
         disc(&format!("{{ stops = [{{ time = {from:?} }}, {{ time = {until:?}, at = [5, 1] }}] }}"))
     };
-    judged(&late(1.3), DRIVEN).unwrap();
-    fails(judged(&late(1.0), DRIVEN), "obstacle 0");
-    fails(judged(&disc("{ stops = [{ time = 0 }, { time = 1, at = [5, 1] }] }"), DRIVEN), "obstacle 0");
+    judge_among(&late(1.3), DRIVEN).unwrap();
+    fails(judge_among(&late(1.0), DRIVEN), "obstacle 0");
+    fails(judge_among(&disc("{ stops = [{ time = 0 }, { time = 1, at = [5, 1] }] }"), DRIVEN), "obstacle 0");
     // The disc moves ahead of the square at the same speed. At a lower speed the square hits it.
     let ahead = |speed: &str| disc(&format!("{{ stops = [{{ time = 0, at = [1.7, 1] }}], velocity = [{speed}, 0] }}"));
-    judged(&ahead("1"), DRIVEN).unwrap();
-    fails(judged(&ahead("0.98"), DRIVEN), "obstacle 0");
+    judge_among(&ahead("1"), DRIVEN).unwrap();
+    fails(judge_among(&ahead("0.98"), DRIVEN), "obstacle 0");
     // The clock begins with the motion.
     let later = DRIVEN.replace("[[0,", "[[2,").replace("[8,", "[10,");
-    judged(&falling("6.19"), &later).unwrap();
-    fails(judged(&falling("5"), &later), "obstacle 0");
+    judge_among(&falling("6.19"), &later).unwrap();
+    fails(judge_among(&falling("5"), &later), "obstacle 0");
     // An obstacle that surrounds the square initially.
     let around =
         "[[obstacle]]\npolygon = [[-3, -3], [3, -3], [3, 3], [-3, 3]]\nat = [1, 1]\nmotion = { velocity = [1, 0] }\n";
-    fails(judged(around, DRIVEN), "inside obstacle 0");
+    fails(judge_among(around, DRIVEN), "inside obstacle 0");
     // Numbers of moving obstacles follow those of static ones.
     let post = "[[obstacle]]\ncircle = { center = [5, 9], radius = 1 }\n";
-    fails(judged(&format!("{}{post}", falling("5")), DRIVEN), "obstacle 1");
+    fails(judge_among(&format!("{}{post}", falling("5")), DRIVEN), "obstacle 1");
     // A bound is about static obstacles.
-    judged(&falling("7"), &format!("{DRIVEN}, {BOUND}")).unwrap();
+    judge_among(&falling("7"), &format!("{DRIVEN}, {BOUND}")).unwrap();
 }
 
 /// Tests a bar that extends 2 m to each side of a pivot above the square's path.
 #[test]
-fn turning_obstacles() {
+fn turning_obstacles_are_avoided_at_all_times() {
     let bar = |stops: &str| {
         let shape = "polygon = [[-2, -0.01], [2, -0.01], [2, 0.01], [-2, 0.01]]\nat = [5, 3]";
         format!("[[obstacle]]\n{shape}\nmotion = {{ stops = [{stops}] }}\n")
     };
-    judged(&bar("{ time = 0 }"), DRIVEN).unwrap();
-    fails(judged(&bar("{ time = 0, angle = \"90deg\" }"), DRIVEN), "obstacle 0");
+    judge_among(&bar("{ time = 0 }"), DRIVEN).unwrap();
+    fails(judge_among(&bar("{ time = 0, angle = \"90deg\" }"), DRIVEN), "obstacle 0");
     // One end comes down behind the square, or onto it.
-    judged(&bar("{ time = 5 }, { time = 6, angle = \"90deg\" }"), DRIVEN).unwrap();
-    fails(judged(&bar("{ time = 5 }, { time = 6, angle = \"-90deg\" }"), DRIVEN), "obstacle 0");
+    judge_among(&bar("{ time = 5 }, { time = 6, angle = \"90deg\" }"), DRIVEN).unwrap();
+    fails(judge_among(&bar("{ time = 5 }, { time = 6, angle = \"-90deg\" }"), DRIVEN), "obstacle 0");
     // After half a turn the bar is as before, but not during the turn.
-    judged(&bar("{ time = 9 }, { time = 10, angle = \"180deg\" }"), DRIVEN).unwrap();
-    fails(judged(&bar("{ time = 3 }, { time = 4, angle = \"180deg\" }"), DRIVEN), "obstacle 0");
+    judge_among(&bar("{ time = 9 }, { time = 10, angle = \"180deg\" }"), DRIVEN).unwrap();
+    fails(judge_among(&bar("{ time = 3 }, { time = 4, angle = \"180deg\" }"), DRIVEN), "obstacle 0");
 }
 
 /// Tests bottles on a belt along y = 4. The tip picks each at the corner of its frame, and carries it to its target.
 #[test]
-fn picks_of_moving_objects() {
+fn moving_objects_are_picked_at_their_place_and_time() {
     let world = |step: &str| {
         let belt = "[[object]]\nname = \"bottle\"\ncircle = { center = [0, 0], radius = 0.1 }\nat = [9, 4]\nmotion = { velocity = [-1, 0] }\n";
         let steps = format!("[[step]]\npick = \"bottle\"\n{step}\n[[step]]\nplace = {{ at = [2, 8] }}\n");
@@ -158,12 +158,12 @@ fn picks_of_moving_objects() {
                  "motion": {{"interpolation": ["linear"], "knots": [{knots}]}}}}"#
         )
     };
-    let judged = |step: &str, pick: &str, late: &str| check(GANTRY, &world(step), &done(pick, late));
-    judged("", "5, 4", "5").unwrap();
-    judged("window = [3.5, 4]\nat = [5, 4]", "5, 4", "5").unwrap();
-    fails(judged("", "5.01, 4", "5"), "misses the target");
-    fails(judged("window = [1, 3.9]", "5, 4", "5"), "outside its window");
-    fails(judged("at = [5.1, 4]", "5, 4", "5"), "not at the position of its pick");
+    let judge_pick = |step: &str, pick: &str, late: &str| check(GANTRY, &world(step), &done(pick, late));
+    judge_pick("", "5, 4", "5").unwrap();
+    judge_pick("window = [3.5, 4]\nat = [5, 4]", "5, 4", "5").unwrap();
+    fails(judge_pick("", "5.01, 4", "5"), "misses the target");
+    fails(judge_pick("window = [1, 3.9]", "5, 4", "5"), "outside its window");
+    fails(judge_pick("at = [5.1, 4]", "5, 4", "5"), "not at the position of its pick");
     // The second bottle hits the arm while it rests at the first one, unless the arm leaves in time: its square begins
     // at x = 5.5.
     let second = "[[object]]\nname = \"other\"\ncircle = { center = [0, 0], radius = 0.1 }\nat = [10.5, 4]\nmotion = { velocity = [-1, 0] }\n";
@@ -173,8 +173,8 @@ fn picks_of_moving_objects() {
 }
 
 #[test]
-fn courses_that_are_none() {
-    let refused = |motion: &str| match judged(&cart(motion), DRIVEN) {
+fn invalid_trajectories_are_refused() {
+    let refused = |motion: &str| match judge_among(&cart(motion), DRIVEN) {
         Err(CheckError::Input { input: Input::World, line: Some(_), message }) => message,
         other => panic!("{motion}: {other:?}"),
     };

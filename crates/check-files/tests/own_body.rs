@@ -4,17 +4,17 @@
 mod scara;
 
 use cplan_check_files::check;
-use scara::{LIMITS, QUILL, fails, folded, holds, output, scara, shut, world};
+use scara::{LIMITS, QUILL, fails, folded, folding_certificate, holds, output, scara, world};
 
 /// Adds a link beside the base.
-fn beside(scara: &str, kind: &str, shape: &str) -> String {
+fn with_link_beside_base(scara: &str, kind: &str, shape: &str) -> String {
     let joint = format!(
         r#"<joint name="c" type="{kind}"> <parent link="base"/> <child link="box"/> <limit lower="-1" upper="1"/> </joint>"#
     );
     scara.replace("</robot>", &format!("{joint} <link name=\"box\"> {shape} </link> </robot>"))
 }
 
-fn judged(urdf: &str, robot: &str, certificate: &str) -> (i32, String) {
+fn judge(urdf: &str, robot: &str, certificate: &str) -> (i32, String) {
     output(check(urdf, &world(robot), certificate))
 }
 
@@ -23,7 +23,7 @@ const HIT: [&str; 3] = ["from knot 0", "link \"quill\", collision 0", "link \"ba
 /// Tests that links of a robot may touch each other above and below. Links and obstacles must not.
 #[test]
 fn a_base_is_hit_and_passed_over() {
-    let fold = |lowest: f64| judged(&scara(lowest), "", &folded(""));
+    let fold = |lowest: f64| judge(&scara(lowest), "", &folded(""));
     fails(fold(0.1), &HIT);
     fails(fold(0.2999), &HIT);
     for over in [0.3, 0.31] {
@@ -37,7 +37,7 @@ fn a_base_is_hit_and_passed_over() {
     // The upper arm begins at 0.25 m, and is not a neighbour of an obstacle.
     holds(among("height = [0, 0.24]"));
     // Folded less, the quill stays beside the base, at less than 0.3 m.
-    let turned = |extra: &str| judged(&scara(0.1), "", &folded(extra).replace("2.8]]", "2.2]]"));
+    let turned = |extra: &str| judge(&scara(0.1), "", &folded(extra).replace("2.8]]", "2.2]]"));
     holds(turned(r#""goal": [-1, 2.2],"#));
     fails(turned(r#""goal": [-1, 2.2], "clearance": 0.3,"#), &HIT);
 }
@@ -46,14 +46,14 @@ fn a_base_is_hit_and_passed_over() {
 #[test]
 fn a_base_stands_where_the_world_puts_the_robot() {
     for at in ["", "at = [3, -2]", "at = [3, -2]\nangle = \"70deg\""] {
-        fails(judged(&scara(0.1), at, &folded("")), &HIT);
-        holds(judged(&scara(0.31), at, &folded("")));
+        fails(judge(&scara(0.1), at, &folded("")), &HIT);
+        holds(judge(&scara(0.31), at, &folded("")));
     }
 }
 
 #[test]
 fn the_world_excludes_pairs_of_links() {
-    let report = |robot: &str| judged(&scara(0.1), robot, &folded(""));
+    let report = |robot: &str| judge(&scara(0.1), robot, &folded(""));
     holds(report("own_body = false"));
     fails(report("own_body = true"), &HIT);
     for pair in ["[\"base\", \"quill\"]", "[\"quill\", \"base\"]"] {
@@ -79,9 +79,9 @@ fn a_leaning_base_is_as_wide_as_it_is() {
         let urdf = scara(0.1).replacen("<box size=\"0.4 0.3 0.3\"/>", shape, 1);
         urdf.replacen("<origin xyz=\"0 0 0.15\"/>", &format!("<origin xyz=\"0 0 0.15\" rpy=\"{turn}\"/>"), 1)
     };
-    fails(judged(&leaning("0 1.2 0"), "", &folded("")), &HIT);
-    holds(judged(&leaning("1.2 0 0"), "", &folded(r#""clearance": 0.0465,"#)));
-    fails(judged(&leaning("1.2 0 0"), "", &folded(r#""clearance": 0.0485,"#)), &HIT);
+    fails(judge(&leaning("0 1.2 0"), "", &folded("")), &HIT);
+    holds(judge(&leaning("1.2 0 0"), "", &folded(r#""clearance": 0.0465,"#)));
+    fails(judge(&leaning("1.2 0 0"), "", &folded(r#""clearance": 0.0485,"#)), &HIT);
 }
 
 /// Tests that neighbours may overlap. A link without a shape does not separate neighbours.
@@ -89,20 +89,23 @@ fn a_leaning_base_is_as_wide_as_it_is() {
 fn neighbours_may_meet() {
     let sunk = scara(0.31).replacen("size=\"0.4 0.3 0.3\"", "size=\"0.4 0.3 0.6\"", 1);
     // Up to 0.45 m high, the base blocks the quill, but not the forearm.
-    fails(judged(&sunk, "", &folded("")), &["link \"quill\""]);
-    holds(judged(&sunk, "ignore_contact = [[\"base\", \"quill\"]]", &folded("")));
+    fails(judge(&sunk, "", &folded("")), &["link \"quill\""]);
+    holds(judge(&sunk, "ignore_contact = [[\"base\", \"quill\"]]", &folded("")));
     let higher = sunk.replacen("0.4 0.3 0.6", "0.4 0.3 0.62", 1);
     let ignored = "ignore_contact = [[\"base\", \"quill\"]]";
-    fails(judged(&higher, ignored, &folded("")), &["link \"fore\", collision 0", "link \"base\""]);
+    fails(judge(&higher, ignored, &folded("")), &["link \"fore\", collision 0", "link \"base\""]);
     // If the upper arm has no shape, base and forearm are neighbours.
     let bare = higher.replacen("size=\"0.6 0.1 0.2\"", "size=\"0 0 0\"", 1);
-    holds(judged(&bare, ignored, &folded("")));
+    holds(judge(&bare, ignored, &folded("")));
     // A link beside the base is not a neighbour of the upper arm: the base is between them.
     let shape =
         r#"<collision> <origin xyz="0.1 -0.2 0.35"/> <geometry> <sphere radius="0.05"/> </geometry> </collision>"#;
-    fails(judged(&beside(&scara(0.31), "fixed", shape), "", &folded("")), &["link \"upper\"", "link \"box\""]);
+    fails(
+        judge(&with_link_beside_base(&scara(0.31), "fixed", shape), "", &folded("")),
+        &["link \"upper\"", "link \"box\""],
+    );
     // On a joint of its own, its position is unknown.
-    holds(judged(&beside(&scara(0.31), "prismatic", shape), "joints = [\"a\", \"b\"]", &folded("")));
+    holds(judge(&with_link_beside_base(&scara(0.31), "prismatic", shape), "joints = [\"a\", \"b\"]", &folded("")));
 }
 
 /// Tests that the visual shapes of a link are used if it has no collision shapes, regardless of other links. An
@@ -115,25 +118,25 @@ fn each_link_has_its_visual_shapes_by_itself() {
         format!("{before}<link name=\"{link}\">{}</link>{after}", own.replace("collision", "visual"))
     };
     let seen = of("quill", &of("base", &scara(0.1)));
-    fails(judged(&seen, "", &folded("")), &["link \"quill\", visual 0", "link \"base\", visual 0"]);
+    fails(judge(&seen, "", &folded("")), &["link \"quill\", visual 0", "link \"base\", visual 0"]);
     let both = seen.replace(
         "<link name=\"quill\">",
         "<link name=\"quill\"> <collision> <geometry> <sphere radius=\"0.01\"/> </geometry> </collision>",
     );
     // A small ball as collision shape replaces the visual shape.
-    fails(judged(&both, "", &folded("")), &["link \"quill\", collision 0"]);
-    holds(judged(&both.replace("<sphere radius=\"0.01\"/>", "<box size=\"0 0 0\"/>"), "own_body = false", &folded("")));
+    fails(judge(&both, "", &folded("")), &["link \"quill\", collision 0"]);
+    holds(judge(&both.replace("<sphere radius=\"0.01\"/>", "<box size=\"0 0 0\"/>"), "own_body = false", &folded("")));
     let unread = |link: &str, kind: &str, urdf: &str| {
         let mesh = format!("<{kind}> <geometry> <mesh filename=\"none.stl\"/> </geometry> </{kind}>");
         urdf.replace(&format!("<link name=\"{link}\">"), &format!("<link name=\"{link}\">{mesh}"))
     };
-    let report = holds(judged(&unread("base", "collision", &scara(0.31)), "", &folded("")));
+    let report = holds(judge(&unread("base", "collision", &scara(0.31)), "", &folded("")));
     assert!(report.contains("collision of link \"base\" is ignored"), "{report}");
     // The other shape of the base still counts.
-    fails(judged(&unread("base", "collision", &scara(0.1)), "", &folded("")), &HIT);
-    let report = holds(judged(&unread("quill", "visual", &of("quill", &scara(0.31))), "", &folded("")));
+    fails(judge(&unread("base", "collision", &scara(0.1)), "", &folded("")), &HIT);
+    let report = holds(judge(&unread("quill", "visual", &of("quill", &scara(0.31))), "", &folded("")));
     assert!(report.contains("visual of link \"quill\" is ignored"), "{report}");
-    let (code, why) = judged(&unread("quill", "collision", &scara(0.31)), "", &folded(""));
+    let (code, why) = judge(&unread("quill", "collision", &scara(0.31)), "", &folded(""));
     assert!(code == 1 && why.contains("other files"), "{why}");
 }
 
@@ -142,32 +145,32 @@ fn each_link_has_its_visual_shapes_by_itself() {
 fn a_pair_that_does_not_meet_is_not_ignored() {
     let ignored = r#""ignored": [["base", "quill"]],"#;
     let why = "do not overlap where the motion begins";
-    fails(judged(&scara(0.1), "", &folded(ignored)), &["\"base\" and \"quill\"", why]);
+    fails(judge(&scara(0.1), "", &folded(ignored)), &["\"base\" and \"quill\"", why]);
     let plate = scara(0.1).replacen("size=\"0.4 0.3 0.3\"", "size=\"4 4 0.3\"", 1);
-    fails(judged(&plate, "", &folded("")), &HIT);
+    fails(judge(&plate, "", &folded("")), &HIT);
     for pair in [ignored, r#""ignored": [["quill", "base"]],"#] {
-        let report = holds(judged(&plate, "", &folded(pair)));
+        let report = holds(judge(&plate, "", &folded(pair)));
         assert!(report.contains("is ignored, as the certificate says"), "{report}");
     }
     let below = plate.replacen("xyz=\"0 0 0.15\"", "xyz=\"0 0 -0.1\"", 1);
-    fails(judged(&below, "", &folded(ignored)), &[why]);
-    fails(judged(&plate, "", &folded(r#""ignored": [["base", "hand"]],"#)), &[why]);
-    fails(judged(&plate, "", &folded(r#""ignored": [["fore", "quill"]],"#)), &[why]);
+    fails(judge(&below, "", &folded(ignored)), &[why]);
+    fails(judge(&plate, "", &folded(r#""ignored": [["base", "hand"]],"#)), &[why]);
+    fails(judge(&plate, "", &folded(r#""ignored": [["fore", "quill"]],"#)), &[why]);
 }
 
 const BASE: &str = r#"{"own": "base", "collision": 0}"#;
 
-fn round(lowest: f64) -> String {
+fn with_round_base(lowest: f64) -> String {
     scara(lowest).replacen("<box size=\"0.4 0.3 0.3\"/>", "<cylinder radius=\"0.3\" length=\"0.3\"/>", 1)
 }
 
 #[test]
 fn proofs_name_fixed_links() {
-    let certificate = shut(QUILL, BASE);
-    holds(judged(&round(0.1), LIMITS, &certificate));
-    holds(judged(&round(0.1), &format!("{LIMITS}\nat = [1, 1]\nangle = 2"), &certificate));
-    holds(judged(
-        &round(0.1).replacen("collision", "visual", 2),
+    let certificate = folding_certificate(QUILL, BASE);
+    holds(judge(&with_round_base(0.1), LIMITS, &certificate));
+    holds(judge(&with_round_base(0.1), &format!("{LIMITS}\nat = [1, 1]\nangle = 2"), &certificate));
+    holds(judge(
+        &with_round_base(0.1).replacen("collision", "visual", 2),
         LIMITS,
         &certificate.replace("base\", \"collision", "base\", \"visual"),
     ));
@@ -181,7 +184,10 @@ fn proofs_name_fixed_links() {
         (0.1, "", QUILL, r#"{"own": "fore", "collision": 0}"#, "link \"fore\" has no"),
         (0.1, "", QUILL, r#"{"obstacle": 0}"#, "no obstacle 0"),
     ] {
-        fails(judged(&round(lowest), &format!("{LIMITS}\n{robot}"), &shut(shape, part)), &[why]);
+        fails(
+            judge(&with_round_base(lowest), &format!("{LIMITS}\n{robot}"), &folding_certificate(shape, part)),
+            &[why],
+        );
     }
     for part in [
         "{}",
@@ -189,12 +195,12 @@ fn proofs_name_fixed_links() {
         r#"{"own": "base", "obstacle": 0}"#,
         r#"{"own": "base", "collision": 0, "corners": []}"#,
     ] {
-        let (code, why) = judged(&round(0.1), LIMITS, &shut(QUILL, part));
+        let (code, why) = judge(&with_round_base(0.1), LIMITS, &folding_certificate(QUILL, part));
         assert_eq!(code, 1, "{part}: {why}");
     }
     // A smaller base leaves room.
-    let small = round(0.1).replacen("radius=\"0.3\"", "radius=\"0.2\"", 1);
-    fails(judged(&small, LIMITS, &certificate), &["does not touch"]);
+    let small = with_round_base(0.1).replacen("radius=\"0.3\"", "radius=\"0.2\"", 1);
+    fails(judge(&small, LIMITS, &certificate), &["does not touch"]);
 }
 
 /// Tests that a carried object must not hit static links.
@@ -239,8 +245,8 @@ fn bars_must_not_collide() {
         .replace("0.45 0 -0.45", "0.45 0 0");
     let high = |height: &str| base.replacen("0.4 0.3 0.3", height, 1);
     // The bar of the forearm is 0.4 m to 0.5 m high, and reaches to the quill.
-    fails(judged(&high("0.4 0.3 0.7"), "bar = 0.05", &folded("")), &["the bar of link \"fore\"", "link \"base\""]);
-    holds(judged(&high("0.4 0.3 0.4"), "bar = 0.05", &folded("")));
+    fails(judge(&high("0.4 0.3 0.7"), "bar = 0.05", &folded("")), &["the bar of link \"fore\"", "link \"base\""]);
+    holds(judge(&high("0.4 0.3 0.4"), "bar = 0.05", &folded("")));
 }
 
 /// Returns a SCARA with a continuous elbow, and an upper arm of this width.
@@ -257,7 +263,7 @@ fn the_upper_arm_is_hit_and_passed_over() {
             r#"{{"format": "cplan certificate 1", "answer": "found", {extra}
                 "motion": {{"interpolation": ["linear"], "knots": [{knots}]}}}}"#
         );
-        judged(urdf, robot, &certificate)
+        judge(urdf, robot, &certificate)
     };
     let goal = |to: f64| format!(r#""goal": [1, {to}],"#);
     let round = "[0, -1, 0], [1, 1, 4]";
@@ -293,7 +299,7 @@ fn a_carriage_is_hit_wherever_it_slides() {
     let slid = |lowest: &str, to: f64| {
         let certificate = folded(&format!(r#""start": [1, 0], "goal": [2, {to}],"#));
         let certificate = certificate.replace("[0, -1, 0], [1, -1, 2.8]", &format!("[0, 1, 0], [1, 2, {to}]"));
-        judged(&slides.replacen("0.425", lowest, 1), "", &certificate)
+        judge(&slides.replacen("0.425", lowest, 1), "", &certificate)
     };
     fails(slid("0.425", 4.0), &["link \"quill\"", "link \"upper\""]);
     holds(slid("0.425", 2.8));
@@ -319,11 +325,11 @@ fn proofs_name_links_that_joint_1_carries() {
         )
     };
     let both = proof(&[2.65, -2.65], QUILL, UPPER);
-    holds(judged(&turning(0.35, 0.5), LIMITS, &both));
-    holds(judged(&turning(0.35, 0.5), &format!("{LIMITS}\nat = [1, 1]\nangle = 2"), &both));
+    holds(judge(&turning(0.35, 0.5), LIMITS, &both));
+    holds(judge(&turning(0.35, 0.5), &format!("{LIMITS}\nat = [1, 1]\nangle = 2"), &both));
     // The elbow may also turn to the right.
-    fails(judged(&turning(0.35, 0.5), LIMITS, &proof(&[2.65], QUILL, UPPER)), &["do not separate"]);
-    holds(judged(&scara(0.35).replacen("0.6 0.1 0.2", "0.6 0.5 0.2", 1), LIMITS, &proof(&[2.65], QUILL, UPPER)));
+    fails(judge(&turning(0.35, 0.5), LIMITS, &proof(&[2.65], QUILL, UPPER)), &["do not separate"]);
+    holds(judge(&scara(0.35).replacen("0.6 0.1 0.2", "0.6 0.5 0.2", 1), LIMITS, &proof(&[2.65], QUILL, UPPER)));
     for (lowest, wide, robot, shape, part, why) in [
         (0.35, 0.3, "", QUILL, UPPER, "does not touch"),
         (0.45, 0.5, "", QUILL, UPPER, "passes over or under"),
@@ -340,10 +346,10 @@ fn proofs_name_links_that_joint_1_carries() {
         ),
     ] {
         let robot = format!("{LIMITS}\n{robot}");
-        fails(judged(&turning(lowest, wide), &robot, &proof(&[2.65, -2.65], shape, part)), &[why]);
+        fails(judge(&turning(lowest, wide), &robot, &proof(&[2.65, -2.65], shape, part)), &[why]);
     }
     let ignored = both.replace("\"start\"", r#""ignored": [["upper", "quill"]], "start""#);
-    fails(judged(&turning(0.35, 0.5), LIMITS, &ignored), &["may meet link \"upper\""]);
+    fails(judge(&turning(0.35, 0.5), LIMITS, &ignored), &["may meet link \"upper\""]);
 }
 
 /// Tests that a rigidly held object turns with the forearm. A level object turns relative to the upper arm, and needs

@@ -33,7 +33,7 @@ fn turned_back(turn: &Turn, v: V) -> V {
     [0, 1, 2].map(|k| (0..3).map(|i| turn[i][k] * v[i]).sum())
 }
 
-fn after(a: &Turn, b: &Turn) -> Turn {
+fn compose(a: &Turn, b: &Turn) -> Turn {
     let columns = [0, 1, 2].map(|k| turned(a, [0, 1, 2].map(|i| b[i][k])));
     [0, 1, 2].map(|i| columns.map(|column| column[i]))
 }
@@ -61,7 +61,7 @@ fn turn(dice: &mut Dice, most: f64) -> (Turn, String) {
         (rows[i][i], rows[i][j], rows[j][i], rows[j][j]) = (c, -s, s, c);
         rows
     };
-    (after(&after(&about(2, y), &about(1, p)), &about(0, r)), format!("rpy=\"{r} {p} {y}\""))
+    (compose(&compose(&about(2, y), &about(1, p)), &about(0, r)), format!("rpy=\"{r} {p} {y}\""))
 }
 /// A random arm, with its URDF and its world.
 struct Drawn {

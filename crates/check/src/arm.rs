@@ -68,10 +68,11 @@ impl Arm {
                 [a, b] == [&own.link, &other.link] || [b, a] == [&own.link, &other.link]
             };
             let meet = |own: &CollisionShape, other: &CollisionShape| {
-                let heights = other.within.kept(Outline::Within);
+                let heights = other.within.inset_heights(Outline::Within);
                 let mover = MovingBody::new(self, &own.within);
-                let cell = cell.clone().map(|cell| cell.beside(Some(&other.owner())));
-                own.within.is_at(heights.as_ref()) && cell.is_none_or(|cell| mover.overlaps(&other.within.shape, &cell))
+                let cell = cell.clone().map(|cell| cell.for_link(Some(&other.owner())));
+                own.within.overlaps_heights(heights.as_ref())
+                    && cell.is_none_or(|cell| mover.overlaps(&other.within.shape, &cell))
             };
             let pairs = self.shapes.iter().flat_map(|own| self.bases.iter().map(move |other| (own, other)));
             if !pairs.filter(|(own, other)| is_pair(own, other)).any(|(own, other)| meet(own, other)) {

@@ -51,7 +51,7 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     let plane = Plane::new(bound, axes, &start.configuration(arm)?, &goals)?;
     plane.check_potentials(&plane.corners(bound, axes)?)?;
     let contacts = Contacts::new(arm, world, certificate, certificate.clearance(world)?)?;
-    contacts.hold(arm, stuck, &boxes)?;
+    contacts.check_boxes(arm, stuck, &boxes)?;
     for (number, wall) in bound.walls.iter().enumerate() {
         if !closes(arm, wall, &contacts.pair(wall.shape, wall.part, || format!("wall {number}"))?) {
             return CheckError::fails(format!("wall {number}: the shape does not touch the part along the whole wall"));
@@ -73,7 +73,7 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
 fn closes(arm: &Arm, wall: &Wall, &Pair { body, part, beside }: &Pair) -> bool {
     let [from, to] = [&wall.from, &wall.to].map(|end| end.each_ref().map(Interval::from));
     let along = minus(&to, &from);
-    let cell = |from, along, k, cuts| mover::Cell::of_segment(from, along, k, cuts).beside(beside);
+    let cell = |from, along, k, cuts| mover::Cell::of_segment(from, along, k, cuts).for_link(beside);
     let mover = MovingBody::new(arm, body);
     let turns = |k: usize| wall.from[k] != wall.to[k] && matches!(arm.joints[k].motion, Motion::Turn(_));
     if !(0..=body.link).any(turns) {

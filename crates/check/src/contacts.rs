@@ -69,10 +69,10 @@ impl<'a> Contacts<'a> {
     ///
     /// # Errors
     /// The first box for which this is not shown.
-    pub fn hold(&self, arm: &Arm, stuck: &[CollisionBox], boxes: &[Rectangle]) -> Result<(), CheckError> {
+    pub fn check_boxes(&self, arm: &Arm, stuck: &[CollisionBox], boxes: &[Rectangle]) -> Result<(), CheckError> {
         for (number, (stuck, ranges)) in stuck.iter().zip(boxes).enumerate() {
             let Pair { body, part, beside } = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
-            if !MovingBody::new(arm, body).overlaps(part, &Cell::from(ranges).beside(beside)) {
+            if !MovingBody::new(arm, body).overlaps(part, &Cell::from(ranges).for_link(beside)) {
                 return CheckError::fails(format!("box {number}: the shape does not touch the part everywhere in it"));
             }
         }
@@ -89,7 +89,7 @@ impl<'a> Contacts<'a> {
             return fails(" names a shape or a part that does not exist");
         };
         let (body, beside) = (&shape.within, part.link.as_ref());
-        if !body.is_at(part.heights.as_ref()) {
+        if !body.overlaps_heights(part.heights.as_ref()) {
             return fails(": the shape passes over or under the obstacle");
         }
         match beside {

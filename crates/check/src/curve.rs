@@ -83,7 +83,7 @@ impl Tube {
     /// Returns a tube that contains consecutive pieces. It contains exactly all their control points, and so the convex
     /// hull of these. Its direction is along the chord from the first point to the last; it affects only the width of
     /// the tube.
-    pub fn around(pieces: &[Piece]) -> Self {
+    pub fn containing(pieces: &[Piece]) -> Self {
         let points = || pieces.iter().flat_map(|piece| piece.curves.iter().flatten());
         let end = |curve: &Vec<Values>| *curve.last().expect("a curve has points");
         let (from, to) = (pieces[0].curves[0][0], end(&pieces[pieces.len() - 1].curves[0]));
@@ -100,12 +100,12 @@ impl Tube {
                 beside[k] = beside[k].max((off[k] - ((half[k] * share) >> SHARE_BITS)).abs());
             }
         }
-        let exactly = |values: Values| values.map(|n| Interval::exactly(BigInt::from(n) << (BITS - FRACTION_BITS)));
+        let exactly = |values: Values| values.map(|n| Interval::exact(BigInt::from(n) << (BITS - FRACTION_BITS)));
         Self { middle: exactly(middle), half: exactly(half), beside: exactly(beside.map(|b| b + ROUNDING_UNITS)) }
     }
 
     /// Makes a tube around a single configuration.
-    pub fn still(middle: Point) -> Self {
+    pub fn at_configuration(middle: Point) -> Self {
         let zero = || [0, 0].map(Interval::whole);
         Self { middle, half: zero(), beside: zero() }
     }
@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     /// Evaluates a curve at a fraction `t`, in floating point.
-    fn at(curve: &[Values], t: f64) -> [f64; 2] {
+    fn evaluate(curve: &[Values], t: f64) -> [f64; 2] {
         let mut points: Vec<[f64; 2]> =
             curve.iter().map(|p| p.map(|c| c as f64 / 2f64.powi(FRACTION_BITS as i32))).collect();
         while points.len() > 1 {
@@ -141,14 +141,14 @@ mod tests {
     }
 
     #[test]
-    fn halves_are_the_curve() {
+    fn halves_together_equal_the_curve() {
         let whole = piece();
         let [first, second] = whole.halves();
         for k in 0..2 {
             for step in 0..=8 {
                 let t = f64::from(step) / 8.0;
                 for (part, from) in [(&first, 0.0), (&second, 0.5)] {
-                    let (is, should) = (at(&part.curves[k], t), at(&whole.curves[k], from + t / 2.0));
+                    let (is, should) = (evaluate(&part.curves[k], t), evaluate(&whole.curves[k], from + t / 2.0));
                     assert!((0..2).all(|c| (is[c] - should[c]).abs() < 1e-12), "{is:?} {should:?}");
                 }
             }
@@ -161,14 +161,16 @@ mod tests {
         let whole = piece();
         let [first, second] = whole.halves();
         for pieces in [vec![whole], vec![first.clone()], vec![first, second]] {
-            let tube = Tube::around(&pieces);
+            let tube = Tube::containing(&pieces);
             let number = |i: &Interval| i.lower.to_string().parse::<f64>().unwrap() / 2f64.powi(BITS as i32);
             for g in [[1, 0], [0, 1], [1, 1], [1, -1], [-2, 3]] {
                 let bound = number(&tube.greatest(&g.map(Interval::whole)));
                 let of =
                     |q: [f64; 2]| (0..2).map(|k| f64::from(g[k]) * (q[k] - number(&tube.middle[k]))).sum::<f64>().abs();
-                let samples =
-                    pieces.iter().flat_map(|p| &p.curves).flat_map(|c| (0..=50).map(|i| at(c, f64::from(i) / 50.0)));
+                let samples = pieces
+                    .iter()
+                    .flat_map(|p| &p.curves)
+                    .flat_map(|c| (0..=50).map(|i| evaluate(c, f64::from(i) / 50.0)));
                 let most = samples.map(of).fold(0.0, f64::max);
                 assert!(most <= bound + 1e-12 && bound < 3.0 * most + 1.0, "{g:?}: {most} {bound}");
             }

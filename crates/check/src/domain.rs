@@ -59,10 +59,10 @@ impl Domain {
             return Some(value.clone());
         }
         self.seams[axis].as_ref()?;
-        let value = Interval::around(value);
+        let value = Interval::enclosing(value);
         let turn = Interval::pi() + Interval::pi();
         let turns = (&value.lower + &Interval::pi().lower) / &turn.lower;
-        let candidates = [-1, 0, 1].map(|more| &value - &(&turn * &(Interval::exactly((&turns + more) << BITS))));
+        let candidates = [-1, 0, 1].map(|more| &value - &(&turn * &(Interval::exact((&turns + more) << BITS))));
         candidates.into_iter().map(|c| c.ends()).find(within)
     }
 }

@@ -27,7 +27,7 @@ impl End {
     /// # Errors
     /// If there is no start.
     pub fn start(certificate: &Certificate, world: &World) -> Result<Self, CheckError> {
-        Self::of("start", certificate.start.as_ref().map(exactly), world.start.as_ref())
+        Self::of("start", certificate.start.as_ref().map(exact_goal), world.start.as_ref())
     }
 
     /// Returns the goal: the certificate's, or else the world's.
@@ -37,7 +37,7 @@ impl End {
     pub fn goal(certificate: &Certificate, world: &World) -> Result<Self, CheckError> {
         let own = match (&certificate.goal, &certificate.goal_tip) {
             (Some(_), Some(_)) => return Err(CheckError::in_file(Input::Certificate, "it has two goals")),
-            (joints, tip) => joints.as_ref().map(exactly).or(tip.clone().map(Goal::Tip)),
+            (joints, tip) => joints.as_ref().map(exact_goal).or(tip.clone().map(Goal::Tip)),
         };
         Self::of("goal", own, world.goal.as_ref())
     }
@@ -62,6 +62,6 @@ impl End {
     }
 }
 
-fn exactly(q: &[Decimal; 2]) -> Goal {
+fn exact_goal(q: &[Decimal; 2]) -> Goal {
     Goal::Joints(q.each_ref().map(|value| [value.clone(), value.clone()]))
 }

@@ -116,8 +116,8 @@ impl Solid {
     pub fn new(chain: &Chain, on: Attachment, shape: &Shape, kept: &BigInt) -> Self {
         let (center, extent) = disc(&shape.points);
         Self {
-            corners: shape.points.iter().map(|a| chain.hanging(&on, a)).collect(),
-            center: chain.hanging(&on, &center),
+            corners: shape.points.iter().map(|a| chain.attached_point(&on, a)).collect(),
+            center: chain.attached_point(&on, &center),
             extent,
             ring: ring(&shape.points.iter().map(rough).collect::<Vec<_>>()),
             shape: shape.clone(),
@@ -128,16 +128,16 @@ impl Solid {
 
     /// Returns the position of the shape's first corner in a configuration.
     pub fn corner_at(&self, chain: &Chain, values: &Point) -> Point {
-        chain.still(&self.corners[0], values)
+        chain.sum_at(&self.corners[0], values)
     }
 }
 
 impl Edge {
     /// Returns a static side that contains the edge at all times of a span.
-    pub fn during(&self, chain: &Chain, time: [&Decimal; 2]) -> Cow<'_, Side> {
+    pub fn side_during(&self, chain: &Chain, time: [&Decimal; 2]) -> Cow<'_, Side> {
         match self {
             Self::Still(side) => Cow::Borrowed(side),
-            Self::Moving(shape, course) => Cow::Owned(Side::new(chain, &course.during(shape, time))),
+            Self::Moving(shape, trajectory) => Cow::Owned(Side::new(chain, &trajectory.swept_shape(shape, time))),
         }
     }
 }
@@ -146,7 +146,7 @@ impl Side {
     /// Makes a side, and computes its coordinates in the frames of a chain's links.
     pub fn new(chain: &Chain, shape: &Shape) -> Self {
         let (center, extent) = disc(&shape.points);
-        let seen = [0, 1].map(|link| shape.points.iter().map(|p| chain.seen(link, p)).collect());
+        let seen = [0, 1].map(|link| shape.points.iter().map(|p| chain.coordinates_in_link(link, p)).collect());
         Self { shape: shape.clone(), seen, center, extent }
     }
 
@@ -161,7 +161,7 @@ fn disc(points: &[Point]) -> (Point, BigInt) {
     let middle = |k: usize| {
         let values = || points.iter().map(|p| p[k].middle().0);
         let ends = [values().min(), values().max()].map(|end| end.expect("a shape has points"));
-        Interval::exactly((&ends[0] + &ends[1]) >> 1u32)
+        Interval::exact((&ends[0] + &ends[1]) >> 1u32)
     };
     let center = [middle(0), middle(1)];
     let extent = points.iter().map(|p| length(&minus(p, &center)).upper).max().expect("a shape has points");
@@ -253,7 +253,7 @@ impl<'a> Posture<'a> {
         let (Some(most), Some(least)) = (reached.max(), still.iter().map(|p| dot(n, p).lower).min()) else {
             return false;
         };
-        least - most > (&size * &Interval::exactly(apart.clone())).upper
+        least - most > (&size * &Interval::exact(apart.clone())).upper
     }
 
     fn placed<'s>(&self, solid: &'s Solid) -> Placed<'s> {
@@ -262,7 +262,7 @@ impl<'a> Posture<'a> {
     }
 
     /// Returns true if a shape is proven to keep its required distance from a side in the whole tube.
-    fn keeps_off(&self, placed: &Placed, side: &Side) -> bool {
+    fn keeps_distance(&self, placed: &Placed, side: &Side) -> bool {
         let solid = placed.solid;
         let apart = &solid.kept + &solid.shape.radius.upper + &side.shape.radius.upper;
         let discs = &apart + &solid.extent + &side.extent + &placed.motion;
@@ -278,9 +278,7 @@ impl<'a> Posture<'a> {
         let Some([x, y]) = direction(&here, &there, roughly(&apart)) else { return false };
         let exact = |n: [f64; 2]| {
             n.map(|c| {
-                Interval::exactly(
-                    BigInt::from((c * (1_u64 << DIRECTION_BITS) as f64) as i64) << (BITS - DIRECTION_BITS),
-                )
+                Interval::exact(BigInt::from((c * (1_u64 << DIRECTION_BITS) as f64) as i64) << (BITS - DIRECTION_BITS))
             })
         };
         if self.separates(&exact([x, y]), corners, &side.shape.points, &apart) {
@@ -300,7 +298,7 @@ impl<'a> Posture<'a> {
 ///
 /// # Errors
 /// Returns the first stretch, shape and edge for which this is not shown.
-pub fn keep_off(
+pub fn check_distances(
     chain: &Chain,
     pieces: &[Piece],
     (solids, edges): (&[&Solid], &[&Edge]),
@@ -314,13 +312,13 @@ pub fn keep_off(
             Stretch::Pieces(from, to) => &pieces[*from..*to],
             Stretch::Part(piece, _) => std::slice::from_ref(piece),
         };
-        let posture = Posture::new(chain, Tube::around(of));
+        let posture = Posture::new(chain, Tube::containing(of));
         let placed: Vec<OnceCell<Placed>> = solids.iter().map(|_| OnceCell::new()).collect();
         let sides: Vec<OnceCell<Cow<Side>>> = edges.iter().map(|_| OnceCell::new()).collect();
         let time = [&of[0].time[0], &of[of.len() - 1].time[1]];
         pairs.retain(|&[solid, edge]| {
             let placed = placed[solid].get_or_init(|| posture.placed(solids[solid]));
-            !posture.keeps_off(placed, sides[edge].get_or_init(|| edges[edge].during(chain, time)))
+            !posture.keeps_distance(placed, sides[edge].get_or_init(|| edges[edge].side_during(chain, time)))
         });
         let Some(&[solid, edge]) = pairs.first() else { continue };
         let (first, second) = match stretch {

@@ -20,7 +20,7 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     if !goal.region(arm)?.places(arm, MAX_ENCLOSED_PARTS, |part| !reached.meets(part)).is_empty() {
         return CheckError::fails("the boxes do not separate the goal from the start");
     }
-    Contacts::new(arm, world, certificate, clearance)?.hold(arm, stuck, &boxes)?;
+    Contacts::new(arm, world, certificate, clearance)?.check_boxes(arm, stuck, &boxes)?;
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
     let [start, goal] = [start, goal].map(|end| end.named(arm));
     Ok(format!(

@@ -40,16 +40,16 @@ fn divided_up(a: &BigInt, b: &BigInt) -> BigInt {
 impl Interval {
     /// Makes the enclosure of a whole number, which is exact.
     pub fn whole(n: i32) -> Self {
-        Self::exactly(BigInt::from(n) << BITS)
+        Self::exact(BigInt::from(n) << BITS)
     }
 
     /// Returns the enclosure of `n` units, which is exact.
-    pub fn exactly(n: BigInt) -> Self {
+    pub fn exact(n: BigInt) -> Self {
         Self { lower: n.clone(), upper: n }
     }
 
     /// Makes an enclosure of all numbers from `low` to `high`.
-    pub fn around([low, high]: &[Decimal; 2]) -> Self {
+    pub fn enclosing([low, high]: &[Decimal; 2]) -> Self {
         Self { lower: low.floor(BITS), upper: Self::from(high).upper }
     }
 
@@ -173,7 +173,7 @@ impl Interval {
         if middle.sign() == Sign::Minus {
             sine = -sine;
         }
-        [sine, cosine].map(|value| Self::exactly(value).widened(&(&radius + &error)).within_one())
+        [sine, cosine].map(|value| Self::exact(value).widened(&(&radius + &error)).within_one())
     }
 
     /// Returns pi, by Machin's formula: `16 atan(1/5) - 4 atan(1/239)`.
@@ -251,7 +251,7 @@ impl Mul for &Interval {
 }
 
 /// Returns an enclosure of twice a number.
-pub fn twice(a: &Interval) -> Interval {
+pub fn double(a: &Interval) -> Interval {
     a + a
 }
 
@@ -315,7 +315,7 @@ mod tests {
     }
 
     /// Returns true if the enclosure contains the number that begins with these digits, and is no wider than `2^-155`.
-    fn holds(interval: &Interval, digits: &str) -> bool {
+    fn encloses_digits(interval: &Interval, digits: &str) -> bool {
         let [low, high] = interval.ends();
         let from: Decimal = digits.parse().unwrap();
         let last = Decimal::dyadic(&BigInt::from(1), 150);
@@ -325,44 +325,47 @@ mod tests {
     // Digits from published tables (A000796, A049469, A049470) and, for other angles, the addition theorems.
     #[test]
     fn known_digits_are_enclosed() {
-        assert!(holds(Interval::pi(), "3.14159265358979323846264338327950288419716939937510582097494459"));
+        assert!(encloses_digits(Interval::pi(), "3.14159265358979323846264338327950288419716939937510582097494459"));
         let [sine, cosine] = of("1").sin_cos();
-        assert!(holds(&sine, "0.84147098480789650665250232163029899962256306079837106567275171"));
-        assert!(holds(&cosine, "0.54030230586813971740093660744297660373231042061792222767009725"));
+        assert!(encloses_digits(&sine, "0.84147098480789650665250232163029899962256306079837106567275171"));
+        assert!(encloses_digits(&cosine, "0.54030230586813971740093660744297660373231042061792222767009725"));
     }
 
     #[test]
     fn special_angles_have_their_closed_forms() {
         let pi = Interval::pi();
         let [sine, cosine] = pi.over(6).sin_cos();
-        assert!(holds(&sine, "0.5") && holds(&(&(&cosine * &cosine) * &Interval::whole(4)), "3"));
+        assert!(encloses_digits(&sine, "0.5") && encloses_digits(&(&(&cosine * &cosine) * &Interval::whole(4)), "3"));
         let [sine, cosine] = pi.sin_cos();
-        assert!(holds(&sine, "0") && holds(&cosine, "-1"));
+        assert!(encloses_digits(&sine, "0") && encloses_digits(&cosine, "-1"));
         let [sine, cosine] = (-&pi.over(4)).sin_cos();
-        assert!(holds(&(&sine * &cosine), "-0.5") && holds(&(&sine + &cosine), "0"));
+        assert!(encloses_digits(&(&sine * &cosine), "-0.5") && encloses_digits(&(&sine + &cosine), "0"));
         // The enclosure of a huge angle contains no information about its sine.
-        let [sine, _] = Interval::exactly(BigInt::from(-7).pow(1100)).sin_cos();
+        let [sine, _] = Interval::exact(BigInt::from(-7).pow(1100)).sin_cos();
         assert_eq!(sine.abs().upper, Interval::whole(1).upper);
         let turns = &(pi * &Interval::whole(200)) + &pi.half();
-        assert!(holds(&turns.sin_cos()[0], "1"));
+        assert!(encloses_digits(&turns.sin_cos()[0], "1"));
         let [sine, cosine] = Interval::whole(0).sin_cos();
         assert!(sine.is_whole(0) && cosine.is_whole(1));
     }
 
     #[test]
-    fn every_operation_encloses() {
+    fn every_operation_encloses_the_exact_result() {
         let third = Interval::whole(1).over(3);
-        assert!(third.lower < third.upper && holds(&(&third * &Interval::whole(3)), "1"));
-        assert!(holds(&Interval::whole(2).sqrt(), "1.41421356237309504880168872420969807856967187537694807317667973"));
-        assert!(holds(
+        assert!(third.lower < third.upper && encloses_digits(&(&third * &Interval::whole(3)), "1"));
+        assert!(encloses_digits(
+            &Interval::whole(2).sqrt(),
+            "1.41421356237309504880168872420969807856967187537694807317667973"
+        ));
+        assert!(encloses_digits(
             &Interval::whole(-2).divided(&Interval::whole(7)),
             "-0.2857142857142857142857142857142857142857142857142857"
         ));
-        assert!(holds(&(&of("-0.1") * &of("0.1")), "-0.01") && holds(&of("-0.3").abs(), "0.3"));
+        assert!(encloses_digits(&(&of("-0.1") * &of("0.1")), "-0.01") && encloses_digits(&of("-0.3").abs(), "0.3"));
         let wide = Interval { lower: Interval::whole(-2).lower, upper: Interval::whole(3).upper };
         let product = &wide * &wide;
         assert_eq!(product, Interval { lower: Interval::whole(-6).lower, upper: Interval::whole(9).upper });
         assert_eq!(wide.abs(), Interval { lower: BigInt::ZERO, upper: Interval::whole(3).upper });
-        assert!(holds(&length(&[of("-0.3"), of("0.4")]), "0.5"));
+        assert!(encloses_digits(&length(&[of("-0.3"), of("0.4")]), "0.5"));
     }
 }

@@ -56,9 +56,9 @@ use world::World;
 pub fn judge(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     match &certificate.answer {
         Answer::Found if certificate.bound.is_some() => {
-            Ok(motion::found(arm, world, certificate)? + "; " + &bound::no_shorter(arm, world, certificate)?)
+            Ok(motion::check_motion(arm, world, certificate)? + "; " + &bound::no_shorter(arm, world, certificate)?)
         }
-        Answer::Found => motion::found(arm, world, certificate),
+        Answer::Found => motion::check_motion(arm, world, certificate),
         Answer::Infeasible => infeasible::infeasible(arm, world, certificate),
         Answer::NoShorter => bound::no_shorter(arm, world, certificate),
     }

@@ -9,7 +9,7 @@ use crate::error::{CheckError, Input};
 use crate::free::{Attachment, Chain, Solid, guard};
 use crate::interval::Interval;
 use crate::obstacle::Obstacle;
-use crate::scene::{Part, PlacedObstacle, stay_off};
+use crate::scene::{Part, PlacedObstacle, check_parts_clear};
 use crate::shapes::CollisionShape;
 use crate::world::World;
 
@@ -70,7 +70,7 @@ impl Motion {
     }
 
     /// Returns true if the arm is at rest from the given knot to the next, with each interpolation.
-    pub fn stands(&self, knot: usize) -> bool {
+    pub fn rests_after_knot(&self, knot: usize) -> bool {
         let [from, to] = [knot, knot + 1].map(|knot| &self.knots[knot]);
         let stands = |method: &Interpolation, joint: usize| {
             let control = method.control(from, to, joint);
@@ -82,7 +82,7 @@ impl Motion {
 
 /// Checks that a motion leads from the start to the goal within the limits, and keeps farther than the clearance from
 /// all obstacles, including the arm's own links.
-pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
+pub fn check_motion(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     let clearance = certificate.clearance(world)?;
     let Some(motion) = &certificate.motion else {
         return Err(CheckError::in_file(Input::Certificate, "it has no motion"));
@@ -93,7 +93,7 @@ pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Stri
     let goal = End::goal(certificate, world)?.reached(arm, &knots[knots.len() - 1])?;
     let pieces = (0..knots.len().max(2) - 1).map(|knot| piece(arm, interpolation, knots, knot));
     let pieces = pieces.collect::<Result<Vec<Piece>, CheckError>>()?;
-    stays_off(arm, world, &pieces, [&knots[0][1], &knots[0][2]], clearance)?;
+    check_arm_clear(arm, world, &pieces, [&knots[0][1], &knots[0][2]], clearance)?;
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
     Ok(format!(
         "a motion of \"{first}\" and \"{second}\" leads from the start{start} to the goal{goal} with clearance {clearance} ({})",
@@ -138,7 +138,7 @@ pub fn piece(
                 .within
                 .as_ref()
                 .map(|range| range.each_ref().map(|end| end * &Decimal::whole(CONTROL_POINT_FACTOR)));
-            if ends.is_some_and(|[low, high]| !stays_within(control, &low, &high, MAX_PIECE_HALVINGS)) {
+            if ends.is_some_and(|[low, high]| !is_curve_within(control, &low, &high, MAX_PIECE_HALVINGS)) {
                 let (name, method) = (&joint.name, method.name());
                 return CheckError::fails(format!("after knot {knot} ({method}) joint \"{name}\" leaves its limits"));
             }
@@ -161,7 +161,7 @@ pub fn fine(sixty: &Decimal) -> Option<i128> {
 
 /// Returns true if a curve stays between `low` and `high`, ends included. First tests the control points of the curve.
 /// If these do not decide, tests those of its halves, up to `halvings` times.
-fn stays_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings: u32) -> bool {
+fn is_curve_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings: u32) -> bool {
     let is_within = |value: &Decimal| low <= value && value <= high;
     if control.iter().all(is_within) {
         return true;
@@ -181,11 +181,11 @@ fn stays_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings: u3
         points = points.windows(2).map(|p| Decimal::middle(&p[0], &p[1])).collect();
     }
     second.reverse();
-    [first, second].iter().all(|half| stays_within(half, low, high, halvings - 1))
+    [first, second].iter().all(|half| is_curve_within(half, low, high, halvings - 1))
 }
 
 /// Checks that all shapes of the arm keep farther than the clearance from all obstacles, along the whole motion.
-fn stays_off(
+fn check_arm_clear(
     arm: &Arm,
     world: &World,
     pieces: &[Piece],
@@ -207,5 +207,5 @@ fn stays_off(
         Part { name: shape.to_string(), keeps: &keeps, solid, meets }
     };
     let parts: Vec<Part> = arm.shapes.iter().zip(&solids).map(part).collect();
-    stay_off(&chain, pieces, &start.map(Interval::from), &parts, &obstacles)
+    check_parts_clear(&chain, pieces, &start.map(Interval::from), &parts, &obstacles)
 }

@@ -19,7 +19,7 @@ pub struct Cell {
 impl Cell {
     /// Returns the box in which contact with an obstacle is tested. If joint 1 carries `link`, it is the same box with
     /// joint 1 at zero; otherwise it is the same box. `None` stands for an obstacle of the world.
-    pub fn beside(mut self, link: Option<&Owner>) -> Self {
+    pub fn for_link(mut self, link: Option<&Owner>) -> Self {
         if link.is_some_and(|link| link.is_carried) {
             (self.middle[0], self.half[0]) = (Interval::whole(0), Interval::whole(0));
         }
@@ -28,7 +28,7 @@ impl Cell {
 
     /// Returns the box around the part of a straight segment from `k / 2^cuts` to `(k + 1) / 2^cuts` of its length.
     pub fn of_segment(from: &Point, along: &Point, k: i64, cuts: u32) -> Self {
-        let middle = sum(from, &times(along, &Interval::exactly(BigInt::from(2 * k + 1) << (BITS - cuts - 1))));
+        let middle = sum(from, &times(along, &Interval::exact(BigInt::from(2 * k + 1) << (BITS - cuts - 1))));
         Self { middle, half: along.each_ref().map(|along| along.abs().in_halves(cuts + 1)) }
     }
 }
@@ -84,7 +84,7 @@ pub struct MovingBody<'a> {
 
 /// Returns the greatest length of some vectors.
 fn reach(points: &[Point]) -> Interval {
-    points.iter().map(|p| length(p).upper).max().map_or(Interval::whole(0), Interval::exactly)
+    points.iter().map(|p| length(p).upper).max().map_or(Interval::whole(0), Interval::exact)
 }
 
 impl<'a> MovingBody<'a> {

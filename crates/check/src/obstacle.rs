@@ -27,7 +27,7 @@ pub struct Obstacle {
     /// Extent along the plane's normal; `None` if unlimited.
     pub heights: Option<Range>,
     /// Motion of the obstacle's frame; `None` for a static obstacle. The motion replaces `at` and `turn`.
-    pub course: Option<Rc<dyn ObstacleTrajectory>>,
+    pub trajectory: Option<Rc<dyn ObstacleTrajectory>>,
 }
 
 /// The region that an obstacle covers.
@@ -51,7 +51,7 @@ pub trait ObstacleTrajectory {
     fn place(&self, time: &Decimal) -> [Point; 2];
 
     /// Returns a shape in plane coordinates. It contains a shape of the frame at all times of a span.
-    fn during(&self, shape: &Shape, span: [&Decimal; 2]) -> Shape;
+    fn swept_shape(&self, shape: &Shape, span: [&Decimal; 2]) -> Shape;
 }
 
 /// The solid squares of a picture, in the frame of its obstacle. A picture is an occupancy map.
@@ -79,7 +79,7 @@ impl Obstacle {
     /// Makes an obstacle from a link of the robot.
     pub fn link(name: String, owner: Owner, shape: Shape, heights: Option<Range>) -> Self {
         let [at, turn] = [[0, 0], [0, 1]].map(|of| of.map(Interval::whole));
-        Self { name: Some(name), own: Some(owner), outline: Outline::Own(shape), at, turn, heights, course: None }
+        Self { name: Some(name), own: Some(owner), outline: Outline::Own(shape), at, turn, heights, trajectory: None }
     }
 
     /// Returns true if the obstacle is a link that joint 1 carries.
@@ -97,13 +97,13 @@ impl Obstacle {
 
     /// Returns the same obstacle at another pose, as a static obstacle.
     pub fn moved(self, at: Point, turn: Point) -> Self {
-        Self { at, turn, course: None, ..self }
+        Self { at, turn, trajectory: None, ..self }
     }
 
     /// Returns the same obstacle at its pose at a time.
     pub fn at_time(&self, time: &Decimal) -> Cow<'_, Self> {
-        self.course.as_ref().map_or(Cow::Borrowed(self), |course| {
-            let [at, turn] = course.place(time);
+        self.trajectory.as_ref().map_or(Cow::Borrowed(self), |trajectory| {
+            let [at, turn] = trajectory.place(time);
             Cow::Owned(self.clone().moved(at, turn))
         })
     }
@@ -130,7 +130,7 @@ impl Obstacle {
     /// # Errors
     /// If there is no such part, with the reason. [`CheckError::Input`] if the obstacle could not be read.
     pub fn part(&self, given: &[Corner]) -> Result<Shape, CheckError> {
-        if self.course.is_some() {
+        if self.trajectory.is_some() {
             return CheckError::fails("it moves, so it does not always block");
         }
         let placed = |p: &Point| self.placed(p);
@@ -185,7 +185,7 @@ impl Obstacle {
     /// # Errors
     /// If the obstacle could not be read, or if it has too few points.
     pub fn sides(&self) -> Result<Vec<Shape>, CheckError> {
-        let placed = |p: &Point| if self.course.is_some() { p.clone() } else { self.placed(p) };
+        let placed = |p: &Point| if self.trajectory.is_some() { p.clone() } else { self.placed(p) };
         let side = |points: &[Point], radius: Interval| Shape { points: points.iter().map(placed).collect(), radius };
         let thin = |a: &Corner, b: &Corner| side(&[point(a), point(b)], Interval::whole(0));
         match &self.outline {
@@ -216,7 +216,7 @@ impl Obstacle {
         let own = own.map(|(middle, _)| middle);
         is_near.then(|| match &self.outline {
             Outline::Polygon(rings) => surrounds(rings, &own.map(|middle| Decimal::dyadic(&middle, BITS))),
-            Outline::Squares(Ok(cells)) => cells.holds(&own.map(Interval::exactly)),
+            Outline::Squares(Ok(cells)) => cells.holds(&own.map(Interval::exact)),
             Outline::Squares(Err(_)) | Outline::Polyline(_) | Outline::Circle(..) | Outline::Own(_) => false,
         })
     }

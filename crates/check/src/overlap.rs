@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn closed_forms() {
+    fn depths_agree_with_closed_forms() {
         let square = shape("0 0  2 0  2 2  0 2", "0");
         has_depth(&square, &shape("1 1  5 1  5 5  1 5", "0"), "1");
         has_depth(&square, &shape("0.5 -9  0.5 9", "0"), "0.5");

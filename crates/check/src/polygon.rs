@@ -63,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_an_l() {
+    fn parts_of_an_l_shape_are_convex_and_inside() {
         let l = [ring("0 0  3 0  3 1  1 1  1 3  0 3")];
         for inside in ["0 0  3 0  3 1", "0 0  3 0  3 1  0 1", "0 0  1 0  1 3  0 3", "0 0  1 1  0 3", "0 3  0 0  1 1"] {
             assert!(holds(&l, &ring(inside)), "{inside}");

@@ -2,7 +2,7 @@
 
 use crate::curve::Piece;
 use crate::error::CheckError;
-use crate::free::{Chain, Edge, EvidenceGap, Side, Solid, guard, keep_off};
+use crate::free::{Chain, Edge, EvidenceGap, Side, Solid, check_distances, guard};
 use crate::interval::Point;
 use crate::obstacle::Obstacle;
 use crate::overlap::Shape;
@@ -34,9 +34,9 @@ impl PlacedObstacle {
     /// # Errors
     /// Same as [`Obstacle::sides`].
     pub fn new(chain: &Chain, obstacle: Obstacle) -> Result<Self, CheckError> {
-        let edge = |side: Shape| match &obstacle.course {
+        let edge = |side: Shape| match &obstacle.trajectory {
             None => Edge::Still(Side::new(chain, &side)),
-            Some(course) => Edge::Moving(side, Rc::clone(course)),
+            Some(trajectory) => Edge::Moving(side, Rc::clone(trajectory)),
         };
         let edges = obstacle.sides()?.into_iter().map(edge).collect();
         Ok(Self { obstacle, edges })
@@ -48,7 +48,7 @@ impl PlacedObstacle {
 ///
 /// # Errors
 /// The first stretch, part and obstacle for which this is not shown.
-pub fn stay_off(
+pub fn check_parts_clear(
     chain: &Chain,
     pieces: &[Piece],
     from: &Point,
@@ -75,8 +75,8 @@ pub fn stay_off(
     let is_carried = |number: usize| obstacles[number].as_ref().is_some_and(|present| present.obstacle.is_carried());
     let (turning, standing) = pairs.into_iter().partition(|[_, edge]| is_carried(owners[*edge]));
     let of_second: Vec<Piece> = pieces.iter().map(Piece::of_second).collect();
-    let kept = keep_off(chain, pieces, (&solids, &edges), standing)
-        .and_then(|()| keep_off(chain, &of_second, (&solids, &edges), turning));
+    let kept = check_distances(chain, pieces, (&solids, &edges), standing)
+        .and_then(|()| check_distances(chain, &of_second, (&solids, &edges), turning));
     kept.map_err(|EvidenceGap { knot, solid, edge }| {
         let Part { name, keeps, .. } = &parts[solid];
         CheckError::Fails(format!(

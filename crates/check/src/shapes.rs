@@ -35,24 +35,25 @@ pub struct Body {
 
 impl Body {
     /// Returns this body's heights and the given heights as enclosures. `None` if one of them is unlimited.
-    fn beside(&self, heights: Option<&Range>) -> Option<(&[Interval; 2], [Interval; 2])> {
+    fn enclosures(&self, heights: Option<&Range>) -> Option<(&[Interval; 2], [Interval; 2])> {
         Some((self.heights.as_ref()?, heights?.each_ref().map(Interval::from)))
     }
 
     /// Returns true if this body's heights and the given heights certainly overlap.
-    pub fn is_at(&self, heights: Option<&Range>) -> bool {
-        self.beside(heights).is_none_or(|(own, [low, high])| own[0].upper <= high.lower && low.upper <= own[1].lower)
+    pub fn overlaps_heights(&self, heights: Option<&Range>) -> bool {
+        self.enclosures(heights)
+            .is_none_or(|(own, [low, high])| own[0].upper <= high.lower && low.upper <= own[1].lower)
     }
 
     /// Returns true if this body's heights and the given heights certainly do not overlap.
-    pub fn passes(&self, heights: Option<&Range>) -> bool {
-        self.beside(heights).is_some_and(|(own, [low, high])| own[1].upper < low.lower || high.upper < own[0].lower)
+    pub fn misses_heights(&self, heights: Option<&Range>) -> bool {
+        self.enclosures(heights).is_some_and(|(own, [low, high])| own[1].upper < low.lower || high.upper < own[0].lower)
     }
 
     /// Returns the heights at which other links can collide with this body: its own heights, reduced by the minimum
     /// overlap at both ends. [`Outline::Around`] gives a superset of these heights, [`Outline::Within`] a subset.
     /// `None` if the heights are unlimited.
-    pub fn kept(&self, outline: Outline) -> Option<Range> {
+    pub fn inset_heights(&self, outline: Outline) -> Option<Range> {
         let by = Interval::from(&Decimal::power_of_ten(MIN_OVERLAP_DECIMALS));
         let [low, high] = self.heights.as_ref()?;
         let ([least, low], [high, most]) = ((low + &by).ends(), (high - &by).ends());
@@ -102,7 +103,7 @@ impl CollisionShape {
     /// a link that this shape may touch. `body` is this shape, or the region that the shape sweeps as the tool turns.
     pub fn meets(&self, body: &Body, obstacle: &Obstacle) -> bool {
         let is_free = obstacle.own.as_ref().is_some_and(|own| self.ignored.contains(&own.link));
-        !is_free && !body.passes(obstacle.heights.as_ref())
+        !is_free && !body.misses_heights(obstacle.heights.as_ref())
     }
 }
 

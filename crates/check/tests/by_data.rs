@@ -64,11 +64,11 @@ fn world() -> World {
     let joints = |q: [&str; 2]| Some(Goal::Joints(q.map(|value| [number(value), number(value)])));
     let outline = Outline::Circle([number("0.9"), number("0")], number("0.2"));
     let (at, turn) = (point(0, 0), point(0, 1));
-    let post = Obstacle { name: None, own: None, outline, at, turn, heights: None, course: None };
+    let post = Obstacle { name: None, own: None, outline, at, turn, heights: None, trajectory: None };
     World { start: joints(["-1", "0"]), goal: joints(["1", "0"]), obstacles: vec![post], ..World::default() }
 }
 
-fn judged(text: &str) -> Result<String, CheckError> {
+fn judge_text(text: &str) -> Result<String, CheckError> {
     judge(&arm(), &world(), &certificate::read(text)?)
 }
 
@@ -80,10 +80,10 @@ fn boxes_separate_the_ends() {
         "boxes": [{ "lower": [-0.1, -1], "upper": [0.1, 1], "shape": 0, "part": 0 }]
     }"#;
     let proven = r#"no motion of "j1" and "j2" leads from the start to the goal with clearance 0"#;
-    assert_eq!(judged(text), Ok(proven.into()));
+    assert_eq!(judge_text(text), Ok(proven.into()));
     // A box wider than the post allows, and one that does not reach across the domain.
     for (from, to, why) in [("0.1, 1]", "0.3, 1]", "does not touch"), ("0.1, 1]", "0.1, 0.9]", "do not separate")] {
-        let Err(CheckError::Fails(message)) = judged(&text.replace(from, to)) else { panic!("{to} holds") };
+        let Err(CheckError::Fails(message)) = judge_text(&text.replace(from, to)) else { panic!("{to} holds") };
         assert!(message.contains(why), "{message}");
     }
 }
@@ -98,9 +98,9 @@ fn a_motion_avoids_the_post_or_fails() {
             }}"#
         )
     };
-    let proven = judged(&text("0.1", "0.9")).unwrap();
+    let proven = judge_text(&text("0.1", "0.9")).unwrap();
     assert!(proven.contains("with clearance 0.1 (3 knots, read as linear)"), "{proven}");
     for (clearance, through) in [("0.3", "0.9"), ("0.1", "0")] {
-        assert!(matches!(judged(&text(clearance, through)), Err(CheckError::Fails(_))), "{clearance} {through}");
+        assert!(matches!(judge_text(&text(clearance, through)), Err(CheckError::Fails(_))), "{clearance} {through}");
     }
 }

@@ -153,37 +153,37 @@ mod tests {
         }
 
         /// Reads a line that ends in `end`, and returns the text before that.
-        fn before(&mut self, end: &str) -> &'a str {
+        fn line_up_to(&mut self, end: &str) -> &'a str {
             let line = self.line();
             line.strip_suffix(end).unwrap_or_else(|| panic!("{line:?} does not end in {end:?}"))
         }
 
-        fn after(&mut self, begin: &str) -> &'a str {
+        fn rest_after(&mut self, begin: &str) -> &'a str {
             let line = self.line();
             line.strip_prefix(begin).unwrap_or_else(|| panic!("{line:?} does not begin with {begin:?}"))
         }
 
         fn count(&mut self, end: &str) -> usize {
-            self.before(end).parse().unwrap()
+            self.line_up_to(end).parse().unwrap()
         }
 
         fn log(text: &'a str) -> Log {
             let mut reader = Reader(text.lines());
             let version = reader.line().split_once(" version ").expect("library and version");
             assert!(!version.0.contains(' ') && !version.1.is_empty());
-            let experiment = reader.after("Experiment ").to_owned();
+            let experiment = reader.rest_after("Experiment ").to_owned();
             assert!(!experiment.contains(char::is_whitespace), "the last word of the line is read only");
             assert_eq!(reader.count(" experiment properties"), 0);
-            reader.after("Running on ");
-            reader.after("Starting at ");
+            reader.rest_after("Running on ");
+            reader.rest_after("Starting at ");
             assert_eq!(reader.line(), "<<<|");
             while !reader.line().starts_with("|>>>") {}
-            let seed = reader.before(" is the random seed").parse().unwrap();
+            let seed = reader.line_up_to(" is the random seed").parse().unwrap();
             for end in [" seconds per run", " MB per run"] {
-                assert!(reader.before(end).parse::<f64>().unwrap() >= 0.0);
+                assert!(reader.line_up_to(end).parse::<f64>().unwrap() >= 0.0);
             }
             let runs = reader.count(" runs per planner");
-            assert!(reader.before(" seconds spent to collect the data").parse::<f64>().unwrap() >= 0.0);
+            assert!(reader.line_up_to(" seconds spent to collect the data").parse::<f64>().unwrap() >= 0.0);
             assert_eq!(reader.count(" enum type"), 1);
             assert_eq!(reader.line().split('|').count(), 11);
             let planners = (0..reader.count(" planners")).map(|_| reader.planner(runs)).collect();

@@ -27,7 +27,7 @@ mod table;
 mod words;
 
 pub use comparison::Comparison;
-pub use convergence::{Convergence, Course, FactorScan, Point, Setup, StrengthScan, WeightScan, convergence};
+pub use convergence::{Convergence, FactorScan, Point, RelaxationRun, Setup, StrengthScan, WeightScan, convergence};
 pub use cplan_solver::Family;
 pub use labels::labels;
 pub use measure::Measure;

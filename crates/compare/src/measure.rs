@@ -69,7 +69,7 @@ impl Measure {
 
     /// Formats a value in the unit of the heading.
     #[must_use]
-    pub fn shown(self, value: f64) -> String {
+    pub fn format(self, value: f64) -> String {
         let decimals = match self {
             Measure::OverOptimum => 4,
             Measure::Memory => 2,

@@ -21,7 +21,7 @@ mod tests {
     use super::*;
 
     /// Computes the same probability by enumerating all throws.
-    fn enumerated(wins: usize, losses: usize) -> f64 {
+    fn enumerated_probability(wins: usize, losses: usize) -> f64 {
         let n = wins + losses;
         let fewer = wins.min(losses) as u32;
         let uneven = (0..1_u32 << n).filter(|coins| coins.count_ones().min(n as u32 - coins.count_ones()) <= fewer);
@@ -32,7 +32,7 @@ mod tests {
     fn the_sign_test_matches_enumeration() {
         for wins in 0..8 {
             for losses in 0..8 {
-                let (test, all) = (sign_test(wins, losses), enumerated(wins, losses));
+                let (test, all) = (sign_test(wins, losses), enumerated_probability(wins, losses));
                 assert!((test - all).abs() < 1e-12, "{wins} to {losses}: {test} {all}");
             }
         }

@@ -76,7 +76,7 @@ mod tests {
     }
 
     /// Computes the quantile as a broken line through the points `(i / (n - 1), sorted[i])`.
-    fn along_the_line(sorted: &[f64], share: f64) -> f64 {
+    fn quantile_on_broken_line(sorted: &[f64], share: f64) -> f64 {
         let knots: Vec<f64> = (0..sorted.len()).map(|i| i as f64 / (sorted.len().max(2) - 1) as f64).collect();
         for i in 1..sorted.len() {
             if share <= knots[i] {
@@ -100,7 +100,7 @@ mod tests {
                 sorted.insert(at, *value);
             }
             let mean = values.iter().sum::<f64>() / values.len() as f64;
-            let expected = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| along_the_line(&sorted, share));
+            let expected = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| quantile_on_broken_line(&sorted, share));
             for (got, want) in spread.numbers().into_iter().zip(expected.into_iter().chain([mean])) {
                 prop_assert!((got - want).abs() < 1e-6, "{got} {want}");
             }

@@ -68,7 +68,7 @@ impl Study {
     /// Counts problems by the outcome that all planners together found, in the order of [`Status::ALL`]: a path, a
     /// proof that there is none, or neither. A contradictory problem counts as one with a path.
     #[must_use]
-    pub fn settled(&self) -> [usize; 3] {
+    pub fn outcome_counts(&self) -> [usize; 3] {
         let mut counts = [0; 3];
         for comparison in &self.comparisons {
             let best = Status::ALL.iter().position(|o| comparison.rows.iter().any(|row| row.outcome == *o));

@@ -43,14 +43,14 @@ impl Study {
     /// Returns the same content as [`Study::to_text`] in Markdown.
     #[must_use]
     pub fn to_markdown(&self) -> String {
-        let mut text = format!("# {}\n", escaped(&self.title));
+        let mut text = format!("# {}\n", escape_markdown(&self.title));
         for paragraph in words(self) {
-            text += &format!("\n{}\n", escaped(&paragraph));
+            text += &format!("\n{}\n", escape_markdown(&paragraph));
         }
         for (heading, table) in self.tables() {
-            text += &format!("\n## {}\n\n{}", escaped(&heading), table.to_markdown());
+            text += &format!("\n## {}\n\n{}", escape_markdown(&heading), table.to_markdown());
         }
-        let notes: String = self.footnotes().map(|line| format!("- {}\n", escaped(&line))).collect();
+        let notes: String = self.footnotes().map(|line| format!("- {}\n", escape_markdown(&line))).collect();
         if notes.is_empty() { text } else { format!("{text}\n{notes}") }
     }
 
@@ -148,7 +148,7 @@ impl Study {
         columns.extend(SPREAD_NAMES.map(|name| Column::new(name, Align::Right)));
         let row = |(i, name): (usize, &&str)| {
             let spread = self.spread(i, measure)?;
-            let numbers = spread.numbers().map(|value| measure.shown(value));
+            let numbers = spread.numbers().map(|value| measure.format(value));
             let cells = [(*name).to_owned(), spread.n.to_string()].into_iter().chain(numbers);
             Some(cells.map(Some).collect())
         };
@@ -159,7 +159,7 @@ impl Study {
         let mut columns = vec![Column::new("problem", Align::Left)];
         columns.extend(self.planners().iter().map(|name| Column::new(name, Align::Right)));
         let cell = |c: &Comparison, row: &Row| match (row.outcome, c.over_optimum(row)) {
-            (Status::Found, Some(ratio)) => Measure::OverOptimum.shown(ratio),
+            (Status::Found, Some(ratio)) => Measure::OverOptimum.format(ratio),
             (outcome, _) => outcome.to_string(),
         };
         let row = |c: &Comparison| {
@@ -193,7 +193,7 @@ impl Refusal {
 }
 
 /// Escapes Markdown markup.
-fn escaped(text: &str) -> String {
+fn escape_markdown(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         if matches!(c, '\\' | '`' | '*' | '_' | '<' | '>' | '[' | ']' | '#' | '|') {

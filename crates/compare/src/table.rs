@@ -67,7 +67,7 @@ impl Table {
         let table = self.with_cells(|cell| plain_line(cell).into_owned());
         let broken = |k: usize| {
             let name = table.columns[k].name.as_str();
-            let is_widest = table.rows.iter().all(|row| shown(row)[k].chars().count() < name.chars().count());
+            let is_widest = table.rows.iter().all(|row| shown_cells(row)[k].chars().count() < name.chars().count());
             name.rsplit_once(' ').filter(|_| is_widest).unwrap_or((name, ""))
         };
         let (upper, lower): (Vec<&str>, Vec<&str>) = (0..table.columns.len()).map(broken).unzip();
@@ -106,7 +106,7 @@ impl Table {
         let mut text: String = heads.iter().map(|head| line(self.padded(head, &widths))).collect();
         text += &line(widths.iter().map(|&w| "-".repeat(w)).collect());
         for row in &self.rows {
-            text += &line(self.padded(&shown(row), &widths));
+            text += &line(self.padded(&shown_cells(row), &widths));
         }
         text
     }
@@ -130,7 +130,7 @@ impl Table {
         };
         text += &line(escaped.columns.iter().zip(&widths).map(rule).collect());
         for row in &escaped.rows {
-            text += &line(escaped.padded(&shown(row), &widths));
+            text += &line(escaped.padded(&shown_cells(row), &widths));
         }
         text
     }
@@ -141,7 +141,7 @@ impl Table {
 
     fn widths(&self, heads: &[Vec<&str>]) -> Vec<usize> {
         let of = |k: usize| {
-            let cells = self.rows.iter().map(|row| shown(row)[k]).chain(heads.iter().map(|head| head[k]));
+            let cells = self.rows.iter().map(|row| shown_cells(row)[k]).chain(heads.iter().map(|head| head[k]));
             cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
         };
         (0..self.columns.len()).map(of).collect()
@@ -156,7 +156,7 @@ impl Table {
     }
 }
 
-fn shown(row: &[Option<String>]) -> Vec<&str> {
+fn shown_cells(row: &[Option<String>]) -> Vec<&str> {
     row.iter().map(|cell| cell.as_deref().unwrap_or("-")).collect()
 }
 

@@ -55,7 +55,7 @@ struct Side {
 pub fn words(study: &Study) -> Vec<String> {
     let mut words = vec![outcomes(study)];
     words.extend(optimum(study));
-    words.extend(pulled_taut(study));
+    words.extend(describe_taut_effect(study));
     let sides = sides(study);
     if sides.len() > 1 {
         words.extend(
@@ -68,7 +68,7 @@ pub fn words(study: &Study) -> Vec<String> {
 }
 
 fn outcomes(study: &Study) -> String {
-    let [found, infeasible, open] = study.settled();
+    let [found, infeasible, open] = study.outcome_counts();
     let all = counted(study.comparisons.len(), "problem");
     let mut text = format!("{all}: {found} with a certified path, {infeasible} proven to have none, {open} open.");
     let unknown: Vec<String> = study
@@ -99,7 +99,7 @@ fn optimum(study: &Study) -> Option<String> {
 }
 
 /// Describes the effect of pulling each planner's own path taut, for problems with both paths.
-fn pulled_taut(study: &Study) -> Option<String> {
+fn describe_taut_effect(study: &Study) -> Option<String> {
     let sentences = study.planners().into_iter().enumerate().filter_map(|(i, name)| {
         let pairs =
             || study.runs(i).filter_map(|(_, row)| Some((row.of_kind(PathKind::Own)?, row.of_kind(PathKind::Taut)?)));
@@ -157,7 +157,7 @@ fn aspect(
     let medians: Vec<String> = sides
         .iter()
         .zip(medians.collect::<Option<Vec<f64>>>()?)
-        .map(|(side, median)| format!("{} {}", side.name, measure.shown(median)))
+        .map(|(side, median)| format!("{} {}", side.name, measure.format(median)))
         .collect();
     let wins = |a: usize, b: usize| {
         let wins = values.iter().filter(|v| {

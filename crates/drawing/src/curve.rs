@@ -23,7 +23,7 @@ fn chords(bend: f64, range: f64, tolerance: f64) -> Result<usize, TooFineCurve> 
 }
 
 /// Returns points of a curve at parameters from 0 to 1, without the first and with the last.
-fn along(count: usize, at: impl Fn(f64) -> Point) -> impl Iterator<Item = Point> {
+fn points_along(count: usize, at: impl Fn(f64) -> Point) -> impl Iterator<Item = Point> {
     (1..=count).map(move |k| at(k as f64 / count as f64))
 }
 
@@ -60,7 +60,7 @@ impl Ellipse {
     /// Returns points of the arc that begins at parameter `from` and covers the range `by`, without the first point.
     pub fn arc(self, from: f64, by: f64, tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFineCurve> {
         let count = chords(self.longest(), by.abs(), tolerance)?.max((by.abs() / FRAC_PI_2).ceil() as usize);
-        Ok(along(count, move |part| self.at(from + by * part)))
+        Ok(points_along(count, move |part| self.at(from + by * part)))
     }
 
     /// Returns the points of the whole ellipse.
@@ -131,7 +131,7 @@ pub(crate) fn bulge(a: Point, b: Point, bulge: f64, map: &Map, tolerance: f64) -
 pub(crate) fn cubic([a, b, c, d]: [Point; 4], tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFineCurve> {
     let second = |p: Point, q: Point, r: Point| (p[0] - 2.0 * q[0] + r[0]).hypot(p[1] - 2.0 * q[1] + r[1]);
     let count = chords(6.0 * second(a, b, c).max(second(b, c, d)), 1.0, tolerance)?;
-    Ok(along(count, move |t| {
+    Ok(points_along(count, move |t| {
         let s = 1.0 - t;
         let weights = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
         [0, 1].map(|k| weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k] + weights[3] * d[k])
@@ -179,7 +179,7 @@ impl Spline {
             };
             // With fewer than four chords, a curve that is symmetric about its middle could look straight.
             let count = (2..MAX_HALVINGS).map(|k| 1_usize << k).find(fits).ok_or(TooFineCurve)?;
-            points.extend(along(count, at));
+            points.extend(points_along(count, at));
         }
         Ok(points)
     }

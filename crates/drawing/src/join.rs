@@ -29,7 +29,7 @@ impl Places {
             for dy in -1..=1 {
                 let neighbor = [cell[0].saturating_add(dx), cell[1].saturating_add(dy)];
                 let known = self.cells.get(&neighbor).into_iter().flatten();
-                if let Some(&place) = known.into_iter().find(|&&i| apart(self.at[i], p) <= self.reach) {
+                if let Some(&place) = known.into_iter().find(|&&i| distance(self.at[i], p) <= self.reach) {
                     return place;
                 }
             }
@@ -40,7 +40,7 @@ impl Places {
     }
 }
 
-fn apart(a: Point, b: Point) -> f64 {
+fn distance(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
@@ -89,7 +89,7 @@ fn chain(
             points.reverse();
         }
         if let Some(&last) = chain.points.last() {
-            chain.gap = chain.gap.max(apart(last, points[0]));
+            chain.gap = chain.gap.max(distance(last, points[0]));
             points.remove(0);
         }
         chain.points.extend(points);
@@ -103,7 +103,7 @@ fn chain(
     // A line there and back surrounds no area.
     if place == begin && at_place[place].len() == 2 && chain.points.len() > 3 {
         let last = chain.points.pop().expect("two points or more");
-        chain.gap = chain.gap.max(apart(last, chain.points[0]));
+        chain.gap = chain.gap.max(distance(last, chain.points[0]));
         chain.is_closed = true;
     }
     chain

@@ -38,7 +38,7 @@ impl Map {
     }
 
     /// Returns the map that applies `inner` first, and then this map.
-    pub fn after(&self, inner: &Map) -> Map {
+    pub fn compose(&self, inner: &Map) -> Map {
         Map { u: self.vector(inner.u), v: self.vector(inner.v), o: self.point(inner.o) }
     }
 

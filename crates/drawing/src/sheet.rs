@@ -83,14 +83,17 @@ impl Sheet {
 
     /// Adds an outline with holes.
     pub fn polygon(&mut self, outer: Ring, holes: Vec<Ring>, origin: &Origin) -> Result<(), Error> {
-        let outer = once(outer, true);
+        let outer = without_repeated_points(outer, true);
         if has_no_area(&outer) {
             return self.wall(outer, origin);
         }
-        let holes: Vec<Ring> =
-            holes.into_iter().map(|hole| once(hole, true)).filter(|hole| !has_no_area(hole)).collect();
-        self.counted(outer.iter().chain(holes.iter().flatten()), origin)?;
-        self.put(Geometry::Polygon { outer, holes }, origin);
+        let holes: Vec<Ring> = holes
+            .into_iter()
+            .map(|hole| without_repeated_points(hole, true))
+            .filter(|hole| !has_no_area(hole))
+            .collect();
+        self.check_and_count(outer.iter().chain(holes.iter().flatten()), origin)?;
+        self.add(Geometry::Polygon { outer, holes }, origin);
         Ok(())
     }
 
@@ -99,7 +102,7 @@ impl Sheet {
         if let [_] = &rings[..] {
             return rings.into_iter().try_for_each(|ring| self.closed(ring, origin));
         }
-        self.counted(rings.iter().flatten(), origin)?;
+        self.check_and_count(rings.iter().flatten(), origin)?;
         for (outer, holes) in filled(&rings, rule) {
             self.polygon(outer, holes, origin)?;
         }
@@ -108,23 +111,23 @@ impl Sheet {
 
     /// Adds a polyline that is not joined with others.
     pub fn wall(&mut self, points: Vec<Point>, origin: &Origin) -> Result<(), Error> {
-        let points = once(points, false);
+        let points = without_repeated_points(points, false);
         if points.len() < 2 {
             self.leave_out(&format!("{} without extent", origin.kind), origin);
             return Ok(());
         }
-        self.counted(points.iter(), origin)?;
-        self.put(Geometry::Polyline(points), origin);
+        self.check_and_count(points.iter(), origin)?;
+        self.add(Geometry::Polyline(points), origin);
         Ok(())
     }
 
     /// Adds a curve, to be joined with others of its group whose ends meet its own.
     pub fn open(&mut self, points: Vec<Point>, group: usize, origin: &Origin) -> Result<(), Error> {
-        let points = once(points, false);
+        let points = without_repeated_points(points, false);
         if points.len() < 2 {
             return self.wall(points, origin);
         }
-        self.counted(points.iter(), origin)?;
+        self.check_and_count(points.iter(), origin)?;
         self.count += 1;
         self.open.entry(group).or_default().push((self.count, origin.clone(), points));
         Ok(())
@@ -135,8 +138,8 @@ impl Sheet {
         match map.similarity() {
             Some(scale) if radius * scale > 0.0 => {
                 let (center, radius) = (map.point(center), radius * scale);
-                self.counted([center, [radius, 0.0]].iter(), origin)?;
-                self.put(Geometry::Circle { center, radius }, origin);
+                self.check_and_count([center, [radius, 0.0]].iter(), origin)?;
+                self.add(Geometry::Circle { center, radius }, origin);
                 Ok(())
             }
             _ => self.ellipse(&Ellipse::circle(center, radius).mapped(map), origin),
@@ -151,7 +154,7 @@ impl Sheet {
 
     /// Checks that the coordinates of points are within range, and adds the points to the total number, which has a
     /// limit.
-    fn counted<'a>(&mut self, points: impl Iterator<Item = &'a Point>, origin: &Origin) -> Result<(), Error> {
+    fn check_and_count<'a>(&mut self, points: impl Iterator<Item = &'a Point>, origin: &Origin) -> Result<(), Error> {
         for point in points {
             self.points += 1;
             if !point.iter().all(|x| x.abs() <= MAX_COORDINATE) {
@@ -170,12 +173,12 @@ impl Sheet {
         Ok(())
     }
 
-    fn put(&mut self, geometry: Geometry, origin: &Origin) {
+    fn add(&mut self, geometry: Geometry, origin: &Origin) {
         self.count += 1;
-        self.put_at(self.count, geometry, origin);
+        self.add_at(self.count, geometry, origin);
     }
 
-    fn put_at(&mut self, number: usize, geometry: Geometry, origin: &Origin) {
+    fn add_at(&mut self, number: usize, geometry: Geometry, origin: &Origin) {
         let Origin { name, layer, height, hidden_by, kind, line, frame } = origin.clone();
         self.shapes.push((number, Shape { name, layer, geometry, height, hidden_by, kind, line, frame }));
     }
@@ -194,13 +197,13 @@ impl Sheet {
                     let message = format!("ends less than {} m apart: joined", self.tolerance);
                     self.note(message, &origin);
                 }
-                let points = once(chain.points, chain.is_closed);
+                let points = without_repeated_points(chain.points, chain.is_closed);
                 let geometry = if chain.is_closed && !has_no_area(&points) {
                     Geometry::Polygon { outer: points, holes: Vec::new() }
                 } else {
                     Geometry::Polyline(points)
                 };
-                self.put_at(*number, geometry, &origin);
+                self.add_at(*number, geometry, &origin);
             }
         }
         self.shapes.sort_by_key(|(number, _)| *number);
@@ -209,7 +212,7 @@ impl Sheet {
 }
 
 /// Removes points that repeat the previous one; in a ring the first follows the last.
-pub(crate) fn once(mut points: Vec<Point>, is_ring: bool) -> Vec<Point> {
+pub(crate) fn without_repeated_points(mut points: Vec<Point>, is_ring: bool) -> Vec<Point> {
     points.dedup();
     while is_ring && points.len() > 1 && points.first() == points.last() {
         points.pop();
@@ -220,12 +223,12 @@ pub(crate) fn once(mut points: Vec<Point>, is_ring: bool) -> Vec<Point> {
 /// Returns true if all corners lie on one line, by their stored coordinates.
 fn has_no_area(ring: &[Point]) -> bool {
     let [a, rest @ ..] = ring else { return true };
-    let far = rest.iter().max_by(|p, q| apart(a, p).total_cmp(&apart(a, q)));
+    let far = rest.iter().max_by(|p, q| distance(a, p).total_cmp(&distance(a, q)));
     let Some(b) = far else { return true };
     let [ux, uy] = [b[0] - a[0], b[1] - a[1]];
     rest.iter().all(|p| (ux * (p[1] - a[1]) - uy * (p[0] - a[0])) == 0.0)
 }
 
-fn apart(a: &Point, b: &Point) -> f64 {
+fn distance(a: &Point, b: &Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }

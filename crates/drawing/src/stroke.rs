@@ -29,7 +29,8 @@ impl Piece {
             return Ok([edge(-1.0)?, edge(1.0)?]);
         }
         let [left, _] = self.directions().map(|[x, y]| [-y, x]);
-        let edge = |side: f64| [0, 1].map(|end| beside(self.ends[end], left, side * self.widths[end] / 2.0)).to_vec();
+        let edge =
+            |side: f64| [0, 1].map(|end| offset_point(self.ends[end], left, side * self.widths[end] / 2.0)).to_vec();
         Ok([edge(1.0), edge(-1.0)])
     }
 
@@ -51,13 +52,18 @@ impl Piece {
 }
 
 /// Returns the point at a distance in some direction.
-fn beside(p: Point, direction: Point, distance: f64) -> Point {
+fn offset_point(p: Point, direction: Point, distance: f64) -> Point {
     [0, 1].map(|k| p[k] + direction[k] * distance)
 }
 
 /// Returns rings that cover the same area as the pieces, counter-clockwise after `map` is applied. Each piece must
 /// start where the previous one ends, have a length above 0, and be wider than 0 somewhere.
-pub(crate) fn covered(pieces: &[Piece], is_closed: bool, map: &Map, tolerance: f64) -> Result<Vec<Ring>, TooFineCurve> {
+pub(crate) fn covering_rings(
+    pieces: &[Piece],
+    is_closed: bool,
+    map: &Map,
+    tolerance: f64,
+) -> Result<Vec<Ring>, TooFineCurve> {
     let mut edges = pieces.iter().map(|piece| piece.edges(map, tolerance)).collect::<Result<Vec<_>, _>>()?;
     let closing = (is_closed && pieces.len() > 1).then_some((pieces.len() - 1, 0));
     let corners: Vec<(usize, usize)> = (1..pieces.len()).map(|j| (j - 1, j)).chain(closing).collect();

@@ -4,7 +4,7 @@ use super::fastest::fastest;
 use cplan_core::model::{MotionProblem, Outcome};
 use cplan_handling::ObstacleTrajectory;
 use cplan_motion::{DurationOptimality, Objective, TimedMotion, TimingError};
-use cplan_movers::{Timing, TimingRequirements, in_time};
+use cplan_movers::{Timing, TimingRequirements, time_among_moving_obstacles};
 use cplan_solver::{Answer, BoundedPath, Options};
 
 /// A motion that is certified free of collision.
@@ -31,7 +31,7 @@ impl Motion {
     /// Times the motion along a path. If no timing avoids moving obstacles, returns the reason in words.
     fn along(
         problem: &MotionProblem,
-        courses: &[ObstacleTrajectory],
+        trajectories: &[ObstacleTrajectory],
         path: BoundedPath,
         options: &Options,
     ) -> Result<Result<Self, String>, TimingError> {
@@ -40,10 +40,17 @@ impl Motion {
             Objective::Time => fastest(problem, &path, options)?,
         };
         let mut timing = None;
-        if !courses.is_empty() {
+        if !trajectories.is_empty() {
             // The fastest motion may follow another path than the shortest one, to another goal.
             let taken = timed.curve.straight().clone();
-            match in_time(problem, courses, &taken, timed, options, &TimingRequirements::UNCONSTRAINED)? {
+            match time_among_moving_obstacles(
+                problem,
+                trajectories,
+                &taken,
+                timed,
+                options,
+                &TimingRequirements::UNCONSTRAINED,
+            )? {
                 Ok((waiting, figures)) => {
                     // The bound is the same as before, but the duration now includes waits.
                     let duration = waiting.trajectory.duration();
@@ -65,13 +72,13 @@ impl Motion {
 /// A motion that lasts too long, or has too many samples.
 pub(super) fn driven(
     problem: &MotionProblem,
-    courses: &[ObstacleTrajectory],
+    trajectories: &[ObstacleTrajectory],
     answer: Answer,
     options: &Options,
 ) -> Result<Answer<Motion>, TimingError> {
     let Answer { method, outcome, path_kind, history, run, space, stages } = answer;
     let outcome = match outcome {
-        Outcome::Found(path) => match Motion::along(problem, courses, path, options)? {
+        Outcome::Found(path) => match Motion::along(problem, trajectories, path, options)? {
             Ok(motion) => Outcome::Found(motion),
             Err(reason) => Outcome::Unknown(reason.into()),
         },

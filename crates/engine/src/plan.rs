@@ -113,22 +113,26 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
     if let Some(error) = options.error(problem.task().is_some()) {
         return Err(PlanError::Options(error));
     }
-    if let Some(lack) = options.planner.lack(&problem.scene().workspace().preferences) {
+    if let Some(lack) = options.planner.missing_preference(&problem.scene().workspace().preferences) {
         return Err(PlanError::Options(lack));
     }
-    if let Some(lack) = lack(options, problem) {
+    if let Some(lack) = unsuitable_options(options, problem) {
         return Err(PlanError::Robot(lack));
     }
-    let mut clock = Clock::after(problem.read_in().map(|time| ("load", time)).into_iter().collect());
+    let mut clock = Clock::starting_after(problem.read_in().map(|time| ("load", time)).into_iter().collect());
     let detail = match problem.content() {
-        MotionOrTask::Motion(motion) => plan_motion(motion, problem.timed().courses, options, &mut clock, progress)?,
-        MotionOrTask::Task(task, _) => plan_task(task, &named(problem, options), options, &mut clock, progress)?,
+        MotionOrTask::Motion(motion) => {
+            plan_motion(motion, problem.timed().trajectories, options, &mut clock, progress)?
+        }
+        MotionOrTask::Task(task, _) => {
+            plan_task(task, &joints_in_messages(problem, options), options, &mut clock, progress)?
+        }
     };
     Ok(Plan { problem: problem.clone(), options: *options, detail: Box::new(detail), clock })
 }
 
 /// Returns the reason why the options do not suit the robot. `None` if they do.
-fn lack(options: &Options, problem: &Problem) -> Option<String> {
+fn unsuitable_options(options: &Options, problem: &Problem) -> Option<String> {
     if options.planner.is_exact() && !has_exact_polygons(problem.scene()) {
         let kind = problem.scene().arm().kind();
         return Some(format!(
@@ -146,7 +150,7 @@ fn lack(options: &Options, problem: &Problem) -> Option<String> {
 /// Plans a single motion.
 fn plan_motion(
     motion: &MotionProblem,
-    courses: &[ObstacleTrajectory],
+    trajectories: &[ObstacleTrajectory],
     options: &Options,
     clock: &mut Clock,
     progress: &mut dyn FnMut(&str),
@@ -166,7 +170,7 @@ fn plan_motion(
             options.levels
         ));
     }
-    let answer = driven(&problem, courses, answer, options)?;
+    let answer = driven(&problem, trajectories, answer, options)?;
     if let Some(motion) = answer.outcome.found().filter(|_| options.accelerations) {
         motion.timed.trajectory.check_accelerations().map_err(MessageError::from)?;
     }
@@ -198,12 +202,12 @@ fn plan_task(
 }
 
 /// Returns the joints that ROS messages name.
-pub(super) fn named<'a>(problem: &'a Problem, options: &Options) -> Cow<'a, RobotJoints> {
+pub(super) fn joints_in_messages<'a>(problem: &'a Problem, options: &Options) -> Cow<'a, RobotJoints> {
     match options.joints {
         NamedJoints::All => Cow::Borrowed(&problem.robot().joints),
         NamedJoints::Planned => {
             let names = problem.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
-            Cow::Owned(RobotJoints::planned(&names))
+            Cow::Owned(RobotJoints::only_planned(&names))
         }
     }
 }

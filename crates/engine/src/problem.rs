@@ -18,7 +18,7 @@ use thiserror::Error;
 pub struct Problem {
     content: Arc<MotionOrTask>,
     /// The trajectories of the scene's loose obstacles.
-    courses: Arc<[ObstacleTrajectory]>,
+    trajectories: Arc<[ObstacleTrajectory]>,
     robot: Arc<RobotReport>,
     notes: Arc<[String]>,
     /// Time that reading the files took. `None` if the problem was created in code.
@@ -88,9 +88,9 @@ impl Problem {
         goals: impl Into<GoalSet>,
     ) -> Result<Self, ProblemError> {
         let workspace = workspace.into();
-        let courses = workspace.courses();
-        let problem = motion_among(workspace.scene(arm)?, &courses, start.into(), goals)?;
-        Ok(Self { courses: courses.into(), ..problem.into() })
+        let trajectories = workspace.trajectories();
+        let problem = motion_among(workspace.scene(arm)?, &trajectories, start.into(), goals)?;
+        Ok(Self { trajectories: trajectories.into(), ..problem.into() })
     }
 
     /// Returns the problem, with the time since `begun` as the time of reading.
@@ -146,17 +146,17 @@ impl Problem {
     /// Returns the scene with the trajectories of its loose obstacles.
     #[must_use]
     pub fn timed(&self) -> TimedScene<'_> {
-        TimedScene { scene: self.scene(), courses: &self.courses }
+        TimedScene { scene: self.scene(), trajectories: &self.trajectories }
     }
 
     pub(super) fn read(
         content: MotionOrTask,
-        courses: Vec<ObstacleTrajectory>,
+        trajectories: Vec<ObstacleTrajectory>,
         robot: RobotReport,
         notes: Vec<String>,
     ) -> Self {
-        let (content, courses, robot) = (Arc::new(content), courses.into(), Arc::new(robot));
-        Self { content, courses, robot, notes: notes.into(), read_in: None }
+        let (content, trajectories, robot) = (Arc::new(content), trajectories.into(), Arc::new(robot));
+        Self { content, trajectories, robot, notes: notes.into(), read_in: None }
     }
 }
 
@@ -166,28 +166,28 @@ impl Problem {
 /// The errors of [`MotionProblem::new`], and a moving obstacle at the start at time 0.
 pub(super) fn motion_among(
     scene: Scene,
-    courses: &[ObstacleTrajectory],
+    trajectories: &[ObstacleTrajectory],
     start: Configuration,
     goals: impl Into<GoalSet>,
 ) -> Result<MotionProblem, MotionProblemError> {
     let problem = MotionProblem::new(scene, start, goals)?;
     let scene = problem.scene();
-    match (TimedScene { scene, courses }).obstructions(start, 0.0).first() {
+    match (TimedScene { scene, trajectories }).obstructions(start, 0.0).first() {
         Some(found) => Err(MotionProblemError::StartBlocked { why: scene.explain(found) }),
         None => Ok(problem),
     }
 }
 
 impl From<LoadedProblem> for Problem {
-    fn from(LoadedProblem { problem, courses, robot, notes }: LoadedProblem) -> Self {
-        Self::read(MotionOrTask::Motion(problem), courses, robot, notes)
+    fn from(LoadedProblem { problem, trajectories, robot, notes }: LoadedProblem) -> Self {
+        Self::read(MotionOrTask::Motion(problem), trajectories, robot, notes)
     }
 }
 
 impl From<LoadedTask> for Problem {
     fn from(LoadedTask { task, scene, robot, notes }: LoadedTask) -> Self {
-        let courses = task.courses_at_first();
-        Self::read(MotionOrTask::Task(task, scene), courses, robot, notes)
+        let trajectories = task.initial_trajectories();
+        Self::read(MotionOrTask::Task(task, scene), trajectories, robot, notes)
     }
 }
 
@@ -195,7 +195,7 @@ impl From<MotionProblem> for Problem {
     /// Creates the problem of a robot that has no movable joints besides its two. Loose obstacles are ignored.
     fn from(motion: MotionProblem) -> Self {
         let names = motion.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
-        let robot = RobotReport { joints: RobotJoints::planned(&names), ..RobotReport::default() };
+        let robot = RobotReport { joints: RobotJoints::only_planned(&names), ..RobotReport::default() };
         Self::read(MotionOrTask::Motion(motion), Vec::new(), robot, Vec::new())
     }
 }

@@ -62,12 +62,13 @@ struct SceneRecord {
 }
 
 impl MotionRecord {
-    fn new(motion: &MotionProblem, courses: &[ObstacleTrajectory]) -> Self {
+    fn new(motion: &MotionProblem, trajectories: &[ObstacleTrajectory]) -> Self {
         let scene = motion.scene();
         let Additions { loose, attachment, allowed_contacts } = scene.additions().clone();
         let (arm, workspace) = scene.clone().into_parts();
-        let movers = loose.into_iter().zip(courses.iter().cloned());
-        let movers = movers.map(|(loose, course)| MovingObstacle { obstacle: loose.obstacle, course }).collect();
+        let movers = loose.into_iter().zip(trajectories.iter().cloned());
+        let movers =
+            movers.map(|(loose, trajectory)| MovingObstacle { obstacle: loose.obstacle, trajectory }).collect();
         let workspace = TimedWorkspace { fixed: workspace, movers };
         let scene = SceneRecord { arm, workspace, attachment, allowed_contacts };
         Self { scene, start: motion.start(), goals: motion.goals().clone() }
@@ -77,17 +78,17 @@ impl MotionRecord {
     fn motion(self) -> Result<(MotionProblem, Vec<ObstacleTrajectory>), ProblemError> {
         let Self { scene: SceneRecord { arm, mut workspace, attachment, allowed_contacts }, start, goals } = self;
         workspace.restrict_shapes();
-        let courses = workspace.courses();
+        let trajectories = workspace.trajectories();
         let (workspace, additions) = workspace.into_parts();
         let scene = Scene::with(arm, workspace, Additions { attachment, allowed_contacts, ..additions })?;
-        Ok((motion_among(scene, &courses, start, goals)?, courses))
+        Ok((motion_among(scene, &trajectories, start, goals)?, trajectories))
     }
 }
 
 impl Serialize for Problem {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let asked = match self.content() {
-            MotionOrTask::Motion(motion) => TargetRecord::Motion(MotionRecord::new(motion, self.timed().courses)),
+            MotionOrTask::Motion(motion) => TargetRecord::Motion(MotionRecord::new(motion, self.timed().trajectories)),
             MotionOrTask::Task(task, _) => TargetRecord::Task(Cow::Borrowed(task)),
         };
         ProblemRecord { asked, robot: self.robot().clone(), notes: self.notes().to_vec() }.serialize(serializer)
@@ -102,10 +103,10 @@ impl<'de> Deserialize<'de> for Problem {
                 "the robot's joints need finite numbers within their ranges, and planned ones are 0 and 1",
             ));
         }
-        let (content, courses) = match asked {
+        let (content, trajectories) = match asked {
             TargetRecord::Motion(record) => {
-                let (motion, courses) = record.motion().map_err(D::Error::custom)?;
-                (MotionOrTask::Motion(motion), courses)
+                let (motion, trajectories) = record.motion().map_err(D::Error::custom)?;
+                (MotionOrTask::Motion(motion), trajectories)
             }
             TargetRecord::Task(task) => {
                 let mut task = task.into_owned();
@@ -114,11 +115,11 @@ impl<'de> Deserialize<'de> for Problem {
                 if robot.joints.stroke.is_some() && robot.joints.stroke != task.stroke {
                     return Err(D::Error::custom("the robot's stroke is not the task's"));
                 }
-                let (scene, courses) = (scene.map_err(D::Error::custom)?, task.courses_at_first());
-                (MotionOrTask::Task(task, scene), courses)
+                let (scene, trajectories) = (scene.map_err(D::Error::custom)?, task.initial_trajectories());
+                (MotionOrTask::Task(task, scene), trajectories)
             }
         };
-        Ok(Self::read(content, courses, robot, notes))
+        Ok(Self::read(content, trajectories, robot, notes))
     }
 }
 
@@ -193,14 +194,14 @@ fn difference(at: &str, stated: &Value, planned: &Value) -> Option<String> {
         (Value::Array(theirs), Value::Array(ours)) => {
             Some(format!("{at} has {} entries, and planning gives {}", theirs.len(), ours.len()))
         }
-        _ => Some(format!("{at} is {}, and planning gives {}", shown(stated), shown(planned))),
+        _ => Some(format!("{at} is {}, and planning gives {}", format_value(stated), format_value(planned))),
     }
 }
 
 /// Largest number of characters of a value that a message prints.
 const MAX_SHOWN_CHARACTERS: usize = 60;
 
-fn shown(value: &Value) -> String {
+fn format_value(value: &Value) -> String {
     let text = value.to_string();
     if text.chars().count() <= MAX_SHOWN_CHARACTERS {
         text

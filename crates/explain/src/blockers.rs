@@ -150,7 +150,7 @@ struct Filter<'a> {
 
 impl Filter<'_> {
     /// Returns the question in a world with only these elements.
-    fn among(&self, set: &[Element]) -> MotionQuestion {
+    fn question_with(&self, set: &[Element]) -> MotionQuestion {
         let gone: Vec<Element> = self.all.iter().filter(|element| !set.contains(element)).copied().collect();
         self.question.without(&gone)
     }
@@ -159,7 +159,7 @@ impl Filter<'_> {
     /// found, if any.
     fn try_without(&mut self, some: &[Element]) -> Result<(), Option<CertifiedPath>> {
         let set: Vec<Element> = self.set.iter().filter(|element| !some.contains(element)).copied().collect();
-        match self.among(&set).answer(self.boxes) {
+        match self.question_with(&set).answer(self.boxes) {
             Outcome::Found(path) => Err(Some(path)),
             Outcome::Unknown(_) => Err(None),
             Outcome::Infeasible(proof) => {
@@ -174,29 +174,29 @@ impl Filter<'_> {
     fn refine(&mut self, proof: Option<CheckedProof>) {
         self.proof = proof;
         let Some(mut slim) = self.proof.clone() else { return };
-        let (question, mut set) = (self.among(&self.set), self.set.clone());
+        let (question, mut set) = (self.question_with(&self.set), self.set.clone());
         let layer = |stuck: &CollisionBox| question.scene().first_layer(stuck.pair.obstacle);
         for obstacle in self.set.iter().filter_map(|element| element.obstacle()) {
             let fewer =
                 slim.collision_boxes().iter().filter(|stuck| layer(stuck) != obstacle).cloned().collect::<Vec<_>>();
             if fewer.len() == slim.collision_boxes().len() {
                 set.retain(|element| element.obstacle() != Some(obstacle));
-            } else if let Some(fewer) = held(&question, fewer) {
+            } else if let Some(fewer) = proof_of_boxes(&question, fewer) {
                 slim = fewer;
                 set.retain(|element| element.obstacle() != Some(obstacle));
             }
         }
         // Without an obstacle, the tip goal may be reached by more configurations, which the proof does not cover.
-        if let Some(slim) = held(&self.among(&set), slim.collision_boxes().to_vec()) {
+        if let Some(slim) = proof_of_boxes(&self.question_with(&set), slim.collision_boxes().to_vec()) {
             (self.set, self.proof) = (set, Some(slim));
         }
     }
 }
 
 /// Returns the proof that consists of these boxes. `None` if it is not shown to be valid before the time is up.
-fn held(question: &MotionQuestion, stuck: Vec<CollisionBox>) -> Option<CheckedProof> {
+fn proof_of_boxes(question: &MotionQuestion, stuck: Vec<CollisionBox>) -> Option<CheckedProof> {
     let scene = question.scene();
     let clearance = scene.workspace().clearance;
     let check = || Disconnection::new(stuck).checked(scene, question.start(), &question.goals(), clearance).ok();
-    question.in_time(check).flatten()
+    question.within_time_limit(check).flatten()
 }

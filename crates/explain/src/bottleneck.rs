@@ -1,7 +1,7 @@
 //! The bottleneck of an infeasible motion. All obstacles shrink equally until the first path opens; the bottleneck is
 //! the narrowest place of that path.
 
-use super::change::{fineness, middle, shrunk};
+use super::change::{fineness, middle, shrunk_pieces};
 use super::question::MotionQuestion;
 use super::threshold::{Threshold, threshold};
 use cplan_core::model::{Contact, Obstruction};
@@ -66,7 +66,7 @@ pub fn bottleneck(question: &MotionQuestion, boxes: usize) -> Option<Bottleneck>
     if most == 0.0 {
         return None;
     }
-    let ask = |by: f64| giving_way(question, by).answer(boxes);
+    let ask = |by: f64| with_reduced_clearance(question, by).answer(boxes);
     let fine = fineness(question);
     let coarse = threshold(0.0, most, fine, ask)?;
     let finer = threshold(
@@ -98,13 +98,13 @@ fn narrowest(question: &MotionQuestion, by: &Threshold) -> Option<(Configuration
 
 /// Returns the question with the clearance reduced by the distance `by`. If `by` exceeds the clearance, the obstacles
 /// shrink by the rest.
-fn giving_way(question: &MotionQuestion, by: f64) -> MotionQuestion {
+fn with_reduced_clearance(question: &MotionQuestion, by: f64) -> MotionQuestion {
     question.rebuilt(|_, workspace| {
         let beyond = by - workspace.clearance;
         workspace.clearance = (workspace.clearance - by).max(0.0);
         if beyond > 0.0 {
             for obstacle in &mut workspace.obstacles {
-                obstacle.pieces = shrunk(obstacle, beyond);
+                obstacle.pieces = shrunk_pieces(obstacle, beyond);
             }
         }
     })

@@ -87,7 +87,7 @@ pub fn changes(question: &MotionQuestion, element: Element, among: ChangeContext
         Element::Link { .. } => Vec::new(),
         Element::Limit { joint, side } => {
             let turns = scene.arm().joints[joint].joint_type.is_revolute();
-            let (most, fine) = (question.beyond(joint), if turns { CHANGE_TOLERANCE } else { fine });
+            let (most, fine) = (question.margin_beyond_limit(joint), if turns { CHANGE_TOLERANCE } else { fine });
             let ask = |by: f64| question.with_wider(joint, side, by).answer(boxes);
             threshold(0.0, most, fine, ask).map(|by| made(ChangeKind::Widened, by)).into_iter().collect()
         }
@@ -114,7 +114,7 @@ fn shrinking(
     boxes: usize,
 ) -> Option<(ChangeKind, Threshold)> {
     let (_, most) = middle(obstacle)?;
-    let ask = |by: f64| question.with_pieces(number, shrunk(obstacle, by)).answer(boxes);
+    let ask = |by: f64| question.with_pieces(number, shrunk_pieces(obstacle, by)).answer(boxes);
     let by = threshold(0.0, most, fine.min(MAX_TOLERANCE_SHARE * most), ask)?;
     if by.opens >= most {
         // The obstacle has vanished. That its removal opens a path was known before.
@@ -133,7 +133,7 @@ fn is_eroded(obstacle: &Obstacle) -> bool {
 /// Returns the pieces of an obstacle that has shrunk so that no point of it has moved by more than `by`. All sides of a
 /// convex obstacle move inwards; others are scaled about the middle of their bounding box. Returns no pieces if the
 /// obstacle is too thin.
-pub(super) fn shrunk(obstacle: &Obstacle, by: f64) -> Vec<Convex> {
+pub(super) fn shrunk_pieces(obstacle: &Obstacle, by: f64) -> Vec<Convex> {
     if is_eroded(obstacle) {
         return obstacle.pieces[0].eroded(by).into_iter().collect();
     }

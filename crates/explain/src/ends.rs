@@ -65,7 +65,7 @@ pub struct OutOfReach {
 pub fn blocked_ends(question: &MotionQuestion) -> (Vec<BlockedEnd>, Option<OutOfReach>) {
     let mut blocked: Vec<BlockedEnd> = Vec::new();
     if !question.is_free(question.start()) {
-        blocked.push(of(question, End::Start, question.start()));
+        blocked.push(blocked_end(question, End::Start, question.start()));
     }
     let mut out_of_reach = None;
     if question.goals().is_empty() {
@@ -83,7 +83,7 @@ pub fn blocked_ends(question: &MotionQuestion) -> (Vec<BlockedEnd>, Option<OutOf
         };
         // A goal that equals the start has already been reported as the start.
         let elsewhere = goals.into_iter().filter(|&q| q != question.start());
-        let mut goals: Vec<BlockedEnd> = elsewhere.map(|q| of(question, End::Goal, q)).collect();
+        let mut goals: Vec<BlockedEnd> = elsewhere.map(|q| blocked_end(question, End::Goal, q)).collect();
         let far = |end: &BlockedEnd| end.nearest.map_or(f64::INFINITY, |nearest| nearest.distance);
         goals.sort_by(|a, b| far(a).total_cmp(&far(b)));
         blocked.extend(goals);
@@ -91,7 +91,7 @@ pub fn blocked_ends(question: &MotionQuestion) -> (Vec<BlockedEnd>, Option<OutOf
     (blocked, out_of_reach)
 }
 
-fn of(question: &MotionQuestion, end: End, at: Configuration) -> BlockedEnd {
+fn blocked_end(question: &MotionQuestion, end: End, at: Configuration) -> BlockedEnd {
     let scene = question.scene();
     let beyond = [0, 1].map(|k| match scene.arm().joints[k].range {
         JointRange::Interval { lower, upper } => (lower - at[k]).max(at[k] - upper).max(0.0),

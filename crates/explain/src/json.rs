@@ -52,7 +52,7 @@ fn of_element(scene: &Scene, element: Element) -> Map<String, Value> {
     if let Value::Object(object) = value { object } else { Map::new() }
 }
 
-fn with(mut object: Map<String, Value>, more: Value) -> Value {
+fn merged(mut object: Map<String, Value>, more: Value) -> Value {
     if let Value::Object(more) = more {
         object.extend(more);
     }
@@ -63,7 +63,7 @@ fn of_found(scene: &Scene, FoundExplanation { answer, savings }: &FoundExplanati
     let saving = |saving: &Saving| {
         let Saving { element, length, at_least, at_most } = *saving;
         let more = json!({ "length": length, "shorter_by": { "at_least": at_least, "at_most": at_most } });
-        with(of_element(scene, element), more)
+        merged(of_element(scene, element), more)
     };
     let mut object = Map::new();
     if let Some(bound) = answer.bound() {
@@ -97,7 +97,7 @@ fn of_closed(scene: &Scene, closed: &InfeasibleExplanation) -> Value {
     let blocker = |Blocker { element, without, changes }: &Blocker| {
         let without = if without.is_some() { "found" } else { "unknown" };
         let changes: Vec<Value> = changes.iter().map(change).collect();
-        with(of_element(scene, *element), json!({ "without": without, "changes": changes }))
+        merged(of_element(scene, *element), json!({ "without": without, "changes": changes }))
     };
     let sets: Vec<Value> = sets
         .iter()

@@ -83,7 +83,7 @@ impl MotionQuestion {
     #[must_use]
     pub fn new(scene: Scene, start: Configuration, target: impl Into<Target>) -> Self {
         let target = target.into();
-        let beyond = beyond(&scene, start, &target);
+        let beyond = margins_beyond_limits(&scene, start, &target);
         let asked = Self { scene, start, target, beyond, least_clearance: 0.0, time_limit: None, deadline: None };
         let hardly_any = MIN_CLEARANCE * asked.scene.arm().reach().min(1.0);
         let kept = asked.with_clearance(asked.scene.workspace().clearance.max(hardly_any));
@@ -118,9 +118,9 @@ impl MotionQuestion {
     }
 
     /// Returns the result of `work`. `None` if the time is up before the result is known.
-    pub(super) fn in_time<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
+    pub(super) fn within_time_limit<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
         match self.deadline {
-            Some(deadline) => Interrupt::new().by(deadline).run(work).ok(),
+            Some(deadline) => Interrupt::new().with_deadline(deadline).run(work).ok(),
             None => Some(work()),
         }
     }
@@ -189,7 +189,7 @@ impl MotionQuestion {
     #[must_use]
     pub fn answer(&self, boxes: usize) -> Outcome<CertifiedPath, Option<CheckedProof>> {
         let Some(problem) = self.problem() else { return Outcome::Infeasible(None) };
-        match self.in_time(|| decide(&problem, boxes)) {
+        match self.within_time_limit(|| decide(&problem, boxes)) {
             None => Outcome::Unknown("the time is up".into()),
             Some(Outcome::Found(path)) => Outcome::Found(path),
             Some(Outcome::Infeasible(proof)) => Outcome::Infeasible(Some(proof)),
@@ -200,7 +200,7 @@ impl MotionQuestion {
     /// Returns how far a joint may go beyond a removed limit, in radians or metres. This is at least a whole turn for a
     /// revolute joint, and past all obstacles for a prismatic one. It also suffices for start and goals.
     #[must_use]
-    pub fn beyond(&self, joint: usize) -> f64 {
+    pub fn margin_beyond_limit(&self, joint: usize) -> f64 {
         self.beyond[joint]
     }
 
@@ -259,7 +259,7 @@ impl MotionQuestion {
 }
 
 /// Computes how far the joints may go beyond removed limits.
-fn beyond(scene: &Scene, start: Configuration, target: &Target) -> [f64; 2] {
+fn margins_beyond_limits(scene: &Scene, start: Configuration, target: &Target) -> [f64; 2] {
     let arm = scene.arm();
     let (asked, tip) = match target {
         Target::Goals(goals) => (goals.pieces().iter().flat_map(Segment::ends).chain([start]).collect(), arm.base),

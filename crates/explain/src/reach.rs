@@ -145,7 +145,7 @@ pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
         .collect();
     decide_places(scene, &mut reach);
     for (place, number, solution) in open {
-        reach.places[place][number] = anywhere_on(scene, home, solution);
+        reach.places[place][number] = solution_with_free_joint(scene, home, solution);
     }
     Some(reach)
 }
@@ -189,7 +189,7 @@ fn decide_places(scene: &Scene, reach: &mut Reach) {
                 let far = |b: &usize| scene.arm().topology().distance(joints(a), joints(*b));
                 let nearest = (firsts[beside]..firsts[beside + 1]).min_by(|b, c| far(b).total_cmp(&far(c)));
                 if let Some(b) = nearest.filter(|&b| !sets.equiv(a, b))
-                    && joins(scene, joints(a), joints(b))
+                    && is_straight_motion_free(scene, joints(a), joints(b))
                 {
                     sets.union(a, b);
                 }
@@ -200,7 +200,8 @@ fn decide_places(scene: &Scene, reach: &mut Reach) {
     let mut known: Vec<Option<Access>> = vec![None; free.len()];
     for node in 0..free.len() {
         checkpoint();
-        let access = *known[labels[node]].get_or_insert_with(|| decided(scene, reach.home, joints(labels[node])).0);
+        let access =
+            *known[labels[node]].get_or_insert_with(|| decide_access(scene, reach.home, joints(labels[node])).0);
         known[node] = Some(access);
     }
     for (&(place, solution), access) in free.iter().zip(known) {
@@ -210,13 +211,13 @@ fn decide_places(scene: &Scene, reach: &mut Reach) {
 
 /// Returns true if the straight motion between two configurations is certified. On a circle, it takes the shorter
 /// direction.
-fn joins(scene: &Scene, from: Configuration, to: Configuration) -> bool {
+fn is_straight_motion_free(scene: &Scene, from: Configuration, to: Configuration) -> bool {
     let displacement = scene.arm().topology().displacement(from, to);
     certify(scene, Path::new(vec![from, from + displacement]), scene.workspace().clearance).is_ok()
 }
 
 /// Decides whether a motion from home leads to one of these goals. Also returns the goal where the motion ends.
-fn decided(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Access, Option<Configuration>) {
+fn decide_access(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Access, Option<Configuration>) {
     let Ok(problem) = MotionProblem::new(scene.clone(), home, to) else { return (Access::Unknown, None) };
     match decide(&problem, BOXES_PER_SET) {
         Outcome::Found(path) => (Access::Reachable, Some(path.path().goal())),
@@ -227,11 +228,11 @@ fn decided(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Acces
 
 /// Returns the result for a solution with a free joint. It is blocked only if all of its configurations are blocked,
 /// and reachable if any of them is reachable.
-fn anywhere_on(scene: &Scene, home: Configuration, solution: Segment) -> Solution {
+fn solution_with_free_joint(scene: &Scene, home: Configuration, solution: Segment) -> Solution {
     let nearest = || solution.nearest(Measure::from(Metric::Euclidean), home);
     if scene.blocked_along(&solution).is_some() {
         return Solution { joints: nearest(), access: Access::Blocked };
     }
-    let (access, end) = decided(scene, home, solution);
+    let (access, end) = decide_access(scene, home, solution);
     Solution { joints: end.unwrap_or_else(nearest), access }
 }

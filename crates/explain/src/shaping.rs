@@ -27,7 +27,7 @@ pub fn savings(question: &MotionQuestion, answer: &Answer, options: &Options) ->
     for element in Element::all(question.scene()) {
         checkpoint();
         let Some(problem) = question.without_at_clearance(&[element]).problem() else { continue };
-        let Some(without) = question.in_time(|| solve(&problem, options, &mut |_| ())) else { break };
+        let Some(without) = question.within_time_limit(|| solve(&problem, options, &mut |_| ())) else { break };
         if let Some(Bound { lower, upper, .. }) = without.bound() {
             let (at_least, at_most) = (whole.lower - upper, whole.upper - lower);
             if at_least > 0.0 {

@@ -33,7 +33,7 @@ pub(super) fn threshold(
     let mut step = tolerance;
     loop {
         let by = (closed + step).min(most);
-        known.learn(by, ask(by));
+        known.record(by, ask(by));
         if known.open.is_some() {
             break;
         }
@@ -46,7 +46,7 @@ pub(super) fn threshold(
         && open - known.below > tolerance
     {
         let by = f64::midpoint(known.below, *open);
-        known.learn(by, ask(by));
+        known.record(by, ask(by));
     }
     // Undecided amounts lie between those with and those without a path. Continue below them.
     let mut unknown = known.below;
@@ -71,7 +71,7 @@ struct KnownResults {
 }
 
 impl KnownResults {
-    fn learn(&mut self, by: f64, answer: Outcome<CertifiedPath, Option<CheckedProof>>) {
+    fn record(&mut self, by: f64, answer: Outcome<CertifiedPath, Option<CheckedProof>>) {
         checkpoint();
         match answer {
             Outcome::Found(path) => self.open = Some((by, path)),

@@ -42,12 +42,12 @@ impl Explorer<'_> {
             return self.towards_goal(goals);
         }
         let joined = join(&self.solid, &self.known.grid, self.at);
-        if joined.is_empty() { self.back() } else { self.exploring(&joined) }
+        if joined.is_empty() { self.go_back() } else { self.exploring(&joined) }
     }
 
     /// Returns to the start of the last leg, because from here no straight motion reaches the centre of a cell. Ends
     /// the exploration if the last leg was already such a return.
-    fn back(&mut self) -> Decision {
+    fn go_back(&mut self) -> Decision {
         let last = self.legs.last().filter(|_| !self.is_back).map(|leg| leg.curve.curve().path().waypoints());
         let reversed = last.map(|waypoints| Path::new(waypoints.iter().rev().copied().collect()));
         let certified = reversed.and_then(|path| certify(&self.solid, path, self.solid.workspace().clearance).ok());
@@ -59,7 +59,7 @@ impl Explorer<'_> {
     /// that are reachable from here show nothing new. Cells that no steps of the grid connect may be connected by the
     /// path so far. If there is no such place, returns the number of configurations that are reachable from any visited
     /// place.
-    fn where_it_was(&mut self, reach: &Reach) -> Result<Decision, usize> {
+    fn return_to_last_place(&mut self, reach: &Reach) -> Result<Decision, usize> {
         let mut is_reached = vec![false; self.known.grid.blocked.len()];
         reach.cells.iter().for_each(|&cell| is_reached[cell] = true);
         let mut back = vec![self.at];
@@ -92,7 +92,7 @@ impl Explorer<'_> {
         let [a, b] = self.settings.cells;
         Ending::Unknown(format!(
             "on the grid of {a} x {b} cells, no cell near ({}) has a centre that is known to be free",
-            shown(self.at)
+            format_configuration(self.at)
         ))
     }
 
@@ -112,12 +112,12 @@ impl Explorer<'_> {
             let route = match route {
                 Ok(route) => route,
                 Err(reach) => {
-                    return self.where_it_was(&reach).unwrap_or_else(|configurations| {
+                    return self.return_to_last_place(&reach).unwrap_or_else(|configurations| {
                         Decision::Done(Ending::Explored { configurations, given_up: self.frontier.given_up })
                     });
                 }
             };
-            if let Some(decision) = self.along(&route, most) {
+            if let Some(decision) = self.move_along(&route, most) {
                 return decision;
             }
         }
@@ -202,7 +202,7 @@ impl Explorer<'_> {
 
     /// Moves towards the last cell of a path. Each straight motion passes at most `most` cells. If a step is not free,
     /// closes it in the grid and returns `None`.
-    fn along(&mut self, route: &[usize], most: usize) -> Option<Decision> {
+    fn move_along(&mut self, route: &[usize], most: usize) -> Option<Decision> {
         let configurations = unwrapped(&self.known.grid, self.at, route);
         let clearance = self.solid.workspace().clearance;
         match tightened(&self.solid, &configurations, most) {
@@ -253,7 +253,7 @@ impl Explorer<'_> {
             let worth = |seen: u32| worth(seen, length, sensor.step);
             let Some((most, _)) = best else {
                 if frontier.contains(survey, sensor, cell) {
-                    wanted = survey.shown_first(sensor, frontier.sensor_pose(cell));
+                    wanted = survey.first_unknown_cells(sensor, frontier.sensor_pose(cell));
                     best = Some((worth(frontier.gain(survey, sensor, cell)), cell));
                 }
                 return false;
@@ -319,15 +319,15 @@ impl Explorer<'_> {
     fn detour(&mut self, goals: &GoalSet, in_the_way: &BTreeSet<usize>) -> Decision {
         let joined = join(&self.solid, &self.known.grid, self.at);
         if joined.is_empty() {
-            return self.back();
+            return self.go_back();
         }
         loop {
             checkpoint();
             let route = match self.showing(&joined, in_the_way).map_or_else(|| self.best_view(&joined), Ok) {
                 Ok(route) => route,
-                Err(reach) => return self.where_it_was(&reach).unwrap_or_else(|_| self.within_known(goals)),
+                Err(reach) => return self.return_to_last_place(&reach).unwrap_or_else(|_| self.within_known(goals)),
             };
-            if let Some(decision) = self.along(&route, usize::MAX) {
+            if let Some(decision) = self.move_along(&route, usize::MAX) {
                 return decision;
             }
         }
@@ -395,6 +395,6 @@ fn worth(seen: u32, length: f64, step: f64) -> f64 {
 }
 
 /// Formats two numbers for people.
-fn shown(q: Configuration) -> String {
+fn format_configuration(q: Configuration) -> String {
     format!("{:.4}, {:.4}", q[0], q[1])
 }

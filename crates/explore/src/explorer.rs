@@ -43,7 +43,7 @@ pub fn explore(
     let (arm, clearance) = (scene.arm(), scene.workspace().clearance);
     let mut survey = Survey::new(scene, sensor.cell).ok_or(ExploreError::Map(sensor.cell))?;
     if let Some(known) = &settings.known {
-        survey.recall(known).map_err(ExploreError::Known)?;
+        survey.add_earlier_map(known).map_err(ExploreError::Known)?;
     }
     let margin = settings.surveyed.unwrap_or(2.0 * sensor.cell) + clearance;
     let mut surroundings: Vec<usize> = (0..survey.map().cells.len()).filter(|&cell| !survey.is_unknown(cell)).collect();
@@ -63,7 +63,7 @@ pub fn explore(
         errors: SplitMix64::new(sensor.seed),
         at: start,
         length: 0.0,
-        fresh: Vec::new(),
+        new_cells: Vec::new(),
         readings: Vec::new(),
         opened: vec![(0, free)],
         legs: Vec::new(),
@@ -71,7 +71,7 @@ pub fn explore(
         is_stalled: false,
         is_back: false,
     };
-    explorer.look();
+    explorer.take_reading();
     let mut decisions = Vec::new();
     let ending = loop {
         checkpoint();
@@ -82,7 +82,7 @@ pub fn explore(
             break Ending::Unknown(format!("not finished after {}", counted(decisions.len(), "decision")));
         }
         let clock = Instant::now();
-        explorer.take_note();
+        explorer.update_knowledge();
         let decision = explorer.decide();
         decisions.push(clock.elapsed());
         match decision {
@@ -147,7 +147,7 @@ pub struct Explorer<'a> {
     errors: SplitMix64,
     length: f64,
     /// Cells of the map that became known since the last decision.
-    fresh: Vec<usize>,
+    new_cells: Vec<usize>,
     readings: Vec<SensorReading>,
     opened: Vec<(usize, Vec<usize>)>,
     trajectory: Option<Trajectory>,
@@ -155,25 +155,25 @@ pub struct Explorer<'a> {
 
 impl Explorer<'_> {
     /// Takes a reading at the arm's configuration. Returns true if it shows anything new.
-    fn look(&mut self) -> bool {
-        let new = self.survey.look(self.sensor, self.scene.arm(), self.at, &mut self.errors);
+    fn take_reading(&mut self) -> bool {
+        let new = self.survey.record_reading(self.sensor, self.scene.arm(), self.at, &mut self.errors);
         let is_new = !new.is_empty();
         if is_new {
             self.frontier.forget_edges();
         }
-        self.fresh.extend(&new);
+        self.new_cells.extend(&new);
         self.readings.push(SensorReading { at: self.at, length: self.length, new });
         is_new
     }
 
     /// Updates the grid, the frontier and the known obstacles with everything that was seen since the last decision.
-    fn take_note(&mut self) {
-        let fresh = std::mem::take(&mut self.fresh);
+    fn update_knowledge(&mut self) {
+        let new_cells = std::mem::take(&mut self.new_cells);
         let (arm, clearance) = (self.scene.arm(), self.scene.workspace().clearance);
-        self.opened.push((self.readings.len(), self.known.update(&self.survey, arm, &fresh)));
+        self.opened.push((self.readings.len(), self.known.update(&self.survey, arm, &new_cells)));
         self.frontier.update(&self.survey, self.sensor);
         self.frontier.evaluate_ahead(&self.survey, self.sensor, &self.known.grid);
-        if !fresh.is_empty() {
+        if !new_cells.is_empty() {
             self.solid = self.survey.scene(arm, clearance, false);
         }
     }
@@ -204,7 +204,7 @@ impl Explorer<'_> {
             self.length += (place - self.at).norm();
             self.at = place;
             gone.push(place);
-            is_new |= self.look();
+            is_new |= self.take_reading();
             let is_over = until.is_some_and(|cell| !self.is_frontier(cell));
             if is_over || until.is_none() && is_new {
                 break;

@@ -16,14 +16,14 @@ use cplan_world::Sensor;
 pub struct Frontier {
     configurations: Vec<ExpectedReading>,
     /// Pose of the sensor at each configuration.
-    stands: Vec<SensorPose>,
+    sensor_poses: Vec<SensorPose>,
     /// The unknown cells next to free ones. A ray reaches one of these before any other unknown cell. `None` if
     /// something new has been seen since they were last computed.
     edges: Option<Edges>,
     /// Upper bound on the number of new cells that are visible from any configuration.
     max_gain_anywhere: u32,
     /// For each cell of the map, the value of the counter (`count`) when the cell was last counted.
-    counted: Vec<u32>,
+    last_counts: Vec<u32>,
     count: u32,
     /// Index of the configuration that [`Frontier::evaluate_ahead`] examines next.
     ahead: usize,
@@ -53,14 +53,14 @@ impl Frontier {
         // A cell that meets the disc of the sensor's range lies within a disc that is larger by the diagonal of a cell.
         let around = sensor.range / survey.map().resolution + std::f64::consts::SQRT_2;
         let most = (std::f64::consts::PI * around.powi(2)).min(cells as f64).ceil() as u32;
-        let stands: Vec<SensorPose> =
+        let sensor_poses: Vec<SensorPose> =
             (0..grid.blocked.len()).map(|cell| sensor.pose(arm, grid.center(cell).into())).collect();
         Self {
-            configurations: vec![ExpectedReading { witness: None, most }; stands.len()],
-            stands,
+            configurations: vec![ExpectedReading { witness: None, most }; sensor_poses.len()],
+            sensor_poses,
             edges: None,
             max_gain_anywhere: most,
-            counted: vec![0; cells],
+            last_counts: vec![0; cells],
             count: 0,
             ahead: 0,
             given_up: 0,
@@ -82,7 +82,7 @@ impl Frontier {
         let prospect = &mut self.configurations[cell];
         if prospect.most > 0 && !prospect.witness.is_some_and(|witness| survey.is_unknown(witness)) {
             // If no ray reaches an unknown cell now, none ever will.
-            prospect.witness = survey.reachable_unknown(sensor, self.stands[cell], self.edges.as_ref());
+            prospect.witness = survey.reachable_unknown(sensor, self.sensor_poses[cell], self.edges.as_ref());
             if prospect.witness.is_none() {
                 prospect.most = 0;
             }
@@ -111,7 +111,7 @@ impl Frontier {
     /// Returns the sensor pose for a reading at the centre of a cell of the grid.
     #[must_use]
     pub fn sensor_pose(&self, cell: usize) -> SensorPose {
-        self.stands[cell]
+        self.sensor_poses[cell]
     }
 
     /// Returns an upper bound on the number of new cells visible from a cell of the grid.
@@ -131,8 +131,8 @@ impl Frontier {
         if self.configurations[cell].most > 0 {
             self.count += 1;
             let mut gain = 0;
-            for seen in survey.visible_unknown(sensor, self.stands[cell]) {
-                gain += u32::from(std::mem::replace(&mut self.counted[seen], self.count) != self.count);
+            for seen in survey.visible_unknown(sensor, self.sensor_poses[cell]) {
+                gain += u32::from(std::mem::replace(&mut self.last_counts[seen], self.count) != self.count);
             }
             self.configurations[cell].most = gain;
         }

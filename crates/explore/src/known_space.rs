@@ -20,7 +20,7 @@ pub struct KnownSpace {
     /// Steps between free centres of neighbouring cells that are known not to be free.
     pub closed: BlockedMoves,
     /// For each map cell, the configurations of which it is the witness.
-    waiting: Vec<Vec<u32>>,
+    by_witness: Vec<Vec<u32>>,
     clearance: f64,
 }
 
@@ -30,9 +30,9 @@ impl KnownSpace {
     pub fn new(survey: &Survey, arm: &Arm, cells: [usize; 2], clearance: f64) -> Self {
         let count = cells[0] * cells[1];
         let grid = Grid { topology: arm.topology(), proves: Proves::Sampled, cells, blocked: vec![true; count] };
-        let waiting = vec![Vec::new(); survey.map().cells.len()];
-        let mut known = Self { grid, closed: BlockedMoves::new(), waiting, clearance };
-        known.look_at(survey, arm, (0..count as u32).collect());
+        let by_witness = vec![Vec::new(); survey.map().cells.len()];
+        let mut known = Self { grid, closed: BlockedMoves::new(), by_witness, clearance };
+        known.reconsider(survey, arm, (0..count as u32).collect());
         known
     }
 
@@ -43,8 +43,8 @@ impl KnownSpace {
         if !new.is_empty() {
             self.closed.clear();
         }
-        let waiting: Vec<u32> = new.iter().flat_map(|&cell| std::mem::take(&mut self.waiting[cell])).collect();
-        self.look_at(survey, arm, waiting)
+        let by_witness: Vec<u32> = new.iter().flat_map(|&cell| std::mem::take(&mut self.by_witness[cell])).collect();
+        self.reconsider(survey, arm, by_witness)
     }
 
     /// Closes a step that is not free, and the blocked steps connected to it. A passage that is too narrow for one step
@@ -67,12 +67,12 @@ impl KnownSpace {
         }
     }
 
-    fn look_at(&mut self, survey: &Survey, arm: &Arm, configurations: Vec<u32>) -> Vec<usize> {
+    fn reconsider(&mut self, survey: &Survey, arm: &Arm, configurations: Vec<u32>) -> Vec<usize> {
         let mut opened = Vec::new();
         for q in configurations {
             checkpoint();
             match survey.obstruction(arm, self.grid.center(q as usize), self.clearance) {
-                Some(witness) => self.waiting[witness].push(q),
+                Some(witness) => self.by_witness[witness].push(q),
                 None => {
                     self.grid.blocked[q as usize] = false;
                     opened.push(q as usize);

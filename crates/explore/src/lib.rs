@@ -30,7 +30,7 @@
 //! let arm = Arm::rr([0.6, 0.4], 0.04)?;
 //! let post = Obstacle::circle("post", [0.5, 0.6], 0.1)?;
 //! let scene = Scene::new(arm, Workspace::new([post]))?;
-//! let sensor = Sensor { cell: 0.05, ..Sensor::usual(scene.arm()) };
+//! let sensor = Sensor { cell: 0.05, ..Sensor::default_for(scene.arm()) };
 //! let settings = Settings { strategy: Strategy::Nearest, cells: [48, 48], ..Settings::default() };
 //! let exploration = explore(&scene, &sensor, Configuration::new(-2.0, 0.5), None, &settings, &mut |_| ())?;
 //! assert!(matches!(exploration.ending, Ending::Explored { .. }));

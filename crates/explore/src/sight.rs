@@ -74,7 +74,7 @@ mod tests {
     /// Returns a map around an arm, and a sensor. `label` determines each cell by its column and row.
     fn survey(label: impl Fn(usize, usize) -> Occupancy) -> (Survey, Sensor) {
         let arm = Arm::rr([1.0, 0.5], 0.05).expect("a good arm");
-        let sensor = Sensor { cell: 0.1, range: 0.8, rays: 90, ..Sensor::usual(&arm) };
+        let sensor = Sensor { cell: 0.1, range: 0.8, rays: 90, ..Sensor::default_for(&arm) };
         let scene = Scene::new(arm, Workspace::new([])).expect("a good scene");
         let mut survey = Survey::new(&scene, sensor.cell).expect("few cells");
         let width = survey.known.size[0];
@@ -121,7 +121,7 @@ mod tests {
                 let at = Point::new(3.6 * draws.unit() - 1.8, 3.6 * draws.unit() - 1.8);
                 let sensor_pose = (at, 7.0 * draws.unit() - 3.5);
                 let found = survey.reachable_unknown(&sensor, sensor_pose, Some(&edges));
-                let all = survey.shown_first(&sensor, sensor_pose);
+                let all = survey.first_unknown_cells(&sensor, sensor_pose);
                 prop_assert_eq!(found.is_some(), !all.is_empty(), "{:?} of {:?} at {:?}", found, all, sensor_pose);
                 prop_assert!(found.is_none_or(|found| all.contains(&found)));
             }

@@ -69,7 +69,7 @@ impl Survey {
     ///
     /// # Errors
     /// The reason, if the map has other cells or is of another world.
-    pub fn recall(&mut self, map: &OccupancyMap) -> Result<(), String> {
+    pub fn add_earlier_map(&mut self, map: &OccupancyMap) -> Result<(), String> {
         let own = &self.known;
         if (map.size, map.resolution, map.pose) != (own.size, own.resolution, own.pose) {
             let [width, height] = own.size;
@@ -244,7 +244,13 @@ impl Survey {
     /// If distances have errors, only facts are recorded that hold for every possible error. A cell is free if the ray
     /// crosses it before all cells in which it may have ended. If it can have ended in one cell only, that cell is
     /// occupied.
-    pub fn look(&mut self, sensor: &Sensor, arm: &Arm, q: Configuration, errors: &mut SplitMix64) -> Vec<usize> {
+    pub fn record_reading(
+        &mut self,
+        sensor: &Sensor,
+        arm: &Arm,
+        q: Configuration,
+        errors: &mut SplitMix64,
+    ) -> Vec<usize> {
         let (from, ahead) = sensor.pose(arm, q.into());
         let mut new = Vec::new();
         for angle in sensor.rays(ahead) {
@@ -315,7 +321,7 @@ impl Survey {
 /// the clearance at some heights.
 fn extent(scene: &Scene, heights: Heights) -> [Point; 2] {
     let (arm, clearance) = (scene.arm(), scene.workspace().clearance);
-    let discs = swept(arm, heights);
+    let discs = swept_discs(arm, heights);
     let side = |k: usize, sign: f64| {
         let values = discs.iter().map(|(center, radius)| sign * center[k] + radius + clearance);
         sign * values.fold(sign * arm.base[k], f64::max)
@@ -325,7 +331,7 @@ fn extent(scene: &Scene, heights: Heights) -> [Point; 2] {
 
 /// Returns discs (centre and radius) whose convex hull contains the tip and everything that the arm can touch at some
 /// heights.
-fn swept(arm: &Arm, heights: Heights) -> Vec<(Point, f64)> {
+fn swept_discs(arm: &Arm, heights: Heights) -> Vec<(Point, f64)> {
     let [first, second] = &arm.joints;
     let (turns, ends) = match second.joint_type {
         JointType::Revolute { .. } => (true, vec![0.0]),

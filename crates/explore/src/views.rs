@@ -137,7 +137,7 @@ impl Survey {
 
     /// Returns the unknown cells that rays of a reading reach first, ascending.
     #[must_use]
-    pub fn shown_first(&self, sensor: &Sensor, sensor_pose: SensorPose) -> Vec<usize> {
+    pub fn first_unknown_cells(&self, sensor: &Sensor, sensor_pose: SensorPose) -> Vec<usize> {
         let mut cells: Vec<usize> = self.first_unknown(sensor, sensor_pose).collect();
         cells.sort_unstable();
         cells.dedup();

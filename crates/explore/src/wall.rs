@@ -30,20 +30,21 @@ pub fn next(grid: &Grid, closed: &BlockedMoves, at: Place) -> Option<Place> {
     let Place { cell, heading } = at;
     let wall = (0..8).map(|turn| (heading + 5 + turn) % 8).find(|&side| is_wall(grid, cell, side))?;
     let ahead = (1..8).map(|turn| (wall + turn) % 8).filter(|side| side.is_multiple_of(2));
-    let open = |side| beside(grid, cell, side).filter(|to| !grid.blocked[*to] && !closed.contains(&[cell, *to]));
+    let open =
+        |side| neighbor_towards(grid, cell, side).filter(|to| !grid.blocked[*to] && !closed.contains(&[cell, *to]));
     ahead.into_iter().find_map(|heading| open(heading).map(|cell| Place { cell, heading }))
 }
 
 fn is_wall(grid: &Grid, cell: usize, side: Heading) -> bool {
-    beside(grid, cell, side).is_none_or(|beside| grid.blocked[beside])
+    neighbor_towards(grid, cell, side).is_none_or(|beside| grid.blocked[beside])
 }
 
 /// Returns the neighbour of a cell in the direction `side`. `None` at the end of the grid.
-fn beside(grid: &Grid, cell: usize, side: Heading) -> Option<usize> {
+fn neighbor_towards(grid: &Grid, cell: usize, side: Heading) -> Option<usize> {
     match side {
-        0 | 4 => grid.beside(cell, 0, side == 0),
-        2 | 6 => grid.beside(cell, 1, side == 2),
-        corner => beside(grid, beside(grid, cell, corner - 1)?, (corner + 1) % 8),
+        0 | 4 => grid.adjacent_cell(cell, 0, side == 0),
+        2 | 6 => grid.adjacent_cell(cell, 1, side == 2),
+        corner => neighbor_towards(grid, neighbor_towards(grid, cell, corner - 1)?, (corner + 1) % 8),
     }
 }
 
@@ -66,7 +67,7 @@ mod tests {
     }
 
     /// Returns columns and rows of the places of a walk, until one of them repeats.
-    fn followed(grid: &Grid, closed: &BlockedMoves, from: [usize; 2], heading: Heading) -> Vec<[usize; 2]> {
+    fn walked_places(grid: &Grid, closed: &BlockedMoves, from: [usize; 2], heading: Heading) -> Vec<[usize; 2]> {
         let high = grid.cells[1];
         let mut at = Place { cell: from[0] * high + from[1], heading };
         let mut seen = Vec::new();
@@ -81,9 +82,9 @@ mod tests {
     fn a_room_is_followed_leftwards_and_an_island_rightwards() {
         let grid = drawn(&["....", ".#..", "....", "...."], [limited(); 2]);
         let outer = [[1, 0], [2, 0], [3, 0], [3, 1], [3, 2], [3, 3], [2, 3], [1, 3], [0, 3], [0, 2], [0, 1], [0, 0]];
-        assert_eq!(followed(&grid, &BlockedMoves::new(), [0, 0], 0), outer);
+        assert_eq!(walked_places(&grid, &BlockedMoves::new(), [0, 0], 0), outer);
         let grid = drawn(&[".......", ".......", "...#...", ".......", "......."], [limited(); 2]);
-        let around = followed(&grid, &BlockedMoves::new(), [3, 1], 4);
+        let around = walked_places(&grid, &BlockedMoves::new(), [3, 1], 4);
         assert_eq!(around, [[2, 1], [2, 2], [2, 3], [3, 3], [4, 3], [4, 2], [4, 1], [3, 1]]);
     }
 
@@ -91,16 +92,16 @@ mod tests {
     fn a_dead_end_is_left_again_and_a_closed_step_is_none() {
         let grid = drawn(&["...", "##."], [limited(); 2]);
         let there_and_back = [[1, 1], [0, 1], [1, 1], [2, 1], [2, 0], [2, 1]];
-        assert_eq!(followed(&grid, &BlockedMoves::new(), [2, 1], 6), there_and_back);
+        assert_eq!(walked_places(&grid, &BlockedMoves::new(), [2, 1], 6), there_and_back);
         // Steps between (1, 1) and (0, 1).
         let closed = BlockedMoves::from([[3, 1], [1, 3]]);
-        assert!(!followed(&grid, &closed, [2, 1], 6).contains(&[0, 1]));
+        assert!(!walked_places(&grid, &closed, [2, 1], 6).contains(&[0, 1]));
     }
 
     #[test]
     fn on_a_circle_a_wall_is_followed_across_the_seam() {
         let grid = drawn(&["....", "....", "####"], [JointRange::Circle, limited()]);
-        assert_eq!(followed(&grid, &BlockedMoves::new(), [2, 1], 0), [[3, 1], [0, 1], [1, 1], [2, 1]]);
+        assert_eq!(walked_places(&grid, &BlockedMoves::new(), [2, 1], 0), [[3, 1], [0, 1], [1, 1], [2, 1]]);
     }
 
     #[test]

@@ -104,11 +104,14 @@ impl FieldQuery<'_> {
         let trace = Trace::Potential { cells: grid.cells, heights: heights.collect() };
         let at = |place: Place| grid_path::cell(grid, place).filter(|&cell| !grid.blocked[cell]);
         let mut guide = ForceGuide::new(&field, goals, at).with_escape(escape);
-        let path = grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind);
+        let path = grid_path::path_along_field(grid, self.query, self.joined, &mut guide, self.start, self.kind);
         let path = path.map_err(|Trap { cell, value, minimum }| {
-            let at = shown(grid, cell);
+            let at = format_cell(grid, cell);
             match minimum {
-                true => format!("the potential has a local minimum at {at}, of value {value:.4e}{}", stayed(escape)),
+                true => format!(
+                    "the potential has a local minimum at {at}, of value {value:.4e}{}",
+                    describe_failed_escape(escape)
+                ),
                 false => format!("the forces trap the arm at {at}, where they add up to {value:.4e}"),
             }
         });
@@ -129,7 +132,7 @@ impl FieldQuery<'_> {
         let grid = &self.space.grid;
         let climb = |field: &RelaxedField| {
             let mut guide = ValueGuide::new(domain, &field.values, |place: Place| grid_path::cell(grid, place));
-            grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind)
+            grid_path::path_along_field(grid, self.query, self.joined, &mut guide, self.start, self.kind)
         };
         let refused = |error: RelaxError| error.to_string();
         let mut field = relax_on(on, domain, equation, relaxation, stopping).map_err(refused)?;
@@ -157,9 +160,14 @@ impl FieldQuery<'_> {
         }
         let path = match (path, note) {
             // A path through an unfinished field would not be a path of the requested field.
-            (_, Some(Note::Unconverged { .. })) => Err(unfinished(domain, equation, sweeps)),
+            (_, Some(Note::Unconverged { .. })) => Err(describe_unconverged(domain, equation, sweeps)),
             (path, _) => path.map_err(|stuck| {
-                format!("{} at {}: {}", what(&stuck), shown(grid, stuck.cell), why(&stuck, domain, equation, on))
+                format!(
+                    "{} at {}: {}",
+                    describe_dead_end(&stuck),
+                    format_cell(grid, stuck.cell),
+                    explain_dead_end(&stuck, domain, equation, on)
+                )
             }),
         };
         let earlier = if let Some(Note::Continued { first, .. }) = note { first } else { 0 };
@@ -169,7 +177,7 @@ impl FieldQuery<'_> {
 }
 
 /// Returns an addition to a message: the attempt to leave a local minimum failed.
-fn stayed(escape: Option<Escape>) -> &'static str {
+fn describe_failed_escape(escape: Option<Escape>) -> &'static str {
     match escape {
         None => "",
         Some(Escape::Walk { .. }) => "; no random walk from it led to a lower cell",
@@ -178,7 +186,7 @@ fn stayed(escape: Option<Escape>) -> &'static str {
 }
 
 /// Describes the place at which the path along a field is stuck.
-fn what(stuck: &DeadEnd) -> &'static str {
+fn describe_dead_end(stuck: &DeadEnd) -> &'static str {
     if stuck.flat { "the field is flat" } else { "the field has a local maximum" }
 }
 
@@ -191,7 +199,7 @@ fn not_monotone(equation: &Equation) -> String {
 }
 
 /// Describes a relaxation that reached its largest number of sweeps, with a hint.
-fn unfinished(domain: &Domain, equation: &Equation, sweeps: usize) -> String {
+fn describe_unconverged(domain: &Domain, equation: &Equation, sweeps: usize) -> String {
     let help = match equation.is_monotone_on(domain) {
         true => "allow more sweeps or a larger tolerance, or use the relaxation sor".into(),
         false => not_monotone(equation),
@@ -200,7 +208,7 @@ fn unfinished(domain: &Domain, equation: &Equation, sweeps: usize) -> String {
 }
 
 /// Explains why the path along a field is stuck, as far as that is known.
-fn why(stuck: &DeadEnd, domain: &Domain, equation: &Equation, on: Device) -> String {
+fn explain_dead_end(stuck: &DeadEnd, domain: &Domain, equation: &Equation, on: Device) -> String {
     match stuck {
         _ if !equation.is_monotone_on(domain) => not_monotone(equation),
         DeadEnd { value: 0.0, .. } => format!("its values are too small for {}", on.precision()),
@@ -208,7 +216,7 @@ fn why(stuck: &DeadEnd, domain: &Domain, equation: &Equation, on: Device) -> Str
     }
 }
 
-fn shown(grid: &Grid, cell: usize) -> String {
+fn format_cell(grid: &Grid, cell: usize) -> String {
     let center = grid.center(cell);
     let [i, j] = [cell / grid.cells[1], cell % grid.cells[1]];
     format!("({:.4}, {:.4}), cell ({i}, {j})", center[0], center[1])

@@ -26,6 +26,6 @@ pub use moving::{Disc, Moment, MovingField, Solver};
 pub use relax::{
     Boundary, Cell, Convergence, DeadEnd, Device, Difference, Direction, Domain, Ending, Equation, Factor, Influence,
     Leap, Levels, Limits, Lines, Measure, Neighbor, Order, Precision, RelaxError, Relaxation, RelaxedField, Sample,
-    Scan, Scheme, Stencil, Stopping, SweepSnapshot, Trace, ValueGuide, around, by_multigrid, descend, eliminated,
-    relax, relax_from, relax_on, relax_watched, trace,
+    Scan, Scheme, Stencil, Stopping, SweepSnapshot, Trace, ValueGuide, by_multigrid, descend, drift_around_robots,
+    eliminated, relax, relax_from, relax_on, relax_watched, trace,
 };

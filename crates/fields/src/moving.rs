@@ -3,7 +3,7 @@
 use super::relax::{Memory, by_multigrid_in};
 use super::{
     Boundary, Cell, Convergence, DeadEnd, Difference, Domain, Equation, Influence, Levels, Measure, RelaxError,
-    Relaxation, Stopping, ValueGuide, around, relax_from,
+    Relaxation, Stopping, ValueGuide, drift_around_robots, relax_from,
 };
 use cplan_harmonic::{LatticePoint, Place, Streamline, advance, direction, follow};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -182,7 +182,9 @@ impl MovingField {
     fn equation_on(&self, domain: &Domain, moment: &Moment) -> Equation {
         match moment.robots.as_slice() {
             [] => Equation::Harmonic,
-            robots => Equation::LocallyOriented { drift: around(domain, robots), difference: self.difference },
+            robots => {
+                Equation::LocallyOriented { drift: drift_around_robots(domain, robots), difference: self.difference }
+            }
         }
     }
 

@@ -222,7 +222,7 @@ impl Convex {
     /// A shape with a negative radius is met only by a core that penetrates its own core by more than the radius'
     /// magnitude. A smaller polygon could not express this, because its corners would differ.
     #[must_use]
-    pub fn receding(&self, distance: f64) -> Self {
+    pub fn with_distances_increased(&self, distance: f64) -> Self {
         debug_assert!(distance >= 0.0 && distance.is_finite());
         Self { core: self.core.clone(), radius: self.radius - distance }
     }

@@ -79,12 +79,12 @@ mod tests {
         /// Tests that a receding shape is farther away by `by`, also at its corners. Growing it again restores it.
         #[test]
         fn receding_increases_every_distance(shape in shapes(), other in shapes(), by in 0.0..0.5f64) {
-            let (near, far) = (separation(&other, &shape), separation(&other, &shape.receding(by)));
+            let (near, far) = (separation(&other, &shape), separation(&other, &shape.with_distances_increased(by)));
             prop_assert!((far.distance - near.distance - by).abs() < 1e-12);
-            let difference = shape.receding(by).minkowski_difference(&other);
+            let difference = shape.with_distances_increased(by).minkowski_difference(&other);
             let of_difference = separation(&Convex::point(Point::zeros()), &difference).distance;
             prop_assert!((of_difference - far.distance).abs() < 1e-9, "{of_difference} {}", far.distance);
-            let again = shape.receding(by).eroded(shape.radius() - by).expect("all of it");
+            let again = shape.with_distances_increased(by).eroded(shape.radius() - by).expect("all of it");
             prop_assert!(again.core() == shape.core() && again.radius() < 1e-15);
         }
     }

@@ -31,7 +31,7 @@ mod tests {
         #![proptest_config(cplan_cases::cases(256))]
 
         #[test]
-        fn finds_how_far_it_holds(first in 0..50_usize, beyond in 0..300_usize, on in 0..400_usize) {
+        fn the_search_finds_the_last_number_for_which_the_condition_holds(first in 0..50_usize, beyond in 0..300_usize, on in 0..400_usize) {
             let (last, end) = (first + beyond, first + on);
             let (asked, greatest) = (Cell::new(0_u32), Cell::new(first));
             let holds = |n: usize| {
@@ -49,7 +49,7 @@ mod tests {
         /// Tests a condition that is true on several separate stretches. The search then returns the end of one of
         /// them.
         #[test]
-        fn ends_where_it_does_not_hold(holding in proptest::collection::vec(any::<bool>(), 0..60)) {
+        fn the_search_ends_where_the_condition_does_not_hold(holding in proptest::collection::vec(any::<bool>(), 0..60)) {
             let last = holding.len();
             let found = farthest(0, last, |n| holding[n - 1]);
             prop_assert!(found == 0 || holding[found - 1]);

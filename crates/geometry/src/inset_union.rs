@@ -22,11 +22,11 @@ const MIN_BEND: f64 = 1e-7;
 /// radius.
 #[must_use]
 pub fn inset_union(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
-    let (all, together) = within(pieces, distance);
+    let (all, together) = cut_and_move(pieces, distance);
     let left = |piece: &Convex| match piece.radius() {
         0.0 => {
             let hull_of = |ring: &[Point]| vec![Convex::trusted(hull(&together.ring(ring)), 0.0)];
-            together.of(piece.core()).unwrap_or_else(|| hull_of(piece.core()))
+            together.moved_piece(piece.core()).unwrap_or_else(|| hull_of(piece.core()))
         }
         radius if radius >= distance => vec![piece.grown(-distance)],
         radius => inset_union(&[piece.grown(-radius)], distance - radius).concat(),
@@ -38,12 +38,12 @@ pub fn inset_union(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
 /// twice to one ring.
 #[must_use]
 pub fn can_inset_union(pieces: &[Convex], distance: f64) -> bool {
-    let (_, together) = within(pieces, distance);
-    !together.touches && !together.leaves
+    let (_, together) = cut_and_move(pieces, distance);
+    !together.touches && !together.would_leave
 }
 
 /// Cuts the pieces from corner to corner, and computes where their corners move.
-fn within(pieces: &[Convex], distance: f64) -> (Vec<Vec<Convex>>, MovedCorners) {
+fn cut_and_move(pieces: &[Convex], distance: f64) -> (Vec<Vec<Convex>>, MovedCorners) {
     let all = corner_to_corner(pieces);
     let mut together = MovedCorners::new(all.iter().flatten().filter(is_sharp), distance);
     let tree = BoxTree::new(pieces.iter().map(Convex::bounds).collect());
@@ -53,7 +53,7 @@ fn within(pieces: &[Convex], distance: f64) -> (Vec<Vec<Convex>>, MovedCorners) 
         tree.meeting(&[*to; 2], &mut found);
         if !found.iter().any(|&piece| shapes_meet(&pieces[piece as usize], &Convex::point(*to))) {
             *to = *corner;
-            together.leaves = true;
+            together.would_leave = true;
         }
     }
     (all, together)
@@ -120,7 +120,7 @@ fn with_corners(core: &[Point], corners: &[Point]) -> Vec<Point> {
 }
 
 /// Returns the corner after corner `k` of a ring, and the one before it.
-fn beside(ring: &[Point], k: usize) -> [Point; 2] {
+fn adjacent_corners(ring: &[Point], k: usize) -> [Point; 2] {
     [1, ring.len() - 1].map(|by| ring[(k + by) % ring.len()])
 }
 
@@ -137,7 +137,7 @@ struct MovedCorners {
     /// surround completely do not move, and are not listed.
     to: BTreeMap<[Key; 2], [Point; 2]>,
     /// True if some corner would have left the union. Such a corner stays where it is.
-    leaves: bool,
+    would_leave: bool,
     /// True if some corner of the union belongs to several rings, or twice to one ring.
     touches: bool,
 }
@@ -165,7 +165,7 @@ impl MovedCorners {
         let mut sectors: BTreeMap<[Key; 2], [Point; 3]> = BTreeMap::new();
         for ring in pieces.into_iter().map(Convex::core) {
             for (k, &corner) in ring.iter().enumerate() {
-                let [next, last] = beside(ring, k);
+                let [next, last] = adjacent_corners(ring, k);
                 sectors.insert([key(corner), key(next)], [corner, next, last]);
             }
         }
@@ -180,7 +180,7 @@ impl MovedCorners {
                 parts.push([key(at), key(last)]);
                 last = sector[2];
             }
-            corners.push(Corner { at, next, last, parts, inward: inwards(at, next, last) });
+            corners.push(Corner { at, next, last, parts, inward: inward_bisector(at, next, last) });
         }
         let number = |of: fn(&Corner) -> Point| -> BTreeMap<[Key; 2], usize> {
             corners.iter().enumerate().map(|(k, corner)| ([key(corner.at), key(of(corner))], k)).collect()
@@ -223,21 +223,23 @@ impl MovedCorners {
         let mut places: Vec<Key> = corners.iter().map(|corner| key(corner.at)).collect();
         places.sort_unstable();
         let touches = places.windows(2).any(|pair| pair[0] == pair[1]);
-        Self { to, leaves: false, touches }
+        Self { to, would_leave: false, touches }
     }
 
     fn ring(&self, ring: &[Point]) -> Vec<Point> {
-        let to = |k: usize| self.to.get(&[key(ring[k]), key(beside(ring, k)[0])]).map_or(ring[k], |[_, to]| *to);
+        let to =
+            |k: usize| self.to.get(&[key(ring[k]), key(adjacent_corners(ring, k)[0])]).map_or(ring[k], |[_, to]| *to);
         (0..ring.len()).map(to).collect()
     }
 
     /// Returns what remains of a piece, or `None` if its sides turn over.
-    fn of(&self, ring: &[Point]) -> Option<Vec<Convex>> {
+    fn moved_piece(&self, ring: &[Point]) -> Option<Vec<Convex>> {
         let moved = self.ring(ring);
         if ring.len() < 3 || moved == ring {
             return Some(vec![Convex::trusted(ring.to_vec(), 0.0)]);
         }
-        let is_along = |k: usize| (beside(&moved, k)[0] - moved[k]).dot(&(beside(ring, k)[0] - ring[k])) > 0.0;
+        let is_along =
+            |k: usize| (adjacent_corners(&moved, k)[0] - moved[k]).dot(&(adjacent_corners(ring, k)[0] - ring[k])) > 0.0;
         let left = SimplePolygon::new(moved.clone()).ok()?;
         // A thin piece can turn over although its sides hardly change direction.
         (left.corners() == moved && (0..ring.len()).all(is_along)).then(|| left.convex_pieces())
@@ -246,7 +248,7 @@ impl MovedCorners {
 
 /// Returns the bisector between two sides of a corner, counter-clockwise from the first, with the cosine and the sine
 /// of half the angle between them. Returns `None` if the sides coincide.
-fn inwards(corner: Point, first: Point, last: Point) -> Option<(Vector, [f64; 2])> {
+fn inward_bisector(corner: Point, first: Point, last: Point) -> Option<(Vector, [f64; 2])> {
     let unit = |v: Vector| v.try_normalize(0.0);
     let [first, last] = [unit(first - corner)?, unit(last - corner)?];
     let inward = unit(perpendicular(first - last))?;
@@ -284,7 +286,7 @@ mod tests {
 
     /// Tests a bar with another bar on top. A side of the first continues beyond the second at both ends.
     #[test]
-    fn pieces_go_on_adjoining() {
+    fn adjoining_pieces_stay_adjoining() {
         let left = inset_union(&[rectangle([0., 0.], [4., 1.]), rectangle([1., 1.], [2., 2.])], 0.1 * 2f64.sqrt());
         let within = [[0.11, 0.5], [1.11, 1.0], [1.89, 1.0], [1.5, 1.89], [0.5, 0.89], [1.11, 0.95], [3., 0.89]];
         let without = [[0.09, 0.5], [1.09, 1.0], [1.91, 1.0], [1.5, 1.91], [0.5, 0.91], [1.09, 0.95], [3., 0.91]];
@@ -322,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn too_fine_parts_stay() {
+    fn parts_too_fine_for_the_inset_stay_unchanged() {
         // A triangle whose corners would cross.
         let small = Convex::trusted(points(&[[0., 0.], [1., 0.], [0.5, 0.8]]), 0.0);
         let left = inset_union(std::slice::from_ref(&small), 2.0);
@@ -346,7 +348,7 @@ mod tests {
 
     /// Inserts straight corners in the middle of some sides.
     fn with_straight(ring: &[Point], some: u8) -> Vec<Point> {
-        let halfway = |k: usize| (some >> k & 1 == 1).then(|| (ring[k] + beside(ring, k)[0]) * 0.5);
+        let halfway = |k: usize| (some >> k & 1 == 1).then(|| (ring[k] + adjacent_corners(ring, k)[0]) * 0.5);
         (0..ring.len()).flat_map(|k| std::iter::once(ring[k]).chain(halfway(k))).collect()
     }
 
@@ -354,7 +356,7 @@ mod tests {
     fn by_angles(ring: &[Point], distance: f64) -> Vec<Point> {
         let angle = |v: Vector| v.y.atan2(v.x);
         let corner = |k: usize| {
-            let [next, last] = beside(ring, k).map(|p| angle(p - ring[k]));
+            let [next, last] = adjacent_corners(ring, k).map(|p| angle(p - ring[k]));
             let half = (last - next).rem_euclid(std::f64::consts::TAU) / 2.0;
             ring[k] + distance * Vector::new((next + half).cos(), (next + half).sin())
         };
@@ -408,8 +410,8 @@ mod tests {
 
     /// Returns true if no part of these pieces turns over when their corners move.
     fn turns_over_nothing(pieces: &[Convex], distance: f64) -> bool {
-        let (all, together) = within(pieces, distance);
-        all.iter().flatten().all(|part| together.of(part.core()).is_some())
+        let (all, together) = cut_and_move(pieces, distance);
+        all.iter().flatten().all(|part| together.moved_piece(part.core()).is_some())
     }
 
     /// Tests a comb with teeth on a straight side. The root of each tooth is a corner on the side of the piece below.

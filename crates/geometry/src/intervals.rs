@@ -21,7 +21,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn covered(list: &[Interval], x: f64) -> bool {
+    fn is_covered(list: &[Interval], x: f64) -> bool {
         list.iter().any(|i| i[0] <= x && x <= i[1])
     }
 
@@ -37,7 +37,7 @@ mod tests {
             prop_assert!(merged.windows(2).all(|w| w[0][1] < w[1][0]));
             for half in -24..=30 {
                 let x = f64::from(half) / 2.0;
-                prop_assert_eq!(covered(&merged, x), covered(&list, x));
+                prop_assert_eq!(is_covered(&merged, x), is_covered(&list, x));
             }
         }
     }

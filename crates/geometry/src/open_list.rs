@@ -49,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn least_first_then_the_least_entry() {
+    fn the_least_key_comes_first_then_the_least_entry() {
         let mut open = OpenList::default();
         [(2.0, 0), (1.0, 7), (f64::INFINITY, 1), (1.0, 3)].into_iter().for_each(|(key, entry)| open.push(key, entry));
         assert_eq!(open.peek(), Some((1.0, &3)));

@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn names_the_error() {
+    fn each_invalid_polygon_has_its_error() {
         use PolygonError::*;
         assert_eq!(error(&[(0., 0.), (1., 0.)]), TooFewCorners { count: 2 });
         assert_eq!(error(&[(0., 0.), (1., f64::NAN), (1., 1.)]), NotFinite { corner: 1 });

@@ -143,7 +143,7 @@ mod tests {
 
         /// Tests that all results are bitwise equal to those of nalgebra's isometries.
         #[test]
-        fn computes_what_nalgebra_does(v in prop::array::uniform8(-10.0..10.0_f64)) {
+        fn poses_agree_with_nalgebra(v in prop::array::uniform8(-10.0..10.0_f64)) {
             let [a, b, p] = [0, 2, 4].map(|k| Vector::new(v[k], v[k + 1]));
             let (first, second) = (Pose::new(a, v[6]), Pose::new(b, v[7]));
             let (f, s) = (Isometry2::new(a, v[6]), Isometry2::new(b, v[7]));

@@ -70,7 +70,10 @@ impl Gpu {
 }
 
 /// Runs `work` and returns the driver's errors, on which wgpu would otherwise panic.
-pub(super) fn watched<T>(device: &wgpu::Device, work: impl FnOnce() -> Result<T, GpuError>) -> Result<T, GpuError> {
+pub(super) fn with_driver_errors<T>(
+    device: &wgpu::Device,
+    work: impl FnOnce() -> Result<T, GpuError>,
+) -> Result<T, GpuError> {
     use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
     let scopes = [Validation, Internal, OutOfMemory].map(|filter| device.push_error_scope(filter));
     let done = work();

@@ -1,6 +1,6 @@
 //! The adapter, and the programs that run on it.
 
-use super::buffers::watched;
+use super::buffers::with_driver_errors;
 use std::fmt;
 use thiserror::Error;
 
@@ -90,7 +90,7 @@ impl Gpu {
         let required_limits = wgpu::Limits { max_storage_buffers_per_shader_stage: 6, ..required_limits };
         let wanted = wgpu::DeviceDescriptor { required_limits, ..wgpu::DeviceDescriptor::default() };
         let (device, queue) = pollster::block_on(adapter.request_device(&wanted)).map_err(|e| no_adapter(&e))?;
-        let pipelines = watched(&device, || Ok(Pipelines::new(&device)))?;
+        let pipelines = with_driver_errors(&device, || Ok(Pipelines::new(&device)))?;
         let name = format!("{} ({})", info.name, info.backend);
         Ok(Self { device, queue, name, is_software: info.device_type == wgpu::DeviceType::Cpu, pipelines })
     }

@@ -1,6 +1,6 @@
 //! Solves linear problems by multigrid, with cycles on the GPU, and residuals in double precision on the CPU.
 
-use super::buffers::watched;
+use super::buffers::with_driver_errors;
 use super::cycle::Cycle;
 use super::levels::Level;
 use super::{Gpu, GpuError, GridEquations, Stencil};
@@ -75,13 +75,13 @@ impl Gpu {
         let mut solved =
             Solution { values: Vec::new(), cycles: 0, residual: left.1, converged: left.1 <= settings.below };
         if !solved.converged {
-            watched(&self.device, || {
+            with_driver_errors(&self.device, || {
                 let cycle = Cycle::new(self, &levels)?;
                 let mut idle = 0;
                 while !solved.converged && solved.cycles < settings.max_cycles && idle < MAX_IDLE_ROUNDS {
                     checkpoint();
                     let cycles = CYCLES_PER_ROUND.min(settings.max_cycles - solved.cycles);
-                    let next = self.corrected(&cycle, cycles, &values, &left.0)?;
+                    let next = self.values_after_cycles(&cycle, cycles, &values, &left.0)?;
                     solved.cycles += cycles;
                     let after = residual(&next);
                     // NaN also counts as no progress.
@@ -104,7 +104,13 @@ impl Gpu {
     }
 
     /// Returns the values after so many cycles have corrected them. `left` is the residual before.
-    fn corrected(&self, cycle: &Cycle, cycles: u32, values: &[f64], left: &[f64]) -> Result<Vec<f64>, GpuError> {
+    fn values_after_cycles(
+        &self,
+        cycle: &Cycle,
+        cycles: u32,
+        values: &[f64],
+        left: &[f64],
+    ) -> Result<Vec<f64>, GpuError> {
         // Scale the residual, so that corrections stay above the least number of single precision.
         let scale = left.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
         let right: Vec<f32> = left.iter().map(|value| (value / scale) as f32).collect();

@@ -1,6 +1,6 @@
 //! Relaxation on the GPU, sweep by sweep.
 
-use super::buffers::{blocks, watched};
+use super::buffers::{blocks, with_driver_errors};
 use super::half::Half;
 use super::rule::{Rule, State};
 use super::{Ending, Gpu, GpuError, GridEquations, Settings, Stencil, Sweep};
@@ -69,7 +69,7 @@ impl Gpu {
             let ending = if is_done { Ending::Converged } else { Ending::Unconverged };
             return Ok(RelaxedField { values: problem.values.clone(), sweeps: 0, change: f64::INFINITY, ending });
         }
-        watched(&self.device, || self.relax_all(problem, settings))
+        with_driver_errors(&self.device, || self.relax_all(problem, settings))
     }
 
     fn relax_all(&self, problem: &GridEquations, settings: &Settings) -> Result<RelaxedField, GpuError> {
@@ -160,13 +160,13 @@ fn greatest(values: &[f64]) -> f32 {
 }
 
 /// Returns the limit for the absolute value of a cell above which a relaxation counts as diverged.
-fn beyond(problem: &GridEquations) -> f32 {
+fn divergence_bound(problem: &GridEquations) -> f32 {
     let greatest = greatest(&problem.values).max(problem.outside.abs() as f32);
     if greatest > 0.0 { (DIVERGENCE_FACTOR * greatest).min(f32::MAX / 2.0) } else { DIVERGENCE_FACTOR }
 }
 
 fn diverged(values: &[f64], problem: &GridEquations, sweeps: u32) -> GpuError {
-    let bound = f64::from(beyond(problem));
+    let bound = f64::from(divergence_bound(problem));
     // NaN also counts as diverged. The first such value may have been overwritten; then report the greatest.
     let lost = values.iter().position(|value| value.is_nan() || value.abs() > bound);
     let largest = || (0..values.len()).max_by(|&a, &b| values[a].abs().total_cmp(&values[b].abs()));
@@ -196,7 +196,7 @@ fn rule(problem: &GridEquations, settings: &Settings, half: Half, odd: u32, bloc
         low,
         high,
         below: settings.below as f32,
-        beyond: beyond(problem),
+        beyond: divergence_bound(problem),
         rounding: rounding(settings.factor),
         patience: half.rows.max(half.columns).max(MIN_IDLE_SWEEPS) as u32,
         unused: [0; 2],

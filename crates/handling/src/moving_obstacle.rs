@@ -263,20 +263,21 @@ pub struct MovingObstacle {
     /// Name, heights and shape of the obstacle, in its own frame.
     pub obstacle: Obstacle,
     /// Motion of the obstacle's frame.
-    pub course: ObstacleTrajectory,
+    #[serde(rename = "course")]
+    pub trajectory: ObstacleTrajectory,
 }
 
 impl MovingObstacle {
     /// Returns the obstacle at its place at a time.
     #[must_use]
     pub fn at(&self, time: f64) -> Obstacle {
-        self.obstacle.at(&self.course.pose(time))
+        self.obstacle.at(&self.trajectory.pose(time))
     }
 
     /// Returns the obstacle in the form in which scenes contain it: without a place.
     #[must_use]
-    pub fn loose(&self) -> LooseObstacle {
-        let angle = (!self.course.turns()).then(|| self.course.stops()[0].angle);
+    pub fn to_loose_obstacle(&self) -> LooseObstacle {
+        let angle = (!self.trajectory.turns()).then(|| self.trajectory.stops()[0].angle);
         LooseObstacle { obstacle: self.obstacle.clone(), angle }
     }
 }
@@ -291,11 +292,11 @@ mod tests {
     }
 
     #[test]
-    fn waits_goes_stays_and_leaves() {
+    fn a_trajectory_waits_moves_stays_and_leaves() {
         let stops = vec![stop(1.0, 0.0, 0.0, 0.0), stop(3.0, 1.0, 2.0, 1.0)];
         let stays = ObstacleTrajectory::new(stops.clone(), Vector::zeros()).unwrap();
-        let place = |course: &ObstacleTrajectory, time: f64| {
-            let pose = course.pose(time);
+        let place = |trajectory: &ObstacleTrajectory, time: f64| {
+            let pose = trajectory.pose(time);
             [pose.translation.x, pose.translation.y, pose.rotation.angle()]
         };
         assert_eq!(place(&stays, 0.5), [0.0, 0.0, 0.0]);
@@ -307,13 +308,13 @@ mod tests {
     }
 
     #[test]
-    fn a_trajectory_from_a_later_time_on() {
+    fn a_trajectory_since_a_later_time_has_the_same_poses() {
         let stops = vec![stop(1.0, 0.0, 0.0, 0.0), stop(3.0, 1.0, 2.0, 7.0)];
-        let course = ObstacleTrajectory::new(stops, Vector::new(0.5, 0.0)).unwrap();
+        let trajectory = ObstacleTrajectory::new(stops, Vector::new(0.5, 0.0)).unwrap();
         for time in [0.0, 0.5, 1.0, 1.7, 3.0, 4.5] {
-            let later = course.since(time);
+            let later = trajectory.since(time);
             for since in [0.0, 0.3, 0.5, 1.0, 2.5, 9.0] {
-                let (a, b) = (course.pose(time + since), later.pose(since));
+                let (a, b) = (trajectory.pose(time + since), later.pose(since));
                 assert!((a.translation - b.translation).norm() < 1e-12, "{since} s after {time} s");
                 assert!((a.rotation.angle() - b.rotation.angle()).abs() < 1e-12, "{since} s after {time} s");
             }
@@ -321,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn times_at_which_a_trajectory_passes_a_point() {
+    fn a_trajectory_passes_a_point_at_the_known_times() {
         let belt = ObstacleTrajectory::conveyor([1.0, -1.0], [0.0, 0.25]).unwrap();
         assert_eq!(belt.passes(Point::new(1.0, 0.0), 1e-3), [[4.0, 4.0]]);
         assert!(
@@ -340,15 +341,15 @@ mod tests {
     }
 
     #[test]
-    fn invalid_stops() {
-        let course = |stops: Vec<Stop>| ObstacleTrajectory::new(stops, Vector::zeros()).unwrap_err();
-        assert_eq!(course(vec![]), ObstacleTrajectoryError::Empty);
+    fn invalid_stops_are_refused() {
+        let trajectory = |stops: Vec<Stop>| ObstacleTrajectory::new(stops, Vector::zeros()).unwrap_err();
+        assert_eq!(trajectory(vec![]), ObstacleTrajectoryError::Empty);
         assert_eq!(
-            course(vec![stop(1.0, 0.0, 0.0, 0.0), stop(1.0, 1.0, 0.0, 0.0)]),
+            trajectory(vec![stop(1.0, 0.0, 0.0, 0.0), stop(1.0, 1.0, 0.0, 0.0)]),
             ObstacleTrajectoryError::Time { stop: 1, time: 1.0 }
         );
-        assert_eq!(course(vec![stop(-1.0, 0.0, 0.0, 0.0)]), ObstacleTrajectoryError::Time { stop: 0, time: -1.0 });
-        assert_eq!(course(vec![stop(0.0, f64::NAN, 0.0, 0.0)]), ObstacleTrajectoryError::Place { stop: 0 });
+        assert_eq!(trajectory(vec![stop(-1.0, 0.0, 0.0, 0.0)]), ObstacleTrajectoryError::Time { stop: 0, time: -1.0 });
+        assert_eq!(trajectory(vec![stop(0.0, f64::NAN, 0.0, 0.0)]), ObstacleTrajectoryError::Place { stop: 0 });
         assert!(ObstacleTrajectory::conveyor([0.0, 0.0], [f64::INFINITY, 0.0]).is_err());
     }
 
@@ -367,14 +368,14 @@ mod tests {
                 time += lasts;
                 stop(time, *x, *y, *angle)
             });
-            let course = ObstacleTrajectory::new(stops.collect(), Vector::new(at[0][0], at[1][0])).unwrap();
-            let drift = course.drift(from, from + lasts);
+            let trajectory = ObstacleTrajectory::new(stops.collect(), Vector::new(at[0][0], at[1][0])).unwrap();
+            let drift = trajectory.drift(from, from + lasts);
             let point = Point::from(point);
             let middle = drift.middle.point(point);
-            let then = course.pose(from + share * lasts).point(point);
+            let then = trajectory.pose(from + share * lasts).point(point);
             let moved = then - middle;
             let linear = drift.of(middle) * (2.0 * share - 1.0);
-            prop_assert!((moved - linear).norm() <= drift.beyond(middle) + 1e-12);
+            prop_assert!((moved - linear).norm() <= drift.error_bound(middle) + 1e-12);
             prop_assert!(moved.norm() <= drift.farthest(point.norm()) + 1e-12);
         }
     }

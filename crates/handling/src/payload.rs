@@ -43,7 +43,7 @@ impl Payload {
             shape,
             number,
             on_supports,
-            proves_collisions: !pieces[number].is_sliver(),
+            is_never_empty: !pieces[number].is_sliver(),
         };
         let mut parts: Vec<AttachedPart> =
             pieces.iter().enumerate().map(|(number, piece)| part(number, piece.clone(), false)).collect();
@@ -70,7 +70,7 @@ impl Payload {
 
 impl Task {
     /// Returns the scene with the objects at their poses. The objects `moving` become loose obstacles, after those of
-    /// the workspace, in the order of [`Task::courses`]. Link 2 may touch the objects `touched`.
+    /// the workspace, in the order of [`Task::trajectories`]. Link 2 may touch the objects `touched`.
     #[must_use]
     pub fn scene(
         &self,

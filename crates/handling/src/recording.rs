@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_that_are_no_motion() {
+    fn samples_that_form_no_motion_are_refused() {
         let two = || vec![q(0.0, 0.0), q(1.0, 2.0)];
         assert_eq!(Recording::new(vec![], None, None), Err(RecordingError::Empty));
         assert_eq!(Recording::new(two(), None, Some(two())), Err(RecordingError::VelocityWithoutTime));
@@ -308,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn seams_are_seen_and_undone() {
+    fn jumps_across_seams_are_found_and_removed() {
         let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: -9.0, upper: 9.0 }] };
         let wrapped = Recording::new(vec![q(3.0, 0.0), q(-3.0, 5.0), q(-2.9, -5.0)], None, None).unwrap();
         assert_eq!(wrapped.turns(&topology), [(0, 0)]);

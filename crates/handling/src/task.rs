@@ -37,8 +37,8 @@ pub struct Object {
     /// Initial pose.
     pub at: Pose,
     /// Motion from the initial pose until the object is picked; `None` if it lies still.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub course: Option<ObstacleTrajectory>,
+    #[serde(rename = "course", default, skip_serializing_if = "Option::is_none")]
+    pub trajectory: Option<ObstacleTrajectory>,
     /// Mass in kilograms.
     #[serde(default)]
     pub mass: f64,
@@ -175,21 +175,21 @@ impl Task {
 
     /// Returns the trajectories of the moving obstacles of [`Task::surroundings`], on the clock of the task.
     #[must_use]
-    pub fn courses(&self, moving: &[usize]) -> Vec<ObstacleTrajectory> {
-        let objects = moving.iter().filter_map(|&object| self.objects[object].course.clone());
-        self.workspace.courses().into_iter().chain(objects).collect()
+    pub fn trajectories(&self, moving: &[usize]) -> Vec<ObstacleTrajectory> {
+        let objects = moving.iter().filter_map(|&object| self.objects[object].trajectory.clone());
+        self.workspace.trajectories().into_iter().chain(objects).collect()
     }
 
     /// Returns the same trajectories on a clock that begins at the time `begin` of the task, seconds.
     #[must_use]
-    pub fn courses_since(&self, moving: &[usize], begin: f64) -> Vec<ObstacleTrajectory> {
-        self.courses(moving).iter().map(|course| course.since(begin)).collect()
+    pub fn trajectories_since(&self, moving: &[usize], begin: f64) -> Vec<ObstacleTrajectory> {
+        self.trajectories(moving).iter().map(|trajectory| trajectory.since(begin)).collect()
     }
 
     /// Returns the trajectories of all moving obstacles and of the objects that move initially.
     #[must_use]
-    pub fn courses_at_first(&self) -> Vec<ObstacleTrajectory> {
-        self.courses(&self.initially_moving().collect::<Vec<_>>())
+    pub fn initial_trajectories(&self) -> Vec<ObstacleTrajectory> {
+        self.trajectories(&self.initially_moving().collect::<Vec<_>>())
     }
 
     /// Returns the index of an object as an obstacle while the objects `moving` move.
@@ -202,7 +202,7 @@ impl Task {
 
     /// Iterates over the objects that move initially, in order.
     pub fn initially_moving(&self) -> impl Iterator<Item = usize> {
-        self.objects.iter().enumerate().filter(|(_, object)| object.course.is_some()).map(|(number, _)| number)
+        self.objects.iter().enumerate().filter(|(_, object)| object.trajectory.is_some()).map(|(number, _)| number)
     }
 
     /// Returns true if there are moving obstacles or moving objects.
@@ -242,7 +242,7 @@ impl Object {
     /// Returns the object's initial pose. Returns `None` if the object moves initially.
     #[must_use]
     pub fn initial_static_pose(&self) -> Option<Pose> {
-        self.course.is_none().then_some(self.at)
+        self.trajectory.is_none().then_some(self.at)
     }
 
     /// Returns the object as a moving obstacle. `None` if it does not move initially.
@@ -252,7 +252,7 @@ impl Object {
             let (shape, pieces) = (self.shape.clone(), self.pieces.clone());
             Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights }
         };
-        self.course.clone().map(|course| MovingObstacle { obstacle: obstacle(), course })
+        self.trajectory.clone().map(|trajectory| MovingObstacle { obstacle: obstacle(), trajectory })
     }
 
     /// Returns the range of all heights that the object has while it is raised or lowered.

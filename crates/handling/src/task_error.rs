@@ -74,7 +74,7 @@ impl Task {
         let moving: Vec<usize> = self.initially_moving().collect();
         self.objects.iter().try_for_each(check_object)?;
         let scene = self.surroundings(&at_first, &moving).scene(self.arm.clone())?;
-        if let Some((mover, why)) = self.unmoved() {
+        if let Some((mover, why)) = self.static_only_feature() {
             return Err(TaskError::Moves { mover, why });
         }
         let mut names: BTreeSet<&str> = self.workspace.all().map(|o| o.name.as_str()).collect();
@@ -95,18 +95,18 @@ impl Task {
             turned: self.objects.iter().map(angle_at_first).collect(),
         };
         self.items.iter().try_for_each(|item| state.item(item))?;
-        let first = TimedScene { scene: &scene, courses: &self.courses(&moving) }.frozen(0.0);
+        let first = TimedScene { scene: &scene, trajectories: &self.trajectories(&moving) }.frozen(0.0);
         Ok(MotionProblem::new(first, self.start, self.start).map(|_| scene)?)
     }
 
     /// Returns a feature of the task that supports static obstacles only, with the name of a moving obstacle or object.
     /// Returns `None` if the task has no such feature, or nothing moves.
     #[must_use]
-    pub fn unmoved(&self) -> Option<(String, &'static str)> {
-        let own = self.objects.iter().filter_map(|object| Some((&object.name, object.course.as_ref()?)));
-        let movers = self.workspace.movers.iter().map(|mover| (&mover.obstacle.name, &mover.course));
-        let courses: Vec<_> = movers.chain(own).collect();
-        let (first, _) = courses.first()?;
+    pub fn static_only_feature(&self) -> Option<(String, &'static str)> {
+        let own = self.objects.iter().filter_map(|object| Some((&object.name, object.trajectory.as_ref()?)));
+        let movers = self.workspace.movers.iter().map(|mover| (&mover.obstacle.name, &mover.trajectory));
+        let trajectories: Vec<_> = movers.chain(own).collect();
+        let (first, _) = trajectories.first()?;
         let turns = |step: &Step| matches!(step.action, Action::Place { angle: Some(_), .. });
         if self.stroke.is_some() {
             return Some(((*first).clone(), "a tool that is lowered and raised needs static obstacles"));
@@ -114,7 +114,7 @@ impl Task {
         if self.wrist.is_some() && self.steps().any(turns) {
             return Some(((*first).clone(), "a wrist that turns objects needs static obstacles"));
         }
-        let (turning, _) = courses.iter().find(|(_, course)| course.turns())?;
+        let (turning, _) = trajectories.iter().find(|(_, trajectory)| trajectory.turns())?;
         let is_level = self.objects.iter().any(|object| object.holding == Holding::Level);
         is_level.then(|| ((*turning).clone(), "objects that are held level need moving obstacles that do not turn"))
     }
@@ -196,7 +196,7 @@ impl Gripper<'_> {
             Item::Renew(objects) => {
                 for &object in objects {
                     let renewed = self.task.objects.get(object).filter(|_| self.carried != Some(object));
-                    let renewed = renewed.filter(|object| object.course.is_none());
+                    let renewed = renewed.filter(|object| object.trajectory.is_none());
                     self.turned[object] = angle_at_first(renewed.ok_or(TaskError::Renewed)?);
                 }
                 Ok(())
@@ -222,7 +222,7 @@ impl Gripper<'_> {
                         "it picks an object that does not exist, or picks while the tool carries an object",
                     ));
                 }
-                let is_first = self.task.objects[*object].course.is_some() && self.picked.insert(*object);
+                let is_first = self.task.objects[*object].trajectory.is_some() && self.picked.insert(*object);
                 let mut ends = when.iter().flatten();
                 let is_timely =
                     is_first && ends.clone().is_sorted() && ends.all(|end| (0.0..=MAX_STOP_TIME).contains(end));
@@ -233,7 +233,7 @@ impl Gripper<'_> {
                     ));
                 }
                 self.carried = Some(*object);
-                self.rest(step, *object, supports, are_small(grasp.iter().copied()))
+                self.check_supports(step, *object, supports, are_small(grasp.iter().copied()))
             }
             Action::Place { at, angle, supports } => {
                 let Some(object) = self.carried.take() else {
@@ -250,7 +250,7 @@ impl Gripper<'_> {
                     }
                 }
                 let is_finite = are_small(at.iter().chain(angle).copied());
-                self.rest(step, object, supports, is_finite)
+                self.check_supports(step, object, supports, is_finite)
             }
             Action::Move(Goal::Joints(q)) => {
                 let mut values = self.task.arm.joints.iter().zip(q.iter());
@@ -268,7 +268,7 @@ impl Gripper<'_> {
     }
 
     /// Checks the supports of a pick or a place.
-    fn rest(&self, step: &Step, object: usize, supports: &[usize], is_finite: bool) -> Result<(), TaskError> {
+    fn check_supports(&self, step: &Step, object: usize, supports: &[usize], is_finite: bool) -> Result<(), TaskError> {
         let task = self.task;
         let count = task.obstacle_number(task.objects.len());
         if !is_finite {

@@ -28,7 +28,7 @@ impl TimedWorkspace {
     /// Splits the workspace into its static part, and its moving obstacles as additions to a scene.
     #[must_use]
     pub fn into_parts(self) -> (Workspace, Additions) {
-        let loose = self.movers.iter().map(MovingObstacle::loose).collect();
+        let loose = self.movers.iter().map(MovingObstacle::to_loose_obstacle).collect();
         (self.fixed, Additions { loose, ..Additions::default() })
     }
 
@@ -51,8 +51,8 @@ impl TimedWorkspace {
 
     /// Returns the trajectories of the moving obstacles.
     #[must_use]
-    pub fn courses(&self) -> Vec<ObstacleTrajectory> {
-        self.movers.iter().map(|mover| mover.course.clone()).collect()
+    pub fn trajectories(&self) -> Vec<ObstacleTrajectory> {
+        self.movers.iter().map(|mover| mover.trajectory.clone()).collect()
     }
 
     /// Returns all obstacles in the order of a scene's numbers: the static ones, then the moving ones in their own
@@ -65,7 +65,7 @@ impl TimedWorkspace {
     /// data, in which the two may differ.
     pub fn restrict_shapes(&mut self) {
         let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);
-        self.fixed.obstacles.iter_mut().chain(moving).for_each(Obstacle::hold_shape);
+        self.fixed.obstacles.iter_mut().chain(moving).for_each(Obstacle::derive_shape_from_pieces);
     }
 }
 
@@ -75,12 +75,12 @@ pub struct TimedScene<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// The trajectory of each loose obstacle. If there are none, loose obstacles are ignored.
-    pub courses: &'a [ObstacleTrajectory],
+    pub trajectories: &'a [ObstacleTrajectory],
 }
 
 impl<'a> From<&'a Scene> for TimedScene<'a> {
     fn from(scene: &'a Scene) -> Self {
-        Self { scene, courses: &[] }
+        Self { scene, trajectories: &[] }
     }
 }
 
@@ -88,24 +88,24 @@ impl<'a> TimedScene<'a> {
     /// Returns the pairs of a part and a moving obstacle that can meet.
     #[must_use]
     pub fn moving_pairs(self) -> &'a [Pair] {
-        if self.courses.is_empty() { &[] } else { self.scene.loose_pairs() }
+        if self.trajectories.is_empty() { &[] } else { self.scene.loose_pairs() }
     }
 
     /// Returns the trajectory of a pair's obstacle. `None` for a static obstacle.
     #[must_use]
-    pub fn course(self, pair: Pair) -> Option<&'a ObstacleTrajectory> {
-        self.courses.get(self.scene.loose_index(pair)?)
+    pub fn trajectory(self, pair: Pair) -> Option<&'a ObstacleTrajectory> {
+        self.trajectories.get(self.scene.loose_index(pair)?)
     }
 
     /// Returns the obstacle of a pair at its place at a time. `None` for a static obstacle.
     #[must_use]
     pub fn obstacle(self, pair: Pair, time: f64) -> Option<Obstacle> {
-        self.course(pair).map(|course| self.scene.obstacle(pair.obstacle).at(&course.pose(time)))
+        self.trajectory(pair).map(|trajectory| self.scene.obstacle(pair.obstacle).at(&trajectory.pose(time)))
     }
 
     /// Returns the poses of the moving obstacles at a time.
     fn poses(self, time: f64) -> impl Iterator<Item = Pose> {
-        self.courses.iter().map(move |course| course.pose(time))
+        self.trajectories.iter().map(move |trajectory| trajectory.pose(time))
     }
 
     /// Returns the scene at a time. Each moving obstacle becomes static at its place at that time. These obstacles come

@@ -38,7 +38,7 @@ impl Component {
             checkpoint();
             chunk.iter().zip(first..).for_each(|(&place, position)| positions[place as usize] = position);
         }
-        lattice.twins().for_each(|[place, twin]| positions[place] = positions[twin]);
+        lattice.cell_copies().for_each(|[place, twin]| positions[place] = positions[twin]);
         Self { goals, levels, shape: lattice.cells(), places, positions }
     }
 

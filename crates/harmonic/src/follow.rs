@@ -42,13 +42,13 @@ pub trait Guide {
 
     /// Returns true if a move from one cell to the other is progress. It must return true only a finite number of
     /// times.
-    fn comes_on(&mut self, from: Place, to: Place) -> bool;
+    fn is_progress(&mut self, from: Place, to: Place) -> bool;
 
     /// Returns the cells that lead from a cell to a better one. Each is free, and a neighbour of the cell before it.
     ///
     /// # Errors
     /// Returns the reason why no such cells exist.
-    fn onward(&mut self, from: Place) -> Result<Vec<Place>, Self::DeadEnd>;
+    fn next_cells(&mut self, from: Place) -> Result<Vec<Place>, Self::DeadEnd>;
 }
 
 /// A curve along a field, and the goal that it reaches.
@@ -88,12 +88,12 @@ pub fn follow<G: Guide>(guide: &mut G, sides: [f64; 2], from: LatticePoint) -> R
             points.push(next);
         }
         let here = nearest(points[points.len() - 1]);
-        if guide.is_goal(here) || guide.comes_on(best.0, here) {
+        if guide.is_goal(here) || guide.is_progress(best.0, here) {
             best = (here, points.len());
             continue;
         }
         points.truncate(best.1);
-        let onward = guide.onward(best.0)?;
+        let onward = guide.next_cells(best.0)?;
         points.extend([best.0].into_iter().chain(onward).map(center));
         best = (nearest(points[points.len() - 1]), points.len());
     }
@@ -186,12 +186,12 @@ impl Square {
         // Beside a wall, one coordinate may still move.
         stays(next).or_else(|| {
             let mut slides = [[next[0], at[1]], [at[0], next[1]]];
-            slides.sort_by(|p, q| far(*q, at).total_cmp(&far(*p, at)));
+            slides.sort_by(|p, q| distance(*q, at).total_cmp(&distance(*p, at)));
             slides.into_iter().filter(|&to| to != at).find_map(stays)
         })
     }
 }
 
-fn far(a: LatticePoint, b: LatticePoint) -> f64 {
+fn distance(a: LatticePoint, b: LatticePoint) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }

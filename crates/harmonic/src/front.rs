@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn least_first_then_the_least_position() {
+    fn the_least_key_comes_first_then_the_least_position() {
         let mut front = KeyQueue::default();
         [(2.0, 0), (1.0, 7), (f64::INFINITY, 1), (1.0, 3)].into_iter().for_each(|(key, at)| front.push(key, at));
         let order = std::iter::from_fn(|| front.peek().inspect(|_| front.pop())).collect::<Vec<_>>();

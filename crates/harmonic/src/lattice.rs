@@ -101,7 +101,7 @@ impl Lattice {
     }
 
     /// Returns the neighbouring places, in the order `-q1, +q1, -q2, +q2`.
-    pub(super) fn around(&self, framed: usize) -> [usize; 4] {
+    pub(super) fn neighbors(&self, framed: usize) -> [usize; 4] {
         [framed - self.stride, framed + self.stride, framed - 1, framed + 1]
     }
 
@@ -115,7 +115,7 @@ impl Lattice {
     }
 
     /// Iterates over the places in the frame that represent free cells, each with its cell.
-    pub(super) fn twins(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+    pub(super) fn cell_copies(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         let ([rows, columns], stride) = (self.cells, self.stride);
         let lines = (1..=columns).flat_map(move |j| [j, (rows + 1) * stride + j]);
         let ends = (1..=rows).flat_map(move |i| [i * stride, i * stride + columns + 1]);
@@ -161,7 +161,7 @@ impl Lattice {
             let end = order.len();
             levels += 1;
             for at in begin..end {
-                for next in self.around(order[at] as usize) {
+                for next in self.neighbors(order[at] as usize) {
                     // This one comparison skips both walls and cells with a label.
                     if labels[next] >= TWIN_LABEL {
                         let next = if labels[next] == TWIN_LABEL { self.other_side(next) } else { next };
@@ -216,7 +216,7 @@ impl Wave {
         }
         let mut cells = vec![index];
         while label > 0 {
-            let around = lattice.around(at).map(|place| lattice.resolve(place));
+            let around = lattice.neighbors(at).map(|place| lattice.resolve(place));
             at = around.into_iter().flatten().min_by_key(|&next| self.labels[next])?;
             label = self.labels[at];
             cells.push(lattice.index(at));

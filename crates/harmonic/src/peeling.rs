@@ -141,7 +141,7 @@ impl<'a> Peeling<'a> {
             let widest = self.room.iter().copied().max().unwrap_or(0);
             self.decay = (0..=widest).map(decay).collect();
         }
-        while !last.is_some_and(|last| self.leads_on(last))
+        while !last.is_some_and(|last| self.can_ascend(last))
             && let Some(window) = self.gather()
         {
             checkpoint();
@@ -151,7 +151,7 @@ impl<'a> Peeling<'a> {
                 SMALL_WINDOW_CELLS + CORRIDOR_CELLS_PER_ROOM * (widest.min(MAX_CORRIDOR_ROOM) as usize).pow(2);
             let small = if widest <= MAX_CORRIDOR_ROOM { corridor } else { SMALL_WINDOW_CELLS };
             let direct = widest <= MAX_MAZE_ROOM || window.cells.len() <= small;
-            let wide = if direct { None } else { self.wide(&window) };
+            let wide = if direct { None } else { self.wide_system(&window) };
             let solved =
                 wide.and_then(|wide| wide.solve(REFINEMENT_FLOOR * window.greatest, None).map(|values| (wide, values)));
             let accepted = if let Some((wide, values)) = solved {
@@ -170,7 +170,7 @@ impl<'a> Peeling<'a> {
     }
 
     /// Returns true if steepest ascent from a position to a goal reads only known values.
-    fn leads_on(&self, from: usize) -> bool {
+    fn can_ascend(&self, from: usize) -> bool {
         let path = if self.is_known(from) { self.potential.ascend(self.component, from) } else { None };
         path.is_some_and(|path| path.iter().all(|&at| at < self.component.goals || !self.is_front(at)))
     }
@@ -200,7 +200,7 @@ impl<'a> Peeling<'a> {
             flags.for_each(|(free, position)| *free = is_unknown(position));
         }
         for goal in 0..component.goals {
-            for n in self.around(goal).filter(|&n| n >= component.goals) {
+            for n in self.free_neighbors(goal).filter(|&n| n >= component.goals) {
                 wide.add(extent.at(component.place(n)), [1.0, 0.0]);
             }
         }
@@ -227,13 +227,13 @@ impl<'a> Peeling<'a> {
     }
 
     /// Iterates over the neighbours of a cell that are not walls.
-    fn around(&self, position: usize) -> impl Iterator<Item = usize> + use<'a> {
+    fn free_neighbors(&self, position: usize) -> impl Iterator<Item = usize> + use<'a> {
         let wall = self.component.wall();
         self.component.neighbors(position).into_iter().filter(move |&n| n != wall)
     }
 
     fn is_front(&self, position: usize) -> bool {
-        self.around(position).any(|n| !self.is_known(n))
+        self.free_neighbors(position).any(|n| !self.is_known(n))
     }
 
     /// Gathers the unknown cells around the greatest accepted values. Returns `None` if no cells remain.
@@ -272,7 +272,7 @@ impl<'a> Peeling<'a> {
                 let (depth, from) = waiting[level][at];
                 at += 1;
                 let mut cut_here = false;
-                for next in self.around(from as usize) {
+                for next in self.free_neighbors(from as usize) {
                     if self.is_known(next) || self.number[next] != NO_WINDOW {
                         continue;
                     }
@@ -316,7 +316,7 @@ impl<'a> Peeling<'a> {
     }
 
     /// Builds the same equations as [`Self::network`], on the smallest box around the cells.
-    fn wide(&self, window: &Window) -> Option<WideSystem> {
+    fn wide_system(&self, window: &Window) -> Option<WideSystem> {
         let mut bounds = Bounds::new();
         for &position in &window.cells {
             let place = self.component.place(position as usize);
@@ -330,7 +330,7 @@ impl<'a> Peeling<'a> {
         let mut wide = WideSystem::new(extent, self.loss);
         for &position in &window.cells {
             let mut source = [0.0; RIGHT_SIDES];
-            for n in self.around(position as usize) {
+            for n in self.free_neighbors(position as usize) {
                 if self.is_known(n) {
                     source[0] += self.potential.at(n).mantissa_at(window.exponent);
                 } else if self.number[n] == NO_WINDOW {
@@ -354,7 +354,7 @@ impl<'a> Peeling<'a> {
         let at_risk = if window.cut { &window.cells[..] } else { &[] };
         for (i, &position) in at_risk.iter().enumerate() {
             let [u, e] = solution(i);
-            if self.around(position as usize).any(|n| !self.is_known(n) && self.number[n] == NO_WINDOW) {
+            if self.free_neighbors(position as usize).any(|n| !self.is_known(n) && self.number[n] == NO_WINDOW) {
                 value = value.max(u);
                 share = share.max(e);
             }

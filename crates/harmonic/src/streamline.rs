@@ -50,11 +50,11 @@ impl<F: Fn(Place) -> Option<usize>> Guide for PotentialGuide<'_, F> {
         (self.at)(place).is_some_and(|position| position < self.component.goals)
     }
 
-    fn comes_on(&mut self, from: Place, to: Place) -> bool {
+    fn is_progress(&mut self, from: Place, to: Place) -> bool {
         self.is_greater(to, from)
     }
 
-    fn onward(&mut self, from: Place) -> Result<Vec<Place>, LocalMaximum> {
+    fn next_cells(&mut self, from: Place) -> Result<Vec<Place>, LocalMaximum> {
         let [i, j] = from;
         let around = [[i - 1, j], [i + 1, j], [i, j - 1], [i, j + 1]];
         let best = around.into_iter().fold(from, |best, next| if self.is_greater(next, best) { next } else { best });

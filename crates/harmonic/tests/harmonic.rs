@@ -106,7 +106,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(40))]
 
     #[test]
-    fn values_are_the_rational_ones_however_small((grid, goal) in random_grid()) {
+    fn values_agree_with_rational_arithmetic_however_small((grid, goal) in random_grid()) {
         prop_assume!(grid.blocked.len() <= 80);
         let (component, field) = solved(&grid, &[goal]);
         let exact: Vec<f64> = exact(&component).iter().map(ln).collect();
@@ -179,7 +179,7 @@ fn the_middle_of_four_goals_is_not_level() {
 /// Tests a corridor one cell wide. Each value is `2 - sqrt 3` times the previous one, except for a few at its closed
 /// end.
 #[test]
-fn a_spiral_of_a_hundred_thousand_cells() {
+fn a_spiral_of_a_hundred_thousand_cells_is_solved() {
     let (blocked, inner) = mazes::spiral(451);
     let grid = grid([451; 2], [false; 2], blocked);
     let free = grid.blocked.iter().filter(|&&blocked| !blocked).count();
@@ -197,7 +197,7 @@ fn a_spiral_of_a_hundred_thousand_cells() {
 }
 
 #[test]
-fn a_maze_of_2001_x_2001_cells() {
+fn a_maze_of_2001_x_2001_cells_is_solved() {
     let n = 2001;
     let grid = grid([n, n], [false; 2], mazes::maze(n, 0));
     let (component, field) = solved(&grid, &[n * n - 1]);
@@ -208,7 +208,7 @@ fn a_maze_of_2001_x_2001_cells() {
 }
 
 #[test]
-fn a_braided_maze_of_501_x_501_cells() {
+fn a_braided_maze_of_501_x_501_cells_is_solved() {
     let n = 501;
     let grid = grid([n, n], [false; 2], mazes::maze(n, 100));
     let (component, field) = solved(&grid, &[0]);

@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn time_is_the_hosts() {
+    fn the_clock_shows_the_time_of_the_host() {
         let begun = Instant::now();
         Host::end();
         assert_eq!(begun.elapsed(), Duration::ZERO, "without a host time stands still");

@@ -45,7 +45,7 @@ pub enum Interrupted {
     /// [`Interrupt::set`] was called.
     #[error("interrupted")]
     Set,
-    /// The deadline of [`Interrupt::by`] passed.
+    /// The deadline of [`Interrupt::with_deadline`] passed.
     #[error("interrupted: the time is up")]
     TimeUp,
 }
@@ -106,7 +106,7 @@ impl Interrupt {
 
     /// Returns this handle with a deadline. Clones that were made before have no deadline.
     #[must_use]
-    pub fn by(self, deadline: Instant) -> Self {
+    pub fn with_deadline(self, deadline: Instant) -> Self {
         Self { deadline: Some(deadline), ..self }
     }
 
@@ -127,7 +127,7 @@ impl Interrupt {
 
     /// Returns the reason to stop: the interrupt is set, or the deadline has passed. `None` if there is none.
     #[must_use]
-    pub fn why(&self) -> Option<Interrupted> {
+    pub fn stop_reason(&self) -> Option<Interrupted> {
         if self.flag.load(Ordering::Relaxed) {
             return Some(Interrupted::Set);
         }
@@ -146,7 +146,7 @@ impl Interrupt {
     /// # Panics
     /// If `work` panics. Requires `panic = "unwind"`, which is Cargo's default.
     pub fn run<T>(&self, work: impl FnOnce() -> T) -> Result<T, Interrupted> {
-        if let Some(why) = self.why() {
+        if let Some(why) = self.stop_reason() {
             return Err(why);
         }
         let depth = ACTIVE.with_borrow_mut(|active| {
@@ -168,7 +168,7 @@ impl Interrupt {
 #[inline]
 pub fn checkpoint() {
     let (set, asked) = ACTIVE.with_borrow(|active| {
-        let why = |(depth, interrupt): (usize, &Interrupt)| Some(Unwinding { depth, why: interrupt.why()? });
+        let why = |(depth, interrupt): (usize, &Interrupt)| Some(Unwinding { depth, why: interrupt.stop_reason()? });
         let is_due = |interrupt: &&Interrupt| interrupt.question.as_ref().is_some_and(|question| question.is_due());
         ((1..).zip(active).find_map(why), active.iter().find(is_due).cloned())
     });
@@ -224,8 +224,8 @@ mod tests {
     #[test]
     fn a_deadline_that_has_passed_stops_work_and_one_to_come_does_not() {
         let now = Instant::now();
-        assert_eq!(Interrupt::new().by(now).run(|| counted_to(3, |_| ())), Err(Interrupted::TimeUp));
-        let later = Interrupt::new().by(now + Duration::from_secs(1000));
+        assert_eq!(Interrupt::new().with_deadline(now).run(|| counted_to(3, |_| ())), Err(Interrupted::TimeUp));
+        let later = Interrupt::new().with_deadline(now + Duration::from_secs(1000));
         assert_eq!(later.run(|| counted_to(3, |_| ())), Ok(3));
     }
 
@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn another_thread_can_set_it() {
+    fn another_thread_can_set_the_interrupt() {
         let interrupt = Interrupt::new();
         let handle = interrupt.clone();
         let setter = std::thread::spawn(move || handle.set());

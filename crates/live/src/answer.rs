@@ -59,7 +59,7 @@ impl Deadlines {
             TimeSpent::All => (Duration::ZERO, Duration::ZERO, Duration::ZERO),
         };
         let begun = Instant::now();
-        let by = |time: Duration| interrupt.clone().by(begun + time);
+        let by = |time: Duration| interrupt.clone().with_deadline(begun + time);
         Self { limit, drag: by(drag), plan: by(plan), show: by(show) }
     }
 
@@ -130,7 +130,7 @@ impl Answering<'_> {
         start: Option<Pair>,
     ) -> Result<AnswerReply, Interrupted> {
         let at = start.map_or_else(Configuration::zeros, Configuration::from);
-        let goal: Vec<_> = match loaded.given() {
+        let goal: Vec<_> = match loaded.stated_ends() {
             [_, Some(Goal::Joints(q))] => vec![Segment::point(q)],
             _ => Vec::new(),
         };
@@ -152,7 +152,7 @@ impl Answering<'_> {
             Some(Err(Interrupted::Set)) => Err(Interrupted::Set),
             None | Some(Err(Interrupted::TimeUp)) => {
                 let reason = Some("not decided among moving obstacles".into());
-                let shown = self.without_path(problem.timed(), ends.both(), "planning")?;
+                let shown = self.without_path(problem.timed(), ends.start_and_goals(), "planning")?;
                 Ok(ends.insert_into(AnswerReply { reason, ..shown }))
             }
         }
@@ -170,7 +170,8 @@ impl Answering<'_> {
     ) -> Result<AnswerReply, Interrupted> {
         let (ends, problem) = (Ends::of(&loaded), Problem::from(loaded));
         let Self { options, contours, deadlines, think, .. } = self;
-        match deadlines.plan.run(|| result::without_path(problem.timed(), ends.both(), "planning", contours)) {
+        match deadlines.plan.run(|| result::without_path(problem.timed(), ends.start_and_goals(), "planning", contours))
+        {
             Ok(shown) => send(ends.insert_into(shown)),
             Err(Interrupted::TimeUp) => {}
             Err(Interrupted::Set) => return Err(Interrupted::Set),
@@ -180,7 +181,7 @@ impl Answering<'_> {
             Ok(Err(error)) => Ok(refused(ErrorSubject::Options, error)),
             Err(stopped) => {
                 let AnswerReply { verdict, reason, .. } = deadlines.timed_out(stopped)?;
-                let shown = self.without_path(problem.timed(), ends.both(), "unknown")?;
+                let shown = self.without_path(problem.timed(), ends.start_and_goals(), "unknown")?;
                 Ok(ends.insert_into(AnswerReply { verdict, reason, toml: self.toml, ..shown }))
             }
         }
@@ -211,7 +212,7 @@ impl Ends {
         Self { start: loaded.problem.start(), goals: loaded.problem.goals().pieces().to_vec() }
     }
 
-    fn both(&self) -> (Configuration, &[Segment]) {
+    fn start_and_goals(&self) -> (Configuration, &[Segment]) {
         (self.start, &self.goals)
     }
 

@@ -15,7 +15,7 @@ const TOUCHING_DEPTH: f64 = 1e-9;
 
 /// Returns the answer about a world whose start or goal is unusable.
 pub fn refusal(loaded: &LoadedScene, error: &InputError, near: Configuration) -> AnswerReply {
-    let [start, goal] = loaded.given();
+    let [start, goal] = loaded.stated_ends();
     let kinds = error.diagnostics().iter().map(|diagnostic| diagnostic.kind);
     let (about, what, place) = match kinds.into_iter().find(|kind| *kind != DiagnosticKind::Input) {
         Some(DiagnosticKind::Start) => (ErrorSubject::Start, "start", start),
@@ -25,7 +25,7 @@ pub fn refusal(loaded: &LoadedScene, error: &InputError, near: Configuration) ->
     let scene = &loaded.scene;
     let blocked: Vec<_> = place.map_or_else(Vec::new, |place| configurations(scene, place, near).collect());
     let is_hit = !blocked.is_empty() && blocked.iter().all(|(_, hits)| !hits.is_empty());
-    let error = if is_hit { in_the_way(scene, what, &blocked) } else { without_places(error) };
+    let error = if is_hit { describe_contacts(scene, what, &blocked) } else { without_places(error) };
     let reply = |(q, hits): &(Configuration, Vec<Obstruction>)| BlockedReply {
         at: (*q).into(),
         hits: hits.iter().map(reply).collect(),
@@ -73,8 +73,8 @@ fn reply(obstruction: &Obstruction) -> HitReply {
 }
 
 /// Describes the obstacles in contact.
-fn in_the_way(scene: &Scene, what: &str, blocked: &[(Configuration, Vec<Obstruction>)]) -> String {
-    let one = |hits: &[Obstruction]| hits.iter().map(|hit| in_words(scene, hit)).collect::<Vec<_>>().join("; ");
+fn describe_contacts(scene: &Scene, what: &str, blocked: &[(Configuration, Vec<Obstruction>)]) -> String {
+    let one = |hits: &[Obstruction]| hits.iter().map(|hit| describe_contact(scene, hit)).collect::<Vec<_>>().join("; ");
     let touches = blocked.iter().all(|(_, hits)| hits.iter().any(|hit| hit.touches));
     let help = if touches { "Move" } else { "Require less clearance, or move" };
     let help = format!("{help} the {what} or the obstacle.");
@@ -88,7 +88,7 @@ fn in_the_way(scene: &Scene, what: &str, blocked: &[(Configuration, Vec<Obstruct
     }
 }
 
-fn in_words(scene: &Scene, hit: &Obstruction) -> String {
+fn describe_contact(scene: &Scene, hit: &Obstruction) -> String {
     let (part, distance) = (scene.describe_part(hit.contact.pair), hit.contact.separation.distance);
     let obstacle = scene.obstacle_name(hit.contact.pair);
     if !hit.touches {

@@ -32,7 +32,7 @@ struct Entry {
 }
 
 impl Entry {
-    fn is_of(&self, obstacle: &Obstacle) -> bool {
+    fn matches(&self, obstacle: &Obstacle) -> bool {
         self.heights == obstacle.heights && self.pieces == obstacle.pieces
     }
 }
@@ -52,7 +52,7 @@ impl Contours {
         };
         let missing: Vec<usize> = (0..obstacles.len()).filter(|&k| found[k].is_none()).collect();
         // The cache is not borrowed during the computation, which can be interrupted at any time.
-        let mut made = traced(scene, &missing).into_iter();
+        let mut made = trace_contours(scene, &missing).into_iter();
         let entries: Vec<Entry> = found.into_iter().filter_map(|entry| entry.or_else(|| made.next())).collect();
         let numbered = |(number, entry): (usize, &Entry)| {
             let numbered = |contour: &CObstacle| CObstacle { obstacle: number, ..contour.clone() };
@@ -73,7 +73,7 @@ impl Known {
     fn found(&self, obstacles: &[Obstacle]) -> Vec<Option<Entry>> {
         let mut next = 0;
         let mut one = |obstacle: &Obstacle| {
-            let there = self.entries.iter().skip(next).position(|entry| entry.is_of(obstacle))? + next;
+            let there = self.entries.iter().skip(next).position(|entry| entry.matches(obstacle))? + next;
             next = there + 1;
             Some(self.entries[there].clone())
         };
@@ -91,7 +91,7 @@ fn own(scene: &Scene) -> Vec<CObstacle> {
 }
 
 /// Computes the contours of some obstacles, one entry for each.
-fn traced(scene: &Scene, wanted: &[usize]) -> Vec<Entry> {
+fn trace_contours(scene: &Scene, wanted: &[usize]) -> Vec<Entry> {
     let obstacles: Vec<Obstacle> = wanted.iter().map(|&k| scene.workspace().obstacles[k].clone()).collect();
     let entry = |o: &Obstacle| Entry { pieces: o.pieces.clone(), heights: o.heights, contours: Vec::new() };
     let mut entries: Vec<Entry> = obstacles.iter().map(entry).collect();

@@ -77,7 +77,7 @@ impl Document {
         let mut touched = self.change_obstacles(&mut toml, &state.obstacles)?;
         let clearance = toml.get("clearance").and_then(number).unwrap_or(0.0);
         if clearance != state.clearance {
-            put(toml.as_table_mut(), "clearance", value(state.clearance));
+            set_value(toml.as_table_mut(), "clearance", value(state.clearance));
             touched = true;
         }
         let joints = start.or(match state.start {
@@ -119,10 +119,10 @@ impl Document {
                         table.remove(key);
                     }
                 }
-                put(&mut table, key_of(shape), Item::Value(written(shape)));
+                set_value(&mut table, key_of(shape), Item::Value(written(shape)));
             }
             if let Some(name) = piece.name.as_ref().filter(|_| renames(&table, piece)) {
-                put(&mut table, "name", value(name));
+                set_value(&mut table, "name", value(name));
                 if piece.from.is_none() {
                     table.sort_values_by(|a, _, b, _| (a.get() != "name").cmp(&(b.get() != "name")));
                 }
@@ -150,7 +150,7 @@ fn renames(table: &Table, piece: &Piece) -> bool {
 }
 
 /// Sets the value of a key. Comments around the old value are preserved.
-fn put(table: &mut Table, key: &str, item: Item) {
+fn set_value(table: &mut Table, key: &str, item: Item) {
     match (table.get_mut(key).and_then(Item::as_value_mut), item) {
         (Some(old), Item::Value(mut new)) => {
             *new.decor_mut() = old.decor().clone();
@@ -294,7 +294,7 @@ image = \"map.yaml\"
         }
     }
 
-    fn kept(from: usize) -> Piece {
+    fn kept_piece(from: usize) -> Piece {
         Piece { from: Some(from), ..Piece::default() }
     }
 
@@ -311,14 +311,15 @@ image = \"map.yaml\"
     fn equal_content_changes_no_byte() {
         let document = document();
         let forms = document.forms();
-        let pieces = forms.into_iter().enumerate().map(|(i, shape)| Piece { shape, ..kept(i) }).collect();
+        let pieces = forms.into_iter().enumerate().map(|(i, shape)| Piece { shape, ..kept_piece(i) }).collect();
         assert_eq!(document.changed(&state(pieces), None).unwrap(), TEXT);
     }
 
     #[test]
     fn a_moved_corner_changes_that_shape_and_nothing_else() {
         let moved = Form::Polygon(vec![[0.0, 0.0], [1.25, 0.0], [0.0, 1.0]]);
-        let text = document().changed(&state(vec![Piece { shape: Some(moved), ..kept(0) }, kept(1), kept(2)]), None);
+        let text = document()
+            .changed(&state(vec![Piece { shape: Some(moved), ..kept_piece(0) }, kept_piece(1), kept_piece(2)]), None);
         let expected = TEXT.replace("[[0, 0], [1, 0], [0, 1]]", "[[0.0, 0.0], [1.25, 0.0], [0.0, 1.0]]");
         assert_eq!(text.unwrap(), expected);
     }
@@ -327,7 +328,7 @@ image = \"map.yaml\"
     fn obstacles_come_and_go() {
         let wall =
             Piece { name: Some("wall".into()), shape: Some(Form::Polyline(vec![[0.0, 0.0], [1.0, 1.0]])), from: None };
-        let text = document().changed(&state(vec![kept(1), wall]), None).unwrap();
+        let text = document().changed(&state(vec![kept_piece(1), wall]), None).unwrap();
         let after = Document::parse(&text).unwrap();
         let wall = Form::Polyline(vec![[0.0, 0.0], [1.0, 1.0]]);
         assert_eq!(after.forms(), [Some(Form::Circle { center: [3.0, 4.0], radius: 0.5 }), Some(wall)]);
@@ -343,7 +344,7 @@ image = \"map.yaml\"
             start: Some(Begin::Joints { joints: [0.25, 1.5] }),
             goal: Some(End::Joints([0.5, 0.75])),
             clearance: 0.125,
-            ..state(vec![kept(0), kept(1), kept(2)])
+            ..state(vec![kept_piece(0), kept_piece(1), kept_piece(2)])
         };
         let text = document().changed(&state, None).unwrap();
         let expected = TEXT
@@ -354,7 +355,7 @@ image = \"map.yaml\"
     }
 
     #[test]
-    fn a_text_without_them_gets_its_tables() {
+    fn missing_tables_are_added_to_the_text() {
         let empty = Document::parse("").unwrap();
         let disc = Piece { shape: Some(Form::Circle { center: [1.0, 0.0], radius: 0.5 }), ..Piece::default() };
         let text = empty.changed(&state(vec![disc]), None).unwrap();
@@ -382,20 +383,20 @@ image = \"map.yaml\"
     fn inline_obstacles_are_obstacles() {
         let inline = Document::parse("obstacle = [{ polygon = [[0, 0], [1, 0], [0, 1]] }]\n").unwrap();
         assert_eq!(inline.forms().len(), 1);
-        let text = inline.changed(&state(vec![kept(0), kept(0)]), None).unwrap();
+        let text = inline.changed(&state(vec![kept_piece(0), kept_piece(0)]), None).unwrap();
         assert_eq!(Document::parse(&text).unwrap().forms().len(), 2, "{text}");
     }
 
     #[test]
     fn too_large_changes_and_missing_files_are_refused() {
-        let error = document().changed(&state(vec![kept(3)]), None).unwrap_err();
+        let error = document().changed(&state(vec![kept_piece(3)]), None).unwrap_err();
         assert_eq!(error, "the text has no obstacle 4");
-        let error = document().changed(&state(vec![kept(0); MAX_OBSTACLES + 1]), None).unwrap_err();
+        let error = document().changed(&state(vec![kept_piece(0); MAX_OBSTACLES + 1]), None).unwrap_err();
         assert!(error.contains("at most"), "{error}");
     }
 
     #[test]
-    fn files_are_those_of_maps() {
+    fn the_files_of_a_world_include_those_of_its_map() {
         assert_eq!(document().files().into_iter().collect::<Vec<_>>(), ["map.yaml"]);
         let map = Document::parse("map = { file = \"a.map\", preferences = \"b.map\" }").unwrap();
         assert_eq!(map.files().into_iter().collect::<Vec<_>>(), ["a.map", "b.map"]);

@@ -14,7 +14,7 @@ use std::path::Path;
 pub fn content(loaded: LoadedScene, options: &Options, format: &str) -> Result<Vec<u8>, String> {
     let in_words = |error: &dyn ToString| error.to_string();
     let format = FileFormat::from_path(Path::new(&format!("plan.{format}"))).map_err(|error| in_words(&error))?;
-    let options = options.within(&loaded.scene)?;
+    let options = options.for_scene(&loaded.scene)?;
     let problem = Problem::of_scene(loaded, &Overrides::default()).map_err(|error| in_words(&error))?;
     let plan = plan(&problem, options).map_err(|error| in_words(&error))?;
     let bytes = plan.bytes(format).map_err(|error| in_words(&error))?;

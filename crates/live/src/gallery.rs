@@ -187,7 +187,7 @@ mod tests {
         ("berth", &[["[start]", "clearance = 0.0341\n[start]"]]),
     ];
 
-    fn planned(choice: &Choice, world: &str) -> Plan {
+    fn plan_world(choice: &Choice, world: &str) -> Plan {
         let robot = BTreeMap::from(ROBOTS)[choice.robot];
         let scene = scene_from(Source::in_memory("arm.urdf", robot), Source::in_memory(choice.name, world)).unwrap();
         plan(&Problem::of_scene(scene, &Overrides::default()).unwrap(), &Options::default()).unwrap()
@@ -209,7 +209,7 @@ mod tests {
         assert_eq!(names.len(), CHOICES.len());
         let mut solutions = BTreeMap::from(SOLUTIONS);
         for choice in &CHOICES {
-            let first = planned(choice, choice.world);
+            let first = plan_world(choice, choice.world);
             let Some(puzzle) = &choice.puzzle else { continue };
             assert!(!is_solved(puzzle, &first), "{} is solved from the beginning", choice.name);
             let put = |world: String, [from, to]: &[&str; 2]| {
@@ -218,7 +218,7 @@ mod tests {
             };
             let changes = solutions.remove(choice.name).expect("a solution");
             let world = changes.iter().fold(choice.world.to_owned(), put);
-            assert!(is_solved(puzzle, &planned(choice, &world)), "{} is not solved", choice.name);
+            assert!(is_solved(puzzle, &plan_world(choice, &world)), "{} is not solved", choice.name);
         }
         assert!(solutions.is_empty(), "{solutions:?}");
     }
@@ -227,6 +227,6 @@ mod tests {
     fn a_path_exists_at_the_stated_clearance_and_not_above() {
         let choice = CHOICES.iter().find(|choice| choice.name == "berth").unwrap();
         let wider = choice.world.replace("[start]", "clearance = 0.0342\n[start]");
-        assert_eq!(planned(choice, &wider).status().name(), "infeasible");
+        assert_eq!(plan_world(choice, &wider).status().name(), "infeasible");
     }
 }

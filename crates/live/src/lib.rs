@@ -21,7 +21,7 @@
 //!   The badge says certified only for the final answer to the current number, with a working connection. Edits are
 //!   kept in the browser (`keep`), under the program's initial text.
 //! - The page speaks first: it opens the program's initial world, or the one in its address (`gallery`): arm, world and
-//!   options, which it sends as text (`Host::brought`). Worlds that name files with which the program was not started
+//!   options, which it sends as text (`Host::from_texts`). Worlds that name files with which the program was not started
 //!   are refused (`Host::read`).
 //! - The page's code (`assets`) extends that of `draw::shell`: `alone` (the program inside the page, without a server),
 //!   `link` (one request under way, the latest next), `gallery` (worlds to open, and links), `keep`, `notices`
@@ -88,7 +88,7 @@ impl Host {
     ///
     /// # Errors
     /// The reason, with the position in the text.
-    fn brought(Files { urdf, world, options }: Files, time: Duration) -> Result<Self, String> {
+    fn from_texts(Files { urdf, world, options }: Files, time: Duration) -> Result<Self, String> {
         let [urdf, world] =
             [("robot.urdf", urdf), ("world.toml", world)].map(|(name, text)| Source::in_memory(name, text));
         let scene = scene_from(urdf.clone(), world.clone()).map_err(|error| error.to_string())?;
@@ -107,7 +107,8 @@ impl Host {
                 "the world names the file \"{file}\", which the world that the server started with does not name\n  hint: start cplan serve with this world"
             ));
         }
-        let scene = self.scene.edited(&self.urdf, self.world.with_text(text)).map_err(|error| error.to_string())?;
+        let scene =
+            self.scene.with_world_text(&self.urdf, self.world.with_text(text)).map_err(|error| error.to_string())?;
         // Any text that can be read as a world is TOML.
         Ok((document.ok_or("this is no TOML")?, scene))
     }

@@ -13,7 +13,7 @@ use super::protocol::{
     AnswerReply, Begin, ErrorSubject, Files, JointReply, Message, Pair, PieceReply, PlanRequest, Reply, Request,
     WorldReply,
 };
-use cplan_core::model::{Arm, inverse, within};
+use cplan_core::model::{Arm, equivalent_values, inverse};
 use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
 use cplan_interrupt::{Instant, Interrupt, Interrupted};
@@ -58,14 +58,20 @@ impl LiveSession {
     ///
     /// # Errors
     /// The reason, with its position in the text.
-    pub fn hold(&mut self, base: u64, text: &str) -> Result<(), String> {
+    pub fn resume(&mut self, base: u64, text: &str) -> Result<(), String> {
         let (document, scene) = self.host.read(text)?;
         (self.base, self.document, self.scene) = (base, document, scene);
         Ok(())
     }
 
     /// Handles a request, and passes the messages for the page to `send`.
-    pub fn take(&mut self, request: &Request, interrupt: &Interrupt, spent: TimeSpent, send: &mut dyn FnMut(Message)) {
+    pub fn handle(
+        &mut self,
+        request: &Request,
+        interrupt: &Interrupt,
+        spent: TimeSpent,
+        send: &mut dyn FnMut(Message),
+    ) {
         let mut reply = |reply: Reply| send(Message::from(&reply));
         match request {
             Request::Open { id, files } => reply(match self.open(files.as_ref(), spent) {
@@ -125,7 +131,7 @@ impl LiveSession {
             None => Arc::clone(&own),
             Some(files) => {
                 let deadlines = Deadlines::new(&Interrupt::new(), spent, own.time);
-                let brought = deadlines.plan.run(|| Host::brought(files.clone(), own.time));
+                let brought = deadlines.plan.run(|| Host::from_texts(files.clone(), own.time));
                 Arc::new(brought.unwrap_or_else(|_| Err(time_up(own.time)))?)
             }
         };
@@ -197,12 +203,12 @@ impl LiveSession {
             Err(error) => return Ok(refused(ErrorSubject::World, error)),
         };
         let source = self.host.world.with_text(text.as_str());
-        let loaded = match deadlines.show.run(|| self.scene.edited(&self.host.urdf, source)) {
+        let loaded = match deadlines.show.run(|| self.scene.with_world_text(&self.host.urdf, source)) {
             Ok(Ok(loaded)) => loaded,
             Ok(Err(error)) => return Ok(blocked::unread(&error)),
             Err(stopped) => return deadlines.timed_out(stopped),
         };
-        let options = match options.within(&loaded.scene) {
+        let options = match options.for_scene(&loaded.scene) {
             Ok(options) => options,
             Err(error) => return Ok(refused(ErrorSubject::Options, error)),
         };
@@ -239,7 +245,7 @@ impl LiveSession {
         }
         let options = Options::parse(&ask.options)?;
         let source = self.host.world.with_text(text.as_str());
-        let loaded = self.scene.edited(&self.host.urdf, source).map_err(|error| error.to_string())?;
+        let loaded = self.scene.with_world_text(&self.host.urdf, source).map_err(|error| error.to_string())?;
         let deadlines = Deadlines::new(interrupt, spent, self.host.time);
         match deadlines.plan.run(|| files::content(loaded, &options, format)) {
             Ok(content) => Ok((format!("plan.{format}"), content?)),
@@ -290,7 +296,9 @@ fn follow(arm: &Arm, tip: Point, near: Configuration) -> Configuration {
 
 fn nearest_ik_solution(arm: &Arm, tip: Point, near: Configuration) -> Option<Configuration> {
     let topology = arm.topology();
-    let values = |q: Configuration, k: usize| within(arm.joints[k].range, arm.joints[k].joint_type.is_revolute(), q[k]);
+    let values = |q: Configuration, k: usize| {
+        equivalent_values(arm.joints[k].range, arm.joints[k].joint_type.is_revolute(), q[k])
+    };
     let branches = inverse(arm, tip, near).branches.into_iter().flat_map(|q| {
         let second = values(q, 1);
         values(q, 0).into_iter().flat_map(move |a| second.clone().into_iter().map(move |b| Configuration::new(a, b)))

@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn what_holds_without_an_option_is_no_value_beside_it() {
+    fn the_default_is_not_among_the_other_values() {
         for option in planners().into_iter().flat_map(|planner| planner.options) {
             assert!(!option.values.is_empty(), "{}", option.name);
             assert!(option.values.iter().all(|[value, _]| *value != option.standard), "{}", option.name);

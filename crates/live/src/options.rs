@@ -63,8 +63,8 @@ impl Options {
     ///
     /// # Errors
     /// A field that needs preferences, in a world that has none.
-    pub fn within(&self, scene: &Scene) -> Result<&cplan_solver::Options, String> {
-        self.options.planner.lack(&scene.workspace().preferences).map_or(Ok(&self.options), Err)
+    pub fn for_scene(&self, scene: &Scene) -> Result<&cplan_solver::Options, String> {
+        self.options.planner.missing_preference(&scene.workspace().preferences).map_or(Ok(&self.options), Err)
     }
 }
 

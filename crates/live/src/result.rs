@@ -51,7 +51,7 @@ pub fn quick_answer(problem: &Problem, options: &Options, contours: &Contours) -
         picture.paths.push((answer.method.to_string(), path));
     }
     let view = drawn(&View::of_picture(&picture));
-    Ok(AnswerReply { reason: plan.reason(), figures, view, ..judged(plan.status()) })
+    Ok(AnswerReply { reason: plan.reason(), figures, view, ..reply_with_status(plan.status()) })
 }
 
 fn picture<'a>(
@@ -71,7 +71,7 @@ fn arm_of(scene: &Scene) -> String {
 }
 
 /// Returns an answer with this verdict, in the words of the page.
-fn judged(status: Status) -> AnswerReply {
+fn reply_with_status(status: Status) -> AnswerReply {
     AnswerReply { verdict: Some(status.name()), certified: status == Status::Found, ..AnswerReply::default() }
 }
 
@@ -107,5 +107,5 @@ pub fn full_answer(
         duration: plan.duration(),
         ..Figures::of_size(size)
     };
-    Ok(AnswerReply { reason: plan.reason(), figures, view: drawn(&view), ..judged(plan.status()) })
+    Ok(AnswerReply { reason: plan.reason(), figures, view: drawn(&view), ..reply_with_status(plan.status()) })
 }

@@ -39,25 +39,27 @@ struct NumberedText {
 /// The program inside one page.
 #[derive(Default)]
 pub struct StandalonePage {
-    desk: Option<LiveSession>,
+    session: Option<LiveSession>,
 }
 
 impl StandalonePage {
     /// Executes an order and passes its results to `send`.
-    pub fn take(&mut self, order: &str, send: &mut dyn FnMut(Message)) {
+    pub fn execute(&mut self, order: &str, send: &mut dyn FnMut(Message)) {
         let failed = |error: String| Message::from(&Reply::Failed { id: 0, error });
-        match (serde_json::from_str(order), &mut self.desk) {
+        match (serde_json::from_str(order), &mut self.session) {
             (Err(error), _) => send(failed(format!("no order: {error}"))),
-            (Ok(Order::Take { request, spent }), Some(desk)) => desk.take(&request, &Interrupt::new(), spent, send),
+            (Ok(Order::Take { request, spent }), Some(session)) => {
+                session.handle(&request, &Interrupt::new(), spent, send)
+            }
             (Ok(Order::Take { .. }), None) => send(failed("no world is open".into())),
             (Ok(Order::Open { id, files, seconds, held }), place) => {
                 let is_new = held.is_none();
-                match opened(files, seconds, held) {
-                    Ok(desk) => {
+                match open_session(files, seconds, held) {
+                    Ok(session) => {
                         if is_new {
-                            send(Message::from(&desk.world(id, true)));
+                            send(Message::from(&session.world(id, true)));
                         }
-                        *place = Some(desk);
+                        *place = Some(session);
                     }
                     Err(error) => send(Message::from(&Reply::Failed { id, error })),
                 }
@@ -70,12 +72,12 @@ impl StandalonePage {
 ///
 /// # Errors
 /// The defects of the files.
-fn opened(files: Files, seconds: f64, held: Option<NumberedText>) -> Result<LiveSession, String> {
+fn open_session(files: Files, seconds: f64, held: Option<NumberedText>) -> Result<LiveSession, String> {
     let time = Duration::try_from_secs_f64(seconds).map_err(|error| format!("seconds: {error}"))?;
-    let host = Host::brought(files, time)?;
-    let mut desk = LiveSession::new(Arc::new(host));
-    held.map_or(Ok(()), |NumberedText { base, text }| desk.hold(base, &text))?;
-    Ok(desk)
+    let host = Host::from_texts(files, time)?;
+    let mut session = LiveSession::new(Arc::new(host));
+    held.map_or(Ok(()), |NumberedText { base, text }| session.resume(base, &text))?;
+    Ok(session)
 }
 
 #[cfg(test)]
@@ -89,7 +91,7 @@ mod tests {
     /// Returns the messages that an order produces, as JSON.
     fn replies_to(alone: &mut StandalonePage, order: &Value) -> Vec<Value> {
         let mut replies = Vec::new();
-        alone.take(&order.to_string(), &mut |message| match message {
+        alone.execute(&order.to_string(), &mut |message| match message {
             Message::Text(text) => replies.push(serde_json::from_str(&text).unwrap()),
             Message::Binary(bytes) => replies.push(json!({ "bytes": bytes.len() })),
         });
@@ -120,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn it_goes_on_where_another_one_ended() {
+    fn a_session_continues_from_the_text_of_another() {
         let mut alone = StandalonePage::default();
         let other = WORLD.replace("name = \"", "name = \"other ");
         assert!(replies_to(&mut alone, &open(json!({ "base": 5, "text": other }))).is_empty());

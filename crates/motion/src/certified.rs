@@ -1,7 +1,7 @@
 //! Rounds the corners of certified paths as far as the clearance allows.
 
 use super::blend::{BLEND_TOLERANCE, Blend, BlendedPath};
-use super::span::along;
+use super::span::tube_about_part;
 use cplan_core::check::{CertifiedPath, CurveSearch, Nearest, Rejection, Vicinity};
 use cplan_core::model::Scene;
 use cplan_core::space::Path;
@@ -133,7 +133,7 @@ impl CertifiedCurve {
 #[must_use]
 pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64) -> CertifiedCurve {
     let q = path.path().waypoints();
-    let required = required(path, clearance);
+    let required = required_distance(path, clearance);
     let mut blended = CertifiedCurve::from(path.clone());
     if path.clearance() <= clearance {
         return blended;
@@ -165,11 +165,11 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
 
 /// Checks a tube around a piece of a motion. Its half width in each joint is `beside`.
 fn follow(search: &mut CurveSearch, vicinity: &Vicinity, piece: &Piece, beside: f64) -> Result<(), Rejection> {
-    search.curve(vicinity, |middle: f64, half: f64| along(piece, middle - half, middle + half, beside))
+    search.curve(vicinity, |middle: f64, half: f64| tube_about_part(piece, middle - half, middle + half, beside))
 }
 
 /// Returns the distance, metres, that a motion must keep from obstacles if it leaves the path at corners.
-fn required(path: &CertifiedPath, clearance: f64) -> f64 {
+fn required_distance(path: &CertifiedPath, clearance: f64) -> f64 {
     clearance + KEPT_CLEARANCE_SHARE * (path.clearance() - clearance)
 }
 
@@ -190,7 +190,7 @@ impl<'a> Rounding<'a> {
     /// `clearance`.
     #[must_use]
     pub fn new(scene: &'a Scene, path: &'a CertifiedPath, clearance: f64) -> Self {
-        Self { scene, vicinity: Vicinity::new(scene), path, required: required(path, clearance) }
+        Self { scene, vicinity: Vicinity::new(scene), path, required: required_distance(path, clearance) }
     }
 
     /// Returns the indices of the pieces of a motion that are not shown to be free. Joint limits are not checked.

@@ -187,7 +187,7 @@ impl Corner {
                 bounds.extend(bernstein.map(|row| row.map(|c| c / velocity)));
             }
             if let Some(tip) = limits.tip {
-                let squared = (left * tip.allowed(&self.part(i))).powi(2);
+                let squared = (left * tip.speed_within_limit(&self.part(i))).powi(2);
                 bounds.extend([[1.0 / squared, 0.0], [0.0, 1.0 / squared]]);
             }
             if let Some(torque) = limits.torque {
@@ -283,7 +283,7 @@ impl Extend<[f64; 2]> for Bounds {
 
 impl Bounds {
     /// Returns the greatest `z1` up to `most` for a feasible `z0`.
-    pub(super) fn onward(&self, z0: f64, most: f64) -> f64 {
+    pub(super) fn greatest_end(&self, z0: f64, most: f64) -> f64 {
         self.upper(z0, most).0.max(0.0)
     }
 
@@ -291,10 +291,10 @@ impl Bounds {
     ///
     /// The difference between the greatest and the least `z1` is a concave, piecewise linear function of `z0`, and not
     /// negative at 0. Newton's method from above ends at the root of this function, after at most as many steps as
-    /// there are pairs of rows. The result is lowered by more than the rounding, so that [`Bounds::onward`] finds a
+    /// there are pairs of rows. The result is lowered by more than the rounding, so that [`Bounds::greatest_end`] finds a
     /// feasible
     /// `z1`.
-    pub(super) fn back(&self, most: f64) -> f64 {
+    pub(super) fn greatest_start(&self, most: f64) -> f64 {
         let mut z0 = self.most;
         for _ in 0..=(self.above.len() + 1) * (self.below.len() + 1) {
             let (upper, lower) = (self.upper(z0, most), self.lower(z0));
@@ -332,7 +332,7 @@ mod tests {
 
         /// Compares the bounds with the vertices of the polygon, found by brute force.
         #[test]
-        fn bounds_are_those_of_the_polygon(
+        fn bounds_of_a_corner_agree_with_the_feasible_polygon(
             rows in prop::collection::vec(prop::array::uniform2(prop_oneof![Just(0.0), -3.0..3.0_f64]), 1..9),
             caps in (0.1..5.0_f64, 0.1..5.0_f64), most in 0.0..4.0_f64, share in 0.0..1.0_f64,
         ) {
@@ -357,10 +357,10 @@ mod tests {
                     }
                 }
             }
-            let back = bounds.back(most);
+            let back = bounds.greatest_start(most);
             prop_assert!((back - greatest).abs() < 1e-6 * (1.0 + greatest), "{back} {greatest}");
             let z0 = back * share;
-            let z1 = bounds.onward(z0, most);
+            let z1 = bounds.greatest_end(z0, most);
             prop_assert!(inside(z0, z1) && (z1 + 1e-6 > most || !inside(z0, z1 + 1e-6)), "{z0} {z1}");
         }
     }

@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quotes_what_would_end_a_field() {
+    fn fields_with_separators_are_quoted() {
         assert_eq!(quoted("elbow joint"), "elbow joint");
         assert_eq!(quoted("a,b"), "\"a,b\"");
         assert_eq!(quoted("a \"b\""), "\"a \"\"b\"\"\"");

@@ -125,7 +125,7 @@ impl Drive {
         }
         if let Some(torque) = torque {
             torque.check(&best.trajectory.pieces())?;
-            best.trajectory.torque = torque.along(&best.trajectory);
+            best.trajectory.torque = torque.along_trajectory(&best.trajectory);
         }
         Ok(best)
     }

@@ -61,7 +61,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn extension_decides() {
+    fn the_extension_decides_the_format() {
         let format = |name: &str| Format::from_path(Path::new(name));
         assert_eq!(format("a/b.json"), Ok(Format::Json));
         assert_eq!(format("b.CSV"), Ok(Format::Csv));

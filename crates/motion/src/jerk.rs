@@ -52,7 +52,7 @@ pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, jerk: f64
             Times { grow, hold: 0.0, cruise: 0.0 }
         }
     };
-    times.with_floor(shortest).within(length, [speed, acceleration, jerk]).whole().phases(length)
+    times.with_floor(shortest).lengthened_to_limits(length, [speed, acceleration, jerk]).rounded_up().phases(length)
 }
 
 /// Returns the fastest motion over the length 1 with the jerk 1 and these limits on speed and acceleration.
@@ -92,14 +92,14 @@ impl Times {
     }
 
     /// Lengthens all times so that rates that exceed their limits by rounding are within them.
-    fn within(self, length: f64, limits: [f64; 3]) -> Self {
+    fn lengthened_to_limits(self, length: f64, limits: [f64; 3]) -> Self {
         let [speed, acceleration, jerk] = [0, 1, 2].map(|i| self.rates(length)[i] / limits[i]);
         let longer = speed.max(acceleration.sqrt()).max(jerk.cbrt()).max(1.0);
         Self { grow: self.grow * longer, hold: self.hold * longer, cruise: self.cruise * longer }
     }
 
     /// Lengthens every duration to whole nanoseconds.
-    fn whole(self) -> Self {
+    fn rounded_up(self) -> Self {
         let Self { grow, hold, cruise } = self;
         Self { grow: whole_nanoseconds(grow), hold: whole_nanoseconds(hold), cruise: whole_nanoseconds(cruise) }
     }
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn each_choice_of_limits_that_are_reached() {
+    fn every_combination_of_reached_limits_is_timed() {
         // Over 1 at a jerk of 1: nothing else is reached, the acceleration, the speed, both.
         let cases = [
             ([9.0, 9.0], 4, 4.0 * 0.5f64.cbrt()),
@@ -165,7 +165,7 @@ mod tests {
     #[test]
     fn times_too_short_for_the_limits_are_lengthened() {
         let times = Times { grow: 1.0, hold: 2.0, cruise: 0.5 };
-        assert_eq!(times.within(9.0, times.rates(9.0)), times);
+        assert_eq!(times.lengthened_to_limits(9.0, times.rates(9.0)), times);
         // In the same shape: until the limit that is missed by most is reached.
         let [speed, acceleration, jerk] = times.rates(9.0);
         for (limits, longer) in [
@@ -173,7 +173,7 @@ mod tests {
             ([speed, acceleration / 4.0, jerk / 1.5], 2.0),
             ([speed, acceleration, jerk / 8.0], 2.0),
         ] {
-            let slower = times.within(9.0, limits);
+            let slower = times.lengthened_to_limits(9.0, limits);
             assert!((slower.grow - longer).abs() < 1e-15 && (slower.cruise - longer / 2.0).abs() < 1e-15);
             let rates = slower.rates(9.0);
             assert!((0..3).all(|i| rates[i] <= limits[i] * (1.0 + 1e-15)), "{rates:?} {limits:?}");

@@ -53,7 +53,7 @@ mod tests {
     }
 
     #[test]
-    fn bang_bang_with_and_without_top_speed() {
+    fn bang_bang_durations_agree_with_the_closed_form() {
         let close =
             |found: f64, expected: f64| assert!((found - expected).abs() < 1e-7 * expected, "{found} {expected}");
         // 6 rad at 2 rad/s with 4 rad/s2: 3 s and a ramp.
@@ -65,7 +65,7 @@ mod tests {
 
     /// Compares the bound for limited jerk with a numerical integration in small time steps.
     #[test]
-    fn with_a_jerk_as_integrated() {
+    fn durations_with_a_jerk_limit_agree_with_integration() {
         for (length, jerk) in [(0.1, 5.0), (0.1, 500.0), (1.0, 20.0), (3.0, 1.0), (1e-4, 3.0)] {
             let [velocity, acceleration] = [2.0, 4.0];
             let found = least_duration(length, &limits(velocity, acceleration, Some(jerk)));

@@ -62,18 +62,18 @@ impl Limits<'_> {
 
     /// Returns the greatest speed along a unit direction. A joint that does not move sets no limit.
     pub(super) fn speed_along(&self, direction: Configuration) -> f64 {
-        along(self.velocity, direction)
+        limit_along(self.velocity, direction)
     }
 
     /// Returns the greatest acceleration along a unit direction.
     pub(super) fn acceleration_along(&self, direction: Configuration) -> f64 {
-        along(self.acceleration, direction)
+        limit_along(self.acceleration, direction)
     }
 
     /// Returns the greatest jerk along a unit direction; infinite if no moving joint has a limit.
     pub(super) fn jerk_along(&self, direction: Configuration) -> f64 {
         let limits = self.jerk.map(|jerk| jerk.unwrap_or(f64::INFINITY));
-        along(limits, direction)
+        limit_along(limits, direction)
     }
 
     /// Returns true if a motion must stop at every corner. This is so if the jerk of any joint is limited, because the
@@ -84,6 +84,6 @@ impl Limits<'_> {
     }
 }
 
-fn along(limits: [f64; 2], direction: Configuration) -> f64 {
+fn limit_along(limits: [f64; 2], direction: Configuration) -> f64 {
     (0..2).map(|k| limits[k] / direction[k].abs()).fold(f64::INFINITY, f64::min)
 }

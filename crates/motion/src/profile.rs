@@ -191,7 +191,7 @@ mod tests {
         #![proptest_config(cplan_cases::cases(256))]
 
         #[test]
-        fn limits_floor_and_optimum(
+        fn profiles_keep_the_limits_and_are_optimal(
             length in -18.0..6.0f64, speed in -4.0..5.0f64, acceleration in -4.0..6.0f64,
         ) {
             let [length, speed, acceleration] = [length, speed, acceleration].map(|e| 10f64.powf(e));
@@ -214,7 +214,7 @@ mod tests {
         /// Compares the motion with a closed form for the distance and with the limits on the ramps to and from the
         /// peak.
         #[test]
-        fn passing_is_as_fast_as_the_limits_allow(
+        fn passing_speeds_are_as_fast_as_the_limits_allow(
             length in -4.0..3.0f64, acceleration in -1.0..3.0f64, at in (0.0..1.0f64, 0.0..1.0f64), top in 0.05..3.0f64,
         ) {
             let [length, acceleration] = [length, acceleration].map(|e| 10f64.powf(e));

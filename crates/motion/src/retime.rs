@@ -74,7 +74,7 @@ pub(super) struct Rate {
 
 impl Condition {
     /// Returns the slack of the condition, and its derivatives by `z`, `z'` and `z''`.
-    fn left(&self, [z, rising, bend]: [f64; 3]) -> (f64, [f64; 3]) {
+    fn slack(&self, [z, rising, bend]: [f64; 3]) -> (f64, [f64; 3]) {
         let [a, b, c] = self.factors;
         let sum = a * z + b * rising + c * bend;
         if !self.has_root {
@@ -144,7 +144,7 @@ impl Problem<'_> {
                 (merit, product) = (merit - height * product.ln(), 1.0);
             }
             for condition in conditions {
-                let (left, _) = condition.left(values);
+                let (left, _) = condition.slack(values);
                 if left.is_nan() || left <= 0.0 {
                     return f64::INFINITY;
                 }
@@ -163,7 +163,7 @@ impl Problem<'_> {
             let (mut gradient, mut second) = ([-time / (2.0 * z), 0.0, 0.0], [[0.0; 3]; 3]);
             second[0][0] = 0.75 * time / (z * z);
             for condition in conditions {
-                let (left, change) = condition.left(values);
+                let (left, change) = condition.slack(values);
                 for r in 0..3 {
                     gradient[r] -= height * change[r] / left;
                     for s in 0..=r {
@@ -181,7 +181,7 @@ impl Problem<'_> {
                 }
             }
         }
-        let step = solved(bands, slope.iter().map(|slope| -slope).collect())?;
+        let step = solve_banded(bands, slope.iter().map(|slope| -slope).collect())?;
         let promised = -slope.iter().zip(&step).map(|(slope, step)| slope * step).sum::<f64>();
         Some((step, promised))
     }
@@ -189,7 +189,7 @@ impl Problem<'_> {
 
 /// Solves `A x = b` for a symmetric, positive definite `A`, given the entries of its rows from the diagonal on, by a
 /// root-free Cholesky decomposition. Returns `None` if `A` is not positive definite.
-fn solved(mut bands: Vec<[f64; 3]>, mut x: Vec<f64>) -> Option<Vec<f64>> {
+fn solve_banded(mut bands: Vec<[f64; 3]>, mut x: Vec<f64>) -> Option<Vec<f64>> {
     let count = x.len();
     for i in 0..count {
         let [middle, one, two] = bands[i];
@@ -252,7 +252,7 @@ impl Rate {
         }
         let mut rate = Self { step, coefficients, times: vec![0.0] };
         for interval in 0..rate.coefficients.len() - 2 {
-            let until = rate.times[interval] + rate.takes(interval, 1.0);
+            let until = rate.times[interval] + rate.time_within_interval(interval, 1.0);
             rate.times.push(until);
         }
         rate.duration().is_finite().then_some(rate)
@@ -268,16 +268,16 @@ impl Rate {
     }
 
     /// Returns the time from the beginning of an interval to a position in it.
-    fn takes(&self, interval: usize, u: f64) -> f64 {
+    fn time_within_interval(&self, interval: usize, u: f64) -> f64 {
         let inverse = GAUSS_POINTS.map(|[place, weight]| weight / self.squared(interval, u * place).sqrt());
         self.step * u * inverse.iter().sum::<f64>()
     }
 
     /// Returns the time at which a parameter is passed.
-    pub fn passes(&self, parameter: f64) -> f64 {
+    pub fn time_at(&self, parameter: f64) -> f64 {
         let intervals = parameter / self.step;
         let interval = (intervals as usize).min(self.times.len() - 2);
-        self.times[interval] + self.takes(interval, (intervals - interval as f64).min(1.0))
+        self.times[interval] + self.time_within_interval(interval, (intervals - interval as f64).min(1.0))
     }
 
     /// Returns the parameter at a time.
@@ -287,7 +287,7 @@ impl Rate {
         let since = time - self.times[interval];
         let mut u = since / (self.times[interval + 1] - self.times[interval]);
         for _ in 0..NEWTON_STEPS_TO_PLACE {
-            u -= (self.takes(interval, u) - since) * self.squared(interval, u).sqrt() / self.step;
+            u -= (self.time_within_interval(interval, u) - since) * self.squared(interval, u).sqrt() / self.step;
         }
         (interval as f64 + u.clamp(0.0, 1.0)) * self.step
     }
@@ -300,14 +300,14 @@ mod tests {
     /// Tests conditions that have much slack: gravity leaves more slack in one direction than in the other. The product
     /// of all slacks may exceed 1, and the range of doubles.
     #[test]
-    fn what_is_left_may_be_much() {
+    fn the_product_of_slacks_may_exceed_the_range_of_doubles() {
         let conditions = [[0.25, 0.0, 0.0], [-10.0, 0.0, 0.0]].map(|factors| Condition { factors, has_root: false });
         let all = vec![conditions.to_vec(); 1000 * CONDITION_POSITIONS.len()];
         // The squared rate is below 4, so that a parameter of 10 takes 5 s at the least.
         let rate = Rate::fastest(&all, 0.01, 0.5).unwrap();
         assert!((5.0..5.05).contains(&rate.duration()), "{}", rate.duration());
         for time in [0.0, 1.3, 4.9] {
-            assert!((rate.passes(rate.at(time)) - time).abs() < 1e-12);
+            assert!((rate.time_at(rate.at(time)) - time).abs() < 1e-12);
         }
     }
 }

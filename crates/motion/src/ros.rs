@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn seconds_carry() {
+    fn nanoseconds_carry_over_to_seconds() {
         assert_eq!(split(0.0), (0, 0));
         assert_eq!(split(0.999_999_999_9), (1, 0));
         assert_eq!(split(2.000_000_001), (2, 1));

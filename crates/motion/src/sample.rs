@@ -116,7 +116,7 @@ impl Trajectory {
     /// nanoseconds. Without samples it becomes that motion. Pauses below [`MIN_INTERVAL`] count as none.
     pub fn then(&mut self, pause: f64, next: &Trajectory) {
         let begin = self.time.last().map_or(0, |end| nanoseconds(after_pause(*end, pause)));
-        if rest(pause) == 0.0 {
+        if pause_length(pause) == 0.0 {
             // Both motions share one sample; its acceleration is that of the interval that begins.
             self.time.pop();
             self.position.pop();
@@ -134,8 +134,8 @@ impl Trajectory {
     /// Appends a rest of `pause` seconds, rounded up to whole nanoseconds. A rest shorter than [`MIN_INTERVAL`] is
     /// omitted.
     pub fn append_rest(&mut self, pause: f64) {
-        if rest(pause) > 0.0 {
-            self.append_rest_to(nanoseconds(self.duration() + rest(pause)));
+        if pause_length(pause) > 0.0 {
+            self.append_rest_to(nanoseconds(self.duration() + pause_length(pause)));
         }
     }
 
@@ -184,11 +184,11 @@ impl Trajectory {
 
 /// Returns the time, in whole nanoseconds, at which a motion begins after a previous one and a pause.
 pub fn after_pause(end: f64, pause: f64) -> f64 {
-    clock::seconds(nanoseconds(end + rest(pause)))
+    clock::seconds(nanoseconds(end + pause_length(pause)))
 }
 
 /// Returns the length of a pause as it is used: rounded up to whole nanoseconds, or zero if it is too short.
-fn rest(pause: f64) -> f64 {
+fn pause_length(pause: f64) -> f64 {
     if pause < MIN_INTERVAL { 0.0 } else { whole_nanoseconds(pause) }
 }
 

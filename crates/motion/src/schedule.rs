@@ -56,7 +56,7 @@ impl Line {
         let jerk = limits.jerk_along(direction);
         let part =
             Part { middle: from + offset / 2.0, slope: direction, bend: Configuration::zeros(), half: length / 2.0 };
-        let speed = limits.tip.map_or(speed, |tip| speed.min(tip.allowed(&part)));
+        let speed = limits.tip.map_or(speed, |tip| speed.min(tip.speed_within_limit(&part)));
         Self { from, to, length, direction, speed, acceleration, jerk }
     }
 
@@ -280,19 +280,19 @@ enum Span {
 impl Span {
     /// Returns the greatest squared speed at the beginning from which the end can be reached with a squared speed of at
     /// most `most`.
-    fn back(&self, most: f64) -> f64 {
+    fn greatest_squared_start(&self, most: f64) -> f64 {
         match self {
             Span::Line(line) => (most + 2.0 * line.acceleration * line.length).min(line.speed * line.speed),
-            Span::Part(bounds) => bounds.back(most),
+            Span::Part(bounds) => bounds.greatest_start(most),
         }
     }
 
     /// Returns the greatest squared speed at the end, at most `most`, that can be reached from the squared speed `from`
     /// at the beginning.
-    fn onward(&self, from: f64, most: f64) -> f64 {
+    fn greatest_squared_end(&self, from: f64, most: f64) -> f64 {
         match self {
             Span::Line(line) => (from + 2.0 * line.acceleration * line.length).min(line.speed * line.speed).min(most),
-            Span::Part(bounds) => bounds.onward(from, most),
+            Span::Part(bounds) => bounds.greatest_end(from, most),
         }
     }
 }
@@ -385,7 +385,7 @@ fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
     let mut most: Vec<f64> = Vec::new();
     for span in spans.iter().flatten().rev() {
         most.push(next);
-        next = span.back(next);
+        next = span.greatest_squared_start(next);
     }
     let mut most = most.into_iter().rev();
     let mut squared = 0.0;
@@ -393,7 +393,7 @@ fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
     for spans in spans {
         let mut along = vec![squared];
         for (span, most) in spans.iter().zip(&mut most) {
-            squared = span.onward(squared, most);
+            squared = span.greatest_squared_end(squared, most);
             along.push(squared);
         }
         speeds.push(along);

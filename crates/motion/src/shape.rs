@@ -36,12 +36,12 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
     /// Looks for a motion faster than `best`. Tries a path, and paths whose corners are all moved off the obstacles by
     /// up to `most`.
     pub fn lifted(&self, path: &CertifiedPath, most: f64, best: &mut TimedMotion) {
-        self.try_out(path, best);
+        self.replace_if_faster(path, best);
         if path.path().waypoints().len() < 3 {
             return;
         }
-        for path in LIFT_SHARES.iter().filter_map(|lift| self.off(path, lift * most)) {
-            self.try_out(&path, best);
+        for path in LIFT_SHARES.iter().filter_map(|lift| self.moved_off_obstacles(path, lift * most)) {
+            self.replace_if_faster(&path, best);
         }
     }
 
@@ -61,9 +61,11 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
                     if left == 0 {
                         return;
                     }
-                    let Some(moved) = self.moved(&q, w, offset.map(|offset| offset * step)) else { continue };
+                    let Some(moved) = self.with_changed_corner(&q, w, offset.map(|offset| offset * step)) else {
+                        continue;
+                    };
                     left -= 1;
-                    if self.try_out(&moved, best) {
+                    if self.replace_if_faster(&moved, best) {
                         improved = true;
                         break;
                     }
@@ -77,7 +79,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
     }
 
     /// Returns a path with one of its corners moved or removed, if it is free.
-    fn moved(&self, q: &[Configuration], w: usize, by: Option<Configuration>) -> Option<CertifiedPath> {
+    fn with_changed_corner(&self, q: &[Configuration], w: usize, by: Option<Configuration>) -> Option<CertifiedPath> {
         let mut moved = q.to_vec();
         let is_free = match by {
             Some(by) => {
@@ -93,7 +95,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
     }
 
     /// Replaces `best` by the motion along a path if that is faster. Returns true if it is.
-    fn try_out(&self, path: &CertifiedPath, best: &mut TimedMotion) -> bool {
+    fn replace_if_faster(&self, path: &CertifiedPath, best: &mut TimedMotion) -> bool {
         let faster = (self.drive)(path, best.trajectory.duration());
         let is_faster = faster.is_some();
         if let Some(faster) = faster {
@@ -103,7 +105,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
     }
 
     /// Returns a path with its corners moved off the obstacles, each as far as its legs are free.
-    fn off(&self, path: &CertifiedPath, by: f64) -> Option<CertifiedPath> {
+    fn moved_off_obstacles(&self, path: &CertifiedPath, by: f64) -> Option<CertifiedPath> {
         let q = path.path().waypoints();
         let mut lifts: Vec<f64> = (0..q.len()).map(|w| if w == 0 || w + 1 == q.len() { 0.0 } else { by }).collect();
         for round in 0..=MAX_LIFT_HALVINGS {

@@ -40,8 +40,8 @@ impl Span {
     /// span.
     pub fn deviation(self, pieces: &[Piece]) -> (Configuration, Deviation) {
         match self {
-            Span::Pieces(first, end) => around(&pieces[first..end]),
-            Span::Part(index, from, to) => along(&pieces[index], from, to, 0.0),
+            Span::Pieces(first, end) => box_about_pieces(&pieces[first..end]),
+            Span::Part(index, from, to) => tube_about_part(&pieces[index], from, to, 0.0),
         }
     }
 
@@ -92,7 +92,7 @@ fn rounding(piece: &Piece, joint: usize) -> f64 {
 }
 
 /// Returns the box about several pieces.
-fn around(pieces: &[Piece]) -> (Configuration, Deviation) {
+fn box_about_pieces(pieces: &[Piece]) -> (Configuration, Deviation) {
     let points = || pieces.iter().flat_map(|p| p.control());
     let mut middle = Configuration::zeros();
     let half = [0, 1].map(|k| {
@@ -106,7 +106,7 @@ fn around(pieces: &[Piece]) -> (Configuration, Deviation) {
 
 /// Returns the tube of half width `beside` in each joint about a part of a piece, from the configuration halfway
 /// through it.
-pub(super) fn along(piece: &Piece, from: f64, to: f64, beside: f64) -> (Configuration, Deviation) {
+pub(super) fn tube_about_part(piece: &Piece, from: f64, to: f64, beside: f64) -> (Configuration, Deviation) {
     let (first, middle, last) = (piece.at(from), piece.at((from + to) / 2.0), piece.at(to));
     let bend = piece.bend(from, to);
     let off_chord = (first + last) / 2.0 - middle;

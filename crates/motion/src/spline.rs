@@ -94,7 +94,8 @@ impl Spline {
         let interval = seconds(self.step) / parts as f64;
         let intervals = (0..parts * pieces)
             .flat_map(|i| CONDITION_POSITIONS.map(|u| (i / parts, ((i % parts) as f64 + u) / parts as f64)));
-        let asked: Vec<Vec<Condition>> = intervals.map(|(piece, u)| asked(self.within(piece, u), limits)).collect();
+        let asked: Vec<Vec<Condition>> =
+            intervals.map(|(piece, u)| conditions_at(self.derivatives_within(piece, u), limits)).collect();
         let rate = Rate::fastest(&asked, interval, INITIAL_SPEED_SHARE * INITIAL_SPEED_SHARE)?;
         let shortest = (MIN_STEP_SHARE * period).max(MIN_INTERVAL);
         let step = nanoseconds((rate.duration() / RETIMED_STEPS).min(seconds(self.step)).max(shortest));
@@ -109,7 +110,7 @@ impl Spline {
         let spline = Self { step, ..spline };
         (spline.duration() < self.duration()).then(|| {
             let delay = spline.delay();
-            (spline, move |time: f64| delay + nanoseconds(slower * rate.passes(time)))
+            (spline, move |time: f64| delay + nanoseconds(slower * rate.time_at(time)))
         })
     }
 
@@ -142,7 +143,7 @@ impl Spline {
     }
 
     /// Returns position, velocity, acceleration and jerk in a piece between knots, at the fraction `u` of the piece.
-    fn within(&self, piece: usize, u: f64) -> [Configuration; 4] {
+    fn derivatives_within(&self, piece: usize, u: f64) -> [Configuration; 4] {
         let h = seconds(self.step);
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.control[piece + i]);
         let (ab, bc, cd, w) = (b - a, c - b, d - c, 1.0 - u);
@@ -165,7 +166,7 @@ impl Spline {
     fn at(&self, time: u64) -> [Configuration; 3] {
         let piece = ((time / self.step) as usize).min(self.last());
         let [position, velocity, acceleration, _] =
-            self.within(piece, (time - piece as u64 * self.step) as f64 / self.step as f64);
+            self.derivatives_within(piece, (time - piece as u64 * self.step) as f64 / self.step as f64);
         [position, velocity, acceleration]
     }
 
@@ -173,7 +174,7 @@ impl Spline {
     fn at_seconds(&self, time: f64) -> [Configuration; 4] {
         let steps = time / seconds(self.step);
         let piece = (steps as usize).min(self.last());
-        self.within(piece, steps - piece as f64)
+        self.derivatives_within(piece, steps - piece as f64)
     }
 
     /// Returns the nanoseconds at which the jerk changes, the beginning first.
@@ -215,7 +216,7 @@ impl Spline {
 }
 
 /// Returns the conditions that the limits impose at a point of a motion with these derivatives. They are for retiming.
-fn asked([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &Limits) -> Vec<Condition> {
+fn conditions_at([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &Limits) -> Vec<Condition> {
     let mut asked = Vec::new();
     let mut ask = |factors: [f64; 3], has_root: bool| {
         if factors != [0.0; 3] {
@@ -294,7 +295,7 @@ mod tests {
     /// Tests a motion from rest to rest along one joint, with a window long enough for its reversal. It takes a window
     /// and a step longer than without smoothing.
     #[test]
-    fn takes_a_window_and_a_step_longer() {
+    fn smoothing_takes_a_window_and_a_step_longer() {
         let limits = limits(2.0, 8.0, [Some(200.0), None]);
         let (base, spline) = smoothed(&[[0.0, 0.0], [0.3, 0.0], [0.7, 0.0]], 0.1, &limits);
         let expected: f64 = rest_to_rest(0.7, 2.0, 8.0, 1e-6).iter().map(|phase| phase.duration).sum();

@@ -100,7 +100,7 @@ fn shortest_duration(path: &Path, joints: &[Joint; 2]) -> f64 {
 }
 
 #[test]
-fn one_joint_bang_bang() {
+fn one_joint_moves_bang_bang() {
     let (path, joints) = (path(&[[0.0, 0.3], [0.5, 0.3]]), [joint(true, 10.0, 2.0), joint(false, 1e-3, 1e-3)]);
     let trajectory = time_path(&path, &joints, 0.01).unwrap();
     check(&path, &joints, &trajectory, 1e-9);
@@ -169,7 +169,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(256))]
 
     #[test]
-    fn random_paths(
+    fn motions_along_random_paths_keep_the_limits(
         waypoints in prop::collection::vec(prop::array::uniform2(-7.0..7.0f64), 1..6),
         joints in joints(),
         period in prop_oneof![Just(0.01), 0.003..3.0f64],
@@ -188,7 +188,7 @@ proptest! {
 
     /// Tests segments far shorter and far longer than those of arms, along and across the axes.
     #[test]
-    fn tiny_and_huge_segments(
+    fn motions_along_tiny_and_huge_segments_keep_the_limits(
         steps in prop::collection::vec((-15.0..3.0f64, 0..8u32, any::<bool>()), 1..6),
         joints in joints(),
     ) {

@@ -42,7 +42,7 @@ impl TipSpeed<'_> {
 
     /// Returns a speed of the parameter at which the tip keeps its limit on the whole part. The tip's derivative by the
     /// parameter is `J q'`, and changes at most at the rate [`TipSpeed::change`].
-    pub(super) fn allowed(&self, part: &Part) -> f64 {
+    pub(super) fn speed_within_limit(&self, part: &Part) -> f64 {
         let [first, second] = self.arm.jacobian(1, self.arm.tip, part.middle);
         let rate = (first * part.slope[0] + second * part.slope[1]).norm();
         self.speed / (rate + self.slack(part))
@@ -70,7 +70,7 @@ impl TipSpeed<'_> {
         };
         let slack = parts(1).map(|part| self.slack(&part)).fold(0.0, f64::max);
         let count = (slack / (TIP_SPEED_STEP * self.speed)).ceil().clamp(1.0, MAX_TIP_PARTS) as u32;
-        parts(count).map(|part| 1.0 / self.allowed(&part)).fold(0.0, f64::max)
+        parts(count).map(|part| 1.0 / self.speed_within_limit(&part)).fold(0.0, f64::max)
     }
 
     /// Returns the greatest magnitude of the second derivative of the tip's position by the parameter.

@@ -210,7 +210,7 @@ impl<'a> TorqueLimit<'a> {
     }
 
     /// Returns the torques at the samples.
-    pub(super) fn along(&self, trajectory: &Trajectory) -> Vec<[f64; 2]> {
+    pub(super) fn along_trajectory(&self, trajectory: &Trajectory) -> Vec<[f64; 2]> {
         let at = |i: usize| {
             let [q, v, a] =
                 [&trajectory.position, &trajectory.velocity, &trajectory.acceleration].map(|row| row[i].into());
@@ -226,10 +226,10 @@ impl<'a> TorqueLimit<'a> {
     /// # Errors
     /// The joint whose effort is too small.
     pub fn check_holding_at(scene: &'a Scene, q: Configuration) -> Result<(), TimingError> {
-        Self::of(scene).map_or(Ok(()), |own| own.holds(q))
+        Self::of(scene).map_or(Ok(()), |own| own.check_holding(q))
     }
 
-    fn holds(&self, at: Configuration) -> Result<(), TimingError> {
+    fn check_holding(&self, at: Configuration) -> Result<(), TimingError> {
         let holding = self.torques.at(at).holding();
         match (0..2).find(|&k| holding[k].abs() >= self.torques.dynamics.effort[k]) {
             Some(k) => Err(self.too_heavy(k, at, holding[k])),
@@ -251,7 +251,7 @@ impl<'a> TorqueLimit<'a> {
             let share = (0..2).map(|k| off[k] / (TORQUE_STEP * effort[k])).fold(1.0, f64::max);
             let count = share.sqrt().ceil().min(MAX_LEG_PARTS);
             for i in 0..=count as u32 {
-                self.holds(from + offset * (2.0 * f64::from(i) / count))?;
+                self.check_holding(from + offset * (2.0 * f64::from(i) / count))?;
             }
         }
         Ok(())

@@ -43,7 +43,7 @@ pub enum WriteError {
 /// # Errors
 /// [`WriteError`]; nothing is left behind.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    TemporaryFile::new(path, bytes)?.put()
+    TemporaryFile::new(path, bytes)?.move_into_place()
 }
 
 /// Writes several files like [`write_whole`]. All temporary files are written before the first rename, so lack of space
@@ -54,7 +54,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 /// [`WriteError`] for the first file that fails; no temporary file is left behind.
 pub fn write_whole_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<(), WriteError> {
     let prepared = files.iter().map(|(path, bytes)| TemporaryFile::new(path, bytes.as_ref()));
-    prepared.collect::<Result<Vec<_>, _>>()?.into_iter().try_for_each(TemporaryFile::put)
+    prepared.collect::<Result<Vec<_>, _>>()?.into_iter().try_for_each(TemporaryFile::move_into_place)
 }
 
 /// A temporary file with the new content; removed unless it is renamed.
@@ -79,7 +79,7 @@ impl TemporaryFile {
     }
 
     /// Renames the temporary file to the file's name.
-    fn put(self) -> Result<(), WriteError> {
+    fn move_into_place(self) -> Result<(), WriteError> {
         let refused = |e: tempfile::PathPersistError| WriteError::Refused { path: self.path, source: e.error };
         self.temporary.persist(&self.target).map_err(refused)
     }
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn creates_and_replaces() {
+    fn a_file_is_created_or_replaced_as_a_whole() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("a.json");
         write_whole(&file, b"one").unwrap();
@@ -212,7 +212,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn follows_links_and_refuses_devices() {
+    fn links_are_followed_and_devices_refused() {
         let folder = tempfile::tempdir().unwrap();
         let (file, link) = (folder.path().join("a.csv"), folder.path().join("link.csv"));
         fs::write(&file, "old").unwrap();

@@ -44,7 +44,7 @@ pub struct Meeting {
 impl Meeting {
     /// Returns the same meeting within another interval of time.
     #[must_use]
-    pub fn in_time(self, within: Interval) -> Self {
+    pub fn during(self, within: Interval) -> Self {
         Self { within, ..self }
     }
 }
@@ -180,7 +180,13 @@ impl Stretch {
 
     /// Finds times at which the piece overlaps a part by more than `deeper`. It may omit some: its ends are accurate to
     /// `shortest` seconds.
-    fn deep(&self, around: &PartDeviation, within: Interval, [deeper, shortest]: [f64; 2], out: &mut Vec<Interval>) {
+    fn overlap_times(
+        &self,
+        around: &PartDeviation,
+        within: Interval,
+        [deeper, shortest]: [f64; 2],
+        out: &mut Vec<Interval>,
+    ) {
         let mut open = vec![within];
         while let Some([from, to]) = open.pop() {
             checkpoint();
@@ -194,7 +200,7 @@ impl Stretch {
         }
     }
 
-    /// Does the same as [`Stretch::deep`] for a piece that slides without turning. The distance to a convex set is a
+    /// Does the same as [`Stretch::overlap_times`] for a piece that slides without turning. The distance to a convex set is a
     /// convex function of the place, so the depth is a concave function of time. At both `ends`, the depth is `round`,
     /// the sum of both radii. So if a chord from an end to a deeper time is deep enough, the depth is as well.
     fn deep_in_passing(
@@ -226,22 +232,22 @@ impl<'a> MovingObstacles<'a> {
     /// Prepares the moving obstacles of a scene. `clearance` is the distance to keep from them, in metres.
     #[must_use]
     pub fn new(timed: TimedScene<'a>, clearance: f64) -> Self {
-        let TimedScene { scene, courses } = timed;
+        let TimedScene { scene, trajectories } = timed;
         let mut stretches = Vec::new();
         // Index of the first stretch of each piece.
         let mut first = Vec::new();
-        for (mover, course) in (0..scene.loose().len()).zip(courses) {
+        for (mover, trajectory) in (0..scene.loose_obstacles().len()).zip(trajectories) {
             let of = |piece: &Convex| {
                 let begins = stretches.len();
-                stretches.extend(course.legs().iter().map(|leg| Stretch::new(piece, *leg)));
+                stretches.extend(trajectory.legs().iter().map(|leg| Stretch::new(piece, *leg)));
                 begins
             };
             first.push(scene.pieces_of_loose(mover).map(of).collect::<Vec<_>>());
         }
         let mut meetings = Vec::new();
         for &pair in timed.moving_pairs() {
-            let Some((mover, course)) = scene.loose_index(pair).zip(timed.course(pair)) else { continue };
-            let legs = course.legs();
+            let Some((mover, trajectory)) = scene.loose_index(pair).zip(timed.trajectory(pair)) else { continue };
+            let legs = trajectory.legs();
             meetings.extend(legs.iter().enumerate().map(|(leg, Leg { from, to, .. })| Meeting {
                 pair,
                 within: [*from, *to],
@@ -300,7 +306,13 @@ impl<'a> MovingObstacles<'a> {
     /// The result may omit some such times, and is in no order. Its ends are accurate to `shortest` seconds.
     ///
     /// The overlap must be deeper than the deviation of the part.
-    pub(crate) fn met(&self, around: &PartDeviation, meeting: Meeting, shortest: f64, out: &mut Vec<Interval>) {
+    pub(crate) fn collision_times(
+        &self,
+        around: &PartDeviation,
+        meeting: Meeting,
+        shortest: f64,
+        out: &mut Vec<Interval>,
+    ) {
         let stretch = &self.stretches[meeting.stretch];
         let Stretch { leg, piece, slide, .. } = stretch;
         if stretch.is_beyond(around.disc, self.clearance, meeting.within) {
@@ -319,13 +331,13 @@ impl<'a> MovingObstacles<'a> {
                     out.extend(common(met, meeting.within));
                 } else if let Some(within) = common(met, meeting.within) {
                     // In the middle of the interval, the overlap is not deep enough.
-                    stretch.deep(around, within, [deeper, shortest], out);
+                    stretch.overlap_times(around, within, [deeper, shortest], out);
                 }
             }
             None if leg.turn == 0.0 => {
                 out.extend((-separation(part, piece).distance > deeper).then_some(meeting.within));
             }
-            None => stretch.deep(around, meeting.within, [deeper, shortest], out),
+            None => stretch.overlap_times(around, meeting.within, [deeper, shortest], out),
         }
     }
 
@@ -381,7 +393,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn complement_of_intervals() {
+    fn the_complement_of_intervals_is_known() {
         let inf = f64::INFINITY;
         assert_eq!(complement(&[]), [[0.0, inf]]);
         assert_eq!(complement(&[[-1.0, 2.0], [3.0, 4.0]]), [[2.0, 3.0], [4.0, inf]]);

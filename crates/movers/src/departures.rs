@@ -33,7 +33,7 @@ pub fn blocked_departures(movers: &MovingObstacles, pieces: &[Piece], window: In
             checkpoint();
             let (middle, deviation) = span.deviation(pieces);
             let posture = Posture::new(scene, middle);
-            let [begins, ends] = span.ends().map(|place| since(pieces, place));
+            let [begins, ends] = span.ends().map(|place| time_at(pieces, place));
             let (mut moves, mut known) = (0.0_f64, None);
             // Departures that are not known to be blocked, and the meetings that may block them.
             let (mut departures, mut open) = (Vec::new(), Vec::new());
@@ -45,10 +45,10 @@ pub fn blocked_departures(movers: &MovingObstacles, pieces: &[Piece], window: In
                 merge_in_place(&mut times);
                 for &[from, to] in &times {
                     let departing = [(from - ends).max(window[0]), (to - begins).min(window[1])];
-                    if let Some([first, last]) = uncovered(&blocked, departing) {
+                    if let Some([first, last]) = remaining_part(&blocked, departing) {
                         departures.push([first, last]);
                         let [from, to] = [from.max(first + begins), to.min(last + ends)];
-                        open.push(meeting.in_time([from, to.max(from)]));
+                        open.push(meeting.during([from, to.max(from)]));
                     }
                 }
             }
@@ -57,11 +57,11 @@ pub fn blocked_departures(movers: &MovingObstacles, pieces: &[Piece], window: In
                 Some([before, after]) => {
                     let place = span.middle();
                     let posture = Posture::new(scene, pieces[place.0].at(place.1));
-                    let (time, mut known) = (since(pieces, place), None);
+                    let (time, mut known) = (time_at(pieces, place), None);
                     times.clear();
                     for &meeting in &open {
                         let around = PartDeviation::of(&mut known, movers, &posture, NO_DEVIATION, meeting);
-                        movers.met(around, meeting, (ends - begins) / 2.0, &mut times);
+                        movers.collision_times(around, meeting, (ends - begins) / 2.0, &mut times);
                     }
                     found.extend(times.iter().map(|[from, to]| [from - time, to - time]));
                     halves.extend([(before, open.clone()), (after, open)]);
@@ -77,13 +77,13 @@ pub fn blocked_departures(movers: &MovingObstacles, pieces: &[Piece], window: In
 }
 
 /// Returns the time since the motion began, in seconds.
-fn since(pieces: &[Piece], (piece, share): Place) -> f64 {
+fn time_at(pieces: &[Piece], (piece, share): Place) -> f64 {
     pieces[piece].time(share) - pieces[0].from
 }
 
 /// Returns an interval, shortened at both ends by those of the `others` that contain its ends. The others are in order
 /// and disjoint. `None` if nothing is left.
-fn uncovered(others: &[Interval], [from, to]: Interval) -> Option<Interval> {
+fn remaining_part(others: &[Interval], [from, to]: Interval) -> Option<Interval> {
     let holding = |time: f64| {
         let next = others.partition_point(|[begins, _]| *begins <= time);
         others[..next].last().filter(|[_, ends]| time <= *ends)
@@ -100,7 +100,7 @@ pub fn first_departure(blocked: &[Interval], from: f64, to: f64) -> Option<f64> 
             break;
         }
         if time <= upper {
-            time = after(upper);
+            time = next_time(upper);
         }
     }
     // A departure at an infinite time is none.
@@ -108,6 +108,6 @@ pub fn first_departure(blocked: &[Interval], from: f64, to: f64) -> Option<f64> 
 }
 
 /// Returns the next time of a trajectory. These times are whole nanoseconds.
-fn after(time: f64) -> f64 {
+fn next_time(time: f64) -> f64 {
     time + 2e-9
 }

@@ -56,22 +56,22 @@ pub struct Timing {
 }
 
 /// Returns the earliest motion along the paths that are tried: the certified path, and then others. The loose obstacles
-/// of the problem's scene have the trajectories `courses`. `first` is the motion along the certified path without
+/// of the problem's scene follow `trajectories`. `first` is the motion along the certified path without
 /// moving obstacles, at the required speed. The clearance of the motion includes moving obstacles. If there is no motion,
 /// returns the reason in words.
 ///
 /// # Errors
 /// A path that cannot be timed.
-pub fn in_time(
+pub fn time_among_moving_obstacles(
     problem: &MotionProblem,
-    courses: &[ObstacleTrajectory],
+    trajectories: &[ObstacleTrajectory],
     certified: &CertifiedPath,
     first: TimedMotion,
     options: &Options,
     demand: &TimingRequirements,
 ) -> Result<Result<(TimedMotion, Timing), String>, TimingError> {
     let scene = problem.scene();
-    let timed = TimedScene { scene, courses };
+    let timed = TimedScene { scene, trajectories };
     let movers = MovingObstacles::new(timed, scene.workspace().clearance);
     let mut around = problem.clone();
     let mut alternative = Some((certified.clone(), first));
@@ -113,7 +113,7 @@ pub fn in_time(
         if ways == MAX_PATHS || found.last().is_some_and(is_best) {
             break;
         }
-        let Some(next) = around_what_is_met(&around, courses, &whole.trajectory) else { break };
+        let Some(next) = around_what_is_met(&around, trajectories, &whole.trajectory) else { break };
         around = next;
         let planner = options.planner.with_gap(options.planner.gap().unwrap_or(PATH_GAP));
         let looser = Options { bounded: false, planner, ..*options };
@@ -123,7 +123,7 @@ pub fn in_time(
         alternative = Some((other, whole));
     }
     let certified = found.into_iter().rev().find_map(|found| certified_in_time(timed, found, ways));
-    Ok(certified.ok_or_else(|| reason(ways, refuted, courses.len())))
+    Ok(certified.ok_or_else(|| reason(ways, refuted, trajectories.len())))
 }
 
 fn reason(ways: usize, refuted: usize, movers: usize) -> String {
@@ -156,7 +156,7 @@ fn certified_in_time(timed: TimedScene, found: ScheduledMotion, ways: usize) -> 
         }
     }
     let curve = curve.among_movers(clearance, nearest);
-    let obstacles = timed.courses.len();
+    let obstacles = timed.trajectories.len();
     let [clearance, free_until] = [clearance, free_until].map(|value| Some(value).filter(|value| value.is_finite()));
     let figures = Timing { obstacles, ways, waits, clearance, free_until };
     Some((TimedMotion { curve, trajectory }, figures))
@@ -187,16 +187,16 @@ fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
 /// of that meeting.
 fn around_what_is_met(
     problem: &MotionProblem,
-    courses: &[ObstacleTrajectory],
+    trajectories: &[ObstacleTrajectory],
     trajectory: &Trajectory,
 ) -> Option<MotionProblem> {
     let scene = problem.scene();
     let [cubic, _] = recordings(trajectory)?;
-    let timed = TimedScene { scene, courses };
+    let timed = TimedScene { scene, trajectories };
     let met = first_moving_contact(timed, &cubic, scene.workspace().clearance)?;
     let scene = scene.with_static_obstacle(timed.obstacle(met.contact.pair, met.moment.time)?);
     let is_open = |goal: &&Segment| !goal.is_point() || scene.obstructions(goal.ends()[0]).is_empty();
     let goals: GoalSet = problem.goals().pieces().iter().filter(is_open).copied().collect();
-    let is_clear = TimedScene { scene: &scene, courses }.obstructions(problem.start(), 0.0).is_empty();
+    let is_clear = TimedScene { scene: &scene, trajectories }.obstructions(problem.start(), 0.0).is_empty();
     MotionProblem::new(scene, problem.start(), goals).ok().filter(|_| is_clear)
 }

@@ -32,13 +32,13 @@ struct Stretch {
 }
 
 impl Stretch {
-    fn left(&self, movers: &MovingObstacles) -> &[Interval] {
+    fn remaining_times(&self, movers: &MovingObstacles) -> &[Interval] {
         self.left.get_or_init(|| {
             let posture = Posture::new(movers.scene(), self.middle);
             let (mut met, mut known) = (Vec::new(), None);
             for &meeting in movers.meetings() {
                 let around = PartDeviation::of(&mut known, movers, &posture, Deviation::Along(self.half), meeting);
-                movers.met(around, meeting, OVERLAP_TIME_STEP, &mut met);
+                movers.collision_times(around, meeting, OVERLAP_TIME_STEP, &mut met);
             }
             merge_in_place(&mut met);
             complement(&met)
@@ -56,7 +56,7 @@ impl Stretch {
 pub fn has_no_timing(movers: &MovingObstacles, path: &Path) -> bool {
     let stretches = stretches(path, movers.scene().arm());
     let Some(first) = stretches.first() else { return false };
-    if first.left(movers).first().is_none_or(|left| left[0] > 0.0) {
+    if first.remaining_times(movers).first().is_none_or(|left| left[0] > 0.0) {
         return true;
     }
     // For each stretch, open interval, and end of the stretch (first or second), the earliest time at which it can be
@@ -73,7 +73,7 @@ pub fn has_no_timing(movers: &MovingObstacles, path: &Path) -> bool {
             return false;
         }
         let takes = stretches[stretch].takes;
-        let until = stretches[stretch].left(movers)[gap][1];
+        let until = stretches[stretch].remaining_times(movers)[gap][1];
         let mut reach = |stretch: usize, gap: usize, end: usize, time: f64| {
             if known.get(&(stretch, gap, end)).is_none_or(|known| time < *known) {
                 known.insert((stretch, gap, end), time);
@@ -85,7 +85,7 @@ pub fn has_no_timing(movers: &MovingObstacles, path: &Path) -> bool {
         }
         let beyond = if end == 1 { stretch + 1 } else { stretch.wrapping_sub(1) };
         for (other, &[begins, ends]) in
-            stretches.get(beyond).iter().flat_map(|next| next.left(movers).iter().enumerate())
+            stretches.get(beyond).iter().flat_map(|next| next.remaining_times(movers).iter().enumerate())
         {
             let at = time.max(begins);
             if at <= until.min(ends) {

@@ -139,7 +139,7 @@ struct EarliestArrivals {
 impl EarliestArrivals {
     fn from_the_start(earliest_permanent_arrival: f64) -> Self {
         let mut reached = Self { known: BTreeMap::new(), open: BinaryHeap::new(), earliest_permanent_arrival };
-        reached.arrive((0, 0), Arrival { time: 0.0, from: None }, false);
+        reached.record_arrival((0, 0), Arrival { time: 0.0, from: None }, false);
         reached
     }
 
@@ -161,7 +161,7 @@ impl EarliestArrivals {
     }
 
     /// Stores an arrival if it is earlier than the known one.
-    fn arrive(&mut self, at: SafeStop, arrival: Arrival, may_stay_forever: bool) {
+    fn record_arrival(&mut self, at: SafeStop, arrival: Arrival, may_stay_forever: bool) {
         if !self.is_improved_by(at, arrival.time) {
             return;
         }
@@ -234,7 +234,7 @@ impl Stops<'_> {
 
     /// Estimates the least duration of a motion from rest to rest between two stops, in seconds. It is not a bound,
     /// because rounded corners shorten the path.
-    fn least(&self, from: usize, to: usize) -> f64 {
+    fn estimated_duration(&self, from: usize, to: usize) -> f64 {
         let limits = Limits::from(&self.movers.scene().arm().joints);
         least_duration((self.gone[to] - self.gone[from]).abs(), &limits)
     }
@@ -252,7 +252,7 @@ impl Stops<'_> {
         while let Some((at, time)) = reached.next() {
             let (stop, interval) = at;
             if stop == last {
-                let free_until = self.stays(interval, time);
+                let free_until = self.stay_until(interval, time);
                 if free_until == f64::INFINITY {
                     return Ok(Some(StopSequence { stops: reached.stops_to(at), free_until }));
                 }
@@ -279,7 +279,7 @@ impl Stops<'_> {
         next: usize,
     ) -> Result<(), TimingError> {
         let last = self.at.len() - 1;
-        let (soonest, onwards) = (time + self.least(stop, next), self.least(next, last));
+        let (soonest, onwards) = (time + self.estimated_duration(stop, next), self.estimated_duration(next, last));
         let is_target = |&k: &usize| {
             let [begins, ends] = self.safe[next][k];
             let is_of_use = next == last || soonest.max(begins) + onwards < reached.earliest_permanent_arrival;
@@ -306,14 +306,14 @@ impl Stops<'_> {
             let is_endless = self.safe[next][target][1] == f64::INFINITY;
             let may_stay_forever = next == last && (is_endless || self.demand.arrival.is_some());
             let arrival = Arrival { time: departs + lasts, from: Some(((stop, interval), departs)) };
-            reached.arrive((next, target), arrival, may_stay_forever);
+            reached.record_arrival((next, target), arrival, may_stay_forever);
         }
         Ok(())
     }
 
     /// Returns the time until which the arm may stay at the goal after arriving at `time`. Infinite if the requirements
     /// state times of arrival, because events after the arrival are then ignored.
-    fn stays(&self, interval: usize, time: f64) -> f64 {
+    fn stay_until(&self, interval: usize, time: f64) -> f64 {
         let last = self.at.len() - 1;
         let until = self.safe[last][interval][1];
         match self.demand.arrival {

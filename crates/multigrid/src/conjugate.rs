@@ -89,7 +89,7 @@ impl Workspace {
     }
 
     /// Clears all steps.
-    pub(super) fn rest(&mut self) {
+    pub(super) fn clear_steps(&mut self) {
         for band in [&mut self.sum, &mut self.direction, &mut self.direction_image] {
             band.data.fill(0.0);
         }

@@ -262,7 +262,7 @@ impl RedBlack {
         if self.joined(1) == Some(Parity::Odd) && i % 2 == 1 && last > 0 {
             let [a, b] = [at, at + last / 2];
             (band.data[a], band.data[b]) =
-                together(diagonal, [band.data[a], band.data[b]], self.free([i, 0]) && self.free([i, last]));
+                solve_coupled_pair(diagonal, [band.data[a], band.data[b]], self.free([i, 0]) && self.free([i, last]));
         }
     }
 
@@ -272,8 +272,11 @@ impl RedBlack {
         for column in (1..self.shape.columns).step_by(2) {
             let [a, b] = [0, last].map(|i| band.start(i) + column / 2);
             let diagonal = self.degree - self.own(1, column);
-            (band.data[a], band.data[b]) =
-                together(diagonal, [band.data[a], band.data[b]], self.free([0, column]) && self.free([last, column]));
+            (band.data[a], band.data[b]) = solve_coupled_pair(
+                diagonal,
+                [band.data[a], band.data[b]],
+                self.free([0, column]) && self.free([last, column]),
+            );
         }
     }
 
@@ -322,7 +325,7 @@ enum Parity {
 
 /// Solves for two odd cells that are neighbours, given the value that each would have if the other were 0. If `both` is
 /// false, these values are the result.
-fn together<T: Real>(diagonal: f64, alone: [T; 2], both: bool) -> (T, T) {
+fn solve_coupled_pair<T: Real>(diagonal: f64, alone: [T; 2], both: bool) -> (T, T) {
     if !both {
         return alone.into();
     }

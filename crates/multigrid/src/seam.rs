@@ -58,7 +58,7 @@ impl<'a, O: Operator> SeamlessOperator<'a, O> {
             for at in 1..=self.even.columns {
                 let south = [last.south[at], last.south_east[at], last.south_west[at]];
                 let north = [last.south[at], last.south_west[at + 1], last.south_east[at - 1]];
-                let coupling = straight(south, north, [last.diagonal[at], self.first[at]]);
+                let coupling = straight_coupling(south, north, [last.diagonal[at], self.first[at]]);
                 let (south, north) = if coupling > 0.0 { (south, north) } else { ([0.0; 3], [0.0; 3]) };
                 if i == 0 {
                     into.diagonal[at] += 2.0 * coupling - north.iter().sum::<f32>();
@@ -93,7 +93,7 @@ impl<'a, O: Operator> SeamlessOperator<'a, O> {
         let end = self.fine.columns;
         let east = [into.east[end], self.before.south_west[1], into.south_east[end]];
         let west = [into.east[end], self.before.south_east[end], into.south_west[1]];
-        let coupling = straight(east, west, [into.diagonal[end], into.diagonal[1]]);
+        let coupling = straight_coupling(east, west, [into.diagonal[end], into.diagonal[1]]);
         let (east, west) = if coupling > 0.0 { (east, west) } else { ([0.0; 3], [0.0; 3]) };
         into.diagonal[end] += 2.0 * coupling - east.iter().sum::<f32>();
         into.diagonal[1] += 2.0 * coupling - west.iter().sum::<f32>();
@@ -112,7 +112,7 @@ impl<'a, O: Operator> SeamlessOperator<'a, O> {
 /// Returns the straight coupling between two cells that replaces couplings across the seam: their own coupling, and
 /// half of each diagonal coupling. The other half of a diagonal coupling goes to another pair. The result is 0 if one
 /// of the cells is not an unknown; then the diagonal couplings of the other cell stay in its diagonal coefficient.
-fn straight(one: [f32; 3], other: [f32; 3], diagonals: [f32; 2]) -> f32 {
+fn straight_coupling(one: [f32; 3], other: [f32; 3], diagonals: [f32; 2]) -> f32 {
     if diagonals.iter().any(|&diagonal| diagonal <= 0.0) {
         return 0.0;
     }

@@ -121,7 +121,7 @@ impl Multigrid {
         let red_black = &self.red_black;
         let mut convergence = Convergence { iterations: 0, error: f64::INFINITY, converged: false };
         let mut scale = self.start(right, values);
-        workspace.rest();
+        workspace.clear_steps();
         let mut start = workspace.correct(m, red_black, right, values, 0.0, Some(scale));
         let mut residual = start.change / scale;
         loop {
@@ -138,7 +138,7 @@ impl Multigrid {
             if convergence.converged || convergence.iterations >= MAX_ITERATIONS {
                 return convergence;
             }
-            workspace.rest();
+            workspace.clear_steps();
             start = workspace.correct(m, red_black, right, values, 0.0, Some(scale));
             if start.change / scale > MIN_PROGRESS * residual {
                 return convergence;

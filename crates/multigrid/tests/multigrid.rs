@@ -19,7 +19,7 @@ fn neighbor(at: usize, step: isize, cells: usize, ends: Ends) -> Option<usize> {
 }
 
 /// Returns the four neighbours of each cell.
-fn around(cells: [usize; 2], ends: [Ends; 2]) -> Vec<[Option<usize>; 4]> {
+fn neighbors(cells: [usize; 2], ends: [Ends; 2]) -> Vec<[Option<usize>; 4]> {
     let [rows, columns] = cells;
     let mut all = Vec::new();
     for i in 0..rows {
@@ -35,7 +35,7 @@ fn around(cells: [usize; 2], ends: [Ends; 2]) -> Vec<[Option<usize>; 4]> {
 /// Returns the matrix. Walls have the row of the identity.
 fn dense(cells: [usize; 2], ends: [Ends; 2], free: &[bool], shift: f64) -> DMatrix<f64> {
     let mut matrix = DMatrix::identity(free.len(), free.len());
-    for (cell, around) in around(cells, ends).into_iter().enumerate().filter(|&(cell, _)| free[cell]) {
+    for (cell, around) in neighbors(cells, ends).into_iter().enumerate().filter(|&(cell, _)| free[cell]) {
         matrix[(cell, cell)] = 4.0 + shift;
         for other in around.into_iter().flatten().filter(|&other| free[other]) {
             matrix[(cell, other)] -= 1.0;
@@ -108,8 +108,8 @@ fn short_rings_agree_with_elimination() {
 
 /// Solves by Gauss-Seidel relaxation until nothing changes, with the goal fixed at 1. The solver under test uses
 /// another equation and another method.
-fn relaxed(cells: [usize; 2], ends: [Ends; 2], free: &[bool], goal: usize) -> Vec<f64> {
-    let around = around(cells, ends);
+fn relax_until_stable(cells: [usize; 2], ends: [Ends; 2], free: &[bool], goal: usize) -> Vec<f64> {
+    let around = neighbors(cells, ends);
     let mut values = vec![0.0; free.len()];
     values[goal] = 1.0;
     loop {
@@ -196,7 +196,7 @@ fn fields_of_goals_agree_with_relaxation() {
         let mut values = vec![0.0; free.len()];
         let convergence = solver.goal(goal, &mut values, 1e-10, &mut solver.workspace());
         assert!(convergence.converged && convergence.iterations <= 10, "{convergence:?}");
-        for (value, relaxed) in values.iter().zip(relaxed(cells, ends, &free, goal)) {
+        for (value, relaxed) in values.iter().zip(relax_until_stable(cells, ends, &free, goal)) {
             assert!((value - relaxed).abs() < 1e-9, "{value} for {relaxed}, {ends:?}");
         }
     }

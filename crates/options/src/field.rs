@@ -149,7 +149,7 @@ impl FieldArgs {
     /// # Errors
     /// The reason, if options contradict each other or the planner.
     pub fn planner(&self, method: Method) -> Result<Option<FieldPlanner>, String> {
-        let given = self.given();
+        let given = self.stated_options();
         let Some(first) = given.first() else { return Ok(None) };
         require(first, &[Setting::Field], method, "does not follow a field")?;
         let name = self.field.unwrap_or(FieldName::Harmonic);
@@ -207,7 +207,7 @@ impl FieldArgs {
     }
 
     /// Returns the names of the stated options, in the order of the help.
-    fn given(&self) -> Vec<&'static str> {
+    fn stated_options(&self) -> Vec<&'static str> {
         let options = [
             ("--field", self.field.is_some()),
             ("--epsilon", self.epsilon.is_some()),
@@ -327,14 +327,14 @@ pub fn direction(text: &str) -> Result<Direction, String> {
 
 /// Splits a law such as `ranged:0.01,0.5` into its name and its constants. `None` if it has none, or one that is
 /// not positive.
-fn law(text: &str) -> Option<(&str, Vec<f64>)> {
+fn split_law(text: &str) -> Option<(&str, Vec<f64>)> {
     let (name, constants) = text.split_once(':')?;
     let constants = numbers(constants);
     constants.iter().all(|c| c.is_finite() && *c > 0.0).then_some((name, constants))
 }
 
 fn attraction(text: &str) -> Result<Attraction, String> {
-    match law(text).as_ref().map(|(name, constants)| (*name, &constants[..])) {
+    match split_law(text).as_ref().map(|(name, constants)| (*name, &constants[..])) {
         Some(("constant", [c])) => Ok(Attraction::Constant(*c)),
         Some(("linear", [k])) => Ok(Attraction::Linear(*k)),
         _ => Err("must be constant:C or linear:K with a positive number, such as linear:1".into()),
@@ -352,7 +352,7 @@ fn escape(text: &str) -> Result<Escape, String> {
 }
 
 fn repulsion(text: &str) -> Result<Repulsion, String> {
-    match law(text).as_ref().map(|(name, constants)| (*name, &constants[..])) {
+    match split_law(text).as_ref().map(|(name, constants)| (*name, &constants[..])) {
         Some(("ranged", [gain, range])) => Ok(Repulsion::Ranged { gain: *gain, range: *range }),
         Some(("inverse-square", [charge])) => Ok(Repulsion::InverseSquare(*charge)),
         Some(("sum", [charge])) => Ok(Repulsion::Sum(*charge)),

@@ -50,18 +50,18 @@ impl<T: Named> TypedValueParser for WordParser<T> {
         argument: Option<&clap::Arg>,
         value: &OsStr,
     ) -> Result<Self::Value, clap::Error> {
-        let known = PossibleValuesParser::new(T::VALUES.iter().copied().map(possible));
+        let known = PossibleValuesParser::new(T::VALUES.iter().copied().map(possible_value));
         let word = known.parse_ref(command, argument, value)?;
         let is_meant = |value: &T| value.word() == word || value.alias() == Some(&word);
         Ok(T::VALUES.iter().copied().find(is_meant).expect("the word is one of its values"))
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(T::VALUES.iter().copied().map(possible)))
+        Some(Box::new(T::VALUES.iter().copied().map(possible_value)))
     }
 }
 
-fn possible<T: Named>(value: T) -> PossibleValue {
+fn possible_value<T: Named>(value: T) -> PossibleValue {
     let possible = PossibleValue::new(value.word()).aliases(value.alias());
     if value.help().is_empty() { possible } else { possible.help(value.help()) }
 }

@@ -31,7 +31,7 @@ pub struct EffortArgs {
     #[arg(long, value_name = "SHARE", value_parser = margin, allow_hyphen_values = true)]
     pub margin: Option<f64>,
     /// Maximum number of attempts, each finer than the one before [default: 6].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(whole(&ALLOWED_LEVELS)))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(to_i64_range(&ALLOWED_LEVELS)))]
     pub levels: Option<u8>,
 }
 
@@ -70,7 +70,7 @@ impl EffortArgs {
     }
 
     /// Returns these options, completed by those of `base`.
-    pub fn or_from(&self, base: &Self) -> Self {
+    pub fn completed_by(&self, base: &Self) -> Self {
         Self {
             cells: self.cells.or(base.cells),
             margin: self.margin.or(base.margin),
@@ -356,6 +356,6 @@ fn margin(text: &str) -> Result<f64, String> {
 }
 
 /// Converts a range for the parser of whole numbers.
-pub(super) fn whole(range: &RangeInclusive<usize>) -> RangeInclusive<i64> {
+pub(super) fn to_i64_range(range: &RangeInclusive<usize>) -> RangeInclusive<i64> {
     *range.start() as i64..=*range.end() as i64
 }

@@ -1,7 +1,7 @@
 //! Options for roadmaps.
 
 use super::names::word;
-use super::planner::whole;
+use super::planner::to_i64_range;
 use super::readers::{readers, require};
 use clap::Args;
 use cplan_core::planner::{GridSearch, RoadmapSearch, SearchOrder, VisibilityGraph};
@@ -22,10 +22,10 @@ pub struct RoadmapArgs {
     #[arg(long, value_parser = word::<VisibilityGraph>(), value_name = "KIND")]
     pub graph: Option<VisibilityGraph>,
     /// Number of random free configurations (planner prm); doubled with each attempt [default: 500].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(whole(&ALLOWED_SAMPLES)))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(to_i64_range(&ALLOWED_SAMPLES)))]
     pub samples: Option<u32>,
     /// Number of nearest samples to which each sample is joined if the segment is free (planner prm) [default: 12].
-    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(whole(&ALLOWED_NEIGHBORS)))]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(to_i64_range(&ALLOWED_NEIGHBORS)))]
     pub nearest: Option<u32>,
     /// Seed of the samples (planner prm): the same seed gives the same roadmap [default: 1].
     #[arg(long, value_name = "N")]

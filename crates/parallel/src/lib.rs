@@ -28,7 +28,7 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
 ///
 /// # Errors
 /// The error of `each`. Pieces that are running finish, and no others start.
-pub fn in_order<T: Send, E>(
+pub fn run_in_order<T: Send, E>(
     count: usize,
     jobs: usize,
     work: impl Fn(usize) -> T + Sync,
@@ -38,7 +38,8 @@ pub fn in_order<T: Send, E>(
         return (0..count).try_for_each(|i| each(work(i)));
     }
     let next = AtomicUsize::new(0);
-    let turns = TurnState { state: Mutex::new((0, false)), moved: Condvar::new(), most: MAX_WAITING_PER_THREAD * jobs };
+    let turns =
+        TurnState { state: Mutex::new((0, false)), turn_changed: Condvar::new(), most: MAX_WAITING_PER_THREAD * jobs };
     std::thread::scope(|scope| {
         let (sender, results) = channel();
         for _ in 0..jobs.min(count) {
@@ -79,7 +80,7 @@ pub fn in_order<T: Send, E>(
 /// The state of a run: index of the next result to be passed on, and whether new work may start.
 struct TurnState {
     state: Mutex<(usize, bool)>,
-    moved: Condvar,
+    turn_changed: Condvar,
     most: usize,
 }
 
@@ -92,17 +93,17 @@ impl TurnState {
     /// run has ended.
     fn may_begin(&self, i: usize) -> bool {
         let is_early = |(due, is_over): &mut (usize, bool)| !*is_over && i >= *due + self.most;
-        !self.moved.wait_while(self.state(), is_early).unwrap_or_else(PoisonError::into_inner).1
+        !self.turn_changed.wait_while(self.state(), is_early).unwrap_or_else(PoisonError::into_inner).1
     }
 
     fn reach(&self, due: usize) {
         self.state().0 = due;
-        self.moved.notify_all();
+        self.turn_changed.notify_all();
     }
 
     fn end(&self) {
         self.state().1 = true;
-        self.moved.notify_all();
+        self.turn_changed.notify_all();
     }
 }
 
@@ -128,7 +129,7 @@ mod tests {
                 (0..10_000 * usize::from(i == 0)).for_each(|_| std::thread::yield_now());
                 i * i
             };
-            let done: Result<(), ()> = in_order(50, jobs, work, |result| {
+            let done: Result<(), ()> = run_in_order(50, jobs, work, |result| {
                 seen.push(result);
                 Ok(())
             });
@@ -144,7 +145,7 @@ mod tests {
                 begun.fetch_add(1, Ordering::Relaxed);
                 i
             };
-            let refused = in_order(1_000_000, jobs, work, |i| if i == 10 { Err("enough") } else { Ok(()) });
+            let refused = run_in_order(1_000_000, jobs, work, |i| if i == 10 { Err("enough") } else { Ok(()) });
             assert_eq!(refused, Err("enough"));
             assert!(begun.load(Ordering::Relaxed) < 10_000);
         }
@@ -180,7 +181,7 @@ mod tests {
             }
             i
         };
-        assert_eq!(in_order(1000, 3, work, |_| Ok::<_, ()>(())), Ok(()));
+        assert_eq!(run_in_order(1000, 3, work, |_| Ok::<_, ()>(())), Ok(()));
     }
 
     #[test]
@@ -190,7 +191,7 @@ mod tests {
             begun.fetch_add(1, Ordering::SeqCst);
             assert_ne!(i, 10, "this one fails");
         };
-        let all = catch_unwind(AssertUnwindSafe(|| in_order(1_000_000, 3, work, |()| Ok::<_, ()>(()))));
+        let all = catch_unwind(AssertUnwindSafe(|| run_in_order(1_000_000, 3, work, |()| Ok::<_, ()>(()))));
         assert!(all.is_err() && begun.load(Ordering::SeqCst) < 10_000);
     }
 
@@ -199,7 +200,7 @@ mod tests {
         let begun = AtomicUsize::new(0);
         let work = |_| begun.fetch_add(1, Ordering::SeqCst);
         let all = catch_unwind(AssertUnwindSafe(|| {
-            in_order(1_000_000, 3, work, |_| -> Result<(), ()> { panic!("none is taken") })
+            run_in_order(1_000_000, 3, work, |_| -> Result<(), ()> { panic!("none is taken") })
         }));
         assert!(all.is_err() && begun.load(Ordering::SeqCst) < 10_000);
     }

@@ -258,7 +258,7 @@ impl<'a> Subdivision<'a> {
     }
 
     /// Returns all boxes that meet a segment in the domain. Split boxes are omitted.
-    pub fn holding(&self, piece: &Segment) -> Vec<u32> {
+    pub fn boxes_meeting(&self, piece: &Segment) -> Vec<u32> {
         let mut found = Vec::new();
         let mut waiting: Vec<u32> = (0..index(self.roots)).rev().collect();
         while let Some(index) = waiting.pop() {
@@ -300,7 +300,7 @@ impl Mosaic for Subdivision<'_> {
     }
 
     fn meeting(&self, piece: &Segment) -> Vec<u32> {
-        let mut open = self.holding(piece);
+        let mut open = self.boxes_meeting(piece);
         open.retain(|&index| self.nodes[index as usize].is_open());
         open.truncate(if piece.is_point() { 1 } else { usize::MAX });
         open

@@ -67,7 +67,7 @@ pub(super) fn ends_in(ends: &[End], index: u32) -> impl Iterator<Item = &Segment
 /// nothing. It takes `O(boxes + adjacencies)`.
 pub(super) fn fewest_undecided(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Option<Vec<u32>> {
     let (_, parent, last) = search(boxes, &[from], ends, finest);
-    last.map(|last| back(&parent, last))
+    last.map(|last| chain_to(&parent, last))
 }
 
 /// Returns, in ascending order, all undecided boxes that lie on some chain with the fewest undecided boxes. Takes two
@@ -167,11 +167,11 @@ pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, end
             }
         });
     }
-    back(&parent, best.1)
+    chain_to(&parent, best.1)
 }
 
 /// Returns the chain that leads to `last`.
-fn back(parent: &[u32], last: u32) -> Vec<u32> {
+fn chain_to(parent: &[u32], last: u32) -> Vec<u32> {
     let mut chain = vec![last];
     let mut at = last;
     while parent[at as usize] != NO_BOX {

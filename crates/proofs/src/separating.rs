@@ -11,7 +11,7 @@ use cplan_core::space::{Configuration, GoalSet};
 /// Consider the boxes that may be free and are connected with the start. They form a region. Its sides are shared with
 /// collision boxes, or are limits of joints. So these collision boxes alone separate the start from the goals.
 pub(super) fn separating(boxes: &Subdivision, start: Configuration, goals: &GoalSet) -> Disconnection {
-    let (here, there) = (around(boxes, &start.into()), around(boxes, goals));
+    let (here, there) = (collision_boxes_beside(boxes, &start.into()), collision_boxes_beside(boxes, goals));
     let fewer = if there.len() < here.len() { there } else { here };
     let stuck = fewer.into_iter().filter_map(|index| {
         let node = &boxes.nodes[index as usize];
@@ -23,14 +23,16 @@ pub(super) fn separating(boxes: &Subdivision, start: Configuration, goals: &Goal
 /// Returns the collision boxes, ascending, that share a side with the region connected to any of the places. Also
 /// returns the collision boxes that contain places, with one exception: a single place that another box contains as
 /// well.
-fn around(boxes: &Subdivision, places: &GoalSet) -> Vec<u32> {
+fn collision_boxes_beside(boxes: &Subdivision, places: &GoalSet) -> Vec<u32> {
     let mut reached = vec![false; boxes.nodes.len()];
     let mut waiting = Vec::new();
     let mut walls = Vec::new();
     for piece in places.wrapped(boxes.topology()) {
         let open = boxes.meeting(&piece);
         if open.is_empty() || !piece.is_point() {
-            walls.extend(boxes.holding(&piece).into_iter().filter(|&index| !boxes.nodes[index as usize].is_open()));
+            walls.extend(
+                boxes.boxes_meeting(&piece).into_iter().filter(|&index| !boxes.nodes[index as usize].is_open()),
+            );
         }
         waiting.extend(open);
     }

@@ -56,7 +56,7 @@ impl ErodedShape {
 
     fn part(part: &CarriedPart, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
         let grow = clearance - overlap;
-        let by = lacking(piece) - grow;
+        let by = missing_radius(piece) - grow;
         if by <= 0.0 {
             return Some(Self::Grown(grow));
         }
@@ -65,7 +65,7 @@ impl ErodedShape {
 
     fn piece(piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
         let grow = clearance - overlap;
-        if lacking(piece) <= grow {
+        if missing_radius(piece) <= grow {
             return Some(Self::Grown(grow));
         }
         piece.eroded(-grow).map(|shape| Self::Piece(Features::new(&shape)))
@@ -82,7 +82,7 @@ impl ErodedShape {
         out: &mut Vec<[f64; 2]>,
     ) -> Hits {
         match self {
-            Self::Part(eroded) => eroded.hits(pivot, heading, piece, lacking(piece.shape()), out),
+            Self::Part(eroded) => eroded.hits(pivot, heading, piece, missing_radius(piece.shape()), out),
             Self::Piece(eroded) => part.hits(pivot, heading, eroded, 0.0, out),
             Self::Grown(by) => part.hits(pivot, heading, piece, *by, out),
         }
@@ -91,7 +91,7 @@ impl ErodedShape {
 
 /// Returns the length by which a piece with a negative radius must grow so that its radius is zero; 0 for other pieces.
 /// A distance from the core gives a distance from the piece only if the radius is at least zero.
-fn lacking(piece: &Convex) -> f64 {
+fn missing_radius(piece: &Convex) -> f64 {
     (-piece.radius()).max(0.0)
 }
 
@@ -197,7 +197,7 @@ impl<'a> SecondLink<'a> {
         let piece = &mut self.pieces[index - self.contacts.second_link_pairs().start];
         let of_part = part.depth > piece.depth;
         // Then the eroded part is the same for all pieces.
-        let shared = of_part && lacking(shape) == 0.0;
+        let shared = of_part && missing_radius(shape) == 0.0;
         let known = if shared { &mut part.eroded } else { &mut piece.eroded };
         if known.len() <= level {
             known.resize_with(level + 1, || None);

@@ -160,22 +160,22 @@ impl<'a> Slabs<'a> {
         };
         for stretch in bands(this.second.contacts(), clearance) {
             match stretch.kind {
-                Kind::Free => this.lay(stretch.from, stretch.to, true),
+                Kind::Free => this.add_slabs(stretch.from, stretch.to, true),
                 Kind::Wall(stuck) => {
                     let [from, to] = [stuck.cell.lower[0], stuck.cell.upper[0]];
-                    this.lay(stretch.from, from, false);
+                    this.add_slabs(stretch.from, from, false);
                     let wall = Some(index(this.walls.len()));
                     this.walls.push(stuck);
                     let spans = [index(this.spans.len()); 2];
                     this.slabs.push(Slab { from, to, level: 0, clear: false, judged: true, spans, wall });
-                    this.lay(to, stretch.to, false);
+                    this.add_slabs(to, stretch.to, false);
                 }
                 // A graze at a single value cannot be halved, but blocks the passage.
                 Kind::Unknown if stretch.from == stretch.to => {
-                    let (from, to, spans) = (stretch.from, stretch.to, this.whole(Openness::Finest));
+                    let (from, to, spans) = (stretch.from, stretch.to, this.add_full_span(Openness::Finest));
                     this.slabs.push(Slab { from, to, level: 0, clear: false, judged: false, spans, wall: None });
                 }
-                Kind::Unknown => this.lay(stretch.from, stretch.to, false),
+                Kind::Unknown => this.add_slabs(stretch.from, stretch.to, false),
             }
         }
         this.number();
@@ -184,13 +184,13 @@ impl<'a> Slabs<'a> {
 
     /// Adds slabs for a stretch of `q1`, without examining them. The stretch is cut where initial slabs end, so that
     /// all slabs of a level have the same width.
-    fn lay(&mut self, from: f64, to: f64, clear: bool) {
+    fn add_slabs(&mut self, from: f64, to: f64, clear: bool) {
         let (lower, upper) = self.topology.ranges[0].domain();
         let at = |i: usize| lower + (upper - lower) * i as f64 / INITIAL_SLABS as f64;
         let mut from = from;
         for cut in (1..INITIAL_SLABS).map(at).chain([to]) {
             if from < cut && cut <= to {
-                let spans = self.whole(Openness::Undecided);
+                let spans = self.add_full_span(Openness::Undecided);
                 self.slabs.push(Slab { from, to: cut, level: 0, clear, judged: false, spans, wall: None });
                 from = cut;
             }
@@ -198,7 +198,7 @@ impl<'a> Slabs<'a> {
     }
 
     /// Adds one span for all values of joint 2.
-    fn whole(&mut self, openness: Openness) -> [u32; 2] {
+    fn add_full_span(&mut self, openness: Openness) -> [u32; 2] {
         let (lower, upper) = self.topology.ranges[1].domain();
         let first = index(self.spans.len());
         self.spans.push(Span { lower, upper, openness, slab: 0 });
@@ -321,7 +321,7 @@ impl<'a> Slabs<'a> {
     }
 
     /// Returns the neighbours of a slab.
-    fn beside(&self, slab: u32) -> impl Iterator<Item = u32> {
+    fn neighbors(&self, slab: u32) -> impl Iterator<Item = u32> {
         let last = index(self.slabs.len()) - 1;
         let round = self.topology.ranges[0].is_circle();
         let before = if slab > 0 { Some(slab - 1) } else { round.then_some(last) };
@@ -357,7 +357,7 @@ impl Mosaic for Slabs<'_> {
 
     fn for_each_neighbor(&self, index: u32, mut f: impl FnMut(u32)) {
         let span = self.spans[index as usize];
-        for slab in self.beside(span.slab) {
+        for slab in self.neighbors(span.slab) {
             for other in self.spans_of(slab) {
                 let beside = &self.spans[other as usize];
                 if span.lower.max(beside.lower) < span.upper.min(beside.upper) {

@@ -23,7 +23,7 @@ pub(super) struct SlabCollision {
 
 /// Adds boxes that cover all collisions of adjacent slabs, within the range of joint 2. Returns false if there are more
 /// than `most` boxes, or if the check of a proof would refuse one of them.
-pub(super) fn lay(
+pub(super) fn add_boxes(
     scene: &Scene,
     clearance: f64,
     slabs: &[SlabCollision],

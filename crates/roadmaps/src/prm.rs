@@ -87,7 +87,9 @@ impl Planner for Prm {
         let (route, expanded) = query_graph.search(self.search, &terminals);
         let outcome = match route {
             None => Proposal::GaveUp(format!("{} do not join start and goal", counted(self.samples, "sample"))),
-            Some(route) => along(&map.mesh, route.into_iter().map(|node| query_graph.at(node)).collect(), self.path),
+            Some(route) => {
+                propose_along(&map.mesh, route.into_iter().map(|node| query_graph.at(node)).collect(), self.path)
+            }
         };
         roadmap::run(GraphKind::Samples, outcome, Some(&query_graph), expanded)
     }
@@ -142,17 +144,17 @@ impl Prm {
 
 /// Returns a polyline through free space as a path. For [`PathKind::Taut`] the path is pulled taut through the
 /// triangles that the polyline crosses, if that is possible.
-pub(super) fn along(mesh: &Mesh, own: Vec<Point>, kind: PathKind) -> Proposal {
+pub(super) fn propose_along(mesh: &Mesh, own: Vec<Point>, kind: PathKind) -> Proposal {
     let waypoints = match kind {
         PathKind::Own | PathKind::Middles => own,
-        PathKind::Taut => tightened(mesh, &own).unwrap_or(own),
+        PathKind::Taut => pulled_taut(mesh, &own).unwrap_or(own),
     };
     Proposal::Found(Path::new(waypoints))
 }
 
 /// Pulls a path taut through the triangles that it crosses. Returns `None` if the path passes through a vertex or
 /// along a side.
-fn tightened(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
+fn pulled_taut(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
     let crossed = |first: u32| {
         let (mut at, mut portals) = (first, Vec::new());
         for leg in path.windows(2) {

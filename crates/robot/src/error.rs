@@ -56,7 +56,7 @@ impl Diagnostic {
 
     /// Sets the category.
     #[must_use]
-    pub fn about(self, kind: DiagnosticKind) -> Self {
+    pub fn with_kind(self, kind: DiagnosticKind) -> Self {
         Self { kind, ..self }
     }
 }
@@ -81,7 +81,7 @@ impl fmt::Display for Diagnostic {
 /// An error for unusable input. Its text has every diagnostic, with file, line and column, the line of the file, and a
 /// hint.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}", listed(.diagnostics))]
+#[error("{}", list_diagnostics(.diagnostics))]
 pub struct InputError {
     diagnostics: Vec<Diagnostic>,
 }
@@ -106,8 +106,8 @@ impl InputError {
 
     /// Sets the category of all diagnostics.
     #[must_use]
-    pub fn about(self, kind: DiagnosticKind) -> Self {
-        Self { diagnostics: self.diagnostics.into_iter().map(|diagnostic| diagnostic.about(kind)).collect() }
+    pub fn with_kind(self, kind: DiagnosticKind) -> Self {
+        Self { diagnostics: self.diagnostics.into_iter().map(|diagnostic| diagnostic.with_kind(kind)).collect() }
     }
 
     /// Creates an error from these diagnostics. There must be at least one, and each needs a hint.
@@ -140,7 +140,7 @@ impl From<Diagnostic> for InputError {
 /// cause them.
 const MAX_SHOWN_DIAGNOSTICS: usize = 8;
 
-fn listed(diagnostics: &[Diagnostic]) -> String {
+fn list_diagnostics(diagnostics: &[Diagnostic]) -> String {
     let mut lines: Vec<String> = diagnostics.iter().take(MAX_SHOWN_DIAGNOSTICS).map(ToString::to_string).collect();
     if diagnostics.len() > MAX_SHOWN_DIAGNOSTICS {
         lines.push(format!("... and {} more", diagnostics.len() - MAX_SHOWN_DIAGNOSTICS));

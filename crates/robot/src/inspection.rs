@@ -58,7 +58,7 @@ pub struct Inspection {
     pub scene: Option<Scene>,
     /// The trajectories of the scene's loose obstacles.
     #[serde(skip)]
-    pub courses: Vec<ObstacleTrajectory>,
+    pub trajectories: Vec<ObstacleTrajectory>,
     /// Paths of the files that were read: the URDF, the files of its xacro, its meshes, and those of the world.
     #[serde(skip)]
     pub files: Vec<PathBuf>,

@@ -61,12 +61,12 @@ const ROUNDING: f64 = 1e-9;
 /// Computes a lower bound on the lengths of motions. For gantries it is the length of the shortest path past the exact
 /// C-obstacles, up to a small tolerance; otherwise it is that of [`least_length`].
 pub(super) fn lower_bound(motions: &MotionQuery, upper: f64, gap: f64, slices: &[f64]) -> f64 {
-    past_polygons(motions, gap).unwrap_or_else(|| least_length(motions, upper, gap, slices))
+    length_past_polygons(motions, gap).unwrap_or_else(|| least_length(motions, upper, gap, slices))
 }
 
 /// Computes the length of the shortest path past polygons that lie inside the C-obstacles of a gantry. `None` if no
 /// such polygons are known.
-fn past_polygons(motions: &MotionQuery, gap: f64) -> Option<f64> {
+fn length_past_polygons(motions: &MotionQuery, gap: f64) -> Option<f64> {
     let MotionQuery { scene, start, goals, metric, .. } = *motions;
     if scene.pairs().len() > MAX_UNITED_PAIRS {
         return None;

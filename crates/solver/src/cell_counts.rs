@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_number_or_two() {
+    fn cell_counts_are_one_number_or_two() {
         let of = |text: &str| text.parse::<CellCounts>();
         assert_eq!(of("256"), Ok(CellCounts([256, 256])));
         assert_eq!(of("128x512"), Ok(CellCounts([128, 512])));

@@ -26,7 +26,7 @@ pub(super) fn fewer_corners(scene: &Scene, path: &Path, metric: Metric, budget: 
     let topology = scene.arm().topology();
     let mut too_near = Vec::new();
     for _ in 0..MAX_ATTEMPTS {
-        let fewer = drawn_out(&topology, path.waypoints(), metric, budget, &too_near);
+        let fewer = remove_pieces(&topology, path.waypoints(), metric, budget, &too_near);
         if fewer.len() == path.waypoints().len() {
             return None;
         }
@@ -45,12 +45,12 @@ struct Piece {
     after: usize,
     /// Number of changes to the piece or its neighbours.
     version: u32,
-    gone: bool,
+    is_removed: bool,
 }
 
 /// Removes pieces and returns the remaining waypoints. A piece is kept if its removal would lead past a configuration
 /// in `too_near`.
-fn drawn_out(
+fn remove_pieces(
     topology: &Topology,
     waypoints: &[Configuration],
     metric: Metric,
@@ -60,7 +60,7 @@ fn drawn_out(
     let mut at = waypoints.to_vec();
     let n = at.len();
     let mut left: Vec<Piece> =
-        (0..n).map(|i| Piece { before: i.wrapping_sub(1), after: i + 1, version: 0, gone: false }).collect();
+        (0..n).map(|i| Piece { before: i.wrapping_sub(1), after: i + 1, version: 0, is_removed: false }).collect();
     // The index of a piece is that of its first corner.
     let offer = |at: &[Configuration], left: &[Piece], i: usize| {
         let (h, j) = (left[i].before, left[i].after);
@@ -70,7 +70,7 @@ fn drawn_out(
         }
         let corner = meeting([at[h], at[i], at[j], at[k]])?;
         let ends = [at[i], at[j], corner];
-        if !topology.contains(corner) || too_near.iter().any(|q| is_about(*q, &ends)) {
+        if !topology.contains(corner) || too_near.iter().any(|q| is_near(*q, &ends)) {
             return None;
         }
         let longer = metric.norm(corner - at[i]) + metric.norm(at[j] - corner) - metric.norm(at[j] - at[i]);
@@ -84,7 +84,7 @@ fn drawn_out(
     }
     let mut spent = 0.0;
     while let Some((longer, (i, version))) = open.pop() {
-        if left[i].gone || left[i].version != version {
+        if left[i].is_removed || left[i].version != version {
             continue;
         }
         if spent + longer > budget {
@@ -95,7 +95,7 @@ fn drawn_out(
         at[i] = corner;
         let (h, j) = (left[i].before, left[i].after);
         let k = left[j].after;
-        left[j].gone = true;
+        left[j].is_removed = true;
         left[i].after = k;
         left[k].before = i;
         let hh = left[h].before;
@@ -108,7 +108,7 @@ fn drawn_out(
             }
         }
     }
-    (0..n).filter(|&i| !left[i].gone).map(|i| at[i]).collect()
+    (0..n).filter(|&i| !left[i].is_removed).map(|i| at[i]).collect()
 }
 
 /// Returns the point where the lines `a b` and `d c` meet, beyond `b` and beyond `c`. `None` if they do not meet there,
@@ -125,7 +125,7 @@ fn meeting([a, b, c, d]: [Configuration; 4]) -> Option<Configuration> {
 
 /// Returns true if a configuration is near some others: inside their bounding box after it is widened by its own
 /// extent.
-fn is_about(q: Configuration, others: &[Configuration; 3]) -> bool {
+fn is_near(q: Configuration, others: &[Configuration; 3]) -> bool {
     (0..2).all(|k| {
         let (least, greatest) =
             others.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, g), at| (l.min(at[k]), g.max(at[k])));
@@ -163,7 +163,7 @@ mod tests {
         let arc = quarter(200);
         let mut before = arc.len();
         for budget in [1e-5, 1e-4, 1e-3, 1e-2] {
-            let fewer = drawn_out(&WIDE, &arc, Metric::Euclidean, budget, &[]);
+            let fewer = remove_pieces(&WIDE, &arc, Metric::Euclidean, budget, &[]);
             assert!(length(&fewer) <= length(&arc) + budget + 1e-12, "{budget}: {}", length(&fewer));
             // A tangent that spans `a` radians is longer than its arc by about a^3 / 12. So the least number n of
             // tangents within the budget satisfies (pi / 2)^3 / (12 n^2) = budget. Removing the cheapest pieces first
@@ -184,7 +184,7 @@ mod tests {
     #[test]
     fn corners_stay_within_limits_and_clear() {
         let arc = quarter(8);
-        let all = drawn_out(&WIDE, &arc, Metric::Euclidean, 10.0, &[]);
+        let all = remove_pieces(&WIDE, &arc, Metric::Euclidean, 10.0, &[]);
         assert_eq!(all, [arc[0], Configuration::new(1.0, 1.0), arc[arc.len() - 1]]);
         let narrow = Topology {
             ranges: [
@@ -192,15 +192,15 @@ mod tests {
                 JointRange::Interval { lower: -2.0, upper: 1.0 },
             ],
         };
-        assert!(drawn_out(&narrow, &arc, Metric::Euclidean, 10.0, &[]).iter().all(|q| narrow.contains(*q)));
+        assert!(remove_pieces(&narrow, &arc, Metric::Euclidean, 10.0, &[]).iter().all(|q| narrow.contains(*q)));
         // An obstacle was met at the corner where all pieces would meet.
-        let others = drawn_out(&WIDE, &arc, Metric::Euclidean, 10.0, &[Configuration::new(0.999, 0.999)]);
+        let others = remove_pieces(&WIDE, &arc, Metric::Euclidean, 10.0, &[Configuration::new(0.999, 0.999)]);
         assert!(others.len() > 3 && !others.contains(&all[1]), "{others:?}");
     }
 
     #[test]
     fn a_zigzag_stays_unchanged() {
         let zigzag: Vec<_> = (0..9).map(|k| Configuration::new(0.2 * f64::from(k), f64::from(k % 2) * 0.3)).collect();
-        assert_eq!(drawn_out(&WIDE, &zigzag, Metric::Euclidean, 10.0, &[]), zigzag);
+        assert_eq!(remove_pieces(&WIDE, &zigzag, Metric::Euclidean, 10.0, &[]), zigzag);
     }
 }

@@ -1,7 +1,7 @@
 //! Decides whether there is a path at all: by slabs of joint 1, and otherwise by boxes.
 
 use super::ladder::explain;
-use super::subdivision::certified;
+use super::subdivision::certify_shortest_in_channel;
 use super::thinned::ThinnedProblem;
 use cplan_core::check::{CertifiedPath, CheckedProof, Disconnection};
 use cplan_core::model::{MotionProblem, Outcome, Pair};
@@ -130,14 +130,15 @@ fn checked_answer(
     answer: Connectivity,
 ) -> Outcome<CertifiedPath, CheckedProof> {
     match answer {
-        Connectivity::Connected(channel) => certified(problem, &channel).map_or_else(
+        Connectivity::Connected(channel) => certify_shortest_in_channel(problem, &channel).map_or_else(
             |rejection| Outcome::Unknown(format!("its path is not certified: {}", explain(problem.scene(), rejection))),
             Outcome::Found,
         ),
-        Connectivity::Disconnected(proof) => checked(problem, proof.of_pairs(original_pair)).map_or_else(
-            || Outcome::Unknown("the proposed proof of infeasibility does not hold".into()),
-            Outcome::Infeasible,
-        ),
+        Connectivity::Disconnected(proof) => accepted_smaller_proof(problem, proof.of_pairs(original_pair))
+            .map_or_else(
+                || Outcome::Unknown("the proposed proof of infeasibility does not hold".into()),
+                Outcome::Infeasible,
+            ),
         Connectivity::Undecided { boxes, .. } => {
             Outcome::Unknown(format!("{boxes} boxes do not decide whether a path exists"))
         }
@@ -146,12 +147,12 @@ fn checked_answer(
 
 /// Returns the proof if the independent check accepts it. A proof of more than 256 boxes is first reduced to fewer
 /// boxes.
-pub(super) fn checked(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
-    slimmed(&proof, |some| if_checked(problem, some))
+pub(super) fn accepted_smaller_proof(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
+    slimmed(&proof, |some| accepted_proof(problem, some))
 }
 
 /// Returns the proof if the independent check accepts it.
-fn if_checked(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
+fn accepted_proof(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
     let clearance = problem.scene().workspace().clearance;
     proof.checked(problem.scene(), problem.start(), problem.goals(), clearance).ok()
 }

@@ -197,9 +197,9 @@ impl Climb<'_> {
             Proposal::NoPath => return self.reason_to_refine("no path in it".into()),
             Proposal::GaveUp(reason) => return self.reason_to_refine(reason.clone()),
         };
-        match self.certified(ends, proposal) {
+        match self.certify_proposal(ends, proposal) {
             Ok(path) => {
-                self.keep(path);
+                self.keep_if_shorter(path);
                 // Without a bound there is no reason to refine, so the message always has a number.
                 let excess = self.bound().map_or_else(String::new, |bound| percent(bound.gap()));
                 self.reason_to_refine(format!("its path is longer than the bound by {excess}"))
@@ -224,7 +224,7 @@ impl Climb<'_> {
 
     /// Certifies a proposed path. If the proposal begins or ends at a stand-in, the path is first completed to the true
     /// start and goal. The direct motion is tried first, then the motion through the stand-in.
-    fn certified(&mut self, ends: &Ends, proposal: &Path) -> Result<CertifiedPath, Rejection> {
+    fn certify_proposal(&mut self, ends: &Ends, proposal: &Path) -> Result<CertifiedPath, Rejection> {
         let clock = Instant::now();
         let judge = |path| certify(self.problem.scene(), path, self.problem.scene().workspace().clearance);
         let straight = ends.past_stand_ins(proposal).and_then(|path| judge(path).ok());
@@ -240,7 +240,7 @@ impl Climb<'_> {
 
     /// Keeps a path if it is the shortest so far, with its bounds. If the method does not minimise length, or bounds
     /// were not requested, keeps every path, without bounds.
-    fn keep(&mut self, certified: CertifiedPath) {
+    fn keep_if_shorter(&mut self, certified: CertifiedPath) {
         if !self.options.bounded || !self.options.planner.method().optimizes() {
             self.path = Some(certified.into());
             return;

@@ -121,7 +121,7 @@ impl Planner {
     /// Returns which visibility graph the planner searches. `None` if it searches none.
     #[must_use]
     pub fn graph(&self) -> Option<VisibilityGraph> {
-        self.if_read(Setting::Graph, self.settings.graph)
+        self.value_if_read(Setting::Graph, self.settings.graph)
     }
 
     /// Returns the metric in which the planner measures paths of an arm.
@@ -139,7 +139,7 @@ impl Planner {
     /// Returns how the planner searches its roadmap. `None` if it has no roadmap.
     #[must_use]
     pub fn search(&self) -> Option<RoadmapSearch> {
-        self.if_read(Setting::Search, self.settings.search)
+        self.value_if_read(Setting::Search, self.settings.search)
     }
 
     /// Returns true if the planner's search minimises length.
@@ -151,7 +151,7 @@ impl Planner {
     /// Returns how the cells of the planner's grid are decided. `None` if it has no grid.
     #[must_use]
     pub fn space(&self) -> Option<GridSpace> {
-        self.if_read(Setting::Space, self.settings.space)
+        self.value_if_read(Setting::Space, self.settings.space)
     }
 
     /// Returns the field that the planner follows. `None` for the plain harmonic field, and for planners without a
@@ -161,7 +161,7 @@ impl Planner {
         self.settings.field.as_ref()
     }
 
-    fn if_read<T>(&self, setting: Setting, value: T) -> Option<T> {
+    fn value_if_read<T>(&self, setting: Setting, value: T) -> Option<T> {
         self.method.reads(setting).then_some(value)
     }
 }
@@ -186,7 +186,7 @@ impl Serialize for ReadSettings<'_> {
         let mut map = serializer.serialize_map(None)?;
         for &setting in method.descriptor().settings {
             let is_left_out = match setting {
-                Setting::Ties => settings.ties.is_usual(),
+                Setting::Ties => settings.ties.is_default(),
                 Setting::Forward => !settings.forward,
                 _ => false,
             };

@@ -11,7 +11,7 @@ impl Planner {
     /// Reports the first preference that the planner's field needs and the world file lacks, with a hint. `None` if
     /// none is missing.
     #[must_use]
-    pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
+    pub fn missing_preference(&self, preferences: &[Preference]) -> Option<String> {
         let FieldChoice::Relaxed { equation, .. } = self.field()?.field else { return None };
         let name = match equation {
             EquationChoice::LocallyOriented { direction, .. } => {

@@ -110,7 +110,7 @@ fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) ->
     }
     let (metric, clock) = (planner.metric(scene.arm()), Instant::now());
     let upper = metric.length(path.path());
-    let room = room(upper, path.bound.map(|bound| bound.lower), gap);
+    let room = length_allowance(upper, path.bound.map(|bound| bound.lower), gap);
     if let Some(fewer) = fewer_corners(scene, path.path(), metric, room) {
         answer.outcome = Outcome::Found(path.replaced_by(fewer));
     }
@@ -128,8 +128,14 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
     let (scene, planner) = (problem.scene(), options.planner);
     let (metric, gap) = (planner.metric(scene.arm()), planner.gap().unwrap_or(CLOSE_GAP));
     let motions = motions(problem, metric);
-    let mut bounding =
-        PathBounding { motions, gap, is_asked: options.bounded, lower: 0.0, beside: 0.0, took: Duration::ZERO };
+    let mut bounding = PathBounding {
+        motions,
+        gap,
+        is_asked: options.bounded,
+        lower: 0.0,
+        bounded_length: 0.0,
+        time_spent: Duration::ZERO,
+    };
     let clock = Instant::now();
     let (mut upper, mut path, mut free) = (metric.length(first.path()), first, Vec::new());
     if path.path().waypoints().len() == 2 {
@@ -154,7 +160,7 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
             if !is_shortest && !bounding.is_close(length) {
                 return Err(RefusalReason::TooLong);
             }
-            let fewer = fewer_corners(scene, &proposal, metric, bounding.room(length));
+            let fewer = fewer_corners(scene, &proposal, metric, bounding.length_allowance(length));
             fewer.or(certified).map_or_else(certificate, Ok)
         };
         let Some(found) = short_motion(&motions, kept, upper, judge) else { continue };
@@ -170,12 +176,12 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
         bounding.bound(upper, &[]);
     }
     if free.is_empty()
-        && let Some(fewer) = fewer_corners(scene, path.path(), metric, bounding.room(upper))
+        && let Some(fewer) = fewer_corners(scene, path.path(), metric, bounding.length_allowance(upper))
     {
         (upper, path) = (metric.length(fewer.path()), fewer);
     }
-    stages.bound += bounding.took;
-    stages.query += clock.elapsed() - bounding.took;
+    stages.bound += bounding.time_spent;
+    stages.query += clock.elapsed() - bounding.time_spent;
     let mut answer = answer(Method::Shortest, Outcome::Found(path), stages);
     if let Outcome::Found(path) = &mut answer.outcome {
         path.bound = options.bounded.then_some(Bound { metric, lower: bounding.lower, upper });
@@ -197,20 +203,20 @@ struct PathBounding<'a> {
     /// Lower bound on the lengths of all motions.
     lower: f64,
     /// Length of the path for which the bound was last computed.
-    beside: f64,
+    bounded_length: f64,
     /// Time spent on bounds.
-    took: Duration,
+    time_spent: Duration,
 }
 
 impl PathBounding<'_> {
     /// Improves the lower bound, up to the length `upper` of a path. Does nothing if that path is already known to be
     /// within the gap, or if the bound was last computed for the same length.
     fn bound(&mut self, upper: f64, slices: &[f64]) {
-        if self.is_asked && upper != self.beside && !self.is_close(upper) {
+        if self.is_asked && upper != self.bounded_length && !self.is_close(upper) {
             let clock = Instant::now();
-            self.beside = upper;
+            self.bounded_length = upper;
             self.lower = self.lower.max(lower_bound(&self.motions, upper, BOUND_FRACTION * self.gap, slices));
-            self.took += clock.elapsed();
+            self.time_spent += clock.elapsed();
         }
     }
 
@@ -220,13 +226,13 @@ impl PathBounding<'_> {
     }
 
     /// Returns by how much a path of length `upper` may become longer when corners are removed.
-    fn room(&self, upper: f64) -> f64 {
-        room(upper, self.is_asked.then_some(self.lower), self.gap)
+    fn length_allowance(&self, upper: f64) -> f64 {
+        length_allowance(upper, self.is_asked.then_some(self.lower), self.gap)
     }
 }
 
 /// Returns by how much a path of length `upper` may become longer when corners are removed. Without a lower bound, this
 /// is a share of the requested gap.
-fn room(upper: f64, lower: Option<f64>, gap: f64) -> f64 {
+fn length_allowance(upper: f64, lower: Option<f64>, gap: f64) -> f64 {
     SLACK_FRACTION * lower.map_or(gap / 2.0 * upper, |lower| lower * (1.0 + gap) - upper)
 }

@@ -1,6 +1,6 @@
 //! Planning by subdivision of the configuration space.
 
-use super::decision::checked;
+use super::decision::accepted_smaller_proof;
 use super::ladder::{Request, explain};
 use super::{Answer, Method, Space, Stages, Unknown};
 use cplan_core::check::CertifiedPath;
@@ -29,7 +29,7 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
         Connectivity::Connected(channel) => {
             let certified = match options.planner.path_kind() {
                 PathKind::Own | PathKind::Middles => certify(scene, channel.path(), clearance),
-                PathKind::Taut => certified(problem, &channel),
+                PathKind::Taut => certify_shortest_in_channel(problem, &channel),
             };
             stages.certify = clock.elapsed();
             match certified {
@@ -41,7 +41,7 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
             }
         }
         Connectivity::Disconnected(proof) => {
-            let proof = checked(problem, proof);
+            let proof = accepted_smaller_proof(problem, proof);
             stages.prove = clock.elapsed();
             let refused = || Outcome::Unknown("its proof does not hold".to_owned().into());
             (Proposal::NoPath, proof.map_or_else(refused, Outcome::Infeasible))
@@ -68,7 +68,10 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
 
 /// Certifies the shortest path through the channel. That path touches the sides of boxes, so rounding may prevent its
 /// certification. In that case, certifies the path through the middles of the portals.
-pub(super) fn certified(problem: &MotionProblem, channel: &Channel) -> Result<CertifiedPath, Rejection> {
+pub(super) fn certify_shortest_in_channel(
+    problem: &MotionProblem,
+    channel: &Channel,
+) -> Result<CertifiedPath, Rejection> {
     let clearance = problem.scene().workspace().clearance;
     certify(problem.scene(), taut(channel), clearance).or_else(|_| certify(problem.scene(), channel.path(), clearance))
 }

@@ -76,14 +76,17 @@ pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
     };
     let Some((_, silent)) = DEFAULT_KEYS.iter().find(|(silent, _)| silent == key) else { return text.to_owned() };
     // Tables can be written in several forms. The first insertion that puts the number at its address is right.
-    let candidates =
-        [inside(text, table, key, silent), below(text, table, key, silent), above(text, table, key, silent)];
+    let candidates = [
+        insert_into_table(text, table, key, silent),
+        append_table(text, table, key, silent),
+        insert_dotted_key(text, table, key, silent),
+    ];
     let written = candidates.into_iter().flatten().find(|text| in_world(text, steps).is_ok());
     written.filter(|_| in_world(text, steps).is_err()).unwrap_or_else(|| text.to_owned())
 }
 
 /// Inserts the key at the beginning of its table. `None` if the table has no header and is not inline.
-fn inside(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
+fn insert_into_table(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
     let document = DeTable::parse(text).ok()?;
     let (_, at) = descend(document.get_ref(), document.span(), table).ok()?;
     let opening = &text[at.start..];
@@ -98,12 +101,12 @@ fn inside(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String>
 }
 
 /// Appends a table `[robot]` with the key, for a robot without keys, or with keys in subtables only.
-fn below(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
+fn append_table(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
     (table.len() == 1).then(|| format!("{}\n\n[robot]\n{key} = {silent}\n", text.trim_end()))
 }
 
 /// Inserts a dotted key `robot.KEY`, for a robot whose other keys are dotted.
-fn above(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
+fn insert_dotted_key(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
     (table.len() == 1).then(|| format!("robot.{key} = {silent}\n{text}"))
 }
 
@@ -114,7 +117,7 @@ enum DeRef<'a> {
     Value(&'a DeValue<'a>),
 }
 
-fn seen<'a>(value: &'a Spanned<DeValue<'a>>) -> (DeRef<'a>, Range<usize>) {
+fn value_with_span<'a>(value: &'a Spanned<DeValue<'a>>) -> (DeRef<'a>, Range<usize>) {
     let seen = match value.get_ref() {
         DeValue::Table(table) => DeRef::Table(table),
         DeValue::Array(array) => DeRef::Array(array),
@@ -140,7 +143,7 @@ fn descend<'a>(root: &'a DeTable<'a>, at: Range<usize>, steps: &[Step]) -> Resul
             }
             _ => None,
         };
-        here = seen(next.ok_or_else(|| missing(&here.0, step))?);
+        here = value_with_span(next.ok_or_else(|| missing(&here.0, step))?);
     }
     Ok(here)
 }

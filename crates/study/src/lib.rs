@@ -39,7 +39,7 @@ pub use schema::study_schema;
 pub use summary::Summary;
 
 use cplan_engine::{Plan, Problem, plan};
-use cplan_parallel::{caught, in_order};
+use cplan_parallel::{caught, run_in_order};
 use cplan_robot::{InputError, Source};
 use cplan_solver::{Options, solve};
 use cplan_world::{LoadedScene, Overrides};
@@ -163,7 +163,7 @@ impl Study {
     pub fn problem(&self, values: &[f64]) -> Result<Problem, InputError> {
         let [world, urdf] = self.layout(values);
         let scene = match self.urdf.is_fixed() {
-            true => self.base.edited(&urdf, world)?,
+            true => self.base.with_world_text(&urdf, world)?,
             false => cplan_world::scene_from(urdf, world)?,
         };
         if !self.may_overlap
@@ -193,7 +193,7 @@ impl Study {
 
     fn row_of(&self, layout: usize, values: Vec<f64>) -> Row {
         // An error inside one layout becomes its row. An interruption of the whole study also unwinds; it is passed on.
-        let judged = caught(|| self.judged(&values)).unwrap_or_else(Err);
+        let judged = caught(|| self.measure_layout(&values)).unwrap_or_else(Err);
         let (ending, reason, measured) = match judged {
             Ok(judged) => judged,
             Err(reason) => (Ending::Refused, Some(reason), vec![None; self.measures.len()]),
@@ -205,9 +205,9 @@ impl Study {
     }
 
     /// Plans with these values and measures the result.
-    fn judged(&self, values: &[f64]) -> Result<LayoutResult, String> {
+    fn measure_layout(&self, values: &[f64]) -> Result<LayoutResult, String> {
         let problem = self.problem(values).map_err(|error| describe_error(&error))?;
-        if let Some(lack) = self.options.planner.lack(&problem.scene().workspace().preferences) {
+        if let Some(lack) = self.options.planner.missing_preference(&problem.scene().workspace().preferences) {
             return Err(lack);
         }
         if let (Some(motion), true) = (problem.motion(), self.measures.iter().all(|measure| measure.is_of_the_path())) {
@@ -228,7 +228,7 @@ impl Study {
     /// # Errors
     /// The error of `each`.
     pub fn rows<E>(&self, layouts: Range<usize>, jobs: usize, each: impl FnMut(Row) -> Result<(), E>) -> Result<(), E> {
-        in_order(layouts.len(), jobs, |i| self.row(layouts.start + i), each)
+        run_in_order(layouts.len(), jobs, |i| self.row(layouts.start + i), each)
     }
 }
 

@@ -76,14 +76,14 @@ impl Measure {
         match self {
             Self::Length => length,
             // The ratio is in the metric that was requested, which may differ from that of lengths.
-            Self::OverBound => bound.and_then(|bound| over(bound.upper, bound.lower)),
+            Self::OverBound => bound.and_then(|bound| length_ratio(bound.upper, bound.lower)),
             Self::LowerBound => bound.map(|bound| bound.lower),
             Self::Clearance | Self::Duration => None,
         }
     }
 }
 
-fn over(length: f64, bound: f64) -> Option<f64> {
+fn length_ratio(length: f64, bound: f64) -> Option<f64> {
     Some(length / bound).filter(|ratio| ratio.is_finite())
 }
 

@@ -5,8 +5,8 @@ use super::Study;
 use super::measure::{Measure, Objective};
 use super::parameter::{Parameter, Values};
 use super::row::{Ending, Row};
-use super::summary::{Summary, shown};
-use cplan_compare::page::{Axis, Frame, folded, foot, frame, head, image_source, number, section, table};
+use super::summary::{Summary, format_value};
+use cplan_compare::page::{Axis, Frame, collapsible_section, foot, frame, head, image_source, number, section, table};
 use cplan_compare::{Align, Column, Picture, Table};
 use cplan_text::{counted, markup};
 
@@ -36,7 +36,7 @@ impl Study {
                 summary.edges().iter().map(|edge| format!("<p class=\"sub\">{}</p>\n", markup(edge))).collect();
             html += &section("Best layouts", &(table(&summary.best_table()) + &edges));
         }
-        html += &pictured(pictures);
+        html += &pictures_section(pictures);
         html + &foot(METHOD_NOTE)
     }
 
@@ -96,7 +96,7 @@ impl Study {
         for (number_of, cell) in cells.iter().enumerate() {
             let (i, j) = ((number_of % bins[0].count) as f64, (number_of / bins[0].count) as f64);
             let ([left, bottom], [right, top]) = (corner(i, j), corner(i + 1.0, j + 1.0));
-            let Some((color, text)) = cell.look(least, greatest) else { continue };
+            let Some((color, text)) = cell.color_and_label(least, greatest) else { continue };
             svg += &format!(
                 "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{color}\"><title>{}</title></rect>\n",
                 number(left),
@@ -153,7 +153,7 @@ impl Study {
             dots.iter().step_by(stride).for_each(|at| svg += &dot(*at, "1.5"));
             svg += "</g>\n<g class=\"p1 only\">";
             for (row, point) in summary.pareto(pair).into_iter().filter_map(|row| Some((row, point(row)?))) {
-                let text = format!("layout {}: {}", row.layout, point.map(shown).join(", "));
+                let text = format!("layout {}: {}", row.layout, point.map(format_value).join(", "));
                 svg += &format!("<g><title>{}</title>{}</g>", markup(&text), dot(places(point), "4"));
             }
             charts += &figure(&format!("{} against {}", titles[1], titles[0]), &(svg + "</g></svg>\n"));
@@ -243,14 +243,14 @@ fn figure(title: &str, svg: &str) -> String {
 }
 
 /// Returns the section with pictures of layouts, of which the first is unfolded.
-fn pictured(pictures: &[Picture]) -> String {
+fn pictures_section(pictures: &[Picture]) -> String {
     let picture = |(number, Picture { title, svg }): (usize, &Picture)| {
         let title = markup(title);
         let source = image_source(svg);
         let shown = format!(
             "<figure class=\"picture\" tabindex=\"0\"><img alt=\"{title}: workspace and configuration space\" src=\"{source}\"/></figure>\n"
         );
-        if number == 0 { format!("<h3>{title}</h3>\n{shown}") } else { folded(&title, &shown) }
+        if number == 0 { format!("<h3>{title}</h3>\n{shown}") } else { collapsible_section(&title, &shown) }
     };
     let all: String = pictures.iter().enumerate().map(picture).collect();
     if all.is_empty() { all } else { section("Pictures", &all) }
@@ -307,11 +307,11 @@ impl Cell {
     }
 
     /// Returns the colour and the description of a cell. `None` for a cell without layouts.
-    fn look(&self, least: f64, greatest: f64) -> Option<(String, String)> {
+    fn color_and_label(&self, least: f64, greatest: f64) -> Option<(String, String)> {
         if self.layouts == 0 {
             return None;
         }
-        let best = self.cost.map_or_else(String::new, |cost| format!(", best {}", shown(cost.abs())));
+        let best = self.cost.map_or_else(String::new, |cost| format!(", best {}", format_value(cost.abs())));
         let text = format!(
             "{}: {} with a motion, {} fit, {} infeasible, {} refused{best}",
             counted(self.layouts, "layout"),

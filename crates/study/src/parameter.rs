@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn too_many_layouts_are_none() {
+    fn too_many_layouts_are_refused() {
         let many = parameter(Values::Listed(vec![0.0; 1 << 20]));
         assert_eq!(Design::new(&[many.clone(), many.clone(), many.clone(), many], 1, 0), None);
     }

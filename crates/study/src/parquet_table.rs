@@ -58,12 +58,12 @@ impl Study {
                     Cells::Counts(values) => column.typed::<Int64Type>().write_batch(&values, None, None)?,
                     Cells::Flags(values) => column.typed::<BoolType>().write_batch(&values, None, None)?,
                     Cells::Numbers(values) => {
-                        let (values, levels) = present(values.into_iter());
+                        let (values, levels) = split_optional(values.into_iter());
                         column.typed::<DoubleType>().write_batch(&values, Some(&levels), None)?
                     }
                     Cells::Words(values) => {
                         let values = values.into_iter().map(|word| word.map(|word| ByteArray::from(word.as_str())));
-                        let (values, levels) = present(values);
+                        let (values, levels) = split_optional(values);
                         column.typed::<ByteArrayType>().write_batch(&values, Some(&levels), None)?
                     }
                 };
@@ -88,7 +88,7 @@ impl Study {
 }
 
 /// Splits optional values into those that are present, and a 1 or 0 for each that states whether it is present.
-fn present<T>(values: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
+fn split_optional<T>(values: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
     let (mut there, mut levels) = (Vec::new(), Vec::new());
     for value in values {
         levels.push(i16::from(value.is_some()));

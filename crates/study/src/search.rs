@@ -5,7 +5,7 @@ use super::measure::Objective;
 use super::row::Row;
 use super::swarm::minimize;
 use cplan_core::space::SplitMix64;
-use cplan_parallel::in_order;
+use cplan_parallel::run_in_order;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -110,7 +110,7 @@ impl<F> Landscape<'_, F> {
             Some(row) => row.clone(),
             None => study.row_of(*first + before + i, new[i].clone()),
         };
-        in_order(new.len(), *jobs, row, |row| {
+        run_in_order(new.len(), *jobs, row, |row| {
             costs.insert(key(&row.values), study.cost(&row));
             *tried += 1;
             each(row)

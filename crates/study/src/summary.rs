@@ -79,7 +79,7 @@ impl<'a> Summary<'a> {
         let mut counts: BTreeMap<(Ending, String), usize> = BTreeMap::new();
         for row in self.rows {
             if let Some(reason) = &row.reason {
-                *counts.entry((row.ending, cause(reason))).or_default() += 1;
+                *counts.entry((row.ending, first_cause(reason))).or_default() += 1;
             }
         }
         let mut reasons: Vec<_> = counts.into_iter().map(|((ending, reason), count)| (ending, reason, count)).collect();
@@ -130,7 +130,7 @@ impl<'a> Summary<'a> {
                 _ => return None,
             };
             // The digits of tables, without trailing zeros.
-            let value = shown(*value).parse().unwrap_or(*value);
+            let value = format_value(*value).parse().unwrap_or(*value);
             Some(format!("{} = {value} {which}: a wider range may give a better layout", parameter.name))
         };
         self.study.parameters.iter().zip(&best.values).filter_map(edge).collect()
@@ -143,7 +143,7 @@ impl<'a> Summary<'a> {
         let [rows, parameters] = [counted(self.rows.len(), "layout"), counted(study.parameters.len(), "parameter")];
         let mut text = format!("{}: {rows}, {parameters}\n", study.name);
         for (ending, count) in Ending::ALL.into_iter().zip(self.tally()).filter(|(_, count)| *count > 0) {
-            text += &format!("  {:<11} {count:>8}  {:5.1} %\n", ending.name(), share(count, self.rows.len()));
+            text += &format!("  {:<11} {count:>8}  {:5.1} %\n", ending.name(), percentage(count, self.rows.len()));
         }
         if !study.conditions.is_empty() {
             let fitting = self.rows.iter().filter(|row| row.fits).count();
@@ -151,7 +151,7 @@ impl<'a> Summary<'a> {
             text += &format!(
                 "  {:<11} {fitting:>8}  {:5.1} %  ({})\n",
                 "fit",
-                share(fitting, self.rows.len()),
+                percentage(fitting, self.rows.len()),
                 conditions.join(", ")
             );
         }
@@ -239,8 +239,8 @@ impl<'a> Summary<'a> {
         columns.extend(measures.iter().map(|&k| Column::new(&titled(&study.measures[k]), Align::Right)));
         let cells = |&i: &usize| {
             let row = &self.rows[i];
-            let values = row.values.iter().map(|value| Some(shown(*value)));
-            let measured = measures.iter().map(|&k| row.measured[k].map(shown));
+            let values = row.values.iter().map(|value| Some(format_value(*value)));
+            let measured = measures.iter().map(|&k| row.measured[k].map(format_value));
             std::iter::once(Some(row.layout.to_string())).chain(values).chain(measured).collect()
         };
         Table { columns, rows: rows.map(cells).collect() }
@@ -251,12 +251,12 @@ fn tally(rows: &[Row]) -> [usize; 4] {
     Ending::ALL.map(|ending| rows.iter().filter(|row| row.ending == ending).count())
 }
 
-fn share(part: usize, all: usize) -> f64 {
+fn percentage(part: usize, all: usize) -> f64 {
     100.0 * part as f64 / all.max(1) as f64
 }
 
 /// Formats a value with five significant digits. They are enough to distinguish layouts; the tables have all digits.
-pub(super) fn shown(value: f64) -> String {
+pub(super) fn format_value(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
     }
@@ -279,7 +279,7 @@ fn without_numbers(reason: &str) -> String {
 }
 
 /// Returns the first cause in a reason, without numbers and joint values.
-fn cause(reason: &str) -> String {
+fn first_cause(reason: &str) -> String {
     let text = without_numbers(reason);
     let (mut cause, mut depth, mut is_quoted) = (String::new(), 0, false);
     let mut rest = text.as_str();
@@ -321,10 +321,10 @@ mod tests {
     fn reasons_are_grouped_by_first_cause() {
         let hits = "the start (shoulder -0.9 rad, elbow 0.4 rad) is not free: link \"forearm\" hits obstacle \"crate, 2\", 0.0130 m deep; \
                     link \"upper arm\" hits obstacle \"b\", 0.2 m deep";
-        assert_eq!(cause(hits), "the start is not free: link \"forearm\" hits obstacle \"crate, 2\"");
+        assert_eq!(first_cause(hits), "the start is not free: link \"forearm\" hits obstacle \"crate, 2\"");
         let far = "step 3: (0.3, 0.1) m is out of reach of the tip \"flange\", for all joint values: it is 2 m from joint \"a\"";
-        assert_eq!(cause(far), "step #: (#, #) m is out of reach of the tip \"flange\"");
-        assert_eq!(cause("\"a (1)\" overlaps \"b\""), "\"a (1)\" overlaps \"b\"");
+        assert_eq!(first_cause(far), "step #: (#, #) m is out of reach of the tip \"flange\"");
+        assert_eq!(first_cause("\"a (1)\" overlaps \"b\""), "\"a (1)\" overlaps \"b\"");
     }
 
     #[test]
@@ -338,7 +338,7 @@ mod tests {
     #[test]
     fn numbers_have_five_digits() {
         assert_eq!(
-            [0.0, 1.0, -12.345678, 123456.7, 1.5e-9].map(shown),
+            [0.0, 1.0, -12.345678, 123456.7, 1.5e-9].map(format_value),
             ["0", "1.0000", "-12.346", "1.2346e5", "1.5000e-9"]
         );
     }

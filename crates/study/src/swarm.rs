@@ -83,7 +83,7 @@ mod tests {
     const ROOMS: [[f64; 2]; 3] = [[-2.0, 1.0], [0.0, 5.0], [-1.0, 1.0]];
 
     /// Returns all places that a swarm of twenty particles tries, in order, and the least cost.
-    fn tried(seed: u64, cost: impl Fn(&[f64]) -> f64) -> (Vec<Vec<f64>>, f64) {
+    fn tried_places(seed: u64, cost: impl Fn(&[f64]) -> f64) -> (Vec<Vec<f64>>, f64) {
         let mut numbers = SplitMix64::new(seed);
         let known: Vec<(Vec<f64>, f64)> = (0..20)
             .map(|_| {
@@ -112,13 +112,13 @@ mod tests {
     #[test]
     fn the_swarm_finds_minima_inside_and_at_the_bounds() {
         for seed in 0..20 {
-            let (all, least) = tried(seed, squared_distance([0.3, 4.0, -0.5]));
+            let (all, least) = tried_places(seed, squared_distance([0.3, 4.0, -0.5]));
             assert!(least < 1e-6, "seed {seed}: {least}");
             let is_within =
                 |place: &Vec<f64>| ROOMS.iter().zip(place).all(|([lower, upper], x)| (*lower..=*upper).contains(x));
             assert!(all.len() == 1200 && all.iter().all(is_within));
             // The place in the ranges that is nearest to the target is (1, 4, -0.5).
-            let (_, least) = tried(seed, squared_distance([3.0, 4.0, -0.5]));
+            let (_, least) = tried_places(seed, squared_distance([3.0, 4.0, -0.5]));
             assert!((least - 4.0).abs() < 1e-6, "seed {seed}: {least}");
         }
     }
@@ -129,21 +129,21 @@ mod tests {
         let cost =
             |place: &[f64]| if place[0] < -0.5 { f64::INFINITY } else { squared_distance([-0.5, 1.0, 0.0])(place) };
         for seed in 0..20 {
-            let (_, least) = tried(seed, cost);
+            let (_, least) = tried_places(seed, cost);
             assert!(least < 1e-4, "seed {seed}: {least}");
         }
-        assert_eq!(tried(0, |_| f64::INFINITY).1, f64::INFINITY);
+        assert_eq!(tried_places(0, |_| f64::INFINITY).1, f64::INFINITY);
     }
 
     #[test]
     fn a_seed_decides_all() {
         let cost = squared_distance([0.3, 4.0, -0.5]);
-        assert_eq!(tried(7, &cost), tried(7, &cost));
-        assert_ne!(tried(7, &cost), tried(8, &cost));
+        assert_eq!(tried_places(7, &cost), tried_places(7, &cost));
+        assert_ne!(tried_places(7, &cost), tried_places(8, &cost));
     }
 
     #[test]
-    fn it_ends_with_the_first_refusal() {
+    fn the_swarm_ends_with_the_first_refusal() {
         let mut calls = 0;
         let known = vec![(vec![0.0, 1.0, 0.0], 1.0)];
         let done = minimize(&ROOMS, known, 10, &mut SplitMix64::new(1), |places| {

@@ -118,11 +118,11 @@ impl<'a> Heuristic<'a> {
     /// Returns a lower bound on the time from a configuration to the end of the task, in seconds. Infinite if a target
     /// is out of reach.
     pub fn remaining(&self, q: Configuration, progress: Progress) -> f64 {
-        let Progress { item, done, half } = progress;
-        match (self.stops.get(item), self.after.get(item), half) {
+        let Progress { item, done, carried_pair } = progress;
+        match (self.stops.get(item), self.after.get(item), carried_pair) {
             (Some(Stops::Pairs(pairs)), Some(RemainingSeconds::Pairs(table)), Some(pair)) => {
                 let done = done as usize | 1 << pair;
-                self.over(&pairs[pair][1], Some(q), &table.placed[done][pair])
+                self.bound_over(&pairs[pair][1], Some(q), &table.placed[done][pair])
             }
             (Some(Stops::Pairs(pairs)), Some(RemainingSeconds::Pairs(table)), None) => {
                 self.next_pair(pairs, table, Some(q), done as usize)
@@ -134,7 +134,7 @@ impl<'a> Heuristic<'a> {
     /// Returns a lower bound on the time from the beginning of an item to the end of the task, in seconds.
     fn from(&self, q: Option<Configuration>, item: usize) -> f64 {
         match (self.stops.get(item), self.after.get(item)) {
-            (Some(Stops::One(stop)), Some(RemainingSeconds::One(after))) => self.over(stop, q, after),
+            (Some(Stops::One(stop)), Some(RemainingSeconds::One(after))) => self.bound_over(stop, q, after),
             (Some(Stops::Pairs(pairs)), Some(RemainingSeconds::Pairs(table))) => self.next_pair(pairs, table, q, 0),
             (Some(Stops::Pairs(_)), Some(RemainingSeconds::Many(least))) => *least,
             (Some(_), _) => self.from(q, item + 1),
@@ -144,7 +144,7 @@ impl<'a> Heuristic<'a> {
 
     /// Returns the least bound over all configurations of a stop. `after` has the bounds after the stop, one per
     /// configuration.
-    fn over(&self, stop: &Stop, q: Option<Configuration>, after: &[f64]) -> f64 {
+    fn bound_over(&self, stop: &Stop, q: Option<Configuration>, after: &[f64]) -> f64 {
         let by = |(place, after): (usize, &f64)| stop.seconds(self.arm, q, place) + after;
         after.iter().enumerate().map(by).fold(f64::INFINITY, f64::min)
     }
@@ -152,7 +152,7 @@ impl<'a> Heuristic<'a> {
     /// Returns the least bound over all pairs that are not done yet.
     fn next_pair(&self, pairs: &[[Stop; 2]], table: &Table, q: Option<Configuration>, done: usize) -> f64 {
         let open = (0..pairs.len()).filter(|pair| done & (1 << pair) == 0);
-        let by = |pair: usize| self.over(&pairs[pair][0], q, &table.picked[done | 1 << pair][pair]);
+        let by = |pair: usize| self.bound_over(&pairs[pair][0], q, &table.picked[done | 1 << pair][pair]);
         open.map(by).fold(f64::INFINITY, f64::min)
     }
 
@@ -191,7 +191,7 @@ impl<'a> Heuristic<'a> {
                     false => self.next_pair(pairs, &table, place.at(at), done),
                 };
                 let placed: Vec<f64> = (0..place.count()).map(onward).collect();
-                let picked = (0..pick.count()).map(|at| self.over(place, pick.at(at), &placed)).collect();
+                let picked = (0..pick.count()).map(|at| self.bound_over(place, pick.at(at), &placed)).collect();
                 (table.placed[done][pair], table.picked[done][pair]) = (placed, picked);
             }
         }
@@ -226,7 +226,7 @@ impl From<&Object> for KnownPose {
 /// Returns the stops of all items.
 pub(super) fn stops(task: &Task) -> Vec<Stops> {
     // The place where a moving object will be picked is unknown.
-    let lies = |object: &Object| object.course.is_none().then(|| KnownPose::from(object));
+    let lies = |object: &Object| object.trajectory.is_none().then(|| KnownPose::from(object));
     let mut lies: Vec<Option<KnownPose>> = task.objects.iter().map(lies).collect();
     let mut held = None;
     let mut stop = |step: &Step, lies: &mut [Option<KnownPose>]| {

@@ -1,6 +1,6 @@
 //! The configurations that put a point of the arm at a target.
 
-use cplan_core::model::{Arm, Goal, inverse, within};
+use cplan_core::model::{Arm, Goal, equivalent_values, inverse};
 use cplan_core::space::Configuration;
 use cplan_geometry::Point;
 
@@ -23,7 +23,8 @@ pub(super) fn ik_solutions(arm: &Arm, point: Point, target: Point, preferred: Co
     };
     let mut configurations = Vec::new();
     for branch in &solved.branches {
-        let copies = [0, 1].map(|k| within(arm.joints[k].range, arm.joints[k].joint_type.is_revolute(), branch[k]));
+        let copies =
+            [0, 1].map(|k| equivalent_values(arm.joints[k].range, arm.joints[k].joint_type.is_revolute(), branch[k]));
         for &first in &copies[0] {
             configurations.extend(copies[1].iter().map(|&second| Configuration::new(first, second)));
         }

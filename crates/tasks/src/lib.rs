@@ -19,7 +19,7 @@
 //!   proofs therefore need no third link.
 //! - Against its supports, each corner of a payload's outline is moved inwards by the allowed penetration
 //!   (`inset_union`). No clearance is required from supports. So every distance to a support is increased by the
-//!   clearance (`Convex::receding`).
+//!   clearance (`Convex::with_distances_increased`).
 //! - Motions are shared (`legs`) among worlds that differ only in objects which cannot be hit because of their heights.
 //!
 //! # Orders

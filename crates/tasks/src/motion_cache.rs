@@ -47,7 +47,7 @@ impl Refusal {
     }
 
     /// Creates a refusal with a proof that there is no path.
-    fn barred(proof: CheckedProof) -> Self {
+    fn proven(proof: CheckedProof) -> Self {
         let stuck = proof.collision_boxes();
         let reason = format!(
             "there is no path: colliding configurations separate start and goal (proven, {})",
@@ -153,7 +153,7 @@ impl MotionCache {
 
     /// Returns the motion to a candidate's target with the turn and the stroke there.
     pub fn motion(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<Motion, Refusal> {
-        let key = self.path_key(task, from, candidate)?;
+        let key = self.checked_path_key(task, from, candidate)?;
         let speed = candidate.step.speed;
         let known = self.motions.get(&(key, speed.to_bits())).cloned();
         let timed = known.unwrap_or_else(|| {
@@ -196,7 +196,7 @@ impl MotionCache {
         let (q, to, picked) = (from.q, candidate.to, candidate.step.action.picked());
         let ends = [q[0], q[1], to[0], to[1]].map(f64::to_bits);
         let own = task.workspace.fixed.obstacles.len();
-        let found = among_few(scene, own, |among| {
+        let found = plan_among_few(scene, own, |among| {
             let lies = |(object, pose): (usize, &Option<Pose>)| pose.filter(|_| among.contains(&object));
             let poses = from.poses.iter().enumerate().map(lies).collect();
             let fewer = State { poses, ..from.clone() };
@@ -210,8 +210,8 @@ impl MotionCache {
 
     /// Refuses a candidate if an inexpensive check rules out the motion to its target, or the turn there. Such checks
     /// find most reasons in a small part of the time for planning the motion.
-    pub fn promising(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<(), Refusal> {
-        let key = self.path_key(task, from, candidate)?;
+    pub fn check_candidate(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<(), Refusal> {
+        let key = self.checked_path_key(task, from, candidate)?;
         if let Some(Err(refusal)) = self.motions.get(&(key, candidate.step.speed.to_bits())) {
             return Err(refusal.clone());
         }
@@ -221,7 +221,7 @@ impl MotionCache {
 
     /// Examines the path to a candidate's target, and returns its key. Refuses the candidate if there is provably no
     /// path.
-    fn path_key(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<PathKey, Refusal> {
+    fn checked_path_key(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<PathKey, Refusal> {
         let left = from.after_step(task, candidate, candidate.to);
         if left.is_done(task) {
             // No later motion will begin there.
@@ -241,7 +241,7 @@ impl MotionCache {
         let number = *self.numbers.entry(key).or_insert(next);
         let (q, to) = (from.q, candidate.to);
         let key = (number, [q[0], q[1], to[0], to[1]].map(f64::to_bits));
-        let look = || path_key(&from.scene(task, candidate.step.action.picked()), q, to);
+        let look = || examine_path(&from.scene(task, candidate.step.action.picked()), q, to);
         match self.path_statuses.entry(key).or_insert_with(look) {
             PathStatus::Infeasible(refusal) => Err(refusal.clone()),
             PathStatus::Straight(_) | PathStatus::Undecided => Ok(key),
@@ -267,9 +267,9 @@ impl MotionCache {
             return Err(unproven("the arm has no wrist that could turn the object"));
         };
         let found = wrist_turn(task, &task.obstacles(&with.poses).fixed, held, *point, candidate.to, turn);
-        let path_key = found.ok_or_else(|| unproven("the object cannot be turned there, in either direction"))?;
-        let turning = single((path_key.to - path_key.from).abs(), wrist.velocity, wrist.acceleration);
-        Ok((path_key, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
+        let found = found.ok_or_else(|| unproven("the object cannot be turned there, in either direction"))?;
+        let turning = single((found.to - found.from).abs(), wrist.velocity, wrist.acceleration);
+        Ok((found, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
     }
 
     /// Returns a lower bound on the duration of a turn, in seconds.
@@ -314,7 +314,7 @@ pub(super) fn require_unobstructed(scene: &Scene, q: Configuration, when: &str) 
 /// Plans with only a few objects, and adds those that the path hits. Returns a path that is free among all objects, or
 /// a proof that there is no path even among the few. Returns `None` if the path must be planned among all objects. The
 /// first `own` obstacles are not objects. `plan` plans a path among some objects.
-fn among_few(
+fn plan_among_few(
     scene: &Scene,
     own: usize,
     mut plan: impl FnMut(&BTreeSet<usize>) -> Result<CertifiedPath, Refusal>,
@@ -362,13 +362,13 @@ pub(super) fn planned_again(
     if !options.planner.method().optimizes() {
         return Some(asked(scene.clone()));
     }
-    if straight(scene, from, to).is_some() {
+    if certified_straight_path(scene, from, to).is_some() {
         return None;
     }
     let mut last = None;
-    let found = among_few(scene, own, |among| {
-        let (_, answer) = last.insert(asked(only(scene, own, among)));
-        found(answer.outcome.clone())
+    let found = plan_among_few(scene, own, |among| {
+        let (_, answer) = last.insert(asked(scene_with_objects(scene, own, among)));
+        path_or_refusal(answer.outcome.clone())
     });
     match found {
         Some(Ok(_)) => last,
@@ -377,7 +377,7 @@ pub(super) fn planned_again(
 }
 
 /// Returns the scene with only some of its objects. The others keep their indices, but have no shape.
-fn only(scene: &Scene, own: usize, among: &BTreeSet<usize>) -> Scene {
+fn scene_with_objects(scene: &Scene, own: usize, among: &BTreeSet<usize>) -> Scene {
     let mut number = 0;
     scene.reshaped(
         |_| {},
@@ -390,13 +390,13 @@ fn only(scene: &Scene, own: usize, among: &BTreeSet<usize>) -> Scene {
 }
 
 /// Returns the straight path between two configurations. `None` if it is not certified.
-fn straight(scene: &Scene, from: Configuration, to: Configuration) -> Option<CertifiedPath> {
+fn certified_straight_path(scene: &Scene, from: Configuration, to: Configuration) -> Option<CertifiedPath> {
     let straight = Path::new(vec![from, scene.arm().topology().lift(to, from)]);
     certify(scene, straight, scene.workspace().clearance).ok()
 }
 
 /// Examines the path between two configurations by inexpensive checks.
-fn path_key(scene: &Scene, from: Configuration, to: Configuration) -> PathStatus {
+fn examine_path(scene: &Scene, from: Configuration, to: Configuration) -> PathStatus {
     let ends = require_unobstructed(scene, from, "at its beginning")
         .map_err(|refusal| Refusal { blockers: Blockers::Unknown, ..refusal })
         .and_then(|()| require_unobstructed(scene, to, "at its end"));
@@ -404,14 +404,14 @@ fn path_key(scene: &Scene, from: Configuration, to: Configuration) -> PathStatus
         return PathStatus::Infeasible(refusal);
     }
     let clearance = scene.workspace().clearance;
-    if let Some(path) = straight(scene, from, to) {
+    if let Some(path) = certified_straight_path(scene, from, to) {
         return PathStatus::Straight(path);
     }
     let goal = to.into();
     match slab_connectivity(scene, from, &goal, clearance, DECISION_SLABS, LARGE_PROOF_BOXES) {
         Connectivity::Disconnected(proof) => proof
             .checked(scene, from, &goal, clearance)
-            .map_or(PathStatus::Undecided, |proof| PathStatus::Infeasible(Refusal::barred(proof))),
+            .map_or(PathStatus::Undecided, |proof| PathStatus::Infeasible(Refusal::proven(proof))),
         _ => PathStatus::Undecided,
     }
 }
@@ -419,14 +419,14 @@ fn path_key(scene: &Scene, from: Configuration, to: Configuration) -> PathStatus
 /// Returns the planner's path from one configuration to another.
 fn path(scene: &Scene, from: Configuration, to: Configuration, options: &Options) -> Result<CertifiedPath, Refusal> {
     let problem = MotionProblem::trusted(scene.clone(), from, to);
-    found(solve(&problem, options, &mut |_| {}).outcome)
+    path_or_refusal(solve(&problem, options, &mut |_| {}).outcome)
 }
 
 /// Converts the planner's outcome to a path, or to the reason why there is none.
-fn found(outcome: Outcome<BoundedPath, CheckedProof, Unknown>) -> Result<CertifiedPath, Refusal> {
+fn path_or_refusal(outcome: Outcome<BoundedPath, CheckedProof, Unknown>) -> Result<CertifiedPath, Refusal> {
     match outcome {
         Outcome::Found(path) => Ok(path.certified),
-        Outcome::Infeasible(proof) => Err(Refusal::barred(proof)),
+        Outcome::Infeasible(proof) => Err(Refusal::proven(proof)),
         Outcome::Unknown(unknown) => Err(Refusal::new(unknown.reason, false)),
     }
 }

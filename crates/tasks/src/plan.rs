@@ -58,7 +58,7 @@ pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> T
     let planning = Planning { task, options, legs: MotionCache::new(options), lower_bound, expanded: 0, progress };
     let pairs = |item: &Item| if let Item::AnyOrder(pairs) = item { pairs.len() } else { 0 };
     match task.items.iter().map(pairs).max().unwrap_or(0) {
-        0 => planning.in_order(&heuristic),
+        0 => planning.plan_fixed_order(&heuristic),
         1..=MAX_FULLY_ORDERED_PAIRS => planning.in_any_order(&heuristic),
         _ => planning.in_fixed_order(),
     }
@@ -76,12 +76,12 @@ struct Planning<'a, 'p> {
 
 impl Planning<'_, '_> {
     /// Plans a task without free orders.
-    fn in_order(mut self, heuristic: &Heuristic) -> TaskAnswer {
+    fn plan_fixed_order(mut self, heuristic: &Heuristic) -> TaskAnswer {
         let mut search = Search::new(self.task, heuristic, &mut self.legs);
         let mut ending = search.run(limits(self.task, MAX_MOTIONS), self.progress);
         let exact = ending != Ending::OutOfBudget;
         if !exact {
-            ending = hurried(&mut search, self.task, WEIGHTED_BUDGET_FACTOR * MAX_MOTIONS, self.progress);
+            ending = continue_weighted(&mut search, self.task, WEIGHTED_BUDGET_FACTOR * MAX_MOTIONS, self.progress);
         }
         let found = Found::of(&mut search, ending, exact);
         self.expanded += search.expanded();
@@ -104,7 +104,7 @@ impl Planning<'_, '_> {
         }
         // The search for a single order may have missed one, so all orders are searched.
         let mut search = Search::new(self.task, heuristic, &mut self.legs);
-        ending = hurried(&mut search, self.task, MAX_MOTIONS, self.progress);
+        ending = continue_weighted(&mut search, self.task, MAX_MOTIONS, self.progress);
         let last = Found::of(&mut search, ending, ending == Ending::Exhausted);
         self.expanded += search.expanded();
         self.answer(if ending == Ending::OutOfBudget { found } else { Found { exact: false, ..last } })
@@ -121,7 +121,7 @@ impl Planning<'_, '_> {
         let mut orders = Orders::of_file(self.task);
         let search = orders.search(&mut self.legs, self.progress);
         let mut best = match search {
-            OrderSearch::Promising => Some(self.in_orders(&orders, f64::INFINITY)).filter(Found::is_done),
+            OrderSearch::Promising => Some(self.best_in_orders(&orders, f64::INFINITY)).filter(Found::is_done),
             OrderSearch::Stuck { .. } | OrderSearch::Elsewhere => None,
         };
         // The file's own order is tried, unless it takes longer or hardly less time, or is known to fail.
@@ -130,16 +130,16 @@ impl Planning<'_, '_> {
         if below > CLOSE_FACTOR * self.lower_bound
             && file.order() != orders.order()
             && file.least_seconds() < below
-            && file.promising(&mut self.legs)
+            && file.check_candidate(&mut self.legs)
         {
-            let own = self.in_orders(&file, below);
+            let own = self.best_in_orders(&file, below);
             if own.is_done() {
                 orders.adopt(&file);
                 best = Some(own);
             }
         }
         if let Some(best) = best {
-            return self.improved(orders, best);
+            return self.improve_orders(orders, best);
         }
         let proof = match &search {
             OrderSearch::Stuck { item, pairs } => {
@@ -147,11 +147,11 @@ impl Planning<'_, '_> {
             }
             OrderSearch::Promising | OrderSearch::Elsewhere => None,
         };
-        proof.unwrap_or_else(|| self.in_orders(&orders, f64::INFINITY))
+        proof.unwrap_or_else(|| self.best_in_orders(&orders, f64::INFINITY))
     }
 
     /// Looks for better orders, by the real durations of motions, and returns the best result.
-    fn improved(&mut self, mut orders: Orders, mut best: Found) -> Found {
+    fn improve_orders(&mut self, mut orders: Orders, mut best: Found) -> Found {
         let most = self.legs.planned() + IMPROVING_MOTIONS;
         let mut tried = BTreeSet::from([orders.order()]);
         orders.learn_times(&self.task.arm, &best.legs);
@@ -163,7 +163,7 @@ impl Planning<'_, '_> {
             if !tried.insert(orders.order()) {
                 break;
             }
-            let next = self.in_orders(&orders, best.seconds);
+            let next = self.best_in_orders(&orders, best.seconds);
             orders.learn_times(&self.task.arm, &next.legs);
             if next.is_done() {
                 best = next;
@@ -173,14 +173,14 @@ impl Planning<'_, '_> {
     }
 
     /// Returns the fastest choice in these orders that takes less than `below` seconds.
-    fn in_orders(&mut self, orders: &Orders, below: f64) -> Found {
+    fn best_in_orders(&mut self, orders: &Orders, below: f64) -> Found {
         let in_chosen_order = orders.in_chosen_order();
         let heuristic = Heuristic::new(&in_chosen_order);
         let mut search = Search::new(&in_chosen_order, &heuristic, &mut self.legs);
         let limits = Limits { below, ..limits(&in_chosen_order, MAX_MOTIONS) };
         let mut ending = search.run(limits, self.progress);
         if ending == Ending::OutOfBudget && below.is_infinite() {
-            ending = hurried(&mut search, &in_chosen_order, MAX_MOTIONS, self.progress);
+            ending = continue_weighted(&mut search, &in_chosen_order, MAX_MOTIONS, self.progress);
         }
         let found = Found::of(&mut search, ending, false);
         self.expanded += search.expanded();
@@ -234,7 +234,7 @@ pub(super) fn limits(task: &Task, motions: usize) -> Limits {
 }
 
 /// Continues the search as weighted A*, which looks for any solution.
-fn hurried(search: &mut Search, task: &Task, motions: usize, progress: &mut dyn FnMut(&str)) -> Ending {
+fn continue_weighted(search: &mut Search, task: &Task, motions: usize, progress: &mut dyn FnMut(&str)) -> Ending {
     search.use_weighted_astar();
     let once = limits(task, motions);
     search.run(Limits { expanded: WEIGHTED_BUDGET_FACTOR * once.expanded, ..once }, progress)

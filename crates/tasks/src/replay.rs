@@ -73,7 +73,7 @@ mod tests {
     use cplan_robot::Source;
     use cplan_world::{Overrides, scene_from};
 
-    fn planned(urdf: &str, world: &str, options: &Options) -> (Task, TaskAnswer) {
+    fn plan_task(urdf: &str, world: &str, options: &Options) -> (Task, TaskAnswer) {
         let read = |file: &str| {
             let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(file);
             Source::read(&path).unwrap()
@@ -95,7 +95,7 @@ mod tests {
             ("robots/rail_arm.urdf", "workspaces/tasks/sorting.toml"),
         ] {
             let options = Options::default();
-            let (task, answer) = planned(urdf, world, &options);
+            let (task, answer) = plan_task(urdf, world, &options);
             for leg in &answer.legs {
                 let path = leg.timed.curve.curve().path();
                 let ends = [path.start(), task.arm.topology().wrap(path.goal())];

@@ -17,7 +17,7 @@ pub(super) struct Progress {
     /// In a group in any order, the pairs that are done, one bit each.
     pub done: u64,
     /// In a group in any order, the pair whose object is carried.
-    pub half: Option<usize>,
+    pub carried_pair: Option<usize>,
 }
 
 /// The state of arm and objects.
@@ -72,7 +72,7 @@ const ORIENTATION_ROUNDING: f64 = 1e-12;
 impl State {
     pub fn at_start(task: &Task) -> Self {
         let state = Self {
-            progress: Progress { item: 0, done: 0, half: None },
+            progress: Progress { item: 0, done: 0, carried_pair: None },
             q: task.start,
             poses: task.objects.iter().map(Object::initial_static_pose).collect(),
             moving: task.initially_moving().collect(),
@@ -89,9 +89,10 @@ impl State {
     /// Returns a key of the state. States with the same key are equal for all later steps.
     pub fn key(&self, task: &Task) -> Vec<i64> {
         let grains = |value: f64| (value / POSE_TOLERANCE).round() as i64;
-        let Progress { item, done, half } = self.progress;
+        let Progress { item, done, carried_pair } = self.progress;
         let q = task.arm.topology().wrap(self.q);
-        let mut key = vec![item as i64, done as i64, half.map_or(-1, |pair| pair as i64), grains(q[0]), grains(q[1])];
+        let mut key =
+            vec![item as i64, done as i64, carried_pair.map_or(-1, |pair| pair as i64), grains(q[0]), grains(q[1])];
         let mut pose = |pose: &Pose| {
             let turn = normalized(pose.rotation.angle());
             key.extend([pose.translation.x, pose.translation.y, turn].map(grains));
@@ -110,7 +111,8 @@ impl State {
     /// Returns the state at the time when a moving object is picked. The object has the pose that it has at that time.
     pub fn at_pick(&self, task: &Task, object: usize, time: f64) -> Self {
         let mut state = self.clone();
-        Arc::make_mut(&mut state.poses)[object] = task.objects[object].course.as_ref().map(|course| course.pose(time));
+        Arc::make_mut(&mut state.poses)[object] =
+            task.objects[object].trajectory.as_ref().map(|trajectory| trajectory.pose(time));
         state.moving = self.moving.iter().copied().filter(|&other| other != object).collect();
         state
     }
@@ -124,15 +126,17 @@ impl State {
     /// Returns the candidates for each step that can be next.
     pub fn candidates<'a>(&self, task: &'a Task) -> Vec<Candidates<'a>> {
         let Some(item) = task.items.get(self.progress.item) else { return Vec::new() };
-        match (item, self.progress.half) {
+        match (item, self.progress.carried_pair) {
             (Item::Step(step), _) => {
                 let place = following_place(task, self.progress.item);
-                vec![self.ways(task, step, place, None)]
+                vec![self.candidates_for(task, step, place, None)]
             }
-            (Item::AnyOrder(pairs), Some(half)) => vec![self.ways(task, &pairs[half][1], None, Some(half))],
+            (Item::AnyOrder(pairs), Some(carried_pair)) => {
+                vec![self.candidates_for(task, &pairs[carried_pair][1], None, Some(carried_pair))]
+            }
             (Item::AnyOrder(pairs), None) => {
                 let open = (0..pairs.len()).filter(|pair| self.progress.done & (1 << pair) == 0);
-                open.map(|pair| self.ways(task, &pairs[pair][0], Some(&pairs[pair][1]), Some(pair))).collect()
+                open.map(|pair| self.candidates_for(task, &pairs[pair][0], Some(&pairs[pair][1]), Some(pair))).collect()
             }
             // Renewals happen before the next step, so no state has one as its next item.
             (Item::Renew(_), _) => Vec::new(),
@@ -140,7 +144,13 @@ impl State {
     }
 
     /// Returns the candidates for a step. `place` is the step that places the object after a pick.
-    fn ways<'a>(&self, task: &'a Task, step: &'a Step, place: Option<&Step>, pair: Option<usize>) -> Candidates<'a> {
+    fn candidates_for<'a>(
+        &self,
+        task: &'a Task,
+        step: &'a Step,
+        place: Option<&Step>,
+        pair: Option<usize>,
+    ) -> Candidates<'a> {
         let progress = self.progress.after(&step.action, pair, task);
         let mut ways = Vec::new();
         let mut add = |to: Configuration, turn: Option<[f64; 2]>, event: Option<Event>, grip: Option<Grip>| {
@@ -257,21 +267,21 @@ impl State {
 impl Progress {
     /// Returns the place step for the object that a candidate picks. `None` if there is none.
     fn place<'a>(self, task: &'a Task, candidate: &Candidate) -> Option<&'a Step> {
-        match (&task.items[self.item], candidate.progress.half) {
+        match (&task.items[self.item], candidate.progress.carried_pair) {
             (Item::AnyOrder(pairs), Some(pair)) => Some(&pairs[pair][1]),
             _ => following_place(task, self.item),
         }
     }
 
     fn after(self, action: &Action, pair: Option<usize>, task: &Task) -> Self {
-        let next = Self { item: self.item + 1, done: 0, half: None };
+        let next = Self { item: self.item + 1, done: 0, carried_pair: None };
         let Some(pair) = pair else { return next };
         if matches!(action, Action::Pick { .. }) {
-            return Self { half: Some(pair), ..self };
+            return Self { carried_pair: Some(pair), ..self };
         }
         let done = self.done | 1 << pair;
         let all = matches!(&task.items[self.item], Item::AnyOrder(pairs) if done.count_ones() as usize == pairs.len());
-        if all { next } else { Self { done, half: None, ..self } }
+        if all { next } else { Self { done, carried_pair: None, ..self } }
     }
 }
 

@@ -20,7 +20,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_standards_own_examples() {
+    fn the_examples_of_the_standard_are_encoded() {
         let pairs = [
             ("", ""),
             ("f", "Zg=="),

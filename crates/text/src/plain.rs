@@ -5,13 +5,13 @@ use std::borrow::Cow;
 /// Returns true if a character has an effect on the terminal or on the text around it, instead of being visible. Such
 /// characters are control characters, and those that change the direction of writing or break lines (Unicode 16, 23.2;
 /// UAX 9).
-fn acts(c: char) -> bool {
+fn affects_terminal(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
 }
 
-fn escaped(text: &str, spared: impl Fn(char) -> bool, escape: impl Fn(&mut String, char)) -> Cow<'_, str> {
-    let is_escaped = |c: char| acts(c) && !spared(c);
+fn escape_characters(text: &str, spared: impl Fn(char) -> bool, escape: impl Fn(&mut String, char)) -> Cow<'_, str> {
+    let is_escaped = |c: char| affects_terminal(c) && !spared(c);
     if !text.contains(is_escaped) {
         return Cow::Borrowed(text);
     }
@@ -25,13 +25,13 @@ fn escaped(text: &str, spared: impl Fn(char) -> bool, escape: impl Fn(&mut Strin
 /// Escapes characters that would have an effect on a terminal, as in `\u{1b}`. Line breaks remain.
 #[must_use]
 pub fn plain(text: &str) -> Cow<'_, str> {
-    escaped(text, |c| matches!(c, '\n' | '\t'), |shown, c| shown.extend(c.escape_default()))
+    escape_characters(text, |c| matches!(c, '\n' | '\t'), |shown, c| shown.extend(c.escape_default()))
 }
 
 /// Escapes the same characters as [`plain`], and line breaks.
 #[must_use]
 pub fn plain_line(text: &str) -> Cow<'_, str> {
-    escaped(text, |_| false, |shown, c| shown.extend(c.escape_default()))
+    escape_characters(text, |_| false, |shown, c| shown.extend(c.escape_default()))
 }
 
 /// Escapes within JSON the same characters as [`plain`]. Parsing the result gives the same value.
@@ -42,7 +42,7 @@ pub fn plain_json(json: &str) -> Cow<'_, str> {
         // Four digits are enough, because all these characters are in the basic plane. Writing to a string cannot fail.
         let _ = write!(shown, "\\u{:04x}", u32::from(c));
     };
-    escaped(json, |c| matches!(c, '\n' | '\t' | '\r'), escape)
+    escape_characters(json, |c| matches!(c, '\n' | '\t' | '\r'), escape)
 }
 
 #[cfg(test)]

@@ -43,7 +43,7 @@ pub fn short(value: f64) -> f64 {
 /// positive number would look like zero, it gets two significant digits: `5.6e-7`.
 #[must_use]
 pub fn round_down(value: f64, decimals: usize) -> String {
-    let text = shown(value, decimals, |shown| shown <= value, -1.0);
+    let text = round_until(value, decimals, |shown| shown <= value, -1.0);
     if value > 0.0 && text.parse() == Ok(0.0) { two_digits_below(value) } else { text }
 }
 
@@ -81,7 +81,7 @@ fn in_unit(metres: f64) -> (f64, usize, &'static str) {
 /// Formats a number with fixed decimals, rounded up.
 #[must_use]
 pub fn round_up(value: f64, decimals: usize) -> String {
-    shown(value, decimals, |shown| shown >= value, 1.0)
+    round_until(value, decimals, |shown| shown >= value, 1.0)
 }
 
 /// Formats a positive number with two significant digits, rounded down.
@@ -109,7 +109,7 @@ pub fn percent(share: f64) -> String {
 }
 
 /// Formats the nearest decimal number, in the direction `towards`, for which `holds` is true.
-fn shown(value: f64, decimals: usize, holds: impl Fn(f64) -> bool, towards: f64) -> String {
+fn round_until(value: f64, decimals: usize, holds: impl Fn(f64) -> bool, towards: f64) -> String {
     let nearest = fixed(value, decimals);
     match nearest.parse::<f64>() {
         Ok(number) if value.is_finite() && !holds(number) => {
@@ -136,7 +136,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn by_hand() {
+    fn rounding_agrees_with_results_by_hand() {
         assert_eq!([round_down(1.66871, 3), round_up(1.66871, 3)], ["1.668", "1.669"]);
         assert_eq!([round_down(7.627e-6, 6), round_down(4.0, 4), round_up(0.25, 2)], ["0.000007", "4.0000", "0.25"]);
         assert_eq!([round_up(0.0301, 2), round_down(f64::INFINITY, 3)], ["0.04", "inf"]);
@@ -191,7 +191,7 @@ mod tests {
         }
 
         #[test]
-        fn shares_are_no_less(exponent in -14.0..0.5_f64) {
+        fn shares_are_not_rounded_down(exponent in -14.0..0.5_f64) {
             let share = 10_f64.powf(exponent);
             let shown: f64 = percent(share).trim_end_matches(" %").parse().unwrap();
             let unit = if share < 1e-4 { 1e-5 } else { 1e-4 };
@@ -199,7 +199,7 @@ mod tests {
         }
 
         #[test]
-        fn they_enclose_by_a_unit_at_most(value in -1e3..1e3_f64, decimals in 0..7_usize) {
+        fn rounding_down_and_up_encloses_by_a_unit_at_most(value in -1e3..1e3_f64, decimals in 0..7_usize) {
             let [low, high] = [round_down(value, decimals), round_up(value, decimals)].map(|text| text.parse::<f64>().unwrap());
             let unit = 0.1_f64.powi(decimals as i32);
             prop_assert!(low <= value && value <= high && high - low <= 1.001 * unit, "{low} {value} {high}");

@@ -20,7 +20,7 @@ const END_DELAY: u16 = 200;
 /// A moment of the animation, with the time for which its picture is shown, in hundredths of a second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
-    what: MomentKind,
+    kind: MomentKind,
     pub delay: u16,
 }
 
@@ -42,23 +42,23 @@ pub fn moments(view: &View) -> Vec<Moment> {
     for (phase, now) in view.replay.iter().enumerate() {
         let count = frames(now.seconds);
         let shown = (1..=count).map(|k| MomentKind::Thinking(phase, k as f64 / count as f64));
-        moments.extend(shown.map(|what| Moment { what, delay: FRAME_DELAY }));
+        moments.extend(shown.map(|kind| Moment { kind, delay: FRAME_DELAY }));
         moments.last_mut().into_iter().for_each(|moment| moment.delay = PHASE_DELAY);
     }
     if let Some(duration) = view.duration() {
         let count = frames(duration.clamp(MOTION_TIMES[0], MOTION_TIMES[1]));
         let shown = (0..=count).map(|k| MomentKind::Moving(duration * k as f64 / count as f64));
-        moments.extend(shown.map(|what| Moment { what, delay: FRAME_DELAY }));
+        moments.extend(shown.map(|kind| Moment { kind, delay: FRAME_DELAY }));
     }
-    moments.push(Moment { what: MomentKind::Still, delay: END_DELAY });
+    moments.push(Moment { kind: MomentKind::Still, delay: END_DELAY });
     moments
 }
 
 /// Draws the picture of a moment.
 #[must_use]
 pub fn figure(view: &View, moment: Moment) -> Figure {
-    let shown = match moment.what {
-        MomentKind::Thinking(phase, part) => &view.thinking(phase, part),
+    let shown = match moment.kind {
+        MomentKind::Thinking(phase, part) => &view.at_replay_moment(phase, part),
         MomentKind::Moving(time) => &view.moving(time),
         MomentKind::Still => view,
     };

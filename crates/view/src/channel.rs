@@ -50,7 +50,8 @@ pub fn points([centers, middles]: [&Chain; 2], chart: &Chart) -> Vec<Item> {
     if centers.len() > MAX_NAMED_CELLS {
         return items;
     }
-    let mut taken: Vec<Rect> = centers.iter().chain(&middles).map(|&at| about(at, [2.0 * POINT_RADIUS; 2])).collect();
+    let mut taken: Vec<Rect> =
+        centers.iter().chain(&middles).map(|&at| centered_rect(at, [2.0 * POINT_RADIUS; 2])).collect();
     let named = |letter: char, places: &[[f64; 2]]| -> Vec<(String, [f64; 2])> {
         places.iter().enumerate().map(|(k, &at)| (format!("{letter}{}", k + 1), at)).collect()
     };
@@ -58,9 +59,13 @@ pub fn points([centers, middles]: [&Chain; 2], chart: &Chart) -> Vec<Item> {
         let size = [text_width(&name, NAME_SIZE) + 2.0, NAME_SIZE + 1.0];
         let around = [[1.0, -1.0], [1.0, 1.0], [-1.0, -1.0], [-1.0, 1.0]];
         let beside = |[x, y]: [f64; 2]| {
-            about([at[0] + x * (size[0] / 2.0 + POINT_RADIUS), at[1] + y * (size[1] / 2.0 + POINT_RADIUS)], size)
+            centered_rect(
+                [at[0] + x * (size[0] / 2.0 + POINT_RADIUS), at[1] + y * (size[1] / 2.0 + POINT_RADIUS)],
+                size,
+            )
         };
-        let is_free = |place: &Rect| within(place, &chart.frame.rect) && !taken.iter().any(|other| meet(place, other));
+        let is_free =
+            |place: &Rect| is_on_page(place, &chart.frame.rect) && !taken.iter().any(|other| meet(place, other));
         let Some(place) = around.map(beside).into_iter().find(is_free) else { continue };
         items.push(label([place.x + 1.0, place.bottom() - 2.0], name, NAME_SIZE, Anchor::Start, INK));
         taken.push(place);
@@ -76,7 +81,7 @@ fn ring(at: [f64; 2]) -> Item {
     Item::Disc(at, POINT_RADIUS, Style::line(INK, 1.4).filled(WHITE))
 }
 
-fn about([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
+fn centered_rect([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
     Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
 }
 
@@ -84,7 +89,7 @@ fn meet(a: &Rect, b: &Rect) -> bool {
     a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom()
 }
 
-fn within(place: &Rect, page: &Rect) -> bool {
+fn is_on_page(place: &Rect, page: &Rect) -> bool {
     place.x >= page.x && place.right() <= page.right() && place.y >= page.y && place.bottom() <= page.bottom()
 }
 

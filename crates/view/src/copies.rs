@@ -54,7 +54,7 @@ impl Window {
             let mut piece: Vec<Configuration> = Vec::new();
             for pair in polyline.windows(2) {
                 let (a, b) = (pair[0] + shift, pair[1] + shift);
-                let Some((from, to)) = self.inside(a, b) else {
+                let Some((from, to)) = self.parameters_within(a, b) else {
                     finish(&mut piece, &mut all);
                     continue;
                 };
@@ -75,7 +75,7 @@ impl Window {
     }
 
     /// Returns the parameters between which the segment lies within the window (Liang and Barsky 1984).
-    fn inside(&self, a: Configuration, b: Configuration) -> Option<(f64, f64)> {
+    fn parameters_within(&self, a: Configuration, b: Configuration) -> Option<(f64, f64)> {
         let (mut from, mut to) = (0.0_f64, 1.0_f64);
         for k in 0..2 {
             let (lower, upper) = self.ranges[k];

@@ -32,20 +32,22 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     let paths = panel.paths.iter().map(|&index| &view.paths[index]);
     let world = worlds[0];
     let mut inside = frame.grid(chart.units);
-    inside.extend(world.trace.iter().flat_map(|trace| trace::below(trace, chart)));
+    inside.extend(world.trace.iter().flat_map(|trace| trace::items_below_obstacles(trace, chart)));
     inside.extend(c_obstacles(&worlds, chart));
-    inside.extend(in_time(view, world, chart));
-    inside.extend(world.trace.iter().flat_map(|trace| trace::above(trace, view.still.field_lines, chart)));
+    inside.extend(moving_obstacle_items(view, world, chart));
+    inside.extend(
+        world.trace.iter().flat_map(|trace| trace::items_above_obstacles(trace, view.still.field_lines, chart)),
+    );
     inside.extend(view.still.reach.iter().flat_map(|reach| reach::in_cspace(reach, chart)));
     inside.extend(preferences::in_cspace(&world.regions, chart));
     inside.extend(boxes::proof(&world.proof, frame));
     let blocking = view.still.stuck.iter().filter_map(|blocking| Some(blocking.at?.0));
     let marked = view.ends(panel).into_iter().map(|(q, ..)| q).chain([panel.start.into()]).chain(blocking);
-    let markers = marked.map(|q| labels::about(chart.place(q), [MARKER_WIDTH; 2])).collect();
+    let markers = marked.map(|q| labels::centered_rect(chart.place(q), [MARKER_WIDTH; 2])).collect();
     inside.extend(names(world, frame, markers));
     inside.extend(lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOAL_SEGMENT_PEN))));
     inside.extend(lines(paths.map(|path| (chart.outline(&path.points.0), path.pen()))));
-    inside.extend(world.trace.iter().flat_map(|trace| trace::over_path(trace, chart)));
+    inside.extend(world.trace.iter().flat_map(|trace| trace::items_above_path(trace, chart)));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));
     items.extend(world.scale.iter().flat_map(|scale| trace::color_bar(scale, &frame.rect)));
@@ -78,7 +80,7 @@ fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
         let world = worlds.iter().find(open).unwrap_or(&worlds[0]);
         let of = |contours| <[_]>::iter(contours).filter(|c: &&ContourView| c.obstacle == number);
         dashed.push(chart.c_obstacle(of(&world.open), passable(obstacle.color)));
-        solid.push(chart.c_obstacle(of(&world.c_obstacles), blocked(obstacle.color)));
+        solid.push(chart.c_obstacle(of(&world.c_obstacles), c_obstacle_style(obstacle.color)));
     }
     dashed.extend(solid);
     dashed
@@ -86,7 +88,7 @@ fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
 
 /// Draws the C-obstacles of moving obstacles at the current time. A still picture also shows them, dashed, at each stop
 /// of their trajectories.
-fn in_time(view: &View, world: &WorldView, chart: &Chart) -> Vec<Item> {
+fn moving_obstacle_items(view: &View, world: &WorldView, chart: &Chart) -> Vec<Item> {
     let mut items = Vec::new();
     for (number, mover) in world.movers.iter().enumerate() {
         let mut draw = |time: f64, style: fn(Rgb) -> Style| {
@@ -96,7 +98,7 @@ fn in_time(view: &View, world: &WorldView, chart: &Chart) -> Vec<Item> {
         if let (None, Some(duration)) = (view.still.now, view.duration()) {
             mover.moments(duration).into_iter().for_each(|time| draw(time, passable));
         }
-        draw(view.still.time, blocked);
+        draw(view.still.time, c_obstacle_style);
     }
     items
 }
@@ -105,11 +107,11 @@ fn in_time(view: &View, world: &WorldView, chart: &Chart) -> Vec<Item> {
 fn names(world: &WorldView, frame: &Frame, markers: Vec<Rect>) -> Vec<Item> {
     let room = frame.rect.width * frame.rect.height;
     let name = |name: &NameView| (world.called(name.obstacle), frame.at(name.at[0], name.at[1]), name.area * room);
-    labels::inside(&frame.rect, markers, world.names.iter().map(name))
+    labels::shape_labels(&frame.rect, markers, world.names.iter().map(name))
 }
 
 /// Returns the style of a C-obstacle.
-fn blocked(color: Rgb) -> Style {
+fn c_obstacle_style(color: Rgb) -> Style {
     let style = Style::line(color.darker(0.25), 2.0).filled(color.lighter(0.35)).faded(0.85);
     Style { pen_below: true, ..style }
 }

@@ -16,10 +16,10 @@ const AXIS_LETTERS: [&str; 3] = ["x", "y", "z"];
 /// Draws the axes of the frames, with the letters of the axes and the names of the frames.
 #[must_use]
 pub fn items(panel: &Frame, frames: &[FrameView]) -> Vec<Item> {
-    frames.iter().flat_map(|frame| one(panel, frame)).collect()
+    frames.iter().flat_map(|frame| frame_items(panel, frame)).collect()
 }
 
-fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
+fn frame_items(panel: &Frame, frame: &FrameView) -> Vec<Item> {
     let at = panel.at(frame.at[0], frame.at[1]);
     let mut items = Vec::new();
     for (k, &[u, v, w]) in frame.axes.iter().enumerate() {
@@ -28,7 +28,7 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
         let shadow = Vector::new(u, -v);
         let text = |at: [f64; 2]| label(at, AXIS_LETTERS[k], 14.0, Anchor::Middle, color);
         if shadow.norm() < PERPENDICULAR_SHARE {
-            items.extend(standing(at, w > 0.0, Style::line(color, 1.8)));
+            items.extend(perpendicular_axis(at, w > 0.0, Style::line(color, 1.8)));
             items.push(text([at[0] - 15.0, at[1] + 5.0]));
             continue;
         }
@@ -46,7 +46,7 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
 
 /// Draws an axis that is perpendicular to the plane: a circle with a dot if it points towards the viewer, otherwise
 /// with a cross.
-fn standing(at: [f64; 2], towards: bool, pen: Style) -> Vec<Item> {
+fn perpendicular_axis(at: [f64; 2], towards: bool, pen: Style) -> Vec<Item> {
     const PERPENDICULAR_RADIUS: f64 = 7.0;
     let ring = Item::Disc(at, PERPENDICULAR_RADIUS, pen.filled(WHITE));
     if towards {

@@ -53,7 +53,7 @@ pub fn write(
         let picture = painter.paint(&figure)?;
         size = [picture.width() as usize, picture.height() as usize];
         let pixels = colors(&picture);
-        match (changed(last.as_deref(), &pixels, size), patches.last_mut()) {
+        match (differing_rectangle(last.as_deref(), &pixels, size), patches.last_mut()) {
             (None, Some(before)) => before.delay = before.delay.saturating_add(delay),
             (place, _) => patches.push(cut(&pixels, size, place.unwrap_or([0, 0, size[0], size[1]]), delay)),
         }
@@ -65,7 +65,7 @@ pub fn write(
 
 /// Writes an SVG document as a GIF with a single picture, `width` pixels wide.
 pub fn still(svg: &str, width: f64) -> Result<Vec<u8>, DrawError> {
-    let picture = Rasterizer::new().wide(svg, width)?;
+    let picture = Rasterizer::new().rasterize(svg, width)?;
     let size = [picture.width(), picture.height()].map(|side| side as usize);
     let pixels = colors(&picture);
     encode(&[cut(&pixels, size, [0, 0, size[0], size[1]], 0)], size).map_err(|error| DrawError::Gif(error.to_string()))
@@ -77,7 +77,7 @@ fn colors(picture: &Pixmap) -> Vec<Color> {
 }
 
 /// Returns the smallest rectangle in which two pictures differ, or the whole picture if there is no previous one.
-fn changed(before: Option<&[Color]>, now: &[Color], [width, height]: [usize; 2]) -> Option<[usize; 4]> {
+fn differing_rectangle(before: Option<&[Color]>, now: &[Color], [width, height]: [usize; 2]) -> Option<[usize; 4]> {
     let Some(before) = before else { return Some([0, 0, width, height]) };
     let differs = |y: usize| before[y * width..][..width] != now[y * width..][..width];
     let top = (0..height).find(|&y| differs(y))?;
@@ -274,7 +274,7 @@ mod tests {
         let white = vec![[255; 3]; 12];
         let mut other = white.clone();
         (other[5], other[10]) = ([0; 3], [9; 3]);
-        assert_eq!(changed(Some(&white), &other, [4, 3]), Some([1, 1, 2, 2]));
-        assert_eq!(changed(Some(&white), &white, [4, 3]), None);
+        assert_eq!(differing_rectangle(Some(&white), &other, [4, 3]), Some([1, 1, 2, 2]));
+        assert_eq!(differing_rectangle(Some(&white), &white, [4, 3]), None);
     }
 }

@@ -3,7 +3,7 @@
 use super::axes::Frame;
 use super::figure::{Anchor, Item, Rect, Style, label, rectangle, shortened, text_width};
 use super::tags::overlap;
-use super::view::around;
+use super::view::bounding_box;
 use cplan_core::model::Shape;
 use cplan_geometry::Convex;
 use cplan_theme::{INK, WHITE};
@@ -40,7 +40,7 @@ pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
         let fits = size[0] <= of.width && size[1] <= of.height;
         let boxes = NAME_PLACES.into_iter().skip(usize::from(!fits)).map(|side: [f64; 2]| {
             let away = [0, 1].map(|k| side[k] * (size[k] / 2.0 + NAME_GAP + [of.width, of.height][k] / 2.0));
-            about([middle[0] + away[0], middle[1] + away[1]], size)
+            centered_rect([middle[0] + away[0], middle[1] + away[1]], size)
         });
         let is_free = |b: &Rect| is_free(b, &taken, page);
         // It is better to hide a part of a large shape than the whole of a small one.
@@ -60,13 +60,17 @@ pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
 /// Draws names centred at places, each with the area of the named shape in square pixels. Leaves out a name that would
 /// cover its own shape, another name, or one of the `markers`.
 #[must_use]
-pub fn inside(page: &Rect, markers: Vec<Rect>, names: impl IntoIterator<Item = (String, [f64; 2], f64)>) -> Vec<Item> {
+pub fn shape_labels(
+    page: &Rect,
+    markers: Vec<Rect>,
+    names: impl IntoIterator<Item = (String, [f64; 2], f64)>,
+) -> Vec<Item> {
     let mut taken = markers;
     let mut items = Vec::new();
     for (name, at, area) in names {
         let name = shortened(&name, NAME_SIZE, MAX_NAME_WIDTH);
         let size = size(&name);
-        let place = pushed(about(at, size), page);
+        let place = moved_into_page(centered_rect(at, size), page);
         if size[0] * size[1] <= MAX_COVERED_SHARE * area && is_free(&place, &taken, page) {
             items.extend(text(name, place));
             taken.push(place);
@@ -81,29 +85,29 @@ pub fn place<'a>(frame: &Frame, shape: &Shape, pieces: impl IntoIterator<Item = 
     if let Shape::Polyline(points) = shape {
         let longest = points.windows(2).max_by(|a, b| (a[1] - a[0]).norm().total_cmp(&(b[1] - b[0]).norm()));
         if let Some([a, b]) = longest {
-            return about(frame.at((a.x + b.x) / 2.0, (a.y + b.y) / 2.0), [WALL_SPOT_SIDE; 2]);
+            return centered_rect(frame.at((a.x + b.x) / 2.0, (a.y + b.y) / 2.0), [WALL_SPOT_SIDE; 2]);
         }
     }
-    let [x, y] = around(pieces);
+    let [x, y] = bounding_box(pieces);
     let ([left, bottom], [right, top]) = (frame.at(x.0, y.0), frame.at(x.1, y.1));
     Rect { x: left, y: top, width: right - left, height: bottom - top }
 }
 
 /// Returns a rectangle of this size, centred at a place.
-pub fn about([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
+pub fn centered_rect([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
     Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
 }
 
 /// Returns the box for the name of a line that comes from `from` and ends at `tip`. The box lies beyond that end.
-pub fn beyond(name: &str, tip: [f64; 2], from: [f64; 2]) -> Rect {
+pub fn label_box_beyond(name: &str, tip: [f64; 2], from: [f64; 2]) -> Rect {
     let away = [tip[0] - from[0], tip[1] - from[1]];
     let length = away[0].hypot(away[1]).max(f64::MIN_POSITIVE);
     let size = size(name);
-    about([0, 1].map(|k| tip[k] + away[k] / length * (size[k] / 2.0 + 2.0 * NAME_GAP)), size)
+    centered_rect([0, 1].map(|k| tip[k] + away[k] / length * (size[k] / 2.0 + 2.0 * NAME_GAP)), size)
 }
 
 /// Moves a box by the least distance that brings it into the page.
-fn pushed(place: Rect, page: &Rect) -> Rect {
+fn moved_into_page(place: Rect, page: &Rect) -> Rect {
     let x = place.x.min(page.right() - place.width).max(page.x);
     let y = place.y.min(page.bottom() - place.height).max(page.y);
     Rect { x, y, ..place }
@@ -143,26 +147,26 @@ mod tests {
             ("pushed".to_owned(), [299.0, 20.0], 5000.0),
             ("marked".to_owned(), [50.0, 250.0], 5000.0),
         ];
-        let marker = about([60.0, 252.0], [14.0; 2]);
-        assert_eq!(texts(&inside(&PAGE, vec![marker], names)), ["wide", "pushed"]);
+        let marker = centered_rect([60.0, 252.0], [14.0; 2]);
+        assert_eq!(texts(&shape_labels(&PAGE, vec![marker], names)), ["wide", "pushed"]);
     }
 
     #[test]
     fn the_name_of_an_arm_lies_beyond_its_tip() {
         for from in [[100.0, 150.0], [150.0, 250.0], [190.0, 100.0]] {
-            let place = beyond("start", [150.0, 150.0], from);
+            let place = label_box_beyond("start", [150.0, 150.0], from);
             let middle = [place.x + place.width / 2.0, place.y + place.height / 2.0];
             let toward = (middle[0] - 150.0) * (150.0 - from[0]) + (middle[1] - 150.0) * (150.0 - from[1]);
-            assert!(toward > 0.0 && overlap(&place, &about([150.0, 150.0], [1.0, 1.0])) == 0.0, "{place:?}");
+            assert!(toward > 0.0 && overlap(&place, &centered_rect([150.0, 150.0], [1.0, 1.0])) == 0.0, "{place:?}");
         }
     }
 
     #[test]
     fn names_are_placed_beside_smaller_shapes() {
-        let place = about([150.0, 150.0], [10.0, 10.0]);
+        let place = centered_rect([150.0, 150.0], [10.0, 10.0]);
         let items = items(&PAGE, &[("bottle".to_owned(), place)]);
         let Some(Item::Outline(steps, _)) = items.first() else { panic!("no paper") };
-        let paper = about([150.0, 150.0 - 5.0 - NAME_GAP - NAME_HEIGHT / 2.0], size("bottle"));
+        let paper = centered_rect([150.0, 150.0 - 5.0 - NAME_GAP - NAME_HEIGHT / 2.0], size("bottle"));
         assert_eq!(*steps, rectangle(paper));
     }
 }

@@ -16,13 +16,13 @@ const KEY_GAP: f64 = 26.0;
 /// Returns all signs of a picture with their meaning.
 #[must_use]
 pub fn keys(view: &View) -> Vec<Key> {
-    all(view, true).into_iter().map(|(key, _)| key).collect()
+    layered_keys(view, true).into_iter().map(|(key, _)| key).collect()
 }
 
 /// Returns the legend of a page. A page shows one world at a time, and fewer items than a picture does.
 #[must_use]
 pub fn on_pages(view: &View) -> Vec<KeyView> {
-    let mut keys: Vec<KeyView> = all(view, false).into_iter().map(|key| KeyView::new(key, false)).collect();
+    let mut keys: Vec<KeyView> = layered_keys(view, false).into_iter().map(|key| KeyView::new(key, false)).collect();
     for key in
         view.traces_of_steps().flat_map(|seen| of_trace(seen, FieldLines::default())).map(|key| KeyView::new(key, true))
     {
@@ -47,7 +47,7 @@ fn of_trace(seen: &TraceView, lines: FieldLines) -> Vec<Layered> {
     trace::keys(seen, lines).into_iter().map(|key| (key, layers)).collect()
 }
 
-fn all(view: &View, still: bool) -> Vec<Layered> {
+fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
     let world = view.first_world();
     let goal = if view.is_task() { "end of a step" } else { "goal" };
     let always = |key: Key| -> Layered { (key, &[]) };

@@ -4,7 +4,7 @@ use super::axes::{Frame, Range, Unit};
 
 use super::figure::Item;
 use super::key::{Key, Sign};
-use super::view::{ObstacleView, RoundingSteps, around};
+use super::view::{ObstacleView, RoundingSteps, bounding_box};
 use super::{labels, page, shapes, svg_writer};
 use cplan_core::model::Obstacle;
 use cplan_text::markup;
@@ -34,7 +34,7 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> S
     order.sort_by(|&i, &j| areas[j].total_cmp(&areas[i]));
     let keys = known.iter().enumerate().map(|(i, name)| (Sign::Swatch(cplan_theme::obstacle(i)), (*name).to_owned()));
     let keys: Vec<Key> = keys.take(MAX_KEYS).collect();
-    svg_writer::write(&page::alone(title, keys, (y.1 - y.0) / (x.1 - x.0), |area| {
+    svg_writer::write(&page::single_panel_page(title, keys, (y.1 - y.0) / (x.1 - x.0), |area| {
         let frame = Frame::filling(area, x, y);
         let view = |&i: &usize| ObstacleView::new(&obstacles[i], colors[i], RoundingSteps::within(size));
         let mut items = frame.grid([Unit::Meters; 2]);
@@ -62,7 +62,7 @@ fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {
 /// Returns least and greatest coordinates of obstacles.
 #[must_use]
 pub fn extent(obstacles: &[Obstacle]) -> [Range; 2] {
-    around(obstacles.iter().flat_map(|obstacle| &obstacle.pieces))
+    bounding_box(obstacles.iter().flat_map(|obstacle| &obstacle.pieces))
 }
 
 /// Returns a page that shows an SVG document.

@@ -75,7 +75,12 @@ pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
 /// Composes a page with a single panel and a legend below it. The panel's height is `aspect` times its width, unless
 /// the page has too little room.
 #[must_use]
-pub fn alone(title: &[String], keys: Vec<Key>, aspect: f64, panel: impl FnOnce(Rect) -> Vec<Item>) -> Figure {
+pub fn single_panel_page(
+    title: &[String],
+    keys: Vec<Key>,
+    aspect: f64,
+    panel: impl FnOnce(Rect) -> Vec<Item>,
+) -> Figure {
     const PAGE_HEIGHTS: [f64; 2] = [300.0, 960.0];
     const MIN_PANEL_WIDTH: f64 = 600.0;
     let widest = PAGE_WIDTH - LEFT_COLUMN.x - PAGE_MARGIN;

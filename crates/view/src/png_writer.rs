@@ -23,7 +23,7 @@ impl Rasterizer {
     }
 
     /// Returns the pixels of a document, scaled to `width` pixels.
-    pub fn wide(&self, svg: &str, width: f64) -> Result<Pixmap, DrawError> {
+    pub fn rasterize(&self, svg: &str, width: f64) -> Result<Pixmap, DrawError> {
         self.drawn(svg, |units| width / units)
     }
 

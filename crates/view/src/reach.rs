@@ -18,7 +18,7 @@ const CELL_KINDS: [(Rgb, &str); 5] = [
     (UNKNOWN, "unknown"),
 ];
 
-fn look(access: Access, count: usize) -> usize {
+fn style_index(access: Access, count: usize) -> usize {
     match (access, count) {
         (Access::Reachable, 1) => 0,
         (Access::Reachable, _) => 1,
@@ -34,7 +34,7 @@ pub fn in_workspace(reach: &Reach, frame: &Frame) -> Item {
     let [columns, rows] = reach.size;
     let mut levels = vec![None; columns * rows];
     for (place, access, count) in reach.best() {
-        levels[place % columns * rows + place / columns] = Some(look(access, count));
+        levels[place % columns * rows + place / columns] = Some(style_index(access, count));
     }
     let [left, bottom] = frame.at(reach.corner[0], reach.corner[1]);
     let [right, top] =
@@ -47,7 +47,7 @@ pub fn in_workspace(reach: &Reach, frame: &Frame) -> Item {
 #[must_use]
 pub fn in_cspace(reach: &Reach, chart: &Chart) -> Vec<Item> {
     let dot = |solution: &Solution| {
-        let (color, _) = CELL_KINDS[look(solution.access, 2)];
+        let (color, _) = CELL_KINDS[style_index(solution.access, 2)];
         Item::Disc(chart.place(solution.joints), 1.1, Style::fill(color))
     };
     free(reach).map(dot).collect()
@@ -83,10 +83,10 @@ impl ReachView {
     pub fn new(reach: &Reach, grain: RoundingSteps) -> Self {
         let mut cells = vec![b'.'; reach.places.len()];
         for (place, access, count) in reach.best() {
-            cells[place] = b'0' + look(access, count) as u8;
+            cells[place] = b'0' + style_index(access, count) as u8;
         }
         let kind = |(number, &(color, _)): (usize, &(Rgb, &str))| {
-            let solutions = free(reach).filter(|solution| look(solution.access, 2) == number);
+            let solutions = free(reach).filter(|solution| style_index(solution.access, 2) == number);
             KindView {
                 color: role_or_hex(color),
                 solutions: grain.configurations(solutions.map(|solution| &solution.joints)),
@@ -105,7 +105,7 @@ impl ReachView {
 /// Returns the legend of the cells.
 #[must_use]
 pub fn keys(reach: &Reach) -> Vec<Key> {
-    let is_there = |which: &usize| reach.best().any(|(_, access, count)| look(access, count) == *which);
+    let is_there = |which: &usize| reach.best().any(|(_, access, count)| style_index(access, count) == *which);
     (0..CELL_KINDS.len())
         .filter(is_there)
         .map(|which| (Sign::Swatch(CELL_KINDS[which].0), CELL_KINDS[which].1.to_owned()))

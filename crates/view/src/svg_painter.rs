@@ -99,9 +99,9 @@ impl Shape {
             path,
             fill: color(element, "fill")?,
             stroke,
-            is_stroked_first: inherited(element, "paint-order") == Some("stroke"),
+            is_stroked_first: inherited_property(element, "paint-order") == Some("stroke"),
             opacity: optional(element, "opacity")?.unwrap_or(1.0),
-            is_smooth: inherited(element, "shape-rendering") != Some("crispEdges"),
+            is_smooth: inherited_property(element, "shape-rendering") != Some("crispEdges"),
         })
     }
 
@@ -139,10 +139,10 @@ impl Shape {
 }
 
 fn stroke(element: Node) -> Result<Stroke, DrawError> {
-    let width = inherited(element, "stroke-width").map_or(Ok(1.0), str::parse);
-    let dashes = inherited(element, "stroke-dasharray").unwrap_or_default().split_whitespace().map(str::parse);
+    let width = inherited_property(element, "stroke-width").map_or(Ok(1.0), str::parse);
+    let dashes = inherited_property(element, "stroke-dasharray").unwrap_or_default().split_whitespace().map(str::parse);
     let dashes: Vec<f32> = dashes.collect::<Result<_, _>>().map_err(|_| unreadable(element, "stroke-dasharray"))?;
-    let is_round = inherited(element, "stroke-linejoin") == Some("round");
+    let is_round = inherited_property(element, "stroke-linejoin") == Some("round");
     Ok(Stroke {
         width: width.map_err(|_| unreadable(element, "stroke-width"))?,
         line_join: if is_round { LineJoin::Round } else { LineJoin::Miter },
@@ -176,12 +176,12 @@ fn rectangle(element: Node) -> Result<Option<Rect>, DrawError> {
 }
 
 fn text(font: &Font, element: Node) -> Result<Option<Path>, DrawError> {
-    let anchor = match inherited(element, "text-anchor") {
+    let anchor = match inherited_property(element, "text-anchor") {
         Some("middle") => Anchor::Middle,
         Some("end") => Anchor::End,
         _ => Anchor::Start,
     };
-    let size = inherited(element, "font-size").and_then(|size| size.parse().ok());
+    let size = inherited_property(element, "font-size").and_then(|size| size.parse().ok());
     let size: f32 = size.ok_or_else(|| unreadable(element, "font-size"))?;
     // SVG does not show spaces at the ends, and shows several spaces in a row as one.
     let words: Vec<&str> =
@@ -190,12 +190,12 @@ fn text(font: &Font, element: Node) -> Result<Option<Path>, DrawError> {
 }
 
 /// Returns a property of an element or of the nearest group around it that has it.
-fn inherited<'a>(element: Node<'a, '_>, name: &str) -> Option<&'a str> {
+fn inherited_property<'a>(element: Node<'a, '_>, name: &str) -> Option<&'a str> {
     element.ancestors().find_map(|node| node.attribute(name))
 }
 
 fn color(element: Node, name: &str) -> Result<Option<Color>, DrawError> {
-    match inherited(element, name) {
+    match inherited_property(element, name) {
         None | Some("none") => Ok(None),
         Some(value) => {
             let color = svgtypes::Color::from_str(value).map_err(|_| unreadable(element, name))?;
@@ -214,7 +214,7 @@ fn optional<T: FromStr>(element: Node, name: &str) -> Result<Option<T>, DrawErro
 }
 
 fn unreadable(element: Node, name: &str) -> DrawError {
-    let value = inherited(element, name).unwrap_or_default();
+    let value = inherited_property(element, name).unwrap_or_default();
     DrawError::Svg(format!("{name}=\"{value}\" of <{}> cannot be read", element.tag_name().name()))
 }
 

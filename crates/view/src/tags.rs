@@ -52,7 +52,7 @@ pub fn add(tags: &mut Vec<Tag>, at: [f64; 2], number: usize) {
 /// or places, or leaving the page, counts more than covering `shapes`, or lines through the points `spots`.
 #[must_use]
 pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[[f64; 2]]) -> Vec<Item> {
-    let mut taken: Vec<Rect> = tags.iter().map(|tag| around(tag.at, [8.0, 8.0])).collect();
+    let mut taken: Vec<Rect> = tags.iter().map(|tag| centered_rect(tag.at, [8.0, 8.0])).collect();
     let mut items = Vec::new();
     for tag in tags {
         let text = shortened(&ranges(&tag.numbers), TEXT_SIZE, MAX_TEXT_WIDTH);
@@ -62,7 +62,7 @@ pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[[f64; 2]]) ->
                 // Diagonal boxes may come nearer, because only their corner faces the place.
                 let gap = ring * if side[0] != 0.0 && side[1] != 0.0 { 0.6 * BOX_GAP } else { BOX_GAP };
                 let middle = [0, 1].map(|k| tag.at[k] + side[k] * (size[k] / 2.0 + gap));
-                (around(middle, size), extra + SIDE_COST * f64::from(index))
+                (centered_rect(middle, size), extra + SIDE_COST * f64::from(index))
             })
         });
         let covered = |b: &Rect, others: &[Rect]| others.iter().map(|other| overlap(b, other)).sum::<f64>();
@@ -84,7 +84,7 @@ pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[[f64; 2]]) ->
     items
 }
 
-fn around([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
+fn centered_rect([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
     Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
 }
 
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn one_place_has_one_box() {
+    fn each_place_has_a_single_box() {
         let mut tags = Vec::new();
         for (x, number) in [(50.0, 1), (51.0, 2), (50.0, 1), (90.0, 3), (50.5, 7)] {
             add(&mut tags, [x, 50.0], number);
@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn boxes_stay_off_shapes_where_there_is_room() {
         let page = Rect { x: 0.0, y: 0.0, width: 300.0, height: 300.0 };
-        let shape = around([100.0, 100.0], [26.0, 26.0]);
+        let shape = centered_rect([100.0, 100.0], [26.0, 26.0]);
         let tags = [Tag { at: [100.0, 100.0], numbers: vec![3] }];
         let beside = |shapes: &[Rect]| boxes(&items(&tags, page, shapes, &[]))[0];
         assert!(overlap(&beside(&[]), &shape) > 0.0);

@@ -16,7 +16,7 @@ const WHITE_SHARE: f64 = 0.22;
 
 /// Draws the surfaces, which lie under the C-obstacles.
 #[must_use]
-pub fn below(trace: &TraceView, chart: &Chart) -> Vec<Item> {
+pub fn items_below_obstacles(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     match trace {
         TraceView::Channel { cells, channel, .. } => vec![channel::surface(cells, channel, chart)],
         TraceView::Boxes { free, mixed, rest, .. } => boxes::surfaces(free, [mixed, rest], &chart.frame),
@@ -29,7 +29,7 @@ pub fn below(trace: &TraceView, chart: &Chart) -> Vec<Item> {
 
 /// Draws lines and numbers, which lie over the C-obstacles. For a field, `field_lines` selects the lines.
 #[must_use]
-pub fn above(trace: &TraceView, field_lines: FieldLines, chart: &Chart) -> Vec<Item> {
+pub fn items_above_obstacles(trace: &TraceView, field_lines: FieldLines, chart: &Chart) -> Vec<Item> {
     match trace {
         TraceView::Roadmap { edges: lines, .. } | TraceView::Slices { free: lines } => vec![edges(lines, chart)],
         TraceView::Roads { edges: lines, expanded, .. } => {
@@ -52,7 +52,7 @@ pub fn above(trace: &TraceView, field_lines: FieldLines, chart: &Chart) -> Vec<I
 
 /// Draws the centres of a channel's cells and the middles of its portals, which lie over the path.
 #[must_use]
-pub fn over_path(trace: &TraceView, chart: &Chart) -> Vec<Item> {
+pub fn items_above_path(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     match trace {
         TraceView::Channel { centers, middles, .. } => channel::points([centers, middles], chart),
         _ => Vec::new(),

@@ -4,7 +4,7 @@ use super::arm::{self, CURRENT_LOOK, GHOST_LOOK, GOAL_LOOK, START_LOOK, UNREACHE
 use super::axes::{Frame, Unit};
 use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines};
 use super::labels::{self, Named};
-use super::view::{ObstacleView, PathView, View, around, reach_shape, titles};
+use super::view::{ObstacleView, PathView, View, bounding_box, reach_shape, titles};
 use super::{blocking, checked, frames, preferences, reach, shapes, tags};
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
@@ -79,7 +79,7 @@ fn movers(view: &View, frame: &Frame) -> Vec<Item> {
 fn names(view: &View, frame: &Frame) -> Vec<Named> {
     let arm = |name: &str, q: [f64; 2]| {
         let [tip, elbow] = [view.arm.tip_at(q.into()), view.arm.elbow_at(q[0])].map(|p| frame.at(p.x, p.y));
-        (name.to_owned(), labels::beyond(name, tip, elbow))
+        (name.to_owned(), labels::label_box_beyond(name, tip, elbow))
     };
     // An arm that does not move needs no name.
     let ends = view.still.end.map(|(q, _)| [arm("goal", q), arm("start", view.start)]);
@@ -116,7 +116,7 @@ fn end(step: &Step) -> Option<[f64; 2]> {
 
 /// Returns the box on the page around an obstacle that has a place.
 fn on_page(frame: &Frame, obstacle: &ObstacleView) -> Rect {
-    let [x, y] = around(obstacle.own());
+    let [x, y] = bounding_box(obstacle.own());
     let ([left, bottom], [right, top]) = (frame.at(x.0, y.0), frame.at(x.1, y.1));
     Rect { x: left, y: top, width: right - left, height: bottom - top }
 }
@@ -124,7 +124,7 @@ fn on_page(frame: &Frame, obstacle: &ObstacleView) -> Rect {
 /// Returns a note if obstacles lie outside the panel.
 fn hidden_note<'a>(frame: &Frame, obstacles: impl Iterator<Item = &'a ObstacleView>) -> Option<Item> {
     let outside = |o: &&ObstacleView| {
-        let [x, y] = around(o.own());
+        let [x, y] = bounding_box(o.own());
         x.1 < frame.x.0 || x.0 > frame.x.1 || y.1 < frame.y.0 || y.0 > frame.y.1
     };
     let text = match obstacles.filter(outside).count() {

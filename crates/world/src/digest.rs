@@ -27,7 +27,7 @@ impl Digests {
         let mut others = Vec::new();
         for path in files {
             let Some(identity) = FileIdentity::of(path) else { continue };
-            if known.iter().all(|one| !one.is(&identity)) {
+            if known.iter().all(|one| !one.is_same_file(&identity)) {
                 known.push(identity);
                 others.push(digest(path)?);
             }

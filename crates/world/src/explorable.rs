@@ -38,17 +38,17 @@ impl LoadedScene {
             let scene = loaded.problem.into_scene();
             return Ok(Explorable { scene, sensor, start, goals, robot: loaded.robot, notes: loaded.notes });
         }
-        let loaded = self.keeping(overrides.clearance)?;
+        let loaded = self.with_clearance(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, place) = loaded.start(overrides, &mut notes)?;
-        loaded.require("the start", start, &place).map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
+        loaded.require("the start", start, &place).map_err(|diagnostic| diagnostic.with_kind(DiagnosticKind::Start))?;
         Ok(Explorable { scene: loaded.scene, sensor, start, goals: None, robot: loaded.robot, notes })
     }
 
-    /// Returns the sensor of the world. Properties that the world file does not state are those of [`Sensor::usual`].
+    /// Returns the sensor of the world. Properties that the world file does not state are those of [`Sensor::default_for`].
     #[must_use]
     pub fn sensor(&self) -> Sensor {
         let turn = self.world.place.as_ref().map_or(0.0, |place| place.rotation.angle());
-        self.world.sensor.over(Sensor { turn, ..Sensor::usual(self.scene.arm()) })
+        self.world.sensor.completed_by(Sensor { turn, ..Sensor::default_for(self.scene.arm()) })
     }
 }

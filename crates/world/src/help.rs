@@ -44,7 +44,7 @@ const DEFAULT_HINT: &str =
 
 /// Returns the hint for an error at a byte of a world file: the form of the value of the key at that place.
 pub(super) fn help(text: &str, at: usize) -> &'static str {
-    let before = &text[..floor(text, at)];
+    let before = &text[..char_boundary(text, at)];
     let line_start = before.rfind('\n').map_or(0, |i| i + 1);
     let line_end = text[line_start..].find('\n').map_or(text.len(), |i| line_start + i);
     let line = text[line_start..line_end].trim();
@@ -70,7 +70,7 @@ pub(super) fn help(text: &str, at: usize) -> &'static str {
 }
 
 /// Returns the nearest boundary of a character at or before a byte.
-fn floor(text: &str, at: usize) -> usize {
+fn char_boundary(text: &str, at: usize) -> usize {
     (0..=at.min(text.len())).rev().find(|i| text.is_char_boundary(*i)).unwrap_or(0)
 }
 

@@ -17,13 +17,12 @@
 //! goal are checked. It returns a problem, or all diagnostics together. [`load_recording`] reads a motion that any
 //! program recorded. If the file is cplan's result of a task, it also reads the steps.
 
-mod course;
-mod help;
 mod digest;
 mod ends;
 mod explorable;
 mod goal_table;
 mod group;
+mod help;
 mod joint_pair;
 mod line_map;
 mod map_text;
@@ -31,17 +30,18 @@ mod nearness;
 mod notes;
 mod object;
 mod obstacle;
+mod obstacle_trajectory;
 mod occupancy;
 mod pallet;
 mod parsers;
 mod polygon;
-mod reader;
-mod reasons;
 mod preference;
 mod preference_map;
 mod problem;
 mod query;
 mod range_sensor;
+mod reader;
+mod reasons;
 mod requirement;
 mod schema;
 mod sensor;
@@ -82,7 +82,7 @@ pub struct LoadedScene {
     /// obstacles.
     pub scene: Scene,
     /// The trajectories of the scene's loose obstacles, which are moving obstacles and objects.
-    pub courses: Vec<ObstacleTrajectory>,
+    pub trajectories: Vec<ObstacleTrajectory>,
     /// The world file.
     pub world: World,
     /// The arm as the URDF places it, before the world places the robot.
@@ -97,7 +97,7 @@ pub struct LoadedProblem {
     /// Scene, start and goals. Start and goals are free and within the limits.
     pub problem: MotionProblem,
     /// The trajectories of the scene's loose obstacles.
-    pub courses: Vec<ObstacleTrajectory>,
+    pub trajectories: Vec<ObstacleTrajectory>,
     /// Report on how the robot was read.
     pub robot: RobotReport,
     /// Notes for the user about the goal: blocked IK solutions, joints whose value does not matter.
@@ -111,7 +111,7 @@ pub struct LoadedProblem {
 /// [`InputError`] with all defects of the files themselves.
 pub fn load_scene(robot: impl Into<RobotFile>, world: &Path) -> Result<LoadedScene, InputError> {
     let world = world::read(Source::read(world)?)?;
-    among(world, robot.into().read()?)
+    scene_of_world(world, robot.into().read()?)
 }
 
 /// Reads a robot and a world from texts, which may be in memory only.
@@ -119,7 +119,7 @@ pub fn load_scene(robot: impl Into<RobotFile>, world: &Path) -> Result<LoadedSce
 /// # Errors
 /// [`InputError`] with all defects of the texts.
 pub fn scene_from(urdf: Source, world: Source) -> Result<LoadedScene, InputError> {
-    among(world::read(world)?, urdf)
+    scene_of_world(world::read(world)?, urdf)
 }
 
 /// Reads a world for an arm that was made in code.
@@ -137,13 +137,13 @@ pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     for pair in &world.in_degrees {
         pair.check(&world.source, &arm.joints)?;
     }
-    let joints = RobotJoints::planned(&arm.joints.each_ref().map(|joint| joint.name.clone()));
+    let joints = RobotJoints::only_planned(&arm.joints.each_ref().map(|joint| joint.name.clone()));
     let initial_workspace = world.initial_workspace();
-    let courses = initial_workspace.courses();
+    let trajectories = initial_workspace.trajectories();
     let scene = initial_workspace
-        .scene(standing(&arm, &world))
+        .scene(placed_arm(&arm, &world))
         .map_err(|error| refused(error.to_string(), "use finite numbers and sizes above 0"))?;
-    Ok(LoadedScene { scene, courses, world, arm, robot: RobotReport { joints, ..RobotReport::default() } })
+    Ok(LoadedScene { scene, trajectories, world, arm, robot: RobotReport { joints, ..RobotReport::default() } })
 }
 
 /// Reads a world without a robot.
@@ -157,7 +157,7 @@ pub fn world_from(world: Source) -> Result<World, InputError> {
 impl LoadedScene {
     /// Returns the start and the first goal that the world file states, even if they are invalid.
     #[must_use]
-    pub fn given(&self) -> [Option<Goal>; 2] {
+    pub fn stated_ends(&self) -> [Option<Goal>; 2] {
         let goal = self.world.goals.as_ref().and_then(|(goals, _)| goals.first().copied());
         [self.world.start.as_ref().map(|&(start, _)| start), goal]
     }
@@ -173,44 +173,44 @@ impl LoadedScene {
     ///
     /// # Errors
     /// [`InputError`] with all defects of the texts.
-    pub fn edited(&self, urdf: &Source, world: Source) -> Result<Self, InputError> {
+    pub fn with_world_text(&self, urdf: &Source, world: Source) -> Result<Self, InputError> {
         let world = world::read(world)?;
         if world.robot.unplaced() != self.world.robot.unplaced() {
-            return among(world, urdf.clone());
+            return scene_of_world(world, urdf.clone());
         }
         for pair in &world.in_degrees {
             pair.check(&world.source, &self.scene.arm().joints)?;
         }
-        Ok(Self::assembled(world, self.arm.clone(), self.robot.clone()))
+        Ok(Self::unchecked(world, self.arm.clone(), self.robot.clone()))
     }
 
     /// Combines an arm and its world, without checks.
-    fn assembled(world: World, arm: Arm, robot: RobotReport) -> Self {
+    fn unchecked(world: World, arm: Arm, robot: RobotReport) -> Self {
         let initial_workspace = world.initial_workspace();
-        let courses = initial_workspace.courses();
-        Self { scene: initial_workspace.scene_trusted(standing(&arm, &world)), courses, world, arm, robot }
+        let trajectories = initial_workspace.trajectories();
+        Self { scene: initial_workspace.scene_trusted(placed_arm(&arm, &world)), trajectories, world, arm, robot }
     }
 
     /// Returns the scene with the trajectories of its loose obstacles. Their times count from time 0 of the world.
     #[must_use]
     pub fn timed(&self) -> TimedScene<'_> {
-        TimedScene { scene: &self.scene, courses: &self.courses }
+        TimedScene { scene: &self.scene, trajectories: &self.trajectories }
     }
 }
 
 /// Reads the robot and combines it with its world.
-fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
+fn scene_of_world(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
     let (arm, robot) = cplan_robot::load(urdf, world.robot_settings())?;
     for pair in &world.in_degrees {
         pair.check(&world.source, &arm.joints)?;
     }
-    let mut loaded = LoadedScene::assembled(world, arm, robot);
+    let mut loaded = LoadedScene::unchecked(world, arm, robot);
     loaded.robot.warnings.extend(nearness::warning(&loaded.scene));
     Ok(loaded)
 }
 
 /// Returns the arm at the place where the world file puts the robot.
-fn standing(arm: &Arm, world: &World) -> Arm {
+fn placed_arm(arm: &Arm, world: &World) -> Arm {
     world.place.as_ref().map_or_else(|| arm.clone(), |place| arm.placed(place))
 }
 
@@ -233,11 +233,11 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
     files.extend(file.files());
     // A world that cannot be read counts as an input, too.
     files.extend(world.map(Path::to_owned));
-    let in_world = |alone: Scene| file.initial_workspace().scene_trusted(standing(alone.arm(), &file));
+    let in_world = |alone: Scene| file.initial_workspace().scene_trusted(placed_arm(alone.arm(), &file));
     let mut inspection = Inspection {
         world: world.map(|p| p.display().to_string()),
         scene: inspection.scene.map(in_world),
-        courses: file.initial_workspace().courses(),
+        trajectories: file.initial_workspace().trajectories(),
         files,
         ..inspection
     };
@@ -248,8 +248,8 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
     if world.is_some() && inspection.is_plannable() {
         let loaded = inspection.scene.clone().map(|scene| {
             let arm = scene.arm().clone();
-            let courses = inspection.courses.clone();
-            LoadedScene { scene, courses, world: file, arm, robot: RobotReport::default() }
+            let trajectories = inspection.trajectories.clone();
+            LoadedScene { scene, trajectories, world: file, arm, robot: RobotReport::default() }
         });
         let overrides = Overrides::default();
         let query = loaded.and_then(|l| match l.has_steps() {

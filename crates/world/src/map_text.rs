@@ -52,7 +52,7 @@ impl MapText {
     ///
     /// # Errors
     /// The file has ended.
-    fn expected(&self, what: &str) -> Result<(&str, Range<usize>), Diagnostic> {
+    fn next_line(&self, what: &str) -> Result<(&str, Range<usize>), Diagnostic> {
         self.line().ok_or_else(|| {
             let end = self.source.text().trim_end().len();
             let message = format!("the file ends where {what} should come");
@@ -63,7 +63,7 @@ impl MapText {
     /// Skips a line that consists of this word.
     pub fn word(&mut self, word: &str) -> Result<(), Diagnostic> {
         let what = format!("\"{word}\"");
-        let (found, at) = self.expected(&what)?;
+        let (found, at) = self.next_line(&what)?;
         if found != word {
             return Err(self.unexpected(at, &what));
         }
@@ -78,7 +78,7 @@ impl MapText {
     /// Reads the numbers of a line `key: n n ...`.
     pub fn keyed<const N: usize>(&mut self, key: &str) -> Result<Numbers<N>, Diagnostic> {
         let what = format!("\"{key}:\" and {}", counted(N));
-        let (found, at) = self.expected(&what)?;
+        let (found, at) = self.next_line(&what)?;
         let Some(rest) = found.strip_prefix(key).and_then(|rest| rest.trim_start().strip_prefix(':')) else {
             return Err(self.unexpected(at, &what));
         };
@@ -100,7 +100,7 @@ impl MapText {
 
     /// Reads the numbers of a line with numbers only.
     pub fn numbers<const N: usize>(&mut self, what: &str) -> Result<Numbers<N>, Diagnostic> {
-        let (_, at) = self.expected(&format!("{what} ({})", counted(N)))?;
+        let (_, at) = self.next_line(&format!("{what} ({})", counted(N)))?;
         let values = self.parsed(at.clone(), what)?;
         self.next += 1;
         Ok(Numbers { values, at })
@@ -130,7 +130,7 @@ impl MapText {
     ) -> Result<Vec<Numbers<N>>, Diagnostic> {
         let what = format!("{item} or \"{end}\"");
         let mut list = Vec::new();
-        while !self.expected(&what)?.0.starts_with(end) {
+        while !self.next_line(&what)?.0.starts_with(end) {
             list.push(self.numbers(&what)?);
         }
         if count != list.len() {

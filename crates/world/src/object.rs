@@ -1,7 +1,7 @@
 //! The world file's `[[object]]`.
 
-use super::course::ObstacleTrajectoryTable;
-use super::obstacle::{CircleTable, circle};
+use super::obstacle::{CircleTable
+circle };usesuper::obstacle_trajectory:, :ObstacleTrajectoryTable;
 use super::pallet::Pallets;
 use super::polygon::{Ring, polygon};
 use super::reader::Reader;
@@ -186,7 +186,7 @@ impl<'a> Names<'a> {
         let help = match self.objects.contains_key(wanted) {
             true => format!("that is a single object: pick = \"{wanted}\", then place it"),
             false if self.families.is_empty() => "give an [[object]] of this name pallet = \"PALLET\"".into(),
-            false => format!("the objects on pallets are {}", listed(self.families.keys().copied())),
+            false => format!("the objects on pallets are {}", join_names(self.families.keys().copied())),
         };
         Err(reader.source.diagnostic_at(name.span(), message).help(help))
     }
@@ -194,7 +194,7 @@ impl<'a> Names<'a> {
     /// Returns the available names. Objects on a pallet appear once, under their common name.
     fn all(&self) -> String {
         let single = self.objects.iter().filter(|(_, number)| !self.families.values().any(|all| all.contains(number)));
-        listed(single.map(|(name, _)| name.as_str()).chain(self.families.keys().copied()))
+        join_names(single.map(|(name, _)| name.as_str()).chain(self.families.keys().copied()))
     }
 
     /// Returns the indices, as obstacles, of the obstacles and objects in a list of supports.
@@ -212,7 +212,7 @@ impl<'a> Names<'a> {
                 (None, None, None) => {
                     let message = format!("there is no obstacle and no object \"{wanted}\" to rest on");
                     let names = self.obstacles.keys().copied().chain(self.objects.keys().map(String::as_str));
-                    let help = format!("there are {}", listed(names));
+                    let help = format!("there are {}", join_names(names));
                     return Err(reader.source.diagnostic_at(name.span(), message).help(help));
                 }
             }
@@ -323,25 +323,25 @@ fn movable(
     if supports.numbers.contains(&names.as_obstacle(index)) {
         return Err(rests_on_itself(reader, &name, &supports));
     }
-    let course = given.motion.as_ref().map(|motion| course(reader, given, motion, &at, &what)).transpose()?;
+    let trajectory = given.motion.as_ref().map(|motion| read_object_trajectory(reader, given, motion, &at, &what)).transpose()?;
     // The motion determines the initial position.
-    let at = course.as_ref().map_or(at, |course| course.pose(0.0));
+    let at = trajectory.as_ref().map_or(at, |trajectory| trajectory.pose(0.0));
     let object = Object {
         name,
         shape,
         pieces,
         heights: reader.heights(given.height.as_ref(), &what)?,
         lift: lift.unwrap_or(0.0),
-        holding: given.payload.as_ref().map(|p| holding(reader, p)).transpose()?.unwrap_or(default),
+        holding: given.payload.as_ref().map(|p| parse_holding(reader, p)).transpose()?.unwrap_or(default),
         at,
         mass: mass.unwrap_or(0.0),
-        course,
+        trajectory,
     };
     Ok(MovableObject { object, grasp: grasp.unwrap_or_else(Point::zeros), supports, is_renewed: given.renew })
 }
 
 /// Returns the motion of an object. A stop without a position gets the position of the object.
-fn course(
+fn read_object_trajectory(
     reader: &Reader,
     given: &ObjectTable,
     motion: &Spanned<ObstacleTrajectoryTable>,
@@ -370,7 +370,7 @@ pub(super) fn rests_on_itself(reader: &Reader, name: &str, supports: &Supports) 
 }
 
 /// Parses how the gripper holds objects: `"rigid"` or `"level"`.
-pub(super) fn holding(reader: &Reader, word: &Spanned<String>) -> Result<Holding, Diagnostic> {
+pub(super) fn parse_holding(reader: &Reader, word: &Spanned<String>) -> Result<Holding, Diagnostic> {
     match word.get_ref().as_str() {
         "rigid" => Ok(Holding::Rigid),
         "level" => Ok(Holding::Level),
@@ -382,7 +382,7 @@ pub(super) fn holding(reader: &Reader, word: &Spanned<String>) -> Result<Holding
     }
 }
 
-fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+fn join_names<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let mut names: Vec<&str> = names.take(MAX_LISTED_NAMES + 1).collect();
     let more = names.len() > MAX_LISTED_NAMES;
     names.truncate(MAX_LISTED_NAMES);

@@ -1,6 +1,6 @@
 //! The world file's `[[obstacle]]`.
 
-use super::course::ObstacleTrajectoryTable;
+use super::obstacle_trajectory::ObstacleTrajectoryTable;
 use super::occupancy::OccupancyMap;
 use super::polygon::{Ring, polygon, polyline};
 use super::reader::Reader;
@@ -95,10 +95,10 @@ impl ObstacleTable {
         let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
         let what = format!("obstacle \"{name}\"");
         let place = reader.pose(obstacle.at.as_ref(), obstacle.angle.as_ref(), &what)?;
-        let course = obstacle.motion.as_ref().map(|m| m.get_ref().read(reader, &what, place.as_ref(), m.span()));
-        let course = course.transpose()?;
+        let trajectory = obstacle.motion.as_ref().map(|m| m.get_ref().read(reader, &what, place.as_ref(), m.span()));
+        let trajectory = trajectory.transpose()?;
         // The shape of a moving obstacle stays in the obstacle's own frame.
-        let place = place.as_ref().filter(|_| course.is_none());
+        let place = place.as_ref().filter(|_| trajectory.is_none());
         let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
             (Some(corners), None, None, None) => {
                 polygon(reader, corners, obstacle.holes.as_ref(), place, &what, SIMPLE_POLYGON_HINT)?
@@ -125,8 +125,8 @@ impl ObstacleTable {
         }
         let heights = reader.heights(obstacle.height.as_ref(), &what)?;
         let obstacle = Obstacle { name, shape, pieces, heights };
-        Ok(match course {
-            Some(course) => ObstacleKind::Moving(MovingObstacle { obstacle, course }),
+        Ok(match trajectory {
+            Some(trajectory) => ObstacleKind::Moving(MovingObstacle { obstacle, trajectory }),
             None => ObstacleKind::Static(obstacle),
         })
     }
@@ -153,7 +153,7 @@ fn image(
             return Err(reader.source.diagnostic_at(at, message).help("unknown = \"solid\", or leave it out").into());
         }
     };
-    let path = reader.beside(image, what)?;
+    let path = reader.path_of_named_file(image, what)?;
     if path.extension().is_some_and(|e| e != "yaml" && e != "yml") {
         let message = format!("{what}: an image needs the YAML of ROS's map server, which states its size");
         let help = "name the YAML; it names the picture";

@@ -162,7 +162,7 @@ impl PalletTable {
             let message = format!("{what} has {} places (at most {MAX_PLACES})", rows.saturating_mul(columns));
             return Err(reader.source.diagnostic_at(self.rows.span(), message).help("give it fewer rows or columns"));
         }
-        let pitch = reader.two(&self.pitch, &format!("{what}, pitch"))?;
+        let pitch = reader.number_pair(&self.pitch, &format!("{what}, pitch"))?;
         for (pitch, count, along) in [(pitch[0], columns, "column"), (pitch[1], rows, "row")] {
             if count > 1 && pitch == 0.0 {
                 let message =

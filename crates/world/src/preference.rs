@@ -65,7 +65,7 @@ impl PreferenceTable {
 }
 
 fn direction(reader: &Reader, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
-    let vector = reader.two(numbers, &format!("{what}, direction"))?;
+    let vector = reader.number_pair(numbers, &format!("{what}, direction"))?;
     let length = vector[0].hypot(vector[1]);
     // The square of a shorter length is not a normal number, so the direction would lose its digits.
     if length < 1e-150 {

@@ -54,7 +54,7 @@ impl PreferenceMap {
         }
         text.word("GOAL")?;
         let list = text.list_before::<4>((count, at), "NumGoal", "a goal rectangle", "NumPoint")?;
-        let goals = list.iter().map(|goal| text.corners(&goal.values, &goal.at, &bounds).map(ordered));
+        let goals = list.iter().map(|goal| text.corners(&goal.values, &goal.at, &bounds).map(sorted_corners));
         let goals = goals.collect::<Result<_, _>>()?;
         let announced = text.count("NumPoint")?;
         text.word("POINTS")?;
@@ -62,7 +62,7 @@ impl PreferenceMap {
         text.end()?;
         let mut rectangles = Vec::with_capacity(list.len());
         for line in list {
-            let corners = ordered(text.corners(&line.values, &line.at, &bounds)?);
+            let corners = sorted_corners(text.corners(&line.values, &line.at, &bounds)?);
             if (0..2).any(|k| corners[0][k] == corners[1][k]) {
                 let diagnostic = text.source.diagnostic_at(line.at, "the rectangle has no area");
                 return Err(diagnostic.help("give two opposite corners").into());
@@ -74,6 +74,6 @@ impl PreferenceMap {
 }
 
 /// Returns the lower left and the upper right corner of the rectangle with these opposite corners.
-fn ordered([a, b]: [Point; 2]) -> [Point; 2] {
+fn sorted_corners([a, b]: [Point; 2]) -> [Point; 2] {
     [a.inf(&b), a.sup(&b)]
 }

@@ -2,8 +2,8 @@
 //! tip.
 
 use super::reasons::{
-    HELP_FOR_LIMITS, beyond_limits, describe, describe_segment, help_at, help_for_ik_solutions, help_for_reach,
-    obstructions, out_of_reach, within_limits,
+    HELP_FOR_LIMITS, beyond_limits, describe, describe_out_of_reach, describe_segment, help_at, help_for_ik_solutions,
+    help_for_reach, obstructions, within_limits,
 };
 use super::{LoadedProblem, LoadedScene, Overrides};
 use cplan_core::model::{BlockedStretch, Freedom, Goal, MotionProblem, Scene, area_goals, inverse};
@@ -39,13 +39,13 @@ impl LoadedScene {
         if self.has_steps() {
             return Err(self.has_no_goal(overrides).into());
         }
-        let loaded = self.keeping(overrides.clearance)?;
+        let loaded = self.with_clearance(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, place) = loaded.start(overrides, &mut notes)?;
         let is_free = loaded.require("the start", start, &place).and_then(|()| loaded.require_clear(start, &place));
-        is_free.map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
-        let about = |diagnostic: Diagnostic| diagnostic.about(DiagnosticKind::Goal);
-        let (asked, place) = loaded.goals(overrides).map_err(|error| error.about(DiagnosticKind::Goal))?;
+        is_free.map_err(|diagnostic| diagnostic.with_kind(DiagnosticKind::Start))?;
+        let about = |diagnostic: Diagnostic| diagnostic.with_kind(DiagnosticKind::Goal);
+        let (asked, place) = loaded.goals(overrides).map_err(|error| error.with_kind(DiagnosticKind::Goal))?;
         let (mut goals, mut refused) = (Vec::new(), Vec::new());
         for goal in &asked {
             match loaded.configurations(*goal, start, &place, &mut notes) {
@@ -60,8 +60,8 @@ impl LoadedScene {
         }
         notes.extend(refused.iter().map(|diagnostic| format!("a goal is ruled out: {}", diagnostic.message)));
         let goals: GoalSet = goals.into_iter().collect();
-        let LoadedScene { scene, courses, robot, .. } = loaded;
-        Ok(LoadedProblem { problem: MotionProblem::trusted(scene, start, goals), courses, robot, notes })
+        let LoadedScene { scene, trajectories, robot, .. } = loaded;
+        Ok(LoadedProblem { problem: MotionProblem::trusted(scene, start, goals), trajectories, robot, notes })
     }
 
     /// Returns the configurations that reach a goal and are not known to be blocked.
@@ -175,7 +175,7 @@ impl LoadedScene {
 
     /// Returns true if an obstacle moves.
     pub(super) fn has_moving_obstacles(&self) -> bool {
-        !self.courses.is_empty()
+        !self.trajectories.is_empty()
     }
 
     /// Checks that no obstacle moves, for functions that ignore time. `what` names the function.
@@ -183,7 +183,7 @@ impl LoadedScene {
     /// # Errors
     /// A moving obstacle.
     pub fn require_static_obstacles(&self, what: &str) -> Result<(), InputError> {
-        let Some(mover) = self.scene.loose().first() else { return Ok(()) };
+        let Some(mover) = self.scene.loose_obstacles().first() else { return Ok(()) };
         let message = format!("{what}, but obstacle \"{}\" moves", mover.obstacle.name);
         let help =
             "remove its motion, or use `cplan plan`, `cplan verify` or `cplan check`, which allow moving obstacles";
@@ -217,7 +217,9 @@ impl LoadedScene {
         let solved = inverse(scene.arm(), tip, start);
         let at = format!("({}, {})", tip.x, tip.y);
         if solved.branches.is_empty() {
-            return Err(place.diagnostic(out_of_reach(scene, "the goal", tip)).help(help_for_reach(scene, tip)));
+            return Err(place
+                .diagnostic(describe_out_of_reach(scene, "the goal", tip))
+                .help(help_for_reach(scene, tip)));
         }
         notes.extend(solved.free.map(|free| freedom(scene, &at, free)));
         let (allowed, outside) = within_limits(scene, &solved);

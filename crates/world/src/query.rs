@@ -30,10 +30,10 @@ impl LoadedScene {
         if self.has_steps() {
             return Err(self.has_no_goal(overrides).into());
         }
-        let loaded = self.keeping(overrides.clearance)?;
+        let loaded = self.with_clearance(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, _) = loaded.start(overrides, &mut notes)?;
-        let (mut goals, _) = loaded.goals(overrides).map_err(|error| error.about(DiagnosticKind::Goal))?;
+        let (mut goals, _) = loaded.goals(overrides).map_err(|error| error.with_kind(DiagnosticKind::Goal))?;
         for goal in &mut goals {
             if let Goal::Joints(q) = goal {
                 *q = loaded.at_limits("the goal", *q, &mut notes);
@@ -46,7 +46,7 @@ impl LoadedScene {
     /// # Errors
     /// A missing start, and a start given by the tip that does not have exactly one IK solution.
     pub fn start_alone(self, overrides: &Overrides) -> Result<LoadedEnds, InputError> {
-        let loaded = self.keeping(overrides.clearance)?;
+        let loaded = self.with_clearance(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, _) = loaded.start(overrides, &mut notes)?;
         Ok(LoadedEnds { scene: loaded.scene, start, goals: vec![Goal::Joints(start)], robot: loaded.robot, notes })

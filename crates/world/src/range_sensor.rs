@@ -49,7 +49,7 @@ impl Sensor {
     /// and with a reading every tenth of a radian or metre. Its 360 rays point in all directions, because the arm
     /// mostly moves towards places beside the tip, not ahead of it.
     #[must_use]
-    pub fn usual(arm: &Arm) -> Self {
+    pub fn default_for(arm: &Arm) -> Self {
         let cell = arm.reach() / Self::DEFAULT_CELLS;
         let range = arm.reach() / 2.0;
         Self {
@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn rays_fan_out_about_straight_ahead() -> Result<(), ConvexError> {
         let arm = Arm::rr([1.0, 0.5], 0.1)?;
-        let sensor = Sensor { rays: 3, field_of_view: PI, ..Sensor::usual(&arm) };
+        let sensor = Sensor { rays: 3, field_of_view: PI, ..Sensor::default_for(&arm) };
         let (at, ahead) = sensor.pose(&arm, [PI / 2.0, -PI / 2.0]);
         assert!((at - Point::new(0.5, 1.0)).norm() < 1e-12 && ahead.abs() < 1e-12, "{at} {ahead}");
         let rays: Vec<f64> = sensor.rays(ahead).collect();
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn rays_about_a_direction_are_those_no_farther_from_it() -> Result<(), ConvexError> {
-        let usual = Sensor::usual(&Arm::rr([1.0, 0.5], 0.1)?);
+        let usual = Sensor::default_for(&Arm::rr([1.0, 0.5], 0.1)?);
         for (rays, field_of_view) in [(1, 1.0), (7, PI), (97, TAU - 0.1), (180, TAU)] {
             let sensor = Sensor { rays, field_of_view, ..usual };
             for k in 0..500 {

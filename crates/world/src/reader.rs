@@ -47,7 +47,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     /// A list that does not have two numbers.
-    pub fn two(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
+    pub fn number_pair(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
         match numbers.get_ref().as_slice() {
             [a, b] => Ok([self.source.finite(a, what)?, self.source.finite(b, what)?]),
             other => {
@@ -73,7 +73,7 @@ impl Reader<'_> {
     }
     /// Returns a point of the plane.
     pub fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Diagnostic> {
-        self.two(numbers, what).map(Point::from)
+        self.number_pair(numbers, what).map(Point::from)
     }
 
     /// Returns the pose of a frame, or `None` if neither position nor angle is given.
@@ -149,7 +149,7 @@ impl Reader<'_> {
     }
 
     /// Returns the path of a file that the world names relative to its own file.
-    pub fn beside(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Diagnostic> {
+    pub fn path_of_named_file(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Diagnostic> {
         let anchor = self.source.anchor();
         let anchor = anchor.map_err(|why| {
             let help = "save the world as a file beside it";
@@ -167,7 +167,7 @@ impl Reader<'_> {
     /// Returns heights, or all heights if the key is missing.
     pub fn heights(&self, height: Option<&Numbers>, what: &str) -> Result<Heights, Diagnostic> {
         let Some(height) = height else { return Ok(Heights::ALL) };
-        let [lower, upper] = self.two(height, &format!("{what}, height"))?;
+        let [lower, upper] = self.number_pair(height, &format!("{what}, height"))?;
         if lower > upper {
             let message = format!("{what}: height [{lower}, {upper}] is empty");
             return Err(self.source.diagnostic_at(height.span(), message).help("write the lower end first"));

@@ -1,6 +1,6 @@
 //! Describes why a configuration is outside the limits or blocked, and why no IK solution reaches a point.
 
-use cplan_core::model::{Freedom, Inverse, Obstruction, Scene, within};
+use cplan_core::model::{Freedom, Inverse, Obstruction, Scene, equivalent_values};
 use cplan_core::space::{Configuration, JointRange, Segment};
 use cplan_geometry::Point;
 use cplan_text::{fixed, format_distinct};
@@ -11,7 +11,7 @@ pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, V
     let joints = &scene.arm().joints;
     let outside = |branch: &Configuration| {
         let counts = |i: usize| solved.free.is_none_or(|free| free == Freedom::Joint(1 - i));
-        let copies = [0, 1].map(|i| within(joints[i].range, joints[i].joint_type.is_revolute(), branch[i]));
+        let copies = [0, 1].map(|i| equivalent_values(joints[i].range, joints[i].joint_type.is_revolute(), branch[i]));
         let beyond = (0..2).any(|i| counts(i) && copies[i].is_empty());
         // A free joint has values within its limits, so any of them may be shown.
         let shown = Configuration::from_fn(|i, _| match joints[i].range {
@@ -111,7 +111,7 @@ pub(super) fn help_for_ik_solutions(scene: &Scene, outside: bool, blocked: bool)
 }
 
 /// Explains that no IK solution reaches `point`. The sentence starts with `what`.
-pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
+pub(super) fn describe_out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
     let arm = scene.arm();
     let from_joint = (point - arm.base).norm();
     let [distance, reach] = if arm.only_turns() {

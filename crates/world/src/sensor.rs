@@ -120,7 +120,7 @@ impl SensorTable {
 
 impl SensorWishes {
     /// Returns the sensor `usual`. Properties that the file states replace those of `usual`.
-    pub fn over(&self, usual: Sensor) -> Sensor {
+    pub fn completed_by(&self, usual: Sensor) -> Sensor {
         Sensor {
             mount: self.mount.unwrap_or(usual.mount),
             rays: self.rays.unwrap_or(usual.rays),

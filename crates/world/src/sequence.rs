@@ -40,14 +40,14 @@ pub(super) fn write_out(
     steps: &Group,
     at: Range<usize>,
 ) -> Result<Sequence, Diagnostic> {
-    let lying = objects.iter().map(ObjectPlace::initial).collect();
+    let object_places = objects.iter().map(ObjectPlace::initial).collect();
     let mut writer = Writer {
         reader,
         names,
         objects,
         has_wrist,
         carried: None,
-        lying,
+        object_places,
         cycles: Vec::new(),
         items: Vec::new(),
         requirements: Requirements::default(),
@@ -71,7 +71,7 @@ struct ObjectPlace {
 impl ObjectPlace {
     fn initial(movable: &MovableObject) -> Self {
         let pose = &movable.object.at;
-        let moves = movable.object.course.is_some();
+        let moves = movable.object.trajectory.is_some();
         Self { at: pose.translation, angle: Some(pose.rotation.angle()), tip: None, moves }
     }
 
@@ -98,7 +98,7 @@ struct Writer<'a> {
     objects: &'a [MovableObject],
     has_wrist: bool,
     carried: Option<CarriedObject>,
-    lying: Vec<ObjectPlace>,
+    object_places: Vec<ObjectPlace>,
     /// For each step of the file, the number of times that it has been written out.
     cycles: Vec<usize>,
     items: Vec<Item>,
@@ -154,7 +154,7 @@ impl Writer<'_> {
         }
         if !group.renewed.is_empty() {
             for object in &group.renewed {
-                self.lying[*object] = ObjectPlace::initial(&self.objects[*object]);
+                self.object_places[*object] = ObjectPlace::initial(&self.objects[*object]);
             }
             self.items.push(Item::Renew(group.renewed.iter().copied().collect()));
         }
@@ -215,17 +215,17 @@ impl Writer<'_> {
             let diagnostic = self.reader.source.diagnostic_at(leaf.at.clone(), message);
             return Err(diagnostic.help("place the payload first"));
         }
-        self.rest(leaf, object, supports)?;
-        let lying = self.lying[object];
-        if let Some(when) = when.filter(|_| !lying.moves) {
+        self.require_rest(leaf, object, supports)?;
+        let object_places = self.object_places[object];
+        if let Some(when) = when.filter(|_| !object_places.moves) {
             let name = self.in_words(Some(object));
             let message = format!("step {}: {name} was picked before and no longer moves", leaf.number);
             let diagnostic = self.reader.source.diagnostic_at(when.at.clone(), message);
             return Err(diagnostic.help("only the first pick of a moving object has `at` and `window`"));
         }
-        if lying.moves {
-            self.lying[object].moves = false;
-        } else if let Some(tip) = lying.point(grasp).filter(|tip| lying.tip != Some(*tip)) {
+        if object_places.moves {
+            self.object_places[object].moves = false;
+        } else if let Some(tip) = object_places.point(grasp).filter(|tip| object_places.tip != Some(*tip)) {
             self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
         }
         self.carried = Some(CarriedObject { object, grasp });
@@ -245,15 +245,17 @@ impl Writer<'_> {
             return Err(self.reader.source.diagnostic_at(leaf.at.clone(), message).help("pick an object first"));
         };
         let supports = supports.unwrap_or(&self.objects[object].supports);
-        self.rest(leaf, object, supports)?;
+        self.require_rest(leaf, object, supports)?;
         let asked = angle.map(|(angle, place)| self.turned(leaf, object, *angle, place)).transpose()?;
-        let mut lying = match self.objects[object].object.holding {
+        let mut object_places = match self.objects[object].object.holding {
             Holding::Rigid => ObjectPlace { at, angle: None, tip: None, moves: false },
-            Holding::Level => ObjectPlace { at, angle: asked.or(self.lying[object].angle), tip: None, moves: false },
+            Holding::Level => {
+                ObjectPlace { at, angle: asked.or(self.object_places[object].angle), tip: None, moves: false }
+            }
         };
-        lying.tip = lying.point(grasp);
-        self.lying[object] = lying;
-        if let Some(tip) = lying.tip {
+        object_places.tip = object_places.point(grasp);
+        self.object_places[object] = object_places;
+        if let Some(tip) = object_places.tip {
             self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
         }
         Ok(Action::Place { at, angle: asked, supports: supports.numbers.clone() })
@@ -271,7 +273,8 @@ impl Writer<'_> {
         };
         let name = self.in_words(Some(object));
         // Only a rigid payload's orientation can be unknown.
-        let (Holding::Level, Some(before)) = (self.objects[object].object.holding, self.lying[object].angle) else {
+        let (Holding::Level, Some(before)) = (self.objects[object].object.holding, self.object_places[object].angle)
+        else {
             let message =
                 format!("object {name} is held rigidly, so its orientation follows from the arm's configuration");
             return refuse(message, "payload = \"level\" for the object, or leave the angle out");
@@ -288,7 +291,7 @@ impl Writer<'_> {
     }
 
     /// Records that the object must be able to rest on its supports.
-    fn rest(&mut self, leaf: &Leaf, object: usize, supports: &Supports) -> Result<(), Diagnostic> {
+    fn require_rest(&mut self, leaf: &Leaf, object: usize, supports: &Supports) -> Result<(), Diagnostic> {
         if supports.numbers.contains(&self.names.as_obstacle(object)) {
             return Err(rests_on_itself(self.reader, &self.objects[object].object.name, supports));
         }

@@ -1,7 +1,9 @@
 //! The start of the arm: joint values, or a tip position that has only one IK solution.
 
 use super::problem::Place;
-use super::reasons::{describe, help_for_ik_solutions, help_for_reach, obstructions, out_of_reach, within_limits};
+use super::reasons::{
+    describe, describe_out_of_reach, help_for_ik_solutions, help_for_reach, obstructions, within_limits,
+};
 use super::{LoadedScene, Overrides};
 use cplan_core::model::{Goal, inverse};
 use cplan_core::space::{Configuration, JointRange};
@@ -21,7 +23,7 @@ impl LoadedScene {
     /// position.
     #[must_use]
     pub fn resolved_ends(&self) -> [Option<Configuration>; 2] {
-        self.given().map(|end| match end {
+        self.stated_ends().map(|end| match end {
             Some(Goal::Joints(q)) => Some(q),
             _ => None,
         })
@@ -34,7 +36,8 @@ impl LoadedScene {
         overrides: &Overrides,
         notes: &mut Vec<String>,
     ) -> Result<(Configuration, Place<'_>), InputError> {
-        let (start, place) = self.given_start(overrides, notes).map_err(|error| error.about(DiagnosticKind::Start))?;
+        let (start, place) =
+            self.given_start(overrides, notes).map_err(|error| error.with_kind(DiagnosticKind::Start))?;
         Ok((self.at_limits("the start", start, notes), place))
     }
 
@@ -88,7 +91,9 @@ impl LoadedScene {
         let solved = inverse(scene.arm(), tip, Configuration::zeros());
         let at = format!("({}, {})", tip.x, tip.y);
         if solved.branches.is_empty() {
-            return Err(place.diagnostic(out_of_reach(scene, "the start", tip)).help(help_for_reach(scene, tip)));
+            return Err(place
+                .diagnostic(describe_out_of_reach(scene, "the start", tip))
+                .help(help_for_reach(scene, tip)));
         }
         if solved.free.is_some() {
             let message = format!("the start puts the tip at {at}, which has infinitely many IK solutions");

@@ -177,7 +177,7 @@ impl<'a> StepReader<'a> {
     /// order with other actions than picks and places, and more than [`MAX_STEPS`] steps.
     pub fn all(mut self, tables: &[Spanned<StepTable>], task: Option<&TaskTable>) -> Result<Group, Diagnostic> {
         let pace = Pace { speed: 1.0, dwell: 0.0 };
-        let pace = task.map_or(Ok(pace), |t| self.pace(pace, t.speed.as_ref(), t.dwell.as_ref()))?;
+        let pace = task.map_or(Ok(pace), |t| self.read_pace(pace, t.speed.as_ref(), t.dwell.as_ref()))?;
         let manner =
             Manner { repeat: task.and_then(|t| t.repeat.as_ref()), order: task.and_then(|t| t.order.as_ref()) };
         let at = tables.first().map_or(0..0, Spanned::span);
@@ -264,7 +264,7 @@ impl<'a> StepReader<'a> {
     /// Returns the contents of a table: a step, a group, or the steps of a transfer.
     fn nodes(&mut self, table: &Spanned<StepTable>, pace: Pace) -> Result<Vec<Node>, Diagnostic> {
         let step = table.get_ref();
-        let pace = self.pace(pace, step.speed.as_ref(), step.dwell.as_ref())?;
+        let pace = self.read_pace(pace, step.speed.as_ref(), step.dwell.as_ref())?;
         self.require_fitting_keys(step)?;
         let one = |at, action| Ok(vec![(at, action)]);
         let actions = match (&step.pick, &step.place, &step.goal, &step.transfer, &step.steps) {
@@ -338,24 +338,24 @@ impl<'a> StepReader<'a> {
             object,
             grasp: grasp.unwrap_or(default.grasp),
             supports: supports.unwrap_or_else(|| default.supports.clone()),
-            when: self.when(step, &default.object)?,
+            when: self.read_pick_times(step, &default.object)?,
         })
     }
 
     /// Returns the times at which a moving object may be picked. `None` if the step states none.
-    fn when(&self, step: &StepTable, object: &Object) -> Result<Option<When>, Diagnostic> {
+    fn read_pick_times(&self, step: &StepTable, object: &Object) -> Result<Option<When>, Diagnostic> {
         let Some(stated) = step.at.as_ref().or(step.window.as_ref()).map(Spanned::span) else { return Ok(None) };
         let name = &object.name;
         let refuse = |at: Range<usize>, message: String, help: &str| {
             Err(self.reader.source.diagnostic_at(at, message).help(help))
         };
-        let Some(course) = &object.course else {
+        let Some(trajectory) = &object.trajectory else {
             let message = format!("object \"{name}\" does not move, so its pick has no place and no time");
             return refuse(stated, message, "remove `at` and `window`, or give the object a motion");
         };
         let mut times = vec![[0.0, MAX_STOP_TIME]];
         if let Some(at) = &step.at {
-            times = course.passes(self.reader.point(at, "pick, at")?, ON_AXIS_DISTANCE);
+            times = trajectory.passes(self.reader.point(at, "pick, at")?, ON_AXIS_DISTANCE);
             times.iter_mut().flatten().for_each(|time| *time = time.min(MAX_STOP_TIME));
             if times.is_empty() {
                 let message = format!("object \"{name}\" never passes there");
@@ -363,7 +363,7 @@ impl<'a> StepReader<'a> {
             }
         }
         if let Some(window) = &step.window {
-            let [from, to] = self.reader.two(window, "window")?;
+            let [from, to] = self.reader.number_pair(window, "window")?;
             if !(0.0 <= from && from <= to) {
                 let message = format!("window [{from}, {to}] is invalid");
                 return refuse(
@@ -433,7 +433,7 @@ impl<'a> StepReader<'a> {
         Ok(family.zip(pallet.places()).flat_map(pair).collect())
     }
 
-    fn pace(&self, default: Pace, speed: Option<&Number>, dwell: Option<&Number>) -> Result<Pace, Diagnostic> {
+    fn read_pace(&self, default: Pace, speed: Option<&Number>, dwell: Option<&Number>) -> Result<Pace, Diagnostic> {
         let mut pace = default;
         if let Some(number) = speed {
             pace.speed = self.reader.source.finite(number, "speed")?;

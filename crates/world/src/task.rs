@@ -1,6 +1,8 @@
 //! Converts the steps of a world to a task for its arm.
 
-use super::reasons::{HELP_FOR_LIMITS, HELP_FOR_TIP, beyond_limits, help_for_reach, out_of_reach, within_limits};
+use super::reasons::{
+    HELP_FOR_LIMITS, HELP_FOR_TIP, beyond_limits, describe_out_of_reach, help_for_reach, within_limits,
+};
 use super::requirement::{Required, Requirement};
 use super::{LoadedScene, Overrides, World};
 use cplan_core::model::{Scene, inverse};
@@ -58,15 +60,15 @@ impl LoadedScene {
         if overrides.goal.is_some() || overrides.goal_tip.is_some() {
             return Err(self.has_no_goal(overrides).into());
         }
-        let loaded = self.keeping(overrides.clearance)?;
+        let loaded = self.with_clearance(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, place) = loaded.start(overrides, &mut notes)?;
         if is_checked {
             let is_free = loaded.require("the start", start, &place).and_then(|()| loaded.require_clear(start, &place));
-            is_free.map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
+            is_free.map_err(|diagnostic| diagnostic.with_kind(DiagnosticKind::Start))?;
         }
         let requirements = loaded.world.steps.iter().flat_map(|steps| &steps.requirements);
-        InputError::check(requirements.filter_map(|r| loaded.unfulfilled(r, start)).collect())?;
+        InputError::check(requirements.filter_map(|r| loaded.unmet_requirement(r, start)).collect())?;
         let Self { scene, world, robot, .. } = loaded;
         let stroke = robot.joints.stroke.clone();
         if let Some(stroke) = &stroke {
@@ -78,7 +80,7 @@ impl LoadedScene {
         let (wrist, note) = world.wrist.unzip();
         notes.extend(note.flatten());
         let task = Task { arm: scene.arm().clone(), workspace, objects: world.objects, start, items, wrist, stroke };
-        if let Some((mover, why)) = task.unmoved() {
+        if let Some((mover, why)) = task.static_only_feature() {
             let help = "remove its motion, or the feature that needs static obstacles";
             return Err(world.source.diagnostic(format!("\"{mover}\" moves, and {why}")).help(help).into());
         }
@@ -86,7 +88,7 @@ impl LoadedScene {
     }
 
     /// Returns the reason why the arm cannot satisfy a requirement. `None` if it can.
-    fn unfulfilled(&self, requirement: &Requirement, start: Configuration) -> Option<Diagnostic> {
+    fn unmet_requirement(&self, requirement: &Requirement, start: Configuration) -> Option<Diagnostic> {
         let step = format!("step {}", requirement.step);
         let (message, help) = match requirement.required {
             Required::Joints(q) => self.beyond_limits(&step, q)?,
@@ -105,7 +107,10 @@ impl LoadedScene {
     fn beyond_reach(&self, step: &str, tip: Point, start: Configuration) -> Option<(String, String)> {
         let solved = inverse(self.scene.arm(), tip, start);
         if solved.branches.is_empty() {
-            return Some((out_of_reach(&self.scene, &format!("{step}:"), tip), help_for_reach(&self.scene, tip)));
+            return Some((
+                describe_out_of_reach(&self.scene, &format!("{step}:"), tip),
+                help_for_reach(&self.scene, tip),
+            ));
         }
         // If a joint's value does not matter, another value may be within the limits.
         let (allowed, outside) = within_limits(&self.scene, &solved);

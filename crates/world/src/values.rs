@@ -27,7 +27,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// A clearance that is negative or not finite.
-    pub fn keeping(mut self, clearance: Option<f64>) -> Result<Self, InputError> {
+    pub fn with_clearance(mut self, clearance: Option<f64>) -> Result<Self, InputError> {
         if let Some(clearance) = clearance {
             let refused = |diagnostic: SceneError| {
                 Diagnostic::new("--clearance", diagnostic.to_string()).help("metres: 0 or more, such as 0.02")

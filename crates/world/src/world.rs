@@ -206,7 +206,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     });
     let wrist = wrist.transpose()?;
     let sensor = file.sensor.as_ref().map(|table| table.read(&reader)).transpose()?.unwrap_or_default();
-    let payload = file.robot.payload.as_ref().map(|p| object::holding(&reader, p)).transpose()?;
+    let payload = file.robot.payload.as_ref().map(|p| object::parse_holding(&reader, p)).transpose()?;
     let pallets = Pallets::read(&reader, &file.pallet)?;
     let held = payload.unwrap_or(Holding::Rigid);
     let (movables, names) = object::read(&reader, &file.object, &pallets, &obstacles, &movers, held)?;

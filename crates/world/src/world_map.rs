@@ -52,7 +52,7 @@ const MILLIMETER: f64 = 1e-3;
 /// Reads the files that the table names.
 pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, InputError> {
     let scale = table.scale.as_ref().map(|s| scale(reader, s)).transpose()?.unwrap_or(MILLIMETER);
-    let offset = table.offset.as_ref().map(|o| reader.two(o, "map offset")).transpose()?.unwrap_or_default();
+    let offset = table.offset.as_ref().map(|o| reader.number_pair(o, "map offset")).transpose()?.unwrap_or_default();
     let heights = reader.heights(table.height.as_ref(), "map")?;
     let place = |p: Point| p * scale + Vector::from(offset);
     let within = |bounds: [Point; 2], file: &Spanned<String>| {
@@ -64,7 +64,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
         Err(reader.source.diagnostic_at(file.span(), message).help("set `scale` in [map], metres per unit of the file"))
     };
 
-    let path = reader.beside(&table.file, "map")?;
+    let path = reader.path_of_named_file(&table.file, "map")?;
     let map = LineMap::read(&path)?;
     within(map.bounds, &table.file)?;
     if map.lines.len() > MAX_PIECES {
@@ -97,7 +97,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
 
     let mut content = MapContent { obstacles, ..MapContent::default() };
     if let Some(file) = &table.preferences {
-        let path = reader.beside(file, "preferences")?;
+        let path = reader.path_of_named_file(file, "preferences")?;
         let map = PreferenceMap::read(&path)?;
         within(map.bounds, file)?;
         let goals = map.goals.iter().map(|corners| Goal::Area(corners.map(place)));

@@ -90,7 +90,7 @@ pub(crate) struct Tree {
 }
 
 /// Returns true if a namespace is xacro's.
-fn is_ours(uri: &str) -> bool {
+fn is_xacro_namespace(uri: &str) -> bool {
     uri.contains("ros.org/wiki/xacro") || uri.contains("ros.org/xacro") || uri.ends_with("/xacro")
 }
 
@@ -118,7 +118,7 @@ fn written_name<'t>(text: &'t str, node: &XmlNode) -> &'t str {
 /// Returns true if an element is in xacro's namespace, with any prefix.
 fn is_directive(text: &str, node: &XmlNode) -> bool {
     let name = written_name(text, node);
-    name.starts_with("xacro:") || name.contains(':') && node.tag_name().namespace().is_some_and(is_ours)
+    name.starts_with("xacro:") || name.contains(':') && node.tag_name().namespace().is_some_and(is_xacro_namespace)
 }
 
 /// Returns the bytes of a start tag.
@@ -168,7 +168,9 @@ pub(crate) fn read(file: &File, index: usize) -> Result<Tree, Error> {
     let mut namespaces: Vec<(String, String)> = Vec::new();
     for node in document.descendants().filter(XmlNode::is_element) {
         let declared = node.namespaces().filter_map(|namespace| Some((namespace.name()?, namespace.uri())));
-        for (prefix, uri) in declared.filter(|(prefix, uri)| *prefix != "xml" && *prefix != "xacro" && !is_ours(uri)) {
+        for (prefix, uri) in
+            declared.filter(|(prefix, uri)| *prefix != "xml" && *prefix != "xacro" && !is_xacro_namespace(uri))
+        {
             if !namespaces.iter().any(|(known, _)| known == prefix) {
                 namespaces.push((prefix.to_owned(), uri.to_owned()));
             }

@@ -1,9 +1,9 @@
 //! The directive `xacro:include`.
 
-use crate::beside;
 use crate::document::{Element, Node};
 use crate::error::{Error, Fault};
 use crate::expander::Expander;
+use crate::path_beside;
 use std::path::Path;
 
 impl Expander<'_> {
@@ -12,7 +12,7 @@ impl Expander<'_> {
         let named = self.value(&filename, scope)?.printed();
         let named = named.trim().strip_prefix("file://").unwrap_or(named.trim());
         let path = match named.strip_prefix("package://").and_then(|rest| rest.split_once('/')) {
-            None => beside(&self.files[filename.place.file].path, named),
+            None => path_beside(&self.files[filename.place.file].path, named),
             Some((package, inside)) => {
                 let folder = self.package(package, filename.place.file);
                 Path::new(&folder.map_err(|fault| self.error(&filename.place, fault))?).join(inside)

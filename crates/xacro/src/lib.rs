@@ -123,6 +123,6 @@ pub fn is_xacro(text: &str) -> bool {
 }
 
 /// Returns the path of a file relative to another file's folder.
-fn beside(file: &Path, name: &str) -> PathBuf {
+fn path_beside(file: &Path, name: &str) -> PathBuf {
     file.with_file_name("").join(name)
 }

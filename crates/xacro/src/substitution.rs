@@ -7,7 +7,7 @@ use crate::expression::{self, Names};
 use crate::limits::Budget;
 use crate::scope::Slot;
 use crate::value::Value;
-use crate::{beside, package, yaml};
+use crate::{package, path_beside, yaml};
 use std::path::Path;
 
 /// The scope and the file in which a text is evaluated.
@@ -72,7 +72,7 @@ impl Expander<'_> {
                 Part::Expression(inside) => {
                     let inside = self.text(inside, context)?.printed();
                     expression::evaluate(&inside, &mut ContextNames { expander: self, context })
-                        .map_err(|fault| about(&inside, fault))?
+                        .map_err(|fault| with_expression(&inside, fault))?
                 }
                 Part::Extension(inside) => {
                     let inside = self.text(inside, context)?.printed();
@@ -110,7 +110,7 @@ impl Expander<'_> {
                 Ok(Value::text(folder.to_string_lossy().trim_end_matches('/').to_owned()))
             }
             ("eval", text) => expression::evaluate(text, &mut ContextNames { expander: self, context })
-                .map_err(|fault| about(text, fault)),
+                .map_err(|fault| with_expression(text, fault)),
             _ => Err(Fault::with_hint(
                 format!("\"$({text})\" is not known"),
                 "known extensions: $(arg NAME), $(find PACKAGE), $(env NAME), $(optenv NAME DEFAULT), $(eval EXPRESSION), $(dirname)",
@@ -167,7 +167,7 @@ impl Expander<'_> {
 }
 
 /// Adds the expression's text to the message of a fault.
-fn about(expression: &str, fault: Fault) -> Fault {
+fn with_expression(expression: &str, fault: Fault) -> Fault {
     match fault {
         Fault::Here(message, hint) => {
             let shown: String = expression.trim().chars().take(60).collect();
@@ -193,7 +193,8 @@ impl Names for ContextNames<'_, '_> {
     }
 
     fn yaml(&mut self, name: &str) -> Result<Value, Fault> {
-        let path = beside(&self.expander.files[self.context.file].path, Path::new(name).to_string_lossy().as_ref());
+        let path =
+            path_beside(&self.expander.files[self.context.file].path, Path::new(name).to_string_lossy().as_ref());
         self.expander.yaml.push(path.clone());
         let value = yaml::load(&path, self.expander.settings.read)?;
         self.expander.budget.spend(value.printed().len())?;

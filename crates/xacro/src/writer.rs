@@ -57,7 +57,7 @@ impl Writer {
             }
             match child {
                 Node::Element(child) => self.element(child, depth + 1, &[]),
-                Node::Text(text, _) => self.escaped(text),
+                Node::Text(text, _) => self.write_escaped(text),
             }
         }
         if !has_text {
@@ -79,12 +79,12 @@ impl Writer {
         let from = self.text.len();
         self.text += name;
         self.text += "=\"";
-        self.escaped(value);
+        self.write_escaped(value);
         self.text.push('"');
         from
     }
 
-    fn escaped(&mut self, text: &str) {
+    fn write_escaped(&mut self, text: &str) {
         for c in text.chars() {
             match c {
                 '<' => self.text += "&lt;",

@@ -91,7 +91,7 @@ struct Stopped {
 /// Input that cannot be read or that contains no JSON objects, and output that cannot be written.
 pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
     let input = args.problems.as_ref().map_or_else(|| "stdin".into(), |path| path.display().to_string());
-    let turns = Turns::new(BufReader::new(opened(args)?), &input, io::stdout(), args.jobs.into());
+    let turns = Turns::new(BufReader::new(open_input(args)?), &input, io::stdout(), args.jobs.into());
     let warnings = Mutex::new(BTreeSet::new());
     let work = || {
         let mut reader = Reader::default();
@@ -119,7 +119,7 @@ pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-fn opened(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
+fn open_input(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
     let Some(path) = &args.problems else { return Ok(Box::new(io::stdin())) };
     if path.is_dir() {
         let cure = "give a file of JSON lines, or send the lines of several files to stdin";

@@ -120,20 +120,20 @@ impl Reader {
         // If planning fails for one line, the other lines are still answered.
         let planned = given.and_then(|given| {
             let help = "please report it with this line; the other lines are answered";
-            caught(|| self.in_time(given, &refused, limit)).unwrap_or_else(|why| Err(refused(why, help)))
+            caught(|| self.plan_within_limit(given, &refused, limit)).unwrap_or_else(|why| Err(refused(why, help)))
         });
         Answer { id: keys.remove("id"), is_object: true, plan: planned }
     }
 
     /// Plans, and stops when the time limit is reached.
-    fn in_time(
+    fn plan_within_limit(
         &mut self,
         given: LineKeys,
         refused: &dyn Fn(String, &str) -> Failure,
         limit: Option<Duration>,
     ) -> Result<ProblemOutcome, Failure> {
         let Some(limit) = limit else { return self.plan(given, refused) };
-        let interrupt = Interrupt::new().by(Instant::now() + limit);
+        let interrupt = Interrupt::new().with_deadline(Instant::now() + limit);
         let stopped = |_| Ok(ProblemOutcome::Stopped(format!("stopped after {} s", limit.as_secs_f64())));
         interrupt.run(|| self.plan(given, refused)).unwrap_or_else(stopped)
     }
@@ -153,7 +153,7 @@ impl Reader {
             (None, Some(text)) => Named::Text(text),
             _ => return Err(one("world")),
         };
-        let ParsedWords { options, overrides } = self.asked(given.options, refused)?;
+        let ParsedWords { options, overrides } = self.parse_options(given.options, refused)?;
         let problem = Problem::of_scene(self.scene(robot, world)?, &overrides)?;
         Ok(ProblemOutcome::Done(Box::new(plan(&problem, &options)?)))
     }
@@ -161,19 +161,23 @@ impl Reader {
     fn scene(&mut self, robot: Named, world: Named) -> Result<LoadedScene, InputError> {
         if let Some(known) = self.robots.get_mut(&robot) {
             if known.world != world {
-                known.scene = known.scene.edited(&known.source, world.source("world")?)?;
+                known.scene = known.scene.with_world_text(&known.source, world.source("world")?)?;
                 known.world = world;
             }
             return Ok(known.scene.clone());
         }
         let source = robot.source("urdf")?;
         let scene = scene_from(source.clone(), world.source("world")?)?;
-        make_room(&mut self.robots);
+        clear_if_full(&mut self.robots);
         self.robots.insert(robot, RememberedRobot { source, world, scene: scene.clone() });
         Ok(scene)
     }
 
-    fn asked(&mut self, options: Options, refused: &dyn Fn(String, &str) -> Failure) -> Result<ParsedWords, Failure> {
+    fn parse_options(
+        &mut self,
+        options: Options,
+        refused: &dyn Fn(String, &str) -> Failure,
+    ) -> Result<ParsedWords, Failure> {
         let words = match options {
             Options::Words(words) => words,
             Options::Named(named) => {
@@ -188,8 +192,8 @@ impl Reader {
         if let Some(asked) = self.words.get(&words) {
             return Ok(asked.clone());
         }
-        let asked = words::asked(&words)?;
-        make_room(&mut self.words);
+        let asked = words::parse_settings(&words)?;
+        clear_if_full(&mut self.words);
         self.words.insert(words, asked.clone());
         Ok(asked)
     }
@@ -229,7 +233,7 @@ fn word(name: &str, value: &Value) -> Result<Option<String>, String> {
 }
 
 /// Removes all entries if there is no room for another one. Repeated ones are added again later.
-fn make_room<K, V>(known: &mut HashMap<K, V>) {
+fn clear_if_full<K, V>(known: &mut HashMap<K, V>) {
     if known.len() >= MAX_REMEMBERED {
         known.clear();
     }

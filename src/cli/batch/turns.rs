@@ -35,7 +35,7 @@ pub struct Count {
 pub struct Turns<R, W> {
     input: Mutex<Input<R>>,
     output: Mutex<Output<W>>,
-    moved: Condvar,
+    turn_changed: Condvar,
     most: usize,
 }
 
@@ -66,7 +66,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
         Self {
             input: Mutex::new(Input { reader, name: name.to_owned(), read: 0, given: 0 }),
             output: Mutex::new(output),
-            moved: Condvar::new(),
+            turn_changed: Condvar::new(),
             most: MAX_WAITING_PER_JOB * jobs,
         }
     }
@@ -77,7 +77,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
             match self.next() {
                 Ok(Some((turn, line))) => {
                     let (text, is_object) = answer(&line);
-                    self.put(turn, text, is_object);
+                    self.write_in_order(turn, text, is_object);
                 }
                 Ok(None) => return,
                 Err(failure) => self.output().end(Err(failure)),
@@ -97,7 +97,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
     /// Waits until there is room to store another answer that is not yet due. Returns false if the work has ended.
     fn has_room(&self) -> bool {
         let is_full = |output: &mut Output<W>| output.ended.is_none() && output.waiting.len() >= self.most;
-        self.moved.wait_while(self.output(), is_full).unwrap_or_else(PoisonError::into_inner).ended.is_none()
+        self.turn_changed.wait_while(self.output(), is_full).unwrap_or_else(PoisonError::into_inner).ended.is_none()
     }
 
     /// Returns the next line that is not blank, and its number among the lines that are not blank.
@@ -132,7 +132,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
     }
 
     /// Writes an answer and those that waited for it. If earlier lines are not answered yet, stores it instead.
-    fn put(&self, turn: usize, text: String, is_object: bool) {
+    fn write_in_order(&self, turn: usize, text: String, is_object: bool) {
         let mut output = self.output();
         output.count.lines += 1;
         output.count.objects += usize::from(is_object);
@@ -149,7 +149,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
             Err(error) => output.end(Err(Failure::Option(format!("stdout: {error}")))),
             Ok(()) => (),
         }
-        self.moved.notify_all();
+        self.turn_changed.notify_all();
     }
 
     fn output(&self) -> MutexGuard<'_, Output<W>> {

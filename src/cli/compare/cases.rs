@@ -48,7 +48,7 @@ impl Case {
     pub fn problem(&self) -> Cow<'_, MotionProblem> {
         match self.query {
             None => Cow::Borrowed(&self.base),
-            Some([start, goal]) => Cow::Owned(asked(&self.base, start, goal)),
+            Some([start, goal]) => Cow::Owned(with_query(&self.base, start, goal)),
         }
     }
 
@@ -58,7 +58,7 @@ impl Case {
     }
 }
 
-fn asked(base: &MotionProblem, start: Configuration, goal: Configuration) -> MotionProblem {
+fn with_query(base: &MotionProblem, start: Configuration, goal: Configuration) -> MotionProblem {
     MotionProblem::trusted(base.scene().clone(), start, goal)
 }
 
@@ -69,7 +69,7 @@ impl Cases {
     /// All diagnostics of all files together.
     pub fn load(args: &CompareArgs) -> Result<Self, Failure> {
         let suite = match (&args.urdf, &args.world, &args.suite) {
-            (Some(urdf), Some(world), _) => one(input::load_scene(args.xacro.robot(urdf), world)?),
+            (Some(urdf), Some(world), _) => single_robot_suite(input::load_scene(args.xacro.robot(urdf), world)?),
             (Some(urdf), None, Some(folder)) => input::load_folder(args.xacro.robot(urdf), folder)?,
             (_, _, Some(place)) => input::load_suite(place)?,
             _ => return Err(Failure::Usage("URDF and WORLD are required, or --suite".into())),
@@ -82,7 +82,7 @@ impl Cases {
     /// # Errors
     /// The errors of [`Cases::load`].
     pub fn of_scene(scene: LoadedScene, args: &CompareArgs) -> Result<Self, Failure> {
-        Self::of_suite(one(scene), args)
+        Self::of_suite(single_robot_suite(scene), args)
     }
 
     fn of_suite(suite: Suite, args: &CompareArgs) -> Result<Self, Failure> {
@@ -139,7 +139,7 @@ impl Cases {
 }
 
 /// Returns a suite of problems that consists of one robot in its world.
-fn one(scene: LoadedScene) -> Suite {
+fn single_robot_suite(scene: LoadedScene) -> Suite {
     let name = scene.scene.workspace().name.clone();
     Suite {
         files: scene.files(),
@@ -180,7 +180,7 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure
         if member.scene.has_steps() {
             member.scene.clone().problem(overrides)?;
         }
-        let scene = member.scene.keeping(overrides.clearance)?.scene;
+        let scene = member.scene.with_clearance(overrides.clearance)?.scene;
         let nowhere = Configuration::zeros();
         Ok((member.name, MotionProblem::trusted(scene, nowhere, nowhere)))
     };

@@ -44,7 +44,7 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
     let files = || sinks.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(Sink::path));
     sinks::distinct(files())?;
     let cases = Cases::load(args)?;
-    sinks::spare_inputs(files(), &cases.files)?;
+    sinks::refuse_to_overwrite_inputs(files(), &cases.files)?;
     let ignored = args.with.iter().flat_map(Variant::ignored);
     cases.warnings.iter().cloned().chain(ignored).for_each(|w| sinks::print_status(&format!("warning: {w}")));
     for Refusal { problem, reason, .. } in &cases.refused {
@@ -53,8 +53,8 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
     if !args.quiet {
         cases.left_out.iter().for_each(|line| sinks::print_status(&format!("note: {line}")));
     }
-    let started = started::now();
-    let (study, done) = measured(args, &cases, program.meter)?;
+    let started = started::current_time();
+    let (study, done) = run_planners(args, &cases, program.meter)?;
     for sink in &pictures {
         if let (Sink::Picture(format, path), [comparison]) = (sink, &study.comparisons[..]) {
             drawings::save(&cases.cases[0], comparison, &done.paths[0], *format, path)?;
@@ -91,7 +91,7 @@ pub fn compare_in(scene: LoadedScene, words: &[String]) -> Result<Study, Failure
             "options for printed output, files and pictures are for the program, not for callers of the library";
         return Err(Failure::Usage(message.into()));
     }
-    Ok(measured(&args, &Cases::of_scene(scene, &args)?, None)?.0)
+    Ok(run_planners(&args, &Cases::of_scene(scene, &args)?, None)?.0)
 }
 
 /// The arguments of `cplan compare`, for callers from a library.
@@ -106,7 +106,7 @@ struct CompareWords {
 ///
 /// # Errors
 /// Options that do not suit a world, and motions that cannot be timed with the options.
-fn measured(
+fn run_planners(
     args: &CompareArgs,
     cases: &Cases,
     meter: Option<MemoryMeter>,
@@ -134,7 +134,7 @@ fn measured(
 /// Returns the exit code. It is that of a failure if planners contradict each other, or if a problem could not be run
 /// (although all others have been run). Otherwise, it is that of the best answer to a single problem.
 fn exit_code(study: &Study, is_single: bool) -> u8 {
-    match study.settled() {
+    match study.outcome_counts() {
         _ if !study.alarms().is_empty() || !study.refused.is_empty() => BAD_INPUT,
         _ if !is_single => DONE,
         [0, 0, _] => UNKNOWN,
@@ -161,8 +161,8 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
         let mut entries = plain.clone();
         for variant in &args.with {
             let preferences = &case.base().scene().workspace().preferences;
-            let (planner, levels) = variant.or_from(&args.effort);
-            if let Some(lack) = planner.lack(preferences) {
+            let (planner, levels) = variant.completed_by(&args.effort);
+            if let Some(lack) = planner.missing_preference(preferences) {
                 return Err(Failure::Usage(if args.is_single() { lack } else { format!("{}: {lack}", case.name) }));
             }
             entries.push(Entry { label: variant.label.clone(), options: options(args, planner, levels) });

@@ -6,7 +6,7 @@ use crate::cli::progress::Progress;
 use crate::cli::sinks;
 use crate::engine::{Motion, Options, PlanError, Problem, bound, plan};
 use crate::model::{MotionProblem, Outcome, Status};
-use crate::parallel::in_order;
+use crate::parallel::run_in_order;
 use crate::planner::PathKind;
 use crate::report::{Comparison, OtherPath, Row};
 use crate::space::{Metric, Path};
@@ -62,10 +62,10 @@ impl Runner<'_> {
         let clock = Instant::now();
         let width = self.entries.first().map_or(0, Vec::len);
         // Each problem begins with another planner, because the first one to run fills the caches for the others.
-        let runs = self.all(cases.cases.len() * width, |i| {
+        let runs = self.results_in_order(cases.cases.len() * width, |i| {
             let (number, turn) = (i / width, i % width);
             let case = &cases.cases[number];
-            self.one(case, &self.entries[case.world][(number + turn) % width], i == 0)
+            self.measure_run(case, &self.entries[case.world][(number + turn) % width], i == 0)
         });
         let mut runs = runs.into_iter();
         let mut comparisons = Vec::new();
@@ -87,7 +87,7 @@ impl Runner<'_> {
         let gaps = self.entries.iter().flatten().filter_map(|entry| entry.options.planner.gap());
         let gap = gaps.map(|gap| gap / 2.0).fold(BOUND_GAP, f64::min);
         let lower = |i: usize| lower_bound(&cases.cases[i].problem(), paths[i].iter().flatten(), gap);
-        let bounds = self.all(cases.cases.len(), lower);
+        let bounds = self.results_in_order(cases.cases.len(), lower);
         for (comparison, bound) in comparisons.iter_mut().zip(bounds) {
             comparison.bound = bound;
         }
@@ -96,9 +96,9 @@ impl Runner<'_> {
     }
 
     /// Calls `work` for the numbers below `count`, on as many threads as there are jobs. Returns the results in order.
-    fn all<T: Send>(&self, count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    fn results_in_order<T: Send>(&self, count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
         let mut results = Vec::with_capacity(count);
-        let Ok(()) = in_order(count, self.jobs, work, |result| {
+        let Ok(()) = run_in_order(count, self.jobs, work, |result| {
             results.push(result);
             Ok::<_, Infallible>(())
         });
@@ -107,7 +107,7 @@ impl Runner<'_> {
 
     /// Measures one run. Before the very first one, it makes a coarse run, so that the measured time does not include
     /// loading the program.
-    fn one(&self, case: &Case, entry: &Entry, is_first: bool) -> RunResult {
+    fn measure_run(&self, case: &Case, entry: &Entry, is_first: bool) -> RunResult {
         self.progress.begin(&case.name, &entry.label);
         let problem = Problem::from(case.problem().into_owned());
         let options = &entry.options;

@@ -3,7 +3,7 @@
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 /// Returns the present time, such as `2026-11-21 14:03:53 UTC`.
-pub fn now() -> String {
+pub fn current_time() -> String {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or(Duration::ZERO);
     written(since.as_secs())
 }
@@ -28,7 +28,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn known_moments() {
+    fn known_times_are_written() {
         assert_eq!(written(0), "1970-01-01 00:00:00 UTC");
         assert_eq!(written(951_782_399), "2000-02-28 23:59:59 UTC");
         assert_eq!(written(951_782_400), "2000-02-29 00:00:00 UTC");
@@ -38,7 +38,7 @@ mod tests {
 
     /// Tests that dates agree with a simple calendar, day by day for two centuries.
     #[test]
-    fn every_day_of_two_centuries() {
+    fn every_day_of_two_centuries_agrees_with_a_simple_calendar() {
         let (mut year, mut month, mut day) = (1970, 1, 1);
         for days in 0..73_000_u64 {
             assert_eq!(written(days * 86_400), format!("{year:04}-{month:02}-{day:02} 00:00:00 UTC"));

@@ -23,7 +23,7 @@ pub(super) fn note(taken: &[ImportedObstacle], notes: &mut Notes) {
                 "\"{name}\" is solid and encloses everything else: --walls {option} makes it a wall, --without {option} leaves it out"
             );
             notes.add(message, shape.line);
-        } else if holds(shape, [0.0, 0.0]) {
+        } else if solid_contains(shape, [0.0, 0.0]) {
             let message = format!(
                 "\"{name}\" covers (0, 0), the arm's base: --without {option} leaves it out, --move shifts the drawing"
             );
@@ -49,7 +49,8 @@ fn bounds(points: impl Iterator<Item = [f64; 2]>) -> Bounds {
 /// Returns the index of the solid that surrounds all others. Returns `None` if there is none. Drawings often contain
 /// the walls of a room, or the reach of an arm, as such a solid.
 fn border(taken: &[ImportedObstacle], bounds: &[Bounds]) -> Option<usize> {
-    let holds = |i: usize, j: usize| (0..2).all(|k| bounds[i][k].0 < bounds[j][k].0 && bounds[j][k].1 < bounds[i][k].1);
+    let surrounds =
+        |i: usize, j: usize| (0..2).all(|k| bounds[i][k].0 < bounds[j][k].0 && bounds[j][k].1 < bounds[i][k].1);
     let is_solid = |shape: &Shape| match &shape.geometry {
         Geometry::Polygon { holes, .. } => holes.is_empty(),
         Geometry::Circle { .. } => true,
@@ -59,11 +60,12 @@ fn border(taken: &[ImportedObstacle], bounds: &[Bounds]) -> Option<usize> {
     let width = |i: usize| bounds[i][0].1 - bounds[i][0].0;
     let widest = (0..taken.len()).max_by(|&i, &j| width(i).total_cmp(&width(j)))?;
     let others = (0..taken.len()).filter(|&j| j != widest);
-    (taken.len() > 1 && is_solid(&taken[widest].shape) && others.clone().all(|j| holds(widest, j))).then_some(widest)
+    (taken.len() > 1 && is_solid(&taken[widest].shape) && others.clone().all(|j| surrounds(widest, j)))
+        .then_some(widest)
 }
 
 /// Returns true if a point of the world lies in a solid.
-fn holds(shape: &Shape, point: [f64; 2]) -> bool {
+fn solid_contains(shape: &Shape, point: [f64; 2]) -> bool {
     let within = |ring: &[[f64; 2]]| {
         let ring: Vec<[f64; 2]> = ring.iter().map(|&p| placed(shape, p)).collect();
         let next = ring.iter().cycle().skip(1);

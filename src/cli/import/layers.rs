@@ -45,11 +45,11 @@ pub(super) struct Layers<'a> {
 /// Returns true if an obstacle is called `name`. That may be its own name, its layer, or the hidden layer of the block
 /// that contains it.
 fn is_called(taken: &ImportedObstacle, name: &str) -> bool {
-    is_same(&taken.name, name) || taken.shape.called().iter().any(|own| is_same(own, name))
+    equals_ignoring_case(&taken.name, name) || taken.shape.called().iter().any(|own| equals_ignoring_case(own, name))
 }
 
 /// Returns true if two names are equal, ignoring upper and lower case.
-fn is_same(name: &str, other: &str) -> bool {
+fn equals_ignoring_case(name: &str, other: &str) -> bool {
     name.to_lowercase() == other.to_lowercase()
 }
 
@@ -77,8 +77,8 @@ impl Layers<'_> {
     }
 
     /// Returns true if the options select an obstacle that has one of these names.
-    pub fn asks_for(&self, names: &[String]) -> bool {
-        let among = |asked: &[String]| asked.iter().any(|name| names.iter().any(|own| is_same(own, name)));
+    pub fn selects(&self, names: &[String]) -> bool {
+        let among = |asked: &[String]| asked.iter().any(|name| names.iter().any(|own| equals_ignoring_case(own, name)));
         (self.only.is_empty() || among(self.only)) && !among(self.without)
     }
 
@@ -94,7 +94,7 @@ impl Layers<'_> {
             }
             // An obstacle that only its own layer selects may still be in a block that is hidden as a whole.
             let shape = &taken.shape;
-            let is_asked_for = |own: &String| self.only.iter().any(|name| is_same(own, name));
+            let is_asked_for = |own: &String| self.only.iter().any(|name| equals_ignoring_case(own, name));
             let is_taken = || {
                 [shape.hidden_by.as_ref(), shape.name.as_ref(), Some(&taken.name)]
                     .into_iter()

@@ -15,7 +15,7 @@ use super::sinks::{self, Sink};
 use crate::draw;
 use crate::input::{self, Diagnostic, Position, Source, World};
 use crate::motion::{check_writable, write_whole_set};
-use crate::output::laid_out;
+use crate::output::format_columns;
 use crate::text::{counted, plain_line};
 use cplan_drawing::{Drawing, Format, Note, Settings};
 use layers::Layers;
@@ -67,7 +67,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     })?;
     let pictures = sinks(args)?;
     let bytes = input::read_bytes(&args.drawing)?;
-    sinks::spare_inputs(
+    sinks::refuse_to_overwrite_inputs(
         pictures.iter().map(Sink::path).chain(args.output.as_deref()),
         std::slice::from_ref(&args.drawing),
     )?;
@@ -79,7 +79,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let Drawing { shapes, mut notes } = drawing;
     let shift = args.shift.unwrap_or_default();
     let placement = Placement { turn: args.turn, shift };
-    let found = obstacles::found(shapes, &placement, &mut notes);
+    let found = obstacles::obstacles_of_drawing(shapes, &placement, &mut notes);
     let layers = Layers {
         only: &args.layer,
         without: &args.without,
@@ -92,7 +92,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     obstacles::within_reach(&taken, placement.shift).map_err(|diagnostic| refused(args, diagnostic))?;
     advice::note(&taken, &mut notes);
     let known: HashSet<Vec<String>> = taken.iter().map(|taken| taken.shape.called()).collect();
-    let is_told = |names: &[String]| layers.asks_for(names) || known.contains(names);
+    let is_told = |names: &[String]| layers.selects(names) || known.contains(names);
     let notes: Vec<String> = notes.of(is_told).iter().map(Note::to_string).collect();
     if taken.is_empty() {
         let cure = match args.without.is_empty() {
@@ -184,7 +184,7 @@ fn summary(args: &ImportArgs, taken: &[ImportedObstacle], notes: &[String], worl
     if let Some(path) = &args.output {
         lines.push(("next", next(args, path)));
     }
-    laid_out(&lines)
+    format_columns(&lines)
 }
 
 /// Returns the command that plans in the imported world. Values that the user must fill in are in capitals.

@@ -60,7 +60,11 @@ pub(super) fn rounded(value: f64) -> f64 {
 
 /// Returns the obstacles of a drawing, with their names in the world. An outline that crosses itself is replaced by the
 /// area that it encloses, or by thin walls if the area is too narrow.
-pub(super) fn found(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes) -> Vec<ImportedObstacle> {
+pub(super) fn obstacles_of_drawing(
+    shapes: Vec<Shape>,
+    placement: &Placement,
+    notes: &mut Notes,
+) -> Vec<ImportedObstacle> {
     let mut sound: Vec<Shape> = Vec::new();
     for shape in shapes {
         let frame = shape.frame.as_ref();
@@ -86,17 +90,17 @@ pub(super) fn found(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes
             }
             Geometry::Polygon { outer, holes } => {
                 let holes = holes.into_iter().map(|hole| placement.ring(hole, frame)).collect();
-                untangled(placement.ring(outer, frame), holes, &shape, notes)
+                untangle(placement.ring(outer, frame), holes, &shape, notes)
             }
         };
         let frame = frame.map(|frame| placement.frame(*frame));
         sound.extend(geometries.into_iter().map(|geometry| Shape { geometry, frame, ..shape.clone() }));
     }
-    named(sound)
+    name_obstacles(sound)
 }
 
 /// Returns the area that rings enclose as polygons that do not cross themselves.
-fn untangled(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Notes) -> Vec<Geometry> {
+fn untangle(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Notes) -> Vec<Geometry> {
     if is_sound(&outer, &holes) {
         return vec![Geometry::Polygon { outer, holes }];
     }
@@ -130,7 +134,7 @@ pub(super) fn within_reach(taken: &[ImportedObstacle], shift: [f64; 2]) -> Resul
         let farthest = greatest(&mut coordinates(shape).flatten());
         let highest = greatest(&mut shape.height.into_iter().flatten());
         let (what, value, help) = if farthest > MAX_LENGTH {
-            ("a coordinate", farthest, far_off(taken, shift))
+            ("a coordinate", farthest, distance_hint(taken, shift))
         } else {
             ("a height", highest, "give its extent with --height, or the drawing's --unit".into())
         };
@@ -145,7 +149,7 @@ pub(super) fn within_reach(taken: &[ImportedObstacle], shift: [f64; 2]) -> Resul
 
 /// Returns a hint for a drawing that is far from the arm. It suggests a move, in whole metres, that brings the middle
 /// of the drawing to the arm. If the drawing is too large for that, the hint suggests something else.
-fn far_off(taken: &[ImportedObstacle], shift: [f64; 2]) -> String {
+fn distance_hint(taken: &[ImportedObstacle], shift: [f64; 2]) -> String {
     let points: Vec<[f64; 2]> = taken.iter().flat_map(|taken| coordinates(&taken.shape)).collect();
     let ends = |k: usize| {
         let values = || points.iter().map(|p| p[k]);
@@ -184,7 +188,7 @@ const MISSING_NAMES: [&str; 2] = ["", "0"];
 
 /// Gives each obstacle a unique name: its own, or that of its layer. If several obstacles share it, a number is added.
 /// Hidden obstacles are numbered after visible ones, so that names do not depend on the selection.
-fn named(shapes: Vec<Shape>) -> Vec<ImportedObstacle> {
+fn name_obstacles(shapes: Vec<Shape>) -> Vec<ImportedObstacle> {
     let base = |shape: &Shape| {
         let name = shape
             .name

@@ -98,7 +98,7 @@ pub struct VerifyArgs {
 /// check.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks_with(&[], &args.picture, args.certificate.as_deref())?;
-    let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.keeping(args.clearance)?;
+    let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
     let about = Digests::of(&args.files.robot(), &args.files.world, &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let mut recorded = match &args.topic {
@@ -109,7 +109,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
         loaded = loaded.keeping_efforts()?;
     }
     let inputs: Vec<_> = loaded.files().into_iter().chain([args.trajectory.clone()]).collect();
-    sinks::spare_inputs(sinks.iter().map(Sink::path), &inputs)?;
+    sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path), &inputs)?;
     let scene = &loaded.scene;
     if args.unwrap {
         recorded.recording = recorded.recording.unwrapped(&scene.arm().topology());

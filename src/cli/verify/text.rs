@@ -5,7 +5,7 @@ use crate::engine::findings::{
     CollisionFinding, EncounterFinding, Judgement, LimitFinding, MomentFinding, MotionFindings, StepFinding,
 };
 use crate::model::Arm;
-use crate::output::{Line, StepLine, configuration, laid_out, step_lines};
+use crate::output::{Line, StepLine, configuration, format_columns, step_lines};
 use crate::space::Recording;
 use crate::text::{counted, format_distinct, length, length_down, nonzero};
 
@@ -34,11 +34,11 @@ pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFinding
     lines.extend(findings.steps.iter().flat_map(|steps| rows(steps)).map(|row| ("step", row)));
     lines.push(("arm", format!("{} ({})", arm.name, arm.kind())));
     lines.extend(findings.notes.iter().map(|note| ("note", note.clone())));
-    laid_out(&lines)
+    format_columns(&lines)
 }
 
 /// Describes the time or the place of a moment in words.
-fn when(m: &MomentFinding) -> String {
+fn format_moment(m: &MomentFinding) -> String {
     match (m.time, m.waypoint) {
         (Some(time), _) => format!("at {time:.6} s (sample {})", m.sample),
         (None, waypoint) => format!("at waypoint {:.4}", waypoint.unwrap_or_default()),
@@ -48,7 +48,7 @@ fn when(m: &MomentFinding) -> String {
 /// Returns lines about the collisions along the motion, and about its clearance.
 fn collisions(arm: &Arm, collisions: &CollisionFinding, verdict: Judgement) -> Vec<Line> {
     let place = |e: &EncounterFinding| {
-        format!("{} {}, {}", e.pair, when(&e.moment), configuration(arm, e.moment.configuration.into()))
+        format!("{} {}, {}", e.pair, format_moment(&e.moment), configuration(arm, e.moment.configuration.into()))
     };
     let depth = |e: &EncounterFinding| match e.depth {
         d if (0.0..TOUCHING_DEPTH).contains(&d) => "just touching".into(),
@@ -106,7 +106,7 @@ fn broken(arm: &Arm, limit: &LimitFinding) -> String {
         Limit::RestAtStart => format!("starts at {value} {unit}/s, not at rest"),
         Limit::RestAtEnd => format!("ends at {value} {unit}/s, not at rest"),
     };
-    format!("{}: {what}, {}", limit.joint, when(&limit.moment))
+    format!("{}: {what}, {}", limit.joint, format_moment(&limit.moment))
 }
 
 /// Describes the turn of the wrist in which the payload hits an obstacle. Returns `None` if it hits nothing.
@@ -134,7 +134,7 @@ fn rows(steps: &[StepFinding]) -> Vec<String> {
         };
         let motion = format!("{:.3} s{turn}, {found}", step.seconds);
         let columns = [format!("{}{cycle}", step.step), step.action.clone(), carried, motion];
-        StepLine { cycle: step.cycle, matters: step.verdict != Judgement::Free, columns }
+        StepLine { cycle: step.cycle, is_listed: step.verdict != Judgement::Free, columns }
     };
     step_lines(&steps.iter().map(line).collect::<Vec<_>>())
 }

@@ -51,7 +51,7 @@ fn arrival(direction: f64, epsilon: f64, from: [i64; 2]) -> f64 {
 }
 
 /// Returns the size of the turn from one direction to another.
-fn apart(a: f64, b: f64) -> f64 {
+fn angle_between(a: f64, b: f64) -> f64 {
     ((a - b + PI).rem_euclid(2.0 * PI) - PI).abs()
 }
 
@@ -65,7 +65,7 @@ fn ratio(x: f64) -> f64 {
 
 /// Returns the bearing that a path has in open space at this distance. Along a path, the angle `f` between `x` and `v`
 /// changes by `sin f / (cos f + K1/K0)` for each factor `1 / e` of the distance.
-fn expected(direction: f64, epsilon: f64, from: [i64; 2], distance: f64) -> f64 {
+fn expected_bearing(direction: f64, epsilon: f64, from: [i64; 2], distance: f64) -> f64 {
     let [x, y] = from.map(|k| k as f64);
     let (r, at) = (x.hypot(y), y.atan2(x));
     let side = (at - direction + PI).rem_euclid(2.0 * PI) - PI;
@@ -89,8 +89,8 @@ fn paths_arrive_along_the_drift_unless_they_start_behind_the_goal() {
             let [x, y] = from.map(|k| k as f64);
             let behind = epsilon * (x.hypot(y) - x * direction.cos() - y * direction.sin());
             let arrives = arrival(direction, epsilon, from);
-            let off = apart(arrives, direction);
-            let straight = apart((-y).atan2(-x), direction);
+            let off = angle_between(arrives, direction);
+            let straight = angle_between((-y).atan2(-x), direction);
             assert!(off <= straight + 0.2, "from {from:?}, {degrees} degrees: the path turns away from the drift");
             if behind >= 6.0 {
                 along += 1;
@@ -113,9 +113,9 @@ fn path_bearings_agree_with_the_closed_form() {
         let direction = f64::from(degrees).to_radians();
         let path = path(direction, 1.0, from);
         for distance in [5.0, 3.0] {
-            let (ours, theory) = (bearing(&path, distance), expected(direction, 1.0, from, distance));
+            let (ours, theory) = (bearing(&path, distance), expected_bearing(direction, 1.0, from, distance));
             assert!(
-                apart(ours, theory) < 12_f64.to_radians(),
+                angle_between(ours, theory) < 12_f64.to_radians(),
                 "{degrees} degrees from {from:?}, at {distance}: {}, not {}",
                 ours.to_degrees(),
                 theory.to_degrees()

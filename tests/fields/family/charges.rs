@@ -25,7 +25,7 @@ proptest! {
     /// Checks the sum term by term. On circles, the shorter direction counts. At limits with a high value, a frame of
     /// one cell counts as obstacles.
     #[test]
-    fn the_sum_is_that_over_all_obstacle_cells(
+    fn the_charge_is_summed_over_all_obstacle_cells(
         (rows, columns, blocked) in (1..9_usize, 1..9_usize).prop_flat_map(|(rows, columns)| {
             (Just(rows), Just(columns), proptest::collection::vec(proptest::bool::weighted(0.3), rows * columns))
         }),

@@ -113,7 +113,7 @@ fn the_scan_is_best_at_the_theoretical_factor() {
     };
     let mut heard = 0;
     let measured = convergence(&setup, &mut |_| heard += 1).unwrap();
-    assert_eq!((measured.courses.len(), measured.factors.len(), measured.strengths.len(), heard), (8, 1, 2, 4));
+    assert_eq!((measured.runs.len(), measured.factors.len(), measured.strengths.len(), heard), (8, 1, 2, 4));
     let rate = jacobi_rate([20, 30], &Equation::Harmonic);
     let theory = 2.0 / (1.0 + (1.0 - rate * rate).sqrt());
     let scan = &measured.factors[0];
@@ -125,21 +125,21 @@ fn the_scan_is_best_at_the_theoretical_factor() {
     let after: Vec<usize> = scan.points.iter().filter(|p| p.at > theory + 0.02).map(|p| p.sweeps).collect();
     assert!(after.len() > 3 && after.windows(2).all(|w| w[0] < w[1]), "{after:?}");
     // Each scan has the results of the relaxation that it varies.
-    let gauss_seidel = measured.courses.iter().find(|c| c.relaxation == Relaxation::gauss_seidel(ROWS)).unwrap();
+    let gauss_seidel = measured.runs.iter().find(|c| c.relaxation == Relaxation::gauss_seidel(ROWS)).unwrap();
     assert_eq!((scan.points[0].at, scan.points[0].sweeps), (1.0, gauss_seidel.trace.sweeps));
     assert!(measured.strengths.iter().all(|s| s.points[0].sweeps == gauss_seidel.trace.sweeps));
     // Jacobi's eigenvalues lie between minus the rate and the rate. So a weight above 2 / (1 + rate) diverges, and the
     // best weight is 1 or slightly less.
     let weights = &measured.weights[0];
-    let jacobi = measured.courses.iter().find(|c| c.relaxation == Relaxation::JACOBI).unwrap();
+    let jacobi = measured.runs.iter().find(|c| c.relaxation == Relaxation::JACOBI).unwrap();
     let at_one = weights.points.iter().find(|point| point.at == 1.0).unwrap();
     assert_eq!((at_one.sweeps, at_one.ending), (jacobi.trace.sweeps, jacobi.trace.ending));
     assert!((0.9..=1.0).contains(&weights.best().unwrap().at), "{:?}", weights.best());
-    assert_eq!(weights.lost_from().map(|p| p.at), Some(1.05), "the first above {}", 2.0 / (1.0 + rate));
+    assert_eq!(weights.divergence_start().map(|p| p.at), Some(1.05), "the first above {}", 2.0 / (1.0 + rate));
     assert_eq!(weights.points.len(), 12);
     let [central, upwind] = &measured.strengths[..] else { panic!("two") };
-    assert_eq!(upwind.lost_from(), None);
-    assert!((3.8..4.4).contains(&central.lost_from().unwrap().at), "{:?}", central.lost_from());
+    assert_eq!(upwind.divergence_start(), None);
+    assert!((3.8..4.4).contains(&central.divergence_start().unwrap().at), "{:?}", central.divergence_start());
 }
 
 #[test]

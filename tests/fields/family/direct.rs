@@ -19,14 +19,14 @@ pub fn drawn(text: &str, boundaries: [Boundary; 2], levels: Levels) -> Domain {
 
 /// The neighbour of a cell in one direction along an axis.
 #[derive(Clone, Copy, PartialEq)]
-enum There {
+enum NeighborCell {
     Cell(usize),
     Obstacle,
     Same,
 }
 
 /// Returns the neighbour of `cell` along `axis`, forwards or backwards.
-fn there(domain: &Domain, cell: usize, axis: usize, step: i64) -> There {
+fn neighbor(domain: &Domain, cell: usize, axis: usize, step: i64) -> NeighborCell {
     let [rows, columns] = domain.cells().map(|n| n as i64);
     let mut at = [cell as i64 / columns, cell as i64 % columns];
     at[axis] += step;
@@ -34,19 +34,19 @@ fn there(domain: &Domain, cell: usize, axis: usize, step: i64) -> There {
     if !(0..n).contains(&at[axis]) {
         match domain.boundaries()[axis] {
             Boundary::Periodic => at[axis] = at[axis].rem_euclid(n),
-            Boundary::High => return There::Obstacle,
-            Boundary::Reflecting => return There::Same,
+            Boundary::High => return NeighborCell::Obstacle,
+            Boundary::Reflecting => return NeighborCell::Same,
         }
     }
-    There::Cell((at[0] * columns + at[1]) as usize)
+    NeighborCell::Cell((at[0] * columns + at[1]) as usize)
 }
 
 /// Returns the value of a neighbour of a cell. `values` has the values of all cells.
 fn value(domain: &Domain, values: &[f64], cell: usize, axis: usize, step: i64) -> f64 {
-    match there(domain, cell, axis, step) {
-        There::Cell(next) => values[next],
-        There::Obstacle => domain.levels().obstacle,
-        There::Same => values[cell],
+    match neighbor(domain, cell, axis, step) {
+        NeighborCell::Cell(next) => values[next],
+        NeighborCell::Obstacle => domain.levels().obstacle,
+        NeighborCell::Same => values[cell],
     }
 }
 
@@ -71,14 +71,14 @@ fn solve(domain: &Domain, drift: impl Fn(usize) -> [f64; 2], difference: Differe
             continue;
         }
         // Adds `factor` times the value of a neighbour to the cell's equation.
-        let mut add = |to: There, factor: f64| match to {
-            There::Cell(next) => matrix[(cell, next)] += factor,
-            There::Obstacle => right[cell] -= factor * domain.levels().obstacle,
-            There::Same => matrix[(cell, cell)] += factor,
+        let mut add = |to: NeighborCell, factor: f64| match to {
+            NeighborCell::Cell(next) => matrix[(cell, next)] += factor,
+            NeighborCell::Obstacle => right[cell] -= factor * domain.levels().obstacle,
+            NeighborCell::Same => matrix[(cell, cell)] += factor,
         };
         for axis in [0, 1] {
             let (before, here, after) =
-                (there(domain, cell, axis, -1), There::Cell(cell), there(domain, cell, axis, 1));
+                (neighbor(domain, cell, axis, -1), NeighborCell::Cell(cell), neighbor(domain, cell, axis, 1));
             let side = [1.0, 1.0 / domain.beta()][axis];
             for (place, factor) in [(before, 1.0), (here, -2.0), (after, 1.0)] {
                 add(place, factor / (side * side));

@@ -60,7 +60,7 @@ fn too_much_drift_for_central_differences_diverges_and_upwind_bears_it() {
 }
 
 #[test]
-fn numbers_that_are_none_are_never_converged() {
+fn nan_never_counts_as_converged() {
     for measure in MEASURES {
         let mut start = room().start();
         start[37] = f64::NAN;

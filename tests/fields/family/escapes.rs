@@ -7,7 +7,7 @@ use cplan::field::{Attraction, Escape, FreeCells, Khatib, Limits, Neighborhood, 
 use cplan::planner::{FieldChoice, FieldPlanner, Note, PathKind, Run};
 use proptest::prelude::*;
 
-fn by(escape: Option<Escape>) -> FieldPlanner {
+fn field_planner(escape: Option<Escape>) -> FieldPlanner {
     let laws = Khatib {
         attraction: Attraction::Linear(0.7),
         repulsion: Repulsion::Ranged { gain: 2.0, range: 3.0 },
@@ -16,7 +16,7 @@ fn by(escape: Option<Escape>) -> FieldPlanner {
     FieldPlanner { field: FieldChoice::Khatib(laws), limits: Limits::Reflecting, escape, path: PathKind::Own }
 }
 
-fn escaped(run: &Run) -> (&'static str, usize, usize) {
+fn escape_counts(run: &Run) -> (&'static str, usize, usize) {
     match run.note {
         Some(Note::Escaped { how, minima, moves }) => (how, minima, moves),
         note => panic!("{note:?}"),
@@ -25,7 +25,7 @@ fn escaped(run: &Run) -> (&'static str, usize, usize) {
 
 /// Samples a path densely, and checks that every point is in a free cell. For a point on the side between two cells, it
 /// suffices that one of them is free.
-fn stays_free(grid: &Grid, run: &Run) {
+fn check_path_is_free(grid: &Grid, run: &Run) {
     for (a, b) in found(run).segments() {
         for k in 0..=40 {
             let q = a + (b - a) * (f64::from(k) / 40.0);
@@ -40,23 +40,24 @@ fn stays_free(grid: &Grid, run: &Run) {
 fn escapes_from_the_u_are_reported() {
     let (grid, start, goal) = u_trap();
     let zoned = ZonedGrid::new(grid, &scene(Vec::new()));
-    assert!(reason(&run(by(None), &zoned, start, goal)).contains("local minimum at ("));
+    assert!(reason(&run(field_planner(None), &zoned, start, goal)).contains("local minimum at ("));
     for escape in [Escape::Wave, Escape::Walk { seed: 1 }, Escape::Walk { seed: 2 }] {
-        let out = run(by(Some(escape)), &zoned, start, goal);
-        stays_free(&zoned.grid, &out);
+        let out = run(field_planner(Some(escape)), &zoned, start, goal);
+        check_path_is_free(&zoned.grid, &out);
         assert_eq!(found(&out).goal(), zoned.grid.center(goal));
-        let (how, minima, moves) = escaped(&out);
+        let (how, minima, moves) = escape_counts(&out);
         // The path leaves the trap over at least seven cells, and returns along its side.
         assert!(
             how == escape.description() && minima >= 1 && moves >= 10,
             "{escape:?}: {minima} minima, {moves} moves"
         );
-        assert_eq!(run(by(Some(escape)), &zoned, start, goal), out, "{escape:?} is the same each time");
+        assert_eq!(run(field_planner(Some(escape)), &zoned, start, goal), out, "{escape:?} is the same each time");
         let text = out.note.unwrap().to_string();
         let method = if escape == Escape::Wave { "by a wave over the basin" } else { "by random walks" };
         assert!(text.starts_with("escaped from ") && text.contains(method), "{text}");
     }
-    let [one, two] = [1, 2].map(|seed| found(&run(by(Some(Escape::Walk { seed })), &zoned, start, goal)).clone());
+    let [one, two] =
+        [1, 2].map(|seed| found(&run(field_planner(Some(Escape::Walk { seed })), &zoned, start, goal)).clone());
     assert!(one != two, "another seed walks another way");
 }
 
@@ -67,9 +68,9 @@ fn paths_without_minima_are_unchanged() {
         &scene(Vec::new()),
     );
     let (start, goal) = (4 * 14, 13);
-    let plain = run(by(None), &zoned, start, goal);
+    let plain = run(field_planner(None), &zoned, start, goal);
     for escape in [Escape::Wave, Escape::Walk { seed: 5 }] {
-        let same = run(by(Some(escape)), &zoned, start, goal);
+        let same = run(field_planner(Some(escape)), &zoned, start, goal);
         assert_eq!((found(&same), same.note), (found(&plain), None));
     }
 }
@@ -89,11 +90,11 @@ proptest! {
         prop_assume!(!blocked[start] && !blocked[goal]);
         let zoned = ZonedGrid::new(grid([rows, columns], circles, blocked), &scene(Vec::new()));
         let labels = StepLabels::new(&FreeCells::new(&zoned.grid), &[goal], Neighborhood::Four).into_labels();
-        let out = run(by(Some(Escape::Wave)), &zoned, start, goal);
+        let out = run(field_planner(Some(Escape::Wave)), &zoned, start, goal);
         let is_found = matches!(out.outcome, cplan::planner::Proposal::Found(_));
         prop_assert_eq!(is_found, labels[start] != UNREACHED, "{:?}", out.outcome);
         if is_found {
-            stays_free(&zoned.grid, &out);
+            check_path_is_free(&zoned.grid, &out);
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::direct::{drawn, solution};
 use cplan::field::{
     Boundary, Difference, Direction, Domain, Equation, Factor, Influence, Levels, Lines, Measure, Order, RelaxError,
-    Relaxation, Scan, Scheme, Stopping, around, relax,
+    Relaxation, Scan, Scheme, Stopping, drift_around_robots, relax,
 };
 
 const ROOM: &str = "
@@ -51,7 +51,7 @@ fn equations(domain: &Domain) -> Vec<Equation> {
     for difference in [Difference::Central, Difference::Upwind] {
         equations.extend([
             Equation::Oriented { direction, epsilon: 0.8, difference },
-            Equation::LocallyOriented { drift: around(domain, &robots), difference },
+            Equation::LocallyOriented { drift: drift_around_robots(domain, &robots), difference },
             Equation::Preference { epsilon: epsilon.clone(), difference },
         ]);
     }

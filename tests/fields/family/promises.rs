@@ -77,7 +77,7 @@ pub fn monotone(n: usize) -> impl Strategy<Value = Equation> {
 }
 
 /// Generates relaxations without over-relaxation, for which the guarantees hold after any number of sweeps.
-fn cautious() -> impl Strategy<Value = Relaxation> {
+fn relaxations_with_guarantees() -> impl Strategy<Value = Relaxation> {
     prop_oneof![
         Just(Relaxation::JACOBI),
         Just(Relaxation::weighted_jacobi(0.6)),
@@ -91,7 +91,7 @@ fn cautious() -> impl Strategy<Value = Relaxation> {
 fn random_case() -> impl Strategy<Value = (Domain, Equation, Relaxation)> {
     random_domain().prop_flat_map(|domain| {
         let n = domain.kinds().len();
-        (Just(domain), monotone(n), cautious())
+        (Just(domain), monotone(n), relaxations_with_guarantees())
     })
 }
 
@@ -120,7 +120,7 @@ proptest! {
             let shut_in = (field.values[cell] - domain.levels().goal).abs() < 1e-9;
             if *kind == Cell::Free && !shut_in {
                 let way = descend(&domain, &field.values, cell);
-                prop_assert!(leads(&domain, &field.values, &way), "{way:?} in {:?}", field.values);
+                prop_assert!(leads_to_goal(&domain, &field.values, &way), "{way:?} in {:?}", field.values);
             }
         }
     }
@@ -129,7 +129,7 @@ proptest! {
 /// Returns true if a path reaches a goal, or if it ends beside a cell whose value is equal up to rounding. The second
 /// case occurs because reflecting limits can make a field exactly level around a cell. Then rounding decides whether
 /// the computed values are level, too, or have a minimum.
-fn leads(domain: &Domain, values: &[f64], way: &Result<Vec<usize>, DeadEnd>) -> bool {
+fn leads_to_goal(domain: &Domain, values: &[f64], way: &Result<Vec<usize>, DeadEnd>) -> bool {
     let Err(stuck) = way else { return true };
     let level = |neighbor: Neighbor| matches!(neighbor, Neighbor::Cell(n) if (values[n] - stuck.value).abs() < 1e-14);
     domain.boundaries().contains(&Boundary::Reflecting) && domain.neighbors(stuck.cell).into_iter().any(level)
@@ -145,7 +145,7 @@ fn rounding_noise_in_flat_fields_is_reported() {
     let field = relax(&domain, &Equation::Harmonic, &relaxation, &stopping).unwrap();
     for cell in (0..16).filter(|&cell| domain.kinds()[cell] == Cell::Free) {
         let way = descend(&domain, &field.values, cell);
-        assert!(leads(&domain, &field.values, &way), "{way:?} in {:?}", field.values);
+        assert!(leads_to_goal(&domain, &field.values, &way), "{way:?} in {:?}", field.values);
     }
 }
 

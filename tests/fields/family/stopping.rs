@@ -1,7 +1,7 @@
 //! Measures of a sweep, and areas in which robots have influence: small cases, computed by hand.
 
 use super::direct::drawn;
-use cplan::field::{Boundary, Equation, Influence, Levels, Measure, Relaxation, Stopping, around, relax};
+use cplan::field::{Boundary, Equation, Influence, Levels, Measure, Relaxation, Stopping, drift_around_robots, relax};
 
 /// Returns the value of a stopping measure after each of the first sweeps on the cells `#.G`, with walls above and
 /// below. In each sweep, the only free cell moves half of the remaining distance to 3/4.
@@ -59,7 +59,7 @@ fn each_cell_follows_the_nearest_robot_within_its_radius() {
         Influence { center: [1.0, 1.0], radius: 2.5, drift: [1.0, 0.0] },
         Influence { center: [1.0, 4.0], radius: 1.1, drift: [0.0, 1.0] },
     ];
-    let shown: Vec<char> = around(&domain, &robots)
+    let shown: Vec<char> = drift_around_robots(&domain, &robots)
         .into_iter()
         .map(|drift| {
             if drift == [1.0, 0.0] {

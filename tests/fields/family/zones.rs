@@ -54,7 +54,7 @@ proptest! {
 }
 
 #[test]
-fn of_several_that_hold_the_last_counts() {
+fn the_last_of_overlapping_regions_counts() {
     let arm = torus();
     let topology = arm.topology();
     let preferences = vec![

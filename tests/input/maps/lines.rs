@@ -203,7 +203,7 @@ fn malformed_preferences_are_refused_with_their_line() {
 }
 
 #[test]
-fn tables_that_make_no_map_are_refused() {
+fn tables_that_define_no_map_are_refused() {
     for (from, to, parts) in [
         ("room.map", "attic.map", &["world.toml: line 4, column 8", "map: there is no file", "attic.map"][..]),
         ("wishes.map", "attic.map", &["line 5", "preferences: there is no file"]),

@@ -5,7 +5,7 @@ use cplan::input::{InputError, LineMap, OccupancyMap, PreferenceMap};
 use proptest::prelude::*;
 use std::path::Path;
 
-fn shipped(name: &str) -> Vec<u8> {
+fn read_shipped(name: &str) -> Vec<u8> {
     std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces").join(name)).unwrap()
 }
 
@@ -25,7 +25,7 @@ fn damaged(mut bytes: Vec<u8>, damage: &[(f64, u8, u8)]) -> Vec<u8> {
     bytes
 }
 
-fn assert_said<T>(read: Result<T, InputError>) {
+fn assert_error_has_text<T>(read: Result<T, InputError>) {
     if let Err(error) = read {
         assert!(!error.to_string().is_empty());
     }
@@ -35,26 +35,26 @@ proptest! {
     #![proptest_config(cplan_cases::cases(300))]
 
     #[test]
-    fn damaged_files(damage in prop::collection::vec((0.0..1.0_f64, 0..40_u8, prop_oneof![
+    fn damaged_files_are_read_or_refused(damage in prop::collection::vec((0.0..1.0_f64, 0..40_u8, prop_oneof![
         any::<u8>(), prop::sample::select(b"0123456789-+.e# \n\t:[]".to_vec())
     ]), 1..6)) {
         let folder = folder(&[
-            ("line.map", &damaged(shipped("store_room.map"), &damage)),
-            ("wishes.map", &damaged(shipped("store_room_wishes.map"), &damage)),
-            ("den.pgm", &shipped("den.pgm")),
-            ("damaged.yaml", &damaged(shipped("den.yaml"), &damage)),
-            ("bad.pgm", &damaged(shipped("den.pgm"), &damage)),
-            ("bad.yaml", &String::from_utf8(shipped("den.yaml")).unwrap().replace("den.pgm", "bad.pgm").into_bytes()),
+            ("line.map", &damaged(read_shipped("store_room.map"), &damage)),
+            ("wishes.map", &damaged(read_shipped("store_room_wishes.map"), &damage)),
+            ("den.pgm", &read_shipped("den.pgm")),
+            ("damaged.yaml", &damaged(read_shipped("den.yaml"), &damage)),
+            ("bad.pgm", &damaged(read_shipped("den.pgm"), &damage)),
+            ("bad.yaml", &String::from_utf8(read_shipped("den.yaml")).unwrap().replace("den.pgm", "bad.pgm").into_bytes()),
         ]);
         let path = |name: &str| folder.path().join(name);
-        assert_said(LineMap::read(&path("line.map")).map(|map| map.chains()));
-        assert_said(PreferenceMap::read(&path("wishes.map")));
+        assert_error_has_text(LineMap::read(&path("line.map")).map(|map| map.chains()));
+        assert_error_has_text(PreferenceMap::read(&path("wishes.map")));
         for name in ["damaged.yaml", "bad.yaml"] {
             let read = OccupancyMap::read(&path(name));
             if let Ok(map) = &read {
                 prop_assert_eq!(map.cells.len(), map.size[0] * map.size[1]);
             }
-            assert_said(read);
+            assert_error_has_text(read);
         }
     }
 }

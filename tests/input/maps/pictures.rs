@@ -17,7 +17,7 @@ fn read(bytes: &[u8]) -> Result<OccupancyMap, InputError> {
 
 /// Returns the occupancy of pixels with these values, of which `most` is the greatest possible one. Compares whole
 /// numbers, while the program divides.
-fn expected(values: &[u32], most: u32) -> Vec<Occupancy> {
+fn expected_occupancy(values: &[u32], most: u32) -> Vec<Occupancy> {
     let judge = |&value: &u32| {
         let dark = 1000 * u64::from(most - value);
         let most = u64::from(most);
@@ -72,7 +72,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(200))]
 
     #[test]
-    fn greymaps(
+    fn greymaps_are_read(
         (width, values) in (1..9_usize, 1..9_usize)
             .prop_flat_map(|(w, h)| (Just(w), prop::collection::vec(any::<u16>(), w * h))),
         most in prop_oneof![Just(1_u32), Just(100), Just(255), Just(256), 1..=65535_u32],
@@ -82,23 +82,23 @@ proptest! {
         let values: Vec<u32> = values.iter().map(|v| u32::from(*v) % (most + 1)).collect();
         let map = read(&greymap(width, &values, most, in_text, comments)).unwrap();
         prop_assert_eq!(map.size, [width, values.len() / width]);
-        prop_assert_eq!(map.cells, expected(&values, most));
+        prop_assert_eq!(map.cells, expected_occupancy(&values, most));
     }
 
     #[test]
-    fn grey_and_coloured_pngs(width in 1..7_usize, data in prop::collection::vec(any::<u8>(), 300)) {
+    fn grey_and_coloured_pngs_are_read(width in 1..7_usize, data in prop::collection::vec(any::<u8>(), 300)) {
         let bytes = |per_pixel: usize| &data[..data.len() / (width * per_pixel) * width * per_pixel];
         let eight = BitDepth::Eight;
         let grey = read(&encoded(width as u32, ColorType::Grayscale, eight, None, bytes(1))).unwrap();
         let values: Vec<u32> = bytes(1).iter().map(|v| u32::from(*v)).collect();
-        prop_assert_eq!(grey.cells, expected(&values, 255));
+        prop_assert_eq!(grey.cells, expected_occupancy(&values, 255));
         let wide = read(&encoded(width as u32, ColorType::Grayscale, BitDepth::Sixteen, None, bytes(2))).unwrap();
         let values: Vec<u32> = bytes(2).chunks(2).map(|b| 256 * u32::from(b[0]) + u32::from(b[1])).collect();
-        prop_assert_eq!(wide.cells, expected(&values, 65535));
+        prop_assert_eq!(wide.cells, expected_occupancy(&values, 65535));
         // The mean of three colours equals their sum as a part of three times as much.
         let color = read(&encoded(width as u32, ColorType::Rgb, eight, None, bytes(3))).unwrap();
         let values: Vec<u32> = bytes(3).chunks(3).map(|b| b.iter().map(|v| u32::from(*v)).sum()).collect();
-        prop_assert_eq!(color.cells, expected(&values, 3 * 255));
+        prop_assert_eq!(color.cells, expected_occupancy(&values, 3 * 255));
         // Transparent pixels are unknown.
         let veiled = |mut cells: Vec<Occupancy>, opacity: Vec<u8>| {
             cells.iter_mut().zip(opacity).filter(|(_, o)| *o < 255).for_each(|(c, _)| *c = Occupancy::Unknown);
@@ -106,22 +106,22 @@ proptest! {
         };
         let grey = read(&encoded(width as u32, ColorType::GrayscaleAlpha, eight, None, bytes(2))).unwrap();
         let values: Vec<u32> = bytes(2).chunks(2).map(|b| u32::from(b[0])).collect();
-        prop_assert_eq!(grey.cells, veiled(expected(&values, 255), bytes(2).chunks(2).map(|b| b[1]).collect()));
+        prop_assert_eq!(grey.cells, veiled(expected_occupancy(&values, 255), bytes(2).chunks(2).map(|b| b[1]).collect()));
         let color = read(&encoded(width as u32, ColorType::Rgba, eight, None, bytes(4))).unwrap();
         let values: Vec<u32> = bytes(4).chunks(4).map(|b| b[..3].iter().map(|v| u32::from(*v)).sum()).collect();
-        prop_assert_eq!(color.cells, veiled(expected(&values, 765), bytes(4).chunks(4).map(|b| b[3]).collect()));
+        prop_assert_eq!(color.cells, veiled(expected_occupancy(&values, 765), bytes(4).chunks(4).map(|b| b[3]).collect()));
     }
 }
 
 #[test]
-fn pngs_of_few_bits_and_palettes() {
+fn pngs_of_few_bits_and_palettes_are_read() {
     use Occupancy::{Free, Occupied, Unknown};
     // Eight pixels of one bit each; the second row has no bit set.
     let bits = encoded(8, ColorType::Grayscale, BitDepth::One, None, &[0b1010_0001, 0]);
     let first = [Free, Occupied, Free, Occupied, Occupied, Occupied, Occupied, Free];
     assert_eq!(read(&bits).unwrap().cells, [first, [Occupied; 8]].concat());
     let twos = encoded(4, ColorType::Grayscale, BitDepth::Two, None, &[0b0001_1011]);
-    assert_eq!(read(&twos).unwrap().cells, expected(&[0, 1, 2, 3], 3));
+    assert_eq!(read(&twos).unwrap().cells, expected_occupancy(&[0, 1, 2, 3], 3));
     let colors = [0, 0, 0, 255, 255, 255, 128, 128, 128, 255, 255, 255];
     let palette = encoded(4, ColorType::Indexed, BitDepth::Eight, Some((&colors, &[255, 255, 255, 7])), &[0, 1, 2, 3]);
     assert_eq!(read(&palette).unwrap().cells, [Occupied, Free, Unknown, Unknown]);

@@ -14,7 +14,7 @@ fn of(pixels: &[Vec<bool>]) -> Vec<PixelRectangle> {
 
 /// Returns the least number of rectangles that cover the pixels `solid` (bits, row by row) without overlap. Tries every
 /// rectangle that begins at the first pixel that is not covered yet.
-fn fewest(width: usize, height: usize, solid: u32, known: &mut HashMap<u32, u32>) -> u32 {
+fn fewest_rectangles(width: usize, height: usize, solid: u32, known: &mut HashMap<u32, u32>) -> u32 {
     if solid == 0 {
         return 0;
     }
@@ -28,7 +28,7 @@ fn fewest(width: usize, height: usize, solid: u32, known: &mut HashMap<u32, u32>
         for y1 in y + 1..=height {
             let inside = (y..y1).flat_map(|y| (x..x1).map(move |x| 1_u32 << (y * width + x))).fold(0, |a, b| a | b);
             if solid & inside == inside {
-                best = best.min(1 + fewest(width, height, solid & !inside, known));
+                best = best.min(1 + fewest_rectangles(width, height, solid & !inside, known));
             }
         }
     }
@@ -62,19 +62,19 @@ proptest! {
     }
 
     #[test]
-    fn they_are_few(width in 3..6_usize, height in 3..6_usize, bits in any::<u32>(), more in any::<u32>()) {
+    fn random_pictures_need_few_rectangles(width in 3..6_usize, height in 3..6_usize, bits in any::<u32>(), more in any::<u32>()) {
         // The combination of two random numbers fills three quarters, so that there are holes.
         let solid = (bits | more) & ((1_u64 << (width * height)) - 1) as u32;
         let pixels: Vec<Vec<bool>> =
             (0..height).map(|y| (0..width).map(|x| solid >> (y * width + x) & 1 == 1).collect()).collect();
-        let least = fewest(width, height, solid, &mut HashMap::new());
+        let least = fewest_rectangles(width, height, solid, &mut HashMap::new());
         let count = of(&pixels).len() as u32;
         prop_assert!(least <= count && count <= 3 * least, "{count} for {least}");
     }
 }
 
 #[test]
-fn shapes_that_one_sees_at_a_glance() {
+fn simple_shapes_have_the_least_number_of_rectangles() {
     let parsed = |rows: &[&str]| -> usize {
         of(&rows.iter().map(|r| r.bytes().map(|b| b == b'#').collect()).collect::<Vec<_>>()).len()
     };

@@ -16,7 +16,7 @@ place = { at = [0.5, 1.0], angle = 1.5 }
 move = { joints = [0.1, 0.2] }
 "#;
 
-fn healthy() -> String {
+fn valid_world() -> String {
     format!("{CELL}{STEPS}")
 }
 
@@ -33,19 +33,19 @@ pub fn refused(world: &str, overrides: &Overrides, parts: &[&str]) {
 }
 
 /// Checks that the cell with one piece of text replaced is refused with these parts in the message.
-fn bad(from: &str, to: &str, parts: &[&str]) {
-    let world = healthy();
+fn check_refused(from: &str, to: &str, parts: &[&str]) {
+    let world = valid_world();
     assert!(world.contains(from), "{from}");
     refused(&world.replacen(from, to, 1), &Overrides::default(), &[&["world.toml: line ", "^"], parts].concat());
 }
 
 #[test]
 fn the_healthy_cell_loads() {
-    assert_eq!(task_of(&healthy(), &Overrides::default()).unwrap().task.items.len(), 5);
+    assert_eq!(task_of(&valid_world(), &Overrides::default()).unwrap().task.items.len(), 5);
 }
 
 #[test]
-fn objects_that_are_none() {
+fn invalid_objects_are_refused() {
     let polygon = "polygon = [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]";
     for (from, to, parts) in [
         ("name = \"part\"\n", "", &["line 9", "missing key `name`"][..]),
@@ -91,20 +91,24 @@ fn objects_that_are_none() {
             &["line 13, column 12", "\"part\" cannot rest on itself", "hint: remove it"],
         ),
     ] {
-        bad(from, to, parts);
+        check_refused(from, to, parts);
     }
 }
 
 #[test]
-fn wrists_that_are_none() {
-    bad("velocity = 6.0", "velocity = 0", &["line 3", "[robot] wrist: velocity must be positive, is 0", "hint: "]);
-    bad("acceleration = 60.0", "acceleration = -1", &["line 3", "acceleration must be positive"]);
-    bad("acceleration = 60.0", "jerk = 60.0", &["line 3", "unknown key `jerk`"]);
-    bad("velocity = 6.0, ", "", &["line 3", "missing key `velocity`"]);
+fn invalid_wrists_are_refused() {
+    check_refused(
+        "velocity = 6.0",
+        "velocity = 0",
+        &["line 3", "[robot] wrist: velocity must be positive, is 0", "hint: "],
+    );
+    check_refused("acceleration = 60.0", "acceleration = -1", &["line 3", "acceleration must be positive"]);
+    check_refused("acceleration = 60.0", "jerk = 60.0", &["line 3", "unknown key `jerk`"]);
+    check_refused("velocity = 6.0, ", "", &["line 3", "missing key `velocity`"]);
 }
 
 #[test]
-fn steps_that_do_not_do_exactly_one_thing() {
+fn steps_without_exactly_one_action_are_refused() {
     let (pick, place) = ("pick = \"part\"", "place = { at = [0.5, 1.5] }");
     for (from, to, parts) in [
         (
@@ -145,14 +149,14 @@ fn steps_that_do_not_do_exactly_one_thing() {
         (pick, "pick = \"part\"\norder = \"free\"", &["line 26, column 9", "only a group of steps has an `order`"]),
         (pick, "steps = []", &["line 24", "no steps", "hint: "]),
     ] {
-        bad(from, to, parts);
+        check_refused(from, to, parts);
     }
 }
 
 #[test]
-fn tasks_and_groups_that_are_none() {
+fn invalid_tasks_and_groups_are_refused() {
     let with_task = |table: &str, parts: &[&str]| {
-        bad("[[obstacle]]", &format!("[task]\n{table}\n[[obstacle]]"), parts);
+        check_refused("[[obstacle]]", &format!("[task]\n{table}\n[[obstacle]]"), parts);
     };
     with_task("repeat = 0", &["line 7, column 10", "once or more, not 0 times", "hint: "]);
     with_task("repeat = -3", &["line 7", "not -3"]);
@@ -185,10 +189,14 @@ fn tasks_and_groups_that_are_none() {
 }
 
 #[test]
-fn sequences_that_cannot_be() {
+fn contradictory_sequences_are_refused() {
     let (pick, place) = ("[[step]]\npick = \"part\"\n", "[[step]]\nplace = { at = [0.5, 1.5] }\n");
-    bad(place, "", &["line 27, column 8", "step 2 picks \"cup\" while \"part\" is carried", "hint: place"]);
-    bad(pick, "", &["line 25, column 16", "step 1 places an object, but the tool carries none", "hint: pick"]);
+    check_refused(place, "", &["line 27, column 8", "step 2 picks \"cup\" while \"part\" is carried", "hint: place"]);
+    check_refused(
+        pick,
+        "",
+        &["line 25, column 16", "step 1 places an object, but the tool carries none", "hint: pick"],
+    );
     let repeated = |steps: &str, parts: &[&str]| {
         let world = format!("{CELL}{steps}[task]\nrepeat = 2\n");
         refused(&world, &Overrides::default(), &[&["world.toml: line ", "hint: "], parts].concat());
@@ -200,19 +208,27 @@ fn sequences_that_cannot_be() {
     assert_eq!(steps_of(&carrying.replace("renew = true\n", ""), &Overrides::default()), 7);
 
     let (at, rigid) = ("place = { at = [0.5, 1.5] }", "place = { at = [0.5, 1.5], angle = 1.0 }");
-    bad(at, rigid, &["line 27, column 36", "\"part\" is held rigidly", "hint: payload = \"level\""]);
+    check_refused(at, rigid, &["line 27, column 36", "\"part\" is held rigidly", "hint: payload = \"level\""]);
     let wrist = "wrist = { velocity = 6.0, acceleration = 60.0 }";
-    bad(wrist, "", &["line 31", "\"cup\" must be turned from 0.5 to 1.5 rad", "no wrist", "hint: [robot] wrist"]);
+    check_refused(
+        wrist,
+        "",
+        &["line 31", "\"cup\" must be turned from 0.5 to 1.5 rad", "no wrist", "hint: [robot] wrist"],
+    );
     let own = "place = { at = [0.5, 1.5], supports = [\"table\", \"part\"] }";
-    bad(at, own, &["line 27, column 39", "\"part\" cannot rest on itself"]);
-    bad(at, "place = { at = [0.5, 1.5], supports = [\"desk\"] }", &["line 27, column 40", "no object \"desk\""]);
+    check_refused(at, own, &["line 27, column 39", "\"part\" cannot rest on itself"]);
+    check_refused(
+        at,
+        "place = { at = [0.5, 1.5], supports = [\"desk\"] }",
+        &["line 27, column 40", "no object \"desk\""],
+    );
 }
 
 #[test]
 fn an_orientation_is_that_of_the_last_place() {
     let again = "[[step]]\npick = \"cup\"\n[[step]]\nplace = { at = [0.6, 1.0], angle = 0.5 }\n";
     let once = "angle = 1.5 }\n";
-    let world = healthy().replace(once, &format!("{once}{again}"));
+    let world = valid_world().replace(once, &format!("{once}{again}"));
     assert_eq!(steps_of(&world, &Overrides::default()), 7);
     // Without a wrist, the first turn fails. Without the first turn, the second would be none.
     let still = world.replace("wrist = { velocity = 6.0, acceleration = 60.0 }", "").replace(", angle = 1.5", "");
@@ -220,7 +236,7 @@ fn an_orientation_is_that_of_the_last_place() {
 }
 
 #[test]
-fn infeasible_steps() {
+fn infeasible_steps_are_refused() {
     let goal = "move = { joints = [0.1, 0.2] }";
     for (from, to, parts) in [
         (
@@ -245,19 +261,19 @@ fn infeasible_steps() {
             &["line 13, column 12", "step 1: object \"part\" is too thin to rest on a support", "1.8", "hint: "],
         ),
     ] {
-        bad(from, to, parts);
+        check_refused(from, to, parts);
     }
     // A grasp off the origin of a rigid payload with unknown orientation may or may not be within reach.
-    let far = healthy()
+    let far = valid_world()
         .replace("at = [0.5, 1.5]", "at = [0.0, 1.81]")
         .replace("pick = \"part\"", "pick = \"part\"\ngrasp = [0.02, 0]");
     assert_eq!(steps_of(&far, &Overrides::default()), 5);
     // The clearance does not apply to the support.
     let clearance = Overrides { clearance: Some(0.02), ..Overrides::default() };
-    assert_eq!(steps_of(&healthy(), &clearance), 5);
+    assert_eq!(steps_of(&valid_world(), &clearance), 5);
     // The error names each step once, however often the task repeats it.
     let many =
-        healthy().replace("[[obstacle]]", "[task]\nrepeat = 50\n[[obstacle]]").replace("[0.1, 0.2]", "[0.1, 3.2]");
+        valid_world().replace("[[obstacle]]", "[task]\nrepeat = 50\n[[obstacle]]").replace("[0.1, 0.2]", "[0.1, 3.2]");
     let error = task_of(&many, &Overrides::default()).unwrap_err();
     assert_eq!(error.diagnostics().len(), 1, "{error}");
     // That the object cannot be picked is a consequence of where it was placed.
@@ -267,20 +283,32 @@ fn infeasible_steps() {
 }
 
 #[test]
-fn starts_that_are_not_free() {
-    bad("joints = [0.0, 0.5]\n", "joints = [0.0, 3.5]\n", &["line 5", "the start is outside the joint limits"]);
+fn blocked_starts_are_refused() {
+    check_refused(
+        "joints = [0.0, 0.5]\n",
+        "joints = [0.0, 3.5]\n",
+        &["line 5", "the start is outside the joint limits"],
+    );
     let touching = "at = [1.0, 0.0]";
-    bad("at = [1.0, 1.0]", touching, &["line 5", "the start", "hits obstacle \"part\"", "hint: move it away"]);
-    refused(&healthy().replace("[start]\njoints = [0.0, 0.5]\n", ""), &Overrides::default(), &["there is no start"]);
+    check_refused(
+        "at = [1.0, 1.0]",
+        touching,
+        &["line 5", "the start", "hits obstacle \"part\"", "hint: move it away"],
+    );
+    refused(
+        &valid_world().replace("[start]\njoints = [0.0, 0.5]\n", ""),
+        &Overrides::default(),
+        &["there is no start"],
+    );
 }
 
 #[test]
 fn a_world_has_either_steps_or_a_goal() {
     let none = Overrides::default();
-    let both = format!("{}[goal]\njoints = [1, 1]\n", healthy());
+    let both = format!("{}[goal]\njoints = [1, 1]\n", valid_world());
     refused(&both, &none, &["line 34, column 1", "either a goal or steps", "hint: remove [goal]"]);
     let as_problem = |overrides: &Overrides, parts: &[&str]| {
-        let error = with_world(&healthy(), |u, w| load(u, w, overrides)).unwrap_err().to_string();
+        let error = with_world(&valid_world(), |u, w| load(u, w, overrides)).unwrap_err().to_string();
         for part in parts {
             assert!(error.contains(part), "no \"{part}\" in:\n{error}");
         }
@@ -288,20 +316,20 @@ fn a_world_has_either_steps_or_a_goal() {
     as_problem(&none, &["line 24, column 1", "this world has steps, not a goal", "hint: "]);
     let goal = Overrides { goal: Some("0,0".parse().unwrap()), ..Overrides::default() };
     as_problem(&goal, &["--goal: this world has steps, not a goal", "hint: leave the option out"]);
-    refused(&healthy(), &goal, &["--goal: this world has steps"]);
+    refused(&valid_world(), &goal, &["--goal: this world has steps"]);
     let tip = Overrides { goal_tip: Some("1,1".parse().unwrap()), ..Overrides::default() };
-    refused(&healthy(), &tip, &["--goal-tip: this world has steps"]);
+    refused(&valid_world(), &tip, &["--goal-tip: this world has steps"]);
     refused(CELL, &none, &["world.toml: there are no steps", "hint: "]);
 }
 
 #[test]
-fn an_inspection_warns_of_steps_that_cannot_be() {
+fn an_inspection_warns_of_infeasible_steps() {
     let warnings = |world: &str| {
         let inspection: Inspection = with_world(world, |u, w| inspect(u, Some(w)));
         assert!(inspection.is_plannable(), "{:?}", inspection.errors);
         inspection.warnings
     };
-    assert!(warnings(&healthy()).is_empty());
-    let far = warnings(&healthy().replace("at = [0.5, 1.5]", "at = [2.5, 1.5]"));
+    assert!(warnings(&valid_world()).is_empty());
+    let far = warnings(&valid_world().replace("at = [0.5, 1.5]", "at = [2.5, 1.5]"));
     assert!(far.iter().any(|w| w.starts_with("task: step 2: (2.5, 1.5) m is out of reach")), "{far:?}");
 }

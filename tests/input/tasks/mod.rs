@@ -54,7 +54,7 @@ fn task(steps: &str) -> LoadedTask {
 }
 
 /// Returns the steps as texts `number.cycle: action`, with groups in brackets.
-fn in_words(loaded: &LoadedTask) -> Vec<String> {
+fn step_texts(loaded: &LoadedTask) -> Vec<String> {
     let objects = &loaded.task.objects;
     let step = |s: &Step| format!("{}.{}: {}", s.number, s.cycle, s.action.describe(objects));
     let item = |item: &Item| match item {
@@ -162,7 +162,7 @@ speed = 1
             format!("3.{d}: move to joints (0, 0.5)"),
         ]
     };
-    assert_eq!(in_words(&loaded), [once(1, 1), vec!["renew part".into()], once(3, 2)].concat());
+    assert_eq!(step_texts(&loaded), [once(1, 1), vec!["renew part".into()], once(3, 2)].concat());
     let paces: Vec<(f64, f64)> = loaded.task.steps().take(3).map(|s| (s.speed, s.dwell)).collect();
     assert_eq!(paces, [(0.8, 0.3), (0.8, 0.0), (0.8, 0.3)]);
     assert_eq!(loaded.task.steps().nth(4).map(|s| (s.speed, s.dwell)), Some((1.0, 0.1)));
@@ -180,9 +180,9 @@ place = { at = [0.5, 1.0] }
 "#;
     let words = "[1.1: pick \"part\", 2.1: place at (0.5, 1.5) m, 3.1: pick \"cup\", 4.1: place at (0.5, 1) m]";
     let all = task(&format!("[task]\norder = \"free\"\n[[step]]\n{}", pairs.replace("KEY", "step")));
-    assert_eq!(in_words(&all), [words]);
+    assert_eq!(step_texts(&all), [words]);
     let group = task(&format!("[[step]]\norder = \"free\"\n[[step.steps]]\n{}", pairs.replace("KEY", "step.steps")));
-    assert_eq!(in_words(&group), [words]);
+    assert_eq!(step_texts(&group), [words]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Places in rows and columns, objects on them, and frames that move all of them.
 
 use super::errors::refused;
-use super::{in_words, task_of};
+use super::{step_texts, task_of};
 use cplan::input::Overrides;
 use cplan::model::Item;
 use std::f64::consts::FRAC_PI_2;
@@ -38,7 +38,7 @@ grasp = [0.01, 0.0]
 const TRANSFER: &str = "[[step]]\ntransfer = { objects = \"part\", to = \"tray\" }\ndwell = 0.5\nspeed = 0.5\n";
 
 /// Checks that the world with one piece of text replaced is refused with these parts in the message.
-fn bad(world: &str, from: &str, to: &str, parts: &[&str]) {
+fn check_refused(world: &str, from: &str, to: &str, parts: &[&str]) {
     assert!(world.contains(from), "{from}");
     refused(&world.replacen(from, to, 1), &Overrides::default(), &[&["world.toml: line ", "^"], parts].concat());
 }
@@ -81,8 +81,8 @@ fn a_transfer_is_its_picks_and_places_written_out() {
         };
         let on = written(&|i| format!("on = \"tray {}\"", names[i]));
         let at = written(&|i| format!("at = [{}, {}]", places[i][0], places[i][1]));
-        assert_eq!(in_words(&short), in_words(&on));
-        assert_eq!(in_words(&short), in_words(&at));
+        assert_eq!(step_texts(&short), step_texts(&on));
+        assert_eq!(step_texts(&short), step_texts(&at));
         let same = |a: &cplan::input::LoadedTask, b: &cplan::input::LoadedTask| {
             let steps = a.task.steps().zip(b.task.steps());
             steps.for_each(|(a, b)| {
@@ -110,7 +110,7 @@ fn a_transfer_goes_with_other_steps_of_its_group() {
 }
 
 #[test]
-fn pallets_that_are_none() {
+fn invalid_pallets_are_refused() {
     let healthy = format!("{CELL}{TRANSFER}");
     for (from, to, parts) in [
         (
@@ -139,19 +139,19 @@ fn pallets_that_are_none() {
         ("name = \"post\"", "name = \"part\"", &["an obstacle is named \"part\"", "hint: "]),
         ("name = \"post\"", "name = \"part 2,3\"", &["an obstacle is named \"part", "hint: "]),
     ] {
-        bad(&healthy, from, to, parts);
+        check_refused(&healthy, from, to, parts);
     }
     let twice = "[[object]]\nname = \"part\"\ncircle = { center = [0, 0], radius = 0.01 }\n";
     for (more, parts) in [
         ("at = [1, 1]\n", ["a second object is named \"part\""]),
         ("pallet = \"tray\"\n", ["a second object is named \"part 1,1\""]),
     ] {
-        bad(&healthy, TRANSFER, &format!("{twice}{more}{TRANSFER}"), &parts);
+        check_refused(&healthy, TRANSFER, &format!("{twice}{more}{TRANSFER}"), &parts);
     }
 }
 
 #[test]
-fn transfers_and_places_that_are_none() {
+fn invalid_transfers_and_places_are_refused() {
     let healthy = format!("{CELL}{TRANSFER}");
     let transfer = "transfer = { objects = \"part\", to = \"tray\" }";
     for (to, parts) in [
@@ -192,7 +192,12 @@ fn transfers_and_places_that_are_none() {
         ),
         ("pick = \"part 1,1\"\n[[step]]\nplace = { angle = 1.0 }", &["either `at` or `on`, but has neither", "hint: "]),
     ] {
-        bad(&healthy, transfer, to, parts);
+        check_refused(&healthy, transfer, to, parts);
     }
-    bad(&healthy, "columns = 2\n", "columns = 3\n", &["6 objects \"part\"", "\"tray\" has 9 places", "hint: "]);
+    check_refused(
+        &healthy,
+        "columns = 2\n",
+        "columns = 3\n",
+        &["6 objects \"part\"", "\"tray\" has 9 places", "hint: "],
+    );
 }

@@ -1,6 +1,6 @@
 //! Random nested groups against a plain expansion; damaged worlds, which must not crash the program.
 
-use super::{CELL, in_words, task_of};
+use super::{CELL, step_texts, task_of};
 use cplan::input::{LoadedTask, Overrides};
 use cplan::model::{Action, Item, Step};
 use proptest::prelude::*;
@@ -143,7 +143,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(150))]
 
     #[test]
-    fn groups_in_groups(nodes in nodes(), repeat in 1..3usize) {
+    fn nested_groups_are_written_out(nodes in nodes(), repeat in 1..3usize) {
         let world = format!("step = {}\n{CELL}[task]\nrepeat = {repeat}\n", toml(&nodes));
         let loaded = task_of(&world, &Overrides::default()).map_err(|e| TestCaseError::fail(e.to_string()))?;
         assert_sound(&loaded);
@@ -153,7 +153,7 @@ proptest! {
             let cycle = cycles.entry(number).and_modify(|c| *c += 1).or_insert(1);
             format!("{number}.{cycle}: {words}")
         }).collect();
-        prop_assert_eq!(in_words(&loaded), expected);
+        prop_assert_eq!(step_texts(&loaded), expected);
     }
 
     #[test]

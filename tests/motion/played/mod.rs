@@ -94,12 +94,12 @@ impl Certified {
     }
 
     /// Returns true if both joints are at rest from sample `k` to the next.
-    fn stands(&self, k: usize) -> bool {
+    fn is_at_rest(&self, k: usize) -> bool {
         self.position[k] == self.position[k + 1] && [self.velocity[k], self.velocity[k + 1]] == [[0.0; 2]; 2]
     }
 
     /// Returns the sample at or before a time.
-    fn before(&self, time: f64) -> usize {
+    fn sample_before(&self, time: f64) -> usize {
         self.time.partition_point(|t| *t <= time + 1e-10).saturating_sub(1).min(self.time.len().saturating_sub(2))
     }
 
@@ -107,7 +107,7 @@ impl Certified {
         if self.time.len() < 2 {
             return self.position[0][joint];
         }
-        let k = self.before(time);
+        let k = self.sample_before(time);
         let row = |rows: &[[f64; 2]], k: usize| rows[k][joint];
         let (p, v, a) = (row(&self.position, k), row(&self.velocity, k), row(&self.acceleration, k));
         let (h, t) = (self.time[k + 1] - self.time[k], time - self.time[k]);
@@ -137,8 +137,8 @@ pub fn judge(what: &str, message: &Message, begin: u64, certified: &Certified, j
             assert!(message.since[i] < message.since[i + 1], "{what}: time stands still at point {i}");
             let duration = seconds(message.since[i], message.since[i + 1]);
             let time = seconds(0, begin + message.since[i]);
-            let stands =
-                certified.stands(certified.before(time)) && certified.stands(certified.before(time + 0.999 * duration));
+            let stands = certified.is_at_rest(certified.sample_before(time))
+                && certified.is_at_rest(certified.sample_before(time + 0.999 * duration));
             let first = message.points[i][0][named];
             for share in 0..=16 {
                 let t = duration * f64::from(share) / 16.0;

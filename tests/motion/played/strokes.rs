@@ -33,7 +33,7 @@ move = { joints = [0.0, 1.2] }
 
 const STROKE: &str = "stroke = { joint = \"axis_3\", velocity = 1.0, acceleration = 5.0 }";
 
-fn planned(world: &str, options: &[&str]) -> (Run, Option<(i32, String)>) {
+fn plan_and_check(world: &str, options: &[&str]) -> (Run, Option<(i32, String)>) {
     let folder = tempfile::tempdir().unwrap();
     let (robot, file) = (root("robots/scara.urdf"), folder.path().join("world.toml"));
     std::fs::write(&file, world).unwrap();
@@ -47,7 +47,7 @@ fn number(value: &Value) -> f64 {
 }
 
 /// Returns position and velocity of a joint at a time of a message, by the controller's formula.
-fn at(message: &Message, joint: &str, time: f64) -> [f64; 2] {
+fn joint_state_at(message: &Message, joint: &str, time: f64) -> [f64; 2] {
     let named = message.joints.iter().position(|name| name == joint).unwrap();
     let k = message.since.partition_point(|since| seconds(0, *since) <= time).max(1) - 1;
     let k = k.min(message.since.len() - 2);
@@ -57,9 +57,9 @@ fn at(message: &Message, joint: &str, time: f64) -> [f64; 2] {
 
 #[test]
 fn a_stroke_takes_its_time_in_the_task_and_in_its_bound() {
-    let (with, verified) = planned(&CELL.replace("STROKE", STROKE), &[]);
+    let (with, verified) = plan_and_check(&CELL.replace("STROKE", STROKE), &[]);
     assert_eq!(verified.expect("done").0, 0);
-    let (without, _) = planned(&CELL.replace("STROKE", ""), &[]);
+    let (without, _) = plan_and_check(&CELL.replace("STROKE", ""), &[]);
     let (with, without) = (with.json(), without.json());
     // Two strokes down and two up. Each is 0.12 m at 5 m/s2, which does not reach the top speed of 1 m/s.
     let way = 2.0 * (0.12_f64 / 5.0).sqrt();
@@ -85,18 +85,18 @@ fn a_stroke_takes_its_time_in_the_task_and_in_its_bound() {
 
 #[test]
 fn the_quill_goes_down_at_picks_and_places_and_nowhere_else() {
-    let (run, _) = planned(&CELL.replace("STROKE", STROKE), &[]);
+    let (run, _) = plan_and_check(&CELL.replace("STROKE", STROKE), &[]);
     let (message, result) = (files::yaml(&run.text("yaml")), run.json());
     assert_eq!(message.joints, ["axis_1", "axis_2", "axis_3", "axis_4"]);
     for event in result["events"].as_array().unwrap() {
-        let [depth, speed] = at(&message, "axis_3", number(&event["time"]) + 1e-9);
+        let [depth, speed] = joint_state_at(&message, "axis_3", number(&event["time"]) + 1e-9);
         assert!((depth + 0.12).abs() < 1e-9 && speed.abs() < 1e-6, "{event}: {depth}, {speed}");
     }
     for step in result["steps"].as_array().unwrap() {
         let [begin, arrival] = ["begin", "arrival"].map(|key| number(&step[key]));
         for i in 0..=200 {
             let time = begin + (arrival - begin) * f64::from(i) / 200.0;
-            let [depth, speed] = at(&message, "axis_3", time);
+            let [depth, speed] = joint_state_at(&message, "axis_3", time);
             assert!(depth.abs() < 1e-12 && speed.abs() < 1e-6, "the quill is at {depth} while the arm moves");
         }
     }
@@ -132,11 +132,12 @@ fn the_quill_goes_down_at_picks_and_places_and_nowhere_else() {
 
 #[test]
 fn the_wrist_levels_and_turns_the_payload() {
-    let (run, _) = planned(&CELL.replace("STROKE", STROKE), &[]);
+    let (run, _) = plan_and_check(&CELL.replace("STROKE", STROKE), &[]);
     let (message, result) = (files::yaml(&run.text("yaml")), run.json());
     // Three joints turn about z, so the orientation of the flange is the sum of their values.
-    let level =
-        |time: f64| ["axis_1", "axis_2", "axis_4"].map(|joint| at(&message, joint, time)[0]).iter().sum::<f64>();
+    let level = |time: f64| {
+        ["axis_1", "axis_2", "axis_4"].map(|joint| joint_state_at(&message, joint, time)[0]).iter().sum::<f64>()
+    };
     let place = &result["steps"][1];
     assert_eq!(place["carried"], "part");
     let times = ["begin", "arrival"].map(|key| number(&place[key]));
@@ -150,7 +151,7 @@ fn the_wrist_levels_and_turns_the_payload() {
     let turned = level(number(&result["events"][1]["time"])) - level(number(&result["events"][0]["time"]));
     assert!((turned - 1.0).abs() < 1e-6, "{turned}: {picked}");
     // Without a payload, the wrist returns to its rest position.
-    assert!(at(&message, "axis_4", number(&result["duration"]))[0].abs() < 1e-9);
+    assert!(joint_state_at(&message, "axis_4", number(&result["duration"]))[0].abs() < 1e-9);
 }
 
 #[test]
@@ -160,8 +161,8 @@ fn collisions_of_the_lowered_tool_are_found() {
     let post =
         "[[obstacle]]\nname = \"stub\"\ncircle = { center = [0.35, -0.155], radius = 0.003 }\nheight = [0.0, 0.1]\n";
     let world = format!("{CELL}{post}").replace(", angle = 1.0", "");
-    assert_eq!(planned(&world.replace("STROKE", ""), &[]).0.code, 0);
-    let (run, _) = planned(&world.replace("STROKE", STROKE), &[]);
+    assert_eq!(plan_and_check(&world.replace("STROKE", ""), &[]).0.code, 0);
+    let (run, _) = plan_and_check(&world.replace("STROKE", STROKE), &[]);
     assert_eq!(run.code, 3, "{}", run.errors);
     let reasons = run_json(&world);
     assert!(reasons.contains("while the tool is lowered") && reasons.contains("stub"), "{reasons}");
@@ -192,16 +193,18 @@ fn strokes_that_cannot_be_are_refused() {
         ("stroke = { joint = \"axis_3\", travel = 0.3 }", ["part", "-0.18"]),
         ("stroke = { speed = 1.0 }", ["speed", "joint"]),
     ] {
-        let (run, _) = planned(&CELL.replace("STROKE", stroke), &[]);
+        let (run, _) = plan_and_check(&CELL.replace("STROKE", stroke), &[]);
         assert_eq!(run.code, 1, "{stroke}");
         assert!(words.iter().all(|word| run.errors.contains(word)), "{stroke}: {}", run.errors);
     }
-    let (run, _) = planned(&CELL.replace("STROKE", STROKE), &["--accelerations", "--jerk", "300,300"]);
+    let (run, _) = plan_and_check(&CELL.replace("STROKE", STROKE), &["--accelerations", "--jerk", "300,300"]);
     for part in ["accelerations cannot be written", "the tool's joint \"axis_3\"", "--joints planned"] {
         assert!(run.code == 1 && run.errors.contains(part), "{part}: {}", run.errors);
     }
     // The two planned joints alone have no jumps of the acceleration.
-    let (run, _) =
-        planned(&CELL.replace("STROKE", STROKE), &["--accelerations", "--jerk", "300,300", "--joints", "planned"]);
+    let (run, _) = plan_and_check(
+        &CELL.replace("STROKE", STROKE),
+        &["--accelerations", "--jerk", "300,300", "--joints", "planned"],
+    );
     assert_eq!(run.code, 0, "{}", run.errors);
 }

@@ -2,7 +2,7 @@
 
 use super::{Certified, Extremes, FORMATS, Run, files, judge, root};
 use crate::common::dice::Dice;
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use cplan::input::load_scene;
 use cplan::model::Joint;
 use std::path::{Path, PathBuf};
@@ -45,7 +45,7 @@ fn judge_all(what: &str, run: &Run, joints: &[Joint; 2]) -> Extremes {
 }
 
 /// Returns shipped worlds with their robots.
-fn shipped() -> Vec<[PathBuf; 2]> {
+fn shipped_worlds() -> Vec<[PathBuf; 2]> {
     let text = std::fs::read_to_string(root("workspaces/suite.toml")).unwrap();
     let manifest: toml::Table = text.parse().unwrap();
     let problems = manifest["problem"].as_array().unwrap();
@@ -81,7 +81,7 @@ fn tasks() -> Vec<[PathBuf; 2]> {
 #[test]
 fn interpolated_motions_of_shipped_worlds_are_certified() {
     let mut found = 0;
-    for [robot, world] in shipped() {
+    for [robot, world] in shipped_worlds() {
         let name = world.file_stem().unwrap().to_str().unwrap().to_owned();
         let run = Run::of(&robot, &world, &[]);
         if run.code != 0 {
@@ -160,7 +160,7 @@ fn interpolated_motions_in_random_worlds_are_certified() {
         blended += usize::from(run.json()["blends"]["count"].as_u64().unwrap() > 0);
     }
     assert!(
-        !usual() || found * 3 > count && blended > 0,
+        !uses_default_cases() || found * 3 > count && blended > 0,
         "{found} of {count} worlds have a path, {blended} with blends"
     );
 }

@@ -18,7 +18,7 @@ mod oracle;
 mod tasks;
 
 use crate::common::dice::Dice;
-use crate::common::random::{seeds, times, usual};
+use crate::common::random::{seeds, times, uses_default_cases};
 use cplan::engine::Method;
 use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
@@ -126,7 +126,7 @@ fn certificates_of_random_worlds_hold() {
     for seed in seeds(24) {
         for InfeasibleExplanation { drawn, certificate } in closed(seed, &mut tally) {
             let read: Value = serde_json::from_str(&certificate).unwrap();
-            assert_eq!(oracle::lie(&drawn, &read), None, "seed {seed}: the oracle");
+            assert_eq!(oracle::false_claim(&drawn, &read), None, "seed {seed}: the oracle");
         }
     }
     let failed = std::mem::take(&mut tally.failed);
@@ -134,7 +134,7 @@ fn certificates_of_random_worlds_hold() {
     println!("{tally:?}");
     let first: Vec<String> = failed.into_iter().take(3).collect();
     assert!(count == 0, "{count} do not hold, among them\n{}", first.join("\n"));
-    assert!(!usual() || tally.infeasible.iter().sum::<usize>() > 3 && tally.tips > 0, "{tally:?}");
+    assert!(!uses_default_cases() || tally.infeasible.iter().sum::<usize>() > 3 && tally.tips > 0, "{tally:?}");
 }
 
 /// Changes something in the certificate, or in the files against which it is checked.
@@ -259,7 +259,7 @@ fn falsify(dice: &mut Dice, InfeasibleExplanation { drawn, certificate }: &Infea
 }
 
 /// Rewrites the same numbers in another notation, in a text that is still JSON.
-fn respelled(dice: &mut Dice, text: &str) -> String {
+fn with_other_notation(dice: &mut Dice, text: &str) -> String {
     let mut out = String::new();
     let mut rest = text;
     while let Some(at) = rest.find(|c: char| c.is_ascii_digit() || c == '-') {
@@ -287,7 +287,7 @@ fn respelled(dice: &mut Dice, text: &str) -> String {
 }
 
 /// Returns a text that resembles a certificate only vaguely.
-fn nonsense(dice: &mut Dice, text: &str) -> String {
+fn invalid_text(dice: &mut Dice, text: &str) -> String {
     let at = dice.below(text.len());
     let number = |dice: &mut Dice| {
         let all = [
@@ -334,7 +334,7 @@ fn nonsense(dice: &mut Dice, text: &str) -> String {
 
 /// Returns the checker's answer: it accepts the certificate, refuses it, or does not understand it. The last two are
 /// `Err`.
-fn judged(urdf: &str, world: &str, certificate: &str) -> Result<(), bool> {
+fn check_answer(urdf: &str, world: &str, certificate: &str) -> Result<(), bool> {
     match check(urdf, world, certificate) {
         Ok(_) => Ok(()),
         Err(CheckError::Fails(_)) => Err(true),
@@ -366,19 +366,19 @@ fn falsified_certificates_are_refused_or_true() {
         let closed = &pool[dice.below(pool.len())];
         match dice.below(20) {
             0 => {
-                let text = respelled(&mut dice, &closed.certificate);
-                let answer = judged(&closed.drawn.urdf(), &closed.drawn.world(true), &text);
+                let text = with_other_notation(&mut dice, &closed.certificate);
+                let answer = check_answer(&closed.drawn.urdf(), &closed.drawn.world(true), &text);
                 assert_eq!(answer, Ok(()), "seed {seed}: {text}");
                 spelled += 1;
             }
             1..=3 => {
-                let text = nonsense(&mut dice, &closed.certificate);
-                let answer = judged(&closed.drawn.urdf(), &closed.drawn.world(true), &text);
+                let text = invalid_text(&mut dice, &closed.certificate);
+                let answer = check_answer(&closed.drawn.urdf(), &closed.drawn.world(true), &text);
                 if answer.is_ok() {
                     // The text may have numbers that are no doubles.
                     let near = text.replace("e1099", "e99").replace("e-1099", "e-99");
                     let value = serde_json::from_str(&near).unwrap();
-                    assert_eq!(oracle::lie(&closed.drawn, &value), None, "seed {seed}: {text}");
+                    assert_eq!(oracle::false_claim(&closed.drawn, &value), None, "seed {seed}: {text}");
                 }
                 count(answer);
             }
@@ -389,14 +389,14 @@ fn falsified_certificates_are_refused_or_true() {
                     0 => (slipped(&mut dice, &urdf), world),
                     _ => (urdf, slipped(&mut dice, &world)),
                 };
-                count(judged(&urdf, &world, &closed.certificate).and(Err(false)));
+                count(check_answer(&urdf, &world, &closed.certificate).and(Err(false)));
             }
             _ => {
                 let (drawn, value) = falsify(&mut dice, closed);
                 let (urdf, world, text) = (drawn.urdf(), drawn.world(true), value.to_string());
-                let answer = judged(&urdf, &world, &text);
+                let answer = check_answer(&urdf, &world, &text);
                 if answer.is_ok() {
-                    assert_eq!(oracle::lie(&drawn, &value), None, "seed {seed}:\n{urdf}\n{world}\n{text}");
+                    assert_eq!(oracle::false_claim(&drawn, &value), None, "seed {seed}:\n{urdf}\n{world}\n{text}");
                 }
                 count(answer);
             }
@@ -406,5 +406,8 @@ fn falsified_certificates_are_refused_or_true() {
         "{} certificates; falsified: {held} hold and are true, {failed} fail, {input} are bad input; {spelled} in other words hold",
         pool.len()
     );
-    assert!(!usual() || held > times(8) && failed > times(16) && input > times(8), "{held} {failed} {input}");
+    assert!(
+        !uses_default_cases() || held > times(8) && failed > times(16) && input > times(8),
+        "{held} {failed} {input}"
+    );
 }

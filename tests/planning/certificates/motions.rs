@@ -7,7 +7,7 @@
 use super::drawn::{Drawn, Goal};
 use super::{ENDS, KINDS, TRIES};
 use crate::common::dice::Dice;
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use cplan::engine::Method;
 use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
@@ -30,7 +30,7 @@ struct Tally {
 
 /// Plans in the world of this seed, and checks the certificates of the motions. The requested path is in turn the
 /// shortest one, the first one found, and one far from obstacles.
-fn ways(seed: u64, tally: &mut Tally) {
+fn check_motions_in_world(seed: u64, tally: &mut Tally) {
     let mut dice = Dice::new(seed.wrapping_mul(0x9e6c_63d0_876a_1b1d));
     let kind = seed % KINDS;
     let mut drawn = Drawn::new(&mut dice, kind);
@@ -84,8 +84,8 @@ fn ways(seed: u64, tally: &mut Tally) {
 fn certificates_of_random_motions_hold() {
     let mut tally = Tally::default();
     for seed in seeds(40) {
-        ways(seed, &mut tally);
+        check_motions_in_world(seed, &mut tally);
     }
     println!("{tally:?}");
-    assert!(!usual() || tally.found.iter().all(|count| *count > 3) && tally.to_tips > 0, "{tally:?}");
+    assert!(!uses_default_cases() || tally.found.iter().all(|count| *count > 3) && tally.to_tips > 0, "{tally:?}");
 }

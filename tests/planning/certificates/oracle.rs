@@ -55,14 +55,14 @@ impl Joint {
 
 impl Drawn {
     /// Returns the position in the world of a point that link 0 or 1 carries.
-    fn carried(&self, link: usize, p: V, q: V) -> V {
+    fn world_position(&self, link: usize, p: V, q: V) -> V {
         let p = if link == 1 { plus(self.origins[1], self.joints[1].moved(p, q[1])) } else { p };
         let root = plus(self.origins[0], self.joints[0].moved(p, q[0]));
         plus(self.at, turned(root, self.angle))
     }
 
     pub fn tip(&self, q: V) -> V {
-        self.carried(1, self.tip.unwrap_or_default(), q)
+        self.world_position(1, self.tip.unwrap_or_default(), q)
     }
 }
 
@@ -165,7 +165,7 @@ fn pair(value: &Value) -> Option<V> {
 
 /// Describes a false statement of a certificate. Returns `None` if there is none. The certificate must have the form
 /// that the checker accepts.
-pub fn lie(drawn: &Drawn, certificate: &Value) -> Option<String> {
+pub fn false_claim(drawn: &Drawn, certificate: &Value) -> Option<String> {
     let clearance = certificate["clearance"].as_f64().unwrap_or(drawn.clearance);
     let boxes: Vec<[V; 2]> = certificate["boxes"]
         .as_array()?
@@ -197,7 +197,7 @@ pub fn lie(drawn: &Drawn, certificate: &Value) -> Option<String> {
         for [i, j] in (0..SAMPLES * SAMPLES).map(|n| [n % SAMPLES, n / SAMPLES]) {
             let at = |k: usize, n: usize| lower[k] + (upper[k] - lower[k]) * n as f64 / (SAMPLES - 1) as f64;
             let q = [at(0, i), at(1, j)];
-            let points: Vec<V> = body.points.iter().map(|p| drawn.carried(link, *p, q)).collect();
+            let points: Vec<V> = body.points.iter().map(|p| drawn.world_position(link, *p, q)).collect();
             let apart = distance(&points, &corners) - body.radius - radius - clearance;
             // Far from the origin, coordinates are less exact.
             let size = points.iter().chain(&corners).flatten().fold(drawn.scale, |most, x| most.max(x.abs()));

@@ -7,7 +7,7 @@
 use super::drawn::{Drawn, V};
 use super::{KINDS, TRIES};
 use crate::common::dice::Dice;
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use cplan::engine::{Method, NoCertificate};
 use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
@@ -165,7 +165,7 @@ fn certificates_of_random_tasks_hold() {
         tasks(seed, &mut tally);
     }
     println!("{tally:?}");
-    if usual() {
+    if uses_default_cases() {
         let some = [tally.rigid, tally.turned, tally.resting, tally.free_order, tally.falsified];
         let is_some = some.iter().all(|n| *n > 0) && tally.infeasible > 0;
         assert!(tally.done.iter().all(|n| *n > 0) && is_some, "{tally:?}");

@@ -1,7 +1,7 @@
 //! Starts and goals at the ends of rows, seams and domains, and joints that cannot move.
 
 use super::{LIMITS, ROUNDING, bound, metrics};
-use crate::common::{arm, asked, convex, disc, joint, link, q, rectangle, rr, scene};
+use crate::common::{arm, convex, disc, joint, link, motion_problem, q, rectangle, rr, scene};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, MotionProblem};
 use cplan::search::{MotionQuery, least_length};
@@ -66,7 +66,7 @@ fn a_goal_at_the_start_is_reached_at_once() {
 /// Checks starts and goals at the borders of strips; the domain of joint 1 begins with 64 strips. They are exactly on
 /// the border of two strips, on either side of it by one last bit, on the seam, and at the same places on other turns.
 #[test]
-fn starts_and_goals_on_slices() {
+fn starts_and_goals_on_slices_are_bounded() {
     let axes = [JointRange::Circle, JointRange::Interval { lower: -1.0, upper: 2.5 }];
     for (first, turns) in axes.into_iter().flat_map(|axis| [-3, -1, 0, 1, 2].map(|turns| (axis, turns))) {
         let (lower, upper) = first.domain();
@@ -91,14 +91,19 @@ fn starts_and_goals_on_slices() {
     }
 }
 
-fn among(axes: [JointRange; 2], pieces: Vec<Convex>, start: Configuration, goal: Configuration) -> MotionProblem {
-    asked(scene(rr(axes), pieces), start, goal)
+fn problem_among(
+    axes: [JointRange; 2],
+    pieces: Vec<Convex>,
+    start: Configuration,
+    goal: Configuration,
+) -> MotionProblem {
+    motion_problem(scene(rr(axes), pieces), start, goal)
 }
 
 /// Checks goals on the other side of a post that the upper arm cannot pass. The arm reaches them stretched, by turning
 /// in the other direction.
 #[test]
-fn the_other_way_round() {
+fn goals_beyond_a_post_are_reached_in_the_other_direction() {
     let post = disc(Point::new(0.5, 0.0), 0.1);
     let ways = [
         (q(-0.5, 0.0), q(0.5, 0.0), TAU - 1.0),
@@ -108,7 +113,7 @@ fn the_other_way_round() {
         (q(0.5, 0.0), q(PI, 0.0), PI - 0.5),
     ];
     for (start, goal, way) in ways {
-        let problem = among([JointRange::Circle, JointRange::Circle], vec![post.clone()], start, goal);
+        let problem = problem_among([JointRange::Circle, JointRange::Circle], vec![post.clone()], start, goal);
         for factor in LIMITS {
             let found = bound(&problem, Metric::Euclidean, factor * way, 1e-4);
             assert!((found - way).abs() <= 2.0 * ROUNDING * way, "{start:?} to {goal:?}: {found}, not {way}");
@@ -118,7 +123,7 @@ fn the_other_way_round() {
 
 /// Checks joints without room to move. Then there is nothing to cut into strips, or nothing beside the strips.
 #[test]
-fn joints_that_cannot_move() {
+fn joints_that_cannot_move_are_bounded() {
     let fixed = JointRange::Interval { lower: 0.5, upper: 0.5 };
     for axes in [[fixed, JointRange::Circle], [JointRange::Circle, fixed], [fixed, fixed]] {
         let to = |k: usize, by: f64| if axes[k].is_circle() { 0.5 + by } else { 0.5 };
@@ -126,7 +131,7 @@ fn joints_that_cannot_move() {
         assert_straight(axes, q(0.5, 0.5), &[q(to(0, -3.0), to(1, 3.5))]);
     }
     let wall = rectangle(1.2, 1.4, 0.9, 1.1);
-    let problem = among(
+    let problem = problem_among(
         [JointRange::Interval { lower: 0.0, upper: 0.0 }, JointRange::Circle],
         vec![wall],
         q(0.0, 0.0),
@@ -136,7 +141,7 @@ fn joints_that_cannot_move() {
 }
 
 #[test]
-fn the_same_to_the_last_bit() {
+fn bounds_are_reproducible_to_the_last_bit() {
     for metric in metrics() {
         let problem = crate::common::problem(crate::common::Benchmark::A);
         let found = [0; 2].map(|_| bound(&problem, metric, 30.0, 1e-4).to_bits());
@@ -162,7 +167,7 @@ fn permanent_contact_closes_nothing() {
         let second = link("second", vec![capsule(Point::zeros(), Point::new(1.0, 0.0))]);
         let arm = arm(joints, [link("first", Vec::new()), second], Vector::zeros(), Point::new(1.0, 0.0));
         let scene = scene(arm, vec![capsule(Point::new(-far, -half), Point::new(-far, half))]);
-        let problem = asked(scene, q(-0.4, 0.0), q(0.4, 0.0));
+        let problem = motion_problem(scene, q(-0.4, 0.0), q(0.4, 0.0));
         for factor in LIMITS {
             let found = bound(&problem, Metric::Euclidean, factor * 0.8, 1e-4);
             assert!((found - 0.8).abs() <= 2.0 * ROUNDING, "{motion:?}: {found}, not 0.8");

@@ -2,7 +2,7 @@
 //! known.
 
 use super::{LIMITS, ROUNDING, bound};
-use crate::common::{arm, asked, convex, disc, joint, link, q, rectangle, scene};
+use crate::common::{arm, convex, disc, joint, link, motion_problem, q, rectangle, scene};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, MotionProblem};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric};
@@ -18,7 +18,7 @@ pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals
     let joints = [joint("x", slide(angles[0]), axis), joint("y", slide(angles[1]), axis)];
     let links = [link("beam", Vec::new()), link("tool", vec![disc(Point::zeros(), 0.0)])];
     let arm = arm(joints, links, Vector::zeros(), Point::zeros());
-    asked(scene(arm, pieces), start, goals.iter().copied().collect::<GoalSet>())
+    motion_problem(scene(arm, pieces), start, goals.iter().copied().collect::<GoalSet>())
 }
 
 /// Returns the gantry with slides along x and y.
@@ -27,7 +27,7 @@ pub fn square(pieces: Vec<Convex>, start: Configuration, goal: Configuration) ->
 }
 
 /// Checks that the bound is within the gap below a known length, whatever limit of the length the search starts from.
-fn assert_is(problem: &MotionProblem, length: f64) {
+fn assert_bound_near(problem: &MotionProblem, length: f64) {
     for factor in LIMITS {
         let found = bound(problem, Metric::Euclidean, factor * length, 1e-5 / factor);
         assert!(found <= length * (1.0 + ROUNDING) && found >= length * (1.0 - 1e-4), "{found}, not {length}");
@@ -35,14 +35,14 @@ fn assert_is(problem: &MotionProblem, length: f64) {
 }
 
 #[test]
-fn around_a_block() {
+fn the_bound_around_a_block_is_known() {
     let block = rectangle(-0.5, 0.5, -2.5, 0.25);
-    assert_is(&square(vec![block], q(-1.5, 0.0), q(1.5, 0.0)), 1.0 + 2.0 * 1.0_f64.hypot(0.25));
+    assert_bound_near(&square(vec![block], q(-1.5, 0.0), q(1.5, 0.0)), 1.0 + 2.0 * 1.0_f64.hypot(0.25));
 }
 
 /// Checks a path out of a U, around one of its sides, and along its outside: four straight pieces.
 #[test]
-fn out_of_a_trap() {
+fn the_bound_out_of_a_trap_is_known() {
     let walls =
         vec![rectangle(-0.6, 0.6, -0.6, -0.5), rectangle(-0.6, -0.5, -0.6, 0.7), rectangle(0.5, 0.6, -0.6, 0.8)];
     let (start, goal) = (q(0.1, -0.3), q(0.05, -1.2));
@@ -50,44 +50,44 @@ fn out_of_a_trap() {
         let corners = [start, q(side * 0.5, top), q(side * 0.6, top), q(side * 0.6, -0.6), goal];
         corners.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>()
     };
-    assert_is(&square(walls.clone(), start, goal), out(-1.0, 0.7).min(out(1.0, 0.8)));
+    assert_bound_near(&square(walls.clone(), start, goal), out(-1.0, 0.7).min(out(1.0, 0.8)));
     // The same U, turned by a right angle.
     let turned = walls.iter().map(|w| convex(w.core().iter().map(|p| Point::new(-p.y, p.x)).collect(), 0.0));
     let turn = |p: Configuration| q(-p[1], p[0]);
-    assert_is(&square(turned.collect(), turn(start), turn(goal)), out(-1.0, 0.7).min(out(1.0, 0.8)));
+    assert_bound_near(&square(turned.collect(), turn(start), turn(goal)), out(-1.0, 0.7).min(out(1.0, 0.8)));
 }
 
 /// Checks a wall that spans the whole space except for a slot a hundredth wide.
 #[test]
-fn through_a_slot() {
+fn the_bound_through_a_slot_is_known() {
     let walls = vec![rectangle(-0.05, 0.05, -3.0, 0.7), rectangle(-0.05, 0.05, 0.71, 3.0)];
     let length = 2.0 * 0.95_f64.hypot(0.7) + 0.1;
-    assert_is(&square(walls.clone(), q(-1.0, 0.0), q(1.0, 0.0)), length);
+    assert_bound_near(&square(walls.clone(), q(-1.0, 0.0), q(1.0, 0.0)), length);
     let turned = walls.iter().map(|w| convex(w.core().iter().map(|p| Point::new(-p.y, p.x)).collect(), 0.0));
-    assert_is(&square(turned.collect(), q(0.0, -1.0), q(0.0, 1.0)), length);
+    assert_bound_near(&square(turned.collect(), q(0.0, -1.0), q(0.0, 1.0)), length);
 }
 
 /// Checks two slots in walls behind one another, far apart. The path leads to one slot, and then back to the other.
 #[test]
-fn through_two_slots() {
+fn the_bound_through_two_slots_is_known() {
     let wall = |x: f64, slot: f64| [rectangle(x, x + 0.1, -3.0, slot), rectangle(x, x + 0.1, slot + 0.01, 3.0)];
     let walls = [wall(-0.5, 0.7), wall(0.4, -0.9)].concat();
     let corners = [q(-1.0, 0.0), q(-0.5, 0.7), q(-0.4, 0.7), q(0.4, -0.89), q(0.5, -0.89), q(1.0, 0.0)];
     let length = corners.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
-    assert_is(&square(walls, q(-1.0, 0.0), q(1.0, 0.0)), length);
+    assert_bound_near(&square(walls, q(-1.0, 0.0), q(1.0, 0.0)), length);
 }
 
 /// Checks a path around a disc, which consists of two tangents and an arc.
 #[test]
-fn around_a_disc() {
+fn the_bound_around_a_disc_is_known() {
     let tangent = (1.5_f64 * 1.5 - 0.5 * 0.5).sqrt();
     let arc = 0.5 * (TAU / 2.0 - 2.0 * (0.5_f64 / 1.5).acos());
     let round = disc(Point::zeros(), 0.5);
-    assert_is(&square(vec![round], q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
+    assert_bound_near(&square(vec![round], q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
     // The same for a point with a clearance.
     let smaller = square(vec![disc(Point::zeros(), 0.2)], q(-1.5, 0.0), q(1.5, 0.0));
     let scene = smaller.scene().clone().with_clearance(0.3).unwrap();
-    assert_is(&asked(scene, q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
+    assert_bound_near(&motion_problem(scene, q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
 }
 
 /// Checks a wall from side to side. It leaves no path, so the bound exceeds any limit.

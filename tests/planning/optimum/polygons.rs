@@ -67,7 +67,7 @@ fn shortest(polygons: &[Vec<Configuration>], start: Configuration, goals: &[Conf
     f64::INFINITY
 }
 
-fn inside(sides: &Sides, q: Configuration) -> bool {
+fn is_in_polygon(sides: &Sides, q: Configuration) -> bool {
     sides.iter().all(|(normal, offset)| normal.dot(&q) <= offset + 1e-6)
 }
 
@@ -87,7 +87,13 @@ fn polygon() -> impl Strategy<Value = Vec<Configuration>> {
 }
 
 /// Checks that bounds do not exceed the length of the shortest path.
-fn agree(polygons: &[Vec<Configuration>], angles: [f64; 2], start: Configuration, goals: &[Configuration], gap: f64) {
+fn check_bound(
+    polygons: &[Vec<Configuration>],
+    angles: [f64; 2],
+    start: Configuration,
+    goals: &[Configuration],
+    gap: f64,
+) {
     let directions = angles.map(|angle| Vector::new(angle.cos(), angle.sin()));
     let place = |q: &Configuration| directions[0] * q[0] + directions[1] * q[1];
     let pieces: Vec<Convex> = polygons.iter().map(|corners| convex(corners.iter().map(place).collect(), 0.0)).collect();
@@ -103,7 +109,7 @@ fn agree(polygons: &[Vec<Configuration>], angles: [f64; 2], start: Configuration
 /// Checks a slanting side. In the slices along it, the ends of the closed intervals are in line. None of them may be
 /// left out, although its neighbours imply its value.
 #[test]
-fn along_a_slanting_side() {
+fn the_bound_along_a_slanting_side_holds() {
     let corners = [
         (1.0703667779167292, -0.283927995580206),
         (1.7643086878991947, -1.0208985780181092),
@@ -113,7 +119,7 @@ fn along_a_slanting_side() {
     let diamond = corners.map(|(x, y)| Configuration::new(x, y)).to_vec();
     let start = Configuration::new(1.1574012277374817, -0.6843018950959452);
     let goal = Configuration::new(1.9617226256965494, 0.49656754518455704);
-    agree(&[diamond], [0.0, 2.414414677611783], start, &[goal], 1e-2);
+    check_bound(&[diamond], [0.0, 2.414414677611783], start, &[goal], 1e-2);
 }
 
 proptest! {
@@ -129,7 +135,7 @@ proptest! {
         let start = Configuration::new(start.0, start.1);
         let goals: Vec<_> = goals.into_iter().map(|(x, y)| Configuration::new(x, y)).collect();
         let all: Vec<Sides> = polygons.iter().map(|corners| sides(corners)).collect();
-        prop_assume!(goals.iter().chain([&start]).all(|&q| !all.iter().any(|sides| inside(sides, q))));
-        agree(&polygons, [first, first + oblique], start, &goals, gap);
+        prop_assume!(goals.iter().chain([&start]).all(|&q| !all.iter().any(|sides| is_in_polygon(sides, q))));
+        check_bound(&polygons, [first, first + oblique], start, &goals, gap);
     }
 }

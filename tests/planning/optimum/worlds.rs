@@ -1,7 +1,7 @@
 //! Random worlds with all kinds of arms: no planner finds a motion that is shorter than the bound.
 
 use super::{LIMITS, ROUNDING, bound, metrics};
-use crate::common::{all_kinds, asked, convex, disc, inside, rectangle, scene, wall};
+use crate::common::{all_kinds, configuration_at_fractions, convex, disc, motion_problem, rectangle, scene, wall};
 use crate::random_worlds::world;
 use cplan::engine::{Criterion, Method, Options, Planner, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
@@ -32,7 +32,7 @@ fn motions(problem: &MotionProblem) -> Vec<Path> {
 }
 
 /// Checks that the bound does not exceed the length of any known motion.
-fn keeps_below(problem: &MotionProblem, gap: f64) {
+fn check_bound_below_motions(problem: &MotionProblem, gap: f64) {
     let paths = motions(problem);
     for metric in metrics() {
         let length = paths.iter().map(|path| metric.length(path)).fold(f64::INFINITY, f64::min);
@@ -73,7 +73,7 @@ fn obstacle() -> impl Strategy<Value = Convex> {
 #[test]
 fn walls_that_part_and_meet_block_no_path() {
     for gap in [1e-2, 1e-4] {
-        keeps_below(&world::world("PR", 5_703_491_533_213_168_642).unwrap(), gap);
+        check_bound_below_motions(&world::world("PR", 5_703_491_533_213_168_642).unwrap(), gap);
     }
 }
 
@@ -87,32 +87,32 @@ proptest! {
         clearance in prop_oneof![Just(0.0), 0.0..0.05_f64], gap in gaps(),
     ) {
         let scene = scene(all_kinds().swap_remove(kind), obstacles).with_clearance(clearance).unwrap();
-        let start = inside(&scene, start);
-        let goals: Vec<_> = goals.into_iter().map(|at| inside(&scene, at)).collect();
+        let start = configuration_at_fractions(&scene, start);
+        let goals: Vec<_> = goals.into_iter().map(|at| configuration_at_fractions(&scene, at)).collect();
         prop_assume!(goals.iter().chain([&start]).all(|&at| scene.clearance(at) > clearance + 1e-6));
-        keeps_below(&asked(scene, start, goals.into_iter().collect::<GoalSet>()), gap);
+        check_bound_below_motions(&motion_problem(scene, start, goals.into_iter().collect::<GoalSet>()), gap);
     }
 
     /// Checks bounds in worlds that include touching, pointed and thin obstacles, joints of all ranges, and starts on
     /// limits, on other turns and next to obstacles.
     #[test]
-    fn nor_in_worlds_made_to_be_hard(kind in 0_usize..4, seed in any::<u64>(), gap in gaps()) {
+    fn no_motion_in_a_hard_world_is_shorter_than_the_bound(kind in 0_usize..4, seed in any::<u64>(), gap in gaps()) {
         let problem = world::world(world::KINDS[kind], seed);
         prop_assume!(problem.is_some());
-        keeps_below(&problem.unwrap(), gap);
+        check_bound_below_motions(&problem.unwrap(), gap);
     }
 
     /// Checks bounds for two walls that leave a slot between them.
     #[test]
-    fn nor_through_narrow_passages(
+    fn no_motion_through_a_slot_is_shorter_than_the_bound(
         kind in 0_usize..5, at in (0.5..1.5_f64, -3.2..3.2_f64), width in prop_oneof![1e-4..1e-2_f64, 0.1..0.3_f64],
         start in (0.0..=1.0_f64, 0.0..=1.0_f64), goal in (0.0..=1.0_f64, 0.0..=1.0_f64), gap in gaps(),
     ) {
         let (x, y) = (at.0 * at.1.cos(), at.0 * at.1.sin());
         let walls = vec![rectangle(x - 0.01, x + 0.01, y + 0.1 + width, y + 2.0), rectangle(x - 0.01, x + 0.01, y - 2.0, y)];
         let scene = scene(all_kinds().swap_remove(kind), walls);
-        let (start, goal) = (inside(&scene, start), inside(&scene, goal));
+        let (start, goal) = (configuration_at_fractions(&scene, start), configuration_at_fractions(&scene, goal));
         prop_assume!(scene.clearance(start) > 1e-6 && scene.clearance(goal) > 1e-6);
-        keeps_below(&asked(scene, start, goal), gap);
+        check_bound_below_motions(&motion_problem(scene, start, goal), gap);
     }
 }

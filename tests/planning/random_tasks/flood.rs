@@ -3,8 +3,8 @@
 
 use super::replay::World;
 use super::task;
-use crate::common::asked;
 use crate::common::dice::Dice;
+use crate::common::motion_problem;
 use crate::common::random::{seeds, times};
 use cplan::Outcome;
 use cplan::engine::{Method, Options, solve};
@@ -121,7 +121,7 @@ fn payloads_are_judged_like_a_flood_fill() {
         let surely = bitmap.connects(start, goal, &[Cell::Free]);
         let perhaps = bitmap.connects(start, goal, &[Cell::Free, Cell::Mixed]);
         decisive += u64::from(surely || !perhaps);
-        let problem = asked(scene, start, goal);
+        let problem = motion_problem(scene, start, goal);
         let options = Options { levels: 4, boxes: 20_000, bounded: false, ..Method::Visibility.into() };
         match solve(&problem, &options, &mut |_| {}).outcome {
             Outcome::Found(_) => {

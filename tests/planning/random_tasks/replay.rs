@@ -230,7 +230,7 @@ impl<'a> World<'a> {
     }
 
     /// Returns the pose of the carried object.
-    fn carried(&self, held: &Held, q: V) -> Frame {
+    fn carried_pose(&self, held: &Held, q: V) -> Frame {
         let (frames, tip) = self.frames(q);
         if held.level { compose(([1.0, 0.0], tip), held.frame) } else { compose(frames[1], held.frame) }
     }
@@ -254,7 +254,7 @@ impl<'a> World<'a> {
 
     /// Returns how much deeper a body may press into its support. The result is negative if it presses too deep. The
     /// clearance does not matter.
-    fn pressed(&self, body: &Solid, support: &Solid) -> f64 {
+    fn allowance_left(&self, body: &Solid, support: &Solid) -> f64 {
         body.distance(support) + PENETRATION_ALLOWANCE * self.task.arm.reach()
     }
 
@@ -279,7 +279,7 @@ impl<'a> World<'a> {
         }
         let Some(held) = &self.held else { return };
         let object = &self.task.objects[held.object];
-        let frame = self.carried(held, q);
+        let frame = self.carried_pose(held, q);
         for piece in &object.pieces {
             let body = Solid::new(piece).placed(frame.0, frame.1);
             for (number, solid, heights) in &obstacles {
@@ -287,7 +287,7 @@ impl<'a> World<'a> {
                 // An object does not collide with its support.
                 if lower + RESTING_TOLERANCE < heights[1] && heights[0] <= upper {
                     let rests = held.supports.contains(number);
-                    f("the object", *number, body.distance(solid), rests.then(|| self.pressed(&body, solid)));
+                    f("the object", *number, body.distance(solid), rests.then(|| self.allowance_left(&body, solid)));
                 }
             }
         }
@@ -384,7 +384,7 @@ impl<'a> World<'a> {
             Action::Place { at, angle, .. } => {
                 self.turn(q, turn, keep)?;
                 let held = self.held.take().ok_or("nothing is held")?;
-                let frame = self.carried(&held, q);
+                let frame = self.carried_pose(&held, q);
                 if !near(frame.1, [at.x, at.y]) {
                     return Err("the object's origin is not at its target".into());
                 }

@@ -49,7 +49,7 @@ pub fn task(seed: u64) -> Task {
             lift: if dice.chance(0.3) { 0.05 } else { 0.0 },
             holding,
             at: Pose::new(at, dice.within(-PI, PI)),
-            course: None,
+            trajectory: None,
             mass: 0.0,
         });
     }

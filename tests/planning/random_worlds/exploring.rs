@@ -30,7 +30,7 @@ const GRID: [usize; 2] = [36, 40];
 
 /// Returns a sensor whose rays do not run along the map's sides.
 fn sensor(scene: &Scene, seed: u64) -> Sensor {
-    let usual = Sensor::usual(scene.arm());
+    let usual = Sensor::default_for(scene.arm());
     let mount = if seed.is_multiple_of(5) { Mount::Base } else { Mount::Tip };
     let noise = if seed % 3 == 1 { 0.3 * usual.cell } else { 0.0 };
     Sensor { mount, rays: 97, field_of_view: TAU - 0.1, noise, seed, ..usual }

@@ -48,15 +48,15 @@ pub fn connected(oracle: &Oracle, start: Configuration, goals: &[Configuration],
         if !goals.iter().any(|&g| around[lattice.cell(g)]) {
             return Truth::Disconnected;
         }
-        let ways_in: Vec<usize> = goals.iter().flat_map(|&g| lattice.ways_out(g)).collect();
-        let free = lattice.flood(&lattice.ways_out(start), |label| label == FREE);
+        let ways_in: Vec<usize> = goals.iter().flat_map(|&g| lattice.nearby_free_cells(g)).collect();
+        let free = lattice.flood(&lattice.nearby_free_cells(start), |label| label == FREE);
         if ways_in.iter().any(|&cell| free[cell]) {
             return Truth::Connected;
         }
         if lattice.n >= finest {
             return Truth::Undecided;
         }
-        lattice = lattice.halved(&around);
+        lattice = lattice.with_half_cells(&around);
     }
 }
 
@@ -72,7 +72,7 @@ impl<'a> Lattice<'a> {
     }
 
     /// Returns the lattice with cells half as large. Only cells in `around` count; all others are out of reach.
-    fn halved(self, around: &[bool]) -> Self {
+    fn with_half_cells(self, around: &[bool]) -> Self {
         let (n, coarse) = (2 * self.n, self.n);
         let mut labels = vec![BLOCKED; n * n];
         for i in 0..n {
@@ -137,16 +137,16 @@ impl<'a> Lattice<'a> {
 
     /// Returns free cells to which a straight motion leads from `q`: the cell that contains `q`, or cells around it if
     /// it is too tight for the lattice. Each step is at most as long as the room at its beginning.
-    fn ways_out(&self, q: Configuration) -> Vec<usize> {
+    fn nearby_free_cells(&self, q: Configuration) -> Vec<usize> {
         let own = self.cell(q);
         if self.labels[own] == FREE {
             return vec![own];
         }
         let step = self.step();
-        (0..32).filter_map(|k| self.way_out(q, TAU * f64::from(k) / 32.0, step)).collect()
+        (0..32).filter_map(|k| self.free_cell_towards(q, TAU * f64::from(k) / 32.0, step)).collect()
     }
 
-    fn way_out(&self, q: Configuration, angle: f64, step: V) -> Option<usize> {
+    fn free_cell_towards(&self, q: Configuration, angle: f64, step: V) -> Option<usize> {
         const CELLS: f64 = 8.0;
         let direction = Configuration::new(step[0] * angle.cos(), step[1] * angle.sin());
         let speed = self.oracle.speed(direction);

@@ -84,7 +84,7 @@ struct Run {
 
 impl Run {
     /// Returns the settings of a run with the defaults of each planner, and with this lattice.
-    fn usual(lattice: usize) -> Self {
+    fn with_defaults(lattice: usize) -> Self {
         let Options { levels, boxes, .. } = Options::default();
         Self { levels, boxes, cells: None, lattice, share: u64::MAX, body: false, long: false }
     }
@@ -97,7 +97,7 @@ impl Run {
 }
 
 /// Describes a false statement of an answer. Returns `None` if there is none.
-fn lie(problem: &MotionProblem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Option<String> {
+fn false_answer(problem: &MotionProblem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Option<String> {
     match &answer.outcome {
         Outcome::Unknown(_) => None,
         Outcome::Infeasible(_) => (truth == Truth::Connected).then(|| "infeasible, yet connected".into()),
@@ -131,7 +131,7 @@ fn lie(problem: &MotionProblem, oracle: &Oracle, truth: Truth, answer: &Answer) 
 }
 
 /// Compares the planners' answers to one world, and records false ones.
-fn look(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
+fn check_world(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     let kind = problem.scene().arm().kind();
     let clock = Instant::now();
     let oracle = Oracle::new(problem.scene());
@@ -172,7 +172,7 @@ fn look(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
             }
         }
         lower.extend(answer.bound().map(|bound| (bound.lower, method)));
-        if let Some(lie) = lie(problem, &oracle, truth, &answer) {
+        if let Some(lie) = false_answer(problem, &oracle, truth, &answer) {
             lies.push(format!("{kind} {seed} {method}: {lie}"));
         }
     }
@@ -229,7 +229,7 @@ fn look(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
 }
 
 /// Tries all worlds of a kind with these seeds.
-fn look_at_all(kind: &str, seeds: std::ops::Range<u64>, run: &Run, threads: usize) -> Tally {
+fn check_worlds(kind: &str, seeds: std::ops::Range<u64>, run: &Run, threads: usize) -> Tally {
     let next = AtomicU64::new(seeds.start);
     let tally = Mutex::new(Tally::default());
     std::thread::scope(|scope| {
@@ -242,7 +242,7 @@ fn look_at_all(kind: &str, seeds: std::ops::Range<u64>, run: &Run, threads: usiz
                     }
                     let of_body = || body::world_of_body(kind, seed);
                     let worlds = [world::world(kind, seed), run.body.then(of_body).flatten()];
-                    worlds.iter().flatten().for_each(|problem| look(problem, seed, run, &tally));
+                    worlds.iter().flatten().for_each(|problem| check_world(problem, seed, run, &tally));
                 }
             });
         }
@@ -282,9 +282,9 @@ fn print(kind: &str, tally: &Tally) {
 /// proof required less depth than its check.
 #[test]
 fn remembered_worlds_are_decided() {
-    let run = Run::usual(512);
+    let run = Run::with_defaults(512);
     for (kind, seed) in [("PP", 2471), ("PP", 2434), ("PR", 54), ("RP", 2679)] {
-        let tally = look_at_all(kind, seed..seed + 1, &run, 1);
+        let tally = check_worlds(kind, seed..seed + 1, &run, 1);
         assert_eq!((tally.worlds, tally.lies.len()), (1, 0), "{kind} {seed}");
         assert!(tally.planners.iter().all(|count| count.unknown == 0), "{kind} {seed}: {:?}", tally.planners);
     }
@@ -303,9 +303,9 @@ fn answers_agree_with_brute_force_and_each_other() {
             share: number("CPLAN_SHARE").unwrap_or(20).max(1),
             body: true,
             long: true,
-            ..Run::usual(number("CPLAN_LATTICE").unwrap_or(2048) as usize)
+            ..Run::with_defaults(number("CPLAN_LATTICE").unwrap_or(2048) as usize)
         },
-        None => Run { levels: 2, boxes: 20_000, cells: Some(128), share: 2, body: true, ..Run::usual(512) },
+        None => Run { levels: 2, boxes: 20_000, cells: Some(128), share: 2, body: true, ..Run::with_defaults(512) },
     };
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = number("CPLAN_THREADS").map_or(cores, |n| n as usize).max(1);
@@ -313,7 +313,7 @@ fn answers_agree_with_brute_force_and_each_other() {
     let mut lies = Vec::new();
     let (mut decided, mut decisive) = (0, 0);
     for kind in world::KINDS.into_iter().filter(|kind| chosen.as_ref().map_or(true, |k| k == kind)) {
-        let tally = look_at_all(kind, first..first + count, &run, threads);
+        let tally = check_worlds(kind, first..first + count, &run, threads);
         print(kind, &tally);
         decided += tally.planners.iter().map(|count| count.found + count.infeasible).sum::<usize>();
         decisive += tally.connected + tally.disconnected;

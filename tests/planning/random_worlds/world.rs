@@ -2,7 +2,7 @@
 
 use super::oracle::Oracle;
 use crate::common::dice::Dice;
-use crate::common::{asked, convex, disc, placed, wall};
+use crate::common::{convex, disc, motion_problem, placed, wall};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
     Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, SelfObstacle,
@@ -37,7 +37,7 @@ pub fn drawn(kind: &str, seed: u64, body: impl Fn(&mut Dice, &Arm) -> Vec<SelfOb
     let start = free(&mut dice, &scene)?;
     let count = 1 + dice.below(3);
     let goals: Vec<Configuration> = (0..count).filter_map(|_| free(&mut dice, &scene)).collect();
-    (!goals.is_empty()).then(|| asked(scene, start, goals.into_iter().collect::<GoalSet>()))
+    (!goals.is_empty()).then(|| motion_problem(scene, start, goals.into_iter().collect::<GoalSet>()))
 }
 
 fn arm(dice: &mut Dice, kind: &str) -> Arm {

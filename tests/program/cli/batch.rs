@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Write};
 
 /// Runs `batch` on these lines.
-fn answered(place: &Place, lines: &[Value], options: &str) -> Done {
+fn run_batch(place: &Place, lines: &[Value], options: &str) -> Done {
     place.write("problems.jsonl", lines.iter().map(|line| format!("{line}\n")).collect::<String>());
     place.run(&["batch", "problems.jsonl"], options)
 }
@@ -43,7 +43,7 @@ fn rows_equal_the_results_of_plan() {
         ),
     ];
     let lines: Vec<Value> = jobs.iter().map(|job| job.1.clone()).collect();
-    let done = answered(&place, &lines, "");
+    let done = run_batch(&place, &lines, "");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let rows = done.rows();
     assert_eq!(rows.len(), jobs.len());
@@ -54,7 +54,7 @@ fn rows_equal_the_results_of_plan() {
     }
     // The same bytes, whoever answers which.
     for jobs in [2, 5] {
-        let again = answered(&place, &vec![lines.clone(); 5].concat(), &format!("--jobs {jobs}"));
+        let again = run_batch(&place, &vec![lines.clone(); 5].concat(), &format!("--jobs {jobs}"));
         assert_eq!(again.stdout, done.stdout.repeat(5), "{jobs}");
     }
 }
@@ -73,7 +73,7 @@ fn worlds_are_files_texts_and_objects() {
         json!({"urdf": urdf, "world_text": format!("{FREE}[robot]\nvelocity = {{ shoulder = 0.1 }}\n")}),
         json!({"urdf": urdf, "world": "world.toml"}),
     ];
-    let rows = answered(&place, &lines, "--fields trajectory,name,status").rows();
+    let rows = run_batch(&place, &lines, "--fields trajectory,name,status").rows();
     assert_eq!(rows[0]["name"], "world");
     assert_eq!(rows[0].as_object().unwrap().keys().collect::<Vec<_>>(), ["name", "status", "trajectory"]);
     assert!([1, 2, 4].iter().all(|&k| rows[k] == rows[0]), "{rows:?}");
@@ -187,13 +187,13 @@ fn each_problem_has_an_answer_in_time() {
     let place = Place::new();
     let [urdf, world] = shelf();
     let lines: Vec<Value> = (0..3).map(|id| json!({"id": id, "urdf": urdf, "world": world})).collect();
-    let done = answered(&place, &lines, "--time 1e-9");
+    let done = run_batch(&place, &lines, "--time 1e-9");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let stopped = |id: i32| json!({"id": id, "status": "unknown", "reason": "stopped after 0.000000001 s"});
     assert_eq!(done.rows(), [stopped(0), stopped(1), stopped(2)]);
-    let unhurried = answered(&place, &lines, "--time 1000 --jobs 2");
-    assert_eq!(unhurried.stdout, answered(&place, &lines, "").stdout);
-    assert_eq!(answered(&place, &lines, "--time 0").code, 2);
+    let unhurried = run_batch(&place, &lines, "--time 1000 --jobs 2");
+    assert_eq!(unhurried.stdout, run_batch(&place, &lines, "").stdout);
+    assert_eq!(run_batch(&place, &lines, "--time 0").code, 2);
 }
 
 /// Checks worlds whose own start and goal are blocked. They can be used, because each line requests another start and
@@ -209,7 +209,7 @@ fn worlds_whose_own_ends_are_blocked_are_answered_line_by_line() {
     let line = |(id, (start, goal)): (usize, &([f64; 2], [f64; 2]))| json!({"id": id, "urdf": urdf, "world": "world.toml", "options": {"start": start, "goal": goal}});
     let mut lines: Vec<Value> = ends.iter().enumerate().map(line).collect();
     lines.push(json!({"id": 4, "urdf": urdf, "world": "world.toml"}));
-    let done = answered(&place, &lines, "--fields status");
+    let done = run_batch(&place, &lines, "--fields status");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let report: Vec<Value> = done.rows().iter().map(|row| json!([row["id"], row["status"], row["kind"]])).collect();
     let found = |id: i32| json!([id, "found", null]);

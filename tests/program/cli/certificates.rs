@@ -75,7 +75,7 @@ fn the_certificate_states_the_query_of_the_command_line() {
 /// Checks the tasks of shipped worlds, with the goal as a place of the tip: with both elbows, with two solutions of a
 /// slide, and with a stretched arm.
 #[test]
-fn places_of_the_tip_that_are_shut_off_have_certificates_that_hold() {
+fn enclosed_tip_goals_have_valid_certificates() {
     let place = Place::new();
     let read = |path: &String| std::fs::read_to_string(path).unwrap();
     for (world, robot, tip) in [
@@ -153,7 +153,7 @@ fn every_shape_of_a_link_is_named() {
 }
 
 #[test]
-fn a_certificate_does_not_take_the_place_of_its_input() {
+fn a_certificate_does_not_overwrite_its_input() {
     let place = Place::new();
     let done = place.plan(FREE, "--quiet --certificate world.toml");
     done.refused(1, &["world.toml is the input"]);
@@ -249,7 +249,7 @@ fn stl() -> String {
 
 /// Checks links with meshes: motions, bounds and proofs refer to the convex hulls.
 #[test]
-fn arms_of_meshes_have_certificates_that_hold() {
+fn arms_of_meshes_have_valid_certificates() {
     let place = Place::new();
     place.write("block.stl", stl());
     let boxed = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
@@ -277,7 +277,7 @@ fn arms_of_meshes_have_certificates_that_hold() {
 /// Checks arms with two bars of a millimetre or two, among polygons that are a thousand times as large. The shortest
 /// paths keep some nanometres from the polygons' sides.
 #[test]
-fn shortest_paths_past_what_is_a_thousand_times_as_large_have_certificates_that_hold() {
+fn shortest_paths_past_huge_obstacles_have_valid_certificates() {
     let arm = |[first, second]: [f64; 2], width: f64| {
         let bar = |length: f64| {
             let middle = length / 2.0;
@@ -324,7 +324,7 @@ fn shortest_paths_past_what_is_a_thousand_times_as_large_have_certificates_that_
 
 /// Checks goal areas: a path ends on the rim of one area, and a proof covers all areas. The checker accepts both.
 #[test]
-fn goal_areas_have_certificates_that_hold() {
+fn goal_areas_have_valid_certificates() {
     let robot = shipped("robots/room_gantry.urdf");
     let judged = |areas: &str, walls: &str, code: i32| {
         let place = Place::new();
@@ -349,7 +349,7 @@ fn goal_areas_have_certificates_that_hold() {
 }
 
 #[test]
-fn goal_areas_that_are_none_are_refused_and_those_of_arms_that_turn_are_their_middles() {
+fn invalid_goal_areas_are_refused_and_turning_arms_take_the_middle() {
     let place = Place::new();
     for (goal, parts) in [
         ("areas = []", &["the goal has no area", "two opposite corners"][..]),

@@ -26,7 +26,7 @@ fn read(path: &str) -> String {
 }
 
 /// Returns the certificate, with its motion changed by `alter`.
-fn altered(certificate: &str, alter: impl FnOnce(&mut Vec<Value>)) -> String {
+fn with_changed_motion(certificate: &str, alter: impl FnOnce(&mut Vec<Value>)) -> String {
     let mut whole: Value = serde_json::from_str(certificate).unwrap();
     alter(whole["motion"]["knots"].as_array_mut().unwrap());
     whole.to_string()
@@ -64,7 +64,7 @@ fn every_solved_shipped_world_has_a_valid_certificate() {
         }
         let fails = |world: &str, certificate: &str| matches!(judged(world, certificate), Err(CheckError::Fails(_)));
         // A motion without its end does not reach the goal. A clearance greater than any distance is false.
-        assert!(fails(&world, &altered(&certificate, |knots| knots.truncate(knots.len() / 2))), "{world}");
+        assert!(fails(&world, &with_changed_motion(&certificate, |knots| knots.truncate(knots.len() / 2))), "{world}");
         let farther = certificate.replacen("\"motion\"", "\"clearance\": 100.0,\n  \"motion\"", 1);
         assert!(fails(&world, &farther), "{world}");
         if let Some(twin) = world.strip_suffix("_open.toml") {
@@ -120,7 +120,7 @@ fn motions_of_every_planner_hold() {
 }
 
 #[test]
-fn a_motion_without_obstacles() {
+fn a_motion_without_obstacles_has_a_certificate() {
     let place = Place::new();
     let done = place.plan(FREE, "--quiet --certificate c.json");
     assert_eq!(done.code, 0, "{}", done.stderr);
@@ -157,7 +157,7 @@ fn verify_writes_certificates_of_motions_that_it_accepts() {
 
 /// Checks coordinates of a map, in the hundreds of kilometres.
 #[test]
-fn an_arm_far_from_the_origin() {
+fn an_arm_far_from_the_origin_has_certificates() {
     let place = Place::new();
     let urdf = shipped("robots/planar_2r.urdf");
     let obstacle =

@@ -3,7 +3,7 @@
 use super::certified_tasks::read;
 use super::{Place, shipped};
 use crate::common::dice::Dice;
-use crate::common::random::{seeds, usual};
+use crate::common::random::{seeds, uses_default_cases};
 use cplan_check_files::{CheckError, check};
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -42,7 +42,7 @@ fn every_shipped_motion_among_moving_obstacles_has_a_valid_certificate() {
 /// Checks that the certificate of a motion does not hold in a world where the cart comes half a second later, nor in
 /// one without the cart.
 #[test]
-fn of_another_time_it_does_not_hold() {
+fn a_certificate_does_not_hold_for_another_time() {
     let (place, robot, world) =
         (Place::new(), shipped("robots/planar_2r.urdf"), shipped("workspaces/moving/crossing.toml"));
     assert_eq!(place.run(&[&robot, &world], "--quiet --certificate c.json").code, 0);
@@ -116,7 +116,7 @@ fn certificates_among_random_moving_obstacles_hold() {
         waited += usize::from(done.stdout.contains("\nwaits "));
     }
     println!("{found} found, {waited} with waits");
-    assert!(!usual() || (found > 8 && waited > 0), "{found} found, {waited} with waits");
+    assert!(!uses_default_cases() || (found > 8 && waited > 0), "{found} found, {waited} with waits");
 }
 
 /// Checks an object that stands still during a part of its trajectory. It has no direction of motion there.

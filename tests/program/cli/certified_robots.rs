@@ -102,7 +102,7 @@ impl Case<'_> {
 
 /// Checks frames that are turned by rounded angles, axes that are slightly off, and planes that are not along axes.
 #[test]
-fn frames_and_axes_as_exporters_write_them() {
+fn frames_and_axes_written_by_exporters_are_certified() {
     for (what, robot, report) in [
         ("upright", &[("{mounting}", r#"<origin rpy="1.5708 0 0"/>"#)][..], "up to 1e-5 rad"),
         ("roughly upright", &[("{mounting}", r#"<origin rpy="1.57 0 0"/>"#)], "up to 1e-3 rad"),
@@ -123,7 +123,7 @@ const ENDLESS: &str = r#"<limit lower="-1e16" upper="1e16" velocity="1" effort="
 
 /// Checks limits that are soft, infinite or missing, and joints that are held or mimic others.
 #[test]
-fn limits_and_joints_that_do_not_move() {
+fn missing_limits_and_fixed_joints_are_certified() {
     let finger = |limit: &str, rest: &str| {
         format!(
             r#"<joint name="g" type="prismatic"> <parent link="l2"/> <child link="f1"/> <origin xyz="0.7 0 0"/> <axis xyz="0 1 0"/>
@@ -183,7 +183,7 @@ fn limits_and_joints_that_do_not_move() {
 /// Checks corners on a line between others (in place or turned), starts and goals at half a turn, and starts and goals
 /// that are beyond a limit only by rounding.
 #[test]
-fn worlds_whose_numbers_are_no_doubles() {
+fn numbers_that_are_no_doubles_are_certified() {
     for (what, obstacle) in [
         ("four on a line", "polygon = [[3.1, 0.1], [3.2, 0.2], [3.3, 0.3], [3.6, 0.0]]"),
         (
@@ -255,7 +255,7 @@ fn worlds_whose_numbers_are_no_doubles() {
 /// Checks links that a wrist turns. Some of them cover a disc together, and a smaller one at all angles of the wrist.
 /// The program refuses a link away from the wrist's axis, and one that mimics a joint of the arm or the tool.
 #[test]
-fn other_joints_that_move() {
+fn other_moving_joints_are_certified() {
     let place = Place::new();
     let bar = |at: &str| {
         format!(
@@ -338,7 +338,7 @@ const COLLADA: &str = r##"<?xml version="1.0"?>
 </COLLADA>"##;
 
 #[test]
-fn meshes_and_what_stands_in_for_them() {
+fn meshes_and_their_substitutes_are_certified() {
     let mesh = |name: &str| {
         format!(
             r#"<collision> <origin xyz="0.5 0 0"/> <geometry> <mesh filename="{name}" scale="{0} {0} {0}"/> </geometry> </collision>"#,
@@ -388,7 +388,7 @@ fn png(color: [u8; 4]) -> Vec<u8> {
 }
 
 #[test]
-fn maps_as_tools_write_them() {
+fn maps_written_by_tools_are_certified() {
     let pgm = b"P2\n3 3\n255\n255 255 255\n255 0 255\n255 255 255\n";
     let [in_lines, in_png] = [
         MAP.replace("[0.6, -0.65, 0.0]", "\n- 0.6\n- -0.65\n- 0.0"),
@@ -415,7 +415,7 @@ fn maps_as_tools_write_them() {
 
 /// Checks a world with a start at a place of the tip, and with numbers in other bases.
 #[test]
-fn worlds_as_people_write_them() {
+fn worlds_in_all_common_notations_are_certified() {
     let tip = WORLD.replace("joints = [0.0, 0.0]", "tip = [1.8, 0.0]");
     let place = Place::new();
     Case { ..Case::default() }.written(&place);

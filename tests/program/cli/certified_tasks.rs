@@ -26,7 +26,7 @@ pub fn read(path: &str) -> String {
 }
 
 /// Returns the certificate with a change.
-fn altered(certificate: &Value, alter: impl FnOnce(&mut Value)) -> String {
+fn with_change(certificate: &Value, alter: impl FnOnce(&mut Value)) -> String {
     let mut whole = certificate.clone();
     alter(&mut whole);
     whole.to_string()
@@ -40,7 +40,7 @@ fn moved(certificate: &mut Value, knots: std::ops::RangeInclusive<usize>, to: im
 }
 
 #[test]
-fn every_shipped_task_that_can_be_done_has_a_certificate_that_holds() {
+fn every_feasible_shipped_task_has_a_valid_certificate() {
     let tasks = tasks("done");
     assert!(tasks.len() >= 11, "{tasks:?}");
     for (world, robot) in tasks {
@@ -65,11 +65,11 @@ fn every_shipped_task_that_can_be_done_has_a_certificate_that_holds() {
         assert!(["pick", "move"].contains(&first["action"].as_str().unwrap()));
         let last = first["last_sample"].as_u64().unwrap() as usize;
         let rest = last..=steps[1]["first_sample"].as_u64().unwrap() as usize;
-        fails(&text, "a step is missing", &altered(&whole, |c| drop(c["steps"].as_array_mut().unwrap().pop())));
+        fails(&text, "a step is missing", &with_change(&whole, |c| drop(c["steps"].as_array_mut().unwrap().pop())));
         fails(
             &text,
             "steps are swapped",
-            &altered(&whole, |c| {
+            &with_change(&whole, |c| {
                 let steps = c["steps"].as_array_mut().unwrap();
                 let other = if steps.len() > 2 { 2 } else { 1 };
                 (steps[0]["step"], steps[other]["step"]) = (steps[other]["step"].clone(), steps[0]["step"].clone());
@@ -77,17 +77,17 @@ fn every_shipped_task_that_can_be_done_has_a_certificate_that_holds() {
         );
         // Without a rest, the next step begins at the same knot.
         if rest.start() < rest.end() {
-            fails(&text, "the arm does not stand", &altered(&whole, |c| moved(c, last..=last, |q| q + 1e-9)));
+            fails(&text, "the arm does not stand", &with_change(&whole, |c| moved(c, last..=last, |q| q + 1e-9)));
         }
-        fails(&text, "it ends elsewhere", &altered(&whole, |c| moved(c, rest.clone(), |q| q + 1e-3)));
+        fails(&text, "it ends elsewhere", &with_change(&whole, |c| moved(c, rest.clone(), |q| q + 1e-3)));
         if !plan["clearance"].is_null() {
-            fails(&text, "it is nearer", &altered(&whole, |c| c["clearance"] = json!(100.0)));
+            fails(&text, "it is nearer", &with_change(&whole, |c| c["clearance"] = json!(100.0)));
         }
         if !text.contains("wrist = ") {
-            fails(&text, "there is no wrist", &altered(&whole, |c| c["steps"][1]["turn"] = json!(3.0)));
+            fails(&text, "there is no wrist", &with_change(&whole, |c| c["steps"][1]["turn"] = json!(3.0)));
         }
         // All values change by a unit in the last place, as with another compiler.
-        let shifted = altered(&whole, |c| {
+        let shifted = with_change(&whole, |c| {
             let all = 0..=c["motion"]["knots"].as_array().unwrap().len() - 1;
             moved(c, all, f64::next_up);
         });
@@ -130,7 +130,7 @@ fn infeasible_tasks_have_no_certificate() {
 }
 
 /// Plans a task for the SCARA. Returns the exit code, the errors, and the checker's report on the certificate.
-fn certified(world: &str) -> (i32, String, Option<String>) {
+fn plan_scara_task(world: &str) -> (i32, String, Option<String>) {
     certified_of(&read(&shipped("robots/scara.urdf")), world)
 }
 
@@ -149,7 +149,7 @@ fn certified_of(urdf: &str, world: &str) -> (i32, String, Option<String>) {
 /// Checks that a task of the shipped SCARA is infeasible.
 #[track_caller]
 fn is_infeasible(world: &str) {
-    let (code, stderr, report) = certified(world);
+    let (code, stderr, report) = plan_scara_task(world);
     assert!(code == 3 && report.is_none(), "{code} {stderr}");
 }
 
@@ -173,7 +173,8 @@ fn proofs_are_about_all_orders() {
     for count in [0, 1] {
         is_infeasible(&(swap.clone() + &(0..count).map(pin).collect::<String>()));
     }
-    let (code, ..) = certified(&swap.replacen("place = { at = [0.26, 0.20] }", "place = { at = [0.26, 0.30] }", 1));
+    let (code, ..) =
+        plan_scara_task(&swap.replacen("place = { at = [0.26, 0.20] }", "place = { at = [0.26, 0.30] }", 1));
     assert_eq!(code, 0);
 }
 
@@ -210,7 +211,7 @@ place = {{ at = [0.35, -0.17] }}
     // The stub is beside the pick, beside the target, or where only the payload is lowered onto it. There is a stroke
     // or none.
     for (stub, without) in [([0.14, 0.375], 0), ([0.35, -0.155], 0), ([0.336, -0.17], 3)] {
-        assert_eq!(certified(&world("", stub)).0, without, "{stub:?}");
+        assert_eq!(plan_scara_task(&world("", stub)).0, without, "{stub:?}");
         is_infeasible(&world(stroke, stub));
     }
 }
@@ -266,14 +267,14 @@ pick = "part"
 /// Checks an object that is placed into its support: as deep as it may press, and deeper. The object is convex, or has
 /// several parts.
 #[test]
-fn what_presses_into_its_supports_has_certificates() {
+fn objects_that_press_into_supports_have_certificates() {
     let into = |depth: f64| {
         read(&shipped("workspaces/tasks/slot_rigid.toml"))
             .replace("payload = \"rigid\"", "payload = \"level\"")
             .replace("at = [0.26, 0.35]", &format!("at = [0.26, {}], supports = [\"near jaw\"]", 0.345 - depth))
     };
     // Its corners may press 5.5e-5 m into the support, and its sides 0.7 of that.
-    assert_eq!(certified(&into(2e-5)).0, 0);
+    assert_eq!(plan_scara_task(&into(2e-5)).0, 0);
     for depth in [2e-4, 1e-2] {
         is_infeasible(&into(depth));
     }
@@ -283,7 +284,7 @@ fn what_presses_into_its_supports_has_certificates() {
         is_infeasible(&into(depth).replace(square, bent));
     }
     let beside = into(0.0).replace("at = [0.26, 0.345]", "at = [0.30, -0.21]").replace(square, bent);
-    let (code, stderr, report) = certified(&beside);
+    let (code, stderr, report) = plan_scara_task(&beside);
     assert!(code == 0 && report.is_some_and(|report| report.contains("does all")), "{code} {stderr}");
 }
 
@@ -362,7 +363,7 @@ fn a_new_object_is_an_obstacle() {
 /// Checks that a released object may be touched until the next step has ended. After that step, the arm must be free of
 /// it. This also holds if a new object replaces the released one from then on, and if an obstacle moves.
 #[test]
-fn what_is_renewed_is_there_until_the_arm_goes_on() {
+fn renewed_objects_stay_until_the_next_motion() {
     let place = Place::new();
     let urdf = shipped("robots/gantry.urdf");
     let moving = "[[obstacle]]\ncircle = { center = [5, 5], radius = 0.1 }\nmotion = { velocity = [1, 0] }\n";
@@ -449,7 +450,7 @@ fn needles_on_cranes_are_in_the_way() {
 }
 
 #[test]
-fn what_is_asked_in_place_of_the_world_is_in_the_certificate() {
+fn overrides_of_the_world_are_in_the_certificate() {
     let place = Place::new();
     let files = [shipped("robots/rrbot_vertical.urdf"), shipped("workspaces/tasks/tower.toml")];
     let options = "--quiet --certificate c.json --output plan.json --start 0.5,40deg --clearance 0.0005";

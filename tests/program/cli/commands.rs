@@ -119,7 +119,7 @@ fn options_that_the_planner_ignores_are_noted() {
 }
 
 #[test]
-fn options_go_over_the_world_file() {
+fn options_override_the_world_file() {
     let place = Place::new();
     let world = format!("clearance = 0.02\n{FREE}");
     let path = |options: &str| place.plan(&world, &format!("--json --quiet {options}")).json()["path"].clone();
@@ -131,7 +131,7 @@ fn options_go_over_the_world_file() {
 }
 
 #[test]
-fn corners_are_rounded_as_far_as_asked_for() {
+fn corners_are_rounded_up_to_the_requested_radius() {
     let place = Place::new();
     let run = |options: &str| {
         let done = place.run(&shelf(), &format!("{options} --output plan.json"));
@@ -225,7 +225,7 @@ fn the_least_time_has_a_bound_and_another_shape() {
 }
 
 #[test]
-fn check_says_why() {
+fn check_states_the_reason() {
     let place = Place::new();
     let [urdf, world] = shelf();
     let files = ["check".into(), urdf, world];
@@ -342,7 +342,7 @@ fn gaps_below_the_rounding_of_doubles_end() {
 
 /// Checks that the first of more than two words is reported as a misspelled command, not as a file.
 #[test]
-fn a_command_that_is_none_is_told() {
+fn a_misspelled_command_is_reported_as_such() {
     let place = Place::new();
     let done = place.run(&["verfy", "no.urdf", "no.toml", "plan.csv"], "");
     done.refused(2, &["there is no command and no file \"verfy\""]);

@@ -81,7 +81,7 @@ fn suites_list_every_problem_with_every_planner() {
 }
 
 #[test]
-fn what_is_wrong_with_a_suite_is_told_at_once() {
+fn errors_in_a_suite_are_reported_at_once() {
     let place = Place::new();
     suite(&place);
     let refused = |content: &str, parts: &[&str]| {
@@ -158,7 +158,7 @@ fn a_suite_goes_on_without_the_worlds_that_cannot_be_run() {
 }
 
 #[test]
-fn worlds_with_steps_are_left_out_and_said_to_be() {
+fn worlds_with_steps_are_omitted_with_a_note() {
     let place = Place::new();
     std::fs::create_dir(place.path("worlds")).unwrap();
     place.write("worlds/free.toml", FREE);
@@ -293,7 +293,7 @@ fn odd_names_stay_names_in_the_page() {
 }
 
 #[test]
-fn one_problem_is_told_in_all_formats() {
+fn one_problem_is_reported_in_all_formats() {
     let place = Place::new();
     let [urdf, world] = shelf();
     let markdown = place.run(&["compare", &urdf, &world], &format!("{QUICK} --markdown"));
@@ -354,7 +354,7 @@ fn a_planner_with_a_gap_is_run_until_it_is_within() {
 /// Checks long names of variants. If there is too little room, their common part is left out, and the differences
 /// remain.
 #[test]
-fn pictures_and_charts_keep_what_tells_variants_apart() {
+fn pictures_and_charts_distinguish_variants() {
     let place = Place::new();
     let oriented = |epsilon: &str, direction: &str| {
         [

@@ -13,7 +13,7 @@ fn files() -> Vec<String> {
 }
 
 #[test]
-fn the_tables_fit_a_terminal_and_say_what_the_json_says() {
+fn the_tables_fit_a_terminal_and_agree_with_the_json() {
     let place = Place::new();
     let done = place.run(&files(), "");
     assert_eq!(done.code, 0, "{}", done.stderr);
@@ -110,7 +110,7 @@ fn csv_lines(text: &str) -> Vec<Vec<String>> {
 }
 
 #[test]
-fn divergence_is_said() {
+fn divergence_is_reported() {
     let place = Place::new();
     let done = place.run(&files(), "--epsilon 30 --direction 1,1 --json --quiet");
     assert_eq!(done.code, 0, "{}", done.stderr);

@@ -14,7 +14,7 @@ fn the_committed_schema_is_up_to_date() {
 }
 
 #[test]
-fn files_are_as_the_schema_has_them() {
+fn files_satisfy_the_schema() {
     let schema: Value = serde_json::from_str(&schema()).unwrap();
     let validator = jsonschema::draft202012::new(&schema).unwrap();
     let place = Place::new();

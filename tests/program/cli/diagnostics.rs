@@ -15,7 +15,7 @@ const MEMBERS: [&str; 7] = ["points", "steps", "path", "trajectory", "joint_name
 
 /// Checks that the program succeeds (with code 0, 3 or 4), or that it reports the error in one object with file, place,
 /// message and help. Returns true if it is an error.
-fn is_answered(done: &Done, text: &str) -> bool {
+fn is_refused_with_help(done: &Done, text: &str) -> bool {
     let what = || format!("{}{}\n{text}", done.stdout, done.stderr);
     assert!(!done.stderr.contains("panicked"), "{}", what());
     if matches!(done.code, 0 | 3 | 4) {
@@ -49,13 +49,13 @@ fn every_slip_is_answered(stream: u64, usual: u64, text: &str, run: impl Fn(&str
     let mut dice = dice(stream);
     let errors = (0..times(usual)).filter(|_| {
         let text = slipped(&mut dice, text);
-        is_answered(&run(&text), &text)
+        is_refused_with_help(&run(&text), &text)
     });
     assert!(errors.count() > 0);
 }
 
 #[test]
-fn slips_in_a_world() {
+fn slips_in_a_world_are_accepted_or_explained() {
     let place = Place::new();
     let world = format!(
         "name = \"cell\"\nclearance = 0.001\n[robot]\nlimits = {{ elbow = [\"-120deg\", 2.1] }}\nvelocity = {{ elbow = 1.0 }}\n\
@@ -67,7 +67,7 @@ fn slips_in_a_world() {
 }
 
 #[test]
-fn slips_in_a_robot() {
+fn slips_in_a_robot_are_accepted_or_explained() {
     let place = Place::new();
     place.write("world.toml", FREE);
     let robot = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
@@ -78,7 +78,7 @@ fn slips_in_a_robot() {
 }
 
 #[test]
-fn slips_in_a_task() {
+fn slips_in_a_task_are_accepted_or_explained() {
     let place = Place::new();
     let task = "[start]\njoints = [0.3, 0.4]\n[[object]]\nname = \"part\"\n\
         polygon = [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]\nat = [1.1, 0.9]\n\
@@ -100,7 +100,7 @@ fn slips_in_a_motion(stream: u64, file: &str) {
 }
 
 #[test]
-fn slips_in_a_motion_of_each_format() {
+fn slips_in_motions_of_each_format_are_accepted_or_explained() {
     for (stream, file) in [(24, "motion.json"), (25, "motion.csv"), (26, "motion.yaml")] {
         slips_in_a_motion(stream, file);
     }
@@ -114,7 +114,7 @@ fn a_json_list_is_no_motion() {
     for text in ["[]", " [ ]", "[null, null, null, null, null, null, null, null]", "{}", "3", "\"path\"", "", "nul"] {
         place.write("motion.json", text);
         let done = place.run(&["verify", &robot, "world.toml", "motion.json"], "--json");
-        assert!(is_answered(&done, text), "{text} is taken");
+        assert!(is_refused_with_help(&done, text), "{text} is taken");
         let json: Value = done.json();
         assert!(json["cure"].as_str().unwrap().contains("JointTrajectory"), "{json}");
     }

@@ -20,7 +20,7 @@ impl Done {
 }
 
 #[test]
-fn kinds_tell_what_is_wrong() {
+fn errors_have_the_kind_of_the_mistake() {
     let place = Place::new();
     let post = format!("{FREE}[[obstacle]]\nname = \"post\"\ncircle = {{ center = [0.5, -0.6], radius = 0.1 }}\n");
     let json = place.plan(&post, "--json").error(1, "start", &["hits obstacle \"post\"", "deep"]);

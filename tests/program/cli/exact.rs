@@ -70,7 +70,7 @@ fn margin_0_keeps_flat_sides_where_corners_are_round() {
 }
 
 #[test]
-fn a_path_that_touches_exact_polygons_is_not_what_is_certified() {
+fn a_path_that_touches_exact_polygons_is_not_certified() {
     let place = Place::new();
     for planner in ["shortest", "visibility", "visibility --graph full"] {
         let done = place.run(&maze(), &format!("--margin 0 --planner {planner} --verbose"));
@@ -92,7 +92,7 @@ fn a_path_that_touches_exact_polygons_is_not_what_is_certified() {
 }
 
 #[test]
-fn margin_0_is_for_what_has_exact_polygons() {
+fn margin_0_needs_exact_polygons() {
     let place = Place::new();
     place
         .run(&shelf(), "--margin 0")

@@ -44,7 +44,7 @@ fn json_has_sets_and_changes() {
 }
 
 #[test]
-fn what_the_main_job_refuses_is_explained() {
+fn problems_that_planning_refuses_are_explained() {
     let place = Place::new();
     let blocked = explain(&place, "planar_2r", "shelf", "--goal 0.14,0 --json");
     assert_eq!(blocked.code, 3, "{}", blocked.stderr);
@@ -71,7 +71,7 @@ fn a_start_of_steps_that_is_not_free_is_explained() {
 }
 
 #[test]
-fn a_motion_is_explained_by_what_shapes_it() {
+fn a_motion_is_explained_by_the_obstacles_that_shape_it() {
     let done = explain(&Place::new(), "planar_2r", "shelf", "--json");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let result = json(&done);
@@ -125,7 +125,7 @@ fn a_tip_beyond_the_slide_is_opened_by_its_limit() {
 
 /// Checks that the picture of a feasible task has the task's motions.
 #[test]
-fn of_a_task_that_can_be_done_there_is_a_picture() {
+fn a_feasible_task_has_a_picture() {
     let place = Place::new();
     let done = explain(&place, "planar_2r", "tasks/elbow_choice", "--picture done.svg");
     assert_eq!(done.code, 0, "{}", done.stderr);
@@ -161,7 +161,7 @@ circle = { center = [1029.5896, -213.1444], radius = 95.3178 }
 "#;
 
 #[test]
-fn after_the_time_it_says_what_it_has() {
+fn at_the_time_limit_partial_results_are_reported() {
     let place = Place::new();
     place.write("a.urdf", LONG_ARM);
     place.write("w.toml", WIDE_WORLD);

@@ -19,7 +19,7 @@ fn json(text: &str) -> Value {
 }
 
 #[test]
-fn the_goal_is_reached_and_what_is_played_is_free() {
+fn the_goal_is_reached_by_a_free_motion() {
     let place = Place::new();
     let done = explore(&place, &shelf(), "--output a.json --output a.csv --output a.yaml");
     assert_eq!(done.code, 0, "{}", done.stderr);
@@ -71,7 +71,7 @@ fn rooms_are_explored_and_the_map_is_a_world() {
 /// Checks that the program can continue with a known map. It explores no known area again, and refuses the map of
 /// another world.
 #[test]
-fn a_known_map_is_taken_up() {
+fn an_earlier_map_is_used() {
     let place = Place::new();
     let first = explore(&place, &rooms(), &format!("{COARSE} --map rooms.yaml --json"));
     assert!(json(&first.stdout)["readings"].as_array().unwrap().len() > 50);
@@ -95,7 +95,7 @@ fn a_known_map_is_taken_up() {
 /// Checks a head that moves above all obstacles, so that its sensor can be above unknown places. One leg of the motion
 /// is longer than the sensor's range.
 #[test]
-fn nothing_is_left_by_a_head_that_stands_above_the_unknown() {
+fn a_head_above_unknown_space_leaves_nothing_unexplored() {
     let place = Place::new();
     let robot = shipped("robots/gantry.urdf");
     place.write(
@@ -135,7 +135,7 @@ const RING: &str = "start.joints = [-2.0, 0.3]\ngoal.joints = [1.6, -0.6]\nsenso
                     [[obstacle]]\ncircle = { center = [-0.7, 0.9], radius = 0.2 }\n";
 
 #[test]
-fn what_cannot_be_reached_is_proven() {
+fn unreachable_goals_are_proven() {
     let place = Place::new();
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/singular_closed.toml")];
     let done = explore(&place, &files, "");
@@ -159,7 +159,7 @@ fn what_cannot_be_reached_is_proven() {
 
 /// Checks a grid with so few cells that steps between their centres lead through walls.
 #[test]
-fn on_a_coarse_grid_it_ends() {
+fn exploration_on_a_coarse_grid_ends() {
     let place = Place::new();
     for strategy in ["view", "nearest", "harmonic", "wall"] {
         for grid in ["9", "13x8"] {
@@ -187,7 +187,7 @@ fn the_clearance_is_kept_from_what_lies_beyond_reach() {
 }
 
 #[test]
-fn what_makes_no_exploration_is_refused() {
+fn invalid_explorations_are_refused() {
     let place = Place::new();
     let explore = |options: &str| explore(&place, &rooms(), options);
     explore("--strategy goal").refused(1, &["needs a goal"]);
@@ -216,7 +216,7 @@ fn what_makes_no_exploration_is_refused() {
 /// Checks cells around the arm that no steps of the grid connect with the cells around its start, although the arm's
 /// own path connects them.
 #[test]
-fn what_the_arm_can_go_back_to_is_explored_too() {
+fn places_reachable_only_by_going_back_are_explored() {
     let place = Place::new();
     let circles =
         [(0.6548, -0.4113, 0.0295), (-0.1933, -0.8136, 0.0637), (-0.9593, -0.1962, 0.0298), (0.0598, -0.5253, 0.0797)];

@@ -56,7 +56,7 @@ fn options_that_do_not_go_together_end_with_2() {
 }
 
 #[test]
-fn the_result_tells_which_field_was_followed() {
+fn the_result_names_the_field() {
     let place = Place::new();
     let field = |options: &str| {
         let done = place.run(&shelf(), &format!("{COARSE} {options}"));
@@ -236,7 +236,7 @@ fn compare_takes_rows_with_options() {
 }
 
 #[test]
-fn a_field_that_does_not_converge_is_not_looked_for_on_finer_grids() {
+fn no_finer_grid_is_tried_for_a_field_that_does_not_converge() {
     let place = Place::new();
     let args = [&shipped("robots/planar_2r.urdf"), &*shipped("workspaces/shelf.toml"), "--direction", "0,-1"];
     let odd = "--planner harmonic --field oriented --epsilon 3 --difference central --max-sweeps 400 --json";
@@ -264,7 +264,7 @@ fn on_map(map: &str, options: &str) -> (u64, u64) {
 }
 
 #[test]
-fn over_relaxation_ends_where_published_counts_do_and_finds_the_way() {
+fn over_relaxation_takes_the_published_counts_and_finds_the_path() {
     // Tables 17 and 18 of Deicu 2012 have 124 and 194, 166 and 189 sweeps, if free cells start at the goals' value.
     for (map, order, published) in
         [("leon", "rows", 124), ("leon", "corners", 194), ("rings", "rows", 166), ("rings", "corners", 189)]
@@ -278,7 +278,7 @@ fn over_relaxation_ends_where_published_counts_do_and_finds_the_way() {
 }
 
 #[test]
-fn what_is_not_converged_is_not_found() {
+fn unconverged_fields_give_no_path() {
     let place = Place::new();
     let done = place.run(&shelf(), &format!("{COARSE} --relaxation gauss-seidel --max-sweeps 30"));
     assert_eq!(done.code, 4, "{}", done.stdout);
@@ -287,7 +287,7 @@ fn what_is_not_converged_is_not_found() {
 }
 
 #[test]
-fn cells_that_are_not_square_are_told_and_change_the_path() {
+fn oblong_cells_are_reported_and_change_the_path() {
     let place = Place::new();
     let files = [shipped("robots/mobile_robot.urdf"), shipped("workspaces/explore/hall.toml")];
     let length = |stencil: &str| {

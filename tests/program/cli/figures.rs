@@ -55,7 +55,7 @@ fn all_trapezoids_are_outlined_and_the_channels_points_are_marked() {
 /// Checks the simpler path of the course, section 6.3.2. It visits the middles of all portals. It visits the centre of
 /// a cell only between portals on one line.
 #[test]
-fn the_path_of_middles_has_a_centre_only_between_collinear_doors() {
+fn the_path_of_middles_has_a_centre_only_between_collinear_portals() {
     let place = Place::new();
     drawn(&place, &maze(), "--planner trapezoid --path middles");
     let space = space(&place);
@@ -80,7 +80,7 @@ fn the_path_of_middles_has_a_centre_only_between_collinear_doors() {
 
 /// Checks a path around the end of a bar: the channel enters a cell and leaves it by the same vertical.
 #[test]
-fn doors_on_one_vertical_have_the_centre_of_their_cell_between_them() {
+fn portals_on_one_vertical_have_the_centre_of_their_cell_between_them() {
     let place = Place::new();
     let world = "[start]\njoints = [0.2, 0.2]\n[goal]\njoints = [0.2, 1.3]\n\
                  [[obstacle]]\nname = \"bar\"\npolygon = [[-0.2, 0.7], [1.0, 0.7], [1.0, 0.8], [-0.2, 0.8]]\nheight = [0.0, 0.3]\n";
@@ -127,7 +127,7 @@ fn coarse_grids_are_kept_or_refused_with_the_reason() {
 
 /// Compares pictures of flow lines with figures 34 and 35 of Deicu's text.
 #[test]
-fn flow_lines_are_drawn_where_they_are_asked_for() {
+fn flow_lines_are_drawn_if_requested() {
     let place = Place::new();
     let of = |lines: &str| drawn(&place, &shelf(), &format!("--planner harmonic --cells 48 {lines}"));
     let usual = of("");

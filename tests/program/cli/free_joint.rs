@@ -42,7 +42,7 @@ fn last(result: &Value) -> [f64; 2] {
 }
 
 #[test]
-fn a_way_to_another_value_of_the_free_joint_is_found_by_all_planners() {
+fn all_planners_find_paths_to_any_value_of_the_free_joint() {
     let place = place(ELBOW, &format!("{ENDS}{BELOW}{ABOVE}"));
     assert_eq!(run(&place, "--goal 1,0 --quiet").code, 3, "with the elbow as at the start there is no way");
     assert_eq!(run(&place, "--goal 1,2.4 --quiet").code, 0, "with this elbow there is");
@@ -175,7 +175,7 @@ fn a_folded_arm_may_stand_at_any_angle() {
 }
 
 #[test]
-fn a_robot_without_a_tool_is_planned_for_as_it_comes() {
+fn a_robot_without_a_tool_is_planned_for_unchanged() {
     let world = "[start]\njoints = [0, 0.5]\n[goal]\ntip = [0, 1]\n";
     let place = Place::new();
     place.write("world.toml", world);

@@ -98,7 +98,7 @@ fn every_search_finds_a_path_from_either_end() {
 }
 
 #[test]
-fn iterative_deepening_says_how_often_it_began() {
+fn iterative_deepening_reports_the_number_of_rounds() {
     let place = Place::new();
     let done = place.run(&map(), &format!("{} --search deepening --verbose", MAP.replace(" --quiet", "")));
     // 22 moves: rounds of limits 0 to 22.
@@ -109,7 +109,7 @@ fn iterative_deepening_says_how_often_it_began() {
 }
 
 #[test]
-fn what_cannot_be_searched_so_is_refused() {
+fn unsupported_searches_are_refused() {
     let place = Place::new();
     for (options, parts) in [
         ("--planner wavefront --forward", ["--forward needs --search bfs", "the search `wave`"]),

@@ -136,7 +136,7 @@ fn help_fits_80_columns_and_lists_planner_options_in_one_place() {
 }
 
 /// Returns fish's completions of a command line. Returns `None` if fish is not installed.
-fn offered_by_fish(place: &Place, line: &str) -> Option<Vec<String>> {
+fn fish_completions(place: &Place, line: &str) -> Option<Vec<String>> {
     let script = format!("source cplan.fish; complete -C '{line}'");
     let mut fish = std::process::Command::new("fish");
     fish.args(["--no-config", "-c", &script]).current_dir(place.path("")).env("HOME", place.path(""));
@@ -145,7 +145,7 @@ fn offered_by_fish(place: &Place, line: &str) -> Option<Vec<String>> {
 }
 
 #[test]
-fn fish_completes_whatever_stands_before() {
+fn fish_completes_after_any_arguments() {
     let place = Place::new();
     let script = place.run(&["completions", "fish"], "").stdout;
     // Options are also offered after the files of `cplan URDF WORLD`. Only subcommands must be the first word.
@@ -169,7 +169,7 @@ fn fish_completes_whatever_stands_before() {
         ("cplan completions ", "fish", "arm.urdf"),
         ("cplan help ", "study", "arm.urdf"),
     ] {
-        let Some(offered) = offered_by_fish(&place, line) else {
+        let Some(offered) = fish_completions(&place, line) else {
             eprintln!("there is no fish here: its script was read, but not run");
             return;
         };
@@ -179,7 +179,7 @@ fn fish_completes_whatever_stands_before() {
 }
 
 #[test]
-fn manual_pages_say_what_the_help_says() {
+fn manual_pages_agree_with_the_help() {
     let place = Place::new();
     let main = place.run(&["man"], "").stdout;
     assert!(main.contains(".TH cplan 1"), "{main}");

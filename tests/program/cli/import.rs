@@ -68,7 +68,7 @@ fn without_a_file_the_world_is_printed() {
 }
 
 #[test]
-fn scaled_then_turned_then_moved() {
+fn drawings_are_scaled_then_turned_then_moved() {
     let place = Place::new();
     place.write("two.dxf", dxf("0 LINE 8 a 10 100 20 0 11 100 21 50 0 CIRCLE 8 a 10 300 20 100 40 20 39 10"));
     let done =
@@ -113,7 +113,7 @@ fn names_with_line_breaks_stay_in_their_comments() {
 }
 
 #[test]
-fn what_a_frozen_layer_brings_in_is_left_out_by_its_name() {
+fn insertions_on_a_frozen_layer_are_omitted_with_its_name() {
     let place = Place::new();
     let layers =
         "0 SECTION 2 TABLES 0 TABLE 2 LAYER 0 LAYER 2 cold 70 1 62 7 0 LAYER 2 off 70 0 62 -7 0 ENDTAB 0 ENDSEC";
@@ -143,7 +143,7 @@ fn what_a_frozen_layer_brings_in_is_left_out_by_its_name() {
 }
 
 #[test]
-fn outlines_that_are_none_are_taken_as_what_they_surround() {
+fn self_crossing_outlines_become_the_area_that_they_surround() {
     let place = Place::new();
     // The drawing has a bow tie, a loop that retraces itself, and a room around both.
     place.write(
@@ -211,7 +211,7 @@ fn options_take_the_names_that_the_world_gives() {
 }
 
 #[test]
-fn notes_are_of_what_is_taken() {
+fn notes_are_about_selected_elements_only() {
     let place = Place::new();
     place.write("hall.dxf", hall());
     let message = |options: &str| {
@@ -225,7 +225,7 @@ fn notes_are_of_what_is_taken() {
 }
 
 #[test]
-fn what_comes_in_with_a_block_has_its_place() {
+fn shapes_of_nested_blocks_have_their_places() {
     let place = Place::new();
     // The drawing has a triangle and a disc around the base point (1, 1), in a block that is mirrored, scaled by 2 and
     // turned by 90 degrees.
@@ -258,7 +258,7 @@ fn what_comes_in_with_a_block_has_its_place() {
 }
 
 #[test]
-fn what_is_hardly_meant_is_told_with_its_cure() {
+fn probable_mistakes_are_noted_with_a_hint() {
     let place = Place::new();
     let message = |entities: &str, options: &str| {
         place.write("w.dxf", dxf(entities));
@@ -294,7 +294,7 @@ fn what_is_hardly_meant_is_told_with_its_cure() {
 }
 
 #[test]
-fn a_picture_names_what_it_has_room_for_and_hides_nothing() {
+fn a_picture_hides_no_shape_behind_names() {
     let place = Place::new();
     // Small obstacles come first, then one below all of them; two layers.
     let disc = |i: usize| format!("0 CIRCLE 8 pins 10 {} 20 {} 40 20 ", 100 * (i % 5), 100 * (i / 5));
@@ -321,7 +321,7 @@ fn a_picture_names_what_it_has_room_for_and_hides_nothing() {
 }
 
 #[test]
-fn what_is_wrong_is_said_with_its_place_and_cure() {
+fn errors_state_their_place_and_a_hint() {
     let place = Place::new();
     place.write("text.dxf", dxf("0 TEXT 8 a 1 hello"));
     place.write("nan.dxf", dxf("0 CIRCLE 8 a 10 nan 20 0 40 1"));

@@ -65,7 +65,7 @@ fn starts_and_goals_that_collide_name_link_obstacle_and_depth() {
 }
 
 #[test]
-fn files_that_are_no_urdf() {
+fn files_other_than_urdf_are_refused() {
     let place = Place::new();
     place.write("world.toml", FREE);
     place.write("text.urdf", "hello");

@@ -10,7 +10,7 @@ use std::process::Command;
 /// Memory that a run may use, in KiB, including memory that is reserved but not used.
 const MEMORY: u32 = 1 << 20;
 
-fn listed(points: impl IntoIterator<Item = [f64; 2]>) -> String {
+fn toml_list(points: impl IntoIterator<Item = [f64; 2]>) -> String {
     points.into_iter().fold(String::new(), |mut list, [x, y]| {
         let _ = write!(list, "[{x:?}, {y:?}], ");
         list
@@ -26,15 +26,15 @@ fn ring(count: usize, center: [f64; 2], radius: impl Fn(usize) -> f64) -> Vec<[f
 }
 
 fn polygon(corners: Vec<[f64; 2]>) -> String {
-    format!("[[obstacle]]\npolygon = [{}]\n", listed(corners))
+    format!("[[obstacle]]\npolygon = [{}]\n", toml_list(corners))
 }
 
 fn polyline(points: Vec<[f64; 2]>) -> String {
-    format!("[[obstacle]]\npolyline = [{}]\n", listed(points))
+    format!("[[obstacle]]\npolyline = [{}]\n", toml_list(points))
 }
 
 /// Returns the program's result for an arm among obstacles. The program may use at most [`MEMORY`].
-fn planned(urdf: &str, obstacles: &str, options: &str) -> Value {
+fn plan_among(urdf: &str, obstacles: &str, options: &str) -> Value {
     let place = Place::new();
     place.write("world.toml", format!("{FREE}{obstacles}"));
     let output = Command::new("sh")
@@ -70,20 +70,20 @@ fn is_found_within(answer: &Value, most: f64) {
 #[test]
 fn a_star_of_20_000_corners_out_of_reach_is_no_obstacle() {
     let star = polygon(ring(20_000, [50.0, 50.0], |k| if k % 2 == 0 { 2.0 } else { 1.0 }));
-    let (answer, empty) = (planned(&arm(), &star, ""), planned(&arm(), "", ""));
+    let (answer, empty) = (plan_among(&arm(), &star, ""), plan_among(&arm(), "", ""));
     assert_eq!(answer["path"], empty["path"]);
 }
 
 #[test]
 fn a_polygon_of_5000_corners_around_a_circle_is_passed_like_the_circle() {
     let (center, radius) = ([1.2, 0.3], 0.15);
-    let disc = planned(&arm(), "[[obstacle]]\ncircle = { center = [1.2, 0.3], radius = 0.15 }\n", "");
-    let answer = planned(&arm(), &polygon(ring(5000, center, |_| radius)), "");
+    let disc = plan_among(&arm(), "[[obstacle]]\ncircle = { center = [1.2, 0.3], radius = 0.15 }\n", "");
+    let answer = plan_among(&arm(), &polygon(ring(5000, center, |_| radius)), "");
     is_found_within(&answer, number(&disc, "length") * 1.01);
     // The circle contains the polygon, so no path around it is shorter than the polygon's lower bound.
     assert!(number(&answer["optimum"], "lower_bound") <= number(&disc, "length"));
     assert!(number(&disc["optimum"], "lower_bound") <= number(&answer, "length") * (1.0 + 1e-4));
-    let other = planned(&arm(), &polygon(ring(5000, center, |_| radius)), "--planner subdivision");
+    let other = plan_among(&arm(), &polygon(ring(5000, center, |_| radius)), "--planner subdivision");
     assert!(number(&answer["optimum"], "lower_bound") <= number(&other, "length"));
 }
 
@@ -96,7 +96,7 @@ fn a_polyline_of_10_000_points_is_passed_like_one_of_100() {
         };
         polyline((0..count).map(point).collect())
     };
-    let (rough, fine) = (planned(&arm(), &wave(100), ""), planned(&arm(), &wave(10_000), ""));
+    let (rough, fine) = (plan_among(&arm(), &wave(100), ""), plan_among(&arm(), &wave(10_000), ""));
     is_found_within(&fine, number(&rough, "length") * 1.01);
     assert!(number(&rough["optimum"], "lower_bound") <= number(&fine, "length") * 1.001);
 }
@@ -104,9 +104,9 @@ fn a_polyline_of_10_000_points_is_passed_like_one_of_100() {
 #[test]
 fn a_star_of_4000_corners_is_passed_between_its_core_and_the_circle_around_it() {
     let center = [1.2, 0.3];
-    let around = planned(&arm(), "[[obstacle]]\ncircle = { center = [1.2, 0.3], radius = 0.2 }\n", "");
+    let around = plan_among(&arm(), "[[obstacle]]\ncircle = { center = [1.2, 0.3], radius = 0.2 }\n", "");
     let star = polygon(ring(4000, center, |k| if k % 2 == 0 { 0.2 } else { 0.1 }));
-    is_found_within(&planned(&arm(), &star, ""), number(&around, "length") * 1.01);
+    is_found_within(&plan_among(&arm(), &star, ""), number(&around, "length") * 1.01);
 }
 
 /// Returns numbers that look random, in `[-1, 1)`.
@@ -118,9 +118,9 @@ fn noise(k: usize) -> f64 {
 #[test]
 fn a_scanned_outline_of_6000_corners_is_passed_between_its_least_and_its_greatest_circle() {
     let center = [1.2, 0.3];
-    let around = planned(&arm(), "[[obstacle]]\ncircle = { center = [1.2, 0.3], radius = 0.2 }\n", "");
+    let around = plan_among(&arm(), "[[obstacle]]\ncircle = { center = [1.2, 0.3], radius = 0.2 }\n", "");
     let scan = polygon(ring(6000, center, |k| 0.19 + 0.01 * noise(k)));
-    is_found_within(&planned(&arm(), &scan, ""), number(&around, "length") * 1.06);
+    is_found_within(&plan_among(&arm(), &scan, ""), number(&around, "length") * 1.06);
 }
 
 /// Checks a wall that crosses itself thousands of times. The exact C-obstacles of its pieces cross each other millions
@@ -130,8 +130,8 @@ fn a_noisy_zigzag_of_5000_points_is_passed_like_the_band_that_it_fills() {
     let point = |k: usize| [1.0 + 0.3 * k as f64 / 5000.0, 0.25 + 0.05 * (k % 2) as f64 + 0.02 * noise(k)];
     let zigzag = polyline((0..5000).map(point).collect());
     let band = polygon(vec![[1.0, 0.23], [1.3, 0.23], [1.3, 0.32], [1.0, 0.32]]);
-    let around = planned(&arm(), &band, "");
-    is_found_within(&planned(&arm(), &zigzag, ""), number(&around, "length") * 1.06);
+    let around = plan_among(&arm(), &band, "");
+    is_found_within(&plan_among(&arm(), &zigzag, ""), number(&around, "length") * 1.06);
 }
 
 /// Returns the arm with a mesh as its forearm. The mesh is a prism over a polygon with `corners` corners that surrounds
@@ -169,8 +169,8 @@ fn with_mesh(place: &Place, corners: usize) -> String {
 fn a_mesh_with_an_outline_of_720_corners_is_a_link_like_others() {
     let place = Place::new();
     let post = "[[obstacle]]\ncircle = { center = [1.2, 0.3], radius = 0.15 }\n";
-    let rough = planned(&with_mesh(&place, 60), post, "");
-    let fine = planned(&with_mesh(&place, 720), post, "");
+    let rough = plan_among(&with_mesh(&place, 60), post, "");
+    let fine = plan_among(&with_mesh(&place, 720), post, "");
     is_found_within(&fine, number(&rough, "length") * 1.02);
     assert!(number(&rough["optimum"], "lower_bound") <= number(&fine, "length") * 1.001);
 }
@@ -197,7 +197,7 @@ fn long_chain(links: usize) -> String {
 fn a_robot_of_20_000_links_in_a_row_is_read() {
     let place = Place::new();
     place.write("chain.urdf", long_chain(20_000));
-    let answer = planned(&place.path("chain.urdf").display().to_string(), "", "");
+    let answer = plan_among(&place.path("chain.urdf").display().to_string(), "", "");
     assert_eq!(answer["status"], "found");
 }
 
@@ -214,7 +214,7 @@ fn a_robot_with_20_000_broken_joints_is_refused_with_the_first_of_them() {
 /// Checks ten thousand obstacles out of reach. The optimum is within the same gap as without them. Proofs refer to
 /// obstacles by their numbers among all obstacles.
 #[test]
-fn what_is_out_of_reach_changes_nothing() {
+fn shapes_out_of_reach_change_nothing() {
     let place = Place::new();
     let far: String = (0..10_100)
         .map(|k| {

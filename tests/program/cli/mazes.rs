@@ -74,18 +74,18 @@ fn is_solved(n: usize, blocked: &[bool], goal: usize) {
 }
 
 #[test]
-fn a_spiral_of_a_hundred_thousand_cells() {
+fn a_spiral_of_a_hundred_thousand_cells_is_solved() {
     let (blocked, inner) = mazes::spiral(451);
     is_solved(451, &blocked, inner);
 }
 
 #[test]
-fn a_maze_of_201_x_201_cells() {
+fn a_maze_of_201_x_201_cells_is_solved() {
     is_solved(201, &mazes::maze(201, 0), 201 * 201 - 1);
 }
 
 /// Checks a maze with more than a hundred thousand walls.
 #[test]
-fn a_maze_of_501_x_501_cells() {
+fn a_maze_of_501_x_501_cells_is_solved() {
     is_solved(501, &mazes::maze(501, 0), 501 * 501 - 1);
 }

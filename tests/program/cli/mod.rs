@@ -1,6 +1,5 @@
 //! The program from outside: arguments, streams, files and exit codes.
 
-mod as_written;
 mod batch;
 mod certificates;
 mod certified_motions;
@@ -11,6 +10,7 @@ mod commands;
 mod compare;
 mod converge;
 mod cspace;
+mod demo_and_init;
 mod diagnostics;
 mod error_json;
 mod exact;
@@ -18,11 +18,10 @@ mod explain;
 mod explore;
 mod fields;
 mod figures;
-mod first;
 mod free_joint;
 mod grids;
-mod hardly_meant;
 pub mod help;
+mod implausible_robots;
 mod import;
 mod inputs;
 mod large_turns;
@@ -34,11 +33,12 @@ mod numbers;
 mod outputs;
 mod own_body;
 mod path_kind;
-mod pressed;
+mod pressing_depth;
 mod proof_sizes;
 mod reach;
-mod resting;
 mod results;
+mod supports;
+mod tolerant_reading;
 #[cfg(feature = "study")]
 mod study;
 mod tasks;

@@ -105,7 +105,7 @@ fn a_posture_is_checked_at_a_time() {
 }
 
 #[test]
-fn where_no_timing_helps_that_is_proven_and_the_answer_is_unknown() {
+fn a_proof_that_no_timing_helps_leaves_the_answer_unknown() {
     let place = Place::new();
     let done = place.run(&moving("parked"), "--json");
     assert_eq!(done.code, 4, "{}", done.stderr);
@@ -116,7 +116,7 @@ fn where_no_timing_helps_that_is_proven_and_the_answer_is_unknown() {
 }
 
 #[test]
-fn motions_that_are_none_are_refused_with_their_place() {
+fn invalid_motions_of_obstacles_are_refused_with_their_place() {
     let place = Place::new();
     for (motion, parts) in [
         ("{ }", ["world.toml: line 8, column 10", "neither `stops` nor `velocity`"]),
@@ -143,7 +143,7 @@ fn motions_that_are_none_are_refused_with_their_place() {
 }
 
 #[test]
-fn what_knows_no_time_refuses_what_moves() {
+fn commands_without_time_refuse_moving_obstacles() {
     let place = Place::new();
     let [urdf, world] = moving("crossing");
     for command in ["compare", "explain", "explore", "reach", "converge"] {
@@ -287,7 +287,7 @@ fn picks_that_make_no_sense_are_refused_with_their_place() {
 }
 
 #[test]
-fn what_is_never_within_reach_is_proven_and_what_is_missed_is_told() {
+fn objects_never_within_reach_are_proven_and_missed_ones_reported() {
     let place = Place::new();
     let away = belt("at = [2.3, -0.9]\nmotion = { velocity = [0, 0.25] }", "");
     let done = place.plan(away, "--certificate c.json");

@@ -20,7 +20,7 @@ fn fields_find_a_passage_of_three_cells_without_a_finer_grid() {
 /// Checks a slide of hundreds of metres beside a star. However fine the strips are, a taut path leads through a side of
 /// the star. The planner must search again, and must not build a visibility graph after millions of strips.
 #[test]
-fn ways_through_walls_are_searched_for_anew() {
+fn paths_that_lead_through_walls_are_searched_again() {
     let place = Place::new();
     let shape = |at: &str, size: &str| {
         format!("<collision><origin xyz=\"{at} 0 0\"/><geometry><box size=\"{size} 100 100\"/></geometry></collision>")

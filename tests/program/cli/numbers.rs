@@ -21,7 +21,7 @@ fn a_tiny_clearance_is_no_zero() {
 }
 
 #[test]
-fn a_value_just_beyond_its_limits_is_told_from_them() {
+fn a_value_just_beyond_a_limit_is_printed_differently() {
     let place = Place::new();
     place.write("world.toml", FREE);
     let robot = shipped("robots/planar_2r.urdf");
@@ -39,14 +39,14 @@ fn a_value_just_beyond_its_limits_is_told_from_them() {
 }
 
 #[test]
-fn a_point_just_out_of_reach_is_told_from_the_reach() {
+fn a_point_just_out_of_reach_is_printed_differently() {
     let place = Place::new();
     let done = place.plan(FREE, "--goal-tip 1.8000001,0");
     done.refused(1, &["it is 1.8000001 m from joint", "the tip reaches from 0.2000000 to 1.8000000 m"]);
 }
 
 #[test]
-fn bounds_on_numbers_are_said() {
+fn bounds_on_numbers_are_stated() {
     let place = Place::new();
     let far = format!("{FREE}[[obstacle]]\ncircle = {{ center = [2e6, 0.0], radius = 1.0 }}\n");
     place.plan(far, "").refused(1, &["2000000 is too large (at most 1e6)", "from -1e6 to 1e6"]);

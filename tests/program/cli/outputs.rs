@@ -67,7 +67,7 @@ fn an_input_is_not_overwritten_by_any_path_to_it() {
 }
 
 #[test]
-fn pictures_spare_the_files_that_they_show() {
+fn pictures_do_not_overwrite_their_inputs() {
     let place = place();
     for name in ["arm.svg", "world.svg"] {
         let from = if name == "arm.svg" { "arm.urdf" } else { "world.json" };
@@ -87,7 +87,7 @@ fn pictures_spare_the_files_that_they_show() {
 }
 
 #[test]
-fn what_an_input_refers_to_is_an_input_too() {
+fn files_named_by_an_input_are_inputs_too() {
     let place = Place::new();
     for file in ["den.toml", "den.yaml", "den.pgm"] {
         std::fs::copy(shipped(&format!("workspaces/{file}")), place.path(file)).unwrap();

@@ -4,7 +4,7 @@ use super::{FREE, Place, shelf, shipped};
 use serde_json::{Value, json};
 
 #[test]
-fn planners_with_two_paths_give_the_one_that_is_asked_for() {
+fn planners_with_two_paths_return_the_requested_one() {
     let place = Place::new();
     let run = |options: &str| {
         let done = place.run(&shelf(), &format!("{options} --cells 64 --json"));

@@ -66,7 +66,7 @@ fn all_solutions_are_there_and_put_the_tip_at_the_centres() {
 }
 
 #[test]
-fn what_is_said_of_a_solution_is_what_planning_to_it_says() {
+fn each_solution_has_the_outcome_of_planning_to_it() {
     let place = Place::new();
     let mut seen = std::collections::BTreeMap::<String, usize>::new();
     for (robot, world) in [
@@ -103,7 +103,7 @@ fn what_is_said_of_a_solution_is_what_planning_to_it_says() {
 }
 
 #[test]
-fn cells_and_homes_that_make_no_sense_are_refused() {
+fn invalid_cells_and_homes_are_refused() {
     let place = Place::new();
     reach(&place, &shelf(), "--cell 0.0001").refused(1, &["more than 4000000 cells", "choose a larger size"]);
     reach(&place, &shelf(), "--cell 0").refused(2, &["--cell"]);
@@ -114,7 +114,7 @@ fn cells_and_homes_that_make_no_sense_are_refused() {
 }
 
 #[test]
-fn what_is_wrong_with_the_home_is_said_of_the_home() {
+fn errors_of_the_home_are_attributed_to_it() {
     let place = Place::new();
     let far = reach(&place, &shelf(), "--home 9,9");
     far.refused(1, &["--home"]);

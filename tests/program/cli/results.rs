@@ -46,7 +46,7 @@ fn each_outcome_has_its_exit_code_and_json() {
 }
 
 #[test]
-fn a_motion_to_where_the_arm_is() {
+fn a_motion_to_the_start_has_length_zero() {
     let done = Place::new().plan(FREE, "--goal=-0.9,0.4 --json");
     assert_eq!((done.code, done.json()["path"].clone()), (0, json!([[-0.9, 0.4]])));
     // Serialised, -0.0 and 0.0 differ.
@@ -54,7 +54,7 @@ fn a_motion_to_where_the_arm_is() {
 }
 
 #[test]
-fn continuous_joints_count_on_from_the_start() {
+fn continuous_joints_continue_from_the_value_of_the_start() {
     let files = [shipped("robots/planar_2r_continuous.urdf"), shipped("workspaces/wrap_around.toml")];
     let result = Place::new().run(&files, "--start 7.0,0.3 --json").json();
     let path: Vec<[f64; 2]> = serde_json::from_value(result["path"].clone()).unwrap();
@@ -84,7 +84,7 @@ fn the_same_input_gives_the_same_bytes() {
 }
 
 #[test]
-fn the_message_and_the_table_say_the_same() {
+fn the_message_and_the_table_agree() {
     let place = Place::new();
     let result = place.run(&shelf(), "--json --output a.csv --output a.yaml").json();
     let rows: Vec<Vec<f64>> = place
@@ -208,7 +208,7 @@ fn a_program_without_gpu_says_so_before_any_work() {
 }
 
 #[test]
-fn readers_that_go_away_are_no_error() {
+fn a_closed_pipe_is_no_error() {
     let place = Place::new();
     let mut child = place.command().args(shelf()).arg("--json").stdout(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());
@@ -258,7 +258,7 @@ fn paths_come_with_a_bound_on_the_optimum() {
 }
 
 #[test]
-fn a_gap_that_cannot_be_reached_is_said() {
+fn an_unreachable_gap_is_reported() {
     let here = Place::new();
     let slot = ["robots/polar.urdf", "workspaces/thin_wall_open.toml"].map(shipped);
     let done = here.run(&slot, "--gap 1e-9 --levels 1 --json");

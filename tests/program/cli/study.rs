@@ -60,7 +60,7 @@ fn field<'a>(row: &'a [(String, String)], name: &str) -> &'a str {
 }
 
 #[test]
-fn each_row_is_what_the_program_says_of_the_layouts_own_files() {
+fn each_row_agrees_with_planning_in_the_files_of_its_layout() {
     let place = Place::new();
     // Layouts that the study would refuse can be planned separately.
     study(&place, "draws = 5\nseed = 3\noverlap = true", CRATE);
@@ -99,7 +99,7 @@ fn each_row_is_what_the_program_says_of_the_layouts_own_files() {
 }
 
 #[test]
-fn rows_are_the_same_for_any_number_of_jobs_and_without_what_is_not_measured() {
+fn rows_do_not_depend_on_the_number_of_jobs_or_on_measures() {
     let place = Place::new();
     let all = "draws = 6\nmeasure = [\"length\", \"over_bound\", \"duration\"]";
     study(&place, all, CRATE);
@@ -183,7 +183,7 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
 }
 
 #[test]
-fn the_search_finds_better_layouts_and_says_what_it_tried() {
+fn the_search_finds_better_layouts_and_lists_the_tried_ones() {
     let place = Place::new();
     let base = "[[parameter]]\nname = \"x\"\nunit = \"m\"\nsets = \"world.robot.at[0]\"\nfrom = -0.3\nto = 0.3\nsteps = 4\n\
                 [[parameter]]\nname = \"y\"\nsets = \"world.robot.at[1]\"\nfrom = -0.3\nto = 0.3\nsteps = 4\n";
@@ -249,7 +249,7 @@ fn robots_vary_as_well_as_worlds() {
 }
 
 #[test]
-fn what_one_layout_lacks_is_its_row_and_no_best_layout_is_no_failure() {
+fn failed_layouts_have_rows_and_a_study_may_have_no_best_layout() {
     let place = Place::new();
     // The world has no preferred region, and the field needs some.
     let field = "options = [\"--planner=harmonic\", \"--field=bvp\"]\nmeasure = [\"length\"]";
@@ -288,7 +288,7 @@ fn two_runs_do_not_share_their_rows() {
 }
 
 #[test]
-fn what_is_wrong_with_a_study_has_its_place_and_cure() {
+fn errors_in_a_study_have_a_place_and_a_hint() {
     let place = Place::new();
     let x = "[[parameter]]\nname = \"x\"\nsets = \"world.obstacle.crate.at[0]\"\nfrom = 0\nto = 1\n";
     let several = "[[parameter]]\nname = \"x\"\nsets = [\"world.obstacle.crate.at[0]\", \"world.obstacle.shelves.at[0]\"]\nvalues = [1]\n";
@@ -359,7 +359,7 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
 }
 
 #[test]
-fn obstacles_stand_in_nothing_but_what_the_world_lets_them() {
+fn obstacles_overlap_only_where_the_world_allows_it() {
     let place = Place::new();
     // The shelf is from 1.15 to 1.6 and from 0.18 to 0.3, and the crate extends 0.15 around its place: at 1.0, 0.03 and
     // 0.45 they touch.
@@ -389,7 +389,7 @@ fn obstacles_stand_in_nothing_but_what_the_world_lets_them() {
 }
 
 #[test]
-fn the_page_tells_apart_what_colours_mean() {
+fn the_page_distinguishes_what_colours_mean() {
     let place = Place::new();
     let base = CRATE.replace("draw = \"latin\"", "steps = 5");
     let page = |head: &str| {
@@ -419,7 +419,7 @@ fn the_page_tells_apart_what_colours_mean() {
 }
 
 #[test]
-fn a_best_layout_at_the_end_of_a_range_is_said() {
+fn a_best_layout_at_the_end_of_a_range_is_noted() {
     let place = Place::new();
     let speed = |values: &str| {
         let [urdf, _] = shelf();
@@ -460,7 +460,7 @@ fn angles_may_be_in_degrees() {
 
 #[cfg(unix)]
 #[test]
-fn ctrl_c_says_what_is_kept() {
+fn ctrl_c_reports_the_stored_rows() {
     let place = Place::new();
     study(&place, "draws = 2000", CRATE);
     let mut stopped = place.command();

@@ -326,7 +326,7 @@ fn each_step_has_a_file_of_its_own() {
 }
 
 #[test]
-fn what_cannot_be_done_for_steps_is_refused() {
+fn options_unsupported_for_steps_are_refused() {
     let place = Place::new();
     let refused = |options: &str, code: i32, part: &str| place.task(STEPS, options).refused(code, &[part]);
     refused("--gap 0.01", 2, "--gap is for single motions");

@@ -68,7 +68,7 @@ fn names_of_files_are_shown_with_escapes() {
 }
 
 #[test]
-fn the_verdict_comes_first_and_what_was_taken_for_granted_last() {
+fn the_verdict_comes_first_and_assumptions_last() {
     let keys = |text: &str| {
         let keys = text.lines().filter_map(|line| line.split(' ').next()).filter(|k| !k.is_empty());
         keys.map(str::to_owned).collect::<Vec<_>>()

@@ -15,7 +15,7 @@ fn greatest(result: &Value) -> [f64; 2] {
 }
 
 #[test]
-fn torques_are_kept_told_and_judged() {
+fn torques_are_limited_reported_and_judged() {
     let place = Place::new();
     let [urdf, world] = upright();
     let done = place.run(&upright(), "--verbose --output m.json --output m.csv --output m.yaml --picture m.html");
@@ -48,7 +48,7 @@ fn torques_are_kept_told_and_judged() {
 }
 
 #[test]
-fn the_option_is_as_good_as_the_world() {
+fn the_option_equals_the_setting_of_the_world() {
     let place = Place::new();
     let [urdf, world] = upright();
     let text = std::fs::read_to_string(&world).unwrap();
@@ -72,7 +72,7 @@ fn the_option_is_as_good_as_the_world() {
 }
 
 #[test]
-fn what_is_carried_and_how_it_is_driven_stay_within_the_efforts() {
+fn motions_with_payloads_and_drives_stay_within_the_efforts() {
     let place = Place::new();
     let [urdf, _] = upright();
     let heavy = shipped("workspaces/tasks/heavy_tower.toml");
@@ -98,7 +98,7 @@ fn what_is_carried_and_how_it_is_driven_stay_within_the_efforts() {
 }
 
 #[test]
-fn what_is_missing_or_makes_no_sense_is_named() {
+fn missing_and_invalid_settings_are_named() {
     let place = Place::new();
     let [urdf, world] = upright();
     place.run(&shelf(), "--torque").refused(1, &["--torque", "link \"upper_arm\" has no mass", "<inertial>"]);
@@ -146,7 +146,7 @@ fn what_is_missing_or_makes_no_sense_is_named() {
 /// Checks the effort that holds the arm at the end. No motion follows the end, so none would show that the effort is
 /// exceeded.
 #[test]
-fn what_is_held_in_the_end_is_held_by_the_efforts() {
+fn the_efforts_hold_the_arm_at_the_end() {
     let place = Place::new();
     let world = std::fs::read_to_string(shipped("workspaces/tasks/heavy_tower.toml")).unwrap();
     let ends_holding = world.split("[[step]]\nplace").next().unwrap();
@@ -168,7 +168,7 @@ fn what_is_held_in_the_end_is_held_by_the_efforts() {
 
 /// Checks efforts that are far too small, as in a wrong unit, in the world or in the robot's file.
 #[test]
-fn efforts_next_to_nothing_are_told_from_links_without_mass() {
+fn tiny_efforts_are_distinguished_from_massless_links() {
     let place = Place::new();
     let [urdf, world] = upright();
     let text = std::fs::read_to_string(&world).unwrap();
@@ -182,7 +182,7 @@ fn efforts_next_to_nothing_are_told_from_links_without_mass() {
 /// Checks recordings without velocities. The speed of the arm is unknown, so torques cannot be judged. For a single
 /// sample, the program computes the torques that hold the arm there.
 #[test]
-fn torques_of_what_has_no_velocities_are_not_said_to_be_kept() {
+fn torques_of_recordings_without_velocities_are_not_judged() {
     let place = Place::new();
     let [urdf, world] = upright();
     place.write("path.csv", "time,shoulder,elbow\n0,1.9,-0.4\n10,1.9,-0.39\n");

@@ -54,7 +54,7 @@ fn run(place: &Place, shown: &Shown, code: i32) -> Option<String> {
 const OF_TABLE: &str = "<!-- run: the commands of the table -->";
 
 /// Runs the commands of the tables of a page. Returns how many ran, and the failures.
-fn tabled(page: &Page) -> (usize, Vec<String>) {
+fn run_tables(page: &Page) -> (usize, Vec<String>) {
     let place = Place::new();
     for folder in ["robots", "workspaces"] {
         copy(&root().join(folder), &place.path(folder));
@@ -89,7 +89,7 @@ fn tabled(page: &Page) -> (usize, Vec<String>) {
 fn every_command_of_a_table_does_something() {
     let (mut ran, mut wrong) = (0, Vec::new());
     for page in pages() {
-        let (commands, faults) = tabled(&page);
+        let (commands, faults) = run_tables(&page);
         ran += commands;
         wrong.extend(faults);
     }
@@ -143,7 +143,7 @@ fn follow(page: &Page) -> (usize, Vec<String>) {
 
 #[cfg_attr(not(all(feature = "png", feature = "mcap", feature = "serve")), ignore = "pages use every feature")]
 #[test]
-fn every_command_does_what_is_shown() {
+fn every_command_prints_the_shown_output() {
     let (ran, wrong) = (Mutex::new(0), Mutex::new(Vec::new()));
     let pages = pages();
     std::thread::scope(|scope| {

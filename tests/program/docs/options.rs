@@ -18,7 +18,7 @@ fn options(text: &str) -> Vec<&str> {
 }
 
 #[test]
-fn every_option_named_is_there() {
+fn every_named_option_exists() {
     let place = Place::new();
     let mut known: BTreeSet<String> = OTHERS.iter().map(|&option| option.to_owned()).collect();
     for command in [String::new()].into_iter().chain(commands(&place)) {

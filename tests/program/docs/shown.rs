@@ -85,7 +85,7 @@ pub fn difference(shown: &str, report: &str) -> Option<String> {
 }
 
 #[test]
-fn differences_are_seen() {
+fn differences_from_the_shown_output_are_found() {
     let report = "arm        two\ntime       load 0.7, query 2.3 ms\nfile       plan.json\n           plan.svg\n";
     for shown in [
         report,

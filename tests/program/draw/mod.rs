@@ -52,7 +52,7 @@ fn planar(axes: [JointRange; 2]) -> cplan::model::Arm {
     arm(["shoulder", "elbow"], [TURN; 2], axes, [1.0, 0.8], [block(-0.06, -0.06, 1.06, 0.06), capsule(0.8, 0.05)])
 }
 
-fn three() -> Scene {
+fn planar_scene() -> Scene {
     scene(
         planar([interval(-2.8, 2.8), interval(-2.6, 2.6)]),
         vec![
@@ -104,19 +104,19 @@ fn polar() -> Scene {
     scene(arm, vec![circle("column", 0.0, 0.9, 0.2), wall("wall", &[(0.7, -0.5), (0.7, -0.1)])])
 }
 
-fn at(q1: f64, q2: f64) -> Configuration {
+fn configuration(q1: f64, q2: f64) -> Configuration {
     Configuration::new(q1, q2)
 }
 
 /// Returns a planned picture: the wave's path between two configurations, drawn with the trace of `trace`.
-fn planned(
+fn planned_picture(
     name: &str,
     scene: &Scene,
     [start, goal]: [Configuration; 2],
     n: usize,
     trace: impl Fn(&Cells, &[u32], usize, &Path) -> Trace,
 ) -> String {
-    let cells = Cells::look(scene, n);
+    let cells = Cells::sample(scene, n);
     let [from, to] = [start, goal].map(|q| cells.index(q));
     let labels = cells.labels(to);
     let path = cells.descend(from, &labels);
@@ -135,10 +135,19 @@ fn planned(
 }
 
 #[test]
-fn a_wavefront_between_limits() {
-    let text = planned("rr_wavefront", &three(), [at(-1.9, 0.6), at(1.4, -1.0)], 160, |cells, labels, _, _| {
-        Trace::Wavefront { cells: [cells.n; 2], labels: labels.to_vec(), expanded: Vec::new(), forward: false }
-    });
+fn a_wavefront_between_limits_is_drawn() {
+    let text = planned_picture(
+        "rr_wavefront",
+        &planar_scene(),
+        [configuration(-1.9, 0.6), configuration(1.4, -1.0)],
+        160,
+        |cells, labels, _, _| Trace::Wavefront {
+            cells: [cells.n; 2],
+            labels: labels.to_vec(),
+            expanded: Vec::new(),
+            forward: false,
+        },
+    );
     let words = words(&text);
     for word in ["shoulder", "elbow", "90\u{b0}", "shelf", "post <1>", "fence & gate", "steps to the goal"] {
         assert!(words.contains(word), "{word} is missing in {words}");
@@ -148,30 +157,39 @@ fn a_wavefront_between_limits() {
 }
 
 #[test]
-fn a_field_on_a_torus() {
-    let text = planned("torus_field", &torus(), [at(2.6, 0.3), at(-2.2, -1.6)], 72, |cells, _, goal, _| Trace::Field {
-        cells: [cells.n; 2],
-        potential: cells.potential(goal),
-    });
+fn a_field_on_a_torus_is_drawn() {
+    let text = planned_picture(
+        "torus_field",
+        &torus(),
+        [configuration(2.6, 0.3), configuration(-2.2, -1.6)],
+        72,
+        |cells, _, goal, _| Trace::Field { cells: [cells.n; 2], potential: cells.potential(goal) },
+    );
     let words = words(&text);
     assert!(words.contains("shoulder, wraps around") && words.contains("equipotentials"));
     assert!(text.contains("stroke-dasharray"), "seams are dashed");
 }
 
 #[test]
-fn a_channel_of_a_gantry() {
-    let text = planned("gantry_channel", &gantry(), [at(0.2, 0.15), at(1.8, 0.9)], 48, |cells, _, _, path| {
-        let boxes = cells.free_boxes();
-        let holds = |b: &Vec<Configuration>, q: &Configuration| (0..2).all(|k| b[0][k] <= q[k] && q[k] <= b[2][k]);
-        let channel = (0..boxes.len()).filter(|&i| path.waypoints().iter().any(|q| holds(&boxes[i], q))).collect();
-        Trace::Channel {
-            kind: CellKind::Trapezoids,
-            cells: boxes.into(),
-            channel,
-            points: ChannelPoints::default(),
-            expanded: Vec::new(),
-        }
-    });
+fn a_channel_of_a_gantry_is_drawn() {
+    let text = planned_picture(
+        "gantry_channel",
+        &gantry(),
+        [configuration(0.2, 0.15), configuration(1.8, 0.9)],
+        48,
+        |cells, _, _, path| {
+            let boxes = cells.free_boxes();
+            let holds = |b: &Vec<Configuration>, q: &Configuration| (0..2).all(|k| b[0][k] <= q[k] && q[k] <= b[2][k]);
+            let channel = (0..boxes.len()).filter(|&i| path.waypoints().iter().any(|q| holds(&boxes[i], q))).collect();
+            Trace::Channel {
+                kind: CellKind::Trapezoids,
+                cells: boxes.into(),
+                channel,
+                points: ChannelPoints::default(),
+                expanded: Vec::new(),
+            }
+        },
+    );
     let words = words(&text);
     for word in ["bridge (m)", "trolley (m)", "channel", "crate"] {
         assert!(words.contains(word), "{word} is missing in {words}");
@@ -179,21 +197,27 @@ fn a_channel_of_a_gantry() {
 }
 
 #[test]
-fn a_roadmap_on_an_interval_longer_than_a_turn() {
-    planned("polar_roadmap", &polar(), [at(-3.5, 0.3), at(3.0, 0.1)], 120, |cells, labels, _, _| {
-        let free: Vec<usize> = (0..labels.len()).filter(|k| labels[*k] != u32::MAX).step_by(97).collect();
-        let edges = free.windows(3).flat_map(|w| [[w[0], w[1]], [w[0], w[2]]]);
-        Trace::Roadmap { edges: edges.map(|e| e.map(|k| cells.center(k))).collect(), whole: true }
-    });
+fn a_roadmap_on_an_interval_longer_than_a_turn_is_drawn() {
+    planned_picture(
+        "polar_roadmap",
+        &polar(),
+        [configuration(-3.5, 0.3), configuration(3.0, 0.1)],
+        120,
+        |cells, labels, _, _| {
+            let free: Vec<usize> = (0..labels.len()).filter(|k| labels[*k] != u32::MAX).step_by(97).collect();
+            let edges = free.windows(3).flat_map(|w| [[w[0], w[1]], [w[0], w[2]]]);
+            Trace::Roadmap { edges: edges.map(|e| e.map(|k| cells.center(k))).collect(), whole: true }
+        },
+    );
 }
 
 #[test]
-fn a_comparison_tells_paths_apart() {
+fn a_comparison_distinguishes_paths() {
     let scene = torus();
-    let cells = Cells::look(&scene, 96);
-    let goal = cells.index(at(-2.2, -1.6));
+    let cells = Cells::sample(&scene, 96);
+    let goal = cells.index(configuration(-2.2, -1.6));
     let labels = cells.labels(goal);
-    let walk = cells.descend(cells.index(at(2.6, 0.3)), &labels);
+    let walk = cells.descend(cells.index(configuration(2.6, 0.3)), &labels);
     let thinned = |step: usize| {
         let mut waypoints: Vec<Configuration> = walk.waypoints().iter().copied().step_by(step).collect();
         waypoints.push(walk.goal());
@@ -216,30 +240,30 @@ fn a_comparison_tells_paths_apart() {
 }
 
 #[test]
-fn a_crowd_without_a_path() {
+fn a_crowd_without_a_path_is_drawn() {
     let crowd = |k: usize| {
         let (angle, distance) = (k as f64 * 2.4, 0.9 + 0.018 * k as f64);
         circle(&format!("o{k}"), distance * angle.cos(), distance * angle.sin(), 0.05)
     };
     let scene = scene(planar([interval(-2.8, 2.8), interval(-2.6, 2.6)]), (0..60).map(crowd).collect());
-    let c_obstacles = Cells::look(&scene, 90).c_obstacles(60);
+    let c_obstacles = Cells::sample(&scene, 90).c_obstacles(60);
     let picture = Picture {
         title: vec!["A crowd".to_owned()],
         status: "infeasible: proven".to_owned(),
-        goals: &[at(1.0, -2.4).into(), at(2.0, 2.4).into()],
+        goals: &[configuration(1.0, -2.4).into(), configuration(2.0, 2.4).into()],
         c_obstacles: &c_obstacles,
-        ..Picture::new(&scene, at(-2.0, 2.4))
+        ..Picture::new(&scene, configuration(-2.0, 2.4))
     };
     let words = words(&checked("crowd", &picture));
     assert!(words.contains("infeasible: proven") && !words.contains("o17"));
 }
 
-fn bare<'a>(scene: &'a Scene, goals: &'a [Segment]) -> Picture<'a> {
+fn plain_picture<'a>(scene: &'a Scene, goals: &'a [Segment]) -> Picture<'a> {
     Picture {
         title: vec!["<&> \"title\"".to_owned()],
         status: "unknown".to_owned(),
         goals,
-        ..Picture::new(scene, at(0.0, 0.0))
+        ..Picture::new(scene, configuration(0.0, 0.0))
     }
 }
 
@@ -260,7 +284,7 @@ fn empty_and_degenerate_scenes_have_finite_axes() {
         ("tiny", scene(tiny.clone(), Vec::new())),
         ("tiny_far", scene(tiny, far())),
     ] {
-        let words = words(&checked(name, &bare(&scene, &no_goals)));
+        let words = words(&checked(name, &plain_picture(&scene, &no_goals)));
         assert!(words.contains("<&> \"title\""));
         assert_eq!(words.contains("2 obstacles lie outside"), name.contains("far"));
     }
@@ -268,9 +292,9 @@ fn empty_and_degenerate_scenes_have_finite_axes() {
 
 #[test]
 fn a_motion_that_stays_where_it_is_is_drawn() {
-    let scene = three();
-    let path = Path::new(vec![at(0.0, 0.0)]);
-    let goals = [at(0.0, 0.0).into()];
+    let scene = planar_scene();
+    let path = Path::new(vec![configuration(0.0, 0.0)]);
+    let goals = [configuration(0.0, 0.0).into()];
     for trace in [
         Trace::Roadmap { edges: Vec::new(), whole: true },
         Trace::Channel {
@@ -287,7 +311,7 @@ fn a_motion_that_stays_where_it_is_is_drawn() {
         Trace::Field { cells: [2, 2], potential: vec![f64::NEG_INFINITY, 0.0, -1.0, -2.0] },
         Trace::Field { cells: [0, 0], potential: Vec::new() },
     ] {
-        let mut picture = bare(&scene, &goals);
+        let mut picture = plain_picture(&scene, &goals);
         picture.paths = vec![("visibility".to_owned(), &path)];
         picture.trace = Some(&trace);
         assert!(checked("still", &picture).starts_with("<svg"));
@@ -306,9 +330,9 @@ mod raster {
 
     #[test]
     fn a_png_has_its_size_and_is_not_blank() {
-        let scene = three();
-        let goals = [at(1.0, 1.0).into()];
-        let bytes = png(&drawn(&bare(&scene, &goals)), 0.5).unwrap();
+        let scene = planar_scene();
+        let goals = [configuration(1.0, 1.0).into()];
+        let bytes = png(&drawn(&plain_picture(&scene, &goals)), 0.5).unwrap();
         assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
         let pixels = tiny_skia::Pixmap::decode_png(&bytes).unwrap();
         assert_eq!((pixels.width(), pixels.height()), (700, 360));
@@ -319,9 +343,9 @@ mod raster {
     /// Checks that text uses the built-in font: a picture with a longer title has more dark pixels at the top.
     #[test]
     fn text_is_rendered_without_fonts_of_the_machine() {
-        let scene = three();
+        let scene = planar_scene();
         let dark = |title: &str| {
-            let mut picture = bare(&scene, &[]);
+            let mut picture = plain_picture(&scene, &[]);
             picture.title = vec![title.to_owned()];
             let pixels = tiny_skia::Pixmap::decode_png(&png(&drawn(&picture), 1.0).unwrap()).unwrap();
             pixels.pixels()[..1400 * 50].iter().filter(|p| p.red() < 128).count()
@@ -330,10 +354,10 @@ mod raster {
     }
 
     #[test]
-    fn scales_that_make_no_picture_are_refused() {
-        let scene = three();
+    fn invalid_scales_are_refused() {
+        let scene = planar_scene();
         for scale in [0.0, -1.0, 1e-9, 1e3, f64::NAN, f64::INFINITY] {
-            assert!(matches!(png(&drawn(&bare(&scene, &[])), scale), Err(DrawError::Scale(_))), "{scale}");
+            assert!(matches!(png(&drawn(&plain_picture(&scene, &[])), scale), Err(DrawError::Scale(_))), "{scale}");
         }
     }
 }
@@ -348,7 +372,7 @@ fn preference_regions_are_dashed_and_explained() {
     let with = |preferences: Vec<Preference>| {
         let (arm, workspace) = torus().into_parts();
         let scene = placed(arm, Workspace { preferences, ..workspace });
-        let picture = Picture { title: vec!["preferences".into()], ..Picture::new(&scene, at(0.0, 0.0)) };
+        let picture = Picture { title: vec!["preferences".into()], ..Picture::new(&scene, configuration(0.0, 0.0)) };
         let text = checked("preferences", &picture);
         let dashes = text.matches("stroke-dasharray=\"7 4\"").count();
         (dashes, words(&text))

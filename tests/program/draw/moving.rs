@@ -6,7 +6,7 @@ use cplan::engine::Method;
 use cplan::{Options, Plan, Problem, plan};
 use std::path::Path;
 
-fn planned(robot: &str, world: &str, method: Method) -> Plan {
+fn plan_shipped(robot: &str, world: &str, method: Method) -> Plan {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let [robot, world] = [root.join(format!("robots/{robot}.urdf")), root.join(format!("workspaces/{world}.toml"))];
     plan(&Problem::load(robot, world).unwrap(), &Options::from(method)).unwrap()
@@ -22,9 +22,9 @@ fn frames(view: &View) -> Vec<(String, u16)> {
 }
 
 #[test]
-fn each_phase_is_told_under_its_caption_and_shows_ever_more() {
+fn each_phase_has_a_caption_and_adds_to_the_picture() {
     for method in [Method::Trapezoid, Method::Wavefront, Method::Subdivision, Method::Prm, Method::Shortest] {
-        let plan = planned("planar_2r", "shelf", method);
+        let plan = plan_shipped("planar_2r", "shelf", method);
         let frames = frames(&plan.view_with_replay());
         for phase in plan.replay().unwrap().phases {
             let of_phase: Vec<&String> = frames
@@ -41,9 +41,9 @@ fn each_phase_is_told_under_its_caption_and_shows_ever_more() {
 
 #[test]
 fn without_a_motion_the_proof_is_the_end_and_without_a_replay_there_is_the_motion_alone() {
-    let proven = planned("planar_2r_continuous", "no_path", Method::First);
+    let proven = plan_shipped("planar_2r_continuous", "no_path", Method::First);
     assert!(frames(&proven.view_with_replay()).len() > 20);
-    let found = planned("planar_2r", "shelf", Method::First);
+    let found = plan_shipped("planar_2r", "shelf", Method::First);
     assert!(frames(&found.view()).len() < frames(&found.view_with_replay()).len());
 }
 
@@ -52,7 +52,7 @@ fn without_a_motion_the_proof_is_the_end_and_without_a_replay_there_is_the_motio
 #[cfg(feature = "png")]
 #[test]
 fn the_last_picture_of_a_gif_is_the_still_one() {
-    let view = planned("planar_2r", "shelf", Method::First).view_with_replay();
+    let view = plan_shipped("planar_2r", "shelf", Method::First).view_with_replay();
     let (mut heard, width) = ((0, 0), 480);
     let bytes = cplan::draw::gif(&view, f64::from(width), &mut |done, all| heard = (done, all)).unwrap();
     assert_eq!(bytes, cplan::draw::gif(&view, f64::from(width), &mut |_, _| ()).unwrap(), "the same bytes each time");

@@ -1,6 +1,6 @@
 //! Pages: self-contained, deterministic, finite, and the same results as the pictures.
 
-use super::{at, bare, three, torus};
+use super::{configuration, plain_picture, planar_scene, torus};
 use crate::common::{Benchmark, benchmark};
 use cplan::check::certify;
 use cplan::cspace::c_obstacles;
@@ -59,10 +59,10 @@ fn near(found: &[[f64; 2]], expected: impl IntoIterator<Item = [f64; 2]>) {
 }
 
 #[test]
-fn a_plan_is_shown_as_it_is() {
-    let scene = three();
+fn a_plan_is_shown_unchanged() {
+    let scene = planar_scene();
     let contours = c_obstacles(&scene, 2e-3, 2e-3);
-    let path = Path::new(vec![at(1.6, 0.3), at(1.75, 0.5), at(1.85, 0.2)]);
+    let path = Path::new(vec![configuration(1.6, 0.3), configuration(1.75, 0.5), configuration(1.85, 0.2)]);
     let timed = Drive::default().along(&scene, &certify(&scene, path.clone(), 0.0).unwrap(), 1.0).unwrap();
     let goals = [path.goal().into()];
     let picture = Picture {
@@ -73,7 +73,7 @@ fn a_plan_is_shown_as_it_is() {
         paths: vec![("by hand".to_owned(), &path)],
         trajectory: Some(&timed.trajectory),
         c_obstacles: &contours,
-        ..bare(&scene, &goals)
+        ..plain_picture(&scene, &goals)
     };
     let value = inspected("page_plan", &View::of_picture(&picture));
     assert_eq!(value["ending"], "found");
@@ -98,11 +98,11 @@ fn a_plan_is_shown_as_it_is() {
 /// Checks that every block of cells is drawn with its least label. Blocks that stick out are marked.
 #[test]
 fn a_wavefront_is_written_in_letters() {
-    let scene = three();
+    let scene = planar_scene();
     let n = 400;
     let labels: Vec<u32> = (0..n * n).map(|k| if k / n < 100 { u32::MAX } else { (k / n - 100) as u32 }).collect();
     let trace = Trace::Wavefront { cells: [n; 2], labels, expanded: Vec::new(), forward: false };
-    let picture = Picture { trace: Some(&trace), ending: Some(Status::Unknown), ..bare(&scene, &[]) };
+    let picture = Picture { trace: Some(&trace), ending: Some(Status::Unknown), ..plain_picture(&scene, &[]) };
     let value = inspected("page_wavefront", &View::of_picture(&picture));
     let seen = &value["worlds"][0]["trace"];
     assert_eq!((seen["kind"].as_str(), seen["farthest"].as_u64()), (Some("wavefront"), Some(299)));
@@ -120,24 +120,25 @@ fn a_wavefront_is_written_in_letters() {
 fn other_traces_keep_their_parts() {
     let scene = torus();
     let shown = |trace: &Trace| {
-        let picture = Picture { trace: Some(trace), ..bare(&scene, &[]) };
+        let picture = Picture { trace: Some(trace), ..plain_picture(&scene, &[]) };
         let mut value = inspected("page_trace", &View::of_picture(&picture));
         value["worlds"][0]["trace"].take()
     };
-    let roadmap = shown(&Trace::Roadmap { edges: vec![[at(0.0, 0.5), at(1.0, -0.25)]], whole: false });
+    let roadmap =
+        shown(&Trace::Roadmap { edges: vec![[configuration(0.0, 0.5), configuration(1.0, -0.25)]], whole: false });
     assert_eq!(roadmap, serde_json::json!({ "kind": "roadmap", "edges": [0.0, 0.5, 1.0, -0.25], "whole": false }));
     let roads = Trace::Roads {
-        edges: vec![[at(0.0, 0.5), at(1.0, -0.25)]],
-        expanded: vec![at(1.0, -0.25), at(0.0, 0.5)],
+        edges: vec![[configuration(0.0, 0.5), configuration(1.0, -0.25)]],
+        expanded: vec![configuration(1.0, -0.25), configuration(0.0, 0.5)],
         kind: GraphKind::Roadmap,
     };
     let output =
         serde_json::json!({ "kind": "roads", "edges": [0.0, 0.5, 1.0, -0.25], "expanded": [1.0, -0.25, 0.0, 0.5] });
     assert_eq!(shown(&roads), output);
-    let picture = Picture { trace: Some(&roads), ..bare(&scene, &[]) };
+    let picture = Picture { trace: Some(&roads), ..plain_picture(&scene, &[]) };
     let svg = cplan::draw::svg(&View::of_picture(&picture));
     assert!(["roadmap", "expanded first", "expanded last"].iter().all(|key| svg.contains(key)), "{svg}");
-    let cell = vec![at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)];
+    let cell = vec![configuration(0.0, 0.0), configuration(1.0, 0.0), configuration(0.0, 1.0)];
     let channel = shown(&Trace::Channel {
         kind: CellKind::Triangles,
         cells: vec![cell].into(),
@@ -147,7 +148,11 @@ fn other_traces_keep_their_parts() {
     });
     assert_eq!((&channel["cells"][0][2], &channel["channel"][0]), (&1.0.into(), &0.into()));
     assert!(channel.get("expanded").is_none(), "a search that is not to be seen: {channel}");
-    let boxes = shown(&Trace::Boxes { free: vec![[at(0.0, 0.0), at(1.0, 2.0)]], stuck: vec![], mixed: vec![] });
+    let boxes = shown(&Trace::Boxes {
+        free: vec![[configuration(0.0, 0.0), configuration(1.0, 2.0)]],
+        stuck: vec![],
+        mixed: vec![],
+    });
     assert_eq!(boxes["free"], serde_json::json!([0.0, 0.0, 1.0, 2.0]));
     // The field rises to the middle: rings, and lines that run inwards.
     let n = 64;
@@ -178,7 +183,7 @@ fn a_proof_is_shown_where_it_is() {
     let proof = claim.checked(&scene, start, &goal.into(), 0.0).expect("the proof holds");
     let corners = proof.collision_boxes().iter().flat_map(|stuck| [stuck.cell.lower, stuck.cell.upper]).flatten();
     let corners: Vec<f64> = corners.collect();
-    let picture = Picture { proof: Some(&proof), ending: Some(Status::Infeasible), ..bare(&scene, &[]) };
+    let picture = Picture { proof: Some(&proof), ending: Some(Status::Infeasible), ..plain_picture(&scene, &[]) };
     let value = inspected("page_proof", &View::of_picture(&picture));
     let shown: Vec<f64> = value["worlds"][0]["proof"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
     assert_eq!(shown.len(), corners.len());
@@ -188,13 +193,13 @@ fn a_proof_is_shown_where_it_is() {
 
 #[test]
 fn an_arm_is_shown_with_its_frames() {
-    let scene = three();
+    let scene = planar_scene();
     let frame = AxesFrame {
         name: "tool0".to_owned(),
         at: Point::new(0.5, -0.25),
         axes: [Vector3::x(), Vector3::y(), Vector3::z()],
     };
-    let picture = Picture { title: vec!["posture".to_owned()], ..Picture::new(&scene, at(0.5, 0.5)) };
+    let picture = Picture { title: vec!["posture".to_owned()], ..Picture::new(&scene, configuration(0.5, 0.5)) };
     let view = View::of_arm(&picture, &[frame]);
     let value = inspected("page_posture", &view);
     assert_eq!(value["frames"][0]["at"], serde_json::json!([0.5, -0.25]));

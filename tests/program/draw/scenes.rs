@@ -105,7 +105,7 @@ pub struct Cells {
 }
 
 impl Cells {
-    pub fn look(scene: &Scene, n: usize) -> Self {
+    pub fn sample(scene: &Scene, n: usize) -> Self {
         let mut cells = Self { topology: scene.arm().topology(), n, hit: Vec::new(), all: Vec::new() };
         for index in 0..n * n {
             let q = cells.center(index);

@@ -39,7 +39,7 @@ fn object(name: &str, round: bool, holding: Holding, at: [f64; 2]) -> Object {
         lift: 0.0,
         holding,
         at,
-        course: None,
+        trajectory: None,
         mass: 0.0,
     }
 }
@@ -277,7 +277,7 @@ fn directions(outline: &str) -> Vec<f64> {
 /// Checks a square that is carried to the end and is drawn there. It is upright if it is held level, and otherwise
 /// turned with link 2.
 #[test]
-fn payloads_are_drawn_where_they_are() {
+fn payloads_are_drawn_in_their_places() {
     for (name, holding) in [("task_carried_rigid", Holding::Rigid), ("task_carried_level", Holding::Level)] {
         let objects = vec![object("part", false, holding, [1.2, -0.5])];
         let task = task(objects, fixed(), &[pick(0), turn_to(1.8, 0.7)], 1);

@@ -72,14 +72,14 @@ impl Page {
         }
     }
 
-    fn ask(&mut self, state: Option<Value>, is_final: bool, options: &str) -> Value {
+    fn plan_request(&mut self, state: Option<Value>, is_final: bool, options: &str) -> Value {
         self.id += 1;
         json!({ "id": self.id, "base": self.base, "final": is_final, "state": state, "options": options })
     }
 
     /// Requests a plan without waiting for it. Returns the request's number.
     pub fn post(&mut self, state: Option<Value>, is_final: bool, options: &str) -> u64 {
-        let mut ask = self.ask(state, is_final, options);
+        let mut ask = self.plan_request(state, is_final, options);
         ask["do"] = "plan".into();
         self.send(&ask.to_string());
         self.id
@@ -122,7 +122,7 @@ impl Page {
 
     /// Downloads a file: its name and content, or the error.
     pub fn download(&mut self, state: Option<Value>, options: &str, format: &str) -> Result<(String, Vec<u8>), String> {
-        let ask = self.ask(state, true, options);
+        let ask = self.plan_request(state, true, options);
         self.send(&json!({ "do": "download", "ask": ask, "format": format }).to_string());
         loop {
             match self.socket.read().unwrap() {

@@ -26,7 +26,7 @@ fn a_world_of_19_999_corners_is_answered() {
 }
 
 /// Sends requests until the connection accepts no more.
-fn pipelined(server: &Server) -> TcpStream {
+fn fill_connection(server: &Server) -> TcpStream {
     let mut stream = server.connect();
     stream.set_write_timeout(Some(Duration::from_millis(100))).unwrap();
     let request = format!("GET / HTTP/1.1\r\nHost: {}\r\n\r\n", server.address).repeat(64);
@@ -37,7 +37,7 @@ fn pipelined(server: &Server) -> TcpStream {
 #[test]
 fn clients_that_never_read_keep_nobody_out_for_long() {
     let server = Server::planar("workspaces/shelf.toml", &[]);
-    let deaf: Vec<TcpStream> = (0..MANY).map(|_| pipelined(&server)).collect();
+    let deaf: Vec<TcpStream> = (0..MANY).map(|_| fill_connection(&server)).collect();
     assert!(server.get("/").0.starts_with("HTTP/1.1 200"));
     drop(deaf);
 }

@@ -14,7 +14,7 @@ fn ring() -> Value {
 }
 
 #[test]
-fn a_page_begins_with_what_it_brings_along() {
+fn a_page_begins_with_the_files_that_it_sends() {
     let server = Server::planar(SHELF, &[]);
     let (mut page, mut other) = (Page::open(&server), Page::open(&server));
     let own = page.world.clone();
@@ -34,7 +34,7 @@ fn a_page_begins_with_what_it_brings_along() {
 }
 
 #[test]
-fn what_it_brings_along_names_no_files() {
+fn files_that_a_page_sends_name_no_other_files() {
     let server = Server::start(&[&shipped("robots/room_gantry.urdf"), &shipped("workspaces/store_room.toml")]);
     let mut page = Page::open(&server);
     assert_eq!(page.world["urdf"], Value::Null, "no link holds its map");
@@ -59,7 +59,7 @@ fn what_it_brings_along_names_no_files() {
 }
 
 #[test]
-fn it_has_no_more_time_than_the_server_gives() {
+fn a_page_has_no_more_time_than_the_server_gives() {
     let server = Server::planar(SHELF, &["--time-limit", "0.05"]);
     let mut page = Page::open(&server);
     // The problem is feasible, because a proof would end it sooner.

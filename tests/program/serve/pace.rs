@@ -51,7 +51,7 @@ fn text(crowd: &[Vec<[f64; 2]>]) -> String {
 }
 
 /// Returns the state in which the first obstacle has been dragged by this distance.
-fn dragged(crowd: &[Vec<[f64; 2]>], by: f64) -> Value {
+fn dragged_state(crowd: &[Vec<[f64; 2]>], by: f64) -> Value {
     let piece = |(k, corners): (usize, &Vec<[f64; 2]>)| {
         let by = if k == 0 { by } else { 0.0 };
         let corners: Vec<_> = corners.iter().map(|[x, y]| [x + by, y + by]).collect();
@@ -66,7 +66,7 @@ fn dragged(crowd: &[Vec<[f64; 2]>], by: f64) -> Value {
 }
 
 /// Returns the CPU time that a process has used so far. Returns `None` if the system does not report it.
-fn computed(process: u32) -> Option<Duration> {
+fn cpu_time(process: u32) -> Option<Duration> {
     let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     // Behind the name in brackets: state, then eleven others, then ticks in user and system mode, a hundred per second.
     let ticks: Vec<u64> = stat.rsplit(')').next()?.split_whitespace().skip(11).take(2).flat_map(str::parse).collect();
@@ -80,11 +80,11 @@ fn three_hundred_obstacles_are_followed_ten_times_a_second() {
     let crowd = crowd();
     let answer = page.load(&text(&crowd));
     assert!(answer["verdict"].is_string(), "{answer}");
-    let before = computed(server.child.id());
+    let before = cpu_time(server.child.id());
     for step in 1..=ANSWERS {
         // Like the page: sends the next place after an answer.
         let by = 1e-4 * f64::from(step);
-        let id = page.post(Some(dragged(&crowd, by)), false, "visibility");
+        let id = page.post(Some(dragged_state(&crowd, by)), false, "visibility");
         let answer = page.answer(id);
         let world = &answer["view"]["worlds"][0];
         let seen = world["obstacles"][0]["outline"]["polygon"][0].as_f64().unwrap();
@@ -93,28 +93,28 @@ fn three_hundred_obstacles_are_followed_ten_times_a_second() {
         assert!(answer["certified"] == false || !answer["view"]["paths"].as_array().unwrap().is_empty());
     }
     // The server's CPU time does not depend on other load of the machine.
-    if let Some((after, before)) = computed(server.child.id()).zip(before) {
+    if let Some((after, before)) = cpu_time(server.child.id()).zip(before) {
         let each = (after - before).as_secs_f64() * 1e3 / f64::from(ANSWERS);
         assert!(each * WANTED <= 1e3, "{each:.0} ms of computing for an answer");
     }
 }
 
 #[test]
-fn what_is_kept_from_one_answer_to_the_next_changes_nothing() {
+fn caches_between_answers_change_nothing() {
     let server = Server::planar(WORLD, &[]);
     let mut page = Page::open(&server);
     let crowd = crowd()[..40].to_vec();
     page.load(&text(&crowd));
     let drop = |state: &mut Value, k: usize| state["obstacles"].as_array_mut().unwrap().remove(k);
-    let mut steps = vec![dragged(&crowd, 0.01), dragged(&crowd, 0.02)];
+    let mut steps = vec![dragged_state(&crowd, 0.01), dragged_state(&crowd, 0.02)];
     // Fewer obstacles, another order, the same again, and another clearance.
-    let mut fewer = dragged(&crowd, 0.03);
+    let mut fewer = dragged_state(&crowd, 0.03);
     drop(&mut fewer, 17);
     let first = drop(&mut fewer, 0);
     steps.push(fewer.clone());
     fewer["obstacles"].as_array_mut().unwrap().push(first);
     steps.push(fewer.clone());
-    steps.push(dragged(&crowd, 0.02));
+    steps.push(dragged_state(&crowd, 0.02));
     fewer["clearance"] = json!(0.002);
     steps.push(fewer);
     for (k, state) in steps.into_iter().enumerate() {

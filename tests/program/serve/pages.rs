@@ -33,7 +33,7 @@ fn the_page_is_served_and_nothing_else() {
 }
 
 #[test]
-fn every_answer_says_what_browsers_may_do_with_it() {
+fn every_answer_has_the_security_headers() {
     let server = Server::start(&[]);
     for path in ["/", "/elsewhere", "/live"] {
         let answer = server.get(path);
@@ -49,7 +49,7 @@ fn every_answer_says_what_browsers_may_do_with_it() {
 /// Checks that an address of another machine is refused. No machine has the address in the test, because it is reserved
 /// for documentation (RFC 5737).
 #[test]
-fn an_address_that_is_not_of_this_machine_is_refused_with_its_cure() {
+fn an_address_of_another_machine_is_refused_with_a_hint() {
     let mut serve = Command::new(env!("CARGO_BIN_EXE_cplan"));
     let done = serve.args(["serve", "--port", "0", "--bind", "203.0.113.9"]).output().unwrap();
     let report = String::from_utf8(done.stderr).unwrap();
@@ -95,7 +95,7 @@ fn the_socket_is_for_the_page_alone() {
 }
 
 #[test]
-fn a_page_more_than_there_is_room_for_is_refused() {
+fn too_many_pages_are_refused() {
     let server = Server::start(&[]);
     let pages: Vec<Page> = (0..8).map(|_| Page::open(&server)).collect();
     assert_eq!(Page::try_open(&server).err(), Some(503));
@@ -108,7 +108,7 @@ fn a_page_more_than_there_is_room_for_is_refused() {
 }
 
 #[test]
-fn wrong_command_lines_are_said_so() {
+fn wrong_command_lines_are_reported() {
     let run = |arguments: &[&str]| {
         let output = Command::new(env!("CARGO_BIN_EXE_cplan"))
             .arg("serve")
@@ -141,7 +141,7 @@ fn wrong_command_lines_are_said_so() {
 
 #[cfg(unix)]
 #[test]
-fn control_c_ends_it_well() {
+fn control_c_ends_the_server_without_an_error() {
     for signal in ["-INT", "-TERM"] {
         let mut server = Server::start(&[]);
         // An open page, and a silent connection, do not keep the server alive.

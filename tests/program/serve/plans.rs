@@ -63,7 +63,7 @@ fn every_planner_answers_while_dragging_and_after() {
 }
 
 #[test]
-fn of_a_drag_the_last_place_is_answered_and_answers_come_in_order() {
+fn the_last_place_of_a_drag_is_answered_and_answers_come_in_order() {
     let server = Server::planar(WORLD, &[]);
     let mut page = Page::open(&server);
     let mut last = 0;
@@ -129,7 +129,7 @@ fn an_infeasible_world_comes_with_its_proof() {
 }
 
 #[test]
-fn what_is_saved_is_what_was_planned() {
+fn the_saved_world_is_the_planned_one() {
     let server = Server::planar(WORLD, &[]);
     let mut page = Page::open(&server);
     let mut state = shelf_state(shelf_moved([-0.05, 0.02]));
@@ -206,7 +206,7 @@ fn the_start_follows_the_tip() {
 }
 
 #[test]
-fn a_task_is_shown_as_it_is() {
+fn a_task_is_shown_unchanged() {
     let files = [shipped("robots/scara.urdf"), shipped("workspaces/tasks/slot_level.toml")];
     let server = Server::start(&[&files[0], &files[1]]);
     let mut page = Page::open(&server);

@@ -27,7 +27,7 @@ fn large_requests_are_refused() {
 }
 
 #[test]
-fn what_is_no_request_is_answered() {
+fn invalid_requests_are_answered() {
     let server = Server::start(&[]);
     let mut page = Page::open(&server);
     for nonsense in ["", "{", "[]", "{\"do\":\"stop\"}", "{\"do\":\"plan\"}", &"[".repeat(100_000)] {
@@ -87,7 +87,7 @@ fn a_start_in_an_obstacle_is_explained_and_drawn() {
 }
 
 #[test]
-fn states_that_make_no_sense_are_refused() {
+fn invalid_states_are_refused() {
     let server = Server::planar(WORLD, &[]);
     let mut page = Page::open(&server);
     let crossed = json!({ "from": 0, "polygon": [[1.0, 0.0], [1.5, 0.5], [1.5, 0.0], [1.0, 0.5]] });

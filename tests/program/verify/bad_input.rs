@@ -44,7 +44,7 @@ fn refused(name: &str, text: impl AsRef<[u8]>, parts: &[&str]) {
 }
 
 #[test]
-fn tables_that_are_none() {
+fn invalid_tables_are_refused() {
     let csv = |text: &str, parts: &[&str]| refused("m.csv", text, parts);
     csv("", &["is empty", "header"]);
     csv("\n\n", &["is empty"]);
@@ -71,7 +71,7 @@ fn tables_that_are_none() {
 }
 
 #[test]
-fn documents_that_are_none() {
+fn invalid_documents_are_refused() {
     let json = |text: &str, parts: &[&str]| refused("m.json", text, parts);
     json("", &["line 1", "hint"]);
     json("{\"joints\": [\"j1\", \"j2\"],\n \"path\": [[0, NaN]]}", &["line 2", "finite"]);
@@ -92,7 +92,7 @@ fn documents_that_are_none() {
 }
 
 #[test]
-fn messages_that_are_none() {
+fn invalid_messages_are_refused() {
     let yaml = |text: &str, parts: &[&str]| refused("m.yaml", text, parts);
     let points = |points: &str, parts: &[&str]| yaml(&format!("joint_names: [j1, j2]\npoints:\n{points}"), parts);
     yaml("", &["hint"]);
@@ -117,7 +117,7 @@ fn messages_that_are_none() {
 }
 
 #[test]
-fn files_of_other_kinds() {
+fn files_of_other_kinds_are_refused() {
     refused("m.txt", "0 0\n", &["is unknown", ".json", ".csv", ".yaml"]);
     let folder = tempfile::tempdir().unwrap();
     let at = |file: &str| folder.path().join(file);

@@ -1,13 +1,13 @@
 //! Results with one false claim: the judge finds every change of each claim that it checks.
 
-use super::judged::{Question, judged, planned};
+use super::judged::{Question, judge, plan_result};
 use crate::common::dice::Dice;
 use crate::common::random;
 use cplan::input::Overrides;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-fn shipped(file: &str) -> PathBuf {
+fn repository_file(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
@@ -20,50 +20,50 @@ struct Case {
 
 impl Case {
     fn new(robot: &str, world: &str) -> Self {
-        Self::of(shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml")))
+        Self::of(repository_file(&format!("robots/{robot}.urdf")), repository_file(&format!("workspaces/{world}.toml")))
     }
 
     /// Returns a shipped task with five steps.
     fn tower() -> Self {
-        let world = std::fs::read_to_string(shipped("workspaces/tasks/tower.toml")).unwrap();
+        let world = std::fs::read_to_string(repository_file("workspaces/tasks/tower.toml")).unwrap();
         let robot = world.lines().find_map(|line| line.strip_prefix("# robot: ")).unwrap();
         Self::new(robot.trim(), "tasks/tower")
     }
 
     fn of(robot: PathBuf, world: PathBuf) -> Self {
-        let result = planned(&robot, &world, "");
+        let result = plan_result(&robot, &world, "");
         assert_eq!(result["status"], "found", "{}", world.display());
         Self { robot, world, result }
     }
 
     /// Returns the findings about a result, or the error.
-    fn judged(&self, result: &Value, question: &Question) -> Value {
+    fn findings_or_error(&self, result: &Value, question: &Question) -> Value {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("r.json");
         std::fs::write(&file, result.to_string()).unwrap();
-        judged(&self.robot, &self.world, &file, question).unwrap_or_else(|error| Value::String(error.to_string()))
+        judge(&self.robot, &self.world, &file, question).unwrap_or_else(|error| Value::String(error.to_string()))
     }
 
     /// Returns the findings about a motion or task, with the start and goal that its world states.
-    fn found(&self, result: &Value) -> Value {
-        self.judged(result, &Question::default())
+    fn findings(&self, result: &Value) -> Value {
+        self.findings_or_error(result, &Question::default())
     }
 
     #[track_caller]
     fn refused(&self, change: impl FnOnce(&mut Value), verdict: &str, part: &str) {
         let mut result = self.result.clone();
         change(&mut result);
-        let found = self.found(&result);
+        let found = self.findings(&result);
         assert_eq!(found["verdict"], verdict, "{found:#}");
         assert!(found["faults"].to_string().contains(part), "{found:#}");
     }
 }
 
 #[test]
-fn results_as_they_are_have_no_false_claims() {
+fn unchanged_results_have_no_false_claims() {
     for (robot, world) in [("planar_2r", "shelf"), ("planar_2r", "two_branches"), ("scara", "scara_cell")] {
         let case = Case::new(robot, world);
-        let found = case.found(&case.result);
+        let found = case.findings(&case.result);
         assert_eq!((&found["verdict"], &found["faults"]), (&json!("free"), &Value::Null), "{world}: {found:#}");
         let unjudged = found["not_judged"].to_string();
         assert!(unjudged.contains("planner") && unjudged.contains("optimum.lower_bound"), "{unjudged}");
@@ -71,21 +71,21 @@ fn results_as_they_are_have_no_false_claims() {
 }
 
 #[test]
-fn what_is_said_of_a_motion_that_is_not_there_is_named() {
+fn claims_about_a_missing_motion_are_named() {
     let case = Case::new("planar_2r", "shelf");
     let mut result = case.result.clone();
     result["trajectory"] = Value::Null;
-    let found = case.found(&result);
+    let found = case.findings(&result);
     assert_eq!(found["verdict"], "free", "{found:#}");
     assert!(found["not_judged"].to_string().contains("\"duration\""), "{found:#}");
     let upright = Case::new("rrbot_vertical", "upright");
     let mut result = upright.result.clone();
     result["trajectory"]["torque"] = json!([[0, 0]]);
-    let found = upright.found(&result);
+    let found = upright.findings(&result);
     assert_eq!(found["verdict"], "free", "{found:#}");
     assert!(found["not_judged"].to_string().contains("trajectory.torque"), "{found:#}");
     result["units"] = json!(["rad"]);
-    let error = upright.found(&result);
+    let error = upright.findings(&result);
     assert!(error.as_str().is_some_and(|error| error.contains("2 joints are named")), "{error:#}");
 }
 
@@ -111,7 +111,7 @@ fn a_motion_that_does_not_lead_from_start_to_goal_is_found() {
     let folder = tempfile::tempdir().unwrap();
     let world = folder.path().join("free.toml");
     std::fs::write(&world, "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n").unwrap();
-    let case = Case::of(shipped("robots/planar_2r.urdf"), world);
+    let case = Case::of(repository_file("robots/planar_2r.urdf"), world);
     let only = |samples: std::ops::Range<usize>| {
         let mut result = json!({"joints": case.result["joints"], "trajectory": {}});
         for key in ["time", "position"] {
@@ -121,18 +121,18 @@ fn a_motion_that_does_not_lead_from_start_to_goal_is_found() {
     };
     let count = case.result["trajectory"]["time"].as_array().unwrap().len();
     for (samples, part) in [(1..count, "begins at"), (0..count - 1, "ends at"), (3..4, "begins at")] {
-        let found = case.found(&only(samples.clone()));
+        let found = case.findings(&only(samples.clone()));
         assert_eq!(found["verdict"], "ends", "{found:#}");
         assert!(found["faults"].to_string().contains(part), "{found:#}");
-        assert_eq!(case.judged(&only(samples), &Question::anywhere())["verdict"], "free");
+        assert_eq!(case.findings_or_error(&only(samples), &Question::with_free_ends())["verdict"], "free");
     }
-    assert_eq!(case.found(&only(0..count))["verdict"], "free");
+    assert_eq!(case.findings(&only(0..count))["verdict"], "free");
     for overrides in [
         Overrides { goal: Some("1.5,0".parse().unwrap()), ..Overrides::default() },
         Overrides { goal_tip: Some("0.5,0.5".parse().unwrap()), ..Overrides::default() },
         Overrides { start: Some("0,0".parse().unwrap()), ..Overrides::default() },
     ] {
-        let found = case.judged(&only(0..count), &Question { overrides, ..Question::default() });
+        let found = case.findings_or_error(&only(0..count), &Question { overrides, ..Question::default() });
         assert_eq!(found["verdict"], "ends", "{found:#}");
     }
     // Any IK solution satisfies a goal of the tip.
@@ -141,7 +141,7 @@ fn a_motion_that_does_not_lead_from_start_to_goal_is_found() {
     let (robot, world) = (case.robot.clone(), case.world.clone());
     let path = case.result["path"].as_array().unwrap();
     let other = Case { robot, world, result: json!({"joints": case.result["joints"], "path": [path[0], [0.0, 0.0]]}) };
-    assert!(count > 1 && other.found(&other.result)["faults"].to_string().contains("the tip"));
+    assert!(count > 1 && other.findings(&other.result)["faults"].to_string().contains("the tip"));
 }
 
 #[test]
@@ -163,14 +163,14 @@ fn each_false_claim_of_a_motion_is_named() {
     case.refused(|r| r["optimum"]["metric"] = json!("weighted"), "claims", "optimum.metric");
     let mut less = case.result.clone();
     less["clearance"] = json!(0.5 * kept);
-    let found = case.found(&less);
+    let found = case.findings(&less);
     assert_eq!(found["verdict"], "free", "a weaker claim is true: {found:#}");
 }
 
 #[test]
 fn each_false_claim_of_a_task_is_named() {
     let case = Case::tower();
-    let found = case.found(&case.result);
+    let found = case.findings(&case.result);
     assert_eq!((&found["verdict"], &found["faults"]), (&json!("free"), &Value::Null), "{found:#}");
     case.refused(|r| r["events"][0]["time"] = json!(0.01), "claims", "events[0].time");
     case.refused(|r| r["events"][0]["event"] = json!("release"), "claims", "events[0].event");
@@ -219,7 +219,7 @@ fn is_judged(pointer: &str) -> bool {
 }
 
 /// Returns a false value for a claim. A clearance is a lower bound, so only a greater value is false.
-fn changed(value: &Value, pointer: &str, dice: &mut Dice) -> Value {
+fn different_value(value: &Value, pointer: &str, dice: &mut Dice) -> Value {
     match value {
         Value::Bool(value) => json!(!value),
         Value::String(text) => json!(format!("{text}x")),
@@ -254,9 +254,9 @@ fn any_judged_claim_that_is_changed_is_found() {
         let pointer = &judged[k][dice.below(judged[k].len())];
         let mut result = cases[k].result.clone();
         let place = result.pointer_mut(pointer).unwrap();
-        let other = changed(place, pointer, &mut dice);
+        let other = different_value(place, pointer, &mut dice);
         *place = other.clone();
-        let found = cases[k].found(&result);
+        let found = cases[k].findings(&result);
         let is_refuted = found["verdict"].as_str().is_some_and(|verdict| !["free", "undecided"].contains(&verdict));
         assert!(is_refuted, "seed {seed}: {pointer} as {other}: {found:#}");
     }

@@ -4,7 +4,7 @@ use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};
 
-fn shipped(file: &str) -> String {
+fn repository_file(file: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
 }
 
@@ -12,7 +12,8 @@ fn shipped(file: &str) -> String {
 fn verify(robot: &str, world: &str, csv: &str, options: &[&str]) -> (i32, String, String) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("m.csv"), csv).unwrap();
-    let (robot, world) = (shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml")));
+    let (robot, world) =
+        (repository_file(&format!("robots/{robot}.urdf")), repository_file(&format!("workspaces/{world}.toml")));
     let run = Command::new(env!("CARGO_BIN_EXE_cplan"))
         .current_dir(folder.path())
         .args(["verify", &robot, &world, "m.csv"])
@@ -28,7 +29,7 @@ fn verify(robot: &str, world: &str, csv: &str, options: &[&str]) -> (i32, String
 }
 
 #[test]
-fn exit_codes_and_findings() {
+fn exit_codes_agree_with_the_findings() {
     let shelf = |csv: &str, options: &[&str]| verify("planar_2r", "shelf", csv, options);
     let json = |csv: &str, code: i32| -> Value {
         let (found, stdout, stderr) = shelf(csv, &["--json", "--anywhere"]);
@@ -73,7 +74,7 @@ fn summary_picture_clearance_and_quiet() {
 }
 
 #[test]
-fn seams_of_wrapped_angles_are_noted_and_undone() {
+fn jumps_of_wrapped_angles_are_noted_and_removed() {
     let csv = "shoulder,elbow\n3.1,0.4\n-3.1,0.4\n";
     let run = |options: &[&str]| verify("planar_2r_continuous", "wrap_around", csv, options);
     let (_, stdout, _) = run(&[]);

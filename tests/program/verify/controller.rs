@@ -137,7 +137,7 @@ proptest! {
 
 /// Checks a dwell of a task whose two points differ in acceleration. A quintic between them moves away and returns.
 #[test]
-fn a_dwell_with_different_accelerations_is_seen_to_move() {
+fn a_dwell_with_different_accelerations_counts_as_motion() {
     let still = |time: f64, acceleration: f64| (time, [[0.3, 0.4], [0.0; 2], [acceleration, 0.0]]);
     let recording = read(&yaml(&[still(0.0, -8.0), still(0.5, 8.0)], 3));
     let moved = recording.pieces()[0].at(0.5) - Configuration::new(0.3, 0.4);

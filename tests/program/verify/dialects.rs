@@ -1,6 +1,6 @@
 //! Tables as spreadsheets and loggers write them: the same motion with any separator.
 
-use super::judged::{Question, judged};
+use super::judged::{Question, judge};
 use cplan::input::InputError;
 use serde_json::Value;
 use std::path::Path;
@@ -14,7 +14,7 @@ fn verify(table: &str) -> Result<Value, InputError> {
     std::fs::write(&world, "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [-0.7, 0.5]\n").unwrap();
     std::fs::write(&recording, table).unwrap();
     let robot = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/robots/planar_2r.urdf"));
-    judged(robot, &world, &recording, &Question::default())
+    judge(robot, &world, &recording, &Question::default())
 }
 
 /// Returns the findings without the notes.
@@ -44,7 +44,7 @@ fn separators_and_comments_make_no_difference() {
 }
 
 #[test]
-fn what_is_taken_is_said_and_what_is_not_clear_is_refused() {
+fn accepted_oddities_are_noted_and_unclear_tables_refused() {
     let found = verify(&PLAIN.replace("1,-0.8,0.4\n", "1,-0.8,0.4\n1,-0.8,0.4\n").replace(',', ";")).unwrap();
     for part in ["1 sample repeats the one before it; taken once", "separated by semicolons"] {
         assert!(found["notes"].to_string().contains(part), "no {part:?} in {found:#}");

@@ -16,7 +16,7 @@ fn root(file: &str) -> PathBuf {
 }
 
 /// Returns a shipped workspace with the motion that the planner finds in it. Returns `None` if it finds none.
-fn planned(robot: &str, world: &str) -> Option<(LoadedScene, Plan)> {
+fn plan_shipped(robot: &str, world: &str) -> Option<(LoadedScene, Plan)> {
     let files = [root(&format!("robots/{robot}.urdf")), root(&format!("workspaces/{world}.toml"))];
     let problem = input::load(&files[0], &files[1], &Overrides::default()).unwrap().problem;
     let plan = plan(&Problem::from(problem), &Method::Visibility.into()).unwrap();
@@ -56,7 +56,7 @@ fn every_shipped_result_verifies_alike_in_all_formats() {
         let text = std::fs::read_to_string(&file).unwrap();
         let Some(robot) = text.lines().find_map(|l| l.strip_prefix("# robot: ")) else { continue };
         let name = file.file_stem().unwrap().to_str().unwrap();
-        let Some((scene, plan)) = planned(robot.trim(), name) else { continue };
+        let Some((scene, plan)) = plan_shipped(robot.trim(), name) else { continue };
         for &(format, file) in FORMATS {
             let recording = read(&scene, file, plan.encoded(format).unwrap());
             let (verdict, broken) = judge(&scene, &recording);
@@ -75,7 +75,7 @@ fn every_shipped_result_verifies_alike_in_all_formats() {
 /// Returns the file's content, with another motion instead of the plan's.
 fn written(format: Format, plan: &Plan, motion: &Trajectory) -> Vec<u8> {
     let names = plan.arm().joints.each_ref().map(|joint| joint.name.clone());
-    let message = JointMotion::new(&RobotJoints::planned(&names), motion, true).without_accelerations();
+    let message = JointMotion::new(&RobotJoints::only_planned(&names), motion, true).without_accelerations();
     match format {
         Format::Json => {
             let mut result: Value = serde_json::from_str(&plan.to_json()).unwrap();
@@ -90,7 +90,7 @@ fn written(format: Format, plan: &Plan, motion: &Trajectory) -> Vec<u8> {
 }
 
 fn shelf() -> (LoadedScene, Plan) {
-    planned("planar_2r", "shelf").expect("has a path")
+    plan_shipped("planar_2r", "shelf").expect("has a path")
 }
 
 #[test]
@@ -151,7 +151,7 @@ fn tampered_results_are_caught() {
 }
 
 #[test]
-fn the_straight_way_collides_where_the_path_does_not() {
+fn the_straight_motion_collides_where_the_path_does_not() {
     let (scene, plan) = shelf();
     let path = plan.waypoints().unwrap();
     let (a, b) = (path[0], path[path.len() - 1]);
@@ -212,7 +212,7 @@ fn spellings_of_columns_and_messages_mean_the_same() {
 }
 
 #[test]
-fn thousands_of_points_are_no_bomb() {
+fn messages_of_sixty_thousand_points_are_read() {
     let (scene, _) = shelf();
     let mut text = String::from("joint_names: [shoulder, elbow]\npoints:\n");
     for k in 0..60_000 {

@@ -1,6 +1,6 @@
 //! Motions of joints other than the arm's two: a quill that moves up and down, and a wrist that turns.
 
-use super::judged::{Question, judged};
+use super::judged::{Question, judge};
 use crate::cli::Place;
 use crate::common::random;
 use cplan::input::{InputError, Source, scene_from};
@@ -51,11 +51,11 @@ fn verify(finger: &str, table: &str) -> Result<Value, InputError> {
         file
     };
     let robot = write("arm.urdf", &ROBOT.replace("FINGER", finger));
-    judged(&robot, &write("world.toml", WORLD), &write("m.csv", table), &Question::anywhere())
+    judge(&robot, &write("world.toml", WORLD), &write("m.csv", table), &Question::with_free_ends())
 }
 
 /// Returns the verdict and the findings about a valid table.
-fn found(finger: &str, table: &str) -> (String, Value) {
+fn verdict_and_findings(finger: &str, table: &str) -> (String, Value) {
     let found = verify(finger, table).unwrap_or_else(|error| panic!("{error}"));
     (found["verdict"].as_str().expect("a word").to_owned(), found)
 }
@@ -76,13 +76,13 @@ fn a_quill_is_judged_at_the_heights_that_it_has() {
         ([0.19, 0.19, 0.21, 0.0], "collision"),
         ([0.6, 0.6, 0.6, 0.6], "collision"),
     ] {
-        let (found, json) = found("", &table(depths));
+        let (found, json) = verdict_and_findings("", &table(depths));
         assert_eq!(found, verdict, "{depths:?}: {json:#}");
         if verdict == "collision" {
             assert_eq!(json["first_contact"]["body"], "rod", "{json:#}");
         }
     }
-    let (verdict, json) = found("", &table([0.19, 0.19, 0.21, 0.0]));
+    let (verdict, json) = verdict_and_findings("", &table([0.19, 0.19, 0.21, 0.0]));
     let time = json["first_contact"]["time"].as_f64().unwrap();
     // Halfway down over the block its heights are those of the block.
     assert!(verdict == "collision" && (1.5 - 1e-6..1.6).contains(&time), "{json:#}");
@@ -99,9 +99,9 @@ fn between_samples_a_quill_goes_where_its_velocities_lead_it() {
             "time,j1,j2,quill,j1_velocity,j2_velocity,quill_velocity\n0,0.38,0,0.1,0,0,{speed}\n1,0.38,0,0.1,0,0,-{speed}\n"
         )
     };
-    assert_eq!(found("", &table(0.39)).0, "free");
+    assert_eq!(verdict_and_findings("", &table(0.39)).0, "free");
     // A quarter of the speed more, halfway.
-    let (verdict, json) = found("", &table(0.41));
+    let (verdict, json) = verdict_and_findings("", &table(0.41));
     assert_eq!((verdict.as_str(), &json["first_contact"]["body"]), ("collision", &"rod".into()), "{json:#}");
 }
 
@@ -116,7 +116,7 @@ fn a_wrist_sweeps_a_disc() {
         ("", 1.0, 0.2, "free"),
         (FINGER, 1.0, 0.38, "collision"),
     ] {
-        let (found, json) = found(finger, &table(turn, j1));
+        let (found, json) = verdict_and_findings(finger, &table(turn, j1));
         assert_eq!(found, verdict, "{turn} {j1}: {json:#}");
         assert!(turn == 0.0 || json["notes"].to_string().contains("the disc that they sweep"), "{json:#}");
         // The rod is round, so that its contacts are certain; those of the disc are not.
@@ -161,7 +161,7 @@ fn motions_of_a_quill_agree_with_the_scenes_of_their_moments() {
         for (k, [j1, j2, quill]) in samples.iter().enumerate() {
             writeln!(table, "{k},{j1},{j2},{quill}").unwrap();
         }
-        let (verdict, json) = found(FINGER, &table);
+        let (verdict, json) = verdict_and_findings(FINGER, &table);
         let at = |time: f64| {
             let (k, share) = ((time.floor() as usize).min(3), time - time.floor().min(3.0));
             [0, 1, 2].map(|j| samples[k][j] + share * (samples[k + 1][j] - samples[k][j]))

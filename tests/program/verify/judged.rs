@@ -17,15 +17,15 @@ pub struct Question<'a> {
 
 impl Question<'_> {
     /// Returns the settings under which a motion may begin and end anywhere.
-    pub fn anywhere() -> Self {
+    pub fn with_free_ends() -> Self {
         Self { anywhere: true, ..Self::default() }
     }
 }
 
 /// Returns the findings about a recording. Their `verdict` decides the program's exit code.
-pub fn judged(robot: &Path, world: &Path, recording: &Path, question: &Question) -> Result<Value, InputError> {
+pub fn judge(robot: &Path, world: &Path, recording: &Path, question: &Question) -> Result<Value, InputError> {
     let Question { overrides, anywhere, topic } = question;
-    let mut loaded = load_scene(robot, world)?.keeping(overrides.clearance)?;
+    let mut loaded = load_scene(robot, world)?.with_clearance(overrides.clearance)?;
     let recorded = match topic {
         None => load_recording(recording, &loaded)?,
         Some(topic) => load_topic(recording, topic, &loaded)?,
@@ -38,7 +38,7 @@ pub fn judged(robot: &Path, world: &Path, recording: &Path, question: &Question)
 }
 
 /// Returns the result that `cplan plan` prints with these words of its command line.
-pub fn planned(robot: &Path, world: &Path, words: &str) -> Value {
+pub fn plan_result(robot: &Path, world: &Path, words: &str) -> Value {
     let words: Vec<String> = words.split_whitespace().map(str::to_owned).collect();
     let (options, overrides) = read_words(&words).unwrap_or_else(|error| panic!("{words:?}: {error}"));
     let problem = Problem::load_with(robot, world, &overrides).unwrap_or_else(|error| panic!("{error}"));

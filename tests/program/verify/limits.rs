@@ -11,20 +11,24 @@ fn joints() -> [Joint; 2] {
     rr([JointRange::Interval { lower: -1.0, upper: 1.0 }; 2]).joints
 }
 
-fn judged(times: &[f64], position: Vec<Configuration>, velocity: Option<Vec<Configuration>>) -> Vec<LimitViolation> {
+fn violations_of_samples(
+    times: &[f64],
+    position: Vec<Configuration>,
+    velocity: Option<Vec<Configuration>>,
+) -> Vec<LimitViolation> {
     limit_violations(&joints(), &Recording::new(position, Some(times.to_vec()), velocity).unwrap())
 }
 
-fn only(found: &[LimitViolation]) -> LimitViolation {
+fn only_violation(found: &[LimitViolation]) -> LimitViolation {
     assert_eq!(found.len(), 1, "{found:?}");
     found[0]
 }
 
 #[test]
-fn a_cubic_that_leaves_the_range_between_its_samples() {
+fn a_cubic_that_leaves_the_range_between_its_samples_is_found() {
     // From 0.95 at 0.5 / s and back in 1 s: the top is 0.95 + v h u (1 - u) at u = 1/2, 1.075.
     let velocity = Some(vec![q(0.0, 0.5), q(0.0, -0.5)]);
-    let found = judged(&[0.0, 1.0], vec![q(0.0, 0.95); 2], velocity);
+    let found = violations_of_samples(&[0.0, 1.0], vec![q(0.0, 0.95); 2], velocity);
     let out: Vec<_> = found.iter().filter(|e| e.limit == Limit::Position).collect();
     assert_eq!(out.len(), 1);
     let LimitViolation { joint, value, allowed, moment, .. } = *out[0];
@@ -35,37 +39,37 @@ fn a_cubic_that_leaves_the_range_between_its_samples() {
 }
 
 #[test]
-fn a_cubic_that_is_too_fast_between_its_samples() {
+fn a_cubic_that_is_too_fast_between_its_samples_is_found() {
     // From rest to rest over 0.9 in 1 s: 1.35 / s halfway, 5.4 / s^2 at the ends.
     let rest = || Some(vec![q(0.0, 0.0); 2]);
-    let found = judged(&[5.0, 6.0], vec![q(0.0, 0.0), q(-0.9, 0.0)], rest());
+    let found = violations_of_samples(&[5.0, 6.0], vec![q(0.0, 0.0), q(-0.9, 0.0)], rest());
     let kinds: Vec<_> = found.iter().map(|e| e.limit).collect();
     assert_eq!(kinds, [Limit::Velocity, Limit::Acceleration]);
     assert!((found[0].value + 1.35).abs() < 1e-12 && (found[0].moment.time - 5.5).abs() < 1e-9);
     assert!((found[1].value.abs() - 5.4).abs() < 1e-12 && found[1].allowed == 4.0);
     // Half as fast it keeps all limits.
-    assert_eq!(judged(&[5.0, 7.0], vec![q(0.0, 0.0), q(-0.9, 0.0)], rest()), []);
+    assert_eq!(violations_of_samples(&[5.0, 7.0], vec![q(0.0, 0.0), q(-0.9, 0.0)], rest()), []);
 }
 
 #[test]
 fn without_velocities_the_mean_ones_are_judged() {
-    let found = judged(&[0.0, 1.0, 1.25], vec![q(0.0, 0.0), q(0.5, 0.0), q(0.8, -0.1)], None);
-    let LimitViolation { joint, limit, value, moment, .. } = only(&found);
+    let found = violations_of_samples(&[0.0, 1.0, 1.25], vec![q(0.0, 0.0), q(0.5, 0.0), q(0.8, -0.1)], None);
+    let LimitViolation { joint, limit, value, moment, .. } = only_violation(&found);
     assert_eq!((joint, limit, moment.sample), (0, Limit::Velocity, 1));
     assert!((value - 1.2).abs() < 1e-12);
     let path = Recording::new(vec![q(0.0, 0.0), q(0.5, 0.0), q(0.8, 1.2)], None, None).unwrap();
-    let LimitViolation { joint, limit, value, moment, .. } = only(&limit_violations(&joints(), &path));
+    let LimitViolation { joint, limit, value, moment, .. } = only_violation(&limit_violations(&joints(), &path));
     assert_eq!((joint, limit, value, moment.time), (1, Limit::Position, 1.2, 2.0));
 }
 
 #[test]
 fn a_single_sample_may_not_move() {
-    let found = judged(&[0.0], vec![q(0.0, 0.0)], Some(vec![q(0.0, 0.2)]));
+    let found = violations_of_samples(&[0.0], vec![q(0.0, 0.0)], Some(vec![q(0.0, 0.2)]));
     assert_eq!(
         found.iter().map(|e| (e.joint, e.limit)).collect::<Vec<_>>(),
         [(1, Limit::RestAtStart), (1, Limit::RestAtEnd)]
     );
-    assert_eq!(judged(&[0.0], vec![q(0.0, 0.0)], Some(vec![q(0.0, 0.0)])), []);
+    assert_eq!(violations_of_samples(&[0.0], vec![q(0.0, 0.0)], Some(vec![q(0.0, 0.0)])), []);
 }
 
 /// Judges a motion that accelerates with `a` from rest for 0.25 s, and decelerates in the same way. Its samples are `h`
@@ -79,7 +83,7 @@ fn ramps(a: f64, h: f64, decimals: i32) -> Vec<LimitViolation> {
         false => (a * (0.0625 - 0.5 * (0.5 - t) * (0.5 - t)), a * (0.5 - t)),
     };
     let of = |f: fn((f64, f64)) -> f64| times.iter().map(|&t| q(round(f(state(t))), 0.0)).collect::<Vec<_>>();
-    judged(&times, of(|s| s.0), Some(of(|s| s.1)))
+    violations_of_samples(&times, of(|s| s.0), Some(of(|s| s.1)))
 }
 
 #[test]
@@ -114,14 +118,14 @@ fn stated_velocities_are_judged_as_stated_however_close_the_samples() {
     // Four rows at a microsecond, as six decimals write it, and 1.7 / s against a limit of 1.
     let times = [0.0, 1e-6, 2e-6, 3e-6];
     let position = times.map(|t| q(1.7 * t, 0.0)).to_vec();
-    let found = judged(&times, position, Some(vec![q(1.7, 0.0); 4]));
+    let found = violations_of_samples(&times, position, Some(vec![q(1.7, 0.0); 4]));
     let speed = found.iter().find(|e| e.limit == Limit::Velocity).expect("it is too fast");
     assert_eq!((speed.joint, speed.allowed), (0, 1.0));
     assert!((speed.value - 1.7).abs() < 1e-12, "{speed:?}");
 }
 
 #[test]
-fn a_real_move_that_is_too_fast_is_so_with_samples_a_microsecond_apart() {
+fn a_fast_move_is_found_with_samples_a_microsecond_apart() {
     // The speed rises to 1.7 / s at 4 / s^2 and falls again, sampled finely only where it is too fast. Numbers have six
     // decimals.
     let (a, top) = (4.0, 1.7 / 4.0);
@@ -136,12 +140,12 @@ fn a_real_move_that_is_too_fast_is_so_with_samples_a_microsecond_apart() {
     let times: Vec<f64> = slow.chain(fast).chain(down).map(round).collect();
     let rows = |f: fn((f64, f64)) -> f64| times.iter().map(|&t| q(round(f(state(t))) - 0.36, 0.0)).collect::<Vec<_>>();
     let velocity = times.iter().map(|&t| q(round(state(t).1), 0.0)).collect();
-    let found = judged(&times, rows(|s| s.0), Some(velocity));
+    let found = violations_of_samples(&times, rows(|s| s.0), Some(velocity));
     let speed = found.iter().find(|e| e.limit == Limit::Velocity).expect("it is too fast");
     assert!(speed.value > 1.6, "{speed:?}");
     // The stated velocities hide the excess, but the positions show it.
     let hidden = vec![q(0.99, 0.0); times.len()];
-    let found = judged(&times, rows(|s| s.0), Some(hidden));
+    let found = violations_of_samples(&times, rows(|s| s.0), Some(hidden));
     assert!(found.iter().any(|e| e.limit == Limit::Velocity && e.value > 1.1), "{found:?}");
 }
 

@@ -15,7 +15,7 @@ fn hermite(h: f64, u: f64, [a, va]: [Configuration; 2], [b, vb]: [Configuration;
 }
 
 /// Returns the configuration at `time`, independently of the library.
-fn at(recording: &Recording, time: f64) -> Configuration {
+fn configuration_at(recording: &Recording, time: f64) -> Configuration {
     let (times, rows) = (recording.times().unwrap(), recording.positions());
     let k = times.iter().rposition(|t| *t <= time).unwrap().min(times.len() - 2);
     let h = times[k + 1] - times[k];
@@ -31,7 +31,7 @@ fn sampled(scene: &Scene, recording: &Recording, n: u32) -> Vec<(f64, f64)> {
     let times = recording.times().unwrap();
     let (from, to) = (times[0], times[times.len() - 1]);
     let time = |i: u32| from + (to - from) * f64::from(i) / f64::from(n);
-    (0..=n).map(|i| (time(i), scene.clearance(at(recording, time(i))))).collect()
+    (0..=n).map(|i| (time(i), scene.clearance(configuration_at(recording, time(i))))).collect()
 }
 
 proptest! {
@@ -60,19 +60,19 @@ proptest! {
         let seen = samples.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
         // No point of these arms is farther than 3 m from a joint, which bounds the change of distances between
         // samples.
-        let turned = |w: &[(f64, f64)]| (at(&recording, w[1].0) - at(&recording, w[0].0)).abs().sum();
+        let turned = |w: &[(f64, f64)]| (configuration_at(&recording, w[1].0) - configuration_at(&recording, w[0].0)).abs().sum();
         let step = 3.0 * samples.windows(2).map(turned).fold(0.0, f64::max);
         match check_collision(&scene, &recording, 0.0) {
             CollisionCheck::Free { clearance, nearest } => {
                 prop_assert!(clearance > 0.0 && clearance <= seen + 1e-12);
                 let nearest = nearest.expect("there are obstacles");
                 prop_assert!(clearance >= 0.9 * nearest.contact.separation.distance - 1e-12);
-                prop_assert!((at(&recording, nearest.moment.time) - nearest.moment.at).norm() < 1e-9);
+                prop_assert!((configuration_at(&recording, nearest.moment.time) - nearest.moment.at).norm() < 1e-9);
                 prop_assert!(nearest.contact.separation.distance <= seen + step);
             }
             CollisionCheck::Collision { first, free_until, deepest } => {
                 prop_assert!(scene.clearance(first.moment.at) <= 0.0);
-                prop_assert!((at(&recording, first.moment.time) - first.moment.at).norm() < 1e-9);
+                prop_assert!((configuration_at(&recording, first.moment.time) - first.moment.at).norm() < 1e-9);
                 prop_assert!(free_until <= first.moment.time && first.moment.time - free_until < 1e-9);
                 let before = samples.iter().find(|(t, d)| *d <= 0.0 && *t < free_until);
                 prop_assert!(before.is_none(), "{before:?} before {free_until}");
@@ -104,7 +104,7 @@ fn collision(scene: &Scene, recording: &Recording) -> (f64, f64) {
 }
 
 #[test]
-fn what_only_the_motion_between_samples_meets_is_found_at_its_time() {
+fn collisions_between_samples_are_found_at_their_times() {
     let (scene, angle) = speck();
     let ends = || vec![q(0.0, 0.0), q(1.5, 0.0)];
     // Straight, from t = 10 to 13 at half a radian a second.

@@ -7,7 +7,7 @@ use cplan::input::InputError;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-fn shipped(file: &str) -> PathBuf {
+fn repository_file(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
@@ -16,12 +16,13 @@ fn shipped(file: &str) -> PathBuf {
 fn a_recording_is_judged_as_the_message_in_it() {
     for (robot, world) in [("planar_2r", "shelf"), ("scara", "scara_cell")] {
         let place = Place::new();
-        let (robot, world) = (shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml")));
+        let (robot, world) =
+            (repository_file(&format!("robots/{robot}.urdf")), repository_file(&format!("workspaces/{world}.toml")));
         let planned =
             place.run(&[robot.to_str().unwrap(), world.to_str().unwrap()], "--output m.yaml --output m.mcap --quiet");
         assert_eq!(planned.code, 0, "{}", planned.stderr);
         let found = ["m.yaml", "m.mcap"].map(|file| {
-            let mut found = judged::judged(&robot, &world, &place.path(file), &Question::default()).unwrap();
+            let mut found = judged::judge(&robot, &world, &place.path(file), &Question::default()).unwrap();
             let notes = found.as_object_mut().unwrap().remove("notes").unwrap().to_string();
             (found, notes)
         });
@@ -110,7 +111,7 @@ fn recording_of(messages: &[(&str, &str, u64, Vec<u8>)]) -> Vec<u8> {
 }
 
 #[test]
-fn states_that_somebody_recorded() {
+fn states_recorded_by_another_program_are_judged() {
     let states = |last: [f64; 2]| {
         [
             ("/joint_states", STATES, 7, state(10, [0.4, -0.9])),
@@ -118,12 +119,12 @@ fn states_that_somebody_recorded() {
             ("/joint_states", STATES, 9, state(12, last)),
         ]
     };
-    let found = judged(&recording_of(&states([0.5, -0.8])), None).unwrap();
+    let found = judge_recording(&recording_of(&states([0.5, -0.8])), None).unwrap();
     assert_eq!(found["verdict"], "free", "{found:#}");
     assert_eq!((&found["samples"], &found["duration"]), (&json!(2), &json!(2.0)));
     assert!(found["notes"].to_string().contains("unused topics: \\\"/rosout\\\""), "{found:#}");
     // The straight line to the goal leads through the shelf, faster than the elbow can move.
-    assert_eq!(judged(&recording_of(&states([-0.35, 1.55])), None).unwrap()["verdict"], "collision");
+    assert_eq!(judge_recording(&recording_of(&states([-0.35, 1.55])), None).unwrap()["verdict"], "collision");
 
     let whole = recording_of(&states([0.5, -0.8]));
     for (bytes, part) in [
@@ -138,23 +139,23 @@ fn states_that_somebody_recorded() {
             "holds no positions of \"shoulder\", \"elbow\"; it holds /camera (no type), /rosout (rcl_interfaces/msg/Log)",
         ),
     ] {
-        let error = judged(&bytes, None).unwrap_err().to_string();
+        let error = judge_recording(&bytes, None).unwrap_err().to_string();
         assert!(error.contains(part) && error.contains("hint:"), "{part}: {error}");
     }
 }
 
 /// Judges a recording of the planar arm, with any start and end.
-fn judged(bytes: &[u8], topic: Option<&str>) -> Result<Value, InputError> {
+fn judge_recording(bytes: &[u8], topic: Option<&str>) -> Result<Value, InputError> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("m.mcap");
     std::fs::write(&file, bytes).unwrap();
-    let (robot, world) = (shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml"));
-    judged::judged(&robot, &world, &file, &Question { topic, ..Question::anywhere() })
+    let (robot, world) = (repository_file("robots/planar_2r.urdf"), repository_file("workspaces/shelf.toml"));
+    judged::judge(&robot, &world, &file, &Question { topic, ..Question::with_free_ends() })
 }
 
 /// Returns the error of a recording, and the hint.
 fn message_of(bytes: &[u8], topic: Option<&str>) -> String {
-    let error = judged(bytes, topic).unwrap_err();
+    let error = judge_recording(bytes, topic).unwrap_err();
     let first = &error.diagnostics()[0];
     format!("{}; {}", first.message, first.help.as_ref().expect("a hint"))
 }
@@ -162,9 +163,9 @@ fn message_of(bytes: &[u8], topic: Option<&str>) -> String {
 /// Checks recordings that `write.py` (in the folder of the files) wrote with the format's Python package. They contain
 /// the same motion as the table.
 #[test]
-fn compressed_chunks_of_a_topic_in_a_namespace_out_of_order() {
+fn compressed_chunks_of_a_topic_may_be_out_of_order() {
     let folder = tempfile::tempdir().unwrap();
-    let (robot, world) = (shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml"));
+    let (robot, world) = (repository_file("robots/planar_2r.urdf"), repository_file("workspaces/shelf.toml"));
     let row = |k: i32| {
         let [time, shoulder, elbow] = [k * 50, -900 + 10 * k, 400 + 10 * k].map(|n| f64::from(n) / 1000.0);
         format!("{time},{shoulder},{elbow}\n")
@@ -173,12 +174,12 @@ fn compressed_chunks_of_a_topic_in_a_namespace_out_of_order() {
     let csv = folder.path().join("m.csv");
     std::fs::write(&csv, table).unwrap();
     let judged = |file: &PathBuf| {
-        let found = judged::judged(&robot, &world, file, &Question::anywhere()).unwrap();
+        let found = judged::judge(&robot, &world, file, &Question::with_free_ends()).unwrap();
         assert_eq!((&found["verdict"], &found["samples"]), (&json!("free"), &json!(40)), "{found:#}");
         ["clearance", "duration", "nearest"].map(|key| found[key].to_string())
     };
     for file in ["zstd", "lz4"] {
-        let file = shipped(&format!("tests/program/verify/recorded/{file}.mcap"));
+        let file = repository_file(&format!("tests/program/verify/recorded/{file}.mcap"));
         let [found, expected] = [&file, &csv].map(judged);
         assert_eq!((&found[1..], &found[0][..8]), (&expected[1..], &expected[0][..8]), "{}", file.display());
     }
@@ -187,11 +188,11 @@ fn compressed_chunks_of_a_topic_in_a_namespace_out_of_order() {
 #[test]
 fn damaged_compressed_chunks_are_refused() {
     for file in ["zstd", "lz4"] {
-        let mut bytes = std::fs::read(shipped(&format!("tests/program/verify/recorded/{file}.mcap"))).unwrap();
+        let mut bytes = std::fs::read(repository_file(&format!("tests/program/verify/recorded/{file}.mcap"))).unwrap();
         for at in (200..bytes.len() - 200).step_by(97) {
             bytes[at] ^= 0x55;
             // Whatever byte changes, the program does not crash.
-            if let Ok(found) = judged(&bytes, None) {
+            if let Ok(found) = judge_recording(&bytes, None) {
                 assert_ne!(found["verdict"], "undecided", "{file}, {at}: {found:#}");
             }
             bytes[at] ^= 0x55;
@@ -202,7 +203,7 @@ fn damaged_compressed_chunks_are_refused() {
 /// Checks a recording with several topics. The program does not choose one of them silently, and following its hint
 /// works.
 #[test]
-fn several_topics_with_the_arms_joints() {
+fn several_topics_with_the_joints_of_the_arm_need_a_choice() {
     let bytes = recording(&[
         ("/real/joint_states", 7, state(10, [0.4, -0.9])),
         ("/sim/joint_states", 8, state(10, [0.4, -0.8])),
@@ -217,7 +218,7 @@ fn several_topics_with_the_arms_joints() {
     );
     assert!(message.ends_with("--topic /real/joint_states") && !message.contains("/gripper"), "{message}");
     for (topic, duration) in [("/real/joint_states", 1.0), ("/sim/joint_states", 2.0)] {
-        let found = judged(&bytes, Some(topic)).unwrap();
+        let found = judge_recording(&bytes, Some(topic)).unwrap();
         assert_eq!((&found["verdict"], &found["duration"]), (&json!("free"), &json!(duration)), "{found:#}");
         let other = if topic.starts_with("/real") { "/sim" } else { "/real" };
         assert!(found["notes"].to_string().contains(&format!("{other}/joint_states are not judged")), "{found:#}");
@@ -237,7 +238,7 @@ fn several_topics_with_the_arms_joints() {
 /// Checks a recording in which several nodes publish on one topic. The arm's messages count; the others only appear in
 /// notes.
 #[test]
-fn several_publishers_on_one_topic() {
+fn several_publishers_may_share_a_topic() {
     let bytes = recording(&[
         ("/joint_states", 7, state(10, [0.4, -0.9])),
         ("/joint_states", 8, state_of(10, &["lid"], &[0.1])),
@@ -245,7 +246,7 @@ fn several_publishers_on_one_topic() {
         ("/joint_states", 9, state_of(11, &["shoulder", "lid", "elbow"], &[-0.9, 0.0, 0.41])),
         ("/joint_states", 11, state_of(12, &["elbow"], &[1.0])),
     ]);
-    let found = judged(&bytes, None).unwrap();
+    let found = judge_recording(&bytes, None).unwrap();
     assert_eq!(found["verdict"], "free", "{found:#}");
     assert_eq!((&found["samples"], &found["duration"]), (&json!(2), &json!(1.0)), "{found:#}");
     let notes = found["notes"].to_string();
@@ -264,7 +265,7 @@ fn several_publishers_on_one_topic() {
 /// Checks a recording of commands to a controller: motions in a namespace. The first point of a motion is not the arm's
 /// position.
 #[test]
-fn motions_of_a_controller_in_a_namespace() {
+fn motions_of_a_controller_in_a_namespace_are_judged() {
     let topic = "/arm_controller/joint_trajectory";
     let joints = ["elbow", "shoulder"];
     let bytes = recording_of(&[
@@ -272,7 +273,7 @@ fn motions_of_a_controller_in_a_namespace() {
         (topic, MOTIONS, 1_000_000_000, motion(&["shoulder", "elbow"], &[(0, [-0.9, 0.4]), (2, [-0.9, 0.41])])),
         ("/joint_states", STATES, 9, state(10, [0.4, -0.9])),
     ]);
-    let found = judged(&bytes, None).unwrap();
+    let found = judge_recording(&bytes, None).unwrap();
     assert_eq!(found["verdict"], "free", "{found:#}");
     // The samples: two points, the waiting position, the next beginning, two points.
     assert_eq!((&found["samples"], &found["duration"]), (&json!(5), &json!(9.0)), "{found:#}");
@@ -286,16 +287,16 @@ fn motions_of_a_controller_in_a_namespace() {
     ]);
     let message = message_of(&jumps, None);
     assert!(message.contains("is at another value when a motion begins") && message.contains("--topic"), "{message}");
-    assert_eq!(judged(&jumps, Some("/joint_states")).unwrap()["verdict"], "free");
+    assert_eq!(judge_recording(&jumps, Some("/joint_states")).unwrap()["verdict"], "free");
 }
 
 #[test]
-fn topics_are_those_of_recordings() {
+fn only_recordings_have_topics() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("m.csv");
     std::fs::write(&file, "time,shoulder,elbow\n0,-0.9,0.4\n").unwrap();
-    let (robot, world) = (shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml"));
+    let (robot, world) = (repository_file("robots/planar_2r.urdf"), repository_file("workspaces/shelf.toml"));
     let question = Question { topic: Some("/joint_states"), ..Question::default() };
-    let error = judged::judged(&robot, &world, &file, &question).unwrap_err().to_string();
+    let error = judged::judge(&robot, &world, &file, &question).unwrap_err().to_string();
     assert!(error.contains("has no topics") && error.contains("leave --topic out"), "{error}");
 }

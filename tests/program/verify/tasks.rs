@@ -1,6 +1,6 @@
 //! Results of tasks: the program's own ones, unchanged and tampered with, and in other worlds.
 
-use super::judged::{Question, judged, planned};
+use super::judged::{Question, judge, plan_result};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -26,12 +26,12 @@ fn run(folder: &Path, arguments: &[&str]) -> Said {
     (status.code().expect("no signal"), text(stdout), text(stderr))
 }
 
-fn shipped(name: &str) -> Shipped {
+fn shipped_task(name: &str) -> Shipped {
     let file = root(&format!("workspaces/tasks/{name}.toml"));
     let world = std::fs::read_to_string(&file).unwrap();
     let robot = world.lines().find_map(|line| line.strip_prefix("# robot: ")).unwrap();
     let robot = root(&format!("robots/{}.urdf", robot.trim()));
-    let result = planned(&robot, &file, "");
+    let result = plan_result(&robot, &file, "");
     assert_eq!(result["status"], "found", "{name}");
     Shipped { robot, world, result }
 }
@@ -54,10 +54,10 @@ impl Shipped {
     }
 
     /// Returns the findings about the result.
-    fn found(&self) -> Value {
+    fn findings(&self) -> Value {
         let folder = tempfile::tempdir().unwrap();
         let [world, task] = self.written(folder.path());
-        judged(&self.robot, &world, &task, &Question::default()).unwrap_or_else(|error| panic!("{error}"))
+        judge(&self.robot, &world, &task, &Question::default()).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// Returns the same result for a world with one text replaced.
@@ -91,7 +91,7 @@ impl Shipped {
     /// Checks the verdict on the whole recording. Also checks that exactly these steps, counted from 0, are refuted.
     #[track_caller]
     fn refuted(&self, verdict: &str, steps: &[usize]) -> Value {
-        let found = self.found();
+        let found = self.findings();
         assert_eq!(found["verdict"], verdict, "{found:#}");
         let of_steps = found["steps"].as_array().unwrap();
         let wrong: Vec<usize> = (0..of_steps.len()).filter(|&k| of_steps[k]["verdict"] != "free").collect();
@@ -108,8 +108,8 @@ fn number(value: &Value) -> Option<f64> {
 #[test]
 fn our_own_tasks_are_free_and_their_clearances_agree() {
     for (name, count) in [("kitting_cell", 24), ("tower", 5), ("board_turned", 3), ("feeder", 300), ("sorting", 8)] {
-        let task = shipped(name);
-        let found = task.found();
+        let task = shipped_task(name);
+        let found = task.findings();
         assert_eq!((&found["verdict"], &found["faults"]), (&json!("free"), &Value::Null), "{name}: {found:#}");
         assert_eq!(found["limits_broken"], json!([]), "{name}");
         let (ours, theirs) = (found["steps"].as_array().unwrap(), task.result["steps"].as_array().unwrap());
@@ -133,7 +133,7 @@ fn our_own_tasks_are_free_and_their_clearances_agree() {
 
 #[test]
 fn the_summary_has_a_line_a_step() {
-    let (code, text, _) = shipped("feeder").report(&[]);
+    let (code, text, _) = shipped_task("feeder").report(&[]);
     assert_eq!(code, 0);
     for part in
         ["step       1 (cycle 1)  pick \"part\"", "... 291 steps in cycles 4 to 100", "the whole task, 300 steps"]
@@ -141,7 +141,7 @@ fn the_summary_has_a_line_a_step() {
         assert!(text.contains(part), "no {part:?} in:\n{text}");
     }
     assert!(text.contains("step by step"), "{text}");
-    let turned = shipped("board_turned").in_world("velocity = 3.0", "velocity = 0.3");
+    let turned = shipped_task("board_turned").in_world("velocity = 3.0", "velocity = 0.3");
     let (code, text, _) = turned.report(&[]);
     assert_eq!(code, 3);
     for part in ["not as required", "task       step 2 (cycle 1): the wrist turns in 0.", "result     not the task"] {
@@ -151,8 +151,8 @@ fn the_summary_has_a_line_a_step() {
 }
 
 #[test]
-fn a_sample_in_an_obstacle() {
-    let mut task = shipped("board_turned");
+fn a_sample_in_an_obstacle_is_found() {
+    let mut task = shipped_task("board_turned");
     let [first, last] = task.samples(2);
     let middle = (first + last) / 2;
     task.result["trajectory"]["position"][middle] = json!([1.0, 0.4]);
@@ -165,11 +165,11 @@ fn a_sample_in_an_obstacle() {
 }
 
 #[test]
-fn an_object_elsewhere() {
-    let task = shipped("sorting").in_world("at = [0.25, 0.45]", "at = [0.25, 0.40]");
+fn an_object_elsewhere_is_found() {
+    let task = shipped_task("sorting").in_world("at = [0.25, 0.45]", "at = [0.25, 0.40]");
     let steps = task.result["steps"].as_array().unwrap();
     let picked = steps.iter().position(|step| step["action"] == "pick" && step["object"] == "red").unwrap();
-    let found = task.found();
+    let found = task.findings();
     assert_eq!(found["verdict"], "task", "{found:#}");
     for (at, what) in [(picked, "the tip ends 0.05"), (picked + 1, "the object's origin ends 0.05")] {
         let step = &found["steps"][at];
@@ -179,39 +179,39 @@ fn an_object_elsewhere() {
 }
 
 #[test]
-fn steps_in_another_order() {
+fn steps_in_a_forbidden_order_are_found() {
     // Pairs of a free group may come in any order.
-    let sorting = shipped("sorting");
+    let sorting = shipped_task("sorting");
     let numbers = |task: &Shipped| {
         let steps = task.result["steps"].as_array().unwrap();
         steps.iter().map(|step| step["step"].as_u64().unwrap()).collect::<Vec<_>>()
     };
     assert!(!numbers(&sorting).is_sorted());
-    assert_eq!(sorting.found()["verdict"], "free");
+    assert_eq!(sorting.findings()["verdict"], "free");
 
-    let mut tower = shipped("tower");
+    let mut tower = shipped_task("tower");
     tower.result["steps"][0]["step"] = json!(3);
     tower.result["steps"][2]["step"] = json!(1);
     let found = tower.refuted("task", &[]);
     assert_eq!(found["faults"], json!(["steps[0] is step 3 (cycle 1), but the world requires step 1 (cycle 1)"]));
 
-    let mut tower = shipped("tower");
+    let mut tower = shipped_task("tower");
     tower.result["steps"].as_array_mut().unwrap().swap(3, 4);
     assert_eq!(tower.refuted("task", &[])["steps"].as_array().unwrap().len(), 3);
 
-    let mut tower = shipped("tower");
+    let mut tower = shipped_task("tower");
     tower.result["steps"].as_array_mut().unwrap().pop();
     assert_eq!(
         tower.refuted("task", &[])["faults"][0],
         "after 4 steps the world requires step 5 (cycle 1), but the file ends"
     );
 
-    let mut feeder = shipped("feeder");
+    let mut feeder = shipped_task("feeder");
     feeder.result["steps"][4]["cycle"] = json!(3);
     assert!(feeder.refuted("task", &[])["faults"][0].as_str().unwrap().contains("requires step 2 (cycle 2)"));
 
     // A place that is another pair's.
-    let mut sorting = shipped("sorting");
+    let mut sorting = shipped_task("sorting");
     let number = |k: usize| sorting.result["steps"][k]["step"].clone();
     let (one, other) = (number(1), number(3));
     sorting.result["steps"][1]["step"] = other;
@@ -220,8 +220,8 @@ fn steps_in_another_order() {
 }
 
 #[test]
-fn samples_that_belong_to_no_step() {
-    let mut tower = shipped("tower");
+fn samples_that_belong_to_no_step_are_found() {
+    let mut tower = shipped_task("tower");
     let [_, last] = tower.samples(1);
     tower.result["steps"][1]["last_sample"] = json!(last - 3);
     // The rest of the motion ends elsewhere, and not at rest.
@@ -229,15 +229,15 @@ fn samples_that_belong_to_no_step() {
     assert!(found["faults"].to_string().contains("which belong to no step"), "{found:#}");
     assert!(found["steps"][1]["limits_broken"].to_string().contains("rest at end"), "{found:#}");
 
-    let mut tower = shipped("tower");
+    let mut tower = shipped_task("tower");
     let [first, _] = tower.samples(2);
     tower.result["steps"][2]["first_sample"] = json!(first - 5);
     assert!(tower.refuted("task", &[])["faults"][0].as_str().unwrap().starts_with("steps[2] begins with sample"));
 }
 
 #[test]
-fn rests_that_are_cut() {
-    let mut tower = shipped("tower");
+fn shortened_rests_are_found() {
+    let mut tower = shipped_task("tower");
     let [_, last] = tower.samples(1);
     (last + 1..tower.count()).for_each(|sample| tower.change("time", sample, |time| time - 0.2));
     let found = tower.refuted("task", &[1]);
@@ -245,8 +245,8 @@ fn rests_that_are_cut() {
 }
 
 #[test]
-fn a_step_that_is_too_fast() {
-    let mut tower = shipped("tower");
+fn a_step_that_is_too_fast_is_found() {
+    let mut tower = shipped_task("tower");
     let [first, last] = tower.samples(1);
     let [begin, end] = [first, last].map(|sample| tower.time(sample));
     for sample in first..=last {
@@ -262,14 +262,14 @@ fn a_step_that_is_too_fast() {
 }
 
 #[test]
-fn a_turn_that_is_another() {
+fn a_different_turn_is_found() {
     let reversed = |from: f64, to: f64| {
-        let mut task = shipped("board_turned");
+        let mut task = shipped_task("board_turned");
         task.result["steps"][1]["turn"]["from"] = json!(from);
         task.result["steps"][1]["turn"]["to"] = json!(to);
         task
     };
-    let to = number(&shipped("board_turned").result["steps"][1]["turn"]["to"]).unwrap();
+    let to = number(&shipped_task("board_turned").result["steps"][1]["turn"]["to"]).unwrap();
     let found = reversed(to, 0.0).refuted("task", &[1, 2]);
     assert_eq!(
         found["steps"][1]["faults"],
@@ -279,12 +279,12 @@ fn a_turn_that_is_another() {
     let found = reversed(0.0, to - std::f64::consts::TAU).refuted("task", &[1]);
     assert!(found["steps"][1]["faults"][0].as_str().unwrap().starts_with("the wrist turns in"), "{found:#}");
     // Without the turn, the board does not pass in its first orientation.
-    let mut task = shipped("board_turned");
+    let mut task = shipped_task("board_turned");
     task.result["steps"][1]["turn"] = Value::Null;
     task.refuted("collision", &[2]);
     // The post blocks only the turn.
     let post = "[[obstacle]]\nname = \"post\"\ncircle = { center = [0.52, 1.1], radius = 0.01 }\nheight = [0.0, 0.04]\n\n[[object]]";
-    let found = shipped("board_turned").in_world("[[object]]", post).found();
+    let found = shipped_task("board_turned").in_world("[[object]]", post).findings();
     let turn = &found["steps"][1]["turn"];
     assert_eq!((&found["steps"][1]["verdict"], &turn["contact"]["obstacle"]), (&json!("collision"), &json!("post")));
     // The post's centre is 0.12 from the tip, and the board's long side 0.06. They touch when the centre is 0.07 from
@@ -292,30 +292,30 @@ fn a_turn_that_is_another() {
     let expected = (0.07_f64 / 0.12).acos();
     let angle = |turn: &Value| number(&turn["contact"]["angle"]).unwrap();
     assert!((angle(turn) - expected).abs() < 1e-6, "{turn:#}");
-    let back = reversed(0.0, to - std::f64::consts::TAU).in_world("[[object]]", post).found();
+    let back = reversed(0.0, to - std::f64::consts::TAU).in_world("[[object]]", post).findings();
     assert!((angle(&back["steps"][1]["turn"]) + expected).abs() < 1e-6, "{back:#}");
 }
 
 #[test]
-fn supports_that_are_none() {
-    let task = shipped("tower").in_world("at = [0.50, 0.45]\nsupports = [\"table\"]", "at = [0.50, 0.45]");
+fn missing_supports_are_found() {
+    let task = shipped_task("tower").in_world("at = [0.50, 0.45]\nsupports = [\"table\"]", "at = [0.50, 0.45]");
     let found = task.refuted("collision", &[1]);
     let hit = &found["first_contact"];
     assert_eq!((&hit["obstacle"], &hit["body"]), (&json!("table"), &json!("base block")), "{hit:#}");
 }
 
 #[test]
-fn a_payload_that_is_larger() {
+fn a_larger_payload_is_found() {
     let board = |half: f64| format!("[[-{half}, -0.15], [{half}, -0.15], [{half}, 0.15], [-{half}, 0.15]]");
-    let task = shipped("board_turned").in_world(&board(0.06), &board(0.12));
+    let task = shipped_task("board_turned").in_world(&board(0.06), &board(0.12));
     let hit = &task.refuted("collision", &[2])["first_contact"];
     assert_eq!(hit["body"], "board");
     assert!(hit["obstacle"].as_str().unwrap().ends_with("wall"), "{hit:#}");
 }
 
 #[test]
-fn another_start() {
-    let tower = shipped("tower");
+fn a_different_start_is_found() {
+    let tower = shipped_task("tower");
     assert_eq!(tower.report(&["--start", "0.6,0.8", "--quiet"]).0, 0);
     let (code, text, _) = tower.report(&["--start", "0.6,0.7"]);
     assert_eq!(code, 3);
@@ -324,15 +324,15 @@ fn another_start() {
     assert_eq!(code, 2, "{error}");
     assert!(error.contains("--picture"), "{error}");
     // A clearance that is greater than the actual distance.
-    let (code, text, _) = shipped("sorting").report(&["--clearance", "0.01"]);
+    let (code, text, _) = shipped_task("sorting").report(&["--clearance", "0.01"]);
     assert!(code == 3 && text.contains("nearer than the required clearance"), "{text}");
 }
 
 #[test]
 fn a_file_without_steps_is_one_motion() {
-    let mut tower = shipped("tower");
+    let mut tower = shipped_task("tower");
     tower.result.as_object_mut().unwrap().remove("steps");
-    let found = tower.found();
+    let found = tower.findings();
     assert!(found["steps"].is_null());
     assert!(found["notes"].to_string().contains("the world has steps, but the file has none"), "{found:#}");
     let (code, text, error) = tower.report(&["--start", "0,0"]);
@@ -342,7 +342,7 @@ fn a_file_without_steps_is_one_motion() {
 
 #[test]
 fn steps_that_are_none_are_refused() {
-    let tower = shipped("tower");
+    let tower = shipped_task("tower");
     let refused = |steps: Value, parts: &[&str]| {
         let mut task = Shipped { robot: tower.robot.clone(), world: tower.world.clone(), result: tower.result.clone() };
         task.result["steps"] = steps;

@@ -14,10 +14,10 @@ impl Files {
     ///
     /// # Errors
     /// If only the text was given, without a path.
-    pub fn path(&self, of: Input) -> Result<&Path, CheckError> {
-        let path = self.given[usize::from(of == Input::World)].as_deref();
+    pub fn path(&self, input: Input) -> Result<&Path, CheckError> {
+        let path = self.given[usize::from(input == Input::World)].as_deref();
         path.ok_or_else(|| {
-            CheckError::in_file(of, "it names other files: `check_files` reads them, by the paths of URDF and world")
+            CheckError::in_file(input, "it names other files: `check_files` reads them, by the paths of URDF and world")
         })
     }
 
@@ -25,16 +25,19 @@ impl Files {
     ///
     /// # Errors
     /// If the file cannot be read, is larger than 256 MiB, or is not the one that the certificate is about.
-    pub fn bytes(&self, of: Input, path: &Path) -> Result<Vec<u8>, CheckError> {
+    pub fn bytes(&self, input: Input, path: &Path) -> Result<Vec<u8>, CheckError> {
         if !path.is_file() {
-            return Err(CheckError::in_file(of, format!("{} cannot be read: there is no such file", path.display())));
+            return Err(CheckError::in_file(
+                input,
+                format!("{} cannot be read: there is no such file", path.display()),
+            ));
         }
         let mut bytes = Vec::new();
         let read = File::open(path).and_then(|file| file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes));
         let name = path.display();
-        read.map_err(|error| CheckError::in_file(of, format!("{name} cannot be read: {error}")))?;
+        read.map_err(|error| CheckError::in_file(input, format!("{name} cannot be read: {error}")))?;
         if bytes.len() as u64 > MAX_FILE_BYTES {
-            return Err(CheckError::in_file(of, format!("{name} is larger than {} MiB", MAX_FILE_BYTES >> 20)));
+            return Err(CheckError::in_file(input, format!("{name} is larger than {} MiB", MAX_FILE_BYTES >> 20)));
         }
         let is_said = |stated: &Vec<String>| stated.iter().any(|stated| stated.eq_ignore_ascii_case(&digest(&bytes)));
         match self.others.as_ref().is_none_or(is_said) {

@@ -54,14 +54,15 @@ pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node))).collect();
     let mut scene = Scene { ids, nodes: 0, numbers: 0, points: Vec::new() };
     let shown = child(root, "scene").and_then(|scene| child(scene, "instance_visual_scene"));
-    let shown = shown.and_then(|instance| scene.target(instance)).or_else(|| named(root, "visual_scene").next());
+    let shown =
+        shown.and_then(|instance| scene.target(instance)).or_else(|| children_named(root, "visual_scene").next());
     let to_file = scaled([(); 3].map(|()| Interval::from(&metres)));
     if let Some(shown) = shown {
         scene.show(shown, &to_file, 0)?;
     }
     // If the scene shows nothing, all meshes count, in their own coordinates.
     if scene.points.is_empty() {
-        let meshes = named(root, "geometry").filter_map(|geometry| child(geometry, "mesh"));
+        let meshes = children_named(root, "geometry").filter_map(|geometry| child(geometry, "mesh"));
         meshes.collect::<Vec<_>>().into_iter().try_for_each(|mesh| scene.positions(mesh, &to_file))?;
     }
     if scene.points.is_empty() { Err("it has no mesh".into()) } else { Ok(scene.points) }
@@ -79,7 +80,7 @@ fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
     node.children().find(|child| child.tag_name().name() == name)
 }
 
-fn named<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
+fn children_named<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
     node.descendants().filter(move |node| node.tag_name().name() == name)
 }
 
@@ -101,10 +102,10 @@ impl<'a> Scene<'a> {
             let target =
                 || self.target(child).ok_or_else(|| "it refers to an element that the file does not have".to_owned());
             match child.tag_name().name() {
-                "node" => self.show(child, &to_file.after(&placing(child)?), depth + 1)?,
+                "node" => self.show(child, &to_file.compose(&node_transform(child)?), depth + 1)?,
                 "instance_node" => {
                     let target = target()?;
-                    self.show(target, &to_file.after(&placing(target)?), depth + 1)?;
+                    self.show(target, &to_file.compose(&node_transform(target)?), depth + 1)?;
                 }
                 "instance_geometry" => {
                     let target = target()?;
@@ -125,7 +126,7 @@ impl<'a> Scene<'a> {
         let source = of_semantic(vertices, "POSITION").and_then(|input| self.target(input));
         let source = source.ok_or("a mesh has no positions")?;
         let array = child(source, "float_array").ok_or("a mesh has no positions")?;
-        let accessor = named(source, "accessor").next().ok_or("positions have no accessor")?;
+        let accessor = children_named(source, "accessor").next().ok_or("positions have no accessor")?;
         let whole = |name: &str, else_: usize| match accessor.attribute(name) {
             Some(text) => text.trim().parse().map_err(|_| format!("an accessor's {name} is not a number")),
             None => Ok(else_),
@@ -145,7 +146,7 @@ impl<'a> Scene<'a> {
             match primitive.tag_name().name() {
                 "source" | "vertices" | "extra" => continue,
                 "triangles" | "polylist" | "trifans" | "tristrips" => {}
-                "polygons" if named(primitive, "ph").next().is_none() => {}
+                "polygons" if children_named(primitive, "ph").next().is_none() => {}
                 other => return Err(format!("the checker does not know <{other}> in a mesh")),
             }
             let offset = |input: Node| input.attribute("offset").and_then(|offset| offset.trim().parse::<usize>().ok());
@@ -193,7 +194,7 @@ fn scaled(by: Vector) -> Affine {
 
 /// Returns the map from a node's coordinates to those of its parent. It applies the node's transformations from the
 /// last to the first.
-fn placing(node: Node) -> Result<Affine, String> {
+fn node_transform(node: Node) -> Result<Affine, String> {
     let mut all = Pose::identity();
     let is_one = |part: &Node| TRANSFORM_ELEMENTS.contains(&part.tag_name().name());
     if node.children().filter(is_one).count() > MAX_TRANSFORM_ELEMENTS {
@@ -226,7 +227,7 @@ fn placing(node: Node) -> Result<Affine, String> {
             }
             _ => return Err(format!("a node has a <{kind}> that the checker does not know")),
         };
-        all = all.after(&map);
+        all = all.compose(&map);
     }
     Ok(all)
 }

@@ -41,7 +41,7 @@ impl Surface {
         for number in 0..=cuts.len() {
             let (below, above) = (number.checked_sub(1), (number < cuts.len()).then_some(number));
             let end = |cut: Option<usize>, own: &Interval| {
-                cut.map_or_else(|| own.clone(), |cut| Interval::exactly(cuts[cut].clone()))
+                cut.map_or_else(|| own.clone(), |cut| Interval::exact(cuts[cut].clone()))
             };
             let heights = [end(below, &low), end(above, &high)];
             let [from, to] = [&heights[0].lower - &rounded, &heights[1].upper + &rounded];
@@ -70,7 +70,7 @@ impl Surface {
                 return None;
             }
             // The crossing is on the edge, even if rounding puts it beyond an end.
-            let share = (&Interval::exactly(cut.clone()) - &from.1).divided(&(&to.1 - &from.1));
+            let share = (&Interval::exact(cut.clone()) - &from.1).divided(&(&to.1 - &from.1));
             let one = BigInt::from(1) << BITS;
             let share = Interval { lower: share.lower.max(BigInt::ZERO), upper: share.upper.min(one) };
             Some(sum(&from.0, &times(&minus(&to.0, &from.0), &share)))

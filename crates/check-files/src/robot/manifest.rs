@@ -15,7 +15,7 @@ pub fn declared(package: &str, folder: &Path) -> Vec<PathBuf> {
     let (mut found, mut seen) = (Vec::new(), 0);
     for _ in 0..=MAX_FOLDER_DEPTH {
         found.extend(level.iter().filter(|folder| name(folder).as_deref() == Some(package)).cloned());
-        level = level.iter().flat_map(|folder| inside(folder)).take(MAX_FOLDERS - seen).collect();
+        level = level.iter().flat_map(|folder| subfolders(folder)).take(MAX_FOLDERS - seen).collect();
         seen += level.len();
     }
     found
@@ -30,7 +30,7 @@ fn name(folder: &Path) -> Option<String> {
 }
 
 /// Returns the folders in a folder, sorted by name, without hidden ones.
-fn inside(folder: &Path) -> Vec<PathBuf> {
+fn subfolders(folder: &Path) -> Vec<PathBuf> {
     let entries = folder.read_dir().into_iter().flatten().filter_map(Result::ok);
     let is_folder = |entry: &std::fs::DirEntry| entry.file_type().is_ok_and(|kind| kind.is_dir());
     let shown = entries.filter(|entry| is_folder(entry) && !entry.file_name().to_string_lossy().starts_with('.'));

@@ -87,7 +87,7 @@ fn stl(bytes: &[u8]) -> Result<Mesh, String> {
         _ => std::str::from_utf8(bytes).ok().and_then(as_text).ok_or("it is not an STL file")?,
     };
     let (corners, edges) = of_faces(&triangles);
-    let points: Option<Vec<Vector>> = corners.into_iter().map(exactly).collect();
+    let points: Option<Vec<Vector>> = corners.into_iter().map(exact_vector).collect();
     Ok(Mesh { points: points.ok_or("a corner is not finite")?, edges })
 }
 
@@ -169,13 +169,13 @@ fn as_text(text: &str) -> Option<Vec<Vec<Single>>> {
 }
 
 /// Returns the exact values of single-precision numbers. Returns `None` if one is infinite or not a number.
-fn exactly(corner: Single) -> Option<Vector> {
+fn exact_vector(corner: Single) -> Option<Vector> {
     let number = |bits: u32| {
         let (exponent, fraction) = (bits >> 23 & 0xff, bits & 0x7f_ffff);
         let digits = BigInt::from(if exponent == 0 { fraction } else { fraction | 1 << 23 });
         let signed = if bits >> 31 == 1 { -digits } else { digits };
         // A unit of the last digit is `2^(exponent - 150)`.
-        (exponent < 0xff).then(|| Interval::exactly(signed << (exponent.max(1) + BITS - 150)))
+        (exponent < 0xff).then(|| Interval::exact(signed << (exponent.max(1) + BITS - 150)))
     };
     let [x, y, z] = corner.map(number);
     Some([x?, y?, z?])

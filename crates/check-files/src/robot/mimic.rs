@@ -49,7 +49,7 @@ impl<'a> Robot<'a> {
         for &link in &self.tree.order {
             let has_shapes = ["collision", "visual"].iter().any(|kind| child(self.tree.links[link], kind).is_some());
             let counts = has_shapes || link == self.tip_link;
-            for joint in if counts { self.tree.above(link)? } else { Vec::new() } {
+            for joint in if counts { self.tree.joints_above(link)? } else { Vec::new() } {
                 if self.tree.leader(joint)?.is_some_and(|leader| joints.contains(&leader)) {
                     return self.tree.error(
                         joint,

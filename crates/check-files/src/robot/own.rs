@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 impl<'a> Tree<'a> {
     /// Returns the links from the root of the tree to `link`.
     fn chain(&self, link: &'a str) -> ReadResult<Vec<&'a str>> {
-        let parents = self.above(link)?.into_iter().rev().map(|joint| self.parent(joint));
+        let parents = self.joints_above(link)?.into_iter().rev().map(|joint| self.parent(joint));
         parents.chain([Ok(link)]).collect()
     }
 }
@@ -33,11 +33,11 @@ impl<'a> Robot<'a> {
     /// Finds the last of the two joints that moves a link. Returns `Some(None)` for a static link. Returns `None` if
     /// another movable joint carries the link, because then the position of the link is unknown.
     pub(super) fn group(&self, link: &'a str) -> ReadResult<Option<Option<usize>>> {
-        if let Some(last) = self.moved_by(link)? {
+        if let Some(last) = self.moving_joint(link)? {
             return Ok(Some(Some(last)));
         }
-        let carrying = self.tree.above(self.children[0])?;
-        let above = self.tree.above(link)?;
+        let carrying = self.tree.joints_above(self.children[0])?;
+        let above = self.tree.joints_above(link)?;
         let is_held = above.iter().all(|joint| joint.attribute("type") == Some("fixed") || carrying.contains(joint));
         Ok(is_held.then_some(None))
     }
@@ -76,7 +76,8 @@ impl<'a> Robot<'a> {
             let others = ends.iter().filter(|(other, _)| apart.contains(&(link, *other)));
             let cuts = cuts(others.flat_map(|(_, ends)| ends.clone()).collect());
             // A link that turns with the wrist is replaced by a disc, and is not cut.
-            let turns = self.tree.above(link)?.iter().any(|joint| wrist.is_some() && joint.attribute("name") == wrist);
+            let turns =
+                self.tree.joints_above(link)?.iter().any(|joint| wrist.is_some() && joint.attribute("name") == wrist);
             let layers = surface.filter(|_| !turns).map_or_else(Vec::new, |surface| surface.layers(&cuts));
             let layer = |(number, (points, heights)): (usize, (Vec<Point>, [Interval; 2]))| {
                 let (link, ignored, layer) = (whole.link.clone(), whole.ignored.clone(), Some(number));
@@ -96,7 +97,7 @@ impl<'a> Robot<'a> {
             }
         }
         let obstacle = |own: &CollisionShape| {
-            let heights = own.around.kept(Outline::Around);
+            let heights = own.around.inset_heights(Outline::Around);
             Obstacle::link(own.to_string(), own.owner(), own.around.shape.clone(), heights)
         };
         self.arm.own = self.arm.bases.iter().map(obstacle).collect();

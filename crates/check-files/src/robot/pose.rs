@@ -57,7 +57,7 @@ impl Pose {
         [0, 1, 2].map(|i| &turned[i] + &self.at[i])
     }
 
-    pub fn after(&self, inner: &Self) -> Self {
+    pub fn compose(&self, inner: &Self) -> Self {
         let column = |j: usize| [0, 1, 2].map(|k| inner.rows[k][j].clone());
         let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| dot(&self.rows[i], &column(j))));
         Self { rows, at: self.point(&inner.at) }

@@ -2,7 +2,7 @@
 
 use super::pose::Pose;
 use super::tree::{ReadResult, Tree};
-use cplan_check::interval::{Interval, twice};
+use cplan_check::interval::{Interval, double};
 use num_bigint::Sign;
 use roxmltree::Node;
 
@@ -27,12 +27,12 @@ impl Pose {
             let turn = match (3 + j - i) % 3 {
                 0 => {
                     let [a, b] = [(i + 1) % 3, (i + 2) % 3];
-                    return &Interval::whole(1) - &twice(&(&product(a, a) + &product(b, b))).divided(&square);
+                    return &Interval::whole(1) - &double(&(&product(a, a) + &product(b, b))).divided(&square);
                 }
                 1 => &product(i, j) - &product(3 - i - j, 3),
                 _ => &product(i, j) + &product(3 - i - j, 3),
             };
-            twice(&turn).divided(&square)
+            double(&turn).divided(&square)
         };
         let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)));
         Some(Self { rows, at: [0, 0, 0].map(Interval::whole) })

@@ -84,7 +84,7 @@ impl<'a> Robot<'a> {
                     }
                     None => continue,
                 };
-                let pose = self.tree.pose(link)?.after(&self.tree.origin(node)?);
+                let pose = self.tree.pose(link)?.compose(&self.tree.origin(node)?);
                 let surface = match solid {
                     Solid::Hull(ref mesh) => Some(self.surface(last, &pose, mesh)),
                     _ => None,

@@ -174,7 +174,7 @@ pub fn bodies(last: Option<usize>, points: impl Iterator<Item = Point>, heights:
     let points: Vec<Point> = ring.into_iter().map(|p| p.map(widened)).collect();
     // The distances of a point and of a corner from their middles add up to less than two errors, across and along
     // together.
-    [Interval::exactly(&error * 4), Interval::whole(0)].map(|radius| {
+    [Interval::exact(&error * 4), Interval::whole(0)].map(|radius| {
         let shape = Shape { points: points.clone(), radius };
         Body { link: last.unwrap_or(0), shape, heights: Some(heights.clone()) }
     })

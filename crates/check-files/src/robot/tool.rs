@@ -58,7 +58,7 @@ fn turn_about(counted: &mut CollisionShape, axis: &Point) -> ReadResult<()> {
         );
         return Err(CheckError::in_file(Input::Urdf, message));
     }
-    let disc = |radius: BigInt| Shape { points: vec![axis.clone()], radius: Interval::exactly(radius) };
+    let disc = |radius: BigInt| Shape { points: vec![axis.clone()], radius: Interval::exact(radius) };
     counted.around.shape = disc(farthest + &shape.radius.upper);
     counted.within.shape = disc(deepest);
     Ok(())
@@ -83,7 +83,7 @@ impl<'a> Robot<'a> {
             }
             for k in 0..self.arm.shapes.len() {
                 let link = self.tree.order.iter().find(|link| ***link == *self.arm.shapes[k].link);
-                if link.map_or(Ok(Vec::new()), |link| self.tree.above(link))?.contains(&joint) {
+                if link.map_or(Ok(Vec::new()), |link| self.tree.joints_above(link))?.contains(&joint) {
                     turn_about(&mut self.arm.shapes[k], &axis)?;
                 }
             }
@@ -102,10 +102,10 @@ impl<'a> Robot<'a> {
         let least = &Decimal::whole(1) - &Decimal::power_of_ten(UPRIGHT_DECIMALS);
         let slides = joint.attribute("type") == Some("prismatic");
         let is_of_kind = moves(&joint) && slides == (what == "stroke") && child(joint, "mimic").is_none();
-        if !is_of_kind || along.lower < Interval::from(&least).lower || self.moved_by(carried)? != Some(1) {
+        if !is_of_kind || along.lower < Interval::from(&least).lower || self.moving_joint(carried)? != Some(1) {
             return wrong("does not move the tool along the normal of the plane, or about it");
         }
-        if !self.tree.above(self.tip_link)?.contains(&joint) {
+        if !self.tree.joints_above(self.tip_link)?.contains(&joint) {
             return wrong("does not carry the tip");
         }
         self.check_independence(&[joint])?;
@@ -122,14 +122,14 @@ impl<'a> Robot<'a> {
         let is_bar = shape.kind == "bar" && shape.around.link == 1;
         let link =
             self.tree.order.iter().find(|name| if is_bar { **name == self.tip_link } else { **name == shape.link });
-        let above = link.map_or(Ok(Vec::new()), |link| self.tree.above(link))?;
+        let above = link.map_or(Ok(Vec::new()), |link| self.tree.joints_above(link))?;
         Ok(above.iter().any(|node| node.attribute("name") == Some(joint)))
     }
 }
 
 /// Returns the depth to which objects may press into their supports: a share of the arm's reach. The reach is the
 /// distance from the first joint to the second, plus the greatest distance of a shape or the tip from the second joint.
-pub fn pressed(arm: &Arm) -> Interval {
+pub fn penetration_depth_allowed(arm: &Arm) -> Interval {
     let greatest = |link: usize, first: Interval| {
         let own = arm.shapes.iter().map(|shape| &shape.around).filter(|body| body.link == link);
         let all = own.flat_map(|body| body.shape.points.iter().map(|p| &length(p) + &body.shape.radius));

@@ -174,7 +174,7 @@ impl<'a> Tree<'a> {
             let angles = self.vector(origin, "rpy")?;
             let axes = Pose::identity().rows;
             let [roll, pitch, yaw] = [0, 1, 2].map(|k| Pose::turn(&axes[k], &angles[k]));
-            pose = yaw.after(&pitch).after(&roll);
+            pose = yaw.compose(&pitch).compose(&roll);
         }
         if origin.has_attribute("xyz") {
             pose.at = self.vector(origin, "xyz")?;
@@ -209,8 +209,8 @@ impl<'a> Tree<'a> {
 
     /// Returns the pose of a link in the world.
     pub fn pose(&self, link: &'a str) -> ReadResult<Pose> {
-        let below = |pose: ReadResult<Pose>, joint: &Node<'a, 'a>| Ok(pose?.after(&self.step(*joint)?));
-        self.above(link)?.iter().rev().fold(Ok(self.root.clone()), below)
+        let below = |pose: ReadResult<Pose>, joint: &Node<'a, 'a>| Ok(pose?.compose(&self.step(*joint)?));
+        self.joints_above(link)?.iter().rev().fold(Ok(self.root.clone()), below)
     }
 
     /// Returns the pose of a joint's child in the frame of its parent.
@@ -219,10 +219,10 @@ impl<'a> Tree<'a> {
         let value = || self.value(joint, 0);
         match self.text(joint, "type")? {
             "fixed" => Ok(origin),
-            "revolute" | "continuous" => Ok(origin.after(&Pose::turn(&self.axis(joint)?, &value()?))),
+            "revolute" | "continuous" => Ok(origin.compose(&Pose::turn(&self.axis(joint)?, &value()?))),
             "prismatic" => {
                 let (axis, value) = (self.axis(joint)?, value()?);
-                Ok(origin.after(&Pose { at: axis.map(|c| &c * &value), ..Pose::identity() }))
+                Ok(origin.compose(&Pose { at: axis.map(|c| &c * &value), ..Pose::identity() }))
             }
             other => self.error(joint, format!("the checker does not know joints of type {other}")),
         }
@@ -233,7 +233,7 @@ impl<'a> Tree<'a> {
     }
 
     /// Returns the joints above a link, from the link to the root.
-    pub fn above(&self, mut link: &'a str) -> ReadResult<Vec<Node<'a, 'a>>> {
+    pub fn joints_above(&self, mut link: &'a str) -> ReadResult<Vec<Node<'a, 'a>>> {
         let mut above = Vec::new();
         while let Some(&joint) = self.joints.get(link) {
             if above.len() > MAX_JOINTS {
@@ -325,7 +325,7 @@ impl<'a> Tree<'a> {
     pub fn rest(&self, joint: Node<'a, 'a>, world: &WorldFile) -> ReadResult<Interval> {
         let zero = Interval::whole(0);
         let Limits::Ends(ends) = self.limits(joint, world)? else { return Ok(zero) };
-        let [low, high] = ends.each_ref().map(Interval::around);
+        let [low, high] = ends.each_ref().map(Interval::enclosing);
         let [lower, upper] =
             [(low.lower, high.lower), (low.upper, high.upper)].map(|(low, high)| BigInt::ZERO.max(low).min(high));
         Ok(Interval { lower, upper })

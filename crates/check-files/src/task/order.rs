@@ -66,7 +66,7 @@ impl<'a> Order<'a> {
 
 /// Returns the time that the arm rests after each step. Checks that the arm rests between steps, before the first step
 /// and after the last one.
-pub(super) fn stands(motion: &Motion, steps: &[MatchedStep]) -> Result<Vec<Decimal>, CheckError> {
+pub(super) fn rest_durations(motion: &Motion, steps: &[MatchedStep]) -> Result<Vec<Decimal>, CheckError> {
     let knots = &motion.knots;
     let (mut last, mut all) = (0, Vec::new());
     let end = knots.len() - 1;
@@ -77,7 +77,7 @@ pub(super) fn stands(motion: &Motion, steps: &[MatchedStep]) -> Result<Vec<Decim
                 "steps[{index}] begins before the previous step ends, or after the motion"
             ));
         }
-        if let Some(knot) = (last..first).find(|knot| !motion.stands(*knot)) {
+        if let Some(knot) = (last..first).find(|knot| !motion.rests_after_knot(*knot)) {
             return CheckError::fails(format!("the arm moves after knot {knot}, which belongs to no step"));
         }
         all.push(&knots[first][0] - &knots[last][0]);

@@ -4,7 +4,7 @@ mod held;
 
 use super::order::MatchedStep;
 use crate::robot::Robot;
-use crate::robot::tool::{lowered, pressed};
+use crate::robot::tool::{lowered, penetration_depth_allowed};
 use crate::world::task::{Action, RESTING_DECIMALS, Step, Stroke, Task};
 use cplan_check::CheckError;
 use cplan_check::arm::Arm;
@@ -16,7 +16,7 @@ use cplan_check::free::{Attachment, Chain, Edge, Solid, guard};
 use cplan_check::interval::{Interval, Point};
 use cplan_check::motion::piece;
 use cplan_check::obstacle::Obstacle;
-use cplan_check::scene::{Part, PlacedObstacle, stay_off};
+use cplan_check::scene::{Part, PlacedObstacle, check_parts_clear};
 use cplan_check::shapes::CollisionShape;
 use cplan_check::world::World;
 use held::HeldObject;
@@ -98,7 +98,7 @@ impl<'a> Replay<'a> {
             motion,
             tip: arm.tip.shape.points[0].clone(),
             keeps: format!("farther than {clearance} from"),
-            pressed: Interval::exactly(pressed(arm).lower - guard()),
+            pressed: Interval::exact(penetration_depth_allowed(arm).lower - guard()),
             chain,
             shapes,
             kept,
@@ -134,7 +134,7 @@ impl<'a> Replay<'a> {
             if self.held.as_ref().is_some_and(|held| held.object == *object) {
                 return CheckError::fails("an object is renewed while the tool carries it");
             }
-            if self.all[number].course.is_some() {
+            if self.all[number].trajectory.is_some() {
                 return CheckError::fails("a moving object cannot be renewed");
             }
             self.present[number] = Some(PlacedObstacle::new(&self.chain, self.all[number].clone())?);
@@ -169,7 +169,7 @@ impl<'a> Replay<'a> {
                 self.release(at, angle.as_ref(), &to)?;
             }
             Action::Move(goal) => {
-                self.misses(self.arm.away(&motion.knots[last], goal))?;
+                self.misses(self.arm.error_bound(&motion.knots[last], goal))?;
                 self.turn(done, &to)?;
                 self.released = None;
             }
@@ -206,7 +206,7 @@ impl<'a> Replay<'a> {
             }
         }
         // A moving obstacle may or may not be there when the object arrives, so this check skips it.
-        let moves = |present: &PlacedObstacle| present.obstacle.course.is_some();
+        let moves = |present: &PlacedObstacle| present.obstacle.trajectory.is_some();
         if tool == ToolHeights::Lying && self.present[obstacle].as_ref().is_some_and(moves) {
             return None;
         }
@@ -244,12 +244,13 @@ impl<'a> Replay<'a> {
         let of_second = [Interval::whole(0), values[1].clone()];
         let pressed = held.pressed.iter().map(|own| (own, ContactRule::Pressed));
         for (hanging, manner) in iter::once((&held.hanging, ContactRule::Off)).chain(pressed) {
-            let [lying, beside] = [values, &of_second].map(|at| self.chain.lying(&held.on, hanging, at));
+            let [lying, beside] =
+                [values, &of_second].map(|at| self.chain.attached_obstacle_in_plane(&held.on, hanging, at));
             for (number, present) in self.present.iter().enumerate() {
                 if self.meets(held, number, tool).is_some_and(|of| of == manner) {
                     let lying = if self.all[number].is_carried() { &beside } else { &lying };
                     let mut edges = present.iter().flat_map(|present| &present.edges);
-                    let side = |edge: &Edge| edge.during(&self.chain, [time, time]).point().clone();
+                    let side = |edge: &Edge| edge.side_during(&self.chain, [time, time]).point().clone();
                     if edges.any(|edge| lying.surrounds(&side(edge), &guard()) != Some(false)) {
                         return CheckError::fails(format!("{} is inside the payload", self.all[number].called(number)));
                     }
@@ -289,6 +290,6 @@ impl<'a> Replay<'a> {
             parts.extend(self.hanging(held, &held.solids, tool));
             self.require_outside(held, from, &pieces[0].time[0], tool)?;
         }
-        stay_off(&self.chain, pieces, from, &parts, &self.present)
+        check_parts_clear(&self.chain, pieces, from, &parts, &self.present)
     }
 }

@@ -106,7 +106,7 @@ impl Cells {
     }
 
     /// Converts a point of the obstacle's frame to the frame of the squares, in which a square's side is 1.
-    fn counted(&self, p: &Point) -> Point {
+    fn to_square_frame(&self, p: &Point) -> Point {
         let [sine, cosine] = &self.turn;
         let from_there = minus(p, &self.at);
         turned(&from_there, &[-sine, cosine.clone()]).map(|c| c.divided(&Interval::from(&self.side)))
@@ -117,7 +117,7 @@ impl Squares for Cells {
     fn part(&self, given: &[Point]) -> Option<Vec<Point>> {
         let half = BigInt::from(1) << (BITS - 1);
         let nearest = |p: &Point| {
-            let [x, y] = self.counted(p).map(|c| i64::try_from((c.middle().0 + &half) >> BITS).ok());
+            let [x, y] = self.to_square_frame(p).map(|c| i64::try_from((c.middle().0 + &half) >> BITS).ok());
             Some([x?, y?])
         };
         let corners = given.iter().map(nearest).collect::<Option<Vec<[i64; 2]>>>()?;
@@ -164,7 +164,7 @@ impl Squares for Cells {
     }
 
     fn holds(&self, p: &Point) -> bool {
-        let [x, y] = self.counted(p).map(|c| i64::try_from(c.middle().0 >> BITS).unwrap_or(-1));
+        let [x, y] = self.to_square_frame(p).map(|c| i64::try_from(c.middle().0 >> BITS).unwrap_or(-1));
         self.is_solid(x, y)
     }
 }

@@ -34,7 +34,7 @@ impl Reader<'_> {
                 "file" => file = Some(self.file(&self.text(value)?)?),
                 "preferences" => wishes = Some(self.file(&self.text(value)?)?),
                 "scale" => unit.scale = self.number(value)?,
-                "offset" => unit.offset = self.two(value, |n| self.number(n))?,
+                "offset" => unit.offset = self.pair(value, |n| self.number(n))?,
                 "frame" => is_framed = value.get_ref().as_bool().unwrap_or(true),
                 "height" => heights = Some(self.heights(value)?),
                 other => return self.error(value, &format!("the checker does not know the key {other} of a map")),
@@ -45,7 +45,7 @@ impl Reader<'_> {
         for (own, outline) in walls(self.files, &file, &unit, is_framed)? {
             let (at, turn) = (point(&origin()), [0, 1].map(Interval::whole));
             let (name, heights) = (Some(format!("{stem}, {own}")), heights.clone());
-            world.obstacles.push(Obstacle { name, own: None, outline, at, turn, heights, course: None });
+            world.obstacles.push(Obstacle { name, own: None, outline, at, turn, heights, trajectory: None });
         }
         if let (None, Some(path), false) = (&world.goal, wishes, has_steps) {
             world.goal = Some(Goal::Areas(goals(self.files, &path, &unit)?));
@@ -82,7 +82,7 @@ impl<'a> Text<'a> {
     }
 
     /// Returns true if the next line begins with a key.
-    fn is_at(&self, key: &str) -> bool {
+    fn next_line_begins_with(&self, key: &str) -> bool {
         self.lines.get(self.next).is_some_and(|(_, line)| line.starts_with(key))
     }
 
@@ -179,7 +179,7 @@ fn goals(files: &Files, path: &Path, unit: &Unit) -> Result<Vec<[Corner; 2]>, Ch
     let [count] = text.numbers("NumGoal")?;
     text.word("GOAL")?;
     let mut goals = Vec::new();
-    while !text.is_at("NumPoint") {
+    while !text.next_line_begins_with("NumPoint") {
         let [a, b, c, d] = text.numbers::<4>("")?;
         goals.push([unit.place(&[a, b]), unit.place(&[c, d])]);
     }

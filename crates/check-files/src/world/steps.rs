@@ -117,8 +117,9 @@ impl Reader<'_> {
         if rows.saturating_mul(columns) > MAX_PLACES {
             return self.error(value, "the pallet has too many places");
         }
-        let (pitch, at) = (self.two(pitch, |n| self.number(n))?, point(&self.two(at, |n| self.number(n))?));
-        let turn = table.get("angle").map_or(Ok(Interval::whole(0)), |a| Ok(Interval::around(&self.quantity(a)?)))?;
+        let (pitch, at) = (self.pair(pitch, |n| self.number(n))?, point(&self.pair(at, |n| self.number(n))?));
+        let turn =
+            table.get("angle").map_or(Ok(Interval::whole(0)), |a| Ok(Interval::enclosing(&self.quantity(a)?)))?;
         let turn = turn.sin_cos();
         let place = |row: usize, column: usize| {
             let by = [(column, &pitch[0]), (row, &pitch[1])];
@@ -141,21 +142,21 @@ impl Reader<'_> {
         let (table, lying) = (self.table(value)?, self.obstacle(value, true)?);
         let Some(family) = lying.name.clone() else { return self.error(value, "an object needs a name") };
         let number = |key: &str| table.get(key).map(|value| self.number(value)).transpose();
-        let grasp = table.get("grasp").map(|grasp| self.two(grasp, |n| self.number(n))).transpose()?;
+        let grasp = table.get("grasp").map(|grasp| self.pair(grasp, |n| self.number(n))).transpose()?;
         let is_level = table.get("payload").map_or(Ok(is_level), |value| self.is_level(value))?;
         let renews = table.get("renew").is_some_and(|value| value.get_ref().as_bool() == Some(true));
         let zero = Decimal::whole(0);
         let (lift, grasp) = (number("lift")?.unwrap_or(zero.clone()), grasp.unwrap_or([zero.clone(), zero]));
         let places: Vec<Obstacle> = match (table.get("pallet"), table.get("at")) {
             (None, Some(_)) => vec![lying],
-            (None, None) if lying.course.is_some() => vec![lying],
-            (Some(pallet), None) if lying.course.is_none() => {
+            (None, None) if lying.trajectory.is_some() => vec![lying],
+            (Some(pallet), None) if lying.trajectory.is_none() => {
                 let Some(Pallet { places, turn }) = pallets.get(&self.text(pallet)?) else {
                     return self.error(pallet, "there is no pallet of this name");
                 };
                 let turn = both_turns(turn, &lying.turn);
                 let on = |(place, at): &(String, Point)| Obstacle {
-                    course: None,
+                    trajectory: None,
                     name: Some(format!("{family} {place}")),
                     at: at.clone(),
                     turn: turn.clone(),
@@ -258,10 +259,10 @@ impl Steps<'_, '_> {
                 let named = Some(reader.text(of)?);
                 let object = self.world.obstacles[self.first..].iter().position(|object| object.name == named);
                 let Some(object) = object else { return reader.error(of, "there is no object of this name") };
-                let grasp = table.get("grasp").map(|grasp| reader.two(grasp, |n| reader.number(n))).transpose()?;
+                let grasp = table.get("grasp").map(|grasp| reader.pair(grasp, |n| reader.number(n))).transpose()?;
                 let passing = MovingPick {
-                    window: table.get("window").map(|w| reader.two(w, |n| reader.number(n))).transpose()?,
-                    at: table.get("at").map(|at| Ok(point(&reader.two(at, |n| reader.number(n))?))).transpose()?,
+                    window: table.get("window").map(|w| reader.pair(w, |n| reader.number(n))).transpose()?,
+                    at: table.get("at").map(|at| Ok(point(&reader.pair(at, |n| reader.number(n))?))).transpose()?,
                 };
                 vec![self.pick(object, grasp, self.supports(table)?, passing)]
             }
@@ -289,13 +290,13 @@ impl Steps<'_, '_> {
     }
 
     fn angle(&self, table: &DeTable) -> ReadResult<Option<Interval>> {
-        table.get("angle").map(|angle| Ok(Interval::around(&self.reader.quantity(angle)?))).transpose()
+        table.get("angle").map(|angle| Ok(Interval::enclosing(&self.reader.quantity(angle)?))).transpose()
     }
 
     fn place(&self, value: &Value) -> ReadResult<Action> {
         let (reader, table) = (self.reader, self.reader.table(value)?);
         let at = match (table.get("at"), table.get("on")) {
-            (Some(at), None) => point(&reader.two(at, |n| reader.number(n))?),
+            (Some(at), None) => point(&reader.pair(at, |n| reader.number(n))?),
             (None, Some(on)) => {
                 let wanted = reader.text(on)?;
                 let mut places =

@@ -63,7 +63,7 @@ pub fn fails((code, report): (i32, String), parts: &[&str]) {
 
 /// Returns a certificate that the elbow cannot fold beyond 2.65 rad. Its evidence: from there on, the shape overlaps
 /// the part for all values of the shoulder within [`LIMITS`].
-pub fn shut(shape: &str, part: &str) -> String {
+pub fn folding_certificate(shape: &str, part: &str) -> String {
     let stuck = |k: i32| {
         let [low, high] = [k, k + 1].map(|k| f64::from(k) / 10.0);
         format!(r#"{{"lower": [{low}, 2.64], "upper": [{high}, 2.66], "shape": 0, "part": 0}}"#)

@@ -9,7 +9,7 @@ use std::fmt;
 
 /// Returns a lower bound on the distance between two rectangles along each axis. It is 0 if they may overlap along the
 /// axis.
-fn apart(a: &Point, b: &Point) -> [BigInt; 2] {
+fn axis_distances(a: &Point, b: &Point) -> [BigInt; 2] {
     [0, 1].map(|k| (&b[k].lower - &a[k].upper).max(&a[k].lower - &b[k].upper).max(BigInt::ZERO))
 }
 
@@ -52,14 +52,14 @@ impl Metric {
     }
 
     /// Returns a lower bound on the length of all paths between two rectangles.
-    pub(super) fn between(&self, a: &Point, b: &Point) -> BigInt {
-        let [x, y] = apart(a, b);
-        if self.is_greatest() { x.max(y) } else { length(&[x, y].map(Interval::exactly)).lower }
+    pub(super) fn length_bound(&self, a: &Point, b: &Point) -> BigInt {
+        let [x, y] = axis_distances(a, b);
+        if self.is_greatest() { x.max(y) } else { length(&[x, y].map(Interval::exact)).lower }
     }
 
     /// Returns true if all paths between two rectangles are at least as long as `least`, which must be positive.
     pub(super) fn is_at_least(&self, a: &Point, b: &Point, least: &BigInt) -> bool {
-        let [x, y] = apart(a, b);
+        let [x, y] = axis_distances(a, b);
         if self.is_greatest() { x.max(y) >= *least } else { &x * &x + &y * &y >= least * least }
     }
 }

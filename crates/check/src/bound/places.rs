@@ -60,7 +60,7 @@ pub(super) fn runs(copies: &[WallCopy]) -> BTreeMap<Line, Vec<WallRun>> {
         let mut merged: Vec<WallRun> = Vec::new();
         for run in list.drain(..) {
             match merged.last_mut() {
-                Some(last) if below(&run.ends[0], &last.ends[1]) => {
+                Some(last) if is_less(&run.ends[0], &last.ends[1]) => {
                     if last.ends[1].lower < run.ends[1].lower {
                         last.ends[1] = run.ends[1].clone();
                     }
@@ -72,13 +72,13 @@ pub(super) fn runs(copies: &[WallCopy]) -> BTreeMap<Line, Vec<WallRun>> {
     }
     for WallCopy { ends: [a, b], .. } in copies {
         for (end, other) in [(a, b), (b, a)] {
-            let side = match (below(&other.at[0], &end.at[0]), below(&end.at[0], &other.at[0])) {
+            let side = match (is_less(&other.at[0], &end.at[0]), is_less(&end.at[0], &other.at[0])) {
                 (true, _) => 0,
                 (_, true) => 1,
                 _ => continue,
             };
             let list = end.line.as_ref().and_then(|line| runs.get_mut(line));
-            let is_within = |run: &&mut WallRun| below(&run.ends[0], &end.at[1]) && below(&end.at[1], &run.ends[1]);
+            let is_within = |run: &&mut WallRun| is_less(&run.ends[0], &end.at[1]) && is_less(&end.at[1], &run.ends[1]);
             if let Some(run) = list.and_then(|list| list.iter_mut().find(is_within)) {
                 run.beside[side].push(end.at[1].clone());
             }
@@ -92,8 +92,8 @@ impl Place {
     /// [`MAX_COORDINATE`].
     pub(super) fn new(metric: &Metric, rectangle: &Rectangle, turns: [i64; 2]) -> Option<Self> {
         let at = [0, 1].map(|k| {
-            let turns = Interval::exactly(BigInt::from(2 * turns[k]) << BITS);
-            metric.scaled(k, &(&Interval::around(&rectangle[k]) + &(Interval::pi() * &turns)))
+            let turns = Interval::exact(BigInt::from(2 * turns[k]) << BITS);
+            metric.scaled(k, &(&Interval::enclosing(&rectangle[k]) + &(Interval::pi() * &turns)))
         });
         let coarse = |n: BigInt| i64::try_from(n).ok().filter(|n| n.abs() < MAX_COORDINATE);
         let both = at
@@ -151,16 +151,16 @@ impl WallCopy {
     /// Returns true if every straight leg from `from` to any point of `to` crosses this wall between its ends.
     pub(super) fn crosses(&self, from: &Place, to: &Place) -> bool {
         let [a, b] = &self.ends;
-        let apart = |k: usize| {
+        let are_apart = |k: usize| {
             let ends = |place: &Place| place.coarse[k];
             ends(a)[0].min(ends(b)[0]) > ends(from)[1].max(ends(to)[1])
                 || ends(a)[1].max(ends(b)[1]) < ends(from)[0].min(ends(to)[0])
         };
-        !apart(0) && !apart(1) && from.is_opposite(to, a, b) && a.is_opposite(b, from, to)
+        !are_apart(0) && !are_apart(1) && from.is_opposite(to, a, b) && a.is_opposite(b, from, to)
     }
 }
 
 /// Returns true if `a` is certainly less than `b`.
-pub(super) fn below(a: &Interval, b: &Interval) -> bool {
+pub(super) fn is_less(a: &Interval, b: &Interval) -> bool {
     a.upper < b.lower
 }

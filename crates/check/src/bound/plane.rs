@@ -1,11 +1,11 @@
 //! Copies of walls on all turns, and the legs that they block.
 
-use super::places::{COARSE_SHIFT, Line, Place, WallCopy, WallRun, below, runs};
+use super::places::{COARSE_SHIFT, Line, Place, WallCopy, WallRun, is_less, runs};
 use crate::certificate::{Bound, Metric};
 use crate::decimal::Decimal;
 use crate::domain::{Axis, Rectangle};
 use crate::error::CheckError;
-use crate::interval::{Interval, twice};
+use crate::interval::{Interval, double};
 use num_bigint::{BigInt, Sign};
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -54,7 +54,7 @@ impl<'a> Plane<'a> {
             let turns = [0, 1].map(|k| {
                 let Axis::Circle = axes[k] else { return Some(0..=0) };
                 let (turn, value) =
-                    (metric.scaled(k, &twice(Interval::pi())), metric.scaled(k, &Interval::around(&rectangle[k])));
+                    (metric.scaled(k, &double(Interval::pi())), metric.scaled(k, &Interval::enclosing(&rectangle[k])));
                 // Include one more turn on either side, for rounding.
                 let least = (&from.at[k].lower - &length.upper - &value.upper) / &turn.lower - 1;
                 let most = (&from.at[k].upper + &length.upper - &value.lower) / &turn.lower + 1;
@@ -114,13 +114,13 @@ impl<'a> Plane<'a> {
                     Axis::Circle => false,
                 };
                 let runs = at.line.as_ref().and_then(|line| self.runs.get(line));
-                let is_within = |run: &WallRun| below(&run.ends[0], &at.at[1]) && below(&at.at[1], &run.ends[1]);
+                let is_within = |run: &WallRun| is_less(&run.ends[0], &at.at[1]) && is_less(&at.at[1], &run.ends[1]);
                 if is_outside(0) || is_outside(1) || runs.is_some_and(|runs| runs.iter().any(is_within)) {
                     continue;
                 }
-                let rest = self.goals.iter().map(|goal| self.metric.between(&at.at, &goal.at)).min();
+                let rest = self.goals.iter().map(|goal| self.metric.length_bound(&at.at, &goal.at)).min();
                 let Some(rest) = rest else { continue };
-                if self.metric.between(&self.start.at, &at.at) + &rest >= self.length.upper {
+                if self.metric.length_bound(&self.start.at, &at.at) + &rest >= self.length.upper {
                     continue;
                 }
                 let name = (copy.wall, end, copy.turns);
@@ -146,7 +146,7 @@ impl<'a> Plane<'a> {
             // A wall that blocks one leg often blocks many others from the same place.
             let latest = Cell::new(0);
             let bars = |to: &Place| self.bars(at, to, &latest);
-            let from = || name.map_or_else(|| "the start".to_owned(), called);
+            let from = || name.map_or_else(|| "the start".to_owned(), end_name);
             for goal in &self.goals {
                 if !self.is_long(at, goal, &(&self.length.upper - potential)) && !bars(goal) {
                     return CheckError::fails(format!("from {} no wall blocks a straight path to a goal", from()));
@@ -155,7 +155,7 @@ impl<'a> Plane<'a> {
             for (corner, claimed) in corners.iter().zip(&claimed) {
                 if !self.is_long(at, &corner.at, &(claimed - potential)) && !bars(&corner.at) {
                     let message = "the potential grows by more than the length of a straight path that no wall blocks";
-                    return CheckError::fails(format!("from {} to {}: {message}", from(), called(corner.name)));
+                    return CheckError::fails(format!("from {} to {}: {message}", from(), end_name(corner.name)));
                 }
             }
         }
@@ -200,13 +200,13 @@ impl<'a> Plane<'a> {
             return false;
         };
         let [a, b] = [&from.at[1], &to.at[1]];
-        let is_passed = |y: &&Interval| below(a, y) && below(y, b) || below(b, y) && below(y, a);
+        let is_passed = |y: &&Interval| is_less(a, y) && is_less(y, b) || is_less(b, y) && is_less(y, a);
         runs.iter().any(|run| run.beside.iter().all(|side| side.iter().any(|y| is_passed(&y))))
     }
 }
 
 /// Returns the name of a wall's end for messages.
-fn called((wall, end, turns): (usize, usize, [i64; 2])) -> String {
+fn end_name((wall, end, turns): (usize, usize, [i64; 2])) -> String {
     let end = ["begins", "ends"][end];
     match turns {
         [0, 0] => format!("where wall {wall} {end}"),

@@ -18,5 +18,5 @@ pub fn part(arm: &Arm, name: &PartName) -> Result<Evident, CheckError> {
     };
     let own = named(&arm.bases, (link, kind, number), name.height.as_ref())?;
     let within = &own.within;
-    Ok((Some(own.owner()), within.shape.clone(), within.kept(Outline::Within)))
+    Ok((Some(own.owner()), within.shape.clone(), within.inset_heights(Outline::Within)))
 }

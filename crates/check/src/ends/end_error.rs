@@ -27,7 +27,7 @@ impl End {
         let equals_knot = |k: usize, range: &Range| range.iter().all(|end| *end == knot[1 + k]);
         match &self.at {
             Goal::Joints(ranges) if (0..2).all(|k| equals_knot(k, &ranges[k])) => Ok(named),
-            at => Ok(named.trim_end_matches(',').to_owned() + &missed(self.what, &arm.away(knot, at))?),
+            at => Ok(named.trim_end_matches(',').to_owned() + &missed(self.what, &arm.error_bound(knot, at))?),
         }
     }
 }
@@ -50,7 +50,7 @@ fn distance_outside(place: &Point, area: &Point) -> BigInt {
     let beyond = |k: usize| {
         let (actual, range) = (&place[k], &area[k]);
         let [below, above] = [&range.lower - &actual.lower, &actual.upper - &range.upper];
-        Interval::exactly(below.max(above).max(zero.lower.clone()))
+        Interval::exact(below.max(above).max(zero.lower.clone()))
     };
     length(&[beyond(0), beyond(1)]).upper
 }
@@ -58,7 +58,7 @@ fn distance_outside(place: &Point, area: &Point) -> BigInt {
 impl Arm {
     /// Returns an upper bound on the distance of a knot from a goal. For joint values it is the greater error of the
     /// two joints. For a position or area it is the distance of the tip.
-    pub fn away(&self, knot: &[Decimal], goal: &Goal) -> BigInt {
+    pub fn error_bound(&self, knot: &[Decimal], goal: &Goal) -> BigInt {
         let at = [&knot[1], &knot[2]];
         match goal {
             Goal::Joints(ranges) => (0..2).map(|k| self.joint_error(k, at[k], &ranges[k])).max().expect("two joints"),
@@ -81,14 +81,14 @@ impl Arm {
     /// Returns an upper bound on the difference between a joint's value and any number of a target range. For a
     /// continuous joint, whole turns are ignored.
     fn joint_error(&self, joint: usize, actual: &Decimal, target: &Range) -> BigInt {
-        let apart = &Interval::from(actual) - &Interval::around(target);
+        let apart = &Interval::from(actual) - &Interval::enclosing(target);
         if !matches!(self.joints[joint].axis, Axis::Circle) {
             return apart.magnitude();
         }
         let turn = Interval::pi() + Interval::pi();
         let turns = &apart.lower / &turn.lower;
         let without = |more: i32| {
-            let turns = Interval::exactly((&turns + more) << BITS);
+            let turns = Interval::exact((&turns + more) << BITS);
             (&apart - &(&turn * &turns)).magnitude()
         };
         (-1..=1).map(without).min().expect("three")

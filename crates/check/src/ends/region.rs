@@ -82,7 +82,7 @@ impl Arm {
         }
         [0, 1].map(|k| {
             let range = if a[k] <= b[k] { [a[k].clone(), b[k].clone()] } else { [b[k].clone(), a[k].clone()] };
-            Interval::around(&range)
+            Interval::enclosing(&range)
         })
     }
 

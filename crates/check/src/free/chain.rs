@@ -57,13 +57,13 @@ impl From<&Arm> for Chain {
 
 impl Chain {
     /// Returns a chain whose two joints both turn left about a point.
-    pub fn about(point: &Point) -> Self {
+    pub fn turning_about(point: &Point) -> Self {
         let offset = [0, 0].map(Interval::whole);
         Self { motions: [Motion::Turn(1), Motion::Turn(1)], base: point.clone(), offset }
     }
 
     /// Returns the position of a point that is fixed to a link, given its coordinates `a` relative to the link's joint.
-    fn carried(&self, link: usize, a: &Point) -> Terms {
+    fn link_point(&self, link: usize, a: &Point) -> Terms {
         let mut terms = Terms::new();
         shifted(&mut terms, a);
         for joint in (0..=link).rev() {
@@ -73,8 +73,8 @@ impl Chain {
         terms
     }
 
-    /// Returns the coordinates of a point of the plane relative to the link's joint: the inverse of [`Self::carried`].
-    pub(super) fn seen(&self, link: usize, p: &Point) -> Terms {
+    /// Returns the coordinates of a point of the plane relative to the link's joint: the inverse of [`Self::link_point`].
+    pub(super) fn coordinates_in_link(&self, link: usize, p: &Point) -> Terms {
         let mut terms = Terms::new();
         shifted(&mut terms, p);
         for joint in 0..=link {
@@ -113,11 +113,11 @@ impl Chain {
     }
 
     /// Returns the position of a point that is attached to a link, or to a shape that stays level.
-    pub(super) fn hanging(&self, on: &Attachment, a: &Point) -> Terms {
+    pub(super) fn attached_point(&self, on: &Attachment, a: &Point) -> Terms {
         match on {
-            Attachment::Link(link) => self.carried(*link, a),
+            Attachment::Link(link) => self.link_point(*link, a),
             Attachment::Level(point) => {
-                let mut terms = self.carried(1, point);
+                let mut terms = self.link_point(1, point);
                 shifted(&mut terms, a);
                 terms
             }
@@ -126,17 +126,17 @@ impl Chain {
 
     /// Returns the position of an attached point in a configuration.
     pub fn point_at(&self, on: &Attachment, a: &Point, values: &Point) -> Point {
-        self.still(&self.hanging(on, a), values)
+        self.sum_at(&self.attached_point(on, a), values)
     }
 
     /// Converts an object from plane coordinates to the frame of the second link, which picks it up in this
     /// configuration.
-    pub fn hung(&self, lying: &Obstacle, values: &Point) -> Obstacle {
-        lying.clone().moved(self.seen_at(&lying.at, values), self.turn(1, &lying.turn, true, values))
+    pub fn obstacle_in_second_link(&self, lying: &Obstacle, values: &Point) -> Obstacle {
+        lying.clone().moved(self.coordinates_in_second_link(&lying.at, values), self.turn(1, &lying.turn, true, values))
     }
 
     /// Converts an attached object to the plane coordinates that it has in a configuration.
-    pub fn lying(&self, on: &Attachment, hanging: &Obstacle, values: &Point) -> Obstacle {
+    pub fn attached_obstacle_in_plane(&self, on: &Attachment, hanging: &Obstacle, values: &Point) -> Obstacle {
         let turn = match on {
             Attachment::Level(_) => hanging.turn.clone(),
             Attachment::Link(link) => self.turn(*link, &hanging.turn, false, values),
@@ -148,16 +148,16 @@ impl Chain {
     /// `back`.
     fn turn(&self, link: usize, [sine, cosine]: &[Interval; 2], back: bool, values: &Point) -> [Interval; 2] {
         let by = [0, 1].map(|joint| joint <= link && matches!(self.motions[joint], Motion::Turn(_)));
-        let [x, y] = self.still(&[Term { by, back, at: [cosine.clone(), sine.clone()], slide: None }], values);
+        let [x, y] = self.sum_at(&[Term { by, back, at: [cosine.clone(), sine.clone()], slide: None }], values);
         [y, x]
     }
 
     /// Returns the coordinates of a point of the plane relative to the second link's joint in a configuration.
-    fn seen_at(&self, p: &Point, values: &Point) -> Point {
-        self.still(&self.seen(1, p), values)
+    fn coordinates_in_second_link(&self, p: &Point, values: &Point) -> Point {
+        self.sum_at(&self.coordinates_in_link(1, p), values)
     }
 
-    pub(super) fn still(&self, terms: &[Term], values: &Point) -> Point {
-        Posture::new(self, Tube::still(values.clone())).moving(terms).at
+    pub(super) fn sum_at(&self, terms: &[Term], values: &Point) -> Point {
+        Posture::new(self, Tube::at_configuration(values.clone())).moving(terms).at
     }
 }

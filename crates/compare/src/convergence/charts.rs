@@ -1,7 +1,7 @@
 //! The charts: one for each equation, one for the factor of SOR, one for the strength of the drift.
 
 use super::lines::{self, CHART_SIZE, Line, LineChart};
-use super::{Convergence, Course, FactorScan, Point, StrengthScan, WeightScan, files};
+use super::{Convergence, FactorScan, Point, RelaxationRun, StrengthScan, WeightScan, files};
 use crate::page::number;
 use cplan_fields::{Factor, Order, Sample, Scheme};
 use cplan_text::markup;
@@ -43,7 +43,7 @@ impl Convergence {
     }
 
     fn charts(&self) -> Vec<LineChart> {
-        let of_equations = self.courses.chunk_by(|a, b| a.equation == b.equation).map(errors);
+        let of_equations = self.runs.chunk_by(|a, b| a.equation == b.equation).map(errors);
         of_equations.chain([self.by_factor(), self.by_weight(), self.by_strength()]).collect()
     }
 
@@ -52,7 +52,7 @@ impl Convergence {
             let marked = [&scan.formula].into_iter().chain(&scan.by_rate);
             let mut points: Vec<Point> = scan.points.iter().chain(marked).copied().collect();
             points.sort_by(|a, b| a.at.total_cmp(&b.at));
-            Line { name: scan.equation.clone(), pen: lines::pen(k), points: converged(&points), dots: true }
+            Line { name: scan.equation.clone(), pen: lines::pen(k), points: converged_points(&points), dots: true }
         };
         LineChart {
             title: format!("Sweeps of SOR ({}) by its factor", self.order),
@@ -66,7 +66,7 @@ impl Convergence {
         let line = |(k, scan): (usize, &WeightScan)| Line {
             name: scan.equation.clone(),
             pen: lines::pen(k),
-            points: converged(&scan.points),
+            points: converged_points(&scan.points),
             dots: true,
         };
         LineChart {
@@ -81,7 +81,7 @@ impl Convergence {
         let line = |(k, scan): (usize, &StrengthScan)| Line {
             name: files::oriented_name(scan.difference),
             pen: lines::pen(k),
-            points: converged(&scan.points),
+            points: converged_points(&scan.points),
             dots: true,
         };
         let [a, b] = self.direction;
@@ -96,17 +96,17 @@ impl Convergence {
 }
 
 /// Returns the points of converged relaxations.
-fn converged(points: &[Point]) -> Vec<[f64; 2]> {
+fn converged_points(points: &[Point]) -> Vec<[f64; 2]> {
     points.iter().filter_map(|point| Some([point.at, point.converged()? as f64])).collect()
 }
 
 /// Charts the relaxations of one equation: the error if it is known, otherwise the sum of squared changes of a sweep.
-fn errors(courses: &[Course]) -> LineChart {
-    let known = courses.iter().flat_map(|course| &course.trace.samples).any(|sample| sample.error.is_some());
-    let line = |course: &Course| {
+fn errors(runs: &[RelaxationRun]) -> LineChart {
+    let known = runs.iter().flat_map(|run| &run.trace.samples).any(|sample| sample.error.is_some());
+    let line = |run: &RelaxationRun| {
         let value = |sample: &Sample| if known { sample.error } else { Some(sample.squares) };
-        let points = course.trace.samples.iter().filter_map(|sample| Some([sample.sweep as f64, value(sample)?]));
-        let scheme = course.relaxation.scheme;
+        let points = run.trace.samples.iter().filter_map(|sample| Some([sample.sweep as f64, value(sample)?]));
+        let scheme = run.relaxation.scheme;
         let name = match scheme {
             Scheme::Successive { factor: Factor::Formula, order } => format!("sor, {order}"),
             Scheme::Successive { order, .. } => format!("gauss-seidel, {order}"),
@@ -115,11 +115,11 @@ fn errors(courses: &[Course]) -> LineChart {
         };
         Line { name, pen: pen(scheme), points: points.collect(), dots: false }
     };
-    let equation = courses.first().map_or("", |course| &course.equation);
+    let equation = runs.first().map_or("", |run| &run.equation);
     LineChart {
         title: format!("{} after each sweep: {equation}", if known { "Error" } else { "Squared changes" }),
         axes: ["sweeps", if known { "greatest error, over that at the start" } else { "sum of squared changes" }],
-        lines: courses.iter().map(line).collect(),
+        lines: runs.iter().map(line).collect(),
         marks: Vec::new(),
     }
 }

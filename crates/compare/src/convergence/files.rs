@@ -1,6 +1,6 @@
 //! Convergence as text, CSV and JSON.
 
-use super::{Convergence, Course, FactorScan, Point, StrengthScan, WeightScan};
+use super::{Convergence, FactorScan, Point, RelaxationRun, StrengthScan, WeightScan};
 use crate::table::{Align, Column, Table, fixed, quoted};
 use cplan_fields::{Difference, Ending, Factor, Measure, Relaxation, Sample, Scheme};
 use cplan_text::plain_line;
@@ -41,14 +41,14 @@ impl Convergence {
         text +=
             &format!("\nsweeps of Gauss-Seidel ({}) by epsilon, drift along ({a:.3}, {b:.3}) in cells\n", self.order);
         text += &self.strength_table().to_text();
-        text + &self.strengths.iter().map(|scan| lost(scan) + "\n").collect::<String>()
+        text + &self.strengths.iter().map(|scan| describe_divergence(scan) + "\n").collect::<String>()
     }
 
     /// Returns a table with one row per relaxation.
     #[must_use]
     pub fn table(&self) -> Table {
-        let row = |course: &Course| {
-            let Course { equation, relaxation, trace } = course;
+        let row = |run: &RelaxationRun| {
+            let RelaxationRun { equation, relaxation, trace } = run;
             vec![
                 Some(equation.clone()),
                 Some(relaxation.to_string()),
@@ -58,7 +58,7 @@ impl Convergence {
             ]
         };
         let columns = columns(&["equation", "relaxation", "sweeps", "rate", "error"], 2);
-        Table { columns, rows: self.courses.iter().map(row).collect() }
+        Table { columns, rows: self.runs.iter().map(row).collect() }
     }
 
     /// Returns a table with one row per equation. It has the number of sweeps with the best factor of the scan, with
@@ -87,7 +87,7 @@ impl Convergence {
                 best.map(|p| format!("{:.2}", p.at)),
                 best.map(|p| sweeps(p.sweeps, p.ending)),
                 jacobi.map(|p| sweeps(p.sweeps, p.ending)),
-                scan.lost_from().map(|p| format!("{:.2}", p.at)),
+                scan.divergence_start().map(|p| format!("{:.2}", p.at)),
             ]
         };
         let columns = columns(&["equation", "best", "sweeps", "at 1", "lost from"], 1);
@@ -98,14 +98,14 @@ impl Convergence {
     /// preferences are added in the second stage.
     #[must_use]
     pub fn leap_table(&self) -> Table {
-        let row = |course: &Course| {
-            let leap = course.trace.leap()?;
+        let row = |run: &RelaxationRun| {
+            let leap = run.trace.leap()?;
             let cells = [leap.sweep.to_string(), format!("{:.1e}", leap.before), format!("{:.1e}", leap.after)];
-            let names = [course.equation.clone(), course.relaxation.to_string()];
+            let names = [run.equation.clone(), run.relaxation.to_string()];
             Some(names.into_iter().chain(cells).chain([leap.more.to_string()]).map(Some).collect())
         };
         let columns = columns(&["equation", "relaxation", "at sweep", "before", "after", "more"], 2);
-        Table { columns, rows: self.courses.iter().filter_map(row).collect() }
+        Table { columns, rows: self.runs.iter().filter_map(row).collect() }
     }
 
     /// Returns a table with one row for every fifth strength of the scan.
@@ -129,7 +129,7 @@ impl Convergence {
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut text = format!("{CSV_COLUMNS}\n");
-        for Course { equation, relaxation, trace } in &self.courses {
+        for RelaxationRun { equation, relaxation, trace } in &self.runs {
             let head = format!("error,{},{}", quoted(equation), self.relaxation_cells(relaxation));
             for Sample { stage, sweep, squares, relative, error } in &trace.samples {
                 let error = error.map_or_else(String::new, |error| format!("{error:e}"));
@@ -167,7 +167,7 @@ impl Convergence {
     /// for a value that is unknown or infinite.
     #[must_use]
     pub fn to_json(&self) -> Value {
-        let course = |Course { equation, relaxation, trace }: &Course| {
+        let run = |RelaxationRun { equation, relaxation, trace }: &RelaxationRun| {
             let list = |of: &dyn Fn(&Sample) -> Value| trace.samples.iter().map(of).collect::<Vec<_>>();
             let (name, order, factor) = self.parts(relaxation);
             json!({
@@ -221,7 +221,7 @@ impl Convergence {
             "max_sweeps": self.stopping.max_sweeps,
             "order": self.order.to_string(),
             "direction": self.direction,
-            "relaxations": self.courses.iter().map(course).collect::<Vec<_>>(),
+            "relaxations": self.runs.iter().map(run).collect::<Vec<_>>(),
             "factors": self.factors.iter().map(factor).collect::<Vec<_>>(),
             "weights": self.weights.iter().map(weight).collect::<Vec<_>>(),
             "epsilons": self.strengths.iter().map(strength).collect::<Vec<_>>(),
@@ -269,8 +269,8 @@ fn sweeps(count: usize, ending: Ending) -> String {
     }
 }
 
-fn lost(scan: &StrengthScan) -> String {
-    match scan.lost_from() {
+fn describe_divergence(scan: &StrengthScan) -> String {
+    match scan.divergence_start() {
         None => format!("{}: converge at the last epsilon tried", scan.difference),
         Some(point) => {
             let how = if point.ending == Ending::Diverged { "diverge" } else { "do not converge" };

@@ -1,6 +1,6 @@
 //! Measures the convergence of relaxations.
 
-use super::{Convergence, Course, FactorScan, Point, StrengthScan, WeightScan};
+use super::{Convergence, FactorScan, Point, RelaxationRun, StrengthScan, WeightScan};
 use cplan_fields::{
     Cell, Difference, Direction, Domain, Ending, Equation, Factor, Lines, Order, RelaxError, Relaxation, Scan,
     Stopping, eliminated, relax, trace,
@@ -60,7 +60,7 @@ fn strengths() -> Vec<f64> {
 /// [`RelaxError::Refused`] if an equation does not fit the domain. Divergence is a result, not an error.
 pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Convergence, RelaxError> {
     let Setup { domain, direction, order, stopping, .. } = setup;
-    let mut courses = Vec::new();
+    let mut runs = Vec::new();
     let (mut factor_scans, mut weight_scans) = (Vec::new(), Vec::new());
     for (name, equation) in &setup.equations {
         progress(&format!("{name}: relaxations"));
@@ -71,7 +71,7 @@ pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Conv
             if relaxation == Relaxation::JACOBI {
                 rate = trace.rate();
             }
-            courses.push(Course { equation: name.clone(), relaxation, trace });
+            runs.push(RelaxationRun { equation: name.clone(), relaxation, trace });
         }
         progress(&format!("{name}: factors of SOR"));
         let at = |factor: f64| {
@@ -102,7 +102,7 @@ pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Conv
         free: domain.kinds().iter().filter(|&&kind| kind == Cell::Free).count(),
         stopping: *stopping,
         order: *order,
-        courses,
+        runs,
         factors: factor_scans,
         weights: weight_scans,
         direction: direction.components(),

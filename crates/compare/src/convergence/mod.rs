@@ -32,7 +32,7 @@ pub struct Convergence {
     /// Order of cells in the scans.
     pub order: Order,
     /// All relaxations of the first equation, then those of the next one.
-    pub courses: Vec<Course>,
+    pub runs: Vec<RelaxationRun>,
     /// For each equation, the number of sweeps as a function of the factor of SOR.
     pub factors: Vec<FactorScan>,
     /// For each equation, the number of sweeps as a function of the factor of weighted Jacobi.
@@ -46,7 +46,7 @@ pub struct Convergence {
 
 /// A relaxation of an equation, from its start to its end.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Course {
+pub struct RelaxationRun {
     /// The name of the equation.
     pub equation: String,
     /// The relaxation.
@@ -118,7 +118,7 @@ impl FactorScan {
     /// several are equal, returns the one with the least factor.
     #[must_use]
     pub fn best(&self) -> Option<Point> {
-        fewest(self.points.iter().chain([&self.formula]).chain(&self.by_rate))
+        fastest_point(self.points.iter().chain([&self.formula]).chain(&self.by_rate))
     }
 }
 
@@ -126,25 +126,25 @@ impl WeightScan {
     /// Returns the converged point with the fewest sweeps. If several are equal, returns the one with the least factor.
     #[must_use]
     pub fn best(&self) -> Option<Point> {
-        fewest(self.points.iter())
+        fastest_point(self.points.iter())
     }
 
     /// Returns the point with the least factor from which on no relaxation of the scan converges. `None` if the last
     /// one converges.
     #[must_use]
-    pub fn lost_from(&self) -> Option<Point> {
-        lost_from(&self.points)
+    pub fn divergence_start(&self) -> Option<Point> {
+        divergence_start(&self.points)
     }
 }
 
 /// Returns the first point after all converged ones.
-fn lost_from(points: &[Point]) -> Option<Point> {
+fn divergence_start(points: &[Point]) -> Option<Point> {
     let after = points.iter().rposition(|point| point.converged().is_some()).map_or(0, |last| last + 1);
     points.get(after).copied()
 }
 
 /// Returns the converged point with the fewest sweeps. If several are equal, returns the one with the least parameter.
-fn fewest<'a>(points: impl Iterator<Item = &'a Point>) -> Option<Point> {
+fn fastest_point<'a>(points: impl Iterator<Item = &'a Point>) -> Option<Point> {
     let converged = points.filter(|point| point.converged().is_some()).copied();
     converged.min_by(|a, b| a.sweeps.cmp(&b.sweeps).then(a.at.total_cmp(&b.at)))
 }
@@ -153,7 +153,7 @@ impl StrengthScan {
     /// Returns the point with the least strength from which on no relaxation of the scan converges. `None` if the last
     /// one converges.
     #[must_use]
-    pub fn lost_from(&self) -> Option<Point> {
-        lost_from(&self.points)
+    pub fn divergence_start(&self) -> Option<Point> {
+        divergence_start(&self.points)
     }
 }

@@ -50,7 +50,8 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
         let middle = TOP_MARGIN + ROW_HEIGHT * (i as f64 + 0.5);
         svg += &name_before(&names[i], left - 10.0, middle + 4.0);
         if let Some(spread) = Spread::of(values.iter().copied()) {
-            svg += &format!("<g class=\"p{}\"><title>{}</title>", i % COLOR_COUNT, markup(&described(name, &spread)));
+            svg +=
+                &format!("<g class=\"p{}\"><title>{}</title>", i % COLOR_COUNT, markup(&describe_chart(name, &spread)));
             svg += &drawn(&spread, values, middle, &x);
             svg += "</g>\n";
         }
@@ -82,7 +83,7 @@ fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) 
 }
 
 /// Describes the chart, for tooltips and screen readers.
-fn described(name: &str, spread: &Spread) -> String {
+fn describe_chart(name: &str, spread: &Spread) -> String {
     let [min, low, median, high, max, _] = spread.numbers().map(|v| format!("{v:.4}"));
     let runs = counted(spread.n, "run");
     format!("{name}: {runs}, median {median}, quartiles {low} and {high}, least {min}, greatest {max}")

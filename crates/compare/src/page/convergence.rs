@@ -19,13 +19,13 @@ impl Convergence {
             + &section("Relaxations", &table(&self.table()))
             + &section("Sweeps of SOR by its factor", &table(&self.factor_table()))
             + &section("Sweeps of weighted Jacobi by its factor", &table(&self.weight_table()))
-            + &self.leaps()
+            + &self.describe_leap()
             + &section("Sweeps of Gauss-Seidel by epsilon", &table(&self.strength_table()))
             + &foot(METHOD_NOTE)
     }
 
     /// Describes the jump of the changes at the point where preferences are added, if there is one.
-    fn leaps(&self) -> String {
+    fn describe_leap(&self) -> String {
         let leaps = self.leap_table();
         if leaps.rows.is_empty() { String::new() } else { section("Where preferences begin", &table(&leaps)) }
     }

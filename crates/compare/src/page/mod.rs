@@ -54,7 +54,7 @@ impl Page<'_> {
         }
         html += &section("Outcomes", &self.outcomes());
         html += &self.charts();
-        html += &self.ways();
+        html += &self.overlay_section();
         let sentences: String = words(study).iter().map(|w| paragraph(w)).collect();
         html += &section("In words", &sentences);
         html += &self.tables();
@@ -78,7 +78,7 @@ impl Page<'_> {
         }
         let matrix = outcomes::matrix(self.study);
         if self.study.comparisons.len() > MAX_UNFOLDED_PROBLEMS {
-            html += &folded("Problem by problem", &matrix);
+            html += &collapsible_section("Problem by problem", &matrix);
         } else {
             html += &matrix;
         }
@@ -102,7 +102,7 @@ impl Page<'_> {
         section("Distributions", &format!("<div class=\"charts\">\n{charts}</div>\n<p class=\"sub\">{note}</p>\n"))
     }
 
-    fn ways(&self) -> String {
+    fn overlay_section(&self) -> String {
         let overlay = |(id, overlay): (usize, &Overlay)| {
             let note =
                 overlay.note.as_deref().map_or_else(String::new, |n| format!("<p class=\"sub\">{}</p>\n", markup(n)));
@@ -121,7 +121,7 @@ impl Page<'_> {
             if i == 0 {
                 format!("<h3>{}</h3>\n{}", markup(&p.title), picture(p))
             } else {
-                folded(&p.title, &picture(p))
+                collapsible_section(&p.title, &picture(p))
             }
         });
         let pictures: String = pictures.collect();
@@ -133,7 +133,12 @@ impl Page<'_> {
         // A single problem has no distributions.
         let mut html = match &self.study.comparisons[..] {
             [only] => table(&only.table()),
-            _ => self.study.tables().into_iter().map(|(heading, rows)| folded(&heading, &table(&rows))).collect(),
+            _ => self
+                .study
+                .tables()
+                .into_iter()
+                .map(|(heading, rows)| collapsible_section(&heading, &table(&rows)))
+                .collect(),
         };
         let notes: String = self.study.footnotes().map(|note| format!("<li>{}</li>\n", markup(&note))).collect();
         if !notes.is_empty() {
@@ -192,6 +197,6 @@ pub fn section(heading: &str, content: &str) -> String {
 
 /// Formats a part of a page that is hidden until its heading is clicked.
 #[must_use]
-pub fn folded(heading: &str, content: &str) -> String {
+pub fn collapsible_section(heading: &str, content: &str) -> String {
     format!("<details><summary>{}</summary>\n{content}</details>\n", markup(heading))
 }

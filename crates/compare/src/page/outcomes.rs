@@ -77,7 +77,7 @@ pub fn matrix(study: &Study) -> String {
     let head: String = study.planners().iter().map(|name| format!("<th scope=\"col\">{}</th>", markup(name))).collect();
     let cell = |c: &Comparison, row: &Row| {
         let outcome = row.outcome;
-        let figure = c.over_optimum(row).map_or_else(String::new, |v| format!(" {}", Measure::OverOptimum.shown(v)));
+        let figure = c.over_optimum(row).map_or_else(String::new, |v| format!(" {}", Measure::OverOptimum.format(v)));
         let title = row.reason.as_deref().map_or_else(String::new, |r| format!(" title=\"{}\"", markup(r)));
         format!("<td class=\"o-{outcome}\"{title}><span class=\"sign\">{}</span>{figure}</td>", sign(outcome))
     };

@@ -58,7 +58,7 @@ impl Deviation {
     }
 
     /// Returns the greatest value of `|d_1|` over the deviations, and that of `|d_2|`.
-    fn each(self) -> [f64; 2] {
+    fn greatest_components(self) -> [f64; 2] {
         match self {
             Deviation::Along(d) => [d[0].abs(), d[1].abs()],
             Deviation::Box(h) => h,
@@ -172,7 +172,7 @@ impl<'a> Posture<'a> {
 
     /// Does the same as [`Posture::disc_bound`] for a loose obstacle that drifts: returns a lower bound on the
     /// distance.
-    pub fn apart_drifting(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> f64 {
+    pub fn drifting_disc_bound(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> f64 {
         let (center, around) = disc(self.scene.piece(pair));
         let drifts = drift.farthest(center.norm() + around);
         self.disc_bound_from(pair, deviation, drift.middle.point(center), around + drifts)
@@ -262,7 +262,7 @@ impl<'a> Posture<'a> {
             let rates = self.rates(link, *x, n);
             for p in piece.core() {
                 let toward = deviation.linear_less(rates, n.dot(&drift.of(*p)));
-                least = least.min(ahead(p) - ahead(x) - toward - curvature.of(*a) / 2.0 - drift.beyond(*p));
+                least = least.min(ahead(p) - ahead(x) - toward - curvature.of(*a) / 2.0 - drift.error_bound(*p));
             }
         }
         least
@@ -304,7 +304,7 @@ impl<'a> Posture<'a> {
     pub fn curvature_in_plane(&self, link: usize, deviation: Deviation) -> Curvature {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
-        let [d1, d2] = deviation.each();
+        let [d1, d2] = deviation.greatest_components();
         let none = Curvature { center: Point::zeros(), shift: 0.0, factor: 0.0, constant: 0.0 };
         match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (0, Revolute { .. }, _) => Curvature { factor: d1, ..none },
@@ -326,7 +326,7 @@ impl<'a> Posture<'a> {
     pub fn curvature_in_link(&self, link: usize, deviation: Deviation) -> Curvature {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
-        let [d1, d2] = deviation.each();
+        let [d1, d2] = deviation.greatest_components();
         let about_base = Curvature { center: arm.base, shift: 0.0, factor: 0.0, constant: 0.0 };
         match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (2, _, Revolute { .. }) => Curvature { center: self.elbows[1], factor: d2, ..about_base },
@@ -353,7 +353,7 @@ impl<'a> Posture<'a> {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
         let reach = local.reach_from(Point::zeros());
-        let [d1, d2] = deviation.each();
+        let [d1, d2] = deviation.greatest_components();
         match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (0, Revolute { .. }, _) => reach * d1,
             (0, Prismatic { .. }, _) => d1,

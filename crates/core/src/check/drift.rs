@@ -31,7 +31,7 @@ impl Drift {
     /// Returns a bound, in metres, on the difference between the actual displacement of the point at `p` and
     /// [`Drift::of`].
     #[must_use]
-    pub fn beyond(&self, p: Point) -> f64 {
+    pub fn error_bound(&self, p: Point) -> f64 {
         let reach = (p - self.origin()).norm();
         let turned = self.turn * self.half;
         turned * turned * reach / 2.0 + (self.any[0] + self.any[1] * reach) * self.half

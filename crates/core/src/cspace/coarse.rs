@@ -48,7 +48,7 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
         }
         let met: Vec<Convex> = obstacle.pieces.iter().filter(|piece| can_meet(piece)).cloned().collect();
         if met.len() <= MAX_UNCHANGED_CORNERS {
-            return met.iter().map(|piece| around(piece, each)).collect();
+            return met.iter().map(|piece| coarse_cover(piece, each)).collect();
         }
         let simplified = match &obstacle.shape {
             Shape::Polygon(corners) => around_polygon(corners, each),
@@ -60,11 +60,11 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
             pieces
         });
         let fewer = simplified.filter(|pieces| pieces.len() < met.len());
-        let pieces = fewer.unwrap_or_else(|| met.iter().map(|piece| around(piece, each)).collect());
-        let covered = || covered(&met, each).filter(|covered| covered.len() < pieces.len());
+        let pieces = fewer.unwrap_or_else(|| met.iter().map(|piece| coarse_cover(piece, each)).collect());
+        let covered = || coarse_covers(&met, each).filter(|covered| covered.len() < pieces.len());
         if pieces.len() > MAX_PIECES { covered().unwrap_or(pieces) } else { pieces }
     };
-    Cow::Owned(scene.reshaped(|part| part.shape = around(&part.shape, each), pieces))
+    Cow::Owned(scene.reshaped(|part| part.shape = coarse_cover(&part.shape, each), pieces))
 }
 
 /// Returns the greatest distance of the arm from the base, metres; `None` unless both joints are revolute and there
@@ -82,15 +82,15 @@ fn distance_of_bounds(shape: &Convex, from: Point) -> f64 {
 
 /// Returns the [`covering`] of pieces by polygons with few corners each. `None` if a piece is rounded, or if the
 /// covering would take too long.
-fn covered(pieces: &[Convex], within: f64) -> Option<Vec<Convex>> {
+fn coarse_covers(pieces: &[Convex], within: f64) -> Option<Vec<Convex>> {
     let straight = pieces.iter().all(|piece| piece.radius() == 0.0);
     let covering = if straight { covering(pieces, within * (1.0 - CELL_CORNER_SHARE)) } else { None };
-    covering.map(|covering| covering.iter().map(|piece| around(piece, within * CELL_CORNER_SHARE)).collect())
+    covering.map(|covering| covering.iter().map(|piece| coarse_cover(piece, within * CELL_CORNER_SHARE)).collect())
 }
 
 /// Returns a convex shape with few corners that contains `shape` and extends at most `within` beyond it. Its sides
 /// are some of the shape's sides, extended until they meet. `O(n)`.
-fn around(shape: &Convex, within: f64) -> Convex {
+fn coarse_cover(shape: &Convex, within: f64) -> Convex {
     let core = shape.core();
     if core.len() <= MAX_UNCHANGED_CORNERS {
         return shape.clone();

@@ -243,7 +243,7 @@ mod tests {
     }
 
     /// Asserts that polygons cover pieces, and extend at most `within` beyond them. Tests sampled points.
-    fn covers(pieces: &[Convex], polygons: &[Convex], within: f64, shares: &[f64]) {
+    fn assert_covers(pieces: &[Convex], polygons: &[Convex], within: f64, shares: &[f64]) {
         for p in pieces.iter().flat_map(|piece| points_of(piece, shares)) {
             // Rounding puts a weighted mean of corners off its segment or side.
             let dot = Convex::point(p).grown(1e-14);
@@ -278,12 +278,12 @@ mod tests {
         #![proptest_config(cplan_cases::cases(200))]
 
         #[test]
-        fn all_is_covered_and_little_more(
+        fn polygons_cover_all_pieces_and_little_more(
             pieces in pieces(), within in prop_oneof![0.01..0.4f64, Just(0.25)],
             shares in prop::collection::vec(0.0..=1.0f64, 7),
         ) {
             let polygons = covering(&pieces, within).expect("few rows");
-            covers(&pieces, &polygons, within, &shares);
+            assert_covers(&pieces, &polygons, within, &shares);
         }
 
         /// Compares the bulge with distances from the hull of a side's corners, computed directly.
@@ -317,7 +317,7 @@ mod tests {
             (0..300).map(|k| Convex::trusted(vec![Point::zeros(), at(k), at(k + 1)], 0.0)).collect();
         let polygons = covering(&slices, 0.02).unwrap();
         assert_eq!(polygons.len(), 1);
-        covers(&slices, &polygons, 0.02, &[0.2, 0.7, 1.0]);
+        assert_covers(&slices, &polygons, 0.02, &[0.2, 0.7, 1.0]);
     }
 
     /// Tests that a hundred thousand short segments in a square need few polygons: about as many as the square has

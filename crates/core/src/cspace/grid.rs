@@ -55,14 +55,14 @@ impl Grid {
         let at = self.place(index);
         [(0, false), (0, true), (1, false), (1, true)]
             .into_iter()
-            .filter_map(move |(k, up)| self.beside_place(at, k, up))
+            .filter_map(move |(k, up)| self.adjacent_place(at, k, up))
     }
 
     /// Returns the neighbour of `index` along axis `k`, in the positive direction if `up`, also across the seam of a
     /// circle. Returns `None` beyond a limit.
     #[must_use]
-    pub fn beside(&self, index: usize, k: usize, up: bool) -> Option<usize> {
-        self.beside_place(self.place(index), k, up)
+    pub fn adjacent_cell(&self, index: usize, k: usize, up: bool) -> Option<usize> {
+        self.adjacent_place(self.place(index), k, up)
     }
 
     /// Returns the row and column of a cell.
@@ -70,7 +70,7 @@ impl Grid {
         [index / self.cells[1], index % self.cells[1]]
     }
 
-    fn beside_place(&self, mut at: [usize; 2], k: usize, up: bool) -> Option<usize> {
+    fn adjacent_place(&self, mut at: [usize; 2], k: usize, up: bool) -> Option<usize> {
         let last = self.cells[k] - 1;
         let (end, beyond) = if up { (last, 0) } else { (0, last) };
         at[k] = match at[k] {

@@ -84,7 +84,7 @@ impl<'a> Search<'a> {
         let ends: Vec<f64> = self.bands.merged.iter().flatten().copied().collect();
         for end in ends {
             let q1 = first.range.lift(end, start);
-            samples.extend(self.look(q1).map(|distance| (q1, distance)));
+            samples.extend(self.distance_at(q1).map(|distance| (q1, distance)));
         }
         for k in 0.. {
             let step = f64::from(k) * self.spacing;
@@ -93,7 +93,7 @@ impl<'a> Search<'a> {
                 break;
             }
             for q1 in [start + step, start - step] {
-                samples.extend(self.look(q1).map(|distance| (q1, distance)));
+                samples.extend(self.distance_at(q1).map(|distance| (q1, distance)));
             }
             if self.spacing == 0.0 {
                 break;
@@ -111,7 +111,7 @@ impl<'a> Search<'a> {
         while step > MIN_SLICE_DISTANCE {
             step /= f64::from(SLICES_PER_SIDE);
             let around = (-SLICES_PER_SIDE..=SLICES_PER_SIDE).map(|k| middle + f64::from(k) * step);
-            let found = around.filter_map(|q1| self.look(q1).map(|distance| (q1, distance)));
+            let found = around.filter_map(|q1| self.distance_at(q1).map(|distance| (q1, distance)));
             let Some((next, _)) = found.min_by(|a, b| a.1.total_cmp(&b.1)) else { return };
             middle = next;
         }
@@ -120,7 +120,7 @@ impl<'a> Search<'a> {
     /// Returns the distance from the given configuration to the nearest free one with this value of joint 1, and
     /// records it if it is the best. Returns `None` if the value is not allowed, or if no configuration with it is
     /// free.
-    fn look(&mut self, q1: f64) -> Option<f64> {
+    fn distance_at(&mut self, q1: f64) -> Option<f64> {
         let [first, second] = self.scene.arm().topology().ranges;
         let inside = |band: &[f64; 2], value: f64| band[0] < value && value < band[1];
         if !first.contains(q1) || self.bands.merged.iter().any(|band| inside(band, first.wrap(q1))) {

@@ -62,8 +62,12 @@ pub(super) struct Breakpoint {
 /// are accepted, or until the strip is `min_width` wide. Matched intervals form chains, and each chain becomes a
 /// contour. A narrow strip without a match is covered by rectangles. Finally, corners are removed from the chains as
 /// long as the longer chords are accepted.
-pub(super) fn contours<S: SlicedObstacle>(source: &mut S, breaks: &[Breakpoint], how: Flattening) -> Vec<Vec<Point>> {
-    let mut tracer = Tracer { source, how, open: Vec::new(), done: Vec::new(), scratch: Vec::new() };
+pub(super) fn contours<S: SlicedObstacle>(
+    source: &mut S,
+    breaks: &[Breakpoint],
+    flattening: Flattening,
+) -> Vec<Vec<Point>> {
+    let mut tracer = Tracer { source, flattening, open: Vec::new(), done: Vec::new(), scratch: Vec::new() };
     let Some((first, rest)) = breaks.split_first() else { return Vec::new() };
     let mut slice = tracer.slice(*first);
     tracer.start_chains(&slice);
@@ -93,7 +97,7 @@ struct Chain<E> {
 
 struct Tracer<'r, S: SlicedObstacle> {
     source: &'r mut S,
-    how: Flattening,
+    flattening: Flattening,
     /// The unfinished chains, one for each interval of the last slice.
     open: Vec<Chain<S::End>>,
     done: Vec<Vec<Point>>,
@@ -105,7 +109,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
         checkpoint();
         self.scratch.clear();
         self.source.intervals(at.q1, &mut self.scratch);
-        let full = self.how.turning && self.scratch.iter().any(|[lower, upper]| upper - lower >= TAU);
+        let full = self.flattening.turning && self.scratch.iter().any(|[lower, upper]| upper - lower >= TAU);
         let intervals = if full {
             Vec::new()
         } else {
@@ -124,7 +128,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
             self.rectangle(u.at.q1, v.at.q1, REVOLUTE_RANGE);
         } else if let Some(links) = self.matching(u, v) {
             self.extend(v, &links);
-        } else if v.at.q1 - u.at.q1 <= self.how.min_width {
+        } else if v.at.q1 - u.at.q1 <= self.flattening.min_width {
             self.cover(u, v);
         } else {
             let middle = self.slice(Breakpoint { q1: f64::midpoint(u.at.q1, v.at.q1), keep: false });
@@ -140,7 +144,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
         if u.full || v.full || n != v.intervals.len() {
             return None;
         }
-        let rotations = if self.how.turning { n.max(1) } else { 1 };
+        let rotations = if self.flattening.turning { n.max(1) } else { 1 };
         (0..rotations).find_map(|rotation| {
             (0..n)
                 .map(|i| {
@@ -156,7 +160,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
 
     /// Returns the whole turns to add to `to` so that its middle is nearest to that of `from`.
     fn turns_between(&self, from: &[S::End; 2], to: &[S::End; 2]) -> f64 {
-        if !self.how.turning {
+        if !self.flattening.turning {
             return 0.0;
         }
         let twice = |i: &[S::End; 2]| self.q2(&i[0]) + self.q2(&i[1]);
@@ -189,7 +193,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
             vec![REVOLUTE_RANGE]
         } else {
             let both = u.intervals.iter().chain(&v.intervals);
-            united(both.map(|i| [self.q2(&i[0]), self.q2(&i[1])]).collect(), self.how.turning)
+            united(both.map(|i| [self.q2(&i[0]), self.q2(&i[1])]).collect(), self.flattening.turning)
         };
         for span in spans {
             self.rectangle(u.at.q1, v.at.q1, span);
@@ -199,7 +203,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
 
     /// Adds a rectangle over a strip and `span`, enlarged by the overlap.
     fn rectangle(&mut self, u: f64, v: f64, [lower, upper]: [f64; 2]) {
-        let pad = self.how.overlap;
+        let pad = self.flattening.overlap;
         let (u, v, lower, upper) = (u - pad, v + pad, lower - pad, upper + pad);
         self.finish(vec![Point::new(u, lower), Point::new(v, lower), Point::new(v, upper), Point::new(u, upper)]);
     }
@@ -213,8 +217,8 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
             let sides = [0, 1].map(|side| self.simplified(&chain, side));
             let whole =
                 || [0, 1].map(|side| chain.slices.iter().map(|(ends, _)| self.source.point(&ends[side])).collect());
-            let sides = if ordered(&sides) { sides } else { whole() };
-            let contour = outline(&sides, self.how.overlap);
+            let sides = if is_nowhere_above(&sides) { sides } else { whole() };
+            let contour = outline(&sides, self.flattening.overlap);
             // Between two tips, one chord may serve as both sides. Then the chain has no area to cover.
             if contour.len() > 2 {
                 self.finish(contour);
@@ -243,7 +247,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
 
     /// Stores a contour, moved by whole turns of joint 2 so that its middle is in `[-pi, pi]`.
     fn finish(&mut self, mut contour: Vec<Point>) {
-        if self.how.turning {
+        if self.flattening.turning {
             let range =
                 contour.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p.y), high.max(p.y)]);
             let shift = TAU * (f64::midpoint(range[0], range[1]) / TAU).round();
@@ -254,7 +258,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
 }
 
 /// Returns true if the first polyline is nowhere above the second. Both are functions of `x` over the same range.
-fn ordered(sides: &[Vec<Point>; 2]) -> bool {
+fn is_nowhere_above(sides: &[Vec<Point>; 2]) -> bool {
     let below = |points: &[Point], other: &[Point], sign: f64| {
         let mut segment = 0;
         points.iter().all(|p| {

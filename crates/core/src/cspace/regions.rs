@@ -146,7 +146,7 @@ pub fn exact_c_obstacles(scene: &Scene) -> Option<(Vec<CObstacle>, Proves)> {
         let radius = |pair: &Pair| scene.part(*pair).radius() + scene.piece(*pair).radius() + level;
         let is_round = scene.pairs().iter().any(|pair| pair.link == 1 && radius(pair) > 0.0);
         let proves = if is_round { Proves::Outer { margin: tolerance } } else { Proves::Exact };
-        (traced(scene, level, tolerance), proves)
+        (trace_contours(scene, level, tolerance), proves)
     })
 }
 
@@ -236,11 +236,11 @@ pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<PolygonWithHoles
 #[must_use]
 pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle> {
     assert!(tolerance > 0.0, "a tolerance for the flattening of curves");
-    traced(&coarsened(scene, margin, tolerance), scene.workspace().clearance + margin, tolerance)
+    trace_contours(&coarsened(scene, margin, tolerance), scene.workspace().clearance + margin, tolerance)
 }
 
 /// Returns contours around the configurations in which a pair of shapes is within `level`, with this tolerance.
-fn traced(scene: &Scene, level: f64, tolerance: f64) -> Vec<CObstacle> {
+fn trace_contours(scene: &Scene, level: f64, tolerance: f64) -> Vec<CObstacle> {
     let slices = Contacts::new(scene);
     let map = translation::joint_map(scene.arm());
     let mut obstacles = Vec::new();

@@ -19,7 +19,11 @@ pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segmen
         (_, true) => 0,
         (false, false) => return vec![*segment],
     };
-    let forbidden = if moved == 1 { along_second(scene, from[0], grow) } else { along_first(scene, from[1], grow) };
+    let forbidden = if moved == 1 {
+        forbidden_second_values(scene, from[0], grow)
+    } else {
+        forbidden_first_values(scene, from[1], grow)
+    };
     let (least, greatest) = (from[moved].min(to[moved]), from[moved].max(to[moved]));
     let at = |value: f64| {
         let mut q = from;
@@ -38,7 +42,7 @@ pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segmen
 }
 
 /// Returns the forbidden values of joint 2 at a value of joint 1; all values if link 1 is in contact.
-fn along_second(scene: &Scene, q1: f64, grow: f64) -> Vec<[f64; 2]> {
+fn forbidden_second_values(scene: &Scene, q1: f64, grow: f64) -> Vec<[f64; 2]> {
     let slices = Contacts::new(scene);
     if slices.bands(grow).forbids(q1) {
         return vec![[f64::NEG_INFINITY, f64::INFINITY]];
@@ -49,7 +53,7 @@ fn along_second(scene: &Scene, q1: f64, grow: f64) -> Vec<[f64; 2]> {
 }
 
 /// Returns the forbidden values of joint 1 at a value of joint 2.
-fn along_first(scene: &Scene, q2: f64, grow: f64) -> Vec<[f64; 2]> {
+fn forbidden_first_values(scene: &Scene, q2: f64, grow: f64) -> Vec<[f64; 2]> {
     let arm = scene.arm();
     let joint = &arm.joints[0];
     let [first, second] = arm.poses(Configuration::new(0.0, q2));

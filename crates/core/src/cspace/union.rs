@@ -122,7 +122,7 @@ fn united_part(part: &mut [PlacedContour]) -> (Contours, bool) {
     }
     let mut parts = vec![part];
     while parts.len() < GROUPS_PER_ROUND && parts.iter().any(|part| part.len() > CONTOURS_PER_GROUP) {
-        parts = parts.into_iter().flat_map(halved).collect();
+        parts = parts.into_iter().flat_map(halve).collect();
     }
     let (mut outlines, mut worth) = (Contours::new(), false);
     for part in parts {
@@ -144,7 +144,7 @@ fn united_if_worth(contours: Contours) -> (Contours, bool) {
 }
 
 /// Halves a part across the longer side of the bounding box of the contours' middles.
-fn halved(part: &mut [PlacedContour]) -> [&mut [PlacedContour]; 2] {
+fn halve(part: &mut [PlacedContour]) -> [&mut [PlacedContour]; 2] {
     let extent = |k: usize| {
         let values = || part.iter().map(|(at, _)| at[k]);
         values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)

@@ -51,7 +51,8 @@ pub struct AttachedPart {
     /// supports, without clearance. All other parts can meet all obstacles except the supports.
     pub on_supports: bool,
     /// False if the shape may be empty in exact arithmetic, so that its contacts prove no collision.
-    pub proves_collisions: bool,
+    #[serde(rename = "proves_collisions")]
+    pub is_never_empty: bool,
 }
 
 /// For each obstacle of a scene, the range of its pieces that a part can meet.
@@ -113,7 +114,7 @@ impl Attachment {
         policy: &PairPolicy,
         differences: &mut [Vec<Convex>],
     ) -> Vec<(Part, MeetablePieces)> {
-        let counts = |part: &&AttachedPart| part.proves_collisions || !policy.proves_collisions();
+        let counts = |part: &&AttachedPart| part.is_never_empty || !policy.is_definite();
         let is_level = self.grip.is_level();
         let on_link = |part: &AttachedPart| {
             let shape = if is_level { Convex::point(tip) } else { part.shape.at(&self.grip.frame()) };
@@ -142,7 +143,7 @@ impl Attachment {
             let is_folding = matches!(kind, ObstacleKind::Own(own) if own.carrier == Carrier::FirstJoint);
             let is_turned = level.is_some() && is_folding;
             let nearer = self.nearer(part, number, clearance);
-            let Some(nearer) = nearer.filter(|_| !(is_turned && policy.proves_collisions())) else { return 0..0 };
+            let Some(nearer) = nearer.filter(|_| !(is_turned && policy.is_definite())) else { return 0..0 };
             if level.is_none() && nearer == 0.0 {
                 return 0..own;
             }
@@ -157,8 +158,8 @@ impl Attachment {
             let made = &mut differences[number];
             let first = own + made.len();
             made.extend(obstacle.pieces.iter().map(|piece| match &seen {
-                Some(level) => piece.receding(nearer).minkowski_difference(level),
-                None => piece.receding(nearer),
+                Some(level) => piece.with_distances_increased(nearer).minkowski_difference(level),
+                None => piece.with_distances_increased(nearer),
             }));
             first..own + made.len()
         };

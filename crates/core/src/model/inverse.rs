@@ -130,7 +130,7 @@ fn turn_slide(d: Vector, sign: f64, m: Vector, direction: Vector, preferred: Con
     };
     let middle = -m.dot(&direction);
     let mut inverse = Inverse { branches: Vec::new(), free: None };
-    for q2 in both(middle, root) {
+    for q2 in symmetric_values(middle, root) {
         let (q1, free) = turning(sign, m + direction * q2, d, preferred[0]);
         inverse.branches.push(Configuration::new(q1, q2));
         if free {
@@ -148,7 +148,7 @@ fn slide_turn(d: Vector, direction: Vector, (sign, t): (f64, Vector), preferred:
     };
     let mut inverse = Inverse { branches: Vec::new(), free: None };
     let middle = d.dot(&direction);
-    for q1 in both(middle, root) {
+    for q1 in symmetric_values(middle, root) {
         let (q2, free) = turning(sign, t, d - direction * q1, preferred[1]);
         inverse.branches.push(Configuration::new(q1, q2));
         if free {
@@ -167,7 +167,7 @@ fn half_chord(radius: f64, distance: f64) -> Option<f64> {
     Some(((radius - distance) * (radius + distance)).max(0.0).sqrt())
 }
 
-fn both(middle: f64, root: f64) -> Vec<f64> {
+fn symmetric_values(middle: f64, root: f64) -> Vec<f64> {
     if root > 0.0 { vec![middle + root, middle - root] } else { vec![middle] }
 }
 
@@ -178,7 +178,8 @@ impl Inverse {
     #[must_use]
     pub fn solutions(&self, arm: &Arm) -> Vec<Segment> {
         let joints = &arm.joints;
-        let copies = |k: usize, value: f64| within(joints[k].range, joints[k].joint_type.is_revolute(), value);
+        let copies =
+            |k: usize, value: f64| equivalent_values(joints[k].range, joints[k].joint_type.is_revolute(), value);
         let of_branch = |q: &Configuration| -> Vec<Segment> {
             let [first, second] = match self.free {
                 Some(Freedom::Share) => return shares(arm, *q),
@@ -221,7 +222,7 @@ fn shares(arm: &Arm, q: Configuration) -> Vec<Segment> {
 /// Returns all values within the limits that are equivalent to `value`. For a revolute joint these are its copies by
 /// whole turns; on a circle, the copy in `[-pi, pi)`. Values that rounding put beyond a limit are set to the limit.
 #[must_use]
-pub fn within(range: JointRange, revolute: bool, value: f64) -> Vec<f64> {
+pub fn equivalent_values(range: JointRange, revolute: bool, value: f64) -> Vec<f64> {
     let JointRange::Interval { lower, upper } = range else { return vec![range.wrap(value)] };
     if !revolute {
         let inside = lower - LIMIT_ROUNDING <= value && value <= upper + LIMIT_ROUNDING;

@@ -126,7 +126,7 @@ impl Joint {
 
     /// Returns a value with its unit, angles in degrees and radians: `20.00 deg (0.3491 rad)`.
     #[must_use]
-    pub fn shown(&self, value: f64) -> String {
+    pub fn format_value(&self, value: f64) -> String {
         let [shown] = self.format_distinct([value]);
         shown
     }

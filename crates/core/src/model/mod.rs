@@ -45,7 +45,7 @@ pub use carried::CarriedPart;
 pub use carried::on_axis;
 use carried::swept;
 pub use contacts::Contacts;
-pub use inverse::{Freedom, Inverse, inverse, within};
+pub use inverse::{Freedom, Inverse, equivalent_values, inverse};
 pub use joint::{
     DEFAULT_SLIDING_SPEED, DEFAULT_TIME_TO_TOP_SPEED, DEFAULT_TURNING_SPEED, Joint, JointType, assumed_acceleration,
 };

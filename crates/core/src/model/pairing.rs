@@ -40,14 +40,14 @@ impl PairPolicy {
     pub const ALL: Self = Self { meet: HeightPolicy::Conservative, farthest: f64::INFINITY };
 
     /// Returns true if a contact of a pair proves a collision.
-    pub fn proves_collisions(&self) -> bool {
+    pub fn is_definite(&self) -> bool {
         self.meet == HeightPolicy::Definite
     }
 
     /// Returns true if contacts of this piece prove no collision, because the piece may be empty in exact
     /// arithmetic.
     pub fn may_be_empty(&self, piece: &Convex) -> bool {
-        self.proves_collisions() && piece.is_sliver()
+        self.is_definite() && piece.is_sliver()
     }
 }
 
@@ -139,7 +139,7 @@ impl Pairing<'_> {
     /// all pieces may be in pairs.
     fn excluded_pieces(&self) -> Vec<Vec<bool>> {
         let PairPolicy { farthest, .. } = self.policy;
-        if farthest.is_infinite() && !self.policy.proves_collisions() {
+        if farthest.is_infinite() && !self.policy.is_definite() {
             return Vec::new();
         }
         let base = Convex::point(self.base);

@@ -95,11 +95,11 @@ impl Scene {
     #[must_use]
     #[doc(hidden)]
     pub fn with_trusted(arm: Arm, workspace: Workspace, additions: Additions) -> Self {
-        Self::assembled(arm, workspace, additions, PairPolicy::ALL)
+        Self::unchecked(arm, workspace, additions, PairPolicy::ALL)
     }
 
     /// Creates the scene without checks. `policy` decides which pairs it includes.
-    fn assembled(mut arm: Arm, workspace: Workspace, additions: Additions, policy: PairPolicy) -> Self {
+    fn unchecked(mut arm: Arm, workspace: Workspace, additions: Additions, policy: PairPolicy) -> Self {
         debug_assert_eq!(check(&arm, &workspace, &additions), Ok(()));
         let Additions { loose, attachment, allowed_contacts } = &additions;
         let own_parts = arm.links[1].parts.len();
@@ -128,7 +128,8 @@ impl Scene {
     #[must_use]
     pub fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
-        let placed = || self.workspace.obstacles.iter().chain(self.loose().iter().map(|loose| &loose.obstacle));
+        let placed =
+            || self.workspace.obstacles.iter().chain(self.loose_obstacles().iter().map(|loose| &loose.obstacle));
         let own = self.arm.self_obstacles.iter().map(|own| &own.obstacle);
         let is_level = self.attachment().is_some_and(|attachment| attachment.grip.is_level());
         let is_covered = is_level && self.arm.self_obstacles.iter().any(|own| own.carrier == Carrier::FirstJoint);
@@ -138,15 +139,15 @@ impl Scene {
             placed()
                 .all(|obstacle| meets(HeightPolicy::Conservative, obstacle) == meets(HeightPolicy::Definite, obstacle))
         };
-        let is_exact = self.policy.proves_collisions()
+        let is_exact = self.policy.is_definite()
             || (0..2).all(|link| {
                 let (own, carried) = (self.own_parts(link), &self.arm.links[link].parts[self.own_parts(link).len()..]);
                 own.iter().all(|part| is_known(false, part)) && carried.iter().all(|part| is_known(true, part))
             });
         let mut attached = self.attachment().into_iter().flat_map(|attachment| &attachment.parts);
         let mut pieces = placed().chain(own).flat_map(|obstacle| &obstacle.pieces);
-        let is_whole = self.policy.proves_collisions()
-            || !(pieces.any(Convex::is_sliver) || attached.any(|part| !part.proves_collisions));
+        let is_whole =
+            self.policy.is_definite() || !(pieces.any(Convex::is_sliver) || attached.any(|part| !part.is_never_empty));
         if is_exact && is_whole && !is_covered && parts().all(|part| part.inner.is_none()) {
             return Cow::Borrowed(self);
         }
@@ -226,7 +227,7 @@ impl Scene {
         let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
         arm.links[1].parts.truncate(self.own_parts);
         change(&mut arm, &mut workspace);
-        Self::assembled(arm, workspace, self.additions.clone(), policy)
+        Self::unchecked(arm, workspace, self.additions.clone(), policy)
     }
 
     /// Returns the scene with another clearance, metres.
@@ -242,7 +243,7 @@ impl Scene {
     /// others.
     #[must_use]
     pub fn with_loose_at(&self, poses: impl IntoIterator<Item = Pose>) -> Self {
-        if self.loose().is_empty() {
+        if self.loose_obstacles().is_empty() {
             return self.clone();
         }
         let mut scene = self.clone();
@@ -282,7 +283,7 @@ impl Scene {
 
     /// Returns the loose obstacles.
     #[must_use]
-    pub fn loose(&self) -> &[LooseObstacle] {
+    pub fn loose_obstacles(&self) -> &[LooseObstacle] {
         &self.additions.loose
     }
 
@@ -334,7 +335,7 @@ impl Scene {
     /// Returns the index of a pair's obstacle among the loose ones; `None` for other obstacles.
     #[must_use]
     pub fn loose_index(&self, pair: Pair) -> Option<usize> {
-        pair.obstacle.checked_sub(self.workspace.obstacles.len()).filter(|index| *index < self.loose().len())
+        pair.obstacle.checked_sub(self.workspace.obstacles.len()).filter(|index| *index < self.loose_obstacles().len())
     }
 
     /// Returns the link of a pair's part.
@@ -360,7 +361,7 @@ impl Scene {
     /// Returns all pieces of a loose obstacle in its own frame, in the order of [`Pair::piece`].
     pub fn pieces_of_loose(&self, index: usize) -> impl Iterator<Item = &Convex> {
         let made = &self.differences[self.workspace.obstacles.len() + index];
-        self.loose()[index].obstacle.pieces.iter().chain(made)
+        self.loose_obstacles()[index].obstacle.pieces.iter().chain(made)
     }
 
     /// Returns the signed distance of every pair at `q`, in the order of [`Scene::pairs`].

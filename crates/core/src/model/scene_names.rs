@@ -14,8 +14,10 @@ impl Scene {
         if let Some(obstacle) = self.workspace().obstacles.get(number) {
             return obstacle;
         }
-        let loose = self.loose().get(number - static_obstacles).map(|loose| &loose.obstacle);
-        loose.unwrap_or_else(|| &self.arm().self_obstacles[number - static_obstacles - self.loose().len()].obstacle)
+        let loose = self.loose_obstacles().get(number - static_obstacles).map(|loose| &loose.obstacle);
+        loose.unwrap_or_else(|| {
+            &self.arm().self_obstacles[number - static_obstacles - self.loose_obstacles().len()].obstacle
+        })
     }
 
     /// Returns the arm's self obstacle with this index; `None` for static and loose obstacles.
@@ -27,7 +29,7 @@ impl Scene {
     /// Returns the indices of the arm's self obstacles. They follow those of the static and the loose obstacles.
     #[must_use]
     pub fn self_obstacles(&self) -> Range<usize> {
-        let first = self.workspace().obstacles.len() + self.loose().len();
+        let first = self.workspace().obstacles.len() + self.loose_obstacles().len();
         first..first + self.arm().self_obstacles.len()
     }
 

@@ -35,7 +35,7 @@ impl TryFrom<SceneRecord> for Scene {
     fn try_from(record: SceneRecord) -> Result<Self, SceneError> {
         let SceneRecord { arm, mut workspace, mut loose, attachment, allowed_contacts } = record;
         workspace.restrict_shapes();
-        loose.iter_mut().for_each(|loose| loose.obstacle.hold_shape());
+        loose.iter_mut().for_each(|loose| loose.obstacle.derive_shape_from_pieces());
         Self::with(arm, workspace, Additions { loose, attachment, allowed_contacts })
     }
 }

@@ -208,7 +208,7 @@ impl Obstacle {
 
     /// Changes the shape in pictures so that it agrees with the pieces that collision checks use. For obstacles that
     /// are read from files.
-    pub fn hold_shape(&mut self) {
+    pub fn derive_shape_from_pieces(&mut self) {
         self.shape.restrict_to(&self.pieces);
     }
 }
@@ -228,6 +228,6 @@ impl Workspace {
     /// Changes the shapes in pictures so that they agree with the pieces that collision checks use. For workspaces that
     /// are read from files.
     pub fn restrict_shapes(&mut self) {
-        self.obstacles.iter_mut().for_each(Obstacle::hold_shape);
+        self.obstacles.iter_mut().for_each(Obstacle::derive_shape_from_pieces);
     }
 }

@@ -36,7 +36,7 @@ impl JoinedQuery {
     pub fn new(grid: &Grid, query: &Query) -> Result<Self, String> {
         let start = attach(grid, query.start, "start")?;
         let (mut goals, mut reasons) = (Vec::new(), Vec::new());
-        for goal in query.goals.pieces().iter().flat_map(|piece| in_domain(grid, piece)) {
+        for goal in query.goals.pieces().iter().flat_map(|piece| goal_pieces_on_grid(grid, piece)) {
             match attach_goals(grid, &goal) {
                 Ok(attachment) => goals.push((goal, attachment)),
                 Err(reason) => reasons.push(reason),
@@ -56,7 +56,7 @@ impl JoinedQuery {
 
 /// Returns a goal in the form that the grid needs. A segment is cut at the domain's ends; a single configuration is
 /// unchanged.
-fn in_domain(grid: &Grid, piece: &Segment) -> Vec<Segment> {
+fn goal_pieces_on_grid(grid: &Grid, piece: &Segment) -> Vec<Segment> {
     if piece.is_point() { vec![*piece] } else { piece.within_domain(&grid.topology).collect() }
 }
 
@@ -67,16 +67,24 @@ fn attach_goals(grid: &Grid, goals: &Segment) -> Result<Attachment, String> {
         return attach(grid, from, "goal");
     }
     if !grid.topology.contains(from) || !grid.topology.contains(to) {
-        return Err(format!("the goals from {} to {} extend beyond the configuration space", shown(from), shown(to)));
+        return Err(format!(
+            "the goals from {} to {} extend beyond the configuration space",
+            format_configuration(from),
+            format_configuration(to)
+        ));
     }
     let cells: Vec<usize> = cells_along(grid, goals).into_iter().filter(|&cell| !grid.blocked[cell]).collect();
     if cells.is_empty() {
-        return Err(format!("the goals from {} to {} are in no free cell", shown(from), shown(to)));
+        return Err(format!(
+            "the goals from {} to {} are in no free cell",
+            format_configuration(from),
+            format_configuration(to)
+        ));
     }
     Ok(Attachment { cells, contained: true })
 }
 
-fn shown(q: Configuration) -> String {
+fn format_configuration(q: Configuration) -> String {
     format!("({:.4}, {:.4})", q[0], q[1])
 }
 

@@ -130,11 +130,11 @@ impl Adjacency {
         };
         let SearchResult { path, expanded } = search(&graph, how, &question);
         let expanded = expanded.into_iter().map(|node| graph[node].nearest(terminals.start)).collect();
-        (path.map(|places| self.passed(portals, terminals, &graph, start, &places)), expanded)
+        (path.map(|places| self.channel_along_route(portals, terminals, &graph, start, &places)), expanded)
     }
 
     /// Returns the channel for the route that the search found.
-    fn passed(
+    fn channel_along_route(
         &self,
         portals: &[CellPortal],
         terminals: &Terminals,

@@ -98,9 +98,9 @@ fn goal_at<'a>(
 pub fn path(grid: &Grid, query: &Query, joined: &JoinedQuery, cells: &[usize], kind: PathKind) -> Option<Path> {
     let line = unwrap(grid, cells, query.start);
     let goal = goal_at(grid, joined, *cells.last()?, from_lattice(grid, *line.last()?))?;
-    let line = completed(grid, query, joined, line, goal);
+    let line = with_exact_ends(grid, query, joined, line, goal);
     let line = if kind == PathKind::Taut { shortcut::shortcut(grid, &line) } else { line };
-    Some(between(grid, query.start, &line, goal.0))
+    Some(path_between(grid, query.start, &line, goal.0))
 }
 
 /// Greatest distance of a path from the curve along the field, in cells. Where the curve's radius is `r` cells,
@@ -120,7 +120,7 @@ const BLENDED_CELLS: f64 = 12.0;
 ///
 /// # Errors
 /// If the field does not lead to a goal.
-pub fn along<G: Guide>(
+pub fn path_along_field<G: Guide>(
     grid: &Grid,
     query: &Query,
     joined: &JoinedQuery,
@@ -143,14 +143,14 @@ pub fn along<G: Guide>(
         line.push(end);
     }
     if is_far && goal.1.contained {
-        line = arriving(grid, line, to_lattice(grid, goal.0));
+        line = with_end_at_goal(grid, line, to_lattice(grid, goal.0));
     }
-    let line = completed(grid, query, joined, line, goal);
+    let line = with_exact_ends(grid, query, joined, line, goal);
     let line = match kind {
         PathKind::Own | PathKind::Middles => simplified(grid, &line, MAX_CURVE_DISTANCE),
         PathKind::Taut => shortcut::shortcut(grid, &line),
     };
-    Ok(between(grid, query.start, &line, goal.0))
+    Ok(path_between(grid, query.start, &line, goal.0))
 }
 
 /// Returns the point of the closed cell about `center` nearest to `at`, kept off the sides of the cell. The sides
@@ -162,7 +162,7 @@ fn within_cell(center: [f64; 2], at: [f64; 2]) -> [f64; 2] {
 
 /// Returns the line with its end moved to `goal`. The points before the end move as well, less and less with their
 /// distance from it. If the moved line would leave the free cells, returns the line unchanged.
-fn arriving(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
+fn with_end_at_goal(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
     let end = line[line.len() - 1];
     let by = [0, 1].map(|k| goal[k] - end[k]);
     let mut left = vec![0.0; line.len()];
@@ -182,7 +182,7 @@ fn arriving(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
 }
 
 /// Returns the line with the exact start and the exact goal as its ends.
-fn completed(
+fn with_exact_ends(
     grid: &Grid,
     query: &Query,
     joined: &JoinedQuery,
@@ -207,7 +207,7 @@ fn completed(
 }
 
 /// Converts a line to a path between two configurations, which replace the line's ends.
-fn between(grid: &Grid, start: Configuration, line: &[[f64; 2]], goal: Configuration) -> Path {
+fn path_between(grid: &Grid, start: Configuration, line: &[[f64; 2]], goal: Configuration) -> Path {
     let inner = line[1..line.len() - 1].iter().map(|&at| from_lattice(grid, at));
     Path::new(std::iter::once(start).chain(inner).chain([goal]).collect())
 }

@@ -64,10 +64,11 @@ impl Planner for Harmonic {
         let Field { potential, windows } = harmonic(&component);
         let at = |place: Place| component.position_of(grid_path::cell(space, place)?);
         let mut guide = PotentialGuide::new(&component, &potential, at);
-        let outcome = match grid_path::along(space, query, &joined, &mut guide, component.cell(start), self.path) {
-            Ok(path) => Proposal::Found(path),
-            Err(_) => Proposal::GaveUp("the field has a local maximum".into()),
-        };
+        let outcome =
+            match grid_path::path_along_field(space, query, &joined, &mut guide, component.cell(start), self.path) {
+                Ok(path) => Proposal::Found(path),
+                Err(_) => Proposal::GaveUp("the field has a local maximum".into()),
+            };
         let size = size(windows);
         Run { outcome, trace: Trace::Harmonic { component, potential: Some(potential) }, size, note: None }
     }

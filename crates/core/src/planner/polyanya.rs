@@ -105,7 +105,7 @@ impl<'a> Polyanya<'a> {
         // Triangles share corners, so remove duplicates.
         seen.sort_unstable();
         seen.dedup();
-        seen.into_iter().for_each(|corner| self.see(0, corner));
+        seen.into_iter().for_each(|corner| self.add_visible_corner(0, corner));
         while let Some((_, (.., step))) = self.open.pop() {
             checkpoint();
             match step {
@@ -133,11 +133,11 @@ impl<'a> Polyanya<'a> {
         }
         let mesh = self.mesh;
         let corner = &mesh.corners()[node.corner as usize];
-        let Some(gaze) = corner.beyond(self.nodes[node.parent as usize].at) else { return };
+        let Some(gaze) = corner.directions_after_turn(self.nodes[node.parent as usize].at) else { return };
         for successor in mesh.successors(corner, gaze) {
             self.find_goals(number, successor.cone.edge / 3, |part| Some(*part));
             let seen = successor.seen.into_iter().flatten().filter_map(|half_edge| mesh.corner_at(half_edge));
-            seen.for_each(|corner| self.see(number, corner));
+            seen.for_each(|corner| self.add_visible_corner(number, corner));
             self.push_cone(number, successor.cone, self.estimate(number, &successor.cone));
         }
     }
@@ -151,7 +151,7 @@ impl<'a> Polyanya<'a> {
         while let Some(Crossing { entry, seen, beyond }) = self.mesh.cross(node.at, &cone) {
             self.find_goals(root, entry / 3, |part| cone.part(part));
             if let Some(corner) = seen.and_then(|half_edge| self.mesh.corner_at(half_edge)) {
-                self.see(root, corner);
+                self.add_visible_corner(root, corner);
             }
             cone = match beyond {
                 ConeContinuation::Through(edge) => Cone { edge, ..cone },
@@ -176,7 +176,7 @@ impl<'a> Polyanya<'a> {
 
     /// Adds the edge from a node to a corner that it sees. If this path to the corner is the shortest so far, adds the
     /// corner as a node.
-    fn see(&mut self, root: u32, number: u32) {
+    fn add_visible_corner(&mut self, root: u32, number: u32) {
         let corner = &self.mesh.corners()[number as usize];
         let node = self.nodes[root as usize];
         if corner.tangency(node.at) == Tangency::None {
@@ -223,7 +223,7 @@ impl<'a> Polyanya<'a> {
         let Node { at, cost, .. } = self.nodes[root as usize];
         let line = self.mesh.ends(cone.edge);
         let ends = [meeting(cone.right, line, line[0]), meeting(cone.left, line, line[1])];
-        let through = |goal: &Segment| self.measure.through(at, ends, line, goal);
+        let through = |goal: &Segment| self.measure.bound_through(at, ends, line, goal);
         cost + self.terminals.goals.iter().map(through).fold(f64::INFINITY, f64::min)
     }
 

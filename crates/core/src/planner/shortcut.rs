@@ -80,7 +80,7 @@ fn refine(grid: &Grid, line: &[[f64; 2]]) -> Line {
 /// Returns true if all cells that the segment passes through or touches are free.
 pub(super) fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
     let d = [b[0] - a[0], b[1] - a[1]];
-    let rows = covered(grid, 0, a[0], b[0]);
+    let rows = touched_lines(grid, 0, a[0], b[0]);
     rows.into_iter().all(|i| {
         // The two ends of the segment's part in row i, with some tolerance.
         let at = |edge: f64| a[1] + ((edge - a[0]) / d[0]).clamp(0.0, 1.0) * d[1];
@@ -90,14 +90,14 @@ pub(super) fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
             (at(i as f64 - TOUCH_DISTANCE), at((i + 1) as f64 + TOUCH_DISTANCE))
         };
         let Some(row) = place(grid, 0, i) else { return false };
-        covered(grid, 1, from, to)
+        touched_lines(grid, 1, from, to)
             .all(|j| place(grid, 1, j).is_some_and(|column| !grid.blocked[row * grid.cells[1] + column]))
     })
 }
 
 /// Returns the rows or columns between two coordinates, including those that are only touched. All are within the
 /// limits, because the ends are.
-fn covered(grid: &Grid, axis: usize, from: f64, to: f64) -> std::ops::RangeInclusive<i64> {
+fn touched_lines(grid: &Grid, axis: usize, from: f64, to: f64) -> std::ops::RangeInclusive<i64> {
     let (first, last) =
         ((from.min(to) - TOUCH_DISTANCE).floor() as i64, (from.max(to) + TOUCH_DISTANCE).floor() as i64);
     if grid.topology.ranges[axis].is_circle() {

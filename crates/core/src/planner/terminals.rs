@@ -32,7 +32,10 @@ impl Terminals {
     ) -> Result<Self, String> {
         let start = query.start;
         if parts_of(&Segment::point(query.start)).is_empty() {
-            return Err(format!("the start {} is not in the free space that the planner searches", shown(start)));
+            return Err(format!(
+                "the start {} is not in the free space that the planner searches",
+                format_point(start)
+            ));
         }
         let (Some(first), pieces) = (query.goals.pieces().first(), query.goals.pieces()) else {
             return Err("the query has no goal".to_owned());
@@ -46,7 +49,7 @@ impl Terminals {
             }
         }
         if goals.is_empty() {
-            let goal = shown(first.ends()[0]);
+            let goal = format_point(first.ends()[0]);
             let others = if pieces.len() > 1 { format!(" (nor {} others)", pieces.len() - 1) } else { String::new() };
             return Err(format!("the goal {goal}{others} is not in the free space that the planner searches"));
         }
@@ -78,7 +81,7 @@ impl Terminals {
     }
 }
 
-fn shown(p: Point) -> String {
+fn format_point(p: Point) -> String {
     format!("({:.6}, {:.6})", p.x, p.y)
 }
 

@@ -90,7 +90,7 @@ impl Planner for Trapezoid {
             }
         };
         // Pictures of cells do not show the expansions of the default search.
-        let expanded = if self.search.is_usual() { Vec::new() } else { expanded };
+        let expanded = if self.search.is_default() { Vec::new() } else { expanded };
         Run {
             outcome,
             trace: Trace::Channel {

@@ -99,8 +99,8 @@ impl Planner for Visibility {
                 };
             }
         };
-        if !self.search.is_usual() || self.graph == VisibilityGraph::Full {
-            return self.whole(map, &terminals);
+        if !self.search.is_default() || self.graph == VisibilityGraph::Full {
+            return self.search_full_graph(map, &terminals);
         }
         let mut search = Polyanya::new(&map.mesh, Measure::from(self.metric), &terminals);
         let outcome = match search.path() {
@@ -143,7 +143,9 @@ impl VisibilityMap {
             };
             for successor in corner.tangents().flat_map(|gaze| self.mesh.successors(corner, gaze)) {
                 pairs.extend(successor.seen.into_iter().flatten().filter_map(arc));
-                self.mesh.look_forward(corner.at, successor.cone, &mut stack, |half_edge| pairs.extend(arc(half_edge)));
+                self.mesh.visit_visible_corners(corner.at, successor.cone, &mut stack, |half_edge| {
+                    pairs.extend(arc(half_edge))
+                });
             }
         }
         pairs
@@ -152,7 +154,7 @@ impl VisibilityMap {
 
 impl Visibility {
     /// Builds the whole graph and searches it.
-    fn whole(&self, map: &VisibilityMap, terminals: &Terminals) -> Run {
+    fn search_full_graph(&self, map: &VisibilityMap, terminals: &Terminals) -> Run {
         let measure = Measure::from(self.metric);
         let query_graph = match self.graph {
             VisibilityGraph::Reduced => Ok(map.query_graph(measure, terminals)),
@@ -186,18 +188,18 @@ impl VisibilityMap {
         let mut query_graph = roadmap.query_graph(terminals.start);
         let mut ends = Ends { mesh, measure, terminals, query_graph: &mut query_graph, seen: Vec::new(), notes: true };
         for triangle in mesh.triangles_at(terminals.start) {
-            ends.meet_goals(ends.query_graph.start, triangle, |part| Some(*part));
+            ends.join_goals_in_triangle(ends.query_graph.start, triangle, |part| Some(*part));
             for successor in mesh.successors_within(triangle, terminals.start) {
                 ends.seen.extend(successor.seen.into_iter().flatten());
-                ends.look(ends.query_graph.start, successor.cone);
+                ends.join_visible_goals(ends.query_graph.start, successor.cone);
             }
         }
         let of_start = std::mem::take(&mut ends.seen);
         ends.notes = false;
         for (node, corner) in nodes.iter().zip(corners) {
             for successor in corner.tangents().flat_map(|gaze| mesh.successors(corner, gaze)) {
-                ends.meet_goals(*node, successor.cone.edge / 3, |part| Some(*part));
-                ends.look(*node, successor.cone);
+                ends.join_goals_in_triangle(*node, successor.cone.edge / 3, |part| Some(*part));
+                ends.join_visible_goals(*node, successor.cone);
             }
         }
         let is_tangent = |corner: &u32| corners[*corner as usize].tangency(terminals.start) != Tangency::None;
@@ -221,18 +223,18 @@ struct Ends<'a> {
 
 impl Ends<'_> {
     /// Joins a node with the goals that it sees in a cone, and fills `seen` if requested.
-    fn look(&mut self, root: NodeIndex, cone: Cone) {
+    fn join_visible_goals(&mut self, root: NodeIndex, cone: Cone) {
         checkpoint();
-        self.mesh.look(self.query_graph.at(root), cone, |crossing, cone| {
+        self.mesh.visit_visible_triangles(self.query_graph.at(root), cone, |crossing, cone| {
             if self.notes {
                 self.seen.extend(crossing.seen);
             }
-            self.meet_goals(root, crossing.entry / 3, |part| cone.part(part));
+            self.join_goals_in_triangle(root, crossing.entry / 3, |part| cone.part(part));
         });
     }
 
     /// Joins a node with the visible goals in a triangle.
-    fn meet_goals(&mut self, root: NodeIndex, triangle: u32, sees: impl Fn(&Segment) -> Option<Segment>) {
+    fn join_goals_in_triangle(&mut self, root: NodeIndex, triangle: u32, sees: impl Fn(&Segment) -> Option<Segment>) {
         for (_, part) in self.terminals.parts_in(triangle) {
             if let Some(seen) = sees(part) {
                 let at = seen.nearest(self.measure, self.query_graph.at(root));

@@ -160,14 +160,14 @@ mod tests {
     }
 
     #[test]
-    fn an_open_portal_does_not_bend_it() {
+    fn an_open_portal_does_not_bend_the_path() {
         let open = portal((1.0, 1.0), (1.0, -1.0));
         let path = funnel_path(Point::new(0.0, 0.0), Point::new(2.0, 0.5), &[open]);
         assert_eq!(path, points(&[(0.0, 0.0), (2.0, 0.5)]));
     }
 
     #[test]
-    fn it_turns_at_the_nearer_end_of_a_portal_aside() {
+    fn the_path_turns_at_the_nearer_end_of_an_offset_portal() {
         let above = [portal((1.0, 3.0), (1.0, 2.0)), portal((2.0, 3.0), (2.0, 1.5))];
         let path = funnel_path(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &above);
         assert_eq!(path, points(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.5), (3.0, 0.0)]));
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn collinear_ends_do_not_bend_it() {
+    fn collinear_ends_do_not_bend_the_path() {
         let along = [portal((1.0, 1.0), (1.0, 0.0)), portal((2.0, 1.0), (2.0, 0.0))];
         let path = funnel_path(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &along);
         assert_eq!(path, points(&[(0.0, 0.0), (3.0, 0.0)]));

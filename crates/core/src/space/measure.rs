@@ -60,13 +60,14 @@ impl Measure {
     /// root's side. The segment may be a point. Therefore `line` has two points farther apart on the segment's line, in
     /// the same direction.
     #[must_use]
-    pub fn through(self, root: Point, ends: [Point; 2], line: [Point; 2], goals: &Segment) -> f64 {
+    pub fn bound_through(self, root: Point, ends: [Point; 2], line: [Point; 2], goals: &Segment) -> f64 {
         let along = line[1] - line[0];
         let [from, to] = goals.ends().map(|goal| cross(along, goal - line[0]));
         if from <= 0.0 && to <= 0.0 {
-            return self.across(root, ends, goals);
+            return self.bound_across(root, ends, goals);
         }
-        let beyond = goals.where_positive(-from, -to).map_or(f64::INFINITY, |beyond| self.across(root, ends, &beyond));
+        let beyond =
+            goals.where_positive(-from, -to).map_or(f64::INFINITY, |beyond| self.bound_across(root, ends, &beyond));
         let Some(before) = goals.where_positive(from, to) else { return beyond };
         let Self::Ellipse([u, v]) = self else { return beyond.min(before.distance(self, root)) };
         // A path to the line and back is as long as the path to the goal's mirror image.
@@ -76,15 +77,15 @@ impl Measure {
             foot + (foot - goal)
         };
         let [a, b] = before.ends().map(mirrored);
-        beyond.min(self.across(root, ends, &Segment::new(a, b)))
+        beyond.min(self.bound_across(root, ends, &Segment::new(a, b)))
     }
 
-    /// Does the same as [`Measure::through`] if all goals lie beyond the segment.
+    /// Does the same as [`Measure::bound_through`] if all goals lie beyond the segment.
     ///
     /// The length of a path over a point of the segment's line is a convex function of that point. It is least where
     /// the straight line to the nearest goal crosses the segment's line. If that point is outside of the segment,
     /// the nearest end is optimal.
-    fn across(self, root: Point, [right, left]: [Point; 2], goals: &Segment) -> f64 {
+    fn bound_across(self, root: Point, [right, left]: [Point; 2], goals: &Segment) -> f64 {
         let goal = goals.nearest(self, root) - root;
         let via = |end: Point| self.norm(end - root) + goals.distance(self, end);
         if cross(right - root, goal) < 0.0 {
@@ -131,7 +132,7 @@ mod tests {
                     if by_way_of(shares[0]) <= by_way_of(shares[1]) { to = shares[1] } else { from = shares[0] }
                 }
                 let least = by_way_of(from).min(by_way_of(to));
-                let bound = Measure::from(metric).through(root, [right, left], [right, left], &Segment::point(goal));
+                let bound = Measure::from(metric).bound_through(root, [right, left], [right, left], &Segment::point(goal));
                 prop_assert!(bound <= least + 1e-8, "{metric:?}: {bound} > {least}");
                 let is_exact = !matches!(metric, Metric::Time { .. }) || goal.y <= 0.0;
                 prop_assert!(!is_exact || bound >= least - 1e-5, "{metric:?}: {bound} < {least}");
@@ -155,9 +156,9 @@ mod tests {
                 let measure = Measure::from(metric);
                 let each = (0..=400).map(|k| Segment::point(goals.at(f64::from(k) / 400.0)));
                 let least = each
-                    .map(|goal| measure.through(root, [right, left], [right, left], &goal))
+                    .map(|goal| measure.bound_through(root, [right, left], [right, left], &goal))
                     .fold(f64::INFINITY, f64::min);
-                let bound = measure.through(root, [right, left], [right, left], &goals);
+                let bound = measure.bound_through(root, [right, left], [right, left], &goals);
                 prop_assert!(bound <= least + 1e-9, "{metric:?}: {bound} > {least}");
                 let is_exact = !matches!(metric, Metric::Time { .. });
                 prop_assert!(!is_exact || bound >= least - 2e-2, "{metric:?}: {bound} < {least}");

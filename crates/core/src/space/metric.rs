@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn norms_of_a_displacement() {
+    fn norms_of_a_displacement_are_as_defined() {
         let d = Configuration::new(-3.0, 4.0);
         assert_eq!(Metric::Euclidean.norm(d), 5.0);
         assert_eq!(Metric::Weighted { weights: [4.0, 4.0] }.norm(d), 20.0);

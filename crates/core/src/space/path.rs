@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_between_distances() {
+    fn a_part_lies_between_two_distances_along_the_path() {
         let q = |a: f64, b: f64| Configuration::new(a, b);
         let path = Path::new(vec![q(0.0, 0.0), q(2.0, 0.0), q(2.0, 1.0), q(0.0, 1.0)]);
         let part = |from: f64, to: f64| path.part(from, to).waypoints().to_vec();

@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_published_sequence() {
+    fn the_sequence_equals_the_published_one() {
         let mut draws = SplitMix64::new(1_234_567);
         let numbers: Vec<u64> = (0..5).map(|_| draws.bits()).collect();
         let published = [

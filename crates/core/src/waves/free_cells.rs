@@ -96,7 +96,7 @@ impl FreeCells {
     pub fn moves(&self, from: usize, neighborhood: Neighborhood) -> impl Iterator<Item = Move> + use<> {
         let columns = self.cells[1];
         let (i, j) = (from / columns, from % columns);
-        let (rows, around) = (self.beside(0, i), self.beside(1, j));
+        let (rows, around) = (self.adjacent_lines(0, i), self.adjacent_lines(1, j));
         let free = |i: Option<usize>, j: Option<usize>| match (i, j) {
             (Some(i), Some(j)) if self.has(i, j) => Some(i * columns + j),
             _ => None,
@@ -115,7 +115,7 @@ impl FreeCells {
     }
 
     /// Returns the rows or columns before and after number `at`. Returns `None` for one that lies beyond a limit.
-    pub(super) fn beside(&self, axis: usize, at: usize) -> [Option<usize>; 2] {
+    pub(super) fn adjacent_lines(&self, axis: usize, at: usize) -> [Option<usize>; 2] {
         let (last, is_circle) = (self.cells[axis] - 1, self.circles[axis]);
         let before = if at > 0 { Some(at - 1) } else { is_circle.then_some(last) };
         let after = if at < last { Some(at + 1) } else { is_circle.then_some(0) };
@@ -232,7 +232,7 @@ mod tests {
         #![proptest_config(cplan_cases::cases(256))]
 
         #[test]
-        fn scans_are_those_cell_by_cell(
+        fn scans_agree_with_tests_cell_by_cell(
             blocked in proptest::collection::vec(proptest::bool::weighted(0.03), 1..300), at in 0..300_usize, to in 0..300_usize,
         ) {
             let n = blocked.len();

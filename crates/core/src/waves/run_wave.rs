@@ -42,7 +42,7 @@ pub(super) fn run_wave(free: &FreeCells, sources: &[usize]) -> Option<Vec<u32>> 
         wave.spread(row, column + 1, Side::After, 1, AffectedRows::BOTH);
     }
     while let Some(stretch) = wave.queue.pop() {
-        let [before, after] = free.beside(0, stretch.row);
+        let [before, after] = free.adjacent_lines(0, stretch.row);
         if let Some(to) = before.filter(|_| stretch.rows.before) {
             wave.pass_on(&stretch, to, AffectedRows { before: true, after: false });
         }
@@ -111,7 +111,7 @@ impl RunWave<'_> {
             }
             end = self.free.next(to, start, stretch.columns.end, false);
             self.work += end - start;
-            let (source, target) = two_lines(self.labels, [from * columns, to * columns], &(start..end));
+            let (source, target) = two_rows(self.labels, [from * columns, to * columns], &(start..end));
             let Some((improved, least)) = improve(source, target) else { continue };
             let (first, last) = (start + improved.start, start + improved.end);
             let mut changed = first..last;
@@ -175,7 +175,7 @@ impl RunWave<'_> {
 
 /// Returns the same columns of two different rows, which start at `at`: the first for reading, the second for
 /// writing.
-fn two_lines<'a>(labels: &'a mut [u32], at: [usize; 2], columns: &Range<usize>) -> (&'a [u32], &'a mut [u32]) {
+fn two_rows<'a>(labels: &'a mut [u32], at: [usize; 2], columns: &Range<usize>) -> (&'a [u32], &'a mut [u32]) {
     let (low, high) = labels.split_at_mut(at[0].max(at[1]));
     let low_line = |at: usize| at + columns.start..at + columns.end;
     if at[0] < at[1] {

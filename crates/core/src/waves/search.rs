@@ -45,7 +45,7 @@ pub enum Ties {
 impl Ties {
     /// Returns true for the default rule.
     #[must_use]
-    pub fn is_usual(&self) -> bool {
+    pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
 
@@ -133,7 +133,7 @@ impl Search {
         targets: &[usize],
     ) -> Self {
         let targets: BTreeSet<usize> = targets.iter().copied().collect();
-        let (mut search, sources) = Self::begun(free, sources);
+        let (mut search, sources) = Self::with_labeled_sources(free, sources);
         if order == Order::IterativeDeepening {
             deepen(&mut search, free, neighborhood, &sources, &targets);
             return search;
@@ -179,7 +179,7 @@ impl Search {
     }
 
     /// Labels the sources of a search, and returns the free ones, each once.
-    fn begun(free: &FreeCells, sources: &[usize]) -> (Self, Vec<usize>) {
+    fn with_labeled_sources(free: &FreeCells, sources: &[usize]) -> (Self, Vec<usize>) {
         let [rows, columns] = free.cells();
         let size = rows * columns;
         let (costs, mut parents) = (vec![Cost::default(); size], vec![UNREACHED; size]);

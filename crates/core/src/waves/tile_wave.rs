@@ -152,7 +152,7 @@ mod tests {
         /// Compares the labels with those of a breadth-first search, on grids that do and do not fill their tiles,
         /// including single rows and columns.
         #[test]
-        fn labels_are_those_of_a_search(
+        fn labels_equal_those_of_a_search(
             rows in 1..28_usize, columns in 1..28_usize, circles in any::<[bool; 2]>(), seed in any::<u64>(), density in 0..45_u64,
         ) {
             let axes = circles.map(|c| if c { JointRange::Circle } else { JointRange::Interval { lower: 0.0, upper: 1.0 } });

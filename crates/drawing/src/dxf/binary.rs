@@ -34,23 +34,23 @@ pub(super) fn as_text(bytes: &[u8]) -> Result<Option<Vec<u8>>, Error> {
 /// Reads the next code and its value as text. Returns `None` if the bytes end too early.
 fn pair(rest: &mut &[u8], is_wide: bool) -> Option<(i32, Vec<u8>)> {
     let code = match (is_wide, *rest.first()?) {
-        (false, code) if code < 255 => i32::from(take::<1>(rest)?[0]),
+        (false, code) if code < 255 => i32::from(take_bytes::<1>(rest)?[0]),
         (false, _) => {
-            take::<1>(rest)?;
-            i32::from(i16::from_le_bytes(take(rest)?))
+            take_bytes::<1>(rest)?;
+            i32::from(i16::from_le_bytes(take_bytes(rest)?))
         }
-        (true, _) => i32::from(i16::from_le_bytes(take(rest)?)),
+        (true, _) => i32::from(i16::from_le_bytes(take_bytes(rest)?)),
     };
     let value = match code {
-        10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => f64::from_le_bytes(take(rest)?).to_string(),
+        10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => f64::from_le_bytes(take_bytes(rest)?).to_string(),
         60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => {
-            i16::from_le_bytes(take(rest)?).to_string()
+            i16::from_le_bytes(take_bytes(rest)?).to_string()
         }
-        90..=99 | 420..=429 | 440..=459 | 1071 => i32::from_le_bytes(take(rest)?).to_string(),
-        160..=169 => i64::from_le_bytes(take(rest)?).to_string(),
-        290..=299 => take::<1>(rest)?[0].to_string(),
+        90..=99 | 420..=429 | 440..=459 | 1071 => i32::from_le_bytes(take_bytes(rest)?).to_string(),
+        160..=169 => i64::from_le_bytes(take_bytes(rest)?).to_string(),
+        290..=299 => take_bytes::<1>(rest)?[0].to_string(),
         310..=319 | 1004 => {
-            let length = usize::from(take::<1>(rest)?[0]);
+            let length = usize::from(take_bytes::<1>(rest)?[0]);
             *rest = rest.get(length..)?;
             String::new()
         }
@@ -65,7 +65,7 @@ fn pair(rest: &mut &[u8], is_wide: bool) -> Option<(i32, Vec<u8>)> {
 }
 
 /// Takes bytes off the front.
-fn take<const SIZE: usize>(rest: &mut &[u8]) -> Option<[u8; SIZE]> {
+fn take_bytes<const SIZE: usize>(rest: &mut &[u8]) -> Option<[u8; SIZE]> {
     let (value, after) = rest.split_first_chunk()?;
     *rest = after;
     Some(*value)

@@ -67,7 +67,7 @@ impl<'a> Document<'a> {
             }
             match record.text(2) {
                 Some("HEADER") => (document.unit, document.unread_unit) = unit(record.tags)?,
-                Some("TABLES") => document.hidden = hidden(&inside)?,
+                Some("TABLES") => document.hidden = hidden_layers(&inside)?,
                 Some("BLOCKS") => document.blocks = blocks(&inside)?,
                 Some("ENTITIES") => {
                     document.entities = entities(&inside);
@@ -130,7 +130,7 @@ fn unit<'a>(header: &[Tag<'a>]) -> Result<(Option<Unit>, Option<Tag<'a>>), Error
     Ok((unit, value.copied().filter(|_| unit.is_none() && code != 0.0)))
 }
 
-fn hidden(tables: &[Record]) -> Result<HashMap<String, HiddenReason>, Error> {
+fn hidden_layers(tables: &[Record]) -> Result<HashMap<String, HiddenReason>, Error> {
     let mut hidden = HashMap::from([(UNPRINTED_LAYER.to_owned(), HiddenReason::Off)]);
     for layer in tables.iter().filter(|record| record.kind == "LAYER") {
         let why = match (layer.flag(1)?, layer.integer_or(62, 7)? < 0) {

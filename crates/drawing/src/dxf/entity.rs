@@ -6,8 +6,8 @@ use super::{BlockPlacement, Reader, oriented, upwards};
 use crate::curve::{Ellipse, Spline, bulge, cubic};
 use crate::interpolation::{EndConditions, interpolated};
 use crate::map::Map;
-use crate::sheet::{Origin, once};
-use crate::stroke::{Piece, covered};
+use crate::sheet::{Origin, without_repeated_points};
+use crate::stroke::{Piece, covering_rings};
 use crate::{Error, FillRule, Point, filled};
 use std::f64::consts::TAU;
 
@@ -32,14 +32,14 @@ impl<'a> Reader<'_, 'a> {
             return Ok(());
         }
         // Lines, ellipses and splines are in coordinates of the drawing.
-        let (world, own) = (place.map, place.map.after(&oriented(entity)?));
+        let (world, own) = (place.map, place.map.compose(&oriented(entity)?));
         match record.kind {
             "LINE" => {
                 let ends = [record.point(10)?, record.point(11)?].map(|p| world.point(p));
                 self.open(ends.to_vec(), place, origin)
             }
             "LWPOLYLINE" => self.polyline(&corners(&record)?, record.flag(1)?, &own, place, origin),
-            "POLYLINE" => self.old_polyline(entity, &own, place, origin),
+            "POLYLINE" => self.read_old_polyline(entity, &own, place, origin),
             "CIRCLE" | "ARC" if record.needed(40)? == 0.0 => {
                 self.sheet.leave_out(&format!("{} of radius 0", record.kind), origin);
                 Ok(())
@@ -93,7 +93,7 @@ impl<'a> Reader<'_, 'a> {
         let closing = corners.last().filter(|_| is_closed).map(|last| (last, first));
         let ways: Vec<_> = corners.windows(2).map(|pair| (&pair[0], &pair[1])).chain(closing).collect();
         if ways.iter().any(|(from, to)| from.is_wide() && from.at != to.at) {
-            return self.wide(&ways, is_closed, map, place, origin);
+            return self.read_wide_polyline(&ways, is_closed, map, place, origin);
         }
         for (from, to) in ways {
             let arc = bulge(from.at, to.at, from.bulge, map, self.sheet.tolerance);
@@ -103,7 +103,7 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// Adds the area that a polyline with widths covers. Segments of width 0 become lines.
-    fn wide(
+    fn read_wide_polyline(
         &mut self,
         ways: &[(&Corner, &Corner)],
         is_closed: bool,
@@ -122,7 +122,7 @@ impl<'a> Reader<'_, 'a> {
                 };
                 let pieces: Vec<Piece> = run.iter().map(piece).collect();
                 let is_whole = is_closed && run.len() == ways.len();
-                let covered = covered(&pieces, is_whole, map, self.sheet.tolerance);
+                let covered = covering_rings(&pieces, is_whole, map, self.sheet.tolerance);
                 rings.extend(self.sheet.chords(covered, origin)?);
             } else {
                 let mut points = vec![map.point(run[0].0.at)];
@@ -142,7 +142,7 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// Adds a polyline of the older form, whose vertices are separate records.
-    fn old_polyline(
+    fn read_old_polyline(
         &mut self,
         entity: &Entity,
         map: &Map,
@@ -193,7 +193,7 @@ impl<'a> Reader<'_, 'a> {
         let degree = usize::try_from(record.integer_or(71, 3)?).unwrap_or_default();
         let spline = Spline { degree, knots: record.numbers(40)?, control, weights };
         if spline.control.is_empty() && record.points(11)?.len() > 1 {
-            return self.fitted(record, map, place, origin);
+            return self.read_fit_spline(record, map, place, origin);
         }
         if !spline.is_sound() {
             let message = "SPLINE whose degree, knots, weights and control points do not fit";
@@ -204,10 +204,16 @@ impl<'a> Reader<'_, 'a> {
     }
 
     /// Adds a spline that the file gives only by its fit points.
-    fn fitted(&mut self, record: &Record, map: &Map, place: &BlockPlacement, origin: &Origin) -> Result<(), Error> {
+    fn read_fit_spline(
+        &mut self,
+        record: &Record,
+        map: &Map,
+        place: &BlockPlacement,
+        origin: &Origin,
+    ) -> Result<(), Error> {
         const CLOSED_FLAGS: i64 = 1 | 2;
         let is_closed = record.flag(CLOSED_FLAGS)?;
-        let fit = once(record.points(11)?, is_closed);
+        let fit = without_repeated_points(record.points(11)?, is_closed);
         let direction = |code: i32| record.number(code)?.map(|_| record.point(code)).transpose();
         let ends =
             if is_closed { EndConditions::Closed } else { EndConditions::Open([direction(12)?, direction(13)?]) };

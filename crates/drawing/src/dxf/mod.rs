@@ -43,7 +43,7 @@ pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> 
     let mut reader = Reader { document: &document, sheet, groups: HashMap::new(), instances: 0, entities: 0 };
     let scale = unit.metres() * settings.scale;
     let place = BlockPlacement { map: Map::scaling(scale, scale), up: [scale, 0.0], ..BlockPlacement::default() };
-    reader.all(&document.entities, &place, &mut Vec::new())?;
+    reader.read_entities(&document.entities, &place, &mut Vec::new())?;
     Ok(reader.sheet.finish())
 }
 
@@ -83,7 +83,7 @@ struct Reader<'d, 'a> {
 
 impl<'d, 'a> Reader<'d, 'a> {
     /// Reads entities with a placement. `within` has the names of the blocks that contain the entities.
-    fn all(
+    fn read_entities(
         &mut self,
         entities: &'d [Entity<'a>],
         place: &BlockPlacement<'a>,
@@ -168,10 +168,10 @@ impl<'d, 'a> Reader<'d, 'a> {
             return Err(Error::new(record.line, message, "explode the block, or draw it without itself"));
         }
         let scale = [record.number_or(41, 1.0)?, record.number_or(42, 1.0)?];
-        let map = place.map.after(&oriented(entity)?);
-        let at = Map::moving(record.point(10)?).after(&Map::turning(record.number_or(50, 0.0)?.to_radians()));
-        let own = Map::scaling(scale[0], scale[1]).after(&Map::moving(block.base.map(|x| -x)));
-        if !map.after(&at).after(&own).is_regular() {
+        let map = place.map.compose(&oriented(entity)?);
+        let at = Map::moving(record.point(10)?).compose(&Map::turning(record.number_or(50, 0.0)?.to_radians()));
+        let own = Map::scaling(scale[0], scale[1]).compose(&Map::moving(block.base.map(|x| -x)));
+        if !map.compose(&at).compose(&own).is_regular() {
             let message = format!("INSERT of block \"{name}\" with scale {} by {}", scale[0], scale[1]);
             return Err(Error::new(record.line, message, "give it a scale that is not 0"));
         }
@@ -194,12 +194,12 @@ impl<'d, 'a> Reader<'d, 'a> {
                     return Err(Error::new(record.line, message, "remove parts that the arm cannot reach"));
                 }
                 let shift = Map::moving([column as f64 * spacing[0], row as f64 * spacing[1]]);
-                let here = map.after(&at).after(&shift);
+                let here = map.compose(&at).compose(&shift);
                 let frame = place.frame.or(Some(here.frame()));
-                let map = here.after(&own);
+                let map = here.compose(&own);
                 let inner =
                     BlockPlacement { map, up, name, layer: Some(layer), instance: self.instances, frozen, frame };
-                self.all(&block.entities, &inner, within)?;
+                self.read_entities(&block.entities, &inner, within)?;
             }
         }
         within.pop();

@@ -123,7 +123,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         let up = Map { u: [scale, 0.0], v: [0.0, -scale], o: [0.0, size.map_or(0.0, |[_, height]| height * scale)] };
         let map = match (view, size) {
-            (Some(view), Some(size)) => up.after(&self.fitted(root, view, size)?),
+            (Some(view), Some(size)) => up.compose(&self.view_box_map(root, view, size)?),
             _ => up,
         };
         self.regular(&map, root)?;
@@ -139,7 +139,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// Returns the map that fits a view box into a space of this size.
-    fn fitted(&self, node: Node, view: ViewBox, size: [f64; 2]) -> Result<Map, Error> {
+    fn view_box_map(&self, node: Node, view: ViewBox, size: [f64; 2]) -> Result<Map, Error> {
         let ratio = self.parsed(node, "preserveAspectRatio")?;
         let ratio = ratio.unwrap_or(AspectRatio { defer: false, align: Align::XMidYMid, slice: false });
         let [x, y] = [size[0] / view.w, size[1] / view.h];
@@ -239,7 +239,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         let transform: Option<Transform> = self.parsed(node, "transform")?;
         let Transform { a, b, c, d, e, f } = transform.unwrap_or_default();
-        let map = around.map.after(&Map { u: [a, b], v: [c, d], o: [e, f] });
+        let map = around.map.compose(&Map { u: [a, b], v: [c, d], o: [e, f] });
         self.regular(&map, node)?;
         let mut inside = InheritedProperties { map, style, name, ..around.clone() };
         match kind {
@@ -256,7 +256,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 let inside = self.viewport(node, node, inside)?;
                 self.children(node, &inside, depth)
             }
-            "use" => self.used(node, inside, own_name.is_some(), depth),
+            "use" => self.draw_referenced_element(node, inside, own_name.is_some(), depth),
             "path" | "polygon" | "polyline" | "line" | "rect" | "circle" | "ellipse" if !style.is_visible => {
                 self.sheet.leave_out("elements not visible", &origin(kind, line, &inside));
                 Ok(())
@@ -288,7 +288,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 self.sheet.wall(ends.map(|p| inside.map.point(p)).to_vec(), &origin(kind, line, &inside))
             }
             "rect" => self.rect(node, &inside, &origin(kind, line, &inside)),
-            "circle" | "ellipse" => self.round(node, &inside, &origin(kind, line, &inside)),
+            "circle" | "ellipse" => self.read_ellipse(node, &inside, &origin(kind, line, &inside)),
             "text" | "image" | "foreignObject" | "video" | "canvas" | "iframe" | "flowRoot" => {
                 self.sheet.leave_out(&format!("<{kind}>"), &origin(kind, line, &inside));
                 Ok(())
@@ -307,7 +307,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     ) -> Result<InheritedProperties, Error> {
         let corner = [0, 1].map(|k| self.length_or_0(node, ["x", "y"][k], inside.page[k]));
         let [x, y] = corner;
-        inside.map = inside.map.after(&Map::moving([x?, y?]));
+        inside.map = inside.map.compose(&Map::moving([x?, y?]));
         let mut size = inside.page;
         for (k, name) in ["width", "height"].into_iter().enumerate() {
             let own = self.length(node, name, inside.page[k])?;
@@ -315,7 +315,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         inside.page = size;
         if let Some(view) = self.parsed::<ViewBox>(node, "viewBox")? {
-            inside.map = inside.map.after(&self.fitted(node, view, size)?);
+            inside.map = inside.map.compose(&self.view_box_map(node, view, size)?);
             inside.page = [view.w, view.h];
         }
         self.regular(&inside.map, node)?;
@@ -323,7 +323,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// Draws the element to which a `use` element refers.
-    fn used(
+    fn draw_referenced_element(
         &mut self,
         node: Node<'a, 'i>,
         mut inside: InheritedProperties,
@@ -339,7 +339,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             return Ok(());
         };
         let [x, y] = [0, 1].map(|k| self.length_or_0(node, ["x", "y"][k], inside.page[k]));
-        inside.map = inside.map.after(&Map::moving([x?, y?]));
+        inside.map = inside.map.compose(&Map::moving([x?, y?]));
         inside.is_used |= is_named;
         if target.tag_name().name() != "symbol" {
             return self.element(target, &inside, depth + 1);
@@ -383,7 +383,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.sheet.closed(ring, origin)
     }
 
-    fn round(&mut self, node: Node, inside: &InheritedProperties, origin: &Origin) -> Result<(), Error> {
+    fn read_ellipse(&mut self, node: Node, inside: &InheritedProperties, origin: &Origin) -> Result<(), Error> {
         let page = inside.page;
         let center = [self.length_or_0(node, "cx", page[0])?, self.length_or_0(node, "cy", page[1])?];
         let [rx, ry] = match node.has_tag_name("circle") || node.has_tag_name((SVG_NAMESPACE, "circle")) {

@@ -35,13 +35,13 @@ struct Pen<'m> {
     control: [Option<Point>; 2],
     stretches: Vec<Stretch>,
     /// True if the pen is lifted, so the next segment starts a new stretch.
-    is_up: bool,
+    starts_stretch: bool,
 }
 
 /// Returns the connected stretches of a path.
 pub(super) fn stretches(data: &str, map: &Map, tolerance: f64) -> Result<Vec<Stretch>, PathError> {
     let (at, begin) = ([0.0; 2], [0.0; 2]);
-    let mut pen = Pen { map, tolerance, at, begin, control: [None; 2], stretches: Vec::new(), is_up: true };
+    let mut pen = Pen { map, tolerance, at, begin, control: [None; 2], stretches: Vec::new(), starts_stretch: true };
     for segment in PathParser::from(data) {
         pen.draw(segment.map_err(|error| PathError::Syntax(error.to_string()))?)?;
     }
@@ -58,7 +58,7 @@ impl Pen<'_> {
             PathSegment::MoveTo { abs, x, y } => {
                 self.at = to(abs, x, y);
                 self.begin = self.at;
-                self.is_up = true;
+                self.starts_stretch = true;
             }
             PathSegment::LineTo { abs, x, y } => self.line(to(abs, x, y)),
             PathSegment::HorizontalLineTo { abs, x } => self.line([to(abs, x, 0.0)[0], here[1]]),
@@ -84,11 +84,11 @@ impl Pen<'_> {
                 }
             }
             PathSegment::ClosePath { .. } => {
-                if !self.is_up {
+                if !self.starts_stretch {
                     self.begin_stretch().is_closed = true;
                 }
                 self.at = self.begin;
-                self.is_up = true;
+                self.starts_stretch = true;
             }
         }
         Ok(())
@@ -96,7 +96,7 @@ impl Pen<'_> {
 
     /// Returns the current stretch, or starts a new one if the last has ended.
     fn begin_stretch(&mut self) -> &mut Stretch {
-        if std::mem::take(&mut self.is_up) {
+        if std::mem::take(&mut self.starts_stretch) {
             self.begin = self.at;
             self.stretches.push(Stretch { points: vec![self.map.point(self.at)], is_closed: false });
         }

@@ -1,6 +1,6 @@
 //! Entities, units, blocks, layers and ends that meet.
 
-use super::{apart, area, drawing, length, near, notes, one, ring, same, wall};
+use super::{area, assert_same_points, distance, drawing, length, near, notes, only_shape, ring, wall};
 use cplan_drawing::{Drawing, Format, Geometry, Point, Settings, Shape, Unit, read};
 use std::f64::consts::PI;
 
@@ -28,11 +28,11 @@ const TOLERANCE: f64 = 1e-4;
 /// Asserts that points lie on a circle, and that the middles of their chords lie near the circle and inside it.
 fn on_circle(points: &[Point], center: Point, radius: f64) {
     for p in points {
-        near(apart(*p, center), radius, 1e-12);
+        near(distance(*p, center), radius, 1e-12);
     }
     for w in points.windows(2) {
         let middle = [(w[0][0] + w[1][0]) / 2.0, (w[0][1] + w[1][1]) / 2.0];
-        let short = radius - apart(middle, center);
+        let short = radius - distance(middle, center);
         assert!((0.0..=TOLERANCE).contains(&short), "a chord is {short} m inside");
     }
 }
@@ -41,7 +41,7 @@ fn on_circle(points: &[Point], center: Point, radius: f64) {
 fn bulges_are_arcs_within_the_tolerance() {
     // A belt 500 long with round ends of radius 60.
     let belt = dxf("0 LWPOLYLINE 8 belt 90 4 70 1 10 150 20 240 10 650 20 240 42 1 10 650 20 360 10 150 20 360 42 1");
-    let shape = one(&belt);
+    let shape = only_shape(&belt);
     assert_eq!((shape.layer.as_deref(), shape.kind.as_str(), shape.line), (Some("belt"), "LWPOLYLINE", Some(28)));
     let ring = ring(shape);
     let exact = 0.5 * 0.12 + PI * 0.06 * 0.06;
@@ -52,7 +52,7 @@ fn bulges_are_arcs_within_the_tolerance() {
     // Inwards: the same arcs to the other side.
     let waist = dxf("0 LWPOLYLINE 8 belt 70 1 10 150 20 240 10 650 20 240 42 -1 10 650 20 360 10 150 20 360 42 -1");
     let exact = 0.5 * 0.12 - PI * 0.06 * 0.06;
-    let given = area(super::ring(one(&waist)));
+    let given = area(super::ring(only_shape(&waist)));
     assert!(given >= exact && given < exact + PI * 0.12 * TOLERANCE, "{given}");
 }
 
@@ -60,31 +60,31 @@ fn bulges_are_arcs_within_the_tolerance() {
 fn arcs_of_any_bulge_pass_where_they_must() {
     for bulge in [-30.0_f64, -1.0, -0.4, -0.01, 1e-7, 0.01, 0.4, 1.0, 3.0] {
         let arc = dxf(&format!("0 LWPOLYLINE 8 0 70 0 10 100 20 50 42 {bulge} 10 -200 20 450"));
-        let points = wall(one(&arc));
-        same(&[points[0], points[points.len() - 1]], &[[0.1, 0.05], [-0.2, 0.45]]);
+        let points = wall(only_shape(&arc));
+        assert_same_points(&[points[0], points[points.len() - 1]], &[[0.1, 0.05], [-0.2, 0.45]]);
         // The arc's middle is `bulge` half chords to the right of the chord; its length follows from its angle.
         let (chord, angle) = (0.5_f64, 4.0 * f64::atan(bulge.abs()));
         let exact = if angle < 1e-4 { chord } else { chord / (2.0 * (angle / 2.0).sin()) * angle };
         assert!(length(points) <= exact + 1e-12 && length(points) > exact * 0.98, "{bulge}: {}", length(points));
         let middle = [-0.05 + bulge * 0.25 * 0.8, 0.25 + bulge * 0.25 * 0.6];
-        let nearest = points.iter().map(|p| apart(*p, middle)).fold(f64::INFINITY, f64::min);
-        let step = points.windows(2).map(|w| apart(w[0], w[1])).fold(0.0, f64::max);
+        let nearest = points.iter().map(|p| distance(*p, middle)).fold(f64::INFINITY, f64::min);
+        let step = points.windows(2).map(|w| distance(w[0], w[1])).fold(0.0, f64::max);
         assert!(nearest <= step / 2.0 + TOLERANCE, "{bulge}: {nearest}");
     }
 }
 
 #[test]
-fn polylines_of_older_programs_are_the_same() {
+fn polylines_of_older_programs_equal_the_newer_form() {
     let new = dxf("0 LWPOLYLINE 8 a 70 1 10 0 20 0 10 100 20 0 42 0.5 10 100 20 100");
     let old = dxf("0 POLYLINE 8 a 66 1 70 1 0 VERTEX 8 a 10 0 20 0 0 VERTEX 10 100 20 0 42 0.5 \
                    0 VERTEX 70 16 10 7 20 7 0 VERTEX 10 100 20 100 0 SEQEND");
-    same(ring(one(&old)), ring(one(&new)));
+    assert_same_points(ring(only_shape(&old)), ring(only_shape(&new)));
     let mesh = dxf("0 POLYLINE 8 a 70 64 0 VERTEX 10 0 20 0 0 SEQEND 0 CIRCLE 8 a 10 0 20 0 40 1");
     assert_eq!(notes(&mesh), ["POLYLINE that is a mesh: left out (line 28)"]);
 }
 
 /// Returns the area of a polygon without its holes, and the number of holes.
-fn covers(shape: &Shape) -> (f64, usize) {
+fn area_and_hole_count(shape: &Shape) -> (f64, usize) {
     let Geometry::Polygon { outer, holes } = &shape.geometry else { panic!("{shape:?}") };
     (area(outer).abs() - holes.iter().map(|hole| area(hole).abs()).sum::<f64>(), holes.len())
 }
@@ -109,7 +109,7 @@ fn a_polyline_of_some_width_covers_it() {
     ] {
         for entity in ["0 LWPOLYLINE 8 a ", "0 LWPOLYLINE 8 a 210 0 220 0 230 -1 "] {
             let given = dxf(&(entity.to_owned() + corners));
-            let (covered, count) = covers(one(&given));
+            let (covered, count) = area_and_hole_count(only_shape(&given));
             assert!((mm2 - missing - 1e-3..=mm2 + missing + 1e-3).contains(&(covered * 1e6)), "{corners}: {covered}");
             assert_eq!(count, holes, "{corners}");
             let output = "closed polylines with a width: read as frames of that width, free inside (line 28)";
@@ -119,27 +119,27 @@ fn a_polyline_of_some_width_covers_it() {
     // Older polylines have a width for all vertices, and one for single vertices. Ends are butt. The mitre of a sharp
     // corner is cut off.
     let old = dxf("0 POLYLINE 8 a 66 1 70 0 40 40 41 40 0 VERTEX 10 0 20 0 41 10 0 VERTEX 10 200 20 0 0 SEQEND");
-    let trapezoid = ring(one(&old));
+    let trapezoid = ring(only_shape(&old));
     assert_eq!(trapezoid.iter().filter(|p| p[0] == 0.0 || p[0] == 0.2).count(), trapezoid.len());
     assert!(trapezoid.contains(&[0.0, 0.02]) && trapezoid.contains(&[0.2, -0.005]), "{trapezoid:?}");
-    near(covers(one(&old)).0, 0.005, 1e-12);
+    near(area_and_hole_count(only_shape(&old)).0, 0.005, 1e-12);
     let sharp = dxf("0 LWPOLYLINE 8 a 70 0 43 20 10 0 20 0 10 200 20 0 10 20 20 20");
-    let farthest = ring(one(&sharp)).iter().map(|p| p[0]).fold(0.0, f64::max);
+    let farthest = ring(only_shape(&sharp)).iter().map(|p| p[0]).fold(0.0, f64::max);
     assert!((0.2..0.2012).contains(&farthest), "{farthest}");
     // A piece without width is still a line.
     let both = dxf("0 LWPOLYLINE 8 a 70 0 10 0 20 0 40 20 41 20 10 200 20 0 10 200 20 100 10 300 20 100");
     assert_eq!(both.shapes.len(), 2);
-    same(wall(&both.shapes[0]), &[[0.2, 0.0], [0.2, 0.1], [0.3, 0.1]]);
-    near(covers(&both.shapes[1]).0, 0.004, 1e-12);
+    assert_same_points(wall(&both.shapes[0]), &[[0.2, 0.0], [0.2, 0.1], [0.3, 0.1]]);
+    near(area_and_hole_count(&both.shapes[1]).0, 0.004, 1e-12);
 }
 
 #[test]
 fn circles_stay_circles_and_ellipses_are_within_the_tolerance() {
     let disc = dxf("0 CIRCLE 8 a 10 30 20 -40 40 25");
-    assert_eq!(one(&disc).geometry, Geometry::Circle { center: [0.03, -0.04], radius: 0.025 });
+    assert_eq!(only_shape(&disc).geometry, Geometry::Circle { center: [0.03, -0.04], radius: 0.025 });
     // Half axes of 100 and 50, the longer one along (3, 4) / 5.
     let ellipse = dxf("0 ELLIPSE 8 a 10 10 20 20 11 60 21 80 40 0.5 41 0 42 6.283185307179586");
-    let ring = ring(one(&ellipse));
+    let ring = ring(only_shape(&ellipse));
     let exact = PI * 0.1 * 0.05;
     assert!(area(ring) < exact && area(ring) > exact - 0.5 * TOLERANCE, "{}", area(ring));
     for p in ring {
@@ -149,18 +149,18 @@ fn circles_stay_circles_and_ellipses_are_within_the_tolerance() {
     }
     // A quarter of it, from the end of the long axis to that of the short.
     let quarter = dxf("0 ELLIPSE 8 a 10 0 20 0 11 60 21 80 40 0.5 41 0 42 1.5707963267948966");
-    let points = wall(one(&quarter));
-    same(&[points[0], points[points.len() - 1]], &[[0.06, 0.08], [-0.04, 0.03]]);
+    let points = wall(only_shape(&quarter));
+    assert_same_points(&[points[0], points[points.len() - 1]], &[[0.06, 0.08], [-0.04, 0.03]]);
 }
 
 #[test]
 fn an_arc_runs_counter_clockwise_and_across_zero() {
     let arc = dxf("0 ARC 8 a 10 100 20 0 40 50 50 350 51 100");
-    let points = wall(one(&arc));
+    let points = wall(only_shape(&arc));
     on_circle(points, [0.1, 0.0], 0.05);
     near(length(points), 0.05 * 110.0_f64.to_radians(), 1e-4);
     let at = |degrees: f64| [0.1 + 0.05 * degrees.to_radians().cos(), 0.05 * degrees.to_radians().sin()];
-    same(&[points[0], points[points.len() - 1]], &[at(350.0), at(100.0)]);
+    assert_same_points(&[points[0], points[points.len() - 1]], &[at(350.0), at(100.0)]);
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn splines_pass_where_their_definition_says() {
     // A Bézier curve: knots only at both ends.
     let curve = dxf("0 SPLINE 8 a 70 8 71 3 72 8 73 4 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1 \
                      10 0 20 0 10 100 20 300 10 200 20 -300 10 300 20 0");
-    let points = wall(one(&curve));
+    let points = wall(only_shape(&curve));
     let bernstein = |t: f64| {
         let s = 1.0 - t;
         [0.3 * (s * s * t + 2.0 * s * t * t + t * t * t), 0.9 * (s * s * t - s * t * t)]
@@ -185,12 +185,12 @@ fn splines_pass_where_their_definition_says() {
     let lens = quarter("10 50 20 0 10 50 20 50 10 0 20 50") + &quarter("10 0 20 50 10 0 20 0 10 50 20 0");
     let lens = dxf(&lens);
     let exact = 2.0 * (PI / 4.0 - 0.5) * 0.05 * 0.05;
-    let given = area(ring(one(&lens)));
+    let given = area(ring(only_shape(&lens)));
     assert!(given <= exact && given > exact - 0.16 * TOLERANCE, "{given} against {exact}");
 }
 
 #[test]
-fn splines_of_fit_points_are_those_of_cad_programs() {
+fn splines_of_fit_points_agree_with_cad_programs() {
     // ezdxf's `fit_points_to_cad_cv`: points in the middle of each piece, and the length, mm.
     let by_ezdxf = [
         ("", [[21.883073, 55.606669], [93.993097, 50.592198], [172.24533, 40.524983]], 305.6862947934623),
@@ -204,7 +204,7 @@ fn splines_of_fit_points_are_those_of_cad_programs() {
         let fit = "11 0 21 0 11 50 21 80 11 50 21 80 11 140 21 20 11 200 21 90";
         let given = dxf(&format!("0 SPLINE 8 a 70 8 71 3 74 5 {directions} {fit}"));
         assert_eq!(notes(&given), [""; 0]);
-        let points = wall(one(&given));
+        let points = wall(only_shape(&given));
         for exact in middles.map(|p: Point| p.map(|x| x / 1000.0)) {
             let off = points.windows(2).map(|w| to_segment(exact, w[0], w[1])).fold(f64::INFINITY, f64::min);
             assert!(off <= TOLERANCE, "{off}");
@@ -217,7 +217,7 @@ fn splines_of_fit_points_are_those_of_cad_programs() {
     // metre. The first point may be given twice.
     for again in ["", "11 500 21 0"] {
         let cross = format!("0 SPLINE 8 a 70 11 71 3 11 500 21 0 11 0 21 500 11 -500 21 0 11 0 21 -500 {again}");
-        let given = area(ring(one(&dxf(&cross))));
+        let given = area(ring(only_shape(&dxf(&cross))));
         let exact = 3.05 * 0.25;
         assert!(given <= exact && given > exact - 3.2 * TOLERANCE, "{given} against {exact}");
     }
@@ -226,7 +226,7 @@ fn splines_of_fit_points_are_those_of_cad_programs() {
 fn to_segment(p: Point, a: Point, b: Point) -> f64 {
     let [u, v] = [[b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]];
     let part = ((u[0] * v[0] + u[1] * v[1]) / (u[0] * u[0] + u[1] * u[1])).clamp(0.0, 1.0);
-    apart(p, [a[0] + part * u[0], a[1] + part * u[1]])
+    distance(p, [a[0] + part * u[0], a[1] + part * u[1]])
 }
 
 #[test]
@@ -235,26 +235,26 @@ fn ends_that_meet_are_joined_two_at_a_time() {
     let d = dxf("0 LINE 8 a 10 0 20 0 11 0 21 100 0 ARC 8 a 10 0 20 50 40 50 50 270 51 360 \
                  0 ARC 8 a 10 0 20 50.05 40 50 50 0 51 90");
     let exact = PI * 0.05 * 0.05 / 2.0;
-    near(area(ring(one(&d))).abs(), exact, 3e-5);
-    assert_eq!(one(&d).kind, "LINE and 2 more that it meets");
+    near(area(ring(only_shape(&d))).abs(), exact, 3e-5);
+    assert_eq!(only_shape(&d).kind, "LINE and 2 more that it meets");
     assert_eq!(notes(&d), ["ends less than 0.0001 m apart: joined (line 28)"]);
     // A piece on another layer is not part of it.
     let d = dxf("0 LINE 8 b 10 0 20 0 11 0 21 100 0 ARC 8 a 10 0 20 50 40 50 50 270 51 90");
     assert_eq!(d.shapes.len(), 2);
     // A wall of two pieces. Where three ends meet, nothing is joined.
     let bend = dxf("0 LINE 8 a 10 0 20 0 11 100 21 0 0 LINE 8 a 10 100 20 100 11 100 21 0");
-    same(wall(one(&bend)), &[[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]]);
+    assert_same_points(wall(only_shape(&bend)), &[[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]]);
     let fork = dxf("0 LINE 8 a 10 0 20 0 11 100 21 0 0 LINE 8 a 10 100 20 100 11 100 21 0 \
                     0 LINE 8 a 10 100 20 0 11 200 21 0 0 LINE 8 a 10 200 20 0 11 300 21 9");
     let lengths: Vec<usize> = fork.shapes.iter().map(|shape| wall(shape).len()).collect();
     assert_eq!(lengths, [2, 2, 3]);
     // The ends are farther apart than the tolerance.
     let open = dxf("0 LWPOLYLINE 8 a 70 0 10 0 20 0 10 100 20 0 10 100 20 100 10 0 20 0.2");
-    assert_eq!(wall(one(&open)).len(), 4);
+    assert_eq!(wall(only_shape(&open)).len(), 4);
     let shut = dxf("0 LWPOLYLINE 8 a 70 0 10 0 20 0 10 100 20 0 10 100 20 100 10 0 20 0.05");
-    same(ring(one(&shut)), &[[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]]);
+    assert_same_points(ring(only_shape(&shut)), &[[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]]);
     // Shorter than the tolerance, and there and back.
-    assert_eq!(wall(one(&dxf("0 LINE 8 a 10 0 20 0 11 0.05 21 0"))).len(), 2);
+    assert_eq!(wall(only_shape(&dxf("0 LINE 8 a 10 0 20 0 11 0.05 21 0"))).len(), 2);
     assert_eq!(dxf("0 LINE 8 a 10 0 20 0 11 9 21 0 0 LINE 8 a 10 9 20 0 11 0 21 0").shapes.len(), 1);
 }
 
@@ -281,12 +281,12 @@ fn blocks_go_where_their_insertions_say() {
     for ((name, layer, points), (expected_name, expected_layer, expected)) in shapes.iter().zip(&expected) {
         assert_eq!(name.map(str::to_lowercase), expected_name.map(str::to_lowercase));
         assert_eq!(layer, expected_layer);
-        same(points, expected);
+        assert_same_points(points, expected);
     }
 }
 
 #[test]
-fn rows_columns_stretching_and_mirrors() {
+fn insertions_repeat_stretch_and_mirror_blocks() {
     let blocks = "0 BLOCK 2 pin 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 10 0 ENDBLK";
     let pins = drawing(&file(blocks, "0 INSERT 8 a 2 pin 10 100 20 0 50 90 70 3 71 2 44 30 45 50"), Format::Dxf);
     let centers: Vec<Point> = pins
@@ -298,33 +298,33 @@ fn rows_columns_stretching_and_mirrors() {
         })
         .collect();
     // Turned by 90 degrees columns go up and rows to the left.
-    same(&centers, &[[0.1, 0.0], [0.1, 0.03], [0.1, 0.06], [0.05, 0.0], [0.05, 0.03], [0.05, 0.06]]);
+    assert_same_points(&centers, &[[0.1, 0.0], [0.1, 0.03], [0.1, 0.06], [0.05, 0.0], [0.05, 0.03], [0.05, 0.06]]);
     let flat = drawing(&file(blocks, "0 INSERT 8 a 2 pin 10 0 20 0 41 3"), Format::Dxf);
-    near(area(ring(one(&flat))), PI * 0.03 * 0.01, 0.13 * TOLERANCE);
+    near(area(ring(only_shape(&flat))), PI * 0.03 * 0.01, 0.13 * TOLERANCE);
     // Seen from below x is mirrored: circles by their centre, arcs by their direction.
     let below = dxf("0 CIRCLE 8 a 10 30 20 5 40 10 210 0 220 0 230 -1 0 ARC 8 b 10 50 20 0 40 20 50 0 51 90 230 -1");
     assert_eq!(below.shapes[0].geometry, Geometry::Circle { center: [-0.03, 0.005], radius: 0.01 });
     let points = wall(&below.shapes[1]);
-    same(&[points[0], points[points.len() - 1]], &[[-0.07, 0.0], [-0.05, 0.02]]);
+    assert_same_points(&[points[0], points[points.len() - 1]], &[[-0.07, 0.0], [-0.05, 0.02]]);
     let tilted = dxf("0 CIRCLE 8 a 10 30 20 5 40 10 210 1 220 0 230 0");
     assert_eq!((tilted.shapes.len(), notes(&tilted)), (0, vec!["CIRCLE across the plane: left out (line 28)".into()]));
 }
 
 #[test]
-fn units_are_the_files_or_the_users() {
+fn units_come_from_the_file_or_the_user() {
     let line = "0 LINE 8 a 10 0 20 0 11 10 21 0";
     for (code, metres) in [(1, 0.254), (2, 3.048), (4, 0.01), (5, 0.1), (6, 10.0), (14, 1.0)] {
         let given = drawing(&sections(&format!("9 $INSUNITS 70 {code}"), "", "", line), Format::Dxf);
-        near(wall(one(&given))[1][0], metres, 1e-15);
+        near(wall(only_shape(&given))[1][0], metres, 1e-15);
     }
     let unsaid = drawing(&sections("9 $ACADVER 1 AC1015", "", "", line), Format::Dxf);
     assert_eq!(notes(&unsaid), ["the drawing does not state its unit: read as mm"]);
     let unknown = drawing(&sections("9 $INSUNITS 70 99", "", "", line), Format::Dxf);
     assert_eq!(notes(&unknown), ["$INSUNITS 99 is not a known unit: read as mm (line 8)"]);
-    near(wall(one(&unknown))[1][0], 0.01, 1e-15);
+    near(wall(only_shape(&unknown))[1][0], 0.01, 1e-15);
     let settings = Settings { unit: Some("in".parse::<Unit>().unwrap()), ..Settings::default() };
     let inches = read(file("", line).as_bytes(), Format::Dxf, &settings).unwrap();
-    near(wall(one(&inches))[1][0], 0.254, 1e-15);
+    near(wall(only_shape(&inches))[1][0], 0.254, 1e-15);
     assert!("feet".parse::<Unit>().unwrap_err().to_string().contains("mm, cm"));
 }
 

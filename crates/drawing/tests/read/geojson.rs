@@ -1,6 +1,6 @@
 //! Tests of features, holes, heights, and refused files.
 
-use super::{area, drawing, notes, one, ring, wall};
+use super::{area, drawing, notes, only_shape, ring, wall};
 use cplan_drawing::{Format, Geometry, Settings, read};
 
 #[test]
@@ -31,7 +31,7 @@ fn features_have_names_holes_and_heights() {
     let small = read(cell.as_bytes(), Format::GeoJson, &settings).unwrap();
     assert_eq!((small.shapes[0].height, wall(&small.shapes[3])[1]), (Some([0.0, 0.002]), [0.04, 0.05]));
     assert_eq!(
-        ring(one(&drawing(r#"{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1]]]}"#, Format::GeoJson))).len(),
+        ring(only_shape(&drawing(r#"{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1]]]}"#, Format::GeoJson))).len(),
         3
     );
 }

@@ -20,7 +20,7 @@ fn a_cut_dxf_is_never_taken_for_the_whole() {
 }
 
 #[test]
-fn broken_dxf_files() {
+fn broken_dxf_files_are_refused_with_their_place() {
     let entity = |text: &str| file("", text);
     let cases = [
         ("".to_owned(), "the file is empty", None),
@@ -49,7 +49,7 @@ fn broken_dxf_files() {
 }
 
 #[test]
-fn blocks_without_end() {
+fn endless_nesting_of_blocks_is_refused() {
     let insert = |name: &str, rest: &str| format!("0 INSERT 8 a 2 {name} 10 0 20 0 {rest} ");
     let own = file(
         &format!("0 BLOCK 2 a {} 0 ENDBLK 0 BLOCK 2 b {} 0 ENDBLK", insert("b", ""), insert("A", "")),
@@ -78,7 +78,7 @@ fn blocks_without_end() {
 }
 
 #[test]
-fn broken_svg_files() {
+fn broken_svg_files_are_refused_with_their_place() {
     let deep = "<g>".repeat(300_000) + &"</g>".repeat(300_000);
     let loops = "<g id='a'><use href='#a'/></g>";
     let doubled: String =
@@ -112,14 +112,14 @@ fn broken_svg_files() {
 }
 
 #[test]
-fn many_lines_that_meet_in_one_place() {
+fn a_hundred_thousand_lines_through_one_point_are_read() {
     let star: String = (1..100_000).map(|k| format!("0 LINE 8 a 10 0 20 0 11 {k} 21 1 ")).collect();
     let drawing = read(file("", &star).as_bytes(), Format::Dxf, &Settings::default()).unwrap();
     assert_eq!(drawing.shapes.len(), 99_999);
 }
 
 #[test]
-fn more_than_anyone_can_use() {
+fn files_with_too_many_points_are_refused() {
     let many: String = "0,0 1,1 ".repeat(MAX_POINTS / 2 + 1);
     let error = refused(&format!("<svg><polygon points='{many}'/></svg>"), Format::Svg);
     assert!(error.message.contains("points"), "{error:?}");

@@ -15,7 +15,7 @@ pub fn drawing(text: &str, format: Format) -> Drawing {
 }
 
 /// Returns the only shape.
-pub fn one(drawing: &Drawing) -> &Shape {
+pub fn only_shape(drawing: &Drawing) -> &Shape {
     let [shape] = &drawing.shapes[..] else { panic!("{drawing:?}") };
     shape
 }
@@ -42,11 +42,11 @@ pub fn area(ring: &[Point]) -> f64 {
 
 /// Returns the length of a polyline.
 pub fn length(points: &[Point]) -> f64 {
-    points.windows(2).map(|w| apart(w[0], w[1])).sum()
+    points.windows(2).map(|w| distance(w[0], w[1])).sum()
 }
 
 /// Returns the distance of two points.
-pub fn apart(p: Point, q: Point) -> f64 {
+pub fn distance(p: Point, q: Point) -> f64 {
     (p[0] - q[0]).hypot(p[1] - q[1])
 }
 
@@ -58,10 +58,10 @@ pub fn near(a: f64, b: f64, within: f64) {
 
 /// Asserts that points are equal up to rounding.
 #[track_caller]
-pub fn same(given: &[Point], expected: &[Point]) {
+pub fn assert_same_points(given: &[Point], expected: &[Point]) {
     assert_eq!(given.len(), expected.len(), "{given:?} against {expected:?}");
     for (p, q) in given.iter().zip(expected) {
-        assert!(apart(*p, *q) < 1e-12, "{given:?} against {expected:?}");
+        assert!(distance(*p, *q) < 1e-12, "{given:?} against {expected:?}");
     }
 }
 

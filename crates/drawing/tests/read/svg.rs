@@ -1,6 +1,6 @@
 //! Tests of elements, transforms, sizes, styles and fill rules.
 
-use super::{apart, area, drawing, length, near, notes, one, ring, same, wall};
+use super::{area, assert_same_points, distance, drawing, length, near, notes, only_shape, ring, wall};
 use cplan_drawing::{Drawing, FillRule, Format, Geometry, Point, Settings, filled, read};
 use std::f64::consts::PI;
 
@@ -13,7 +13,7 @@ fn svg(elements: &str) -> Drawing {
 }
 
 /// Converts the page's millimetres, downwards, to metres, upwards.
-fn up(points: &[Point]) -> Vec<Point> {
+fn in_metres(points: &[Point]) -> Vec<Point> {
     points.iter().map(|[x, y]| [x / 1000.0, 1.0 - y / 1000.0]).collect()
 }
 
@@ -24,23 +24,23 @@ fn basic_shapes_are_where_they_are_drawn() {
     let all = svg("<rect id='r' x='10' y='20' width='100' height='50'/><polygon points='0,0 10,0 10,10'/>\
                    <line x1='0' y1='1' x2='20' y2='1'/><polyline fill='none' points='0,0 5,5 9,0'/>\
                    <circle cx='100' cy='100' r='30'/>");
-    same(ring(&all.shapes[0]), &up(&[[10.0, 20.0], [110.0, 20.0], [110.0, 70.0], [10.0, 70.0]]));
-    same(ring(&all.shapes[1]), &up(&[[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]]));
-    same(wall(&all.shapes[2]), &up(&[[0.0, 1.0], [20.0, 1.0]]));
-    same(wall(&all.shapes[3]), &up(&[[0.0, 0.0], [5.0, 5.0], [9.0, 0.0]]));
+    assert_same_points(ring(&all.shapes[0]), &in_metres(&[[10.0, 20.0], [110.0, 20.0], [110.0, 70.0], [10.0, 70.0]]));
+    assert_same_points(ring(&all.shapes[1]), &in_metres(&[[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]]));
+    assert_same_points(wall(&all.shapes[2]), &in_metres(&[[0.0, 1.0], [20.0, 1.0]]));
+    assert_same_points(wall(&all.shapes[3]), &in_metres(&[[0.0, 0.0], [5.0, 5.0], [9.0, 0.0]]));
     let Geometry::Circle { center, radius } = all.shapes[4].geometry else { panic!("{all:?}") };
-    same(&[center], &up(&[[100.0, 100.0]]));
+    assert_same_points(&[center], &in_metres(&[[100.0, 100.0]]));
     near(radius, 0.03, 1e-15);
     assert_eq!(all.shapes[0].name.as_deref(), Some("r"));
     assert_eq!(notes(&all), [""; 0]);
     let ellipse = svg("<ellipse cx='500' cy='500' rx='300' ry='100'/>");
-    near(area(ring(one(&ellipse))).abs(), PI * 0.3 * 0.1, 1.4 * TOLERANCE);
+    near(area(ring(only_shape(&ellipse))).abs(), PI * 0.3 * 0.1, 1.4 * TOLERANCE);
     let rounded = svg("<rect width='200' height='100' rx='20'/>");
-    near(area(ring(one(&rounded))).abs(), 0.02 - (4.0 - PI) * 0.02 * 0.02, 0.13 * TOLERANCE);
+    near(area(ring(only_shape(&rounded))).abs(), 0.02 - (4.0 - PI) * 0.02 * 0.02, 0.13 * TOLERANCE);
 }
 
 #[test]
-fn every_command_of_paths() {
+fn every_path_command_is_drawn() {
     // Lines of all kinds, absolute and relative, twice closed.
     let lines = svg("<path d='M10 10 h20 v20 l-20 0 z m100,0 H130 V 30 L110 30Z'/>");
     let rings: Vec<_> = lines.shapes.iter().map(ring).collect();
@@ -48,28 +48,28 @@ fn every_command_of_paths() {
     // A circle by two arcs, and by one with flags written together.
     for d in ["M100 200a100 100 0 1 0 200 0a100 100 0 1 0-200 0", "M200 100A100 100 0 11199.9999 100z"] {
         let circle = svg(&format!("<path d='{d}'/>"));
-        let given = area(ring(one(&circle))).abs();
+        let given = area(ring(only_shape(&circle))).abs();
         assert!(given < PI * 0.01 && given > PI * 0.01 - 0.63 * TOLERANCE, "{d}: {given}");
-        for p in ring(one(&circle)) {
-            near(apart(*p, [0.2, 0.8]), 0.1, 1e-6);
+        for p in ring(only_shape(&circle)) {
+            near(distance(*p, [0.2, 0.8]), 0.1, 1e-6);
         }
     }
     // An arc of a rotated ellipse: its ends are given, and its points fit the equation.
     let arc = svg("<path fill='none' d='M500 400 A 200 100 30 0 1 600 300'/>");
-    let points = wall(one(&arc));
-    same(&[points[0], points[points.len() - 1]], &up(&[[500.0, 400.0], [600.0, 300.0]]));
+    let points = wall(only_shape(&arc));
+    assert_same_points(&[points[0], points[points.len() - 1]], &in_metres(&[[500.0, 400.0], [600.0, 300.0]]));
     assert!(length(points) > 0.1 * 2.0_f64.sqrt() && points.len() > 5);
     // The area below a parabola by a quadratic curve is two thirds of its box; the smooth ones repeat it upside down.
     let parabola = svg("<path d='M0 100 Q 100 -100 200 100 z'/>");
-    let given = area(ring(one(&parabola))).abs();
+    let given = area(ring(only_shape(&parabola))).abs();
     assert!(given <= 0.02 * 2.0 / 3.0 && given > 0.02 * 2.0 / 3.0 - 0.3 * TOLERANCE, "{given}");
     let waves = [
         "M0 100 Q 100 -100 200 100 T 400 100",
         "M0 100 C 66.66666666666667 -33.333333333333336 \
                  133.33333333333334 -33.333333333333336 200 100 s 133.33333333333334 133.33333333333334 200 0",
     ];
-    let [q, c] = waves.map(|d| wall(one(&svg(&format!("<path fill='none' d='{d}'/>")))).to_vec());
-    same(&q, &c);
+    let [q, c] = waves.map(|d| wall(only_shape(&svg(&format!("<path fill='none' d='{d}'/>")))).to_vec());
+    assert_same_points(&q, &c);
     near(q.iter().map(|p| p[1]).fold(f64::INFINITY, f64::min), 0.8, 1e-6);
 }
 
@@ -79,18 +79,18 @@ fn transforms_are_applied_in_their_order() {
                       <polygon transform='matrix(1 0 0 1 5 7)' points='0,0 10,0 10,10'/></g></g>");
     // By hand: moved by (5, 7), stretched, turned (y downwards: (x, y) -> (-y, x)), moved.
     let by_hand = |[x, y]: Point| [100.0 - 3.0 * (y + 7.0), 50.0 + 2.0 * (x + 5.0)];
-    same(ring(one(&nested)), &up(&[[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]].map(by_hand)));
+    assert_same_points(ring(only_shape(&nested)), &in_metres(&[[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]].map(by_hand)));
     let skewed = svg("<circle transform='skewX(45)' r='10' cx='100' cy='0'/>");
-    near(area(ring(one(&skewed))).abs(), PI * 1e-4, 0.08 * TOLERANCE);
+    near(area(ring(only_shape(&skewed))).abs(), PI * 1e-4, 0.08 * TOLERANCE);
     let mirrored = svg("<circle transform='translate(200) scale(-2 2)' r='10' cx='50'/>");
-    assert!(matches!(one(&mirrored).geometry, Geometry::Circle { radius, .. } if (radius - 0.02).abs() < 1e-15));
+    assert!(matches!(only_shape(&mirrored).geometry, Geometry::Circle { radius, .. } if (radius - 0.02).abs() < 1e-15));
 }
 
 #[test]
 fn page_size_and_view_box_give_the_scale() {
     let side = |head: &str| {
         let given = drawing(&format!("<svg {head}><rect width='96' height='48'/></svg>"), Format::Svg);
-        let ring = ring(one(&given)).clone();
+        let ring = ring(only_shape(&given)).clone();
         ([ring[1][0] - ring[0][0], ring[0][1] - ring[3][1], ring[3][1]], notes(&given))
     };
     let unsaid = vec!["the drawing does not state its size: read as px, 96 to an inch".to_owned()];
@@ -117,13 +117,13 @@ fn page_size_and_view_box_give_the_scale() {
     let settings = Settings { unit: Some("cm".parse().unwrap()), ..Settings::default() };
     let text = "<svg width='96mm' viewBox='0 0 10 10'><rect width='4' height='1'/></svg>";
     let given = read(text.as_bytes(), Format::Svg, &settings).unwrap();
-    same(ring(one(&given)), &[[0.0, 0.1], [0.04, 0.1], [0.04, 0.09], [0.0, 0.09]]);
+    assert_same_points(ring(only_shape(&given)), &[[0.0, 0.1], [0.04, 0.1], [0.04, 0.09], [0.0, 0.09]]);
 }
 
 #[test]
 fn filling_makes_holes_and_closes() {
     let frame = "M0 0H100V100H0Z M20 20H80V80H20Z";
-    let holes = |given: &Drawing| match &one(given).geometry {
+    let holes = |given: &Drawing| match &only_shape(given).geometry {
         Geometry::Polygon { outer, holes } => (area(outer).abs(), holes.iter().map(|h| area(h).abs()).sum::<f64>()),
         other => panic!("{other:?}"),
     };
@@ -138,17 +138,17 @@ fn filling_makes_holes_and_closes() {
     near(inner, 0.0036, 1e-9);
     let open = "<path d='M0 0H100V100'/>";
     assert_eq!(notes(&svg(open)), ["open outlines that are filled: closed as SVG fills them (line 1)"]);
-    assert_eq!(ring(one(&svg(open))).len(), 3);
+    assert_eq!(ring(only_shape(&svg(open))).len(), 3);
     for style in ["fill='none'", "style='fill:none'", "class='thin'"] {
         let given = svg(&format!(
             "<style>.thin {{ stroke: red; fill: none }}</style>{}",
             open.replace("/>", &format!(" {style}/>"))
         ));
-        assert_eq!(wall(one(&given)).len(), 3, "{style}");
+        assert_eq!(wall(only_shape(&given)).len(), 3, "{style}");
     }
     // A path whose ends almost meet is closed.
     let nearly = svg("<path fill='none' d='M0 0H100V100L0.05 0'/>");
-    assert_eq!((ring(one(&nearly)).len(), notes(&nearly).len()), (3, 1));
+    assert_eq!((ring(only_shape(&nearly)).len(), notes(&nearly).len()), (3, 1));
     // An outline that crosses itself covers the region of its fill rule.
     let star: Vec<Point> = (0..5).map(|k| (4.0 * PI * f64::from(k) / 5.0).sin_cos().into()).collect();
     let sums = [FillRule::NonZero, FillRule::EvenOdd]
@@ -159,7 +159,7 @@ fn filling_makes_holes_and_closes() {
 }
 
 #[test]
-fn names_layers_uses_and_hidden_elements() {
+fn names_layers_uses_and_hidden_elements_are_respected() {
     let given = svg(
         "<defs><rect id='tile' width='10' height='20'/><symbol id='s' viewBox='0 0 2 2'><circle id='dot' cx='1' cy='1' r='1'/></symbol></defs>\
         <g inkscape:groupmode='layer' inkscape:label='walls' id='layer1'>\
@@ -176,9 +176,9 @@ fn names_layers_uses_and_hidden_elements() {
         (Some("lamp"), Some("fixtures")),
     ];
     assert_eq!(named, expected);
-    same(ring(&given.shapes[2]), &up(&[[100.0, 0.0], [110.0, 0.0], [110.0, 20.0], [100.0, 20.0]]));
+    assert_same_points(ring(&given.shapes[2]), &in_metres(&[[100.0, 0.0], [110.0, 0.0], [110.0, 20.0], [100.0, 20.0]]));
     let Geometry::Circle { center, radius } = given.shapes[3].geometry else { panic!() };
-    same(&[center], &up(&[[510.0, 510.0]]));
+    assert_same_points(&[center], &in_metres(&[[510.0, 510.0]]));
     near(radius, 0.01, 1e-15);
     let output: Vec<String> = notes(&given).iter().map(|note| note.replace(" (line 1)", "")).collect();
     let expected = [

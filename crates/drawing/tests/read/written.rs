@@ -1,6 +1,6 @@
 //! Tests that written files are read back unchanged, and that no input causes a panic.
 
-use super::{drawing, dxf::file, one, ring, wall};
+use super::{drawing, dxf::file, only_shape, ring, wall};
 use cplan_drawing::{Format, Point, Settings, Unit, read};
 use proptest::prelude::*;
 
@@ -24,19 +24,19 @@ proptest! {
             .map(|(p, q)| format!("0 LINE 8 a 10 {} 20 {} 11 {} 21 {} ", p[0], p[1], q[0], q[1])).collect();
         for entities in [format!("0 LWPOLYLINE 8 a 70 1 {closed}"), lines] {
             let given = read(file("", &entities).as_bytes(), Format::Dxf, &metres).unwrap();
-            prop_assert_eq!(ring(one(&given)), &corners);
+            prop_assert_eq!(ring(only_shape(&given)), &corners);
         }
         let json = format!("{{\"type\":\"Polygon\",\"coordinates\":[[[{}],[{}]]]}}", pairs(",").join("],["), pairs(",")[0]);
         let given = drawing(&json, Format::GeoJson);
-        prop_assert_eq!(ring(one(&given)), &corners);
+        prop_assert_eq!(ring(only_shape(&given)), &corners);
         let svg = format!("<svg><g transform='scale(1 -1)'><path d='M{}z'/></g></svg>", pairs(" ").join("L"));
         let given = read(svg.as_bytes(), Format::Svg, &metres).unwrap();
-        prop_assert_eq!(ring(one(&given)), &corners);
+        prop_assert_eq!(ring(only_shape(&given)), &corners);
     }
 
     /// Compares the elliptical arcs of paths with those of the library kurbo: the ellipse and the angle.
     #[test]
-    fn arcs_are_those_of_another_library(
+    fn arcs_agree_with_another_library(
         from in (0.0..500.0, 0.0..500.0), to in (0.0..500.0, 0.0..500.0), radii in (5.0..400.0, 5.0..400.0),
         degrees in -180.0..180.0, large in any::<bool>(), sweep in any::<bool>(),
     ) {
@@ -45,7 +45,7 @@ proptest! {
         let metres = Settings { unit: Some(Unit::METER), tolerance: 0.01, ..Settings::default() };
         let svg = format!("<svg><path fill='none' transform='scale(1 -1)' d='{d}'/></svg>");
         let given = read(svg.as_bytes(), Format::Svg, &metres).unwrap();
-        let points = wall(one(&given));
+        let points = wall(only_shape(&given));
         let arc = kurbo::SvgArc {
             from: from.into(), to: to.into(), radii: radii.into(), x_rotation: f64::to_radians(degrees), large_arc: large, sweep,
         };

@@ -53,7 +53,7 @@ pub(super) struct PathLimits<'a> {
     pub start: Configuration,
     pub goals: &'a [Configuration],
     /// Greatest distance from a goal at which a path may end, as a fraction of the limit.
-    pub robot_members: f64,
+    pub goal_tolerance: f64,
     /// Length of the longest paths that are considered.
     pub limit: f64,
 }
@@ -101,10 +101,10 @@ impl LeastLength {
     pub(super) fn new(limits: &PathLimits, walls: Vec<ClosedSegment>) -> Option<Self> {
         let mut plane = Plane::new(limits, &walls);
         let (length, reached) = plane.lengths()?;
-        let length = length - limits.less();
+        let length = length - limits.leg_reduction();
         // With fewer walls there are fewer ends from which paths extend, so that still fewer walls are needed.
         for _ in 0..PRUNING_ROUNDS {
-            let needed = plane.needed(length, &reached);
+            let needed = plane.needed_walls(length, &reached);
             plane.copies.retain(|copy| needed.contains(&copy.wall));
             plane.runs = runs(&plane.copies, &walls);
             plane.corners.retain(|corner| needed.contains(&corner.wall));
@@ -122,19 +122,19 @@ impl LeastLength {
 
 impl PathLimits<'_> {
     /// Returns the length by which every leg is reduced in addition to [`LEG_ROUNDING`].
-    fn less(&self) -> f64 {
+    fn leg_reduction(&self) -> f64 {
         TOTAL_ROUNDING * self.limit
     }
 
     /// Returns the length of a leg, reduced as in the evidence.
     fn leg(&self, from: Configuration, to: Configuration) -> f64 {
-        (self.metric.norm(to - from) * (1.0 - LEG_ROUNDING) - self.less()).max(0.0)
+        (self.metric.norm(to - from) * (1.0 - LEG_ROUNDING) - self.leg_reduction()).max(0.0)
     }
 
     /// Returns a lower bound on the length from a configuration to a goal. `displacement` is the difference between the
     /// two.
     fn to_goal(&self, displacement: Configuration) -> f64 {
-        (self.metric.norm(displacement) - self.robot_members * self.limit).max(0.0)
+        (self.metric.norm(displacement) - self.goal_tolerance * self.limit).max(0.0)
     }
 
     /// Returns numbers of whole turns of a joint. With each of them, the range from `low` to `high` is moved to values
@@ -197,7 +197,7 @@ impl<'a> Plane<'a> {
                 };
                 let rest = goals.iter().map(|goal| limits.to_goal(goal - at)).fold(f64::INFINITY, f64::min);
                 let line = (value[0].to_bits(), copy.turns[0]);
-                let is_within = runs.get(&line).is_some_and(|runs| runs.iter().any(|run| run.holds(at[1])));
+                let is_within = runs.get(&line).is_some_and(|runs| runs.iter().any(|run| run.contains(at[1])));
                 if !is_outside(0)
                     && !is_outside(1)
                     && !is_within
@@ -221,7 +221,7 @@ impl<'a> Plane<'a> {
         for _ in 0..MAX_EXTENDED_ENDS {
             if let Some(from) = next {
                 for goal in &self.goals {
-                    let leg = self.limits.leg(from.at, *goal) - self.limits.robot_members * self.limits.limit;
+                    let leg = self.limits.leg(from.at, *goal) - self.limits.goal_tolerance * self.limits.limit;
                     let length = from.potential + leg.max(0.0);
                     if length < best && !self.is_barred(from.at, from.line, *goal, None) {
                         best = length;
@@ -255,12 +255,12 @@ impl<'a> Plane<'a> {
     /// corner is shorter than `length`.
     fn potential(&self, length: f64, reached: &ReachedEnds, corner: &Corner) -> Option<f64> {
         let potential = *reached.get(&(corner.wall, corner.end, corner.turns))?;
-        (potential + corner.rest < length - self.limits.less() / 4.0).then_some(potential)
+        (potential + corner.rest < length - self.limits.leg_reduction() / 4.0).then_some(potential)
     }
 
     /// Returns the walls that are needed for the evidence. A wall is needed if it bars a leg that would make potentials
     /// too small. Walls that contain an end of a needed wall are needed as well.
-    fn needed(&self, length: f64, reached: &ReachedEnds) -> BTreeSet<usize> {
+    fn needed_walls(&self, length: f64, reached: &ReachedEnds) -> BTreeSet<usize> {
         let known = |corner: &Corner| {
             let potential = self.potential(length, reached, corner)?;
             Some(Source { at: corner.at, line: Some(corner.line), potential })
@@ -268,7 +268,7 @@ impl<'a> Plane<'a> {
         let start = self.start();
         let mut needed = BTreeSet::new();
         for from in self.corners.iter().filter_map(known).chain([start]) {
-            let grows = |leg: f64, potential: f64| from.potential + leg < potential + self.limits.less() / 4.0;
+            let grows = |leg: f64, potential: f64| from.potential + leg < potential + self.limits.leg_reduction() / 4.0;
             for goal in self.goals.iter().filter(|goal| grows(self.limits.to_goal(**goal - from.at), length)) {
                 self.bar(from, *goal, None, &mut needed);
             }
@@ -306,7 +306,7 @@ impl<'a> Plane<'a> {
         }
         if let Some(wall) = first {
             needed.insert(wall);
-        } else if let Some((run, beside)) = self.barred_along(from.at, from.line, to, line) {
+        } else if let Some((run, beside)) = self.barring_run(from.at, from.line, to, line) {
             needed.extend(beside);
             needed.extend(&run.walls);
         }
@@ -314,7 +314,7 @@ impl<'a> Plane<'a> {
 
     fn is_barred(&self, from: Configuration, line: Option<Line>, to: Configuration, other: Option<Line>) -> bool {
         self.near(from, to).any(|copy| crosses(&copy.ends, from, to))
-            || self.barred_along(from, line, to, other).is_some()
+            || self.barring_run(from, line, to, other).is_some()
     }
 
     /// Iterates over the walls that a leg may cross. Those near the leg's beginning come first.
@@ -328,7 +328,7 @@ impl<'a> Plane<'a> {
 
     /// Returns the run of walls that bars a leg along its line, with one wall on each side that ends there. With these
     /// two walls, the leg cannot pass the run on either side.
-    fn barred_along(
+    fn barring_run(
         &self,
         from: Configuration,
         line: Option<Line>,
@@ -353,7 +353,7 @@ impl WallCopy {
 
 impl WallRun {
     /// Returns true if a value of joint 2 is in the run, by more than rounding.
-    fn holds(&self, q2: f64) -> bool {
+    fn contains(&self, q2: f64) -> bool {
         let hair = WALL_END_MARGIN * (self.ends[1] - self.ends[0]);
         self.ends[0] + hair < q2 && q2 < self.ends[1] - hair
     }
@@ -392,7 +392,7 @@ fn runs(copies: &[WallCopy], walls: &[ClosedSegment]) -> BTreeMap<Line, Vec<Wall
         }
         for (line, [at, other]) in lines.into_iter().zip([copy.ends, [copy.ends[1], copy.ends[0]]]) {
             let list = runs.get_mut(&line);
-            if let Some(run) = list.and_then(|list| list.iter_mut().find(|run| run.holds(at[1]))) {
+            if let Some(run) = list.and_then(|list| list.iter_mut().find(|run| run.contains(at[1]))) {
                 run.beside[usize::from(at[0] < other[0])].push((at[1], copy.wall));
             }
         }

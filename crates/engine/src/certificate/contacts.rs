@@ -28,7 +28,7 @@ pub(super) struct Contacts<'a> {
 }
 
 /// Returns the index of an entry in a list. Appends the entry if it is missing.
-fn numbered(list: &mut Vec<Value>, entry: Value) -> usize {
+fn index_of_entry(list: &mut Vec<Value>, entry: Value) -> usize {
     list.iter().position(|known| *known == entry).unwrap_or_else(|| {
         list.push(entry);
         list.len() - 1
@@ -50,8 +50,10 @@ impl<'a> Contacts<'a> {
     pub fn numbers(&mut self, pair: Pair) -> (usize, usize) {
         let Self { scene, shapes, parts, .. } = self;
         let Pair { link, part, obstacle, piece } = pair;
-        let shape = self.shape_numbers.entry((link, part)).or_insert_with(|| numbered(shapes, shape(scene, pair)));
-        let part = self.part_numbers.entry((obstacle, piece)).or_insert_with(|| numbered(parts, part_of(scene, pair)));
+        let shape =
+            self.shape_numbers.entry((link, part)).or_insert_with(|| index_of_entry(shapes, shape(scene, pair)));
+        let part =
+            self.part_numbers.entry((obstacle, piece)).or_insert_with(|| index_of_entry(parts, part_of(scene, pair)));
         (*shape, *part)
     }
 

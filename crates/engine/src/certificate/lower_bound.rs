@@ -2,7 +2,7 @@
 
 use super::bound::{LeastLength, PathLimits, Potential};
 use super::contacts::Contacts;
-use super::{Evidence, infeasible_members, inward, lines};
+use super::{Evidence, blocked_solutions, inward, lines};
 use cplan_core::check::CollisionBox;
 use cplan_core::model::{Arm, MotionProblem, inverse};
 use cplan_core::space::{Configuration, Metric, Segment};
@@ -43,7 +43,7 @@ impl LowerBound {
             metric: stated.metric,
             start: topology.wrap(problem.start()),
             goals: &goals,
-            robot_members: if to.is_some() { 0.0 } else { GOAL_TOLERANCE },
+            goal_tolerance: if to.is_some() { 0.0 } else { GOAL_TOLERANCE },
             limit: stated.upper,
         };
         let (evidence, clearance) = (stated.evidence(problem), scene.workspace().clearance);
@@ -118,10 +118,10 @@ impl Ends {
         let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
         // The checker divides ranges into equal parts, which all solutions share, including those on other turns.
         let least = MIN_SEPARATION * solved.solutions(arm).len().max(1) as f64;
-        if solved.free.is_some() || solved.branches.iter().any(|q| tells_apart(arm, *q) <= least) {
+        if solved.free.is_some() || solved.branches.iter().any(|q| manipulability(arm, *q) <= least) {
             return None;
         }
-        let (boxes, left) = infeasible_members(problem);
+        let (boxes, left) = blocked_solutions(problem);
         Some(Self { to: None, goals: [goals, left].concat(), boxes })
     }
 }
@@ -130,14 +130,14 @@ impl Ends {
 /// checker computes the goal configurations itself, to 10^-12 of the joints' ranges.
 const GOAL_TOLERANCE: f64 = 1e-6;
 
-/// Least value of [`tells_apart`] for goals of a certificate. Below it, a checker cannot separate the configurations
+/// Least value of [`manipulability`] for goals of a certificate. Below it, a checker cannot separate the configurations
 /// that have one place of the tip from their neighbours. The checker divides both joints' ranges into equal parts.
 const MIN_SEPARATION: f64 = 0.012;
 
 /// Returns a measure of how well the joints control the tip, from 0 to 1/4. It is the area spanned by the two
 /// directions in which the joints move the tip, divided by the square of the sum of their lengths. It is zero if the
 /// arm is stretched or folded.
-fn tells_apart(arm: &Arm, q: Configuration) -> f64 {
+fn manipulability(arm: &Arm, q: Configuration) -> f64 {
     const DERIVATIVE_STEP: f64 = 1e-6;
     let ranges = arm.topology().ranges;
     let moved = |k: usize| {

@@ -78,7 +78,7 @@ fn certificate_of_motion(
             ("found", evidence)
         }
         Outcome::Infeasible(proof) => {
-            let stuck = [proof.collision_boxes(), &infeasible_members(problem).0].concat();
+            let stuck = [proof.collision_boxes(), &blocked_solutions(problem).0].concat();
             ("infeasible", vec![contacts.boxes(&stuck)])
         }
         Outcome::Unknown(_) => return Err(NoCertificate::Answer(Status::Unknown)),
@@ -165,7 +165,7 @@ const MAX_HALVINGS: u32 = 12;
 /// Returns boxes around the IK solutions that are not free, and therefore are no goals. A checker knows only the place
 /// of the tip; without the boxes, it would count these solutions as goals. Also returns the middles of curves of
 /// solutions for which no box was found.
-fn infeasible_members(problem: &MotionProblem) -> (Vec<CollisionBox>, Vec<Configuration>) {
+fn blocked_solutions(problem: &MotionProblem) -> (Vec<CollisionBox>, Vec<Configuration>) {
     let (scene, goals) = (problem.scene(), problem.goals());
     let (arm, topology) = (scene.arm(), scene.arm().topology());
     let Some(goal) = goals.pieces().first() else { return (vec![], vec![]) };

@@ -17,9 +17,9 @@ pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, Str
     let Trajectory { time, position, velocity, acceleration, torque: _ } = trajectory;
     let position = &written_inward(&arm.topology(), position);
     if is_smooth {
-        played(&["cubic"], time, &[position, velocity])
+        motion_member(&["cubic"], time, &[position, velocity])
     } else {
-        played(&["cubic", "quartic"], time, &[position, velocity, acceleration])
+        motion_member(&["cubic", "quartic"], time, &[position, velocity, acceleration])
     }
 }
 
@@ -37,7 +37,7 @@ pub fn recorded(
     (asked, files): (&Overrides, &Digests),
     ends: [Option<Goal>; 2],
 ) -> Result<String, NoCertificate> {
-    if recording.times().is_none() && !scene.loose().is_empty() {
+    if recording.times().is_none() && !scene.loose_obstacles().is_empty() {
         return Err(NoCertificate::Untimed);
     }
     steps.map_or(Ok(()), |(task, _)| checkable(task))?;
@@ -68,7 +68,7 @@ pub fn recorded(
         Interpolation::Quintic => ("quintic", 3),
     };
     let all = [&positions, &velocities, &accelerations];
-    let motion = played(&[reading], recording.times().unwrap_or(&counted), &all[..columns]);
+    let motion = motion_member(&[reading], recording.times().unwrap_or(&counted), &all[..columns]);
     Ok(written("found", members, [motion].into_iter().chain(steps.map(|(_, steps)| steps_of_recording(steps)))))
 }
 
@@ -79,7 +79,7 @@ fn written_inward(topology: &Topology, positions: &[[f64; 2]]) -> Vec<[f64; 2]> 
 
 /// Returns the motion as a member of the certificate's JSON. It consists of knots, each with a time and the values of
 /// the columns at that time. `readings` are the names of the interpolations.
-fn played(readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> (&'static str, String) {
+fn motion_member(readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> (&'static str, String) {
     let knot =
         |k: usize| json!([times[k]].into_iter().chain(columns.iter().flat_map(|rows| rows[k])).collect::<Vec<f64>>());
     let knots: Vec<Value> = (0..times.len()).map(knot).collect();

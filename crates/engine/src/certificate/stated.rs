@@ -2,7 +2,7 @@
 
 use super::contacts::Contacts;
 use super::lower_bound::LowerBound;
-use super::{infeasible_members, members, robot_members, written};
+use super::{blocked_solutions, members, robot_members, written};
 use cplan_core::check::CollisionBox;
 use cplan_core::model::MotionProblem;
 use cplan_solver::Bound;
@@ -37,7 +37,7 @@ pub fn certificate_of_boxes(
         return Err(odd);
     }
     let mut contacts = Contacts::new(scene);
-    let boxes = contacts.boxes(&[stuck, &infeasible_members(problem).0].concat());
+    let boxes = contacts.boxes(&[stuck, &blocked_solutions(problem).0].concat());
     let members = [robot_members(None, scene.arm()), members(problem, asked)].concat();
     Ok(written("infeasible", members, contacts.named().into_iter().chain([boxes])))
 }

@@ -35,7 +35,7 @@ fn done(step: usize, knots: [usize; 2], turn: Option<f64>) -> Value {
 }
 
 /// Returns the indices of the objects that rest on supports when a step picks or places them.
-fn pressed(task: &Task) -> BTreeSet<usize> {
+fn pressed_objects(task: &Task) -> BTreeSet<usize> {
     let mut picked = None;
     let rests = |step: &Step| {
         picked = step.action.picked().or(picked);
@@ -52,7 +52,7 @@ fn pressed(task: &Task) -> BTreeSet<usize> {
 /// [`NoCertificate::Outline`].
 pub(super) fn checkable(task: &Task) -> Result<(), NoCertificate> {
     let allowance = Payload::penetration_allowance(&task.arm);
-    for object in pressed(task) {
+    for object in pressed_objects(task) {
         let Object { name, pieces, .. } = &task.objects[object];
         if !can_inset_union(pieces, allowance) {
             return Err(NoCertificate::Outline(name.clone()));

@@ -33,7 +33,7 @@ pub fn verify(
     let LoadedRecording { recording, held, steps, claims, has_torques: _, notes: read } = recorded;
     let nothing = Claims::default();
     let claims = claims.as_ref().unwrap_or(&nothing);
-    let turns = turns(&loaded.scene, recording);
+    let turns = describe_jumps(&loaded.scene, recording);
     let assumed = recording.times().map(|_| loaded.robot.assumptions(loaded.scene.arm())).unwrap_or_default();
     let notes = loaded.world.notes.iter().chain(read).cloned().chain(turns).chain(assumed).collect();
     let findings = match steps {
@@ -71,7 +71,7 @@ fn judge_motion(
         }
         (false, false) => "start and goal of the motion are not judged".into(),
     });
-    let has_moving_obstacles = !loaded.courses.is_empty();
+    let has_moving_obstacles = !loaded.trajectories.is_empty();
     if has_moving_obstacles {
         notes.push("obstacles move on the recording's clock, from its first sample on".into());
     }
@@ -94,8 +94,8 @@ fn judge_motion(
     let findings = MotionFindings::new(scene, recording, &collision_check, broken, notes);
     let misses = endpoint_errors(scene.arm(), recording, start, &goals);
     let false_claims = false_claims(loaded.timed(), recording, claims, &collision_check);
-    let findings = findings.but(Judgement::Undecided, untold.into_iter().flatten().collect());
-    Ok(findings.but(Judgement::Ends, misses).but(Judgement::Claims, false_claims))
+    let findings = findings.with_faults(Judgement::Undecided, untold.into_iter().flatten().collect());
+    Ok(findings.with_faults(Judgement::Ends, misses).with_faults(Judgement::Claims, false_claims))
 }
 
 /// Judges the recording as the world's task.
@@ -115,11 +115,11 @@ fn judge_task(
             .into(),
     );
     let replay = replay(&task, recording, steps);
-    Ok(task::judged(&task, &scene, &loaded.robot.assumed, (recording, steps), replay, claims, notes))
+    Ok(task::judge_steps(&task, &scene, &loaded.robot.assumed, (recording, steps), replay, claims, notes))
 }
 
 /// Describes steps between samples that look like jumps because angles were wrapped. `None` if there are none.
-fn turns(scene: &Scene, recording: &Recording) -> Option<String> {
+fn describe_jumps(scene: &Scene, recording: &Recording) -> Option<String> {
     let turns = recording.turns(&scene.arm().topology());
     let &(sample, k) = turns.first()?;
     let joint = &scene.arm().joints[k];
@@ -133,6 +133,6 @@ fn turns(scene: &Scene, recording: &Recording) -> Option<String> {
          angles within one turn, use --unwrap",
         sample + 1,
         joint.name,
-        joint.shown(step)
+        joint.format_value(step)
     ))
 }

@@ -225,7 +225,7 @@ impl MotionFindings {
     }
 
     /// Adds faults. If there are any, and the verdict is better than `verdict`, it becomes `verdict`.
-    pub(super) fn but(mut self, verdict: Judgement, faults: Vec<impl ToString>) -> Self {
+    pub(super) fn with_faults(mut self, verdict: Judgement, faults: Vec<impl ToString>) -> Self {
         if !faults.is_empty() {
             self.verdict = self.verdict.max(verdict);
         }

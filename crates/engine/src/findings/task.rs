@@ -130,7 +130,7 @@ impl TurnFinding {
 
 /// Judges all steps. Collisions and clearance of the whole task are those of one step: the first that collides,
 /// otherwise the first that is undecided, otherwise the one with the least clearance.
-pub(super) fn judged(
+pub(super) fn judge_steps(
     task: &Task,
     scene: &Scene,
     assumed: &AssumedLimits,
@@ -168,7 +168,7 @@ pub(super) fn judged(
         notes,
         ..MotionFindings::of_nothing(scene, recording)
     }
-    .but(Judgement::Claims, false_claims)
+    .with_faults(Judgement::Claims, false_claims)
 }
 
 /// Returns collisions and clearance of the whole task, from those of its steps.

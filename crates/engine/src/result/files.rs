@@ -1,7 +1,7 @@
 //! The result in file formats.
 
 use super::Messages;
-use crate::plan::{Detail, Plan, named};
+use crate::plan::{Detail, Plan, joints_in_messages};
 use cplan_motion::{Format, JointMotion, Trajectory, csv, ros_yaml};
 #[cfg(feature = "mcap")]
 use cplan_motion::{Stage, mcap};
@@ -63,7 +63,7 @@ impl Plan {
 
     /// Returns the content of ROS messages. A single motion counts as one step.
     fn messages(&self) -> Option<Messages> {
-        let robot = named(self.problem(), self.options());
+        let robot = joints_in_messages(self.problem(), self.options());
         let messages = match self.detail() {
             Detail::Motion { answer, .. } => {
                 let whole = JointMotion::new(&robot, &answer.outcome.found()?.timed.trajectory, true);

@@ -29,15 +29,15 @@ struct Fields<'a, M> {
 }
 
 impl<M: SerializeMap> Fields<'_, M> {
-    fn put(&mut self, name: &'static str, value: &(impl Serialize + ?Sized)) -> Result<(), M::Error> {
+    fn add(&mut self, name: &'static str, value: &(impl Serialize + ?Sized)) -> Result<(), M::Error> {
         debug_assert!(Plan::FIELD_NAMES.contains(&name), "{name} is not listed");
         let is_written = self.only.is_empty() || self.only.iter().any(|only| only == name);
         if is_written { self.map.serialize_entry(name, value) } else { Ok(()) }
     }
 
     /// Writes a field. Writes nothing if `value` is `None`.
-    fn some(&mut self, name: &'static str, value: Option<impl Serialize>) -> Result<(), M::Error> {
-        value.map_or(Ok(()), |value| self.put(name, &value))
+    fn add_optional(&mut self, name: &'static str, value: Option<impl Serialize>) -> Result<(), M::Error> {
+        value.map_or(Ok(()), |value| self.add(name, &value))
     }
 }
 
@@ -95,15 +95,15 @@ impl PlanResult<'_> {
     fn head<M: SerializeMap>(&self, fields: &mut Fields<M>) -> Result<(), M::Error> {
         let Self { plan, .. } = self;
         let (planner, name) = (&plan.options().planner, &plan.problem().scene().workspace().name);
-        fields.put("status", &plan.status())?;
-        fields.some("name", Some(name).filter(|name| !name.is_empty()))?;
-        fields.put("planner", planner.method().name())?;
-        fields.some("search", plan.search())?;
-        fields.some("space", planner.space().and_then(GridSpace::reported_name))?;
-        fields.put("joints", &plan.arm().joints.each_ref().map(|joint| &joint.name))?;
-        fields.put("units", &plan.arm().joints.each_ref().map(Joint::unit))?;
-        fields.some("assumed", self.assumed_in_words())?;
-        fields.some("reason", plan.reason())
+        fields.add("status", &plan.status())?;
+        fields.add_optional("name", Some(name).filter(|name| !name.is_empty()))?;
+        fields.add("planner", planner.method().name())?;
+        fields.add_optional("search", plan.search())?;
+        fields.add_optional("space", planner.space().and_then(GridSpace::reported_name))?;
+        fields.add("joints", &plan.arm().joints.each_ref().map(|joint| &joint.name))?;
+        fields.add("units", &plan.arm().joints.each_ref().map(Joint::unit))?;
+        fields.add_optional("assumed", self.assumed_in_words())?;
+        fields.add_optional("reason", plan.reason())
     }
 
     /// Returns the assumed limits with their description. `None` if no limits are assumed.
@@ -124,26 +124,26 @@ impl PlanResult<'_> {
     ) -> Result<(), M::Error> {
         let Self { plan, .. } = self;
         let motion = answer.outcome.found();
-        fields.some("proof", answer.outcome.infeasible())?;
+        fields.add_optional("proof", answer.outcome.infeasible())?;
         let witness = answer.outcome.unknown().and_then(|unknown| unknown.witness.as_ref());
-        fields.some("path_exists", witness.map(|_| true))?;
-        fields.some("path_kind", motion.map(|_| answer.path_kind.name()))?;
-        fields.put("path", &plan.waypoints())?;
+        fields.add_optional("path_exists", witness.map(|_| true))?;
+        fields.add_optional("path_kind", motion.map(|_| answer.path_kind.name()))?;
+        fields.add("path", &plan.waypoints())?;
         let free = free_joints(problem);
-        fields.some("free_joints", Some(free).filter(|joints| !joints.is_empty()))?;
-        fields.put("length", &plan.length())?;
-        fields.some("optimum", plan.bound().map(optimum))?;
-        fields.some("fastest", motion.and_then(|motion| motion.fastest))?;
-        fields.some("moving", plan.timing())?;
-        fields.put("certified", &motion.is_some())?;
-        fields.put("clearance", &plan.clearance())?;
-        fields.some("closest", plan.closest())?;
-        fields.some("field", plan.options().planner.field().map(|field| field_report(field, answer)))?;
+        fields.add_optional("free_joints", Some(free).filter(|joints| !joints.is_empty()))?;
+        fields.add("length", &plan.length())?;
+        fields.add_optional("optimum", plan.bound().map(optimum))?;
+        fields.add_optional("fastest", motion.and_then(|motion| motion.fastest))?;
+        fields.add_optional("moving", plan.timing())?;
+        fields.add("certified", &motion.is_some())?;
+        fields.add("clearance", &plan.clearance())?;
+        fields.add_optional("closest", plan.closest())?;
+        fields.add_optional("field", plan.options().planner.field().map(|field| field_report(field, answer)))?;
         let size: BTreeMap<_, _> = answer.run.size.figures().into_iter().collect();
-        fields.some("size", Some(size).filter(|size| !size.is_empty()))?;
+        fields.add_optional("size", Some(size).filter(|size| !size.is_empty()))?;
         self.timings(fields)?;
-        fields.some("blends", motion.map(|motion| BlendReport::of(&motion.timed.curve)))?;
-        fields.some("duration", plan.duration())?;
+        fields.add_optional("blends", motion.map(|motion| BlendReport::of(&motion.timed.curve)))?;
+        fields.add_optional("duration", plan.duration())?;
         self.trajectory(fields, plan.trajectory().map(|trajectory| Samples { trajectory, step: None }))
     }
 
@@ -152,20 +152,20 @@ impl PlanResult<'_> {
     fn task<M: SerializeMap>(&self, fields: &mut Fields<M>, task: &Task, answer: &TaskAnswer) -> Result<(), M::Error> {
         let Self { plan, .. } = self;
         let motion = answer.outcome.found();
-        fields.some("failed", answer.failed().map(|failed| FailedStepReport::new(task, failed)))?;
-        fields.some("moving", plan.timing())?;
-        fields.put("certified", &motion.is_some())?;
-        fields.put("clearance", &plan.clearance())?;
-        fields.some("duration", plan.duration())?;
-        fields.some("lower_bound", finite(answer.least_seconds()))?;
-        fields.some("gap", answer.gap())?;
-        fields.some("choice", motion.map(|motion| if motion.exact { "fastest" } else { "good" }))?;
-        fields.put("motions", &answer.motions)?;
+        fields.add_optional("failed", answer.failed().map(|failed| FailedStepReport::new(task, failed)))?;
+        fields.add_optional("moving", plan.timing())?;
+        fields.add("certified", &motion.is_some())?;
+        fields.add("clearance", &plan.clearance())?;
+        fields.add_optional("duration", plan.duration())?;
+        fields.add_optional("lower_bound", finite(answer.least_seconds()))?;
+        fields.add_optional("gap", answer.gap())?;
+        fields.add_optional("choice", motion.map(|motion| if motion.exact { "fastest" } else { "good" }))?;
+        fields.add("motions", &answer.motions)?;
         let (steps, events) = step_reports(task, answer);
-        fields.put("steps", &steps)?;
-        fields.put("events", &events)?;
-        fields.put("path", &plan.waypoints())?;
-        fields.put("length", &plan.length())?;
+        fields.add("steps", &steps)?;
+        fields.add("events", &events)?;
+        fields.add("path", &plan.waypoints())?;
+        fields.add("length", &plan.length())?;
         self.timings(fields)?;
         let samples = motion.map(|TaskMotion { sequence, .. }| Samples {
             trajectory: &sequence.trajectory,
@@ -176,13 +176,13 @@ impl PlanResult<'_> {
 
     fn timings<M: SerializeMap>(&self, fields: &mut Fields<M>) -> Result<(), M::Error> {
         let Self { plan, .. } = self;
-        fields.some("timings", plan.options().timings.then(|| Stages(plan.timings())))
+        fields.add_optional("timings", plan.options().timings.then(|| Stages(plan.timings())))
     }
 
     /// Writes the trajectory, and how to interpolate between its samples.
     fn trajectory<M: SerializeMap>(&self, fields: &mut Fields<M>, samples: Option<Samples>) -> Result<(), M::Error> {
-        fields.some("interpolation", samples.as_ref().map(|_| interpolation(&self.plan.arm().joints)))?;
-        fields.put("trajectory", &samples)
+        fields.add_optional("interpolation", samples.as_ref().map(|_| interpolation(&self.plan.arm().joints)))?;
+        fields.add("trajectory", &samples)
     }
 }
 

@@ -102,7 +102,7 @@ struct Row {
     value: Drives,
     rate: Drives,
     /// Accelerations of the two planned joints.
-    pull: [f64; 2],
+    acceleration: [f64; 2],
 }
 
 /// Rows in chronological order, each with a different time.
@@ -118,13 +118,13 @@ impl Rows {
     }
 
     fn motion(&self, robot: &RobotJoints, begin: u64) -> JointMotion {
-        let pull = |row: &Row| robot.rates(&Drives { planned: row.pull, ..Drives::default() });
+        let acceleration = |row: &Row| robot.rates(&Drives { planned: row.acceleration, ..Drives::default() });
         JointMotion {
             joints: robot.names().map(str::to_owned).collect(),
             time: self.0.iter().map(|row| seconds(row.at - begin)).collect(),
             position: self.0.iter().map(|row| robot.values(&row.value)).collect(),
             velocity: self.0.iter().map(|row| robot.rates(&row.rate)).collect(),
-            acceleration: Some(self.0.iter().map(pull).collect()),
+            acceleration: Some(self.0.iter().map(acceleration).collect()),
         }
     }
 }
@@ -144,17 +144,17 @@ impl Tool<'_> {
         let trajectory = &leg.timed.trajectory;
         let raised = self.robot.stroke.as_ref().map_or(0.0, |stroke| stroke.joint.rest);
         for (k, time) in trajectory.time.iter().enumerate() {
-            let [wrist, turning] = self.underway(leg, k);
+            let [wrist, turning] = self.wrist_state(leg, k);
             rows.push(Row {
                 at: begin + nanoseconds(*time),
                 value: Drives { planned: trajectory.position[k], stroke: raised, wrist },
                 rate: Drives { planned: trajectory.velocity[k], stroke: 0.0, wrist: turning },
-                pull: trajectory.acceleration[k],
+                acceleration: trajectory.acceleration[k],
             });
         }
         let Some(&Row { value, .. }) = rows.0.last() else { return rows };
         self.wrist = value.wrist;
-        let mut still = Row { at: arrival, value, rate: Drives::default(), pull: [0.0; 2] };
+        let mut still = Row { at: arrival, value, rate: Drives::default(), acceleration: [0.0; 2] };
         // In a place step, the wrist turns before the tool is lowered. In a pick, it turns after the tool has been
         // raised.
         let places = matches!(leg.event, Some(Event::Release { .. }));
@@ -174,21 +174,21 @@ impl Tool<'_> {
     }
 
     /// Returns value and velocity of the wrist's joint at sample `k` of the arm's motion.
-    fn underway(&self, leg: &Leg, k: usize) -> [f64; 2] {
+    fn wrist_state(&self, leg: &Leg, k: usize) -> [f64; 2] {
         let (Some(joint), Some(limits)) = (&self.robot.wrist, self.task.wrist) else { return [self.wrist, 0.0] };
         let trajectory = &leg.timed.trajectory;
         match leg.carried.map(|object| self.task.objects[object].holding) {
             Some(Holding::Rigid) => [self.wrist, 0.0],
             Some(Holding::Level) => {
-                let turned = self.turned(trajectory.position[k]) - self.turned(trajectory.position[0]);
-                [self.wrist - joint.sign * turned, -joint.sign * self.turned(trajectory.velocity[k])]
+                let turned = self.link_2_angle(trajectory.position[k]) - self.link_2_angle(trajectory.position[0]);
+                [self.wrist - joint.sign * turned, -joint.sign * self.link_2_angle(trajectory.velocity[k])]
             }
             None => {
                 let duration = trajectory.duration();
                 if duration == 0.0 {
                     return [self.wrist, 0.0];
                 }
-                let distance = back(joint.rest - self.wrist, duration, limits);
+                let distance = reachable_part(joint.rest - self.wrist, duration, limits);
                 let u = trajectory.time[k] / duration;
                 [self.wrist + distance * u * u * (3.0 - 2.0 * u), distance * 6.0 * u * (1.0 - u) / duration]
             }
@@ -196,7 +196,7 @@ impl Tool<'_> {
     }
 
     /// Returns the angle of link 2, or its angular velocity if `planned` has velocities.
-    fn turned(&self, planned: [f64; 2]) -> f64 {
+    fn link_2_angle(&self, planned: [f64; 2]) -> f64 {
         let of = |k: usize| match self.task.arm.joints[k].joint_type {
             JointType::Revolute { sign } => sign * planned[k],
             JointType::Prismatic { .. } => 0.0,
@@ -242,7 +242,7 @@ impl Tool<'_> {
     /// Checks that the wrist's joint stays within its range and below its top speed.
     fn check(&self, rows: &Rows) -> Result<(), MessageError> {
         let (Some(joint), Some(limits)) = (&self.robot.wrist, self.task.wrist) else { return Ok(()) };
-        let what = |row: &Row| beyond(joint, limits, row.value.wrist, row.rate.wrist);
+        let what = |row: &Row| limit_violation(joint, limits, row.value.wrist, row.rate.wrist);
         match rows.0.iter().find_map(|row| what(row).map(|what| (row.at, what))) {
             Some((at, what)) => Err(MessageError::Wrist { joint: joint.name.clone(), time: seconds(at), what }),
             None => Ok(()),
@@ -253,13 +253,13 @@ impl Tool<'_> {
 /// Returns the part of `distance` that the wrist can cover in `duration`, from rest to rest along a cubic. The top
 /// speed of a cubic is 1.5 times the mean speed. Its greatest acceleration is 6 times the distance over the squared
 /// time.
-fn back(distance: f64, duration: f64, limits: Wrist) -> f64 {
+fn reachable_part(distance: f64, duration: f64, limits: Wrist) -> f64 {
     let most = (limits.velocity * duration / 1.5).min(limits.acceleration * duration * duration / 6.0);
     distance.clamp(-most, most)
 }
 
 /// Describes the violation if a joint exceeds its speed or range. `None` otherwise.
-fn beyond(joint: &ToolJoint, limits: Wrist, value: f64, rate: f64) -> Option<String> {
+fn limit_violation(joint: &ToolJoint, limits: Wrist, value: f64, rate: f64) -> Option<String> {
     if rate.abs() > limits.velocity * (1.0 + ROUNDING) {
         return Some(format!("turn at {:.3} rad/s, above its top speed of {} rad/s", rate.abs(), limits.velocity));
     }

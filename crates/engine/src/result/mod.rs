@@ -144,14 +144,14 @@ fn search_used(planner: &Planner) -> Option<SearchReport> {
     if planner.method().reads(Setting::GridSearch) {
         return Some(SearchReport {
             search: grid_search.name(),
-            ties: (!ties.is_usual()).then(|| ties.name()),
+            ties: (!ties.is_default()).then(|| ties.name()),
             neighbors: Some(neighborhood.count()),
             backward: forward.then_some(false),
             graph: None,
         });
     }
     let graph = planner.graph().filter(|graph| *graph == VisibilityGraph::Full).map(VisibilityGraph::name);
-    let search = planner.search().filter(|search| !search.is_usual() || graph.is_some())?;
+    let search = planner.search().filter(|search| !search.is_default() || graph.is_some())?;
     let backward = Some(search.backward);
     Some(SearchReport { search: search.order.name(), ties: None, neighbors: None, backward, graph })
 }

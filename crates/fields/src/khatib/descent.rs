@@ -46,7 +46,7 @@ impl<'a, F: Fn(Place) -> Option<usize>> ForceGuide<'a, F> {
     }
 
     /// Returns the cells that lead from a local minimum to a better cell.
-    fn out_of(&mut self, trap: Trap) -> Result<Vec<usize>, Trap> {
+    fn escape_from(&mut self, trap: Trap) -> Result<Vec<usize>, Trap> {
         let by = self.escape.filter(|_| trap.minimum).ok_or(trap)?;
         let number = self.escaped.minima as u64;
         let path = self.field.escape(trap.cell, by, number, |cell| self.goals.contains(&cell)).ok_or(trap)?;
@@ -75,7 +75,7 @@ impl<F: Fn(Place) -> Option<usize>> Guide for ForceGuide<'_, F> {
         (self.at)(place).is_some_and(|cell| self.goals.contains(&cell))
     }
 
-    fn comes_on(&mut self, from: Place, to: Place) -> bool {
+    fn is_progress(&mut self, from: Place, to: Place) -> bool {
         let (Some(from), Some(to)) = ((self.at)(from), (self.at)(to)) else { return false };
         if self.field.is_saturated() {
             self.visited.insert(from);
@@ -84,11 +84,11 @@ impl<F: Fn(Place) -> Option<usize>> Guide for ForceGuide<'_, F> {
         self.field.potential(to) < self.field.potential(from)
     }
 
-    fn onward(&mut self, from: Place) -> Result<Vec<Place>, Trap> {
+    fn next_cells(&mut self, from: Place) -> Result<Vec<Place>, Trap> {
         let cell = (self.at)(from).unwrap_or_else(|| unreachable!("a way stays in free cells"));
         self.visited.insert(cell);
         let next = self.field.next(cell, |cell| self.visited.contains(&cell));
-        let path = next.map_or_else(|trap| self.out_of(trap), |next| Ok(vec![next]))?;
+        let path = next.map_or_else(|trap| self.escape_from(trap), |next| Ok(vec![next]))?;
         self.visited.extend(&path);
         let mut places: Vec<Place> = Vec::with_capacity(path.len());
         for cell in path {

@@ -16,7 +16,7 @@ pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
     let solid = grid.topology.ranges.map(|axis| !axis.is_circle() && limits == Limits::High);
     let wraps = grid.topology.ranges.map(|axis| axis.is_circle());
     let along: Vec<Vec<Option<i64>>> =
-        grid.blocked.chunks_exact(columns).map(|row| in_row(row, wraps[1], solid[1])).collect();
+        grid.blocked.chunks_exact(columns).map(|row| steps_in_row(row, wraps[1], solid[1])).collect();
     let mut nearest = vec![[f64::INFINITY; 2]; rows * columns];
     let mut envelope = Envelope::default();
     for j in 0..columns {
@@ -41,7 +41,7 @@ pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
 
 /// Returns, for each cell of a row, the number of steps to the nearest blocked cell in the row. If two are equally
 /// near, takes the one with the lower index. Returns `None` if no cell of the row is blocked.
-fn in_row(row: &[bool], wraps: bool, solid: bool) -> Vec<Option<i64>> {
+fn steps_in_row(row: &[bool], wraps: bool, solid: bool) -> Vec<Option<i64>> {
     let n = row.len() as i64;
     let blocked = |j: i64| match (0..n).contains(&j) {
         true => row[j as usize],

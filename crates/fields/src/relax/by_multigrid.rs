@@ -1,7 +1,7 @@
 //! Solves linear equations with a drift by multigrid, in a few steps. The result is the limit of a relaxation.
 
 use super::stencil::sides;
-use super::sweeps::begun;
+use super::sweeps::initial_values;
 use super::{Boundary, Convergence, Domain, Equation, Measure, RelaxError, RelaxedField, Stopping};
 use cplan_interrupt::checkpoint;
 use cplan_multigrid::{Ends, Multigrid, Workspace};
@@ -95,7 +95,7 @@ pub fn by_multigrid_in(
     // True if the equation differs from that of the preconditioner.
     let has_drift = *equation != Equation::Harmonic || domain.beta() != 1.0;
     let system = System::new(domain, has_drift.then_some(|cell| sides(domain.beta(), drift(cell), difference)));
-    let mut values = begun(domain, start)?;
+    let mut values = initial_values(domain, start)?;
     let mut stage = Convergence { sweeps: 0, change: f64::INFINITY, converged: false };
     let mut preconditioner = None;
     loop {
@@ -134,7 +134,7 @@ pub fn by_multigrid_in(
 struct System {
     cells: [usize; 2],
     boundaries: [Boundary; 2],
-    sought: Vec<bool>,
+    is_unknown: Vec<bool>,
     /// Weights of the neighbours `-q1, +q1, -q2, +q2` of each cell. `None` if all are 1.
     weights: Option<Vec<[f64; 4]>>,
     /// Sum of the weights of each cell, over neighbours that are not the cell itself.
@@ -147,7 +147,7 @@ impl System {
     /// Creates a system with these weights, or with weights 1.
     fn new(domain: &Domain, weights: Option<impl Fn(usize) -> [f64; 4]>) -> Self {
         let (cells, boundaries, count) = (domain.cells(), domain.boundaries(), domain.kinds().len());
-        let sought: Vec<bool> = (0..count).map(|cell| domain.is_sought(cell)).collect();
+        let is_unknown: Vec<bool> = (0..count).map(|cell| domain.is_unknown(cell)).collect();
         let weights: Option<Vec<[f64; 4]>> = weights.map(|weights| (0..count).map(weights).collect());
         let mut sums = match &weights {
             Some(weights) => weights.iter().map(|weights| weights.iter().sum()).collect(),
@@ -173,9 +173,9 @@ impl System {
                 drop_own((i + 1) * columns - 1, 3);
             }
         }
-        let share = |(&sought, sum): (&bool, &f64)| if sought { 1.0 / sum } else { 0.0 };
-        let shares = sought.iter().zip(&sums).map(share).collect();
-        Self { cells, boundaries, sought, weights, sums, shares }
+        let share = |(&is_unknown, sum): (&bool, &f64)| if is_unknown { 1.0 / sum } else { 0.0 };
+        let shares = is_unknown.iter().zip(&sums).map(share).collect();
+        Self { cells, boundaries, is_unknown, weights, sums, shares }
     }
 
     /// Returns values with a frame of one cell, which has the boundary values. `values` has one entry per cell, and the
@@ -310,9 +310,9 @@ impl Preconditioner {
             Boundary::High => Ends::High,
             Boundary::Reflecting => Ends::Reflecting,
         });
-        let multigrid = Multigrid::new(system.cells, ends, &system.sought, 0.0);
+        let multigrid = Multigrid::new(system.cells, ends, &system.is_unknown, 0.0);
         let workspace = memory.0.take().unwrap_or_else(|| multigrid.workspace());
-        Self { workspace, multigrid, right: vec![0.0; system.sought.len()] }
+        Self { workspace, multigrid, right: vec![0.0; system.is_unknown.len()] }
     }
 
     /// Returns the correction of the values that would remove `residual`, with the relative error `error`. It has one

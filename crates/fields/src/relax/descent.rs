@@ -37,7 +37,7 @@ pub fn descend(domain: &Domain, values: &[f64], from: usize) -> Result<Vec<usize
     while domain.kinds()[at] != Cell::Goal {
         match slope.lowest(at) {
             Some(next) => cells.push(next),
-            None => cells.extend(slope.across(at)?),
+            None => cells.extend(slope.cross_plateau(at)?),
         }
         at = cells[cells.len() - 1];
     }
@@ -72,7 +72,7 @@ impl Values<'_> {
 
     /// Returns the cells that follow `from`, all with the same value, up to the nearest cell that has a better
     /// neighbour.
-    fn across(&self, from: usize) -> Result<Vec<usize>, DeadEnd> {
+    fn cross_plateau(&self, from: usize) -> Result<Vec<usize>, DeadEnd> {
         let value = self.values[from];
         let is_level = |cell: usize| self.values[cell] == value && self.domain.kinds()[cell] == Cell::Free;
         let stuck = DeadEnd { cell: from, value, flat: self.neighbors(from).any(|next| self.values[next] == value) };
@@ -150,16 +150,16 @@ impl<F: Fn(Place) -> Option<usize>> Guide for ValueGuide<'_, F> {
         self.of_kind(place, Cell::Goal).is_some()
     }
 
-    fn comes_on(&mut self, from: Place, to: Place) -> bool {
+    fn is_progress(&mut self, from: Place, to: Place) -> bool {
         match ((self.at)(from), (self.at)(to)) {
             (Some(from), Some(to)) => self.values.height(to) < self.values.height(from),
             _ => false,
         }
     }
 
-    fn onward(&mut self, from: Place) -> Result<Vec<Place>, DeadEnd> {
+    fn next_cells(&mut self, from: Place) -> Result<Vec<Place>, DeadEnd> {
         let cell = (self.at)(from).unwrap_or_else(|| unreachable!("a way stays in free cells"));
-        let cells = self.values.lowest(cell).map_or_else(|| self.values.across(cell), |next| Ok(vec![next]))?;
+        let cells = self.values.lowest(cell).map_or_else(|| self.values.cross_plateau(cell), |next| Ok(vec![next]))?;
         let mut place = from;
         let step = |next: usize| {
             let [i, j] = place;

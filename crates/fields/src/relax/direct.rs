@@ -25,7 +25,7 @@ pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
         return None;
     }
     let (drift, difference) = equation.drift()?;
-    let unknowns = folded(domain);
+    let unknowns = unknowns_from_both_ends(domain);
     let weights = WeightedMean::new(domain, &unknowns, drift, difference);
     let mut place = vec![None; domain.kinds().len()];
     for (k, &cell) in unknowns.iter().enumerate() {
@@ -49,20 +49,20 @@ pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
             band.right[k] += weight * level;
         }
     }
-    let solution = band.solved()?;
+    let solution = band.solve()?;
     let mut values = domain.start();
     for (&cell, value) in unknowns.iter().zip(solution) {
         values[cell as usize] = value;
     }
-    fits(domain, &unknowns, &weights, &values).then_some(values)
+    satisfies_equations(domain, &unknowns, &weights, &values).then_some(values)
 }
 
 /// Returns the unknown cells row by row. The rows come alternately from the two ends.
-fn folded(domain: &Domain) -> Vec<u32> {
+fn unknowns_from_both_ends(domain: &Domain) -> Vec<u32> {
     let [rows, columns] = domain.cells();
     let row = |k: usize| if k.is_multiple_of(2) { k / 2 } else { rows - 1 - k / 2 };
     let cells = (0..rows).map(row).flat_map(|i| i * columns..(i + 1) * columns);
-    cells.filter(|&cell| domain.is_sought(cell)).map(|cell| cell as u32).collect()
+    cells.filter(|&cell| domain.is_unknown(cell)).map(|cell| cell as u32).collect()
 }
 
 /// Returns the greatest difference between the positions of two neighbours in the order of the unknowns.
@@ -78,7 +78,7 @@ fn reach(domain: &Domain, unknowns: &[u32], place: &[Option<usize>]) -> usize {
 }
 
 /// Returns true if each value agrees with the value that its neighbours imply.
-fn fits(domain: &Domain, unknowns: &[u32], weights: &WeightedMean, values: &[f64]) -> bool {
+fn satisfies_equations(domain: &Domain, unknowns: &[u32], weights: &WeightedMean, values: &[f64]) -> bool {
     let greatest = values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
     greatest.is_finite()
         && unknowns.iter().enumerate().all(|(k, &cell)| {
@@ -118,7 +118,7 @@ impl Band {
     }
 
     /// Solves for the unknowns, or returns `None` if a pivot vanishes.
-    fn solved(mut self) -> Option<Vec<f64>> {
+    fn solve(mut self) -> Option<Vec<f64>> {
         let n = self.right.len();
         for pivot in 0..n {
             checkpoint();

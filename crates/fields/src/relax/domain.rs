@@ -219,7 +219,7 @@ impl Domain {
 
     /// Returns true if the value of a cell is an unknown: the cell is free and has a neighbour other than itself. A
     /// free cell without such a neighbour keeps its value.
-    pub(super) fn is_sought(&self, cell: usize) -> bool {
+    pub(super) fn is_unknown(&self, cell: usize) -> bool {
         let has_neighbors = self.kinds.len() > 1 || self.boundaries.contains(&Boundary::High);
         self.kinds[cell] == Cell::Free && has_neighbors
     }

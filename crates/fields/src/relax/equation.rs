@@ -97,7 +97,7 @@ pub enum Equation {
         /// Discretisation of the drift.
         difference: Difference,
     },
-    /// A separate drift in every cell, possibly 0: around robots (Faria 2006, see [`around`]), or in regions.
+    /// A separate drift in every cell, possibly 0: around robots (Faria 2006, see [`drift_around_robots`]), or in regions.
     LocallyOriented {
         /// The drift `epsilon v` of each cell.
         drift: Vec<[f64; 2]>,
@@ -139,7 +139,7 @@ pub struct Influence {
 /// Returns the drift of [`Equation::LocallyOriented`] around robots. Each cell has the drift of the nearest robot, if
 /// it is within that robot's radius. `O(cells * influences)`.
 #[must_use]
-pub fn around(domain: &Domain, influences: &[Influence]) -> Vec<[f64; 2]> {
+pub fn drift_around_robots(domain: &Domain, influences: &[Influence]) -> Vec<[f64; 2]> {
     let columns = domain.cells()[1];
     let nearest = |cell: usize| {
         let at = [(cell / columns) as f64, (cell % columns) as f64];

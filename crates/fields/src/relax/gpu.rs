@@ -1,6 +1,6 @@
 //! Relaxation on a GPU. Equations become weights for each cell, and are relaxed stage after stage.
 
-use super::stages::{Stages, in_stages};
+use super::stages::{Stages, relax_in_stages};
 use super::stencil::WeightedMean;
 use super::sweeps::{hint, refusal, unknowns};
 use super::{Boundary, Cell, Convergence, Difference, Domain, Equation, Measure, Order, RelaxError, Relaxation};
@@ -52,7 +52,7 @@ pub(super) fn relax(
     let gpu = shared().map_err(RelaxError::Refused)?;
     let unknowns = unknowns(domain);
     let mut field = Field { gpu, domain, equation, settings, unknowns, values: domain.start(), stages: Vec::new() };
-    in_stages(equation, domain, &mut field)?;
+    relax_in_stages(equation, domain, &mut field)?;
     Ok(RelaxedField { values: field.values, stages: field.stages })
 }
 

@@ -27,7 +27,7 @@ pub use descent::{DeadEnd, ValueGuide, descend};
 pub use device::{Device, relax_on};
 pub use direct::eliminated;
 pub use domain::{Boundary, Cell, Domain, Levels, Limits, Neighbor, Stencil};
-pub use equation::{Difference, Direction, Equation, Influence, around};
+pub use equation::{Difference, Direction, Equation, Influence, drift_around_robots};
 pub use relaxation::{Factor, Lines, Order, Precision, Relaxation, Scan, Scheme};
 pub use stopping::{Convergence, Measure, Stopping};
 pub use sweeps::{RelaxError, RelaxedField, SweepSnapshot, relax, relax_from, relax_watched};

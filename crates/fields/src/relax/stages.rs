@@ -19,7 +19,7 @@ pub(super) trait Stages {
 }
 
 /// Runs all stages of an equation: preferences start with the harmonic field.
-pub(super) fn in_stages(equation: &Equation, domain: &Domain, on: &mut impl Stages) -> Result<(), RelaxError> {
+pub(super) fn relax_in_stages(equation: &Equation, domain: &Domain, on: &mut impl Stages) -> Result<(), RelaxError> {
     match equation {
         Equation::Harmonic => on.harmonic(),
         Equation::Oriented { direction, epsilon, difference } => {

@@ -1,7 +1,7 @@
 //! Relaxation of an equation on a domain, sweep by sweep.
 
 use super::relaxation::{Precision, Relaxation, Scheme};
-use super::stages::{Stages, in_stages};
+use super::stages::{Stages, relax_in_stages};
 use super::stencil::{AlteredMean, Mean, Stencil, WeightedMean};
 use super::stopping::{Convergence, GreatestTally, Measure, RelativeTally, SquareTally, Stopping, SumTally, Tally};
 use super::{Boundary, Cell, Difference, Direction, Domain, Equation, Neighbor};
@@ -153,8 +153,8 @@ pub fn relax_watched(
     if let Some(refusal) = refusal(domain, equation, relaxation) {
         return Err(refusal);
     }
-    let mut engine = Engine::new(domain, equation, relaxation, stopping, begun(domain, start)?, watch);
-    in_stages(equation, domain, &mut engine)?;
+    let mut engine = Engine::new(domain, equation, relaxation, stopping, initial_values(domain, start)?, watch);
+    relax_in_stages(equation, domain, &mut engine)?;
     engine.values.pop();
     Ok(RelaxedField { values: engine.values, stages: engine.stages })
 }
@@ -178,10 +178,10 @@ pub(super) fn refusal(domain: &Domain, equation: &Equation, relaxation: &Relaxat
 
 /// Returns the free cells that have a neighbour other than themselves, ascending. Other free cells keep their values.
 pub(super) fn unknowns(domain: &Domain) -> Vec<u32> {
-    (0..domain.kinds().len()).filter(|&cell| domain.is_sought(cell)).map(|cell| cell as u32).collect()
+    (0..domain.kinds().len()).filter(|&cell| domain.is_unknown(cell)).map(|cell| cell as u32).collect()
 }
 
-/// Returns, for each unknown, the indices of its neighbours' values in the list that [`begun`] returns.
+/// Returns, for each unknown, the indices of its neighbours' values in the list that [`initial_values`] returns.
 pub(super) fn places_around(domain: &Domain, unknowns: &[u32]) -> Vec<[u32; 4]> {
     let beyond = domain.kinds().len() as u32;
     let around = unknowns.iter().map(|&cell| {
@@ -195,7 +195,7 @@ pub(super) fn places_around(domain: &Domain, unknowns: &[u32]) -> Vec<[u32; 4]> 
 }
 
 /// Returns the initial values of all cells, with obstacles and goals at their levels, and then the value beyond limits.
-pub(super) fn begun(domain: &Domain, start: Vec<f64>) -> Result<Vec<f64>, RelaxError> {
+pub(super) fn initial_values(domain: &Domain, start: Vec<f64>) -> Result<Vec<f64>, RelaxError> {
     if start.len() != domain.kinds().len() {
         return Err(RelaxError::Refused("the initial field must have one value per cell".into()));
     }

@@ -93,14 +93,14 @@ pub fn trace(
 ) -> Result<Trace, RelaxError> {
     let exact = exact.filter(|exact| exact.len() == domain.kinds().len());
     let mut observer = Observer { exact, ..Observer::default() };
-    let relaxed = relax_watched(domain, equation, relaxation, stopping, start, &mut |seen| observer.see(&seen));
+    let relaxed = relax_watched(domain, equation, relaxation, stopping, start, &mut |seen| observer.observe(&seen));
     let (sweeps, ending) = match relaxed {
         Ok(field) if field.converged() => (field.sweeps(), Ending::Converged),
         Ok(field) => (field.sweeps(), Ending::Unconverged),
         Err(RelaxError::Diverged { .. }) => (observer.sweeps, Ending::Diverged),
         Err(refused) => return Err(refused),
     };
-    observer.keep_last();
+    observer.keep_last_sample();
     Ok(Trace { samples: observer.samples, sweeps, ending })
 }
 
@@ -158,10 +158,10 @@ struct Observer<'a> {
 }
 
 impl Observer<'_> {
-    fn see(&mut self, seen: &SweepSnapshot) {
+    fn observe(&mut self, seen: &SweepSnapshot) {
         if seen.sweep == 0 {
             // A new stage begins: keep the last sweep of the stage before it.
-            self.keep_last();
+            self.keep_last_sample();
             (self.earlier, self.before) = (self.sweeps, seen.values.to_vec());
             if seen.stage == 0 {
                 self.first = self.exact.map_or(0.0, |exact| greatest_error(exact, seen.values));
@@ -170,7 +170,7 @@ impl Observer<'_> {
             return;
         }
         self.sweeps = self.earlier + seen.sweep;
-        let sample = self.measured(seen);
+        let sample = self.measure_sweep(seen);
         self.before.copy_from_slice(seen.values);
         if self.sweeps < self.next {
             self.last = sample;
@@ -181,12 +181,12 @@ impl Observer<'_> {
         self.next = self.sweeps + 1 + (SAMPLE_SPACING * self.sweeps as f64) as usize;
     }
 
-    fn keep_last(&mut self) {
+    fn keep_last_sample(&mut self) {
         self.samples.extend(self.last.take());
     }
 
     /// Measures a sweep. Returns `None` if a number is not finite.
-    fn measured(&self, seen: &SweepSnapshot) -> Option<Sample> {
+    fn measure_sweep(&self, seen: &SweepSnapshot) -> Option<Sample> {
         let (mut squares, mut relative) = (0.0, 0.0_f64);
         for (old, new) in self.before.iter().zip(seen.values) {
             let change = (new - old).abs();

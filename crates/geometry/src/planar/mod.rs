@@ -75,11 +75,11 @@ impl Boundary {
     /// Builds the boundary of contours that have the inside to their left. `O(n log n)` for `n` corners.
     #[must_use]
     pub fn new(contours: &[&[Point]]) -> Self {
-        noding::planar(Self::bare(contours))
+        noding::planar(Self::unordered(contours))
     }
 
     /// Collects vertices and sides, in arbitrary order, without the lists by vertex.
-    fn bare(contours: &[&[Point]]) -> Self {
+    fn unordered(contours: &[&[Point]]) -> Self {
         let mut order: Vec<(Point, u32)> =
             contours.iter().copied().flatten().zip(0..).map(|(p, index)| (unsigned_zero(*p), index)).collect();
         order.sort_unstable_by(|a, b| lexicographic(a.0, b.0).then(a.1.cmp(&b.1)));
@@ -105,7 +105,7 @@ impl Boundary {
     /// Builds the first `count` sides of a ring of distinct corners, without cutting. Side `i` runs from corner `i`
     /// to the next one.
     fn of_chain(ring: &[Point], count: usize) -> Self {
-        let mut this = Self::bare(&[ring]);
+        let mut this = Self::unordered(&[ring]);
         this.sides.truncate(count);
         this.arrange();
         this

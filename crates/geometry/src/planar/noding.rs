@@ -18,7 +18,7 @@ const MAX_PASSES: usize = 16;
 pub(super) fn planar(mut boundary: Boundary) -> Boundary {
     for pass in 1..=MAX_PASSES {
         boundary.arrange();
-        let Sweep { below, mut cuts, .. } = Sweep::over(&mut boundary);
+        let Sweep { below, mut cuts, .. } = Sweep::new(&mut boundary);
         if cuts.is_empty() || pass == MAX_PASSES {
             boundary.set_below(below);
             break;
@@ -53,17 +53,18 @@ struct Sweep<'a> {
     status: Status,
     below: Vec<u32>,
     /// [`CROSSING_TOLERANCE`] as a length, in the unit of the coordinates.
-    hair: f64,
+    crossing_tolerance: f64,
     /// Sides, each with a vertex at which it must be cut.
     cuts: Vec<(usize, u32)>,
 }
 
 impl<'a> Sweep<'a> {
-    fn over(boundary: &'a mut Boundary) -> Self {
+    fn new(boundary: &'a mut Boundary) -> Self {
         let (sides, vertices) = (boundary.sides.len(), boundary.vertices.len());
         let greatest = boundary.vertices.iter().flat_map(|p| [p.x.abs(), p.y.abs()]).fold(0.0, f64::max);
-        let (status, below, hair) = (Status::new(sides), vec![NO_ENTRY; vertices], CROSSING_TOLERANCE * greatest);
-        let mut sweep = Self { boundary, status, below, hair, cuts: Vec::new() };
+        let (status, below, crossing_tolerance) =
+            (Status::new(sides), vec![NO_ENTRY; vertices], CROSSING_TOLERANCE * greatest);
+        let mut sweep = Self { boundary, status, below, crossing_tolerance, cuts: Vec::new() };
         for v in 0..vertices {
             checkpoint();
             sweep.pass(v);
@@ -96,7 +97,7 @@ impl<'a> Sweep<'a> {
         }
         let mut last = below;
         for side in self.boundary.beginning(v) {
-            self.tell_coincident(last, side);
+            self.order_coincident(last, side);
             self.status.insert_above(last, side);
             self.check(last, Some(side));
             last = Some(side);
@@ -105,7 +106,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Puts two coincident sides, where obstacles touch, in the right order: floors and ceilings must alternate.
-    fn tell_coincident(&mut self, below: Option<usize>, side: usize) {
+    fn order_coincident(&mut self, below: Option<usize>, side: usize) {
         let sides = &mut self.boundary.sides;
         let expects_floor = below.is_none_or(|below| !sides[below].is_floor());
         if let Some(&other) = sides.get(side + 1)
@@ -130,7 +131,7 @@ impl<'a> Sweep<'a> {
             self.cuts.push((other, first as u32));
         } else if place != proper {
             // If other sides cross, two sides that do not can become neighbours by mistake.
-            let cut = nearest_end(self.boundary, below, above).filter(|cut| cut.1 <= self.hair);
+            let cut = nearest_end(self.boundary, below, above).filter(|cut| cut.1 <= self.crossing_tolerance);
             self.cuts.extend(cut.map(|cut| cut.0));
         }
     }

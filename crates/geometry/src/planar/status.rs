@@ -164,7 +164,7 @@ mod tests {
 
         /// Compares with a sorted list, whose positions are known.
         #[test]
-        fn keeps_order_like_a_sorted_list(steps in proptest::collection::vec((0usize..60, any::<bool>()), 0..300)) {
+        fn the_status_keeps_the_order_of_a_sorted_list(steps in proptest::collection::vec((0usize..60, any::<bool>()), 0..300)) {
             let place = |side: usize| (side * 37) % 61;
             let mut status = Status::new(60);
             let mut list: Vec<usize> = Vec::new();

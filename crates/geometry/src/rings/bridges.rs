@@ -32,7 +32,7 @@ pub(super) struct Bridge {
 ///
 /// # Errors
 /// If on one side of a hole nothing is visible from it, because the hole is not inside.
-pub(super) fn bridged(noded: NodedGraph) -> Result<BridgedGraph, RingError> {
+pub(super) fn join_holes(noded: NodedGraph) -> Result<BridgedGraph, RingError> {
     let NodedGraph { points, edges, around, loops } = &noded;
     let sight = Visibility::new(points, edges);
     let mut bridges: Vec<Bridge> = Vec::new();
@@ -103,12 +103,12 @@ impl<'a> Visibility<'a> {
             found.clear();
             self.tree.meeting(&[a.inf(&b), a.sup(&b)], &mut found);
             let mut edges = found.iter().map(|k| self.edges[*k as usize]).chain(bridges.iter().map(|b| b.ends));
-            !edges.any(|edge| self.hides([from, to], edge))
+            !edges.any(|edge| self.blocks_sight([from, to], edge))
         })
     }
 
     /// Returns true if an edge obstructs a sight line: the two share more than a common end.
-    fn hides(&self, [from, to]: [usize; 2], edge: [usize; 2]) -> bool {
+    fn blocks_sight(&self, [from, to]: [usize; 2], edge: [usize; 2]) -> bool {
         let [a, b] = [self.points[from], self.points[to]];
         let [c, d] = edge.map(|v| self.points[v]);
         let shared = |v: usize| v == from || v == to;

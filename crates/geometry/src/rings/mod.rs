@@ -6,7 +6,7 @@ mod noding;
 
 use super::polygon::without_straight_corners;
 use super::{Convex, Point, PolygonError, SimplePolygon};
-use bridges::bridged;
+use bridges::join_holes;
 use faces::faces;
 use noding::NodedGraph;
 use std::fmt;
@@ -111,9 +111,9 @@ impl Polygon {
         }
         let noded = NodedGraph::of(&rings)?;
         // Holes must not be joined to a straight corner. If sides cross in one, the noding below reports it.
-        let bared: Vec<Vec<Point>> = rings.iter().map(|ring| bare(ring)).collect();
+        let bared: Vec<Vec<Point>> = rings.iter().map(|ring| simplified_ring(ring)).collect();
         let noded = if bared == rings { noded } else { NodedGraph::of(&bared).unwrap_or(noded) };
-        Ok(Self { parts: faces(&bridged(noded)?)? })
+        Ok(Self { parts: faces(&join_holes(noded)?)? })
     }
 
     /// Returns the polygon as simple polygons with disjoint interiors, whose corners are corners of the rings. There is
@@ -137,7 +137,7 @@ impl Polygon {
 }
 
 /// Removes straight corners and repetitions from a ring.
-fn bare(ring: &[Point]) -> Vec<Point> {
+fn simplified_ring(ring: &[Point]) -> Vec<Point> {
     let mut once = ring.to_vec();
     once.dedup();
     if once.len() > 1 && once.first() == once.last() {

@@ -40,7 +40,7 @@ impl NodedGraph {
     /// # Errors
     /// If two sides cross or overlap.
     pub fn of(rings: &[Vec<Point>]) -> Result<Self, RingError> {
-        let (points, numbers) = numbered(rings);
+        let (points, numbers) = distinct_positions(rings);
         let sides: Vec<Piece> = numbers
             .iter()
             .enumerate()
@@ -76,7 +76,7 @@ impl NodedGraph {
             }
             let n = walk.len();
             edges.extend((0..n).map(|i| [walk[i], walk[(i + 1) % n]]));
-            loops.extend(taken_apart(&walk, points.len()).into_iter().map(|vertices| Loop { ring, vertices }));
+            loops.extend(split_into_loops(&walk, points.len()).into_iter().map(|vertices| Loop { ring, vertices }));
         }
         let mut around: Vec<Vec<(usize, bool)>> = vec![Vec::new(); points.len()];
         for &[from, to] in &edges {
@@ -101,7 +101,7 @@ pub(super) fn counter_clockwise(points: &[Point], at: usize, a: usize, b: usize)
 }
 
 /// Returns the distinct positions from left to right, and for each corner the number of its position.
-fn numbered(rings: &[Vec<Point>]) -> (Vec<Point>, Vec<Vec<usize>>) {
+fn distinct_positions(rings: &[Vec<Point>]) -> (Vec<Point>, Vec<Vec<usize>>) {
     // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would distinguish.
     let mut points: Vec<Point> = rings.iter().flatten().map(|p| Point::new(p.x + 0.0, p.y + 0.0)).collect();
     let order = |a: &Point, b: &Point| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
@@ -166,7 +166,7 @@ fn is_counter_clockwise(points: &[Point], walk: &[usize]) -> bool {
 }
 
 /// Splits a walk into loops.
-fn taken_apart(walk: &[usize], vertices: usize) -> Vec<Vec<usize>> {
+fn split_into_loops(walk: &[usize], vertices: usize) -> Vec<Vec<usize>> {
     const NO_INDEX: usize = usize::MAX;
     let mut place = vec![NO_INDEX; vertices];
     let (mut loops, mut open) = (Vec::new(), Vec::new());

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 /// Returns a ring around the origin on the lattice, with one corner in each of `count` directions. `radius` returns the
 /// distance of a corner.
-fn around(count: usize, radius: impl Fn(usize) -> f64) -> Vec<Corner> {
+fn ring_around_origin(count: usize, radius: impl Fn(usize) -> f64) -> Vec<Corner> {
     let corner = |k: usize| {
         let angle = k as f64 / count as f64 * std::f64::consts::TAU;
         ((radius(k) * angle.cos()) as i64, (radius(k) * angle.sin()) as i64)
@@ -39,7 +39,7 @@ fn in_integers(piece: &Convex) -> Vec<Corner> {
 }
 
 /// Locates a point in a strictly convex ring: 0 outside, 1 on the boundary, 2 inside.
-fn holds(ring: &[Corner], p: Corner) -> i64 {
+fn locate(ring: &[Corner], p: Corner) -> i64 {
     let side = |i: usize| cross(ring[i], ring[(i + 1) % ring.len()], p).signum();
     (0..ring.len()).map(side).min().map_or(0, |least| least + 1)
 }
@@ -61,7 +61,7 @@ fn is_cut_up_exactly(ring: &[Corner]) {
         // Multiples of the golden ratio and of another irrational number spread over the square.
         let at = |share: f64| ((k as f64 * share).fract() * 2.2 - 1.1) * extent as f64;
         let p = (at(0.618_033_988_749) as i64, at(0.754_877_666_246) as i64);
-        let found: Vec<i64> = pieces.iter().map(|piece| holds(piece, p)).collect();
+        let found: Vec<i64> = pieces.iter().map(|piece| locate(piece, p)).collect();
         let inside = found.iter().filter(|&&held| held == 2).count();
         assert!(inside <= 1, "the interiors of pieces are disjoint");
         assert_eq!(found.iter().any(|&held| held > 0), polygon.contains(Point::new(p.0 as f64, p.1 as f64)), "{p:?}");
@@ -70,17 +70,17 @@ fn is_cut_up_exactly(ring: &[Corner]) {
 
 #[test]
 fn a_disc_of_20_000_corners_is_cut_up_exactly() {
-    is_cut_up_exactly(&around(20_000, |_| 1e9));
+    is_cut_up_exactly(&ring_around_origin(20_000, |_| 1e9));
 }
 
 #[test]
 fn a_star_of_20_000_corners_is_cut_up_exactly() {
-    is_cut_up_exactly(&around(20_000, |k| if k % 2 == 0 { 1e9 } else { 5e8 }));
+    is_cut_up_exactly(&ring_around_origin(20_000, |k| if k % 2 == 0 { 1e9 } else { 5e8 }));
 }
 
 #[test]
 fn a_ragged_ring_of_20_000_corners_is_cut_up_exactly() {
-    is_cut_up_exactly(&around(20_000, |k| 1e9 * (0.4 + (k as f64 * 0.618_033_988_749).fract())));
+    is_cut_up_exactly(&ring_around_origin(20_000, |k| 1e9 * (0.4 + (k as f64 * 0.618_033_988_749).fract())));
 }
 
 #[test]
@@ -113,7 +113,7 @@ proptest! {
     #![proptest_config(cplan_cases::cases(2000))]
 
     #[test]
-    fn of_sides_that_meet_the_first_of_the_list_are_named(ring in prop::collection::vec((-6..=6i64, -6..=6i64), 4..14)) {
+    fn the_first_crossing_sides_are_named(ring in prop::collection::vec((-6..=6i64, -6..=6i64), 4..14)) {
         match SimplePolygon::new(points(&ring)) {
             Ok(_) => prop_assert_eq!(first_meeting(&ring), None),
             Err(PolygonError::SidesCross { first, second } | PolygonError::SidesTouch { first, second }) => {

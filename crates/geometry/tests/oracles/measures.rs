@@ -69,17 +69,17 @@ proptest! {
     #![proptest_config(cplan_cases::cases(2000))]
 
     #[test]
-    fn lattice_shapes(a in lattice_shape(), b in lattice_shape()) {
+    fn distances_of_lattice_shapes_agree_with_the_oracle(a in lattice_shape(), b in lattice_shape()) {
         check(&a, &b)?;
     }
 
     #[test]
-    fn random_shapes(a in random_shape(), b in random_shape()) {
+    fn distances_of_random_shapes_agree_with_the_oracle(a in random_shape(), b in random_shape()) {
         check(&a, &b)?;
     }
 
     #[test]
-    fn walls_in_a_row(angle in 0.0..6.3f64, ends in prop::collection::vec(-5.0..5.0f64, 4), radius in 0.0..0.5f64) {
+    fn collinear_walls_have_their_distance(angle in 0.0..6.3f64, ends in prop::collection::vec(-5.0..5.0f64, 4), radius in 0.0..0.5f64) {
         // Collinear up to rounding: no side normal separates them, yet they may be far apart.
         let at = |t: f64| Point::new(0.3 + t * angle.cos(), -0.7 + t * angle.sin());
         let wall = |s: f64, t: f64| wall(at(s), at(t)).grown(radius);
@@ -100,7 +100,7 @@ fn capsules_on_one_line_part_sideways() {
 }
 
 #[test]
-fn points_and_discs() {
+fn points_and_discs_have_their_distances_and_depths() {
     let point = disc(Point::new(1.0, 2.0), 0.0);
     assert_eq!(separation(&point, &point).distance, 0.0);
     assert_eq!(separation(&point.grown(0.25), &point.grown(0.5)).distance, -0.75);

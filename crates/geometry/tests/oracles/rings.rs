@@ -3,7 +3,7 @@
 use crate::lattice::{Corner, point};
 use cplan_cases::dice;
 use cplan_cases::dice::Dice;
-use cplan_cases::{times, usual};
+use cplan_cases::{times, uses_default_cases};
 use cplan_geometry::{Convex, Orientation, Point, Polygon, RingError, orientation};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -32,7 +32,7 @@ fn is_inside(ring: &[Corner], p: Point) -> bool {
 }
 
 /// Checks that pieces are strictly convex and counter-clockwise, and that they cover exactly the required area.
-fn covers(pieces: &[Convex], area: f64, inside: impl Fn(Point) -> bool, samples: &[Point]) {
+fn check_cover(pieces: &[Convex], area: f64, inside: impl Fn(Point) -> bool, samples: &[Point]) {
     for piece in pieces {
         let core = piece.core();
         for i in 0..core.len() {
@@ -51,7 +51,7 @@ fn covers(pieces: &[Convex], area: f64, inside: impl Fn(Point) -> bool, samples:
 const SIDE: i64 = 7;
 
 /// Returns random cells that are connected by their sides.
-fn blob(dice: &mut Dice) -> BTreeSet<Corner> {
+fn connected_cells(dice: &mut Dice) -> BTreeSet<Corner> {
     let mut cells = BTreeSet::from([(SIDE / 2, SIDE / 2)]);
     for _ in 0..dice.below(200) {
         let (x, y) = (dice.below(SIDE as u64) as i64, dice.below(SIDE as u64) as i64);
@@ -61,14 +61,14 @@ fn blob(dice: &mut Dice) -> BTreeSet<Corner> {
         // Cells are removed as long as the rest stays connected. That makes holes and touching corners.
         let (x, y) = (dice.below(SIDE as u64) as i64, dice.below(SIDE as u64) as i64);
         let less: BTreeSet<Corner> = cells.iter().copied().filter(|c| *c != (x, y)).collect();
-        if dice.below(2) == 0 && hangs_together(&less) {
+        if dice.below(2) == 0 && is_connected(&less) {
             cells = less;
         }
     }
     cells
 }
 
-fn hangs_together(cells: &BTreeSet<Corner>) -> bool {
+fn is_connected(cells: &BTreeSet<Corner>) -> bool {
     let Some(first) = cells.first() else { return false };
     let (mut seen, mut open) = (BTreeSet::from([*first]), vec![*first]);
     while let Some((x, y)) = open.pop() {
@@ -144,7 +144,7 @@ fn cells_are_covered_whatever_the_rings_touch() {
     let mut dice = dice(0x0051_65e1);
     let (mut holed, mut touching) = (0, 0);
     for _ in 0..times(600) {
-        let cells = blob(&mut dice);
+        let cells = connected_cells(&mut dice);
         let turn_left = dice.below(2) == 0;
         let mut rings = boundary(&cells, turn_left);
         rings.sort_by_key(|ring| -twice_area(ring));
@@ -175,7 +175,7 @@ fn cells_are_covered_whatever_the_rings_touch() {
             assert_eq!(pieces.iter().any(|piece| contains(piece, p)), wanted(p), "{p:?} {written:?}");
         }
     }
-    assert!(!usual() || holed > 40 && touching > 40, "{holed} {touching}");
+    assert!(!uses_default_cases() || holed > 40 && touching > 40, "{holed} {touching}");
 }
 
 /// Tests that an accepted polygon covers the area that counting crossings gives. A refused one has a crossing, an
@@ -203,9 +203,9 @@ fn random_rings_are_refused_or_covered() {
             .collect();
         let area =
             (twice_area(&rings[0]).abs() - rings[1..].iter().map(|r| twice_area(r).abs()).sum::<i64>()) as f64 / 2.0;
-        covers(&polygon.convex_pieces(), area, inside, &samples);
+        check_cover(&polygon.convex_pieces(), area, inside, &samples);
     }
-    assert!(!usual() || taken > 50, "{taken}");
+    assert!(!uses_default_cases() || taken > 50, "{taken}");
 }
 
 #[test]
@@ -241,7 +241,7 @@ fn impossible_rings_are_reported() {
 
 /// Tests that cutting a plate with many holes takes little more than linear time.
 #[test]
-fn a_perforated_plate() {
+fn cutting_a_perforated_plate_takes_nearly_linear_time() {
     let rows = 40;
     let outer = vec![(0, 0), (4 * rows, 0), (4 * rows, 4 * rows), (0, 4 * rows)];
     let hole = |x: i64, y: i64| vec![(x + 1, y + 2), (x + 2, y + 1), (x + 3, y + 2), (x + 2, y + 3)];

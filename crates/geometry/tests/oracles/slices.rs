@@ -51,7 +51,7 @@ fn distance_at(part: &Convex, pivot: Point, angle: f64, piece: &Convex) -> f64 {
     separation(&part.at(&Pose::new(pivot, angle)), piece).distance
 }
 
-fn holds(arcs: &[[f64; 2]], angle: f64) -> bool {
+fn contains_angle(arcs: &[[f64; 2]], angle: f64) -> bool {
     arcs.iter().any(|a| [-TAU, 0.0, TAU].iter().any(|turn| a[0] <= angle + turn && angle + turn <= a[1]))
 }
 
@@ -80,7 +80,7 @@ fn check_turning(part: &Convex, pivot: Point, piece: &Convex, grow: f64) -> Resu
         let inside = match hits {
             Hits::Never => false,
             Hits::Always => true,
-            Hits::Within => holds(&arcs, angle),
+            Hits::Within => contains_angle(&arcs, angle),
         };
         if inside {
             prop_assert!(distance <= ROUNDING, "named, but {} apart at {}: {:?}", distance, angle, arcs);

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use crate::lattice::{core, cross, meet, point, points};
 
 /// Moves a coordinate by a few units in the last place, for shapes that almost or barely touch.
-fn nudged(x: f64, steps: i8) -> f64 {
+fn moved_by_ulps(x: f64, steps: i8) -> f64 {
     (0..steps.unsigned_abs()).fold(x, |x, _| if steps > 0 { x.next_up() } else { x.next_down() })
 }
 
@@ -60,7 +60,7 @@ proptest! {
         // coordinate is 0, because the neighbours of 0 (5e-324) are below the range that the predicates guarantee.
         let nudge = |corners: &[(i64, i64)], steps: &[(i8, i8)]| {
             let nudged = corners.iter().zip(steps).map(|(p, s)| {
-                Point::new(nudged((p.0 + 5) as f64 / 10.0, s.0), nudged((p.1 + 5) as f64 / 10.0, s.1))
+                Point::new(moved_by_ulps((p.0 + 5) as f64 / 10.0, s.0), moved_by_ulps((p.1 + 5) as f64 / 10.0, s.1))
             });
             convex(hull(&nudged.collect::<Vec<_>>()), 0.0)
         };

@@ -33,7 +33,7 @@ impl Case {
 
     /// Returns the four neighbours of a cell. On a short circle, a neighbour may be the cell itself. It is `None`
     /// outside of the grid.
-    fn around(&self, cell: usize) -> [Option<usize>; 4] {
+    fn neighbors(&self, cell: usize) -> [Option<usize>; 4] {
         let [rows, columns] = self.cells.map(|n| n as isize);
         let (i, j) = (cell as isize / columns, cell as isize % columns);
         [(i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)].map(|(a, b)| {
@@ -49,8 +49,8 @@ impl Case {
         })
     }
 
-    fn asked(&self, cell: usize, values: &[f64]) -> f64 {
-        let [a, b, c, d] = self.around(cell).map(|place| place.map_or(self.outside, |place| values[place]));
+    fn implied_value(&self, cell: usize, values: &[f64]) -> f64 {
+        let [a, b, c, d] = self.neighbors(cell).map(|place| place.map_or(self.outside, |place| values[place]));
         match &self.stencil {
             Stencil::Mean => (a + b + c + d) / 4.0,
             Stencil::Weights(w) => w[cell][0] * a + w[cell][1] * b + w[cell][2] * c + w[cell][3] * d,
@@ -68,7 +68,7 @@ impl Case {
         for _ in 0..sweeps {
             let old = values.clone();
             for &cell in &order {
-                let asked = self.asked(cell, if settings.sweep == Sweep::Jacobi { &old } else { &values });
+                let asked = self.implied_value(cell, if settings.sweep == Sweep::Jacobi { &old } else { &values });
                 let next = old[cell] + settings.factor * (asked - old[cell]);
                 values[cell] = settings.clamp.map_or(next, |[low, high]| next.clamp(low, high));
             }
@@ -95,7 +95,7 @@ impl Case {
         for cell in (0..n).filter(|&cell| self.unknown[cell]) {
             right[cell] = 0.0;
             let weights = if let Stencil::Weights(weights) = &self.stencil { weights[cell] } else { [0.25; 4] };
-            for (place, weight) in self.around(cell).into_iter().zip(weights) {
+            for (place, weight) in self.neighbors(cell).into_iter().zip(weights) {
                 match place {
                     Some(place) => matrix[(cell, place)] -= weight,
                     None => right[cell] += weight * self.outside,
@@ -143,7 +143,7 @@ pub fn case(kind: Kind, most: usize) -> impl Strategy<Value = Case> {
 }
 
 /// Generates problems of all kinds.
-pub fn any(most: usize) -> impl Strategy<Value = Case> {
+pub fn any_case(most: usize) -> impl Strategy<Value = Case> {
     prop_oneof![case(Kind::Mean, most), linear(most), case(Kind::Altered, most)]
 }
 
@@ -153,7 +153,7 @@ pub fn linear(most: usize) -> impl Strategy<Value = Case> {
 }
 
 /// Returns the greatest difference of two fields.
-pub fn apart(a: &[f64], b: &[f64]) -> f64 {
+pub fn greatest_difference(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter()
         .zip(b)

@@ -1,7 +1,7 @@
 //! Compares relaxations on the GPU, sweep by sweep, with relaxations of one cell after the other.
 
 use crate::gpu;
-use crate::oracle::{Case, Kind, any, apart, case};
+use crate::oracle::{Case, Kind, any_case, case, greatest_difference};
 use cplan_gpu::{Edge, Ending, GpuError, Measure, Settings, Stencil, Sweep};
 use proptest::prelude::*;
 
@@ -41,14 +41,14 @@ proptest! {
 
     #[test]
     #[ignore = "needs a Vulkan driver: .ci/gpu"]
-    fn sweeps_are_those_of_one_cell_after_the_other(case in any(40), settings in settings()) {
+    fn sweeps_are_those_of_one_cell_after_the_other(case in any_case(40), settings in settings()) {
         let on_gpu = gpu().relax(&case.problem(), &settings).unwrap();
         // It ends earlier where nothing changes any more.
         prop_assert!(on_gpu.sweeps == settings.max_sweeps || on_gpu.ending == Ending::Converged);
         let (expected, measures) = case.relaxed(&settings, settings.max_sweeps);
         let greatest = expected.iter().chain(&case.values).fold(1.0, |most: f64, value| most.max(value.abs()));
         let tolerance = f64::from(settings.max_sweeps) * ROUNDING * greatest * MAGNIFIED.powf(f64::from(settings.factor > 1.0));
-        let off = apart(&on_gpu.values, &expected);
+        let off = greatest_difference(&on_gpu.values, &expected);
         prop_assert!(off <= tolerance, "off by {off:e}, not {tolerance:e}");
         if on_gpu.sweeps == settings.max_sweeps && settings.measure != Measure::Relative {
             let (own, count) = (measures[on_gpu.sweeps as usize - 1], case.values.len() as f64);
@@ -110,7 +110,7 @@ fn the_floor_of_single_precision_is_reported() {
         assert_ne!(on_gpu.ending, Ending::Unconverged, "{factor}: {:e}", on_gpu.change);
         floors += u32::from(on_gpu.ending == Ending::Floor);
         // Gauss-Seidel's changes are lost in rounding long before the error is.
-        let off = apart(&on_gpu.values, &exact);
+        let off = greatest_difference(&on_gpu.values, &exact);
         assert!(off < 2e-5, "{factor}: {off:e} after {} sweeps", on_gpu.sweeps);
     }
     assert!(floors > 0);
@@ -169,6 +169,6 @@ proptest! {
         let Some(solution) = case.solved() else { return Ok(()) };
         prop_assert!(on_gpu.ending != Ending::Unconverged);
         // The remaining error after small changes is the change times the number of sweeps for which an error persists.
-        prop_assert!(apart(&on_gpu.values, &solution) < 1e-3, "{}", apart(&on_gpu.values, &solution));
+        prop_assert!(greatest_difference(&on_gpu.values, &solution) < 1e-3, "{}", greatest_difference(&on_gpu.values, &solution));
     }
 }

@@ -50,7 +50,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) {
     let router = Router::new()
         .route("/", get(async move || Html(page.to_string())))
         .route("/live", get(upgrade))
-        .layer(middleware::from_fn_with_state(Arc::clone(&server), guarded))
+        .layer(middleware::from_fn_with_state(Arc::clone(&server), refuse_foreign_requests))
         .with_state(server);
     let room = Arc::new(Semaphore::new(MAX_CONNECTIONS));
     loop {
@@ -82,7 +82,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) {
 }
 
 /// Refuses requests that the page never makes. Adds [`HEADERS`] to all responses.
-async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next) -> Response {
+async fn refuse_foreign_requests(State(server): State<Arc<Server>>, request: Request, next: Next) -> Response {
     let mut response = match refusal(&server, request.headers()) {
         Some((status, why)) => (status, why).into_response(),
         None => next.run(request).await,
@@ -96,7 +96,7 @@ async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next
 /// Returns the reason why a request is refused. `None` if it is accepted.
 fn refusal(server: &Server, headers: &HeaderMap) -> Option<(StatusCode, &'static str)> {
     let named = headers.get(header::HOST).and_then(|value| value.to_str().ok());
-    if !named.is_some_and(|named| is_ours(named, server.address)) {
+    if !named.is_some_and(|named| names_this_server(named, server.address)) {
         return Some((
             StatusCode::MISDIRECTED_REQUEST,
             "this server answers only at its address, not at other host names\n",
@@ -115,7 +115,7 @@ fn refusal(server: &Server, headers: &HeaderMap) -> Option<(StatusCode, &'static
 
 /// Returns true if a `Host` header names this server by its address or as `localhost`. Another name may be one that a
 /// foreign DNS server resolves to this machine (DNS rebinding).
-fn is_ours(named: &str, here: SocketAddr) -> bool {
+fn names_this_server(named: &str, here: SocketAddr) -> bool {
     let (name, port) = match named.rsplit_once(':') {
         Some((name, port)) if !port.ends_with(']') => (name, port.parse().ok()),
         _ => (named, Some(80)),
@@ -151,14 +151,18 @@ mod tests {
     fn only_addresses_name_the_server() {
         let local: SocketAddr = "127.0.0.1:7878".parse().unwrap();
         for name in ["127.0.0.1:7878", "localhost:7878", "LOCALHOST:7878", "[::1]:7878"] {
-            assert!(is_ours(name, local), "{name}");
+            assert!(names_this_server(name, local), "{name}");
         }
         for name in
             ["evil.example:7878", "127.0.0.1", "127.0.0.1:80", "192.168.0.7:7878", "localhost.evil.example:7878", ""]
         {
-            assert!(!is_ours(name, local), "{name}");
+            assert!(!names_this_server(name, local), "{name}");
         }
         let open: SocketAddr = "0.0.0.0:80".parse().unwrap();
-        assert!(is_ours("192.168.0.7", open) && is_ours("[fe80::1]", open) && !is_ours("evil.example", open));
+        assert!(
+            names_this_server("192.168.0.7", open)
+                && names_this_server("[fe80::1]", open)
+                && !names_this_server("evil.example", open)
+        );
     }
 }

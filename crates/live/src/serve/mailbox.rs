@@ -24,7 +24,7 @@ struct MailboxState {
 }
 
 impl Mailbox {
-    fn inside(&self) -> MutexGuard<'_, MailboxState> {
+    fn lock_state(&self) -> MutexGuard<'_, MailboxState> {
         // The state is consistent even after a panic while the lock is held.
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -32,7 +32,7 @@ impl Mailbox {
     /// Adds a request. A newer plan replaces a waiting one. The request in progress is interrupted. Returns false if
     /// the mailbox is full.
     pub fn post(&self, request: Request) -> bool {
-        let mut inside = self.inside();
+        let mut inside = self.lock_state();
         if matches!(request, Request::Plan(_)) {
             inside.waiting.retain(|waiting| !matches!(waiting, Request::Plan(_)));
         }
@@ -48,8 +48,8 @@ impl Mailbox {
     }
 
     /// Waits for the next request, and returns it with its interrupt. `None` when the mailbox is closed.
-    pub fn take(&self) -> Option<(Request, Interrupt)> {
-        let mut inside = self.inside();
+    pub fn next_request(&self) -> Option<(Request, Interrupt)> {
+        let mut inside = self.lock_state();
         inside.running = None;
         loop {
             if inside.closed {
@@ -70,7 +70,7 @@ impl Mailbox {
 
     /// Closes the mailbox: interrupts the request in progress and drops the waiting ones.
     pub fn close(&self) {
-        let mut inside = self.inside();
+        let mut inside = self.lock_state();
         inside.closed = true;
         if let Some(running) = &inside.running {
             running.set();
@@ -84,7 +84,7 @@ mod tests {
     use super::*;
     use crate::PlanRequest;
 
-    fn ask(id: u64) -> PlanRequest {
+    fn plan_request(id: u64) -> PlanRequest {
         PlanRequest { id, base: 1, is_final: false, state: None, options: "visibility".into(), think: false }
     }
 
@@ -93,48 +93,48 @@ mod tests {
     }
 
     #[test]
-    fn of_plans_that_wait_the_latest_counts() {
+    fn only_the_latest_waiting_plan_is_kept() {
         let mailbox = Mailbox::default();
         for id in 1..=100 {
-            assert!(mailbox.post(Request::Plan(ask(id))));
+            assert!(mailbox.post(Request::Plan(plan_request(id))));
         }
-        let (request, interrupt) = mailbox.take().unwrap();
-        assert_eq!((request.id(), interrupt.why()), (100, None));
+        let (request, interrupt) = mailbox.next_request().unwrap();
+        assert_eq!((request.id(), interrupt.stop_reason()), (100, None));
     }
 
     #[test]
-    fn a_newer_request_stops_the_one_that_runs() {
+    fn a_newer_request_stops_the_running_one() {
         let mailbox = Mailbox::default();
-        mailbox.post(Request::Plan(ask(1)));
-        let (_, running) = mailbox.take().unwrap();
-        assert!(running.why().is_none());
-        mailbox.post(Request::Plan(ask(2)));
-        assert!(running.why().is_some());
-        assert!(mailbox.take().unwrap().1.why().is_none());
+        mailbox.post(Request::Plan(plan_request(1)));
+        let (_, running) = mailbox.next_request().unwrap();
+        assert!(running.stop_reason().is_none());
+        mailbox.post(Request::Plan(plan_request(2)));
+        assert!(running.stop_reason().is_some());
+        assert!(mailbox.next_request().unwrap().1.stop_reason().is_none());
     }
 
     #[test]
     fn only_plans_are_dropped_and_the_queue_is_bounded() {
         let mailbox = Mailbox::default();
-        mailbox.post(Request::Plan(ask(1)));
+        mailbox.post(Request::Plan(plan_request(1)));
         mailbox.post(load(2));
-        mailbox.post(Request::Plan(ask(3)));
-        let (request, interrupt) = mailbox.take().unwrap();
+        mailbox.post(Request::Plan(plan_request(3)));
+        let (request, interrupt) = mailbox.next_request().unwrap();
         assert_eq!(request, load(2));
-        assert!(interrupt.why().is_some(), "its plan will not be seen");
-        assert_eq!(mailbox.take().unwrap().0.id(), 3);
+        assert!(interrupt.stop_reason().is_some(), "its plan will not be seen");
+        assert_eq!(mailbox.next_request().unwrap().0.id(), 3);
         assert!((0..8).all(|id| mailbox.post(load(id))));
         assert!(!mailbox.post(load(9)));
     }
 
     #[test]
-    fn closing_stops_and_ends() {
+    fn closing_the_mailbox_stops_the_running_request() {
         let mailbox = Mailbox::default();
-        mailbox.post(Request::Plan(ask(1)));
-        let (_, running) = mailbox.take().unwrap();
+        mailbox.post(Request::Plan(plan_request(1)));
+        let (_, running) = mailbox.next_request().unwrap();
         mailbox.post(load(2));
         mailbox.close();
-        assert!(running.why().is_some());
-        assert!(mailbox.take().is_none());
+        assert!(running.stop_reason().is_some());
+        assert!(mailbox.next_request().is_none());
     }
 }

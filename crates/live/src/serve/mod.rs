@@ -43,7 +43,7 @@ pub fn run(listener: TcpListener, host: Host) -> std::io::Result<()> {
         let listener = tokio::net::TcpListener::from_std(listener)?;
         tokio::select! {
             () = http::serve(listener, Arc::new(server)) => Ok(()),
-            stopped = told_to_stop() => stopped,
+            stopped = wait_for_stop_signal() => stopped,
         }
     });
     runtime.shutdown_background();
@@ -51,7 +51,7 @@ pub fn run(listener: TcpListener, host: Host) -> std::io::Result<()> {
 }
 
 /// Waits for Ctrl-C, or for a termination signal.
-async fn told_to_stop() -> std::io::Result<()> {
+async fn wait_for_stop_signal() -> std::io::Result<()> {
     #[cfg(unix)]
     {
         let mut ended = tokio::signal::unix::signal(tokio::signal::unix::SignalKind::terminate())?;

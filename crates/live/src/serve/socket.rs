@@ -60,7 +60,7 @@ pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaph
                     Ok(request) => (!mailbox.post(request)).then(|| "too many requests wait".to_owned()),
                     Err(error) => Some(format!("not a valid request: {error}")),
                 };
-                if let Some(error) = wrong && !send_message(&mut socket, failed(0, error)).await {
+                if let Some(error) = wrong && !send_message(&mut socket, error_message(0, error)).await {
                     break;
                 }
             }
@@ -86,26 +86,29 @@ async fn send_message(socket: &mut WebSocket, message: Message) -> bool {
 }
 
 /// Converts a message for the socket.
-fn carried(message: crate::Message) -> Message {
+fn to_socket_message(message: crate::Message) -> Message {
     match message {
         crate::Message::Text(text) => Message::Text(Utf8Bytes::from(text)),
         crate::Message::Binary(bytes) => Message::Binary(bytes.into()),
     }
 }
 
-fn failed(id: u64, error: String) -> Message {
-    carried(crate::Message::from(&Reply::Failed { id, error }))
+fn error_message(id: u64, error: String) -> Message {
+    to_socket_message(crate::Message::from(&Reply::Failed { id, error }))
 }
 
 /// Handles the page's requests in sequence, until the mailbox is closed.
 fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
     // If the page is gone, the message is lost; the mailbox is then closed, too.
     let send_message = |message: Message| drop(send.blocking_send(message));
-    let mut desk = LiveSession::new(host);
-    while let Some((request, interrupt)) = mailbox.take() {
-        let work =
-            || desk.take(&request, &interrupt, TimeSpent::Nothing, &mut |message| send_message(carried(message)));
-        if let Some(message) = guarded(request.id(), work) {
+    let mut session = LiveSession::new(host);
+    while let Some((request, interrupt)) = mailbox.next_request() {
+        let work = || {
+            session.handle(&request, &interrupt, TimeSpent::Nothing, &mut |message| {
+                send_message(to_socket_message(message))
+            })
+        };
+        if let Some(message) = run_guarded(request.id(), work) {
             send_message(message);
         }
     }
@@ -113,9 +116,9 @@ fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
 
 /// Runs `work`. If it panics, returns an error message for the page. A session changes its state only after everything
 /// that can fail, so it continues with its previous state.
-fn guarded(id: u64, work: impl FnOnce()) -> Option<Message> {
+fn run_guarded(id: u64, work: impl FnOnce()) -> Option<Message> {
     let error = || "the planner failed on this world, which is a defect of cplan; the page still works".to_owned();
-    catch_unwind(AssertUnwindSafe(work)).is_err().then(|| failed(id, error()))
+    catch_unwind(AssertUnwindSafe(work)).is_err().then(|| error_message(id, error()))
 }
 
 #[cfg(test)]
@@ -124,8 +127,8 @@ mod tests {
 
     #[test]
     fn a_panic_is_reported_and_the_session_continues() {
-        let reply = guarded(7, || std::panic::resume_unwind(Box::new("as a panic does")));
+        let reply = run_guarded(7, || std::panic::resume_unwind(Box::new("as a panic does")));
         assert!(matches!(reply, Some(Message::Text(text)) if text.starts_with(r#"{"kind":"failed","id":7,"#)));
-        assert!(guarded(8, || ()).is_none());
+        assert!(run_guarded(8, || ()).is_none());
     }
 }

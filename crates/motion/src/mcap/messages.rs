@@ -121,7 +121,7 @@ pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
         cdr.f64s(&motion.velocity[k]);
         cdr.f64s(motion.acceleration.as_ref().map_or(&[], |acceleration| &acceleration[k]));
         cdr.f64s(&[]);
-        since(&mut cdr, nanoseconds(time));
+        write_time(&mut cdr, nanoseconds(time));
     }
     cdr.into_bytes()
 }
@@ -135,7 +135,7 @@ pub fn transforms(time: u64, frames: &[(&str, (Place, [f64; 4]))]) -> Vec<u8> {
     let mut cdr = Cdr::new();
     cdr.length(frames.len());
     for (name, (at, orientation)) in frames {
-        since(&mut cdr, time);
+        write_time(&mut cdr, time);
         cdr.string(WORLD_FRAME);
         cdr.string(name);
         at.iter().chain(orientation).for_each(|&value| cdr.f64(value));
@@ -152,7 +152,7 @@ pub fn markers(stage: &Stage) -> Vec<u8> {
     cdr.length(stage.bodies.iter().map(|body| body.solids.len()).sum());
     let solids = stage.bodies.iter().flat_map(|body| body.solids.iter().map(move |solid| (body, solid)));
     for (number, (body, solid)) in (0..).zip(solids) {
-        since(&mut cdr, 0);
+        write_time(&mut cdr, 0);
         cdr.string(&body.name);
         cdr.string(&solid.name);
         cdr.i32(number);
@@ -162,7 +162,7 @@ pub fn markers(stage: &Stage) -> Vec<u8> {
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0].iter().chain(&[1.0; 3]).for_each(|&value| cdr.f64(value));
         solid.color.iter().chain(&[1.0]).for_each(|&value| cdr.f32(value));
         // The marker has no end, and moves with its frame.
-        since(&mut cdr, 0);
+        write_time(&mut cdr, 0);
         cdr.u8(1);
         let corners = stage.triangles(solid);
         cdr.length(corners.len());
@@ -193,7 +193,7 @@ pub fn points(stage: &Stage, body: &Body) -> Vec<u8> {
     let step = 3 * FLOAT32_FIELD.1;
     let count = u32::try_from(points.len()).expect("fewer than 2^32 points");
     let mut cdr = Cdr::new();
-    since(&mut cdr, 0);
+    write_time(&mut cdr, 0);
     cdr.string(&body.name);
     cdr.u32(1);
     cdr.u32(count);
@@ -215,12 +215,12 @@ pub fn points(stage: &Stage, body: &Body) -> Vec<u8> {
 
 /// Writes a header with an empty frame, because joint values have none.
 fn header(cdr: &mut Cdr, time: u64) {
-    since(cdr, time);
+    write_time(cdr, time);
     cdr.string("");
 }
 
 /// Writes a `Time` or a `Duration`.
-fn since(cdr: &mut Cdr, nanoseconds: u64) {
+fn write_time(cdr: &mut Cdr, nanoseconds: u64) {
     // The message can hold up to 68 years. Motions last at most eleven days.
     cdr.i32(i32::try_from(nanoseconds / NANOSECONDS_PER_SECOND).unwrap_or(i32::MAX));
     cdr.u32((nanoseconds % NANOSECONDS_PER_SECOND) as u32);
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn a_state_by_hand() {
+    fn a_joint_state_has_the_bytes_computed_by_hand() {
         let bytes = joint_state(&names(), 1_500_000_000, &[1.0, -2.0], &[0.5, 0.0]);
         let expected = hex("00 01 00 00  01 00 00 00  00 65 cd 1d  01 00 00 00 00  00 00 00 \
              02 00 00 00  02 00 00 00 61 00  00 00  03 00 00 00 62 63 00  00 \
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn a_trajectory_by_hand() {
+    fn a_trajectory_has_the_bytes_computed_by_hand() {
         let motion = JointMotion {
             joints: names().to_vec(),
             time: vec![0.0, 2.000_000_001],
@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn definitions_name_all_that_they_use() {
+    fn message_definitions_include_all_types_that_they_use() {
         for kind in [JOINT_STATE, JOINT_TRAJECTORY, TRANSFORMS, MARKERS, POINTS] {
             let text = kind.definition();
             let defined: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("MSG: ")).collect();

@@ -72,14 +72,14 @@ impl Stage {
     }
 
     /// Returns the direction of the normal along the third axis of frames.
-    fn up(&self) -> f64 {
+    fn normal_direction(&self) -> f64 {
         self.basis().column(2).dot(&self.plane.normal).signum()
     }
 
     /// Returns position and orientation (x, y, z, w) of a body's frame in space.
     fn transform(&self, pose: &Pose, raised: f64) -> (Place, [f64; 4]) {
         let basis = Rotation3::from_matrix_unchecked(self.basis());
-        let at = basis * Vector3::new(pose.translation.x, pose.translation.y, raised * self.up());
+        let at = basis * Vector3::new(pose.translation.x, pose.translation.y, raised * self.normal_direction());
         let turn =
             UnitQuaternion::from(basis) * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), pose.rotation.angle());
         (at.into(), [turn.i, turn.j, turn.k, turn.w])
@@ -136,8 +136,9 @@ impl Stage {
     fn ends(&self, heights: Heights) -> [f64; 2] {
         let usual = self.heights();
         let or = |end: f64, usual: f64| if end.is_finite() { end } else { usual };
-        let ends = [or(heights.lower, usual.lower), or(heights.upper, usual.upper)].map(|end| end * self.up());
-        if self.up() > 0.0 { ends } else { [ends[1], ends[0]] }
+        let ends =
+            [or(heights.lower, usual.lower), or(heights.upper, usual.upper)].map(|end| end * self.normal_direction());
+        if self.normal_direction() > 0.0 { ends } else { [ends[1], ends[0]] }
     }
 }
 

@@ -118,7 +118,7 @@ pub fn check_collision_with(
     let pairs = all_pairs(scene, recording);
     let mut search = Search::new(scene, &pairs, &pieces, clearance);
     search.tool = Some(&tool);
-    search.look_around();
+    search.sample_motion();
     search.run();
     search.verdict()
 }
@@ -154,7 +154,7 @@ pub fn first_moving_contact(scene: TimedScene, recording: &Recording, clearance:
 fn check_pairs(scene: TimedScene, pairs: Cow<[Pair]>, recording: &Recording, clearance: f64) -> CollisionCheck {
     let pieces = recording.pieces();
     let mut search = Search::new(scene, &pairs, &pieces, clearance);
-    search.look_around();
+    search.sample_motion();
     search.run();
     search.verdict()
 }
@@ -201,19 +201,19 @@ impl<'a> Search<'a> {
     }
 
     /// Samples the whole motion. Skips stretches in which no pair can be in contact, or closer than the closest so far.
-    fn look_around(&mut self) {
+    fn sample_motion(&mut self) {
         let count = self.pieces.len();
         let (stride, shares) = (count.div_ceil(INITIAL_SAMPLES), INITIAL_SAMPLES.div_ceil(count));
         let place = |look: usize| (look / shares * stride, (look % shares) as f64 / shares as f64);
         let looks = count.div_ceil(stride) * shares;
         // Take some samples first: short distances found early make most others irrelevant.
         for look in (0..looks).step_by(COARSE_STRIDE) {
-            self.look(place(look), self.pairs);
+            self.sample_pairs(place(look), self.pairs);
         }
         let mut open = vec![(0, looks, self.pairs.to_vec())];
         while let Some((from, to, mut pairs)) = open.pop() {
             if to - from == 1 {
-                self.look(place(from), &pairs);
+                self.sample_pairs(place(from), &pairs);
                 continue;
             }
             let span = Span::between(place(from), place(to - 1));
@@ -223,35 +223,35 @@ impl<'a> Search<'a> {
             let [begins, ends] = span.ends();
             pairs.retain(|&pair| {
                 let drift = self.drift(pair, begins, ends);
-                let enough = |_| self.required.max(self.seen());
-                self.is_of_interest(apart(&posture, pair, deviation, drift.as_ref()))
-                    && self.is_of_interest(bound(&posture, pair, deviation, drift.as_ref(), enough).least)
+                let enough = |_| self.required.max(self.least_distance());
+                self.may_be_closest(distance_bound(&posture, pair, deviation, drift.as_ref()))
+                    && self.may_be_closest(bound(&posture, pair, deviation, drift.as_ref(), enough).least)
             });
             if !pairs.is_empty() {
                 let half = from.midpoint(to);
                 open.extend([(half, to, pairs.clone()), (from, half, pairs)]);
             }
         }
-        self.look((count - 1, 1.0), self.pairs);
+        self.sample_pairs((count - 1, 1.0), self.pairs);
     }
 
     /// Samples some pairs at a place. Skips pairs whose enclosing discs are far apart.
-    fn look(&mut self, place: Place, pairs: &[Pair]) {
+    fn sample_pairs(&mut self, place: Place, pairs: &[Pair]) {
         let posture = Posture::new(self.scene.scene, self.pieces[place.0].at(place.1));
         for &pair in pairs {
             if !self.certainly_meets(pair, place) {
                 continue;
             }
             let drift = self.drift(pair, place, place);
-            if self.is_of_interest(apart(&posture, pair, NO_DEVIATION, drift.as_ref())) {
-                self.see(place, Contact { pair, separation: here(&posture, pair, drift.as_ref()) });
+            if self.may_be_closest(distance_bound(&posture, pair, NO_DEVIATION, drift.as_ref())) {
+                self.record_distance(place, Contact { pair, separation: here(&posture, pair, drift.as_ref()) });
             }
         }
     }
 
     /// Returns true if a pair with at least this distance may be in contact, or closer than all pairs before.
-    fn is_of_interest(&self, apart: f64) -> bool {
-        apart <= 0.0 || apart < self.required || apart < self.seen()
+    fn may_be_closest(&self, apart: f64) -> bool {
+        apart <= 0.0 || apart < self.required || apart < self.least_distance()
     }
 
     /// Removes from `pairs` those whose heights do not meet during a span.
@@ -268,18 +268,18 @@ impl<'a> Search<'a> {
     }
 
     /// Returns the least sampled distance.
-    fn seen(&self) -> f64 {
+    fn least_distance(&self) -> f64 {
         self.least.map_or(f64::INFINITY, |e| e.contact.separation.distance)
     }
 
     /// Returns the motion of the obstacle of a pair between two places, if it moves.
     fn drift(&self, pair: Pair, from: Place, to: Place) -> Option<Drift> {
         let time = |(piece, share): Place| self.pieces[piece].time(share) - self.pieces[0].from;
-        self.scene.course(pair).map(|course| course.drift(time(from), time(to)))
+        self.scene.trajectory(pair).map(|trajectory| trajectory.drift(time(from), time(to)))
     }
 
     /// Records a sampled distance.
-    fn see(&mut self, place: Place, contact: Contact) {
+    fn record_distance(&mut self, place: Place, contact: Contact) {
         let distance = contact.separation.distance;
         let encounter = Encounter { moment: Moment::new(place.0, &self.pieces[place.0], place.1), contact };
         // Among equally near places, the earliest counts.
@@ -297,9 +297,9 @@ impl<'a> Search<'a> {
 
     /// Returns true if a lower bound is good enough. After a contact has been found, any bound that excludes a contact
     /// is good enough.
-    fn suffices(&self, bound: f64) -> bool {
+    fn is_good_enough(&self, bound: f64) -> bool {
         let is_tight = self.tightness > 0.0 && self.hit.is_none();
-        let target = if is_tight { (self.tightness * self.seen()).max(self.required) } else { self.required };
+        let target = if is_tight { (self.tightness * self.least_distance()).max(self.required) } else { self.required };
         bound > 0.0 && bound >= target
     }
 
@@ -332,13 +332,13 @@ impl<'a> Search<'a> {
             let certainly_meets = self.certainly_meets(pair, span.middle());
             // A shape that is not exact may be nearer than the true shape, so do not compare it with sampled distances.
             let suffices = |search: &Self, bound: f64| match certainly_meets {
-                true => search.suffices(bound),
+                true => search.is_good_enough(bound),
                 false => bound > 0.0 && bound >= search.required,
             };
             let drift = self.drift(pair, from, to);
             self.evaluations += 1;
             if let Some(drift) = &drift {
-                let apart = posture.apart_drifting(pair, deviation, drift);
+                let apart = posture.drifting_disc_bound(pair, deviation, drift);
                 if suffices(self, apart) {
                     self.proven = self.proven.min(apart);
                     return false;
@@ -348,7 +348,7 @@ impl<'a> Search<'a> {
             if let Span::Part(index, from, to) = span
                 && certainly_meets
             {
-                self.see((index, (from + to) / 2.0), Contact { pair, separation: bounded.here });
+                self.record_distance((index, (from + to) / 2.0), Contact { pair, separation: bounded.here });
             }
             let free = suffices(self, bounded.least);
             if free {
@@ -369,7 +369,7 @@ impl<'a> Search<'a> {
                 let separation = here(&posture, pair, drift.as_ref());
                 let contact = Contact { pair, separation };
                 if self.certainly_meets(pair, place) {
-                    self.see(place, contact);
+                    self.record_distance(place, contact);
                 }
                 if nearest.is_none_or(|n| separation.distance < n.contact.separation.distance) {
                     nearest = Some(Encounter { moment: Moment::new(place.0, &self.pieces[place.0], place.1), contact });
@@ -416,9 +416,9 @@ fn here(posture: &Posture, pair: Pair, drift: Option<&Drift>) -> Separation {
 }
 
 /// Returns a lower bound on the distance of a pair over `deviation`, from discs around both shapes.
-fn apart(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Drift>) -> f64 {
+fn distance_bound(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Drift>) -> f64 {
     match drift {
-        Some(drift) => posture.apart_drifting(pair, deviation, drift),
+        Some(drift) => posture.drifting_disc_bound(pair, deviation, drift),
         None => posture.disc_bound(pair, deviation),
     }
 }

@@ -97,13 +97,13 @@ pub fn limit_violations(joints: &[Joint; 2], recording: &Recording) -> Vec<Limit
             judge.velocities(&of_joint(recording.positions()), times);
             if let Some(rows) = recording.velocities() {
                 let velocities = of_joint(rows);
-                judge.stated(Limit::Velocity, &velocities);
+                judge.judge_stated_rates(Limit::Velocity, &velocities);
                 judge.accelerations(&velocities, times);
-                judge.rest(Limit::RestAtStart, velocities[0], 0);
-                judge.rest(Limit::RestAtEnd, velocities[velocities.len() - 1], velocities.len() - 1);
+                judge.judge_rest(Limit::RestAtStart, velocities[0], 0);
+                judge.judge_rest(Limit::RestAtEnd, velocities[velocities.len() - 1], velocities.len() - 1);
             }
             if let Some(rows) = recording.accelerations() {
-                judge.stated(Limit::Acceleration, &of_joint(rows));
+                judge.judge_stated_rates(Limit::Acceleration, &of_joint(rows));
             }
             if let (Some(most), Some(_)) = (joint.jerk, recording.velocities()) {
                 judge.jerks(most);
@@ -145,8 +145,9 @@ pub fn torque_violations(scene: &Scene, recording: &Recording) -> Vec<LimitViola
         }
     }
     for (index, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.to > piece.from) {
-        let explained =
-            judges.each_ref().map(|judge| judge.explained(piece, &Sensitivity::of(piece, Derivative::Acceleration)));
+        let explained = judges
+            .each_ref()
+            .map(|judge| judge.rounding_part(piece, &Sensitivity::of(piece, Derivative::Acceleration)));
         for look in torque_samples(&torques, piece, TORQUE_TOLERANCE) {
             for judge in &mut judges {
                 let (k, value, allowed) = (judge.k, look.torque[judge.k], torques.dynamics.effort[judge.k]);
@@ -191,7 +192,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Iterates over the pieces of positive duration, with their numbers.
-    fn lasting(&self) -> impl Iterator<Item = (usize, &'a Piece)> + use<'a> {
+    fn pieces_with_duration(&self) -> impl Iterator<Item = (usize, &'a Piece)> + use<'a> {
         self.pieces.iter().enumerate().filter(|(_, piece)| piece.to > piece.from)
     }
 
@@ -213,7 +214,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Checks the velocities or accelerations that the file states.
-    fn stated(&mut self, limit: Limit, values: &[f64]) {
+    fn judge_stated_rates(&mut self, limit: Limit, values: &[f64]) {
         let (allowed, may) = match limit {
             Limit::Velocity => (self.joint.velocity, self.precision.velocity),
             _ => (self.joint.acceleration, self.precision.acceleration),
@@ -228,9 +229,9 @@ impl<'a> Judge<'a> {
 
     fn velocities(&mut self, positions: &[f64], times: &[f64]) {
         let allowed = self.joint.velocity;
-        for (index, piece) in self.lasting() {
+        for (index, piece) in self.pieces_with_duration() {
             let of_data = Sensitivity::of(piece, Derivative::Velocity);
-            let explained = self.explained(piece, &of_data).min(MAX_ROUNDING_SHARE * allowed);
+            let explained = self.rounding_part(piece, &of_data).min(MAX_ROUNDING_SHARE * allowed);
             self.extremes(Limit::Velocity, allowed, explained, index);
         }
         self.stretches(Limit::Velocity, allowed, self.precision.position, positions, times);
@@ -238,10 +239,10 @@ impl<'a> Judge<'a> {
 
     fn accelerations(&mut self, velocities: &[f64], times: &[f64]) {
         let allowed = self.joint.acceleration;
-        for (index, piece) in self.lasting() {
+        for (index, piece) in self.pieces_with_duration() {
             let of_data = Sensitivity::of(piece, Derivative::Acceleration);
             let late = 2.0 * allowed * 2.0 * self.precision.time / (piece.to - piece.from);
-            let explained = self.explained(piece, &of_data) + late;
+            let explained = self.rounding_part(piece, &of_data) + late;
             self.extremes(Limit::Acceleration, allowed, explained, index);
         }
         self.stretches(Limit::Acceleration, allowed, self.precision.velocity, velocities, times);
@@ -291,17 +292,17 @@ impl<'a> Judge<'a> {
         // A joint at rest has no acceleration and no error.
         let still = (0.0, 0.0);
         let mut before = still;
-        for (index, piece) in self.lasting() {
+        for (index, piece) in self.pieces_with_duration() {
             let duration = piece.to - piece.from;
             let of_time = 2.0 * self.precision.time / duration;
             let late = |value: f64| value.abs() * of_time;
             let [first, last] = [0.0, 1.0].map(|u| {
                 let value = piece.derivative(Derivative::Acceleration, u)[self.k];
-                let explained = self.explained(piece, &Sensitivity::of(piece, Derivative::Acceleration));
+                let explained = self.rounding_part(piece, &Sensitivity::of(piece, Derivative::Acceleration));
                 (value, explained + late(value))
             });
             self.jump(before, first, self.moment(index, 0.0));
-            let explained = self.explained(piece, &Sensitivity::of(piece, Derivative::Jerk));
+            let explained = self.rounding_part(piece, &Sensitivity::of(piece, Derivative::Jerk));
             self.extremes(Limit::Jerk, most, explained + 2.0 * late(most), index);
             before = last;
         }
@@ -316,14 +317,14 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn rest(&mut self, limit: Limit, value: f64, sample: usize) {
+    fn judge_rest(&mut self, limit: Limit, value: f64, sample: usize) {
         if value.abs() > LIMIT_TOLERANCE * self.joint.velocity + self.precision.velocity {
             self.note(value.abs(), limit, 0.0, value, self.sample(sample));
         }
     }
 
     /// Returns the part of a derivative of a piece that rounding of the recording's numbers explains.
-    fn explained(&self, piece: &Piece, of: &Sensitivity) -> f64 {
+    fn rounding_part(&self, piece: &Piece, of: &Sensitivity) -> f64 {
         let duration = piece.to - piece.from;
         let moved = 2.0 * self.precision.position + 2.0 * self.precision.time * self.speed(piece);
         // Divided one by one: a power of a short duration is far smaller.

@@ -96,7 +96,7 @@ impl Turning {
             }
             for (attached, part) in attachment.parts.iter().zip(&features) {
                 let Some(nearer) = attachment.nearer(attached, number, workspace.clearance) else { continue };
-                let pieces = obstacle.pieces.iter().map(|piece| Features::new(&piece.receding(nearer)));
+                let pieces = obstacle.pieces.iter().map(|piece| Features::new(&piece.with_distances_increased(nearer)));
                 pairs.extend(pieces.map(|piece| (part.clone(), piece, number)));
             }
         }

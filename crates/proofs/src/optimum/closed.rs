@@ -93,7 +93,7 @@ impl<'a> SecondLinkWalls<'a> {
     }
 
     /// Returns the number of slices that can be examined in a few seconds.
-    pub fn most_slices(&self) -> usize {
+    pub fn max_slices(&self) -> usize {
         MAX_SLICE_TESTS / self.pairs.len().max(1)
     }
 
@@ -217,11 +217,11 @@ impl<'a> SecondLinkWalls<'a> {
             (posture.curvature_in_link(link, deviation), posture.curvature_in_plane(link, deviation));
         let of_world = |p: Point, from_piece: f64| {
             let allowed = radius - from_piece - in_link.of(p) / 2.0;
-            poses.iter().all(|pose| within(pose.inverse_point(p), part.core(), of_part, allowed))
+            poses.iter().all(|pose| is_nearer_than(pose.inverse_point(p), part.core(), of_part, allowed))
         };
         let of_link = |a: Point, from_part: f64| {
             let allowed = radius - from_part - in_plane.of(a) / 2.0;
-            poses.iter().all(|pose| within(pose.point(a), piece.core(), of_piece, allowed))
+            poses.iter().all(|pose| is_nearer_than(pose.point(a), piece.core(), of_piece, allowed))
         };
         if piece.core().iter().any(|p| of_world(*p, 0.0)) || part.core().iter().any(|a| of_link(*a, 0.0)) {
             return true;
@@ -318,7 +318,7 @@ fn signed_distance(p: Point, core: &[Point], sides: &[(Vector, f64)]) -> f64 {
 }
 
 /// Returns true if [`signed_distance`] is at most `allowed`. This is often cheaper than computing the distance.
-fn within(p: Point, core: &[Point], sides: &[(Vector, f64)], allowed: f64) -> bool {
+fn is_nearer_than(p: Point, core: &[Point], sides: &[(Vector, f64)], allowed: f64) -> bool {
     let at_least = if sides.is_empty() { 0.0 } else { outside(p, sides) };
     at_least <= allowed && (at_least < 0.0 || signed_distance(p, core, sides) <= allowed)
 }

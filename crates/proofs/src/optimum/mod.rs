@@ -15,7 +15,7 @@ use cplan_core::check::{CertifiedPath, Rejection, Vicinity};
 use cplan_core::model::{Pair, Scene};
 use cplan_core::space::{Configuration, GoalSet, Measure, Metric, Path, Segment, Topology, funnel_path};
 use cplan_geometry::{OrderedF64, Point};
-use refine::{PathTolerance, RefinedPieces, passed};
+use refine::{PathTolerance, RefinedPieces, crossed_strips};
 use search::{Search, SearchResult};
 use std::f64::consts::TAU;
 use strips::Strips;
@@ -111,7 +111,7 @@ pub fn least_length(motions: &MotionQuery, limit: f64, gap: f64, slices: &[f64])
 pub fn bound_evidence(motions: &MotionQuery, limit: f64, gap: f64) -> BoundEvidence {
     let scene = &*motions.scene.inner();
     let (_, search) = bounded(&MotionQuery { scene, ..*motions }, limit, gap, &[]);
-    BoundEvidence { slices: search.strips.evident(scene) }
+    BoundEvidence { slices: search.strips.evidence(scene) }
 }
 
 fn bounded<'a>(motions: &MotionQuery<'a>, limit: f64, gap: f64, slices: &[f64]) -> (f64, ShortestPathSearch<'a>) {
@@ -177,7 +177,7 @@ pub fn short_motion(
         }
         let proposed = ProposedPath { path: search.path(start, &corners), slices: search.strips.slices(), is_shortest };
         let nearest = match judge(proposed) {
-            Ok(path) => return Some(NearShortestMotion { path, free: search.passed(start, &corners) }),
+            Ok(path) => return Some(NearShortestMotion { path, free: search.portals_on_path(start, &corners) }),
             Err(RefusalReason::TooLong) => {
                 (before, is_pulled) = (0.0, false);
                 continue;
@@ -186,8 +186,9 @@ pub fn short_motion(
             Err(RefusalReason::By(Rejection::OutOfLimits { .. })) => return None,
         };
         refused += 1;
-        let is_finer =
-            search.look_about(nearest) || is_settled && search.refine(&corners, allowed) || search.halve_at(nearest[0]);
+        let is_finer = search.add_nearby_pairs(nearest)
+            || is_settled && search.refine(&corners, allowed)
+            || search.halve_at(nearest[0]);
         if !is_finer || refused * scene.pairs().len() > MAX_REFUSAL_WORK {
             return None;
         }
@@ -305,12 +306,12 @@ impl<'a> ShortestPathSearch<'a> {
         if self.strips.count() == 0 || self.strips.are_too_many() {
             return false;
         }
-        let passed = passed(&self.motions, &self.vicinity, &mut self.strips, corners, allowed, &mut self.fine);
+        let passed = crossed_strips(&self.motions, &self.vicinity, &mut self.strips, corners, allowed, &mut self.fine);
         !passed.is_empty() && self.strips.cut(&passed)
     }
 
     /// If not all pairs are in use, adds pairs that are near in a configuration. Returns true if any pair was added.
-    fn look_about(&mut self, q: Configuration) -> bool {
+    fn add_nearby_pairs(&mut self, q: Configuration) -> bool {
         let scene = self.motions.scene;
         if scene.pairs().len() <= MAX_PAIRS {
             return false;
@@ -333,7 +334,7 @@ impl<'a> ShortestPathSearch<'a> {
     fn halve_at(&mut self, q1: f64) -> bool {
         let value = self.strips.topology().ranges[0].wrap(q1);
         let mut which: Vec<usize> =
-            self.strips.around(value).into_iter().map(|strip| self.strips.index(strip)).collect();
+            self.strips.strips_at(value).into_iter().map(|strip| self.strips.index(strip)).collect();
         which.sort_unstable();
         which.dedup();
         !self.strips.are_too_many() && self.strips.halve(&which)
@@ -351,7 +352,7 @@ impl<'a> ShortestPathSearch<'a> {
     }
 
     /// Returns the portals through which a path passes, shifted to the turns of the start's own joint values.
-    fn passed(&mut self, start: Configuration, corners: &[Point]) -> Vec<[Configuration; 2]> {
+    fn portals_on_path(&mut self, start: Configuration, corners: &[Point]) -> Vec<[Configuration; 2]> {
         let lift = start - self.start;
         let mut passed = Vec::new();
         for ends in corners.windows(2) {

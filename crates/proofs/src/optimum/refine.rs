@@ -92,7 +92,7 @@ fn crossings(
 fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, Vec<f64>)> {
     let q1 = ends[0].x;
     let mut cuts = Vec::new();
-    for strip in strips.around(q1) {
+    for strip in strips.strips_at(q1) {
         let (index, after) = (strips.index(strip), strips.q1(strip + 1) == q1);
         let of_tip = ends.iter().map(|end| strips.towards_tip(index, after, end.y, finest));
         let tip = of_tip.max_by_key(Vec::len).unwrap_or_default();
@@ -114,7 +114,7 @@ pub(super) type RefinedPieces = HashSet<[u64; 6], BuildHasherDefault<MixingHashe
 /// Returns the strips, by index, in which a path enters a closed region by more than the tolerance. Each has the values
 /// of joint 1 at which to cut it. If this function overlooks a strip, the bound is lower, but never wrong. Pieces in
 /// `fine` are skipped.
-pub(super) fn passed(
+pub(super) fn crossed_strips(
     motions: &MotionQuery,
     vicinity: &Vicinity,
     strips: &mut Strips,

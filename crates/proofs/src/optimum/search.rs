@@ -98,7 +98,7 @@ impl Cone {
     }
 
     /// Returns the slice beyond that strip.
-    fn far(&self) -> i64 {
+    fn far_slice(&self) -> i64 {
         if self.ahead { self.slice + 1 } else { self.slice - 1 }
     }
 }
@@ -128,7 +128,7 @@ pub(super) struct Search<'s, 'a> {
     open: OpenList<usize>,
     entries: Vec<Entry>,
     /// Unused lists of portals, for reuse.
-    spare: Vec<Vec<Portal>>,
+    unused_lists: Vec<Vec<Portal>>,
 }
 
 impl<'s, 'a> Search<'s, 'a> {
@@ -145,7 +145,7 @@ impl<'s, 'a> Search<'s, 'a> {
             least: HashMap::default(),
             open: OpenList::default(),
             entries: Vec::with_capacity(USUAL_ENTRIES),
-            spare: Vec::new(),
+            unused_lists: Vec::new(),
         }
     }
 
@@ -154,8 +154,8 @@ impl<'s, 'a> Search<'s, 'a> {
         let far = self.limit / self.measure.norm(Point::new(0.0, 1.0));
         self.range = [start.y - far, start.y + far];
         self.roots.push(Root { at: start, cost: 0.0, before: None });
-        for strip in self.strips.around(start.x) {
-            self.spread(0, strip, 0.0);
+        for strip in self.strips.strips_at(start.x) {
+            self.add_visible(0, strip, 0.0);
         }
         let mut taken = 0;
         while let Some((bound, number)) = self.open.pop() {
@@ -167,7 +167,7 @@ impl<'s, 'a> Search<'s, 'a> {
             match self.entries[number] {
                 Entry::Goal(root, goal) => return SearchResult::Shortest(bound, self.corners(root, goal)),
                 Entry::Cone(cone) => self.expand(&cone, bound),
-                Entry::Root(root, strip) => self.spread(root, strip, bound),
+                Entry::Root(root, strip) => self.add_visible(root, strip, bound),
             }
         }
         SearchResult::NoneBelow(self.limit)
@@ -213,7 +213,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let side = if ahead { 1.0 } else { -1.0 };
         let line = [Point::new(x, right - side), Point::new(x, left + side)];
         let ends = [Point::new(x, right), Point::new(x, left)];
-        let through = |goal: &Segment| self.measure.through(at, ends, line, goal);
+        let through = |goal: &Segment| self.measure.bound_through(at, ends, line, goal);
         let bound = cost + self.goals.iter().map(through).fold(f64::INFINITY, f64::min);
         let seen = Portal { lower, upper, tips };
         self.push(bound.max(parent), Entry::Cone(Cone { root, slice, ahead, seen }));
@@ -236,10 +236,10 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// Returns the portals of a slice that meet a range of joint 2, with all their copies. Omits portals that no path
-    /// shorter than the limit can reach. The caller returns the list to `spare`.
+    /// shorter than the limit can reach. The caller returns the list to `unused_lists`.
     fn portals(&mut self, slice: i64, [lower, upper]: [f64; 2]) -> Vec<Portal> {
         let (lower, upper) = (lower.max(self.range[0]), upper.min(self.range[1]));
-        let mut portals = self.spare.pop().unwrap_or_default();
+        let mut portals = self.unused_lists.pop().unwrap_or_default();
         portals.clear();
         if !self.strips.is_inner(slice) {
             return portals;
@@ -289,7 +289,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// Adds everything that a root in a strip or on its edge sees in the strip.
-    fn spread(&mut self, root: u32, strip: i64, parent: f64) {
+    fn add_visible(&mut self, root: u32, strip: i64, parent: f64) {
         let at = self.roots[root as usize].at;
         let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
         let Some(cell) = self.strips.cell(strip, (at.x - from) / (to - from), at.y) else { return };
@@ -300,19 +300,19 @@ impl<'s, 'a> Search<'s, 'a> {
             let range = cell.at(share);
             let portals = self.portals(slice, range);
             if self.strips.q1(slice) == at.x {
-                self.along(root, slice, !ahead, portals.iter(), parent);
+                self.follow_slice(root, slice, !ahead, portals.iter(), parent);
             } else {
                 for portal in &portals {
                     self.push_cone(root, slice, ahead, portal, range, parent);
                 }
             }
-            self.spare.push(portals);
+            self.unused_lists.push(portals);
         }
     }
 
     /// Follows paths along a slice, from a root on it to other portals of that slice. Through these portals, paths lead
     /// to the strip on the other side. `ahead` is true if the strip from which the paths come lies after the slice.
-    fn along<'p>(
+    fn follow_slice<'p>(
         &mut self,
         root: u32,
         slice: i64,
@@ -369,7 +369,7 @@ impl<'s, 'a> Search<'s, 'a> {
                 self.push_goal(by, &goals, bound);
             }
         }
-        let far = cone.far();
+        let far = cone.far_slice();
         if self.strips.is_inner(far) {
             let stretch = (self.strips.q1(far) - from.x) / (x - from.x);
             let [low, high] = [seen.lower, seen.upper].map(|y| from.y + (y - from.y) * stretch);
@@ -385,17 +385,17 @@ impl<'s, 'a> Search<'s, 'a> {
                     self.push_cone(above, far, ahead, portal, [bottom.max(high - over), top], bound);
                 }
             }
-            self.spare.push(portals);
+            self.unused_lists.push(portals);
         }
         if below.or(above).is_some() {
             let portals = self.portals(slice, cell.at(near));
             for (root, is_below) in [(below, true), (above, false)] {
                 if let Some(root) = root {
                     let beside = portals.iter().filter(|portal| (portal.upper < seen.upper) == is_below);
-                    self.along(root, slice, ahead, beside, bound);
+                    self.follow_slice(root, slice, ahead, beside, bound);
                 }
             }
-            self.spare.push(portals);
+            self.unused_lists.push(portals);
         }
     }
 }

@@ -55,7 +55,7 @@ impl Strips<'_> {
     /// one side of the wall to its end, and back along the other. Returns the place where the path is then. Returns
     /// `None` if the wall has no end, because it goes all around a continuous joint.
     fn around_end(&mut self, from: Point, to: Point, ahead: bool, sleeve: &mut Vec<Portal>) -> Option<Point> {
-        let slice = self.around(to.x).last().copied().filter(|slice| self.q1(*slice) == to.x && from.x == to.x)?;
+        let slice = self.strips_at(to.x).last().copied().filter(|slice| self.q1(*slice) == to.x && from.x == to.x)?;
         let mut sides = [from, to];
         let mut back = vec![portal(to.x, self.free_around(slice, to.y)?, !ahead)];
         while let [Some(there), Some(beside)] = sides.map(|side| self.next(side, ahead)) {
@@ -82,7 +82,7 @@ impl Strips<'_> {
 
     /// Returns the next slice of a path that continues from a place, and the cell in between.
     fn next(&mut self, from: Point, ahead: bool) -> Option<(i64, Cell)> {
-        let around = self.around(from.x);
+        let around = self.strips_at(from.x);
         let strip = *if ahead { around.last() } else { around.first() }?;
         let ends = [self.q1(strip), self.q1(strip + 1)];
         let cell = self.cell(strip, (from.x - ends[0]) / (ends[1] - ends[0]), from.y)?;

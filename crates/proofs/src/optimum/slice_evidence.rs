@@ -11,7 +11,7 @@ use cplan_geometry::OrderedF64;
 impl Strips<'_> {
     /// Returns all slices that were examined, with their walls and barriers. If link 1 collides throughout a strip,
     /// walls close the slices on both sides of the strip entirely.
-    pub fn evident(&self, scene: &Scene) -> Vec<Slice> {
+    pub fn evidence(&self, scene: &Scene) -> Vec<Slice> {
         let pairs = self.closed.by_number();
         let (bottom, top) = self.topology().ranges[1].domain();
         let count = self.strips.len();

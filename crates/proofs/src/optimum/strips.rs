@@ -98,7 +98,7 @@ impl<'a> Strips<'a> {
         let topology = scene.arm().topology();
         let (lower, upper) = topology.ranges[0].domain();
         let mut closed = SecondLinkWalls::new(scene, clearance);
-        let bands = apart(closed.bands(), [lower, upper]);
+        let bands = spread_bands(closed.bands(), [lower, upper]);
         let mut cuts: Vec<f64> =
             (0..=INITIAL_STRIPS).map(|i| lower + (upper - lower) * i as f64 / INITIAL_STRIPS as f64).collect();
         cuts.extend(
@@ -149,7 +149,7 @@ impl<'a> Strips<'a> {
 
     /// Returns true if the largest number of strips is reached, so that no more are made.
     pub fn are_too_many(&self) -> bool {
-        self.strips.len() > MAX_STRIPS.min(self.closed.most_slices())
+        self.strips.len() > MAX_STRIPS.min(self.closed.max_slices())
     }
 
     fn place(&self, number: i64) -> (usize, f64) {
@@ -209,7 +209,7 @@ impl<'a> Strips<'a> {
 
     /// Returns the strips that contain a value of joint 1: two if a slice between them has that value. It compares with
     /// the slices on that turn, which may differ from [`Strips::locate`] by rounding.
-    pub fn around(&self, q1: f64) -> Vec<i64> {
+    pub fn strips_at(&self, q1: f64) -> Vec<i64> {
         let near = self.locate(q1);
         let exists = |strip: i64| self.topology.ranges[0].is_circle() || (0..self.strips.len() as i64).contains(&strip);
         let holds = |strip: &i64| exists(*strip) && self.q1(*strip) <= q1 && q1 <= self.q1(*strip + 1);
@@ -220,7 +220,7 @@ impl<'a> Strips<'a> {
     /// it and 1 on the slice after it. Returns `None` if the strip is closed.
     pub fn cell(&mut self, strip: i64, share: f64, q2: f64) -> Option<Cell> {
         let index = self.index(strip);
-        self.raise(index);
+        self.find_barriers(index);
         let strip = &self.strips[index];
         let barriers = strip.barriers.as_deref().unwrap_or(&[]);
         let whole = Cell { lower: [f64::NEG_INFINITY; 2], upper: [f64::INFINITY; 2] };
@@ -249,8 +249,8 @@ impl<'a> Strips<'a> {
     pub fn portals(&mut self, slice: i64) -> &[Portal] {
         let (before, after) = (self.index(slice - 1), self.index(slice));
         if self.strips[after].portals.is_none() {
-            self.raise(before);
-            self.raise(after);
+            self.find_barriers(before);
+            self.find_barriers(after);
             let axis = self.topology.ranges[1];
             let mut closed = Vec::new();
             for wall in self.walls(after) {
@@ -328,7 +328,7 @@ impl<'a> Strips<'a> {
     }
 
     /// Finds the barriers of a strip: lines between walls of the same pair on both slices of the strip.
-    fn raise(&mut self, index: usize) {
+    fn find_barriers(&mut self, index: usize) {
         if self.strips[index].barriers.is_some() {
             return;
         }
@@ -343,7 +343,7 @@ impl<'a> Strips<'a> {
             let before = self.strips[index].known_walls();
             let after = if is_last { &self.last } else { self.strips[next].known_walls() };
             let (from, to) = (self.strips[index].from, self.strips[index].to);
-            for (left, right) in some(of_the_same_pairs(before, after)) {
+            for (left, right) in limit_candidates(of_the_same_pairs(before, after)) {
                 barriers.extend(self.barrier([from, to], left, right).map(|barrier| (barrier, left.pair)));
             }
             barriers.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
@@ -460,7 +460,7 @@ fn of_the_same_pairs<'w>(before: &'w [Wall], after: &'w [Wall]) -> Vec<(&'w Wall
 
 /// Returns all candidates for barriers. If there are too many, sorts them by the middles of their first walls, and
 /// returns some that are spread over that list.
-fn some<'w>(mut candidates: Vec<(&'w Wall, &'w Wall)>) -> Vec<(&'w Wall, &'w Wall)> {
+fn limit_candidates<'w>(mut candidates: Vec<(&'w Wall, &'w Wall)>) -> Vec<(&'w Wall, &'w Wall)> {
     if candidates.len() > MAX_BARRIERS {
         candidates.sort_by(|a, b| (a.0.lower + a.0.upper).total_cmp(&(b.0.lower + b.0.upper)));
         let count = candidates.len();
@@ -471,7 +471,7 @@ fn some<'w>(mut candidates: Vec<(&'w Wall, &'w Wall)>) -> Vec<(&'w Wall, &'w Wal
 
 /// Adjusts bands, ascending, so that none is narrower than [`MIN_SLICE_DISTANCE`], or nearer than that to another band
 /// or to an end of the domain.
-fn apart(bands: Vec<[f64; 2]>, [lower, upper]: [f64; 2]) -> Vec<[f64; 2]> {
+fn spread_bands(bands: Vec<[f64; 2]>, [lower, upper]: [f64; 2]) -> Vec<[f64; 2]> {
     let mut bands: Vec<[f64; 2]> = bands
         .into_iter()
         .map(|band| {

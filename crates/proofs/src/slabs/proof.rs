@@ -2,7 +2,7 @@
 
 use super::{LEVEL_TOLERANCE, Slab, Slabs, Span, half_of_level, index};
 use crate::chain::{Mosaic, ends};
-use crate::tiles::{SlabCollision, lay};
+use crate::tiles::{SlabCollision, add_boxes};
 use cplan_core::check::{CollisionBox, Disconnection};
 use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::merge_in_place;
@@ -10,7 +10,7 @@ use cplan_interrupt::checkpoint;
 
 impl Slabs<'_> {
     /// Returns, for each span, whether it is connected with any of the places through free and undecided spans.
-    fn reached(&self, places: &GoalSet) -> Vec<bool> {
+    fn reachable_spans(&self, places: &GoalSet) -> Vec<bool> {
         let mut reached = vec![false; self.spans.len()];
         let mut waiting: Vec<u32> = ends(self, places).into_iter().map(|end| end.0).collect();
         waiting.iter().for_each(|&index| reached[index as usize] = true);
@@ -34,8 +34,8 @@ impl Slabs<'_> {
         goals: &GoalSet,
         most: usize,
     ) -> Option<Disconnection> {
-        let here = self.around(&start.into(), most);
-        let there = self.around(goals, most);
+        let here = self.collision_boxes_around(&start.into(), most);
+        let there = self.collision_boxes_around(goals, most);
         let boxes = match (here, there) {
             (Some(a), Some(b)) => Some(if b.len() < a.len() { b } else { a }),
             (a, b) => a.or(b),
@@ -46,8 +46,8 @@ impl Slabs<'_> {
     /// Returns the collision boxes beside the region that is reachable from the places, and the collision boxes that
     /// contain places. Returns `None` if there are more than `most` boxes, or if the check of a proof would refuse one
     /// of them.
-    fn around(&mut self, places: &GoalSet, most: usize) -> Option<Vec<CollisionBox>> {
-        let reached = self.reached(places);
+    fn collision_boxes_around(&mut self, places: &GoalSet, most: usize) -> Option<Vec<CollisionBox>> {
+        let reached = self.reachable_spans(places);
         let places: Vec<Segment> = places.wrapped(&self.topology).collect();
         let mut boxes = Vec::new();
         let mut stuck: Vec<SlabCollision> = Vec::new();
@@ -58,7 +58,7 @@ impl Slabs<'_> {
             let slab = self.slabs[number as usize];
             let own: Vec<u32> = self.spans_of(number).filter(|&s| reached[s as usize]).collect();
             let beside: Vec<u32> =
-                self.beside(number).flat_map(|b| self.spans_of(b)).filter(|&s| reached[s as usize]).collect();
+                self.neighbors(number).flat_map(|b| self.spans_of(b)).filter(|&s| reached[s as usize]).collect();
             let holds_places =
                 |[lower, upper]: [f64; 2]| places.iter().any(|piece| piece.meets([slab.from, lower], [slab.to, upper]));
             let axis = self.topology.ranges[1];
@@ -92,7 +92,7 @@ impl Slabs<'_> {
         }
         let side_by_side = |a: &SlabCollision, b: &SlabCollision| a.to == b.from;
         let mut runs = stuck.chunk_by(side_by_side);
-        runs.all(|run| lay(scene, self.second.clearance(), run, [bottom, top], most, &mut boxes)).then_some(boxes)
+        runs.all(|run| add_boxes(scene, self.second.clearance(), run, [bottom, top], most, &mut boxes)).then_some(boxes)
     }
 
     /// Computes the colliding intervals of a slab again.

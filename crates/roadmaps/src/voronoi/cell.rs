@@ -123,7 +123,7 @@ impl<'a> Envelope<'a> {
                 (end, next) = (t, Some(b));
             }
         }
-        self.hidden(now, at, end).unwrap_or((end, next))
+        self.takeover_hidden_by_rounding(now, at, end).unwrap_or((end, next))
     }
 
     /// Returns the parameter at which another bisector becomes the lowest within a range; `None` if it does not.
@@ -141,7 +141,7 @@ impl<'a> Envelope<'a> {
 
     /// Returns a change of the lowest bisector that rounding has hidden: the parameter and the lower bisector. For this
     /// it tests whether another bisector is lower in the middle of the range.
-    fn hidden(&self, now: &Bisector, at: f64, end: f64) -> Option<(f64, Option<&'a Bisector>)> {
+    fn takeover_hidden_by_rounding(&self, now: &Bisector, at: f64, end: f64) -> Option<(f64, Option<&'a Bisector>)> {
         let is_below = |b: &Bisector, t: f64| {
             b.from <= t
                 && b.to >= t

@@ -10,7 +10,7 @@ mod diagram;
 mod site;
 mod chord_graph;
 
-use crate::prm::along;
+use crate::prm::propose_along;
 use chord_graph::ChordGraph;
 use cplan_core::cspace::Regions;
 use cplan_core::planner::mesh::Mesh;
@@ -80,7 +80,7 @@ impl Planner for Voronoi {
         };
         let (route, expanded) = widest.search(self.search, &terminals);
         let own = |route: Vec<_>| route.into_iter().map(|node| widest.at(node)).collect();
-        let outcome = route.map_or(Proposal::NoPath, |route| along(&map.mesh, own(route), self.path));
+        let outcome = route.map_or(Proposal::NoPath, |route| propose_along(&map.mesh, own(route), self.path));
         roadmap::run(GraphKind::Roadmap, outcome, Some(&query_graph), expanded)
     }
 }

@@ -1,6 +1,6 @@
 //! Checks of single URDF elements and attributes, with their positions.
 
-use super::document::{escaped, tag};
+use super::document::{escape_attribute, tag};
 use crate::error::Diagnostic;
 use crate::quantity::MAX_LENGTH;
 use crate::source::Source;
@@ -177,7 +177,7 @@ impl Attributes<'_> {
         let mut copy = "<origin".to_owned();
         for name in ["xyz", "rpy"] {
             if self.numbers(origin, name, 3).is_some() {
-                copy += &format!(" {name}=\"{}\"", escaped(origin.attribute(name).unwrap_or("")));
+                copy += &format!(" {name}=\"{}\"", escape_attribute(origin.attribute(name).unwrap_or("")));
             }
         }
         if let Some(quaternion) = self.numbers(origin, "quat_xyzw", 4) {

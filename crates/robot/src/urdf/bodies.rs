@@ -57,7 +57,7 @@ pub(super) struct Outlines {
 }
 
 /// Returns the message that a link has no outline because its mesh cannot be read.
-fn left_out(unread: &Diagnostic) -> String {
+fn describe_unread_mesh(unread: &Diagnostic) -> String {
     format!("{}; the link is ignored, so the arm may collide with it", unread.message)
 }
 
@@ -114,10 +114,10 @@ impl Bodies<'_> {
                         world file: [robot] bar = 0.05 (radius of the bars in metres)";
             return Err(self.document.source.diagnostic(message).help(help).into());
         }
-        let geometry = links.iter().enumerate().map(|(index, link)| self.described(index, link)).collect();
+        let geometry = links.iter().enumerate().map(|(index, link)| self.describe_part(index, link)).collect();
         let self_obstacles = own.obstacles(&all);
         if self.settings.table.own_body_is_obstacle() {
-            warnings.extend(fixed.unread.iter().chain(&fixed.unseen).map(left_out));
+            warnings.extend(fixed.unread.iter().chain(&fixed.unseen).map(describe_unread_mesh));
             notes.extend(own.notes());
         }
         Ok(Outlines { links, self_obstacles, geometry, notes, sizeless, warnings })
@@ -157,7 +157,7 @@ impl Bodies<'_> {
         let GatheredShapes { mut unread, unseen, .. } = gathered;
         let has_collision = parts.iter().any(|part| !part.is_visual);
         if has_collision {
-            warnings.extend(unseen.iter().map(left_out));
+            warnings.extend(unseen.iter().map(describe_unread_mesh));
         } else {
             unread.extend(unseen);
         }
@@ -185,14 +185,14 @@ impl Bodies<'_> {
         }
         let link = Link { name, parts, source };
         if matches!(source, OutlineSource::Visual | OutlineSource::Bar) {
-            notes.push(self.described(index, &link));
+            notes.push(self.describe_part(index, &link));
         } else {
             notes.extend(visual_links(&link));
         }
         Ok(link)
     }
 
-    fn described(&self, index: usize, Link { name, parts, source }: &Link) -> String {
+    fn describe_part(&self, index: usize, Link { name, parts, source }: &Link) -> String {
         format!("link {} \"{name}\": {}", index + 1, self.summary(*source, parts))
     }
 

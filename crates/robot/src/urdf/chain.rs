@@ -151,7 +151,7 @@ impl Chooser<'_> {
                     return Err(self.in_world(names, message).help("joints = [\"first\", \"second\"], base to tip"));
                 }
             },
-            None => self.evident()?,
+            None => self.implied_pair()?,
         };
         let [a, b] = pair;
         if self.tree.carries(a, self.tree.parent[b]) {
@@ -187,7 +187,7 @@ impl Chooser<'_> {
         (0..self.all().len()).filter(|j| is_movable(&self.all()[*j]) && self.all()[*j].mimic.is_none()).collect()
     }
 
-    fn evident(&self) -> Result<ImpliedPair, Diagnostic> {
+    fn implied_pair(&self) -> Result<ImpliedPair, Diagnostic> {
         let candidates = self.candidates();
         if let [a, b] = candidates[..] {
             return Ok(ImpliedPair { joints: [a, b], reason: String::new() });
@@ -229,7 +229,7 @@ impl Chooser<'_> {
             return Err(self.document.source.diagnostic(message).help(help));
         }
         let planar = pairing::planar(self.document, self.tree, self.settings);
-        if let Some(evident) = pairing::evident(self.document, self.tree, &planar) {
+        if let Some(evident) = pairing::implied_pair(self.document, self.tree, &planar) {
             return Ok(evident);
         }
         let count = candidates.len();

@@ -168,12 +168,16 @@ impl Reader<'_> {
         // `urdf-rs` validates only from version 1.2 on, and reports no positions. The checks here apply to all
         // versions. Version 1.1 is the first that knows `quat_xyzw`.
         let unlimited = version(root) >= (1, 2);
-        let _ = write!(self.copy, "<robot name=\"{}\" version=\"1.1\">", escaped(root.attribute("name").unwrap_or("")));
+        let _ = write!(
+            self.copy,
+            "<robot name=\"{}\" version=\"1.1\">",
+            escape_attribute(root.attribute("name").unwrap_or(""))
+        );
         let mut links = Vec::new();
         let mut joints = Vec::new();
         // The position of the first element with each name.
         let mut names: HashMap<(&str, &str), usize> = HashMap::new();
-        for node in root.children().filter(|n| is_ours(*n, root)) {
+        for node in root.children().filter(|n| is_urdf_element(*n, root)) {
             let kind = node.tag_name().name();
             if kind != "link" && kind != "joint" {
                 *self.others.entry(kind.to_owned()).or_default() += 1;
@@ -214,7 +218,7 @@ impl Reader<'_> {
     fn link(&mut self, link: Node, name: &str) -> LinkPlace {
         self.attributes(&format!("link \"{name}\"")).finite_everywhere(link);
         let mut place = LinkPlace { at: tag(link), visual: Vec::new(), collision: Vec::new() };
-        let _ = write!(self.copy, "<link name=\"{}\">", escaped(name));
+        let _ = write!(self.copy, "<link name=\"{}\">", escape_attribute(name));
         for kind in ["visual", "collision"] {
             for node in children(link, kind) {
                 if let Some(at) = self.shape(node, kind, name) {
@@ -270,9 +274,9 @@ impl Reader<'_> {
         let soft = safety.and_then(|s| attributes.soft_limits(s));
 
         let (kind, parent, child, parent_link, child_link) = (kind?, parent?, child?, parent_link?, child_link?);
-        let _ = write!(self.copy, "<joint name=\"{}\" type=\"{kind}\">{origin}", escaped(name));
-        let _ = write!(self.copy, "<parent link=\"{}\"/>", escaped(parent_link));
-        let _ = write!(self.copy, "<child link=\"{}\"/>", escaped(child_link));
+        let _ = write!(self.copy, "<joint name=\"{}\" type=\"{kind}\">{origin}", escape_attribute(name));
+        let _ = write!(self.copy, "<parent link=\"{}\"/>", escape_attribute(parent_link));
+        let _ = write!(self.copy, "<child link=\"{}\"/>", escape_attribute(child_link));
         if let Some(axis) = axis {
             self.copy_element(axis, &["xyz"]);
         }
@@ -311,7 +315,7 @@ impl Reader<'_> {
     fn copy_element(&mut self, node: Node, keep: &[&str]) {
         let _ = write!(self.copy, "<{}", node.tag_name().name());
         for attribute in node.attributes().filter(|a| keep.contains(&a.name())) {
-            let _ = write!(self.copy, " {}=\"{}\"", attribute.name(), escaped(attribute.value()));
+            let _ = write!(self.copy, " {}=\"{}\"", attribute.name(), escape_attribute(attribute.value()));
         }
         self.copy.push_str("/>");
     }
@@ -334,7 +338,7 @@ pub(super) fn tag(node: Node) -> Range<usize> {
 }
 
 /// Returns true for URDF elements. Elements of other namespaces, such as `<drake:joint>`, are not.
-fn is_ours(node: Node, root: Node) -> bool {
+fn is_urdf_element(node: Node, root: Node) -> bool {
     node.is_element() && node.tag_name().namespace() == root.tag_name().namespace()
 }
 
@@ -347,6 +351,6 @@ fn version(root: Node) -> (u32, u32) {
 }
 
 /// Escapes text for an XML attribute.
-pub(super) fn escaped(text: &str) -> String {
+pub(super) fn escape_attribute(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

@@ -16,14 +16,14 @@ impl Reduction<'_> {
         let held = |&index: &usize| HeldJoint {
             name: self.document.robot.joints[index].name.clone(),
             value: self.chain.values[index],
-            effect: self.effect(index, plane).unwrap_or_else(|why| HeldEffect::Unjudged { why }),
+            effect: self.held_effect(index, plane).unwrap_or_else(|why| HeldEffect::Unjudged { why }),
             bodies: below(index).map(|link| self.tree.links[link].clone()).collect(),
         };
         self.chain.held.iter().map(held).collect()
     }
 
     /// Returns the effect of a joint's motion, or the reason why cplan cannot check such a motion.
-    fn effect(&self, index: usize, plane: &Plane) -> Result<HeldEffect, String> {
+    fn held_effect(&self, index: usize, plane: &Plane) -> Result<HeldEffect, String> {
         let chooser = Chooser { document: self.document, tree: self.tree, settings: self.settings };
         let joints = chooser.all();
         let joint = &joints[index];

@@ -15,7 +15,7 @@ pub(super) struct HeldValues {
 }
 
 impl Chooser<'_> {
-    fn followed(&self, joint: usize, mimic: &Mimic) -> Result<usize, Diagnostic> {
+    fn mimicked_joint(&self, joint: usize, mimic: &Mimic) -> Result<usize, Diagnostic> {
         self.joint(&mimic.joint).ok_or_else(|| {
             let message = format!("mimics joint \"{}\", which does not exist", mimic.joint);
             self.mimic_diagnostic(joint, &message)
@@ -28,7 +28,7 @@ impl Chooser<'_> {
         for _ in 0..=self.all().len() {
             match &self.all()[at].mimic {
                 None => return Ok(at),
-                Some(mimic) => at = self.followed(at, mimic)?,
+                Some(mimic) => at = self.mimicked_joint(at, mimic)?,
             }
         }
         Err(self.mimic_diagnostic(joint, "follows itself: the mimics form a cycle"))
@@ -41,8 +41,8 @@ impl Chooser<'_> {
         let mut value = Affine { factor: 1.0, offset: 0.0 };
         let mut at = joint;
         while let Some(mimic) = &self.all()[at].mimic {
-            value = value.after(mimic);
-            at = self.followed(at, mimic)?;
+            value = value.compose_mimic(mimic);
+            at = self.mimicked_joint(at, mimic)?;
         }
         Ok((leader, value.factor, value.offset))
     }
@@ -136,7 +136,7 @@ struct Affine {
 
 impl Affine {
     /// Returns the composition with the map of a mimic rule, which is applied first.
-    fn after(self, mimic: &Mimic) -> Self {
+    fn compose_mimic(self, mimic: &Mimic) -> Self {
         let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
         Affine { factor: self.factor * multiplier, offset: self.factor * offset + self.offset }
     }

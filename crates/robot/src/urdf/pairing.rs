@@ -47,7 +47,7 @@ pub(super) fn planar(document: &Document, tree: &Tree, settings: RobotSettings) 
 /// - If there is only one planar pair, it is chosen unless a revolute joint lies between its joints.
 /// - Otherwise only planar pairs without movable joints between their joints are considered. If there is one, it is
 ///   chosen. If there are several that share a plane along one chain, the first one is chosen.
-pub(super) fn evident(document: &Document, tree: &Tree, planar: &[PlanarPair]) -> Option<ImpliedPair> {
+pub(super) fn implied_pair(document: &Document, tree: &Tree, planar: &[PlanarPair]) -> Option<ImpliedPair> {
     let between = |pair: &PlanarPair| -> Vec<&urdf_rs::Joint> {
         let [a, b] = &pair.joints;
         let is_inner = |j: &usize| tree.carries(*a, tree.parent[*j]) && tree.carries(*j, tree.parent[*b]);
@@ -85,6 +85,6 @@ pub(super) fn choices(document: &Document, pairs: &[PlanarPair]) -> String {
 }
 
 /// Returns the table without the entries for joints, tip and held values.
-pub(super) fn freed(table: &RobotTable) -> RobotTable {
+pub(super) fn without_joints(table: &RobotTable) -> RobotTable {
     RobotTable { joints: None, tip: None, fixed: PerJoint::new(), ..table.clone() }
 }

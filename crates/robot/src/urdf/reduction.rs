@@ -53,7 +53,7 @@ impl<'a> Reduction<'a> {
         self.common_plane().map_err(|message| {
             let place = &self.document.joints[self.chain.joints[1]];
             let at = place.axis.as_ref().unwrap_or(&place.at);
-            let table = pairing::freed(self.settings.table);
+            let table = pairing::without_joints(self.settings.table);
             let settings = RobotSettings { table: &table, ..self.settings };
             let planar = pairing::planar(self.document, self.tree, settings);
             let choose = if planar.is_empty() {

@@ -76,7 +76,7 @@ impl<'a> SelfCollision<'a> {
     }
 
     /// Returns true if the planner keeps two URDF links apart.
-    fn checked(&self, a: usize, b: usize) -> bool {
+    fn keeps_apart(&self, a: usize, b: usize) -> bool {
         let is_enabled = self.bodies.settings.table.own_body_is_obstacle();
         let are_apart = self.groups[a].zip(self.groups[b]).is_some_and(|(a, b)| a != b);
         is_enabled && are_apart && !self.allowed.contains(&(a, b)) && !self.are_neighbors(a, b)
@@ -96,7 +96,7 @@ impl<'a> SelfCollision<'a> {
     /// Returns the heights at which a link's meshes are cut into layers, in ascending order. They are the lower and
     /// upper ends of the shapes from which the planner keeps the link apart.
     pub fn cuts(&self, link: usize, all: &[PlacedShape]) -> Vec<f64> {
-        let others = all.iter().filter(|other| self.checked(link, other.link));
+        let others = all.iter().filter(|other| self.keeps_apart(link, other.link));
         let mut cuts: Vec<f64> = others.flat_map(|other| [other.heights.lower, other.heights.upper]).collect();
         cuts.sort_by(f64::total_cmp);
         cuts.dedup_by(|b, a| *b - *a <= MIN_LAYER_THICKNESS);
@@ -132,13 +132,13 @@ impl<'a> SelfCollision<'a> {
 
     /// Returns true if the planner keeps a link apart from one further along the chain.
     fn is_hit_by(&self, link: usize, other: usize) -> bool {
-        self.groups[link] < self.groups[other] && self.checked(link, other)
+        self.groups[link] < self.groups[other] && self.keeps_apart(link, other)
     }
 
     /// Lists the links further along the chain whose contact with a link is ignored.
     fn ignored(&self, link: usize) -> Vec<String> {
         let further = |other: &usize| self.groups[link] < self.groups[*other];
-        let ignored = self.solid.iter().copied().filter(|other| further(other) && !self.checked(link, *other));
+        let ignored = self.solid.iter().copied().filter(|other| further(other) && !self.keeps_apart(link, *other));
         ignored.map(|other| self.bodies.document.robot.links[other].name.clone()).collect()
     }
 

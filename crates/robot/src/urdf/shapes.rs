@@ -72,7 +72,7 @@ impl Bodies<'_> {
         let mut number = 0;
         for (origin, geometry, at) in shapes {
             match self.solid(geometry) {
-                Ok(solid) if solid.is_nothing() => gathered.empty.push(format!("\"{}\"", link.name)),
+                Ok(solid) if solid.has_no_size() => gathered.empty.push(format!("\"{}\"", link.name)),
                 Ok(solid) => {
                     let pose = self.poses[index] * isometry(origin);
                     let (heights, is_visual) = (solid.heights(&pose, self.plane), kind == Kind::Visual);

@@ -53,7 +53,7 @@ const EXACT_ALIGNMENT: f64 = 1e-13;
 
 impl Solid {
     /// Returns true if the solid has no size.
-    pub fn is_nothing(&self) -> bool {
+    pub fn has_no_size(&self) -> bool {
         match self {
             Solid::Box { half } => half.iter().all(|h| *h == 0.0),
             Solid::Cylinder { radius, half } | Solid::Capsule { radius, half } => *radius == 0.0 && *half == 0.0,

@@ -90,7 +90,7 @@ fn in_tree(report: &mut Inspection, document: &Document, tree: &Tree, settings: 
         entry.direction = Some(array(direction.into_inner()));
     }
     if let Some(chain) = &chain {
-        reduced(report, &Reduction::new(document, tree, settings, chain));
+        examine_pair(report, &Reduction::new(document, tree, settings, chain));
     }
     if !report.is_plannable()
         && document.diagnostics.is_empty()
@@ -103,7 +103,7 @@ fn in_tree(report: &mut Inspection, document: &Document, tree: &Tree, settings: 
 }
 
 /// Examines two joints.
-fn reduced(report: &mut Inspection, reduction: &Reduction) {
+fn examine_pair(report: &mut Inspection, reduction: &Reduction) {
     let Reduction { document, tree, chain, .. } = reduction;
     report.chosen = Some(chain.joints.map(|j| document.robot.joints[j].name.clone()));
     report.tip = Some(tree.links[chain.tip].clone());
@@ -135,9 +135,9 @@ fn reduced(report: &mut Inspection, reduction: &Reduction) {
         }
         Some(Err(error)) => {
             report.errors.push(error);
-            bare(reduction)
+            links_without_outlines(reduction)
         }
-        None => bare(reduction),
+        None => links_without_outlines(reduction),
     };
     let sizeless = outlines.sizeless.clone();
     let (arm, _, unknown) = reduction.arm(plane, bounds.unwrap_or_else(|_| unbounded(reduction)), outlines);
@@ -310,7 +310,7 @@ fn frames(reduction: &Reduction, plane: &Plane) -> Vec<Frame> {
 }
 
 /// Returns links without outlines, for the picture of an arm whose outlines cannot be made.
-fn bare(reduction: &Reduction) -> Outlines {
+fn links_without_outlines(reduction: &Reduction) -> Outlines {
     let Reduction { tree, chain, .. } = reduction;
     let links = chain.joints.map(|j| Link {
         name: tree.links[tree.child[j]].clone(),

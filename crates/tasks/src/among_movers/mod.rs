@@ -1,7 +1,7 @@
 //! Tasks among moving obstacles, and picks of moving objects. The search chooses what to do next, with which IK
 //! solution, and when.
 //!
-//! Each state has a time, from which the next motion is planned ([`in_time`]). The motion must arrive when the arm can
+//! Each state has a time, from which the next motion is planned ([`time_among_moving_obstacles`]). The motion must arrive when the arm can
 //! stand at its target long enough for the step. To pick a passing object, the arm must be there when the object
 //! passes. Several moments of the passage are tried, the earliest first. When one is possible, an earlier one is sought
 //! between it and the moment tried before.
@@ -27,7 +27,7 @@ use cplan_geometry::OrderedF64;
 use cplan_handling::{Action, Item, Step, Task, TimedScene};
 use cplan_interrupt::checkpoint;
 use cplan_motion::{Limits, TimedMotion, after_pause, nanoseconds, round_up, seconds};
-use cplan_movers::{MovingObstacles, Timing, TimingRequirements, Wait, clearance_at_rest, in_time};
+use cplan_movers::{MovingObstacles, Timing, TimingRequirements, Wait, clearance_at_rest, time_among_moving_obstacles};
 use cplan_solver::Options;
 use passing::passages;
 use std::cmp::Reverse;
@@ -71,7 +71,7 @@ pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str
         motions: 0,
         expanded: 0,
     };
-    if let Some(failed) = out_of_reach(task, &start) {
+    if let Some(failed) = failed_pick_out_of_reach(task, &start) {
         return refuted(failed);
     }
     let mut search = Search {
@@ -95,7 +95,7 @@ pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str
             (Outcome::Found(motion), legs)
         }
         None => {
-            if let Some(failed) = if_nothing_moved(task, options, progress) {
+            if let Some(failed) = static_failure(task, options, progress) {
                 return refuted(failed);
             }
             let (failed, last) = search.failure();
@@ -106,7 +106,7 @@ pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str
 }
 
 /// Returns the failed step if a moving object is proven never to be within reach while it may be picked.
-fn out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
+fn failed_pick_out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
     let mut moving: Vec<usize> = start.moving.to_vec();
     let step = task.steps().find(|step| match &step.action {
         Action::Pick { object, grasp, when, .. } => {
@@ -128,7 +128,7 @@ fn out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
 
 /// Returns the failed step if the task is proven to be infeasible even without moving obstacles. Returns `None` if
 /// moving objects are picked, because then their places are unknown.
-fn if_nothing_moved(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> Option<FailedStep> {
+fn static_failure(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> Option<FailedStep> {
     if task.initially_moving().next().is_some() {
         return None;
     }
@@ -233,7 +233,7 @@ impl<'a> Search<'a> {
                 continue;
             }
             // The lower bound may have risen since the node was opened.
-            if self.soonest(index) > least {
+            if self.end_bound(index) > least {
                 self.open(index);
                 continue;
             }
@@ -261,11 +261,11 @@ impl<'a> Search<'a> {
 
     fn open(&mut self, index: usize) {
         let depth = if self.is_done { 0 } else { self.nodes[index].depth };
-        self.open.push(Reverse((Reverse(depth), OrderedF64(self.soonest(index)), index)));
+        self.open.push(Reverse((Reverse(depth), OrderedF64(self.end_bound(index)), index)));
     }
 
     /// Returns a lower bound on the end of the task through a node, in seconds.
-    fn soonest(&self, index: usize) -> f64 {
+    fn end_bound(&self, index: usize) -> f64 {
         let node = &self.nodes[index];
         let left = match &node.stage {
             Stage::Pending(choice) => self.heuristic.remaining(choice.candidate.to, choice.candidate.progress),
@@ -327,7 +327,7 @@ impl<'a> Search<'a> {
         match self.done(here, &choice) {
             Ok(done) => {
                 self.leave_later_moments(parent, &choice);
-                let (done, after, ends) = self.sooner(here, &choice).unwrap_or(done);
+                let (done, after, ends) = self.earlier_pick(here, &choice).unwrap_or(done);
                 let node = &mut self.nodes[index];
                 (node.seconds, node.stage) = (ends, Stage::Reached(Box::new(after), Some(Box::new(done))));
                 self.open(index);
@@ -358,7 +358,11 @@ impl<'a> Search<'a> {
     }
 
     /// Returns the same pick at an earlier moment. `None` if no earlier one is possible.
-    fn sooner(&mut self, here: TimedState<'a, '_>, choice: &TimedCandidate<'a>) -> Option<(ExecutedStep, State, f64)> {
+    fn earlier_pick(
+        &mut self,
+        here: TimedState<'a, '_>,
+        choice: &TimedCandidate<'a>,
+    ) -> Option<(ExecutedStep, State, f64)> {
         let moment = choice.moment?;
         let (mut since, mut until, mut best) = (moment.since, moment.time, None);
         while until - since > MIN_MOMENT_DISTANCE {
@@ -399,7 +403,7 @@ impl<'a> Search<'a> {
         // The motion without moving obstacles.
         let motion = legs.motion(task, state, candidate)?;
         self.motions += 1;
-        let (scene, courses) = here.scene(step);
+        let (scene, trajectories) = here.scene(step);
         let problem = MotionProblem::trusted(scene, state.q, candidate.to);
         // Times from the beginning of the motion. Differences of whole nanoseconds are whole nanoseconds.
         let since = |at: f64| match at.is_finite() {
@@ -412,7 +416,8 @@ impl<'a> Search<'a> {
             until: choice.moment.map(|moment| since(moment.time)),
         };
         let path = motion.timed.curve.straight();
-        let planned = in_time(&problem, &courses, path, (*motion.timed).clone(), options, &demand);
+        let planned =
+            time_among_moving_obstacles(&problem, &trajectories, path, (*motion.timed).clone(), options, &demand);
         let planned = planned.map_err(|error| Refusal::new(error.to_string(), false))?;
         let (TimedMotion { curve, trajectory }, figures) = planned.map_err(|reason| Refusal::new(reason, false))?;
         let arrival = after_pause(time + trajectory.duration(), 0.0);
@@ -420,8 +425,8 @@ impl<'a> Search<'a> {
             return Err(Refusal::new("the arm cannot rest there for the required time", false));
         }
         let q = curve.curve().path().goal();
-        let (scene, courses) = here.scene_at_rest(candidate, arrival);
-        let kept = clearance_at_rest(TimedScene { scene: &scene, courses: &courses }, q, step.dwell);
+        let (scene, trajectories) = here.scene_at_rest(candidate, arrival);
+        let kept = clearance_at_rest(TimedScene { scene: &scene, trajectories: &trajectories }, q, step.dwell);
         let kept =
             kept.ok_or_else(|| Refusal::new("a moving obstacle or object arrives while the arm rests there", false))?;
         let leg = Leg {
@@ -441,7 +446,7 @@ impl<'a> Search<'a> {
     }
 
     /// Returns the steps done up to a node.
-    fn way_to(&self, index: usize) -> Vec<&ExecutedStep> {
+    fn steps_up_to(&self, index: usize) -> Vec<&ExecutedStep> {
         let nodes = std::iter::successors(Some(index), |&index| self.nodes[index].parent);
         let done = nodes.filter_map(|index| match &self.nodes[index].stage {
             Stage::Reached(_, done) => done.as_deref(),
@@ -454,7 +459,7 @@ impl<'a> Search<'a> {
 
     /// Returns the legs up to a node.
     fn legs(&self, index: usize) -> Vec<Leg> {
-        self.way_to(index).into_iter().map(|done| done.leg.clone()).collect()
+        self.steps_up_to(index).into_iter().map(|done| done.leg.clone()).collect()
     }
 
     /// Returns how the arm passes moving obstacles in all steps up to a node.
@@ -467,7 +472,7 @@ impl<'a> Search<'a> {
             clearance: None,
             free_until: self.free_until(index),
         };
-        for ExecutedStep { leg, timing } in self.way_to(index) {
+        for ExecutedStep { leg, timing } in self.steps_up_to(index) {
             whole.ways += timing.ways;
             whole.clearance = whole.clearance.into_iter().chain(timing.clearance).reduce(f64::min);
             let later = |wait: &Wait| Wait { from: leg.begin + wait.from, to: leg.begin + wait.to, at: wait.at };
@@ -482,8 +487,8 @@ impl<'a> Search<'a> {
         let (node, state) = (&self.nodes[index], self.state(index)?);
         let released = node.parent.and_then(|parent| self.state(parent)?.released);
         let scene = state.scene(self.task, released);
-        let courses = self.task.courses_since(&state.moving, node.seconds);
-        let timed = TimedScene { scene: &scene, courses: &courses };
+        let trajectories = self.task.trajectories_since(&state.moving, node.seconds);
+        let timed = TimedScene { scene: &scene, trajectories: &trajectories };
         let movers = MovingObstacles::new(timed, scene.workspace().clearance);
         let safe = movers.safe_intervals(&Posture::new(&scene, state.q));
         safe.first().filter(|[_, until]| until.is_finite()).map(|[_, until]| node.seconds + until)

@@ -34,13 +34,13 @@ impl Passage {
 /// `from`. At all other times the point is certainly out of the arm's reach, or the object must not be picked. `when`
 /// lists the allowed times; if it is empty, all times are allowed.
 pub(super) fn passages(arm: &Arm, object: &Object, grasp: Point, when: &[Interval], from: f64) -> Vec<Passage> {
-    let legs = object.course.as_ref().map_or(&[][..], ObstacleTrajectory::legs);
+    let legs = object.trajectory.as_ref().map_or(&[][..], ObstacleTrajectory::legs);
     let reach = (tip_reach(arm) + grasp.norm()) * (1.0 + RADIUS_ENLARGEMENT);
     let any = [[0.0, f64::INFINITY]];
     let when = if when.is_empty() { &any[..] } else { when };
     let mut all = Vec::new();
     for leg in legs {
-        let Some([first, last]) = within(leg, arm.base, reach) else { continue };
+        let Some([first, last]) = times_in_disc(leg, arm.base, reach) else { continue };
         for [begins, ends] in when {
             let times = [first.max(*begins).max(from), last.min(*ends)];
             if times[0] <= times[1] {
@@ -68,7 +68,7 @@ fn tip_reach(arm: &Arm) -> f64 {
 }
 
 /// Returns the times of a leg during which the origin of the object's frame is in a disc. `None` if there are none.
-fn within(leg: &Leg, center: Point, radius: f64) -> Option<Interval> {
+fn times_in_disc(leg: &Leg, center: Point, radius: f64) -> Option<Interval> {
     let (extent, speed) = (center - leg.start.at, leg.velocity.norm());
     if speed == 0.0 || radius == f64::INFINITY {
         return (extent.norm() <= radius).then_some([leg.from, leg.to]);
@@ -88,19 +88,19 @@ mod tests {
 
     #[test]
     fn a_belt_crosses_a_disc() {
-        let course = ObstacleTrajectory::conveyor([1.0, -3.0], [0.0, 0.5]).unwrap();
-        let times = within(&course.legs()[0], Point::zeros(), 2.0_f64.sqrt()).unwrap();
+        let trajectory = ObstacleTrajectory::conveyor([1.0, -3.0], [0.0, 0.5]).unwrap();
+        let times = times_in_disc(&trajectory.legs()[0], Point::zeros(), 2.0_f64.sqrt()).unwrap();
         assert!((times[0] - 4.0).abs() < 1e-12 && (times[1] - 8.0).abs() < 1e-12, "{times:?}");
-        assert_eq!(within(&course.legs()[0], Point::zeros(), 0.9), None);
+        assert_eq!(times_in_disc(&trajectory.legs()[0], Point::zeros(), 0.9), None);
         let away = ObstacleTrajectory::conveyor([1.0, 3.0], [0.0, 0.5]).unwrap();
-        assert_eq!(within(&away.legs()[0], Point::zeros(), 2.0), None);
+        assert_eq!(times_in_disc(&away.legs()[0], Point::zeros(), 2.0), None);
     }
 
     #[test]
     fn resting_objects_stay_in_reach_for_ever() {
         let stop = |time, x| cplan_handling::Stop { time, at: Point::new(x, 0.0), angle: 0.0 };
-        let course = ObstacleTrajectory::new(vec![stop(0.0, 9.0), stop(8.0, 1.0)], Vector::zeros()).unwrap();
-        let last = course.legs()[1];
-        assert_eq!(within(&last, Point::zeros(), 2.0), Some([8.0, f64::INFINITY]));
+        let trajectory = ObstacleTrajectory::new(vec![stop(0.0, 9.0), stop(8.0, 1.0)], Vector::zeros()).unwrap();
+        let last = trajectory.legs()[1];
+        assert_eq!(times_in_disc(&last, Point::zeros(), 2.0), Some([8.0, f64::INFINITY]));
     }
 }

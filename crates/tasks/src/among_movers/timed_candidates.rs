@@ -69,18 +69,18 @@ impl<'a> TimedState<'a, '_> {
     /// the beginning of the motion.
     pub fn scene(&self, step: &Step) -> (Scene, Vec<ObstacleTrajectory>) {
         let scene = self.state.scene(self.task, step.action.picked());
-        (scene, self.task.courses_since(&self.state.moving, self.time))
+        (scene, self.task.trajectories_since(&self.state.moving, self.time))
     }
 
     /// Returns the scene while the arm stands at the end of a candidate's step, with trajectories of its loose
     /// obstacles. Their times count from `time`.
     pub fn scene_at_rest(&self, candidate: &Candidate, time: f64) -> (Scene, Vec<ObstacleTrajectory>) {
         let left = self.state.after_step(self.task, candidate, candidate.to);
-        (left.scene(self.task, self.state.released), self.task.courses_since(&left.moving, time))
+        (left.scene(self.task, self.state.released), self.task.trajectories_since(&left.moving, time))
     }
 
-    fn movers<'m>(&self, scene: &'m Scene, courses: &'m [ObstacleTrajectory]) -> MovingObstacles<'m> {
-        MovingObstacles::new(TimedScene { scene, courses }, self.task.workspace.fixed.clearance)
+    fn movers<'m>(&self, scene: &'m Scene, trajectories: &'m [ObstacleTrajectory]) -> MovingObstacles<'m> {
+        MovingObstacles::new(TimedScene { scene, trajectories }, self.task.workspace.fixed.clearance)
     }
 
     /// Returns all candidates for the next step.
@@ -88,14 +88,14 @@ impl<'a> TimedState<'a, '_> {
         let mut choices = Choices::default();
         for candidates in self.state.candidates(self.task) {
             let step = candidates.step;
-            let (scene, courses) = self.scene(step);
-            let movers = self.movers(&scene, &courses);
+            let (scene, trajectories) = self.scene(step);
+            let movers = self.movers(&scene, &trajectories);
             let (mut ways, mut refused) = (Vec::new(), Vec::new());
             match &step.action {
                 Action::Pick { object, grasp, when, .. } if self.state.moving.contains(object) => {
                     let passed = |from| passages(&self.task.arm, &self.task.objects[*object], *grasp, when, from);
                     self.pick(&movers, step, *object, &passed(self.time), &mut ways);
-                    let reason = || self.missed(step, *object, passed);
+                    let reason = || self.explain_missed_pick(step, *object, passed);
                     refused.extend(ways.is_empty().then(|| (None, reason())));
                 }
                 _ if candidates.ways.is_empty() => {
@@ -121,8 +121,8 @@ impl<'a> TimedState<'a, '_> {
     /// Returns the same pick at another moment, with the IK solution nearest to that of `choice`.
     pub fn at_moment(&self, choice: &TimedCandidate<'a>, moment: Moment) -> Option<TimedCandidate<'a>> {
         let object = choice.candidate.step.action.picked()?;
-        let (scene, courses) = self.scene(choice.candidate.step);
-        let movers = self.movers(&scene, &courses);
+        let (scene, trajectories) = self.scene(choice.candidate.step);
+        let movers = self.movers(&scene, &trajectories);
         let ways = self.passing(&movers, choice.candidate.step, object, moment);
         let far = |other: &TimedCandidate| self.task.arm.topology().distance(other.candidate.to, choice.candidate.to);
         ways.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)))
@@ -174,7 +174,7 @@ impl<'a> TimedState<'a, '_> {
             let before = safe.into_iter().find(|[from, to]| *from <= moment.time && moment.time <= *to)?;
             stays.into_iter().find(|[from, to]| *from <= moment.time && stays_until <= *to)?;
             let arrival = [round_up(before[0]), moment.time - MIN_WAIT];
-            let is_in_time = arrival[0].max(self.soonest(&candidate)) <= arrival[1];
+            let is_in_time = arrival[0].max(self.arrival_bound(&candidate)) <= arrival[1];
             // The bound takes into account that an earlier moment may be found.
             let ends = moment.since + step.dwell;
             is_in_time.then_some(TimedCandidate { candidate, arrival, moment: Some(moment), branch, ends })
@@ -192,7 +192,7 @@ impl<'a> TimedState<'a, '_> {
         ways: &mut Vec<TimedCandidate<'a>>,
     ) {
         let [safe, stays] = self.safe(movers, candidate);
-        let (dwell, soonest) = (candidate.step.dwell, self.soonest(candidate));
+        let (dwell, soonest) = (candidate.step.dwell, self.arrival_bound(candidate));
         let both = |a: &Interval| {
             let within = [a[0].max(within[0]), a[1].min(within[1])];
             let common = |b: &Interval| [round_up(within[0].max(b[0])), round_down(within[1].min(b[1] - dwell))];
@@ -206,15 +206,15 @@ impl<'a> TimedState<'a, '_> {
     }
 
     /// Returns a lower bound on the time at which the arm can be at a candidate's target.
-    fn soonest(&self, candidate: &Candidate) -> f64 {
+    fn arrival_bound(&self, candidate: &Candidate) -> f64 {
         self.time + least_time(&self.task.arm, self.state.q, candidate.to, candidate.step.speed)
     }
 
     /// Returns the times at which no moving obstacle comes too near to the arm at a candidate's target: first before
     /// the step's event, then after it.
     fn safe(&self, movers: &MovingObstacles, candidate: &Candidate) -> [Vec<Interval>; 2] {
-        let (after, courses) = self.scene_at_rest(candidate, self.time);
-        let then = self.movers(&after, &courses);
+        let (after, trajectories) = self.scene_at_rest(candidate, self.time);
+        let then = self.movers(&after, &trajectories);
         [movers, &then].map(|movers| {
             let mut safe = movers.safe_intervals(&Posture::new(movers.scene(), candidate.to));
             safe.iter_mut().flatten().for_each(|time| *time += self.time);
@@ -223,7 +223,7 @@ impl<'a> TimedState<'a, '_> {
     }
 
     /// Explains why a moving object cannot be picked any more. `passed` returns the object's passages after a time.
-    fn missed(&self, step: &Step, object: usize, passed: impl Fn(f64) -> Vec<Passage>) -> Refusal {
+    fn explain_missed_pick(&self, step: &Step, object: usize, passed: impl Fn(f64) -> Vec<Passage>) -> Refusal {
         let name = &self.task.objects[object].name;
         let (all, left) = (passed(0.0), passed(self.time));
         let is_reached = |passage: &Passage| {

@@ -37,7 +37,12 @@ impl Condition {
     /// Such a condition is not proven. An obstacle that blocks the path to one IK solution, or from one place, may not
     /// block others. If the reasons name no obstacle of another pair, the condition is only that the pair comes earlier
     /// or later in the order.
-    pub fn learned(pair: usize, done: &[bool], refusals: &[Refusal], pair_of: impl Fn(usize) -> Option<usize>) -> Self {
+    pub fn from_refusals(
+        pair: usize,
+        done: &[bool],
+        refusals: &[Refusal],
+        pair_of: impl Fn(usize) -> Option<usize>,
+    ) -> Self {
         let elsewhere = |other: usize| if done[other] { Precedence(pair, other) } else { Precedence(other, pair) };
         let mut alternatives = Vec::new();
         for refusal in refusals {

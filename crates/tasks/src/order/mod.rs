@@ -163,13 +163,13 @@ impl<'a> Orders<'a> {
             let (in_chosen_order, origins) = self.with_origins();
             let Err(failure) = walk(&in_chosen_order, legs) else { return true };
             let Some((number, at)) = origins[failure.item] else { return false };
-            self.groups[number].learn(self.task, at, &failure.refusals);
+            self.groups[number].derive_condition(self.task, at, &failure.refusals);
         }
         false
     }
 
     /// Returns true if no inexpensive check rules out these orders.
-    pub fn promising(&self, legs: &mut MotionCache) -> bool {
+    pub fn check_candidate(&self, legs: &mut MotionCache) -> bool {
         walk(&self.in_chosen_order(), legs).is_ok()
     }
 
@@ -189,7 +189,7 @@ impl<'a> Orders<'a> {
             let Err(failure) = walk(&in_chosen_order, legs) else { return OrderSearch::Promising };
             let Some((number, before)) = origins[failure.item] else { return OrderSearch::Elsewhere };
             let group = &mut self.groups[number];
-            let learned = group.learn(self.task, before, &failure.refusals);
+            let learned = group.derive_condition(self.task, before, &failure.refusals);
             let stuck = OrderSearch::Stuck { item: group.item, pairs: learned };
             if built[number] || legs.examined_paths() > most {
                 return stuck;
@@ -202,7 +202,7 @@ impl<'a> Orders<'a> {
             built[number] = true;
             progress("building an order pair by pair");
             let first = origins.iter().position(|origin| matches!(origin, Some((group, _)) if *group == number));
-            let entry = entered(&in_chosen_order, legs, first.unwrap_or(0));
+            let entry = layer_before(&in_chosen_order, legs, first.unwrap_or(0));
             let group = &mut self.groups[number];
             match entry.and_then(|layer| OrderBuilder::new(self.task, group, legs, most).order(&layer)) {
                 Some(order) => group.order = order,
@@ -235,11 +235,16 @@ impl Group<'_> {
 
     /// Learns a condition from the reasons why a pair cannot be done after the first `before` pairs. Returns this pair,
     /// followed by the other pairs of the condition.
-    fn learn(&mut self, task: &Task, before: usize, refusals: &[super::motion_cache::Refusal]) -> Vec<usize> {
+    fn derive_condition(
+        &mut self,
+        task: &Task,
+        before: usize,
+        refusals: &[super::motion_cache::Refusal],
+    ) -> Vec<usize> {
         let pair = self.order[before];
         let mut done = vec![false; self.pairs.len()];
         self.order[..before].iter().for_each(|&pair| done[pair] = true);
-        let condition = Condition::learned(pair, &done, refusals, |obstacle| self.pair_of(task, obstacle));
+        let condition = Condition::from_refusals(pair, &done, refusals, |obstacle| self.pair_of(task, obstacle));
         let others: BTreeSet<usize> = condition.pairs().filter(|&other| other != pair).collect();
         if !self.conditions.contains(&condition) {
             self.conditions.push(condition);
@@ -249,7 +254,7 @@ impl Group<'_> {
 }
 
 /// Returns the states before an item of a task in a fixed order. `None` if the items before it cannot be done.
-fn entered(task: &Task, legs: &mut MotionCache, item: usize) -> Option<Layer> {
+fn layer_before(task: &Task, legs: &mut MotionCache, item: usize) -> Option<Layer> {
     let mut layer = vec![(0.0, State::at_start(task))];
     while layer[0].1.progress.item < item {
         layer = advance(task, legs, &layer).ok()?;
@@ -263,15 +268,15 @@ struct OrderBuilder<'a, 'g> {
     legs: &'a mut MotionCache,
     most: usize,
     /// Dead ends of the search. Each is given by the set of pairs that are done, and by the pair that was done last.
-    dead: BTreeSet<(Vec<bool>, Option<usize>)>,
+    dead_ends: BTreeSet<(Vec<bool>, Option<usize>)>,
     /// A task with a single pair, and another step after it.
-    alone: Task,
+    single_pair_task: Task,
 }
 
 impl<'a, 'g> OrderBuilder<'a, 'g> {
     fn new(task: &'a Task, group: &'a mut Group<'g>, legs: &'a mut MotionCache, most: usize) -> Self {
-        let alone = Task { items: Vec::new(), ..task.clone() };
-        Self { group, legs, most, dead: BTreeSet::new(), alone }
+        let single_pair_task = Task { items: Vec::new(), ..task.clone() };
+        Self { group, legs, most, dead_ends: BTreeSet::new(), single_pair_task }
     }
 
     fn order(mut self, entry: &Layer) -> Option<Vec<usize>> {
@@ -285,7 +290,7 @@ impl<'a, 'g> OrderBuilder<'a, 'g> {
             return true;
         }
         let key = (done.clone(), order.last().copied());
-        if self.dead.contains(&key) {
+        if self.dead_ends.contains(&key) {
             return false;
         }
         let preferred = self.group.order.clone();
@@ -293,7 +298,7 @@ impl<'a, 'g> OrderBuilder<'a, 'g> {
             if self.legs.examined_paths() > self.most {
                 return false;
             }
-            let Some(next) = self.with(layer, pair) else { continue };
+            let Some(next) = self.add_pair(layer, pair) else { continue };
             order.push(pair);
             done[pair] = true;
             if self.build(&next, order, done) {
@@ -302,18 +307,18 @@ impl<'a, 'g> OrderBuilder<'a, 'g> {
             order.pop();
             done[pair] = false;
         }
-        self.dead.insert(key);
+        self.dead_ends.insert(key);
         false
     }
 
     /// Returns the states after a pair. `None` if it cannot be done.
-    fn with(&mut self, layer: &Layer, pair: usize) -> Option<Layer> {
+    fn add_pair(&mut self, layer: &Layer, pair: usize) -> Option<Layer> {
         let [pick, place] = &self.group.pairs[pair];
-        self.alone.items = [pick, place, place].map(|step| Item::Step(step.clone())).into();
+        self.single_pair_task.items = [pick, place, place].map(|step| Item::Step(step.clone())).into();
         let mut layer = layer.clone();
         layer.iter_mut().for_each(|(_, state)| state.progress.item = 0);
         for _ in 0..2 {
-            layer = advance(&self.alone, self.legs, &layer).ok()?;
+            layer = advance(&self.single_pair_task, self.legs, &layer).ok()?;
         }
         Some(layer)
     }

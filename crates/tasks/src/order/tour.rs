@@ -32,11 +32,11 @@ pub(super) struct Tour {
     exit: Vec<Vec<f64>>,
     /// Learned times, in seconds. They state, for the motion that carries each pair's object, how much longer than in
     /// `carry` the planned motion takes.
-    carry_more: Vec<f64>,
+    extra_carry_times: Vec<f64>,
     /// Learned times, in seconds. They state, for the motion between two pairs, how much longer than in `transfer` the
     /// planned motion takes. A time that is not known counts as half the mean of the known times.
-    way_more: Vec<Vec<Option<f64>>>,
-    unknown_more: f64,
+    extra_transfer_times: Vec<Vec<Option<f64>>>,
+    unknown_extra_time: f64,
 }
 
 /// Merit of an order, where less is better: the number of violated conditions, then the duration in seconds.
@@ -60,7 +60,8 @@ impl Tour {
             _ => None,
         };
         let arm = &task.arm;
-        let to_stop = |from: Option<&[Configuration]>, to: &Stop| between(arm, from, to.ik_solutions(), to.speed());
+        let to_stop =
+            |from: Option<&[Configuration]>, to: &Stop| bounds_between(arm, from, to.ik_solutions(), to.speed());
         let least = |times: Vec<Vec<f64>>| -> Vec<f64> {
             let column = |at: usize| times.iter().map(|row| row[at]).fold(f64::INFINITY, f64::min);
             (0..times.first().map_or(0, Vec::len)).map(column).collect()
@@ -76,27 +77,27 @@ impl Tour {
             exit: pairs
                 .iter()
                 .map(|[_, place]| {
-                    between(arm, place.ik_solutions(), exit.as_deref(), 1.0).into_iter().map(shortest).collect()
+                    bounds_between(arm, place.ik_solutions(), exit.as_deref(), 1.0).into_iter().map(shortest).collect()
                 })
                 .collect(),
-            carry_more: vec![0.0; pairs.len()],
-            way_more: vec![vec![None; pairs.len()]; pairs.len()],
-            unknown_more: 0.0,
+            extra_carry_times: vec![0.0; pairs.len()],
+            extra_transfer_times: vec![vec![None; pairs.len()]; pairs.len()],
+            unknown_extra_time: 0.0,
         })
     }
 
     /// Records that a motion takes `more` seconds longer than without obstacles. It is the motion that carries a pair's
     /// object.
     pub fn learn_carry(&mut self, pair: usize, more: f64) {
-        self.carry_more[pair] = more;
+        self.extra_carry_times[pair] = more;
     }
 
     /// Records that the motion from one pair's place to another's pick takes `more` seconds longer than without
     /// obstacles.
     pub fn learn_transfer(&mut self, from: usize, to: usize, more: f64) {
-        self.way_more[from][to] = Some(more);
-        let known = || self.way_more.iter().flatten().flatten();
-        self.unknown_more = known().sum::<f64>() / (2 * known().count()) as f64;
+        self.extra_transfer_times[from][to] = Some(more);
+        let known = || self.extra_transfer_times.iter().flatten().flatten();
+        self.unknown_extra_time = known().sum::<f64>() / (2 * known().count()) as f64;
     }
 
     /// Returns the duration of the pairs in this order, in seconds: the shortest path through the layers of IK
@@ -106,15 +107,16 @@ impl Tour {
         let mut times = self.entry[first].clone();
         let mut next = Vec::new();
         for (at, &pair) in order.iter().enumerate() {
-            through(&mut times, &self.carry[pair], &mut next);
+            propagate_times(&mut times, &self.carry[pair], &mut next);
             if let Some(&following) = order.get(at + 1) {
-                through(&mut times, &self.transfer[pair][following], &mut next);
+                propagate_times(&mut times, &self.transfer[pair][following], &mut next);
             } else {
                 times.iter_mut().zip(&self.exit[pair]).for_each(|(time, exit)| *time += exit);
             }
         }
-        let more = |transfer: &[usize]| self.way_more[transfer[0]][transfer[1]].unwrap_or(self.unknown_more);
-        let more = order.windows(2).map(more).chain(order.iter().map(|&pair| self.carry_more[pair]));
+        let more =
+            |transfer: &[usize]| self.extra_transfer_times[transfer[0]][transfer[1]].unwrap_or(self.unknown_extra_time);
+        let more = order.windows(2).map(more).chain(order.iter().map(|&pair| self.extra_carry_times[pair]));
         times.into_iter().fold(f64::INFINITY, f64::min) + more.sum::<f64>()
     }
 
@@ -171,7 +173,7 @@ impl Tour {
 }
 
 /// Computes the least times after a stage of the order from those before it.
-fn through(times: &mut Vec<f64>, stage: &[Vec<f64>], next: &mut Vec<f64>) {
+fn propagate_times(times: &mut Vec<f64>, stage: &[Vec<f64>], next: &mut Vec<f64>) {
     next.clear();
     next.resize(stage.first().map_or(0, Vec::len), f64::INFINITY);
     for (time, row) in times.iter().zip(stage) {
@@ -183,7 +185,12 @@ fn through(times: &mut Vec<f64>, stage: &[Vec<f64>], next: &mut Vec<f64>) {
 }
 
 /// Returns lower bounds on the times between IK solutions, in seconds; 0 if they are unknown.
-fn between(arm: &Arm, from: Option<&[Configuration]>, to: Option<&[Configuration]>, speed: f64) -> Vec<Vec<f64>> {
+fn bounds_between(
+    arm: &Arm,
+    from: Option<&[Configuration]>,
+    to: Option<&[Configuration]>,
+    speed: f64,
+) -> Vec<Vec<f64>> {
     let seconds = |row: usize, column: usize| match (from, to) {
         (Some(from), Some(to)) => least_time(arm, from[row], to[column], speed),
         _ => 0.0,

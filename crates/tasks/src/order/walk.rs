@@ -52,7 +52,7 @@ pub(super) fn advance(task: &Task, legs: &mut MotionCache, layer: &Layer) -> Res
             if next.get(&key).is_some_and(|(known, _)| *known <= seconds) {
                 continue;
             }
-            match legs.promising(task, state, &candidate) {
+            match legs.check_candidate(task, state, &candidate) {
                 Ok(()) => {
                     next.insert(key, (seconds, after));
                 }

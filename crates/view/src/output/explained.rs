@@ -1,7 +1,7 @@
 //! An explanation for people, in words and as a picture.
 
 use super::picture::{contours, title_of};
-use super::summary::{Line, configuration, goal_lines, laid_out};
+use super::summary::{Line, configuration, format_columns, goal_lines};
 use crate::{BlockingView, Picture, View};
 use cplan_core::model::{Outcome, Scene};
 use cplan_explain::{
@@ -20,14 +20,14 @@ pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
     let scene = explanation.question.scene();
     let mut lines = vec![("result", verdict(explanation))];
     lines.extend(facts(explanation));
-    lines.extend(stopped(explanation).map(|words| ("stopped", words)));
+    lines.extend(time_limit_note(explanation).map(|words| ("stopped", words)));
     lines.push(("start", configuration(scene.arm(), explanation.question.start())));
     match explanation.question.target() {
         Target::Goals(goals) => lines.extend(goal_lines(scene.arm(), goals)),
         Target::Tip(tip) => lines.push(("goal", format!("tip at ({}, {}) m", tip.x, tip.y))),
     }
     lines.extend(notes.iter().map(|note| ("note", note.clone())));
-    format!("{}\n{}", title_of(scene), laid_out(&lines))
+    format!("{}\n{}", title_of(scene), format_columns(&lines))
 }
 
 /// Returns the content of the explanation's pictures and pages.
@@ -70,7 +70,7 @@ fn verdict(explanation: &Explanation) -> String {
                 "found: a path exists; the time was too short to find what lengthens it".into()
             }
             0 => "found: a path exists, and no single obstacle or limit makes the shortest path longer".into(),
-            n => format!("found: a path exists; {} the shortest path longer", counted_makes(n)),
+            n => format!("found: a path exists; {} the shortest path longer", count_with_makes(n)),
         },
         Outcome::Infeasible(closed) => match closed.sets.first().filter(|set| !set.blockers.is_empty()) {
             Some(set) => format!("infeasible: proven; blocked by {}", set.describe(scene)),
@@ -81,13 +81,13 @@ fn verdict(explanation: &Explanation) -> String {
 }
 
 /// Returns a note with the option for more time, if the time limit ended the explanation early.
-fn stopped(explanation: &Explanation) -> Option<String> {
+fn time_limit_note(explanation: &Explanation) -> Option<String> {
     let limit = explanation.question.time_limit().filter(|_| explanation.is_stopped)?.as_secs_f64();
     let more = short((TIME_LIMIT_FACTOR * limit).max(TIME_LIMIT.as_secs_f64()));
     Some(format!("after {limit} s, before the explanation was complete; --time {more} allows more time"))
 }
 
-fn counted_makes(n: usize) -> String {
+fn count_with_makes(n: usize) -> String {
     if n == 1 { "one thing makes".into() } else { format!("{n} things each make") }
 }
 
@@ -95,13 +95,13 @@ fn counted_makes(n: usize) -> String {
 fn facts(explanation: &Explanation) -> Vec<Line> {
     let scene = explanation.question.scene();
     match &explanation.outcome {
-        Outcome::Found(shaped) => found(scene, shaped),
+        Outcome::Found(shaped) => found_lines(scene, shaped),
         Outcome::Infeasible(closed) => infeasible(scene, closed),
         Outcome::Unknown(_) => Vec::new(),
     }
 }
 
-fn found(scene: &Scene, FoundExplanation { answer, savings }: &FoundExplanation) -> Vec<Line> {
+fn found_lines(scene: &Scene, FoundExplanation { answer, savings }: &FoundExplanation) -> Vec<Line> {
     let mut lines = Vec::new();
     if let Some(bound) = answer.bound() {
         let gap = percent(bound.gap());
@@ -151,7 +151,7 @@ fn infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Vec<Line> {
     }
     for set in &closed.sets {
         let changes = set.blockers.iter().flat_map(|blocker| &blocker.changes);
-        lines.extend(changes.map(|change| ("opens", opens(scene, set, change))));
+        lines.extend(changes.map(|change| ("opens", describe_change(scene, set, change))));
     }
     lines.extend(closed.bottleneck.iter().map(|bottleneck| ("stuck", bottleneck_line(scene, bottleneck))));
     lines
@@ -163,7 +163,11 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
     let key = if blocked.end == End::Start { "bad start" } else { "bad goal" };
     let beyond = (0..2).filter(|&k| blocked.beyond[k] > 0.0);
     let beyond = beyond.map(|k| {
-        format!("joint \"{}\" is {} beyond its limits", arm.joints[k].name, arm.joints[k].shown(blocked.beyond[k]))
+        format!(
+            "joint \"{}\" is {} beyond its limits",
+            arm.joints[k].name,
+            arm.joints[k].format_value(blocked.beyond[k])
+        )
     });
     let reasons: Vec<String> = beyond.chain(blocked.hits.iter().map(|hit| scene.explain(hit))).collect();
     let mut lines = vec![(key, format!("{}: {}", configuration(arm, blocked.at), listed(&reasons)))];
@@ -192,7 +196,7 @@ fn misses(scene: &Scene, out: &OutOfReach) -> String {
 }
 
 /// Describes a change that opens a path.
-fn opens(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
+fn describe_change(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
     let Change { element, cure, among, by } = change;
     let (what, unit) = (element.describe(scene), element.unit(scene.arm()));
     let how = match cure {

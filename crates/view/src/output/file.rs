@@ -76,7 +76,7 @@ pub fn bytes(plan: &Plan, format: FileFormat) -> Result<Option<Vec<u8>>, DrawErr
         FileFormat::Result(Format::Mcap) => Ok(stage(plan).and_then(|stage| plan.recording(Some(&stage)))),
         FileFormat::Result(format) => Ok(plan.encoded(format)),
         FileFormat::CSpace(format) => Ok(format.text(&cspaces(plan)).map(String::into_bytes)),
-        FileFormat::Picture(format) if format.plays() => format.bytes(&view_with_replay(plan)).map(Some),
+        FileFormat::Picture(format) if format.is_animated() => format.bytes(&view_with_replay(plan)).map(Some),
         FileFormat::Picture(format) => format.bytes(&view(plan)).map(Some),
     }
 }

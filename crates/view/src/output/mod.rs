@@ -23,7 +23,7 @@ pub use picture::{PictureFormat, PictureFormatError};
 pub use picture::{contours, title_of};
 pub use picture::{replayed, status, view_with};
 pub use step_lines::{StepLine, step_lines};
-pub use summary::{Line, configuration, laid_out, range, summary_with};
+pub use summary::{Line, configuration, format_columns, range, summary_with};
 
 use crate::{DrawError, View};
 use cplan_engine::Plan;

@@ -15,7 +15,7 @@ use cplan_text::{counted, length_down, percent, round_down};
 /// Returns the lines of the summary: the planner's result and work, and the query.
 pub(super) fn summary_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> SummaryLines {
     let (scene, arm) = (problem.scene(), plan.arm());
-    let moving = match scene.loose().len() {
+    let moving = match scene.loose_obstacles().len() {
         0 => String::new(),
         count => format!(", {count} moving"),
     };
@@ -25,10 +25,10 @@ pub(super) fn summary_lines(plan: &Plan, problem: &MotionProblem, answer: &Answe
         ("start", configuration(arm, problem.start())),
     ];
     asked.extend(goal_lines(arm, problem.goals()));
-    SummaryLines { found: found(plan, problem, answer), asked }
+    SummaryLines { found: found_lines(plan, problem, answer), asked }
 }
 
-fn found(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Vec<Line> {
+fn found_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Vec<Line> {
     let mut lines = match &answer.outcome {
         Outcome::Found(motion) => motion_lines(problem, answer, motion),
         Outcome::Infeasible(proof) => vec![("result", format!("infeasible: there is no path; {}", proof.describe()))],

@@ -79,7 +79,7 @@ impl PictureFormat {
     /// Returns true if the format can show how the planner found its answer. A view for it should have a replay
     /// (`PlanOutput::view_with_replay`).
     #[must_use]
-    pub fn plays(self) -> bool {
+    pub fn is_animated(self) -> bool {
         match self {
             Self::Svg => false,
             #[cfg(feature = "png")]
@@ -165,7 +165,7 @@ fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, co
     let outline = answer.outcome.found().map(|motion| motion.timed.curve.outline());
     let detail = match &answer.outcome {
         Outcome::Found(motion) => {
-            format!("{method}: length {:.4}, {}", motion.path.path().length(), kept(plan.clearance()))
+            format!("{method}: length {:.4}, {}", motion.path.path().length(), describe_clearance(plan.clearance()))
         }
         Outcome::Infeasible(proof) => format!("{method}: there is no path; {}", proof.describe()),
         Outcome::Unknown(_) => method.to_string(),
@@ -192,7 +192,7 @@ fn task_picture<'a>(plan: &'a Plan, task: &'a Task, answer: &'a TaskAnswer) -> T
     let before = || format!("{planner}: {steps} before it");
     let (status, detail) = match plan.status() {
         Status::Found => {
-            let kept = kept(plan.clearance());
+            let kept = describe_clearance(plan.clearance());
             ("found, certified", format!("{planner}: {steps} in {:.3} s, {kept}", answer.duration()))
         }
         Status::Infeasible => ("proven", before()),
@@ -221,7 +221,7 @@ pub fn status(status: Status) -> &'static str {
 }
 
 /// Describes the proven clearance of a motion.
-fn kept(clearance: Option<f64>) -> String {
+fn describe_clearance(clearance: Option<f64>) -> String {
     clearance.map_or("no obstacle within reach".into(), |c| format!("proven clearance {}", length_down(c)))
 }
 
@@ -240,18 +240,18 @@ const MAX_MOMENTS: usize = 60;
 
 /// Returns the C-obstacles of moving obstacles between `from` and `to`, both included, 20 times per second. If these
 /// are more than `most + 1` times, uses `most + 1` evenly spaced ones instead.
-fn contours_in_time(TimedScene { scene, courses }: TimedScene, [from, to]: [f64; 2], most: usize) -> Moments {
-    if courses.is_empty() {
+fn contours_in_time(TimedScene { scene, trajectories }: TimedScene, [from, to]: [f64; 2], most: usize) -> Moments {
+    if trajectories.is_empty() {
         return Vec::new();
     }
     let alone = scene.reshaped(|_| (), |_| Vec::new());
-    let alone = TimedScene { scene: &alone, courses };
+    let alone = TimedScene { scene: &alone, trajectories };
     let standing = scene.workspace().obstacles.len();
     let count = ((to - from) * 20.0).ceil().clamp(1.0, most.max(1) as f64);
     let moment = |k: f64| {
         let time = from + (to - from) * k / count;
         let mut all = contours(&alone.frozen(time));
-        all.retain(|c_obstacle| (standing..standing + courses.len()).contains(&c_obstacle.obstacle));
+        all.retain(|c_obstacle| (standing..standing + trajectories.len()).contains(&c_obstacle.obstacle));
         all.iter_mut().for_each(|c_obstacle| c_obstacle.obstacle -= standing);
         (time, all)
     };

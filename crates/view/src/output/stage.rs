@@ -23,7 +23,10 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
     };
     let mut stage = Stage {
         plane: arm.plane,
-        bodies: vec![Body { name: "workspace".into(), solids: obstacles.iter().enumerate().map(lying).collect() }],
+        bodies: vec![Body {
+            name: "workspace".into(),
+            solids: obstacles.iter().enumerate().map(placed_solid).collect(),
+        }],
         poses: vec![(0.0, 0, Pose::identity(), 0.0)],
         size: arm.reach(),
     };
@@ -42,12 +45,12 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
     }
     match plan.detail() {
         Detail::Motion { problem, .. } => {
-            let loose = problem.scene().loose().iter().map(|loose| &loose.obstacle);
-            with_movers(&mut stage, obstacles.len(), loose.zip(plan.problem().timed().courses), &trajectory.time);
+            let loose = problem.scene().loose_obstacles().iter().map(|loose| &loose.obstacle);
+            with_movers(&mut stage, obstacles.len(), loose.zip(plan.problem().timed().trajectories), &trajectory.time);
         }
         Detail::Task { task, answer } => {
             with_objects(&mut stage, task, answer, &trajectory.time);
-            let movers = task.workspace.movers.iter().map(|mover| (&mover.obstacle, &mover.course));
+            let movers = task.workspace.movers.iter().map(|mover| (&mover.obstacle, &mover.trajectory));
             with_movers(&mut stage, obstacles.len(), movers, &trajectory.time);
         }
     }
@@ -62,11 +65,11 @@ fn with_movers<'a>(
     movers: impl Iterator<Item = (&'a Obstacle, &'a ObstacleTrajectory)>,
     times: &[f64],
 ) {
-    for (number, (obstacle, course)) in movers.enumerate() {
-        let solid = lying((standing + number, obstacle));
+    for (number, (obstacle, trajectory)) in movers.enumerate() {
+        let solid = placed_solid((standing + number, obstacle));
         let body = stage.bodies.len();
         stage.bodies.push(Body { name: format!("moving/{}", obstacle.name), solids: vec![solid] });
-        stage.poses.extend(times.iter().map(|&time| (time, body, course.pose(time), 0.0)));
+        stage.poses.extend(times.iter().map(|&time| (time, body, trajectory.pose(time), 0.0)));
     }
 }
 
@@ -82,11 +85,11 @@ fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f6
         };
         stage.bodies.push(Body { name: format!("object/{}", object.name), solids: vec![solid] });
         stage.poses.push((0.0, FIRST_OBJECT + number, object.at, 0.0));
-        if let Some(course) = &object.course {
+        if let Some(trajectory) = &object.trajectory {
             let grasped = |leg: &Leg| leg.event_time().filter(|_| leg.event == Some(Event::Grasp { object: number }));
             let until = answer.legs.iter().find_map(grasped).unwrap_or(f64::INFINITY);
             let moves = times.iter().filter(|&&time| 0.0 < time && time <= until);
-            stage.poses.extend(moves.map(|&time| (time, FIRST_OBJECT + number, course.pose(time), 0.0)));
+            stage.poses.extend(moves.map(|&time| (time, FIRST_OBJECT + number, trajectory.pose(time), 0.0)));
         }
     }
     for leg in &answer.legs {
@@ -103,7 +106,7 @@ fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f6
     }
 }
 
-fn lying((number, obstacle): (usize, &Obstacle)) -> Solid {
+fn placed_solid((number, obstacle): (usize, &Obstacle)) -> Solid {
     Solid {
         name: obstacle.name.clone(),
         color: parts_of(obstacle_color(number)),

@@ -13,7 +13,7 @@ pub struct StepLine {
     /// Number of the repetition, from 1.
     pub cycle: usize,
     /// True if the step is listed even in late repetitions.
-    pub matters: bool,
+    pub is_listed: bool,
     /// Texts of the columns: number, action, payload and motion.
     pub columns: [String; 4],
 }
@@ -21,7 +21,7 @@ pub struct StepLine {
 /// Returns the lines of the steps. Consecutive steps that are only counted share one line. If the columns do not fit in
 /// one line, payload and motion are in the line below the action.
 pub fn step_lines(steps: &[StepLine]) -> Vec<String> {
-    let shown = |step: &StepLine| step.matters || step.cycle <= MAX_SHOWN_CYCLES;
+    let shown = |step: &StepLine| step.is_listed || step.cycle <= MAX_SHOWN_CYCLES;
     let width = |k: usize| {
         let rows = steps.iter().filter(|step| shown(step));
         rows.map(|step| step.columns[k].chars().count()).max().unwrap_or(0)
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
 
     fn line(columns: [&str; 4]) -> StepLine {
-        StepLine { cycle: 1, matters: false, columns: columns.map(str::to_owned) }
+        StepLine { cycle: 1, is_listed: false, columns: columns.map(str::to_owned) }
     }
 
     #[test]

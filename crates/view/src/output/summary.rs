@@ -12,7 +12,7 @@ use std::time::Duration;
 /// Returns the values of both joints by name.
 pub fn configuration(arm: &Arm, q: Configuration) -> String {
     let [a, b] = &arm.joints;
-    format!("{} {}, {} {}", a.name, a.shown(q[0]), b.name, b.shown(q[1]))
+    format!("{} {}, {} {}", a.name, a.format_value(q[0]), b.name, b.format_value(q[1]))
 }
 
 /// Returns the values of both joints along a segment by name. For a joint that moves along the segment, returns the
@@ -22,8 +22,10 @@ pub fn segment(arm: &Arm, segment: &Segment) -> String {
     let shown = |k: usize| {
         let joint = &arm.joints[k];
         match from[k] == to[k] {
-            true => format!("{} {}", joint.name, joint.shown(from[k])),
-            false => format!("{} any from {} to {}", joint.name, joint.shown(from[k]), joint.shown(to[k])),
+            true => format!("{} {}", joint.name, joint.format_value(from[k])),
+            false => {
+                format!("{} any from {} to {}", joint.name, joint.format_value(from[k]), joint.format_value(to[k]))
+            }
         }
     };
     format!("{}, {}", shown(0), shown(1))
@@ -39,7 +41,9 @@ pub(super) fn goal_lines(arm: &Arm, goals: &GoalSet) -> Vec<Line> {
 pub fn range(joint: &Joint) -> String {
     match joint.range {
         JointRange::Circle => "continuous".into(),
-        JointRange::Interval { lower, upper } => format!("{} to {}", joint.shown(lower), joint.shown(upper)),
+        JointRange::Interval { lower, upper } => {
+            format!("{} to {}", joint.format_value(lower), joint.format_value(upper))
+        }
     }
 }
 
@@ -61,7 +65,7 @@ pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Durat
     let notes = robot.notes.iter().chain(plan.problem().notes()).map(|note| ("note", note.clone()));
     if !is_verbose {
         lines.extend(notes);
-        return laid_out(&lines);
+        return format_columns(&lines);
     }
     let stages = plan.timings().iter().chain(after);
     let stages: Vec<String> = stages.map(|(name, time)| format!("{name} {:.1}", time.as_secs_f64() * 1e3)).collect();
@@ -70,7 +74,7 @@ pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Durat
     lines.extend(arm_lines(plan.arm()));
     lines.extend(robot.geometry.iter().map(|fact| ("robot", fact.clone())));
     lines.extend(notes);
-    laid_out(&lines)
+    format_columns(&lines)
 }
 
 /// Returns the verdict in words, the first line of the summary.
@@ -137,7 +141,7 @@ pub(super) fn field(options: &Options) -> Option<Line> {
 }
 
 /// Formats lines in two columns.
-pub fn laid_out(lines: &[Line]) -> String {
+pub fn format_columns(lines: &[Line]) -> String {
     let mut columns = Columns::default();
     lines.iter().for_each(|(key, line)| columns.add(key, line));
     columns.into_text()

@@ -35,7 +35,7 @@ pub(super) fn summary_lines(plan: &Plan, task: &Task, answer: &TaskAnswer) -> Su
 /// Returns the lines of the steps. Late repetitions are merged.
 fn steps(task: &Task, answer: &TaskAnswer) -> Vec<String> {
     let repeated = answer.legs.iter().any(|leg| leg.step.cycle > 1);
-    let line = |leg: &Leg| StepLine { cycle: leg.step.cycle, matters: false, columns: row(task, leg, repeated) };
+    let line = |leg: &Leg| StepLine { cycle: leg.step.cycle, is_listed: false, columns: row(task, leg, repeated) };
     step_lines(&answer.legs.iter().map(line).collect::<Vec<_>>())
 }
 

@@ -15,10 +15,10 @@ pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     /// Fraction of the swept extent by which the panel may grow to include obstacles.
     const MAX_GROWTH: f64 = 0.25;
     const MARGIN_SHARE: f64 = 0.04;
-    let swept = swept(scene, shown);
+    let swept = reach_box(scene, shown);
     let size = (swept[0].1 - swept[0].0).max(swept[1].1 - swept[1].0);
     let mut sides = swept;
-    for corners in scene.workspace().obstacles.iter().map(|o| around(&o.pieces)) {
+    for corners in scene.workspace().obstacles.iter().map(|o| bounding_box(&o.pieces)) {
         let near = [0, 1].map(|k| {
             (corners[k].0.max(swept[k].0 - MAX_GROWTH * size), corners[k].1.min(swept[k].1 + MAX_GROWTH * size))
         });
@@ -30,7 +30,7 @@ pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
 }
 
 /// Returns the box around the arm in many of its configurations. They are enough for a picture.
-fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
+fn reach_box(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     let arm = scene.arm();
     let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
     let mut include = |p: Point, r: f64| {
@@ -61,7 +61,7 @@ fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
 
 /// Returns the box around shapes. For an empty list, its lower ends are above its upper ends.
 #[must_use]
-pub fn around<'a>(shapes: impl IntoIterator<Item = &'a Convex>) -> [Range; 2] {
+pub fn bounding_box<'a>(shapes: impl IntoIterator<Item = &'a Convex>) -> [Range; 2] {
     let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
     for shape in shapes {
         for (p, k) in shape.core().iter().flat_map(|p| [(p, 0), (p, 1)]) {

@@ -54,7 +54,7 @@ impl PathView {
             width: HIGHLIGHTED_WIDTH,
             dash,
             points: grain.configurations(path.waypoints()),
-            ghosts: grain.configurations(&between(path, GHOST_POSES)),
+            ghosts: grain.configurations(&intermediate_configurations(path, GHOST_POSES)),
             step: 0,
             grows: false,
         }
@@ -76,13 +76,18 @@ impl PathView {
 
     /// Returns the part of this line that an animation has drawn so far, through `points`. It has no poses between its
     /// ends.
-    pub fn along(&self, points: Chain) -> Self {
+    pub fn drawn_through(&self, points: Chain) -> Self {
         Self { points, ghosts: Chain::default(), grows: true, ..self.clone() }
     }
 
     /// Returns a grey line through `points`, to be drawn beside this one.
-    pub fn beside(&self, points: Chain) -> Self {
-        Self { name: "before it is pulled taut".to_owned(), color: Some(GRAY), width: LINE_WIDTH, ..self.along(points) }
+    pub fn grey_line(&self, points: Chain) -> Self {
+        Self {
+            name: "before it is pulled taut".to_owned(),
+            color: Some(GRAY),
+            width: LINE_WIDTH,
+            ..self.drawn_through(points)
+        }
     }
 
     /// Returns the pen of the path.
@@ -108,7 +113,7 @@ impl PathView {
 }
 
 /// Returns configurations that divide the path into `count + 1` equal parts.
-fn between(path: &Path, count: usize) -> Vec<Configuration> {
+fn intermediate_configurations(path: &Path, count: usize) -> Vec<Configuration> {
     let total = path.length();
     let mut wanted = (1..=count).map(|k| total * k as f64 / (count + 1) as f64).peekable();
     let (mut found, mut done) = (Vec::new(), 0.0);
@@ -198,7 +203,7 @@ mod tests {
     fn ghosts_are_equally_spaced() {
         let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 3.0), (0.5, 3.0)];
         let path = Path::new(corners.iter().map(|c| Configuration::new(c.0, c.1)).collect());
-        let all = between(&path, 8);
+        let all = intermediate_configurations(&path, 8);
         let expected: Vec<Configuration> =
             [(0.5, 0.0), (1.0, 0.0), (1.0, 0.5), (1.0, 1.0), (1.0, 1.5), (1.0, 2.0), (1.0, 2.5), (1.0, 3.0)]
                 .iter()
@@ -206,6 +211,6 @@ mod tests {
                 .collect();
         assert_eq!(all.len(), expected.len());
         assert!(all.iter().zip(&expected).all(|(a, b)| (a - b).norm() < 1e-12), "{all:?}");
-        assert!(between(&Path::new(vec![Configuration::zeros()]), 3).is_empty());
+        assert!(intermediate_configurations(&Path::new(vec![Configuration::zeros()]), 3).is_empty());
     }
 }

@@ -76,7 +76,7 @@ impl PhaseView {
 
 /// Returns the replay without its narrowest boxes of slabs. It has at most `most` boxes, if one of the widths in
 /// [`BOX_WIDTH_LIMITS`] suffices for that.
-fn thinned(replay: &Replay, topology: &Topology, most: usize) -> Replay {
+fn with_fewer_boxes(replay: &Replay, topology: &Topology, most: usize) -> Replay {
     let extents = topology.ranges.map(|axis| axis.extent());
     let mut replay = replay.clone();
     for phase in &mut replay.phases {
@@ -131,7 +131,8 @@ impl View {
         let mut left = MAX_REPLAY_BYTES;
         for replayed in &replay.motions {
             let trace = replayed.trace.as_ref().and_then(|trace| TraceView::new(trace, &topology, grain));
-            let phases = PhaseView::all(&thinned(&replayed.replay, &topology, most), &topology, trace.as_ref(), grain);
+            let phases =
+                PhaseView::all(&with_fewer_boxes(&replayed.replay, &topology, most), &topology, trace.as_ref(), grain);
             let scale = trace.as_ref().and_then(TraceView::scale);
             let view = MotionReplayView { trace, scale, phases };
             // Serialisation cannot fail: there are only numbers and strings.
@@ -155,7 +156,7 @@ impl View {
     }
 
     /// Returns the view at a moment of the replay: `part` of the phase has been shown, from 0 to 1.
-    pub fn thinking(&self, phase: usize, part: f64) -> Self {
+    pub fn at_replay_moment(&self, phase: usize, part: f64) -> Self {
         let mut view = self.clone();
         let now = &self.replay[phase];
         let shown = |is: fn(&ShowsView) -> bool| match self.replay.iter().position(|phase| is(&phase.shows)) {
@@ -168,16 +169,16 @@ impl View {
         view.title[0].clone_from(&now.caption);
         view.status.clear();
         let world = &mut view.worlds[0];
-        world.proof = begun(&world.proof, 2, shown(|shows| *shows == ShowsView::Proof));
+        world.proof = shown_items(&world.proof, 2, shown(|shows| *shows == ShowsView::Proof));
         restrict(world, now, part, &shown);
         view.paths = match &now.shows {
-            ShowsView::Own { points } => vec![self.paths[0].beside(gone(points, part))],
+            ShowsView::Own { points } => vec![self.paths[0].grey_line(beginning_of(points, part))],
             ShowsView::Path => {
                 let own = self.replay.iter().find_map(|phase| match &phase.shows {
-                    ShowsView::Own { points } => Some(self.paths[0].beside(points.clone())),
+                    ShowsView::Own { points } => Some(self.paths[0].grey_line(points.clone())),
                     _ => None,
                 });
-                let path = self.paths[0].along(gone(&self.paths[0].points, part));
+                let path = self.paths[0].drawn_through(beginning_of(&self.paths[0].points, part));
                 own.into_iter().chain([path]).collect()
             }
             _ => Vec::new(),
@@ -202,27 +203,27 @@ fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn
                 .get((part * frames.len() as f64).ceil() as usize - usize::from(part > 0.0))
                 .map(|frame| frame.1.clone());
         }
-        (_, TraceView::Roadmap { edges: all, .. }) => *all = begun(all, 2, edges()),
-        (_, TraceView::Slices { free }) => *free = begun(free, 2, shown(|shows| *shows == ShowsView::Slices)),
+        (_, TraceView::Roadmap { edges: all, .. }) => *all = shown_items(all, 2, edges()),
+        (_, TraceView::Slices { free }) => *free = shown_items(free, 2, shown(|shows| *shows == ShowsView::Slices)),
         (_, TraceView::Channel { cells, channel, centers, middles, expanded, sweep }) => {
             // Cells that appear later keep their places in the list, but have no corners yet.
             let count = count(cells.len(), shown(|shows| matches!(shows, ShowsView::Cells { .. })));
             cells[count..].iter_mut().for_each(|cell| cell.0.clear());
             *sweep = match now.shows {
-                ShowsView::Cells { swept: true } => cells[..count].last().map(left),
+                ShowsView::Cells { swept: true } => cells[..count].last().map(least_first_value),
                 _ => None,
             };
             channel.truncate(self::count(channel.len(), shown(|shows| *shows == ShowsView::Channel)));
             centers.0.truncate(channel.len());
             middles.0.truncate(channel.len().saturating_sub(1));
-            *expanded = begun(expanded, 1, expanded_part());
+            *expanded = shown_items(expanded, 1, expanded_part());
         }
         (ShowsView::Nodes, TraceView::Roads { edges, expanded, .. }) => {
-            *expanded = begun(&Chain(edges.0.chunks_exact(2).map(|ends| ends[0]).collect()), 1, part);
+            *expanded = shown_items(&Chain(edges.0.chunks_exact(2).map(|ends| ends[0]).collect()), 1, part);
             edges.0.clear();
         }
         (_, TraceView::Roads { edges: all, expanded, .. }) => {
-            (*all, *expanded) = (begun(all, 2, edges()), begun(expanded, 1, expanded_part()));
+            (*all, *expanded) = (shown_items(all, 2, edges()), shown_items(expanded, 1, expanded_part()));
         }
         (ShowsView::Boxes { order }, trace @ TraceView::Boxes { .. }) => {
             if let TraceView::Boxes { free, stuck, mixed, .. } = &*trace {
@@ -238,7 +239,7 @@ fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn
 }
 
 /// Returns the least value of joint 1 in a cell.
-fn left(cell: &Chain) -> f64 {
+fn least_first_value(cell: &Chain) -> f64 {
     cell.0.iter().map(|corner| corner[0]).fold(f64::INFINITY, f64::min)
 }
 
@@ -248,7 +249,7 @@ fn count(all: usize, part: f64) -> usize {
 }
 
 /// Returns the items that are visible. Each item consists of `each` configurations.
-fn begun(chain: &Chain, each: usize, part: f64) -> Chain {
+fn shown_items(chain: &Chain, each: usize, part: f64) -> Chain {
     Chain(chain.0[..each * count(chain.0.len() / each, part)].to_vec())
 }
 
@@ -267,7 +268,7 @@ fn cut(kinds: [&Chain; 3], order: &[usize], part: f64) -> TraceView {
 }
 
 /// Returns the beginning of a path, with the fraction `part` of its length.
-fn gone(points: &Chain, part: f64) -> Chain {
+fn beginning_of(points: &Chain, part: f64) -> Chain {
     let lengths = || points.0.windows(2).map(|ends| (ends[1] - ends[0]).norm());
     let mut left = part * lengths().sum::<f64>();
     let mut there = vec![points.0[0]];
@@ -293,9 +294,9 @@ mod tests {
     #[test]
     fn a_path_grows_by_its_length() {
         let path = chain(&[0.0, 0.0, 1.0, 0.0, 1.0, 3.0]);
-        assert_eq!(gone(&path, 0.0), chain(&[0.0, 0.0, 0.0, 0.0]));
-        assert_eq!(gone(&path, 0.5), chain(&[0.0, 0.0, 1.0, 0.0, 1.0, 1.0]));
-        assert_eq!(gone(&path, 1.0), path);
+        assert_eq!(beginning_of(&path, 0.0), chain(&[0.0, 0.0, 0.0, 0.0]));
+        assert_eq!(beginning_of(&path, 0.5), chain(&[0.0, 0.0, 1.0, 0.0, 1.0, 1.0]));
+        assert_eq!(beginning_of(&path, 1.0), path);
     }
 
     #[test]

@@ -47,7 +47,7 @@ impl View {
         let (world, label) = match picture.answer.failed() {
             Some(fails) => {
                 let label = format!("{} fails", order.named(&fails.step, &task.objects));
-                (worlds.failing(fails), label)
+                (worlds.add_failed_step(fails), label)
             }
             None => {
                 let (poses, moving) = at_the_end(task, legs);
@@ -56,7 +56,7 @@ impl View {
             }
         };
         motions.push(MotionView { world, path: None, from, label, replay: None });
-        worlds.put_in_time(&spans);
+        worlds.add_moving_obstacles(&spans);
         let placed = placed(task, legs);
         let at_first: Vec<_> = task.objects.iter().map(Object::initial_static_pose).collect();
         let mut everything = task.obstacles(&at_first);
@@ -156,18 +156,18 @@ impl Worlds<'_> {
     }
 
     fn add(&mut self, scene: &Arc<Scene>, moving: &[usize]) -> usize {
-        let courses = self.picture.task.courses(moving);
-        let timed = TimedScene { scene, courses: &courses };
+        let trajectories = self.picture.task.trajectories(moving);
+        let timed = TimedScene { scene, trajectories: &trajectories };
         let c_obstacles = (self.picture.c_obstacles)(scene);
         let label = describe(scene.attachment().map(|payload| payload.name.as_str()));
         let open = self.open(scene);
         self.views.push(WorldView { open, ..WorldView::new(timed, label, &c_obstacles, self.grain) });
-        self.scenes.push((scene.clone(), courses));
+        self.scenes.push((scene.clone(), trajectories));
         self.views.len() - 1
     }
 
     /// Adds the C-obstacles of moving obstacles to the worlds, for the interval of time of each world.
-    fn put_in_time(&mut self, spans: &[[f64; 2]]) {
+    fn add_moving_obstacles(&mut self, spans: &[[f64; 2]]) {
         let legs = &self.picture.answer.legs;
         let picked = |name: &str| {
             let grasps = |leg: &&Leg| matches!(leg.event, Some(Event::Grasp { object }) if self.picture.task.objects[object].name == name);
@@ -176,8 +176,8 @@ impl Worlds<'_> {
         for (number, view) in self.views.iter_mut().enumerate().filter(|(_, view)| !view.movers.is_empty()) {
             view.movers.iter_mut().for_each(|mover| mover.until = picked(&mover.obstacle.name));
             let Some(span) = spans.get(number) else { continue };
-            let (scene, courses) = &self.scenes[number];
-            let moments = (self.picture.in_time)(TimedScene { scene, courses }, *span, MAX_MOMENTS / spans.len());
+            let (scene, trajectories) = &self.scenes[number];
+            let moments = (self.picture.in_time)(TimedScene { scene, trajectories }, *span, MAX_MOMENTS / spans.len());
             *view = view.clone().timed(&moments, self.grain);
         }
     }
@@ -208,7 +208,7 @@ impl Worlds<'_> {
     }
 
     /// Adds the world of the failed step, with the proofs that it fails, and returns the index of the world.
-    fn failing(&mut self, fails: &FailedStep) -> usize {
+    fn add_failed_step(&mut self, fails: &FailedStep) -> usize {
         let world = self.add(&fails.scene, &fails.moving);
         let proofs = fails.ik_solutions.iter().filter_map(|to| to.proof.as_ref());
         let unreached = fails.ik_solutions.iter().map(|to| self.grain.configuration(to.ik_solution)).collect();

@@ -73,28 +73,28 @@ pub struct MovingObstacleView {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub until: Option<f64>,
     #[serde(skip)]
-    course: ObstacleTrajectory,
+    trajectory: ObstacleTrajectory,
 }
 
 impl MovingObstacleView {
-    fn new(obstacle: &Obstacle, course: &ObstacleTrajectory, color: usize, grain: RoundingSteps) -> Self {
-        let velocity = course.velocity();
+    fn new(obstacle: &Obstacle, trajectory: &ObstacleTrajectory, color: usize, grain: RoundingSteps) -> Self {
+        let velocity = trajectory.velocity();
         Self {
             obstacle: ObstacleView::new(obstacle, color, grain),
-            stops: course
+            stops: trajectory
                 .stops()
                 .iter()
                 .map(|s| [number(s.time), grain.length(s.at.x), grain.length(s.at.y), number(s.angle)])
                 .collect(),
             velocity: [grain.length(velocity.x), grain.length(velocity.y)],
             until: None,
-            course: course.clone(),
+            trajectory: trajectory.clone(),
         }
     }
 
     /// Returns the obstacle at its pose at a time.
     pub fn at(&self, time: f64) -> ObstacleView {
-        let pose = self.course.pose(time);
+        let pose = self.trajectory.pose(time);
         let ObstacleView { name, color, outline, own, pieces } = &self.obstacle;
         let pieces = pieces.iter().map(|piece| ShapeView(piece.0.at(&pose))).collect();
         ObstacleView { name: name.clone(), color: *color, outline: outline.at(&pose), own: *own, pieces }
@@ -104,13 +104,13 @@ impl MovingObstacleView {
     /// time of the pick if that is earlier.
     pub fn moments(&self, duration: f64) -> Vec<f64> {
         let duration = duration.min(self.until.unwrap_or(f64::INFINITY));
-        let stops = self.course.stops().iter().map(|stop| stop.time).filter(|&time| 0.0 < time && time < duration);
+        let stops = self.trajectory.stops().iter().map(|stop| stop.time).filter(|&time| 0.0 < time && time < duration);
         stops.chain([duration]).collect()
     }
 
     /// Returns the origin of its frame at a time.
     pub fn origin(&self, time: f64) -> Point {
-        self.course.pose(time).translation
+        self.trajectory.pose(time).translation
     }
 }
 
@@ -299,13 +299,14 @@ fn obstacle(scene: &Scene, number: usize, shown: usize, grain: RoundingSteps) ->
 
 /// Returns the moving obstacles. Their colours follow those of the static obstacles. A moving object keeps the colour
 /// that it has when it lies.
-fn movers(TimedScene { scene, courses }: TimedScene, grain: RoundingSteps) -> Vec<MovingObstacleView> {
+fn movers(TimedScene { scene, trajectories }: TimedScene, grain: RoundingSteps) -> Vec<MovingObstacleView> {
     let obstacles = &scene.workspace().obstacles;
-    let view = |(number, (LooseObstacle { obstacle, .. }, course)): (usize, (&LooseObstacle, &ObstacleTrajectory))| {
-        let lying = obstacles.iter().position(|o| o.pieces.is_empty() && o.name == obstacle.name);
-        MovingObstacleView::new(obstacle, course, lying.unwrap_or(obstacles.len() + number), grain)
-    };
-    scene.loose().iter().zip(courses).enumerate().map(view).collect()
+    let view =
+        |(number, (LooseObstacle { obstacle, .. }, trajectory)): (usize, (&LooseObstacle, &ObstacleTrajectory))| {
+            let lying = obstacles.iter().position(|o| o.pieces.is_empty() && o.name == obstacle.name);
+            MovingObstacleView::new(obstacle, trajectory, lying.unwrap_or(obstacles.len() + number), grain)
+        };
+    scene.loose_obstacles().iter().zip(trajectories).enumerate().map(view).collect()
 }
 
 fn payload(scene: &Scene, grain: RoundingSteps) -> Option<PayloadView> {

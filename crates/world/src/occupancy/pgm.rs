@@ -33,7 +33,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
             cells.push(checked(value, index)?);
         }
         header.skip();
-        ended(header.at, bytes)?;
+        check_end_of_file(header.at, bytes)?;
         cells
     } else {
         // A single white space ends the header. It may be the end of a comment's line.
@@ -47,7 +47,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
                 format!("ends early: {width} x {height} pixels take {needed} bytes, but the file has {}", raster.len());
             return Err(UnusablePicture::new(message, SAVE_HINT));
         }
-        ended(start + needed, bytes)?;
+        check_end_of_file(start + needed, bytes)?;
         let value = |index: usize| match wide {
             true => usize::from(u16::from_be_bytes([raster[2 * index], raster[2 * index + 1]])),
             false => usize::from(raster[index]),
@@ -58,7 +58,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
 }
 
 /// Checks that byte `at` is the end of the file, apart from white space.
-fn ended(at: usize, bytes: &[u8]) -> Result<(), UnusablePicture> {
+fn check_end_of_file(at: usize, bytes: &[u8]) -> Result<(), UnusablePicture> {
     if at >= bytes.len() {
         return Ok(());
     }

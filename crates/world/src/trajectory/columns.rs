@@ -58,7 +58,7 @@ mod tests {
     use Quantity::{Acceleration, Position, Velocity};
 
     #[test]
-    fn common_spellings() {
+    fn common_column_names_are_recognised() {
         let joints = ["shoulder", "elbow"];
         for (column, expected) in [
             ("elbow", Meaning::Of(1, Position)),

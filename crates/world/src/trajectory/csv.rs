@@ -24,7 +24,7 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
         if record.len() != header.len() {
             let message = format!("this line has {} values, the header has {} names", record.len(), header.len());
             return Err(source
-                .diagnostic_at(whole(&record), message)
+                .diagnostic_at(record_range(&record), message)
                 .help("give every line one value for each name of the header")
                 .into());
         }
@@ -43,7 +43,7 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
             continue;
         }
         values.iter_mut().zip(sample).for_each(|(column, value)| column.push(value));
-        samples.places.push(whole(&record));
+        samples.places.push(record_range(&record));
     }
     if repeated > 0 {
         let plural = if repeated == 1 { " repeats the one before it" } else { "s repeat the ones before them" };
@@ -82,10 +82,10 @@ fn is_comment(record: &[Field]) -> bool {
 fn names_joints(record: &[Field], names: &Names) -> bool {
     let joints: Vec<&str> = names.all().collect();
     let name = |field: &Field| field.text.trim_start_matches(['#', ' ']).to_owned();
-    record.iter().any(|field| meant(&name(field), &joints).0.iter().any(|m| matches!(m, Meaning::Of(..))))
+    record.iter().any(|field| column_meanings(&name(field), &joints).0.iter().any(|m| matches!(m, Meaning::Of(..))))
 }
 
-fn whole(record: &[Field]) -> std::ops::Range<usize> {
+fn record_range(record: &[Field]) -> std::ops::Range<usize> {
     record.first().map_or(0, |f| f.range.start)..record.last().map_or(0, |f| f.range.end)
 }
 
@@ -132,7 +132,7 @@ impl Columns {
         for (index, field) in header.iter().enumerate() {
             // Some programs write the header as a comment.
             let name = if index == 0 { field.text.trim_start_matches(['#', ' ']) } else { &field.text };
-            let (known, unit) = meant(name, &joints);
+            let (known, unit) = column_meanings(name, &joints);
             match known[..] {
                 [] => unknown.push(name),
                 [meaning] => {
@@ -152,7 +152,7 @@ impl Columns {
         }
         if used.is_empty() && header.iter().all(|f| f.text.parse::<f64>().is_ok()) {
             let help = format!("name the columns in the first line: time, {}", names.arm.join(", "));
-            return Err(source.diagnostic_at(whole(header), "there is no header").help(help));
+            return Err(source.diagnostic_at(record_range(header), "there is no header").help(help));
         }
         let has = |index: usize| used.iter().any(|column| column.meaning == Meaning::Of(index, Quantity::Position));
         // The first indices are those of the arm's joints.
@@ -160,7 +160,7 @@ impl Columns {
             let columns = quoted(header.iter().map(|field| &field.text));
             let message = format!("holds no positions of joint \"{}\"; its columns are {columns}", names.arm[missing]);
             let help = format!("name the columns of positions after the arm's joints: {}", quoted(names.arm));
-            return Err(source.diagnostic_at(whole(header), message).help(help));
+            return Err(source.diagnostic_at(record_range(header), message).help(help));
         }
         let mut notes = Vec::new();
         let converted = used.iter().filter(|column| column.unit.is_some_and(|unit| unit.is_converted()));
@@ -232,7 +232,7 @@ impl Columns {
 const MAX_RELATIVE_TIME: f64 = 1e6;
 
 /// Returns the possible meanings of a column, and the unit after its name if there is one.
-fn meant<'a>(name: &'a str, joints: &[&str]) -> (Vec<Meaning>, Option<&'a str>) {
+fn column_meanings<'a>(name: &'a str, joints: &[&str]) -> (Vec<Meaning>, Option<&'a str>) {
     match (meanings(name, joints), units::split(name)) {
         (known, Some((base, unit))) if known.is_empty() => (meanings(base, joints), Some(unit)),
         (known, _) => (known, None),

@@ -34,7 +34,7 @@ impl Names<'_> {
     ) -> Result<Vec<HeldMotion>, Diagnostic> {
         let mut moved: Vec<HeldMotion> = Vec::new();
         let given = samples.joints.iter().map(|series| (series, true));
-        for (series, at_samples) in given.chain(samples.aside.iter().map(|series| (series, false))) {
+        for (series, at_samples) in given.chain(samples.other_series.iter().map(|series| (series, false))) {
             let name = &series.name;
             let Some(joint) = self.held.iter().find(|joint| joint.name == *name) else {
                 notes.push(format!("joint \"{name}\" is ignored: the arm does not depend on it"));
@@ -52,7 +52,7 @@ impl Names<'_> {
                 ));
                 continue;
             }
-            if let Some(why) = self.why_not(joint, at_samples, &moved) {
+            if let Some(why) = self.unjudgeable_reason(joint, at_samples, &moved) {
                 let value = series.position[sample];
                 let message =
                     format!("joint \"{name}\" is at {value}, but the world holds it at {}, and it {why}", joint.value);
@@ -62,7 +62,7 @@ impl Names<'_> {
                 );
                 return Err(samples.diagnostic(source, sample, &message).help(help));
             }
-            notes.push(described(joint, series));
+            notes.push(describe_motion(joint, series));
             let values = values(series, recording, samples).map_err(|error| misplaced(source, samples, &error))?;
             moved.push(HeldMotion { joint: joint.clone(), values });
         }
@@ -70,7 +70,7 @@ impl Names<'_> {
     }
 
     /// Returns the reason why the motion of a joint cannot be checked, as a clause. `None` if it can.
-    fn why_not(&self, joint: &HeldJoint, at_samples: bool, moved: &[HeldMotion]) -> Option<String> {
+    fn unjudgeable_reason(&self, joint: &HeldJoint, at_samples: bool, moved: &[HeldMotion]) -> Option<String> {
         let turns = |joint: &HeldJoint| matches!(joint.effect, HeldEffect::Turns { .. });
         let also_turns = |other: &&HeldMotion| {
             turns(&other.joint) && other.joint.bodies.iter().any(|body| joint.bodies.contains(body))
@@ -88,7 +88,7 @@ impl Names<'_> {
 }
 
 /// Describes how a joint moves.
-fn described(joint: &HeldJoint, series: &Series) -> String {
+fn describe_motion(joint: &HeldJoint, series: &Series) -> String {
     let least = series.position.iter().copied().fold(f64::INFINITY, f64::min);
     let most = series.position.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let name = &joint.name;

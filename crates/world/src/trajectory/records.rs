@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn fields_and_records() {
+    fn fields_and_records_are_split() {
         assert_eq!(read("a,b\r\n\n 1 ,2\n"), [["a", "b"], ["1", "2"]]);
         assert_eq!(read("a,\n,b"), [["a", ""], ["", "b"]]);
         assert_eq!(read("\"a,\"\"b\"\"\",c\n1,2"), [["a,\"b\"", "c"], ["1", "2"]]);
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn other_separators() {
+    fn semicolons_tabs_and_blanks_separate_fields() {
         let read = |text, separator| -> Vec<Vec<String>> {
             Records::new(text, separator).map(|r| r.into_iter().map(|f| f.text.into_owned()).collect()).collect()
         };
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_those_of_the_text() {
+    fn fields_have_their_places_in_the_text() {
         let text = "a,\"b,\"\nç, d";
         let fields: Vec<&str> = Records::new(text, ',')
             .flatten()

@@ -20,7 +20,7 @@ pub(super) struct Samples {
     pub time: Option<Vec<f64>>,
     pub joints: Vec<Series>,
     /// Positions of joints at times that are not those of the samples.
-    pub aside: Vec<Series>,
+    pub other_series: Vec<Series>,
     /// Interpolation of samples with accelerations. `None` if accelerations do not determine the motion between
     /// samples.
     pub joined: Option<Interpolation>,

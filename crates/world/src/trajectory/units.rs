@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_behind_names() {
+    fn units_follow_column_names_in_brackets() {
         assert_eq!(split("elbow [deg]"), Some(("elbow", "deg")));
         assert_eq!(split("lift(mm) "), Some(("lift", "mm")));
         for column in ["elbow", "position[0]", "elbow]", "elbow []"] {

@@ -110,7 +110,7 @@ impl Evaluator<'_> {
         let mut left = self.value(first)?;
         for (sign, right) in others {
             let right = self.value(right)?;
-            if !holds(&left, sign, &right)? {
+            if !compare(&left, sign, &right)? {
                 return Ok(Value::Bool(false));
             }
             left = right;
@@ -275,7 +275,7 @@ fn arithmetic(sign: &str, a: Number, b: Number) -> Result<Value, Fault> {
     }
 }
 
-fn holds(a: &Value, sign: &str, b: &Value) -> Result<bool, Fault> {
+fn compare(a: &Value, sign: &str, b: &Value) -> Result<bool, Fault> {
     let is_in = || match (a, b) {
         (Value::Text(a), Value::Text(b)) => Ok(b.contains(&**a)),
         (_, Value::List(items)) => Ok(items.iter().any(|item| item.equals(a))),

@@ -117,13 +117,13 @@ fn of_one(name: &str, x: Number) -> Option<Result<Value, Fault>> {
     let (_, f) = UNARY_FUNCTIONS.iter().find(|(known, _)| *known == name)?;
     let value = finite(name, f(x.as_f64()));
     Some(match (name, value) {
-        ("ceil" | "floor", Ok(Value::Float(x))) => whole(name, x),
+        ("ceil" | "floor", Ok(Value::Float(x))) => to_integer(name, x),
         (_, value) => value,
     })
 }
 
 /// Converts a float without a fraction to an integer.
-fn whole(name: &str, x: f64) -> Result<Value, Fault> {
+fn to_integer(name: &str, x: f64) -> Result<Value, Fault> {
     /// Least power of two that is too large for a 64-bit integer.
     const INTEGER_OVERFLOW: f64 = 9_223_372_036_854_775_808.0;
     match x.abs() < INTEGER_OVERFLOW {
@@ -143,13 +143,13 @@ fn more(name: &str, arguments: &[Value]) -> Result<Option<Value>, Fault> {
         ("int", [Value::Text(text)]) => {
             Value::Int(text.trim().parse().map_err(|_| format!("'{text}' is not a whole number"))?)
         }
-        ("int" | "trunc", [Value::Float(x)]) => whole(name, x.trunc())?,
+        ("int" | "trunc", [Value::Float(x)]) => to_integer(name, x.trunc())?,
         ("int" | "trunc", [Value::Int(x)]) => Value::Int(*x),
         ("int", [Value::Bool(x)]) => Value::Int(i64::from(*x)),
         ("isnan", [x]) if x.number().is_some() => Value::Bool(x.number().is_some_and(|x| x.as_f64().is_nan())),
         ("isinf", [x]) if x.number().is_some() => Value::Bool(x.number().is_some_and(|x| x.as_f64().is_infinite())),
         ("round", [Value::Int(x)]) => Value::Int(*x),
-        ("round", [Value::Float(x)]) => whole(name, x.round_ties_even())?,
+        ("round", [Value::Float(x)]) => to_integer(name, x.round_ties_even())?,
         ("round", [x, Value::Int(digits)]) if x.number().is_some() => {
             let x = x.number().map_or(0.0, Number::as_f64);
             let digits =

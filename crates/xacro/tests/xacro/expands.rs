@@ -4,14 +4,14 @@
 
 use crate::common::{Files, content, robot};
 
-fn expanded(text: &str) -> String {
+fn expand(text: &str) -> String {
     let expansion = Files::new(&[("r.urdf.xacro", &robot(text))]).expand(&[]);
     content(&expansion.unwrap_or_else(|error| panic!("{error}\n{text}")).text)
 }
 
 #[track_caller]
-fn becomes(text: &str, expected: &str) {
-    assert_eq!(expanded(text), expected, "{text}");
+fn check_expansion(text: &str, expected: &str) {
+    assert_eq!(expand(text), expected, "{text}");
 }
 
 /// Evaluates an expression with some properties.
@@ -21,7 +21,7 @@ fn value(expression: &str) -> String {
          <xacro:property name=\"n\" value=\"${{[1, 2.5, 'x']}}\"/><xacro:property name=\"d\" value=\"${{dict(k=1, m=dict(z=3))}}\"/>\
          <v v=\"{expression}\"/>"
     );
-    let text = expanded(&text);
+    let text = expand(&text);
     text.trim_start_matches("<v v=\"").trim_end_matches("\"/>").to_owned()
 }
 
@@ -53,26 +53,29 @@ fn expressions_have_the_values_that_python_gives_them() {
 
 #[test]
 fn properties_are_evaluated_when_they_are_asked_for() {
-    becomes(
+    check_expansion(
         "<xacro:property name=\"x\" value=\"${y * 2}\"/><xacro:property name=\"y\" value=\"3\"/><v v=\"${x}\"/>",
         "<v v=\"6\"/>",
     );
-    becomes(
+    check_expansion(
         "<xacro:property name=\"y\" value=\"1\"/><xacro:property name=\"x\" value=\"${y}\" lazy_eval=\"false\"/>\
          <xacro:property name=\"y\" value=\"3\"/><xacro:property name=\"y\" default=\"4\"/><v v=\"${x} ${y}\"/>",
         "<v v=\"1 3\"/>",
     );
-    becomes(
+    check_expansion(
         "<xacro:property name=\"origin\"><origin xyz=\"${z} 0 0\"/></xacro:property><xacro:property name=\"z\" value=\"1\"/>\
          <a><xacro:insert_block name=\"origin\"/></a>",
         "<a><origin xyz=\"1 0 0\"/></a>",
     );
-    becomes("<xacro:property name=\"flag\" value=\"true\"/><v v=\"${flag} ${flag == True}\"/>", "<v v=\"True True\"/>");
+    check_expansion(
+        "<xacro:property name=\"flag\" value=\"true\"/><v v=\"${flag} ${flag == True}\"/>",
+        "<v v=\"True True\"/>",
+    );
 }
 
 #[test]
-fn scopes_of_properties() {
-    becomes(
+fn properties_have_the_scopes_of_xacro() {
+    check_expansion(
         "<xacro:property name=\"p\" value=\"1\"/>\
          <xacro:macro name=\"m\" params=\"\"><xacro:property name=\"p\" value=\"2\"/><i v=\"${p}\"/>\
          <xacro:property name=\"q\" value=\"${p + 1}\" scope=\"parent\"/><xacro:property name=\"g\" value=\"7\" scope=\"global\"/></xacro:macro>\
@@ -83,7 +86,7 @@ fn scopes_of_properties() {
 
 #[test]
 fn macros_take_values_defaults_and_blocks() {
-    becomes(
+    check_expansion(
         "<xacro:property name=\"c\" value=\"9\"/>\
          <xacro:macro name=\"m\" params=\"a b:=2 c:=^ d:=^|5 e:='x y' *one **more\">\
          <v v=\"${a} ${b} ${c} ${d} ${e}\"/><xacro:insert_block name=\"one\"/><in><xacro:insert_block name=\"more\"/></in></xacro:macro>\
@@ -91,7 +94,7 @@ fn macros_take_values_defaults_and_blocks() {
         "<v v=\"3 2 9 5 x y\"/><origin xyz=\"9 0 0\"/><in><x/><y n=\"9\"/></in>",
     );
     // A macro may call itself, and be called by a name that is computed.
-    becomes(
+    check_expansion(
         "<xacro:macro name=\"count\" params=\"n\"><v v=\"${n}\"/>\
          <xacro:if value=\"${n &gt; 1}\"><xacro:call macro=\"co${'unt'}\" n=\"${n - 1}\"/></xacro:if></xacro:macro><xacro:count n=\"3\"/>",
         "<v v=\"3\"/><v v=\"2\"/><v v=\"1\"/>",
@@ -99,8 +102,8 @@ fn macros_take_values_defaults_and_blocks() {
 }
 
 #[test]
-fn conditions() {
-    becomes(
+fn conditions_select_elements() {
+    check_expansion(
         "<xacro:if value=\"true\"><a/></xacro:if><xacro:unless value=\"${1 == 2}\"><b/></xacro:unless>\
          <xacro:if value=\"0\"><c/></xacro:if><xacro:if value=\"${'x' in ['x']}\"><d/></xacro:if>",
         "<a/><b/><d/>",

@@ -1,7 +1,7 @@
 //! The carried object: picked, turned and released.
 
 use super::{ContactRule, Replay, ToolHeights};
-use crate::world::hung;
+use crate::world::carried_shapes;
 use crate::world::task::{CarryRules, MovingPick};
 use cplan_check::CheckError;
 use cplan_check::certificate::ExecutedStep;
@@ -13,7 +13,7 @@ use cplan_check::motion::{CONTROL_POINT_FACTOR, fine};
 use cplan_check::obstacle::Obstacle;
 use cplan_check::overlap::Shape;
 use cplan_check::polygon::Corner;
-use cplan_check::scene::{PlacedObstacle, stay_off};
+use cplan_check::scene::{PlacedObstacle, check_parts_clear};
 use num_bigint::BigInt;
 use std::iter;
 
@@ -41,7 +41,7 @@ pub(super) struct HeldObject {
 
 impl Replay<'_> {
     /// Returns the shapes of an attached object, and the shapes of the part of it that must keep away from supports.
-    fn hung(
+    fn attached_shapes(
         &self,
         chain: &Chain,
         on: &Attachment,
@@ -49,19 +49,20 @@ impl Replay<'_> {
         pressed: Option<&Obstacle>,
     ) -> Result<[Vec<Solid>; 2], CheckError> {
         let solids = |own: &Obstacle, kept: &BigInt| {
-            hung::solids(own).map(|all| all.iter().map(|shape| Solid::new(chain, on.clone(), shape, kept)).collect())
+            carried_shapes::solids(own)
+                .map(|all| all.iter().map(|shape| Solid::new(chain, on.clone(), shape, kept)).collect())
         };
         Ok([solids(hanging, &self.kept)?, pressed.map_or(Ok(Vec::new()), |own| solids(own, &guard()))?])
     }
 
     /// Returns a disc about the tip that covers a level object in all orientations.
     fn round(&self, hanging: &Obstacle) -> Result<Solid, CheckError> {
-        let all = hung::solids(hanging)?;
+        let all = carried_shapes::solids(hanging)?;
         let reach = |shape: &Shape| {
             let points = shape.points.iter().map(length);
             points.map(|off| off.upper + &shape.radius.upper).max()
         };
-        let radius = Interval::exactly(all.iter().filter_map(reach).max().unwrap_or_default());
+        let radius = Interval::exact(all.iter().filter_map(reach).max().unwrap_or_default());
         let disc = Shape { points: vec![self.tip.clone()], radius };
         Ok(Solid::new(&self.chain, Attachment::Link(1), &disc, &self.kept))
     }
@@ -69,7 +70,7 @@ impl Replay<'_> {
     /// Checks that the world has no moving obstacles, for actions that are not checked in time. `what` names the
     /// action.
     pub(super) fn require_static(&self, what: &str) -> Result<(), CheckError> {
-        let moves = |present: &PlacedObstacle| present.obstacle.course.is_some();
+        let moves = |present: &PlacedObstacle| present.obstacle.trajectory.is_some();
         match self.present.iter().flatten().any(moves) {
             true => CheckError::fails(format!("the checker does not judge {what} among moving obstacles or objects")),
             false => Ok(()),
@@ -104,10 +105,12 @@ impl Replay<'_> {
             let round = self.round(&hanging)?;
             (Attachment::Level(self.tip.clone()), hanging, Some(round))
         } else {
-            (Attachment::Link(1), self.chain.hung(&lying, at), None)
+            (Attachment::Link(1), self.chain.obstacle_in_second_link(&lying, at), None)
         };
-        let pressed = (!carrying.supports.is_empty()).then(|| hung::pressed(&hanging, &self.pressed)).transpose()?;
-        let solids = self.hung(&self.chain, &on, &hanging, pressed.as_ref())?;
+        let pressed = (!carrying.supports.is_empty())
+            .then(|| carried_shapes::shrunk_object(&hanging, &self.pressed))
+            .transpose()?;
+        let solids = self.attached_shapes(&self.chain, &on, &hanging, pressed.as_ref())?;
         self.held = Some(HeldObject { object, on, hanging, pressed, solids, round, carrying });
         self.released = None;
         Ok(())
@@ -118,7 +121,7 @@ impl Replay<'_> {
         let Some(held) = self.held.take() else {
             return CheckError::fails("an object is placed, but the tool carries none");
         };
-        let lying = self.chain.lying(&held.on, &held.hanging, values);
+        let lying = self.chain.attached_obstacle_in_plane(&held.on, &held.hanging, values);
         self.misses(length(&minus(&lying.at, at)).upper)?;
         if let Some(angle) = angle {
             self.misses(length(&minus(&lying.turn, &angle.sin_cos())).upper)?;
@@ -138,7 +141,7 @@ impl Replay<'_> {
         else {
             return CheckError::fails("there is no wrist, or no object to turn");
         };
-        let wrist = Chain::about(&self.chain.point_at(&Attachment::Link(1), &self.tip, at));
+        let wrist = Chain::turning_about(&self.chain.point_at(&Attachment::Link(1), &self.tip, at));
         let Some(end) = fine(&(by * &Decimal::whole(CONTROL_POINT_FACTOR)))
             .filter(|end| end.abs() < MAX_WRIST_TURN << FRACTION_BITS)
         else {
@@ -146,7 +149,7 @@ impl Replay<'_> {
         };
         let time = [0, 1].map(Decimal::whole);
         let swept = Piece { knot: done.knots[1], curves: vec![vec![[0, 0], [end, 0]]], time };
-        let solids = self.hung(&wrist, &Attachment::Link(0), &held.hanging, held.pressed.as_ref())?;
+        let solids = self.attached_shapes(&wrist, &Attachment::Link(0), &held.hanging, held.pressed.as_ref())?;
         let seen = |(number, present): (usize, &Option<PlacedObstacle>)| {
             // The disc about the tip has already been checked.
             let meets = || self.meets(&held, number, ToolHeights::Raised).is_some_and(|of| of != ContactRule::Round);
@@ -156,13 +159,13 @@ impl Replay<'_> {
         let present = self.present.iter().enumerate().map(seen).collect::<Result<Vec<_>, _>>()?;
         let parts = self.hanging(&held, &solids, ToolHeights::Raised);
         self.require_outside(&held, at, &swept.time[0], ToolHeights::Raised)?;
-        stay_off(&wrist, &[swept], &[0, 0].map(Interval::whole), &parts, &present)?;
+        check_parts_clear(&wrist, &[swept], &[0, 0].map(Interval::whole), &parts, &present)?;
         let angle = Interval::from(by).sin_cos();
         for own in iter::once(&mut held.hanging).chain(&mut held.pressed) {
             own.at = turned(&own.at, &angle);
             own.turn = both_turns(&own.turn, &angle);
         }
-        held.solids = self.hung(&self.chain, &held.on, &held.hanging, held.pressed.as_ref())?;
+        held.solids = self.attached_shapes(&self.chain, &held.on, &held.hanging, held.pressed.as_ref())?;
         self.held = Some(held);
         Ok(())
     }

@@ -17,7 +17,7 @@ pub(super) fn not_separated(
     // A start or goal inside a collision box is not free, so no path leads there.
     let from = slabs.locate(topology.wrap(start))?;
     let groups = slabs.groups(topology);
-    let joined = |goals: Segment| slabs.holding(&goals).into_iter().any(|to| groups.equiv(to, from));
+    let joined = |goals: Segment| slabs.gaps_meeting(&goals).into_iter().any(|to| groups.equiv(to, from));
     goals.wrapped(topology).position(joined)
 }
 
@@ -82,7 +82,7 @@ impl Slabs {
 
     /// Returns the gaps that contain a part of a segment; the sides of a gap belong to it. For a point it returns only
     /// one gap.
-    fn holding(&self, piece: &Segment) -> Vec<usize> {
+    fn gaps_meeting(&self, piece: &Segment) -> Vec<usize> {
         let [from, to] = piece.ends();
         if piece.is_point() {
             return self.locate(from).into_iter().collect();

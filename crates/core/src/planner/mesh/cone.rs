@@ -46,7 +46,7 @@ impl Cone {
     }
 
     /// Returns true if `p` lies on one of the rays, or on a ray extended backwards beyond the root.
-    fn holds(&self, p: Point) -> bool {
+    fn is_on_ray(&self, p: Point) -> bool {
         self.right.side(p) != Orientation::Clockwise && self.left.side(p) != Orientation::CounterClockwise
     }
 
@@ -54,7 +54,7 @@ impl Cone {
     /// Exact for a point.
     pub fn part(&self, segment: &Segment) -> Option<Segment> {
         if segment.is_point() {
-            return self.holds(segment.ends()[0]).then_some(*segment);
+            return self.is_on_ray(segment.ends()[0]).then_some(*segment);
         }
         segment.left_of(self.right.from, self.right.to)?.left_of(self.left.to, self.left.from)
     }
@@ -103,12 +103,12 @@ pub enum ViewDirections {
 impl Corner {
     /// Returns the directions in which a shortest path that comes from `p` may continue after a turn at this corner.
     /// They range from straight ahead to along the obstacle. Returns `None` if the line from `p` enters the obstacle.
-    pub fn beyond(&self, p: Point) -> Option<ViewDirections> {
+    pub fn directions_after_turn(&self, p: Point) -> Option<ViewDirections> {
         let ahead = Bound { from: p, to: self.at };
         match self.tangency(p) {
             Tangency::None => None,
-            Tangency::Left => Some(ViewDirections::Between(ahead, self.along(self.left))),
-            Tangency::Right => Some(ViewDirections::Between(self.along(self.right), ahead)),
+            Tangency::Left => Some(ViewDirections::Between(ahead, self.line_towards(self.left))),
+            Tangency::Right => Some(ViewDirections::Between(self.line_towards(self.right), ahead)),
             Tangency::Both => Some(ViewDirections::Around),
         }
     }
@@ -119,14 +119,14 @@ impl Corner {
         let gazes = match orientation(self.at, self.right, self.left) {
             Orientation::Collinear => [Some(ViewDirections::Around), None],
             _ => [
-                Some(ViewDirections::Between(self.along(self.right), away(self.left))),
-                Some(ViewDirections::Between(away(self.right), self.along(self.left))),
+                Some(ViewDirections::Between(self.line_towards(self.right), away(self.left))),
+                Some(ViewDirections::Between(away(self.right), self.line_towards(self.left))),
             ],
         };
         gazes.into_iter().flatten()
     }
 
-    fn along(&self, to: Point) -> Bound {
+    fn line_towards(&self, to: Point) -> Bound {
         Bound { from: self.at, to }
     }
 }
@@ -159,7 +159,7 @@ impl Mesh {
 
     /// Calls `meet` with each triangle that the root sees in a cone, and with the part of the cone that enters it.
     /// Exact; linear in the number of triangles crossed.
-    pub fn look(&self, root: Point, cone: Cone, mut meet: impl FnMut(&Crossing, &Cone)) {
+    pub fn visit_visible_triangles(&self, root: Point, cone: Cone, mut meet: impl FnMut(&Crossing, &Cone)) {
         let mut stack = vec![cone];
         while let Some(mut cone) = stack.pop() {
             while let Some(crossing) = self.cross(root, &cone) {
@@ -178,7 +178,7 @@ impl Mesh {
 
     /// Calls `see` with the half-edges that begin at the corners that the root sees in a cone, in no particular order.
     /// Skips cones that have no forward ray (see `is_forward`). Exact; linear in the number of triangles crossed.
-    pub fn look_forward(&self, root: Point, cone: Cone, stack: &mut Vec<Cone>, mut see: impl FnMut(u32)) {
+    pub fn visit_visible_corners(&self, root: Point, cone: Cone, stack: &mut Vec<Cone>, mut see: impl FnMut(u32)) {
         stack.extend(Some(cone).filter(Cone::is_forward));
         while let Some(mut cone) = stack.pop() {
             while let Some(entry) = self.twin(cone.edge) {

@@ -165,7 +165,7 @@ mod tests {
         /// Checks the definition: triangles are counter-clockwise, joined in pairs, cover free space, and are
         /// Delaunay. The index finds those that contain a point.
         #[test]
-        fn is_the_constrained_delaunay_triangulation(
+        fn the_mesh_is_the_constrained_delaunay_triangulation(
             blocked in proptest::collection::vec(any::<bool>(), 25), matrix in matrices(),
         ) {
             let mesh = Mesh::new(Boundary::new(&board(&blocked, matrix).contours()));

@@ -99,7 +99,7 @@ mod tests {
         /// Compares the result with a sort of all distances. The points are on a small lattice, where many distances
         /// are equal, or in a slender box.
         #[test]
-        fn are_those_of_all_that_are_nearest(
+        fn nearby_nodes_are_the_nearest_of_all(
             places in proptest::collection::vec([0i8..9, 0i8..9], 0..60), from in [-4i8..13, -4i8..13], count in 0usize..12,
             slender in prop_oneof![Just(1.0), Just(1e-3), Just(0.0)],
         ) {

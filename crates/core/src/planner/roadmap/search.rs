@@ -65,7 +65,7 @@ pub struct RoadmapSearch {
 impl RoadmapSearch {
     /// Returns true for the default search: A\* from the start.
     #[must_use]
-    pub fn is_usual(&self) -> bool {
+    pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
 }
@@ -241,7 +241,7 @@ mod tests {
     }
 
     impl Case {
-        fn apart(&self, a: usize, b: usize) -> f64 {
+        fn distance(&self, a: usize, b: usize) -> f64 {
             let [p, q] = [a, b].map(|k| self.places[k].map(f64::from));
             (p[0] - q[0]).hypot(p[1] - q[1])
         }
@@ -250,16 +250,16 @@ mod tests {
             let mut graph = UnGraph::new_undirected();
             let _: Vec<NodeIndex> = self.places.iter().map(|_| graph.add_node(())).collect();
             for &[a, b] in &self.edges {
-                graph.add_edge(NodeIndex::new(a), NodeIndex::new(b), self.apart(a, b));
+                graph.add_edge(NodeIndex::new(a), NodeIndex::new(b), self.distance(a, b));
             }
             let question = SearchProblem {
                 start: NodeIndex::new(0),
                 is_goal: |node: NodeIndex| self.goals.contains(&node.index()),
                 cost: |length: &f64| *length,
                 ahead: |node: NodeIndex| {
-                    self.goals.iter().map(|&goal| self.apart(node.index(), goal)).fold(f64::INFINITY, f64::min)
+                    self.goals.iter().map(|&goal| self.distance(node.index(), goal)).fold(f64::INFINITY, f64::min)
                 },
-                behind: |node: NodeIndex| self.apart(0, node.index()),
+                behind: |node: NodeIndex| self.distance(0, node.index()),
             };
             search(&graph, how, &question)
         }
@@ -293,7 +293,7 @@ mod tests {
         #[test]
         fn each_order_finds_what_it_claims_in_both_directions(case in cases()) {
             let to_goal = |all: &[Vec<f64>]| case.goals.iter().map(|&goal| all[0][goal]).fold(f64::INFINITY, f64::min);
-            let shortest = to_goal(&case.least(|a, b| case.apart(a, b)));
+            let shortest = to_goal(&case.least(|a, b| case.distance(a, b)));
             let fewest = to_goal(&case.least(|_, _| 1.0));
             let ways = SearchOrder::ALL.into_iter().flat_map(|order| [false, true].map(|backward| (order, backward)));
             for (order, backward) in ways {
@@ -309,7 +309,7 @@ mod tests {
                 for pair in path.windows(2) {
                     let [a, b] = [pair[0].index(), pair[1].index()];
                     prop_assert!(case.edges.iter().any(|&edge| edge == [a, b] || edge == [b, a]));
-                    length += case.apart(a, b);
+                    length += case.distance(a, b);
                 }
                 prop_assert!(length >= shortest - 1e-9);
                 if order.is_optimal() {
@@ -325,11 +325,11 @@ mod tests {
         /// estimate for A\*) above the cost of the goal.
         #[test]
         fn nothing_beyond_the_goal_is_expanded(case in cases()) {
-            let least = case.least(|a, b| case.apart(a, b));
+            let least = case.least(|a, b| case.distance(a, b));
             let nearest = case.goals.iter().map(|&goal| least[0][goal]).fold(f64::INFINITY, f64::min);
             for order in [SearchOrder::Dijkstra, SearchOrder::AStar] {
                 for node in case.searched(RoadmapSearch { order, backward: false }).expanded {
-                    let rest = case.goals.iter().map(|&goal| case.apart(node.index(), goal)).fold(f64::INFINITY, f64::min);
+                    let rest = case.goals.iter().map(|&goal| case.distance(node.index(), goal)).fold(f64::INFINITY, f64::min);
                     let estimate = if order == SearchOrder::AStar && nearest.is_finite() { rest } else { 0.0 };
                     prop_assert!(least[0][node.index()] + estimate <= nearest + 1e-9, "{:?}", order);
                 }
@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn each_order_is_the_textbooks() {
+    fn each_search_order_agrees_with_the_textbook() {
         // The graph is a square with a tail; the goal is the tail's end.
         //   1 - 2
         //   |   |

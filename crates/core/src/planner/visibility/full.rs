@@ -40,7 +40,7 @@ impl VisibilityMap {
             checkpoint();
             let sight = CornerView { mesh, terminals, root };
             let (mut seen, mut goals) = (Vec::new(), Vec::new());
-            sight.look(&mut seen, &mut goals);
+            sight.collect_visible(&mut seen, &mut goals);
             // Each edge is found from both ends; add it once.
             let joined = seen.into_iter().map(|vertex| nodes[vertex as usize]).filter(|other| other < node);
             joined.for_each(|other| query_graph.join(*node, other));
@@ -62,17 +62,17 @@ struct CornerView<'a> {
 
 impl CornerView<'_> {
     /// Appends the numbers of the visible vertices to `seen`, and the visible parts of goals to `goals`.
-    fn look(&self, seen: &mut Vec<u32>, goals: &mut Vec<Segment>) {
+    fn collect_visible(&self, seen: &mut Vec<u32>, goals: &mut Vec<Segment>) {
         let Self { mesh, terminals, root } = *self;
         for triangle in mesh.triangles_at(root) {
             goals.extend(terminals.parts_in(triangle).map(|(_, part)| *part));
             for successor in mesh.successors_within(triangle, root) {
                 seen.extend(successor.seen.into_iter().flatten().map(|half_edge| mesh.vertex(half_edge)));
-                mesh.look(root, successor.cone, |crossing, cone| {
+                mesh.visit_visible_triangles(root, successor.cone, |crossing, cone| {
                     let ahead = crossing.seen.filter(|&half_edge| is_within(cone, mesh.origin(half_edge)));
                     seen.extend(ahead.map(|half_edge| mesh.vertex(half_edge)));
                     let parts = terminals.parts_in(crossing.entry / 3).filter_map(|(_, part)| cone.part(part));
-                    goals.extend(parts.filter(|part| !part.is_point() || is_seen(cone, part.ends()[0])));
+                    goals.extend(parts.filter(|part| !part.is_point() || sees(cone, part.ends()[0])));
                 });
             }
         }
@@ -89,6 +89,6 @@ fn is_within(cone: &Cone, p: Point) -> bool {
 }
 
 /// Returns true if a point is strictly within the cone, or is the corner on one of its bounds.
-fn is_seen(cone: &Cone, p: Point) -> bool {
+fn sees(cone: &Cone, p: Point) -> bool {
     is_within(cone, p) || [cone.right.to, cone.left.to].contains(&p)
 }

@@ -97,7 +97,7 @@ pub fn location<T: Number>(p: &Pair<T>, polygon: &[Pair<T>]) -> Location {
     if !meet(std::slice::from_ref(p), polygon) {
         Location::Outside
     } else if polygon.iter().any(|c| c != &polygon[0])
-        && (0..n).all(|i| polygon[i] == polygon[(i + 1) % n] || left(polygon, i, p))
+        && (0..n).all(|i| polygon[i] == polygon[(i + 1) % n] || is_left_of_side(polygon, i, p))
     {
         Location::Inside
     } else {
@@ -105,7 +105,7 @@ pub fn location<T: Number>(p: &Pair<T>, polygon: &[Pair<T>]) -> Location {
     }
 }
 
-fn left<T: Number>(polygon: &[Pair<T>], i: usize, p: &Pair<T>) -> bool {
+fn is_left_of_side<T: Number>(polygon: &[Pair<T>], i: usize, p: &Pair<T>) -> bool {
     side(&polygon[i], &polygon[(i + 1) % polygon.len()], p) == Ordering::Greater
 }
 

@@ -42,7 +42,7 @@ fn turned(side: Ordering) -> Orientation {
 
 /// Tests all triples of points of a 10 x 10 lattice, a million, in each place.
 #[test]
-fn all_triples_of_a_lattice() {
+fn orientations_of_all_lattice_triples_are_exact() {
     let lattice: Vec<(i64, i64)> = (0..100).map(|i| (i / 10, i % 10)).collect();
     for (corner, unit) in PLACES {
         let points: Vec<Point> =
@@ -81,7 +81,7 @@ fn chain(dice: &mut Dice) -> [Pair<i128>; 4] {
 }
 
 #[test]
-fn two_million_triples_along_lines() {
+fn orientations_of_triples_near_lines_are_exact() {
     let mut dice = dice(1);
     let mut collinear = 0;
     for round in 0..1_000_000 {
@@ -99,7 +99,7 @@ fn two_million_triples_along_lines() {
 }
 
 #[test]
-fn a_million_pairs_of_segments_along_lines() {
+fn segments_near_lines_are_decided_exactly() {
     let mut dice = dice(2);
     let mut counts = [0; 3];
     for round in 0..1_000_000 {

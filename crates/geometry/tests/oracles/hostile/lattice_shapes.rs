@@ -52,7 +52,7 @@ fn touching(dice: &mut Dice, first: &[Corner], reach: i64) -> Vec<Corner> {
 }
 
 #[test]
-fn a_hundred_thousand_pairs_that_touch_or_miss_by_a_unit() {
+fn pairs_that_touch_or_miss_by_a_unit_are_decided_exactly() {
     let mut dice = dice(3);
     let mut met = 0;
     for round in 0..100_000 {
@@ -112,7 +112,7 @@ fn padded(dice: &mut Dice, shape: &Shape<i128>, unit: f64) -> Shape<i128> {
 }
 
 #[test]
-fn kinds_of_contact() {
+fn every_kind_of_contact_is_decided_exactly() {
     let square: Vec<Corner> = vec![(0, 0), (4, 0), (4, 4), (0, 4)];
     let meets = |other: &[Corner]| {
         let verdicts = PLACES.map(|(_, unit)| shape(&square, unit).check(&shape(other, unit)));
@@ -134,7 +134,7 @@ fn kinds_of_contact() {
 
 /// Tests that points on the line of a wall, but beyond its ends, are outside.
 #[test]
-fn a_wall_ends_where_its_ends_are() {
+fn a_wall_does_not_reach_beyond_its_ends() {
     let [from, to, beyond, farther] = [0.0, 3.0, 4.0, 5.0].map(|x| Point::new(x, x));
     let wall = convex(vec![from, to], 0.0);
     for (t, expected) in [(-1.0, Location::Outside), (0.0, Location::Boundary), (2.5, Location::Boundary)] {

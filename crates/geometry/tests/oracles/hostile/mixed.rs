@@ -44,7 +44,7 @@ fn nudged(dice: &mut Dice, x: f64) -> f64 {
 }
 
 /// Returns a point almost on the line of two others.
-fn beside(dice: &mut Dice, a: Point, b: Point, most: i32) -> Point {
+fn point_near_line(dice: &mut Dice, a: Point, b: Point, most: i32) -> Point {
     let t = match dice.below(4) {
         0 => 0.0,
         1 => 1.0,
@@ -68,7 +68,7 @@ fn points<const N: usize>(dice: &mut Dice, most: i32) -> [Point; N] {
                 let (a, b) = (dice.below(i as u64) as usize, dice.below(i as u64) as usize);
                 match dice.below(4) {
                     0 => Point::new(coordinate(dice, most), coordinate(dice, most)),
-                    _ => beside(dice, points[a], points[b], most),
+                    _ => point_near_line(dice, points[a], points[b], most),
                 }
             }
         };
@@ -119,19 +119,19 @@ fn attack_shapes(seed: u64, draws: usize, most: i32) {
 }
 
 #[test]
-fn orientations_and_segments_from_1e_12_to_1e12() {
+fn segments_of_sizes_1e_12_to_1e12_are_decided_exactly() {
     attack_segments(5, 20_000, 12);
 }
 
 #[test]
-fn shapes_from_1e_12_to_1e12() {
+fn shapes_of_sizes_1e_12_to_1e12_are_decided_exactly() {
     attack_shapes(6, 400, 12);
 }
 
 /// Tests the full range for which the predicates are guaranteed: products of differences neither overflow nor
 /// underflow.
 #[test]
-fn all_that_is_promised() {
+fn predicates_are_exact_in_their_full_range() {
     attack_segments(7, 2_000, 140);
     attack_shapes(8, 40, 90);
 }

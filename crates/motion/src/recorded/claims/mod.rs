@@ -47,7 +47,7 @@ impl Ledger {
     }
 
     /// Checks a stated value that must equal an actual one.
-    fn same<T: PartialEq + Display>(&mut self, claim: &str, stated: &T, is: &T) {
+    fn check_equal<T: PartialEq + Display>(&mut self, claim: &str, stated: &T, is: &T) {
         if stated != is {
             self.note(claim, format!("stated as {stated}, but it is {is}"));
         }
@@ -223,14 +223,14 @@ impl Ledger {
         // An exploration has a motion with any of these outcomes. Other results must have found a motion.
         let of_exploration = ["reached", "explored", "unreachable", "unknown"];
         if let Some(status) = claims.status.as_ref().filter(|status| !of_exploration.contains(&status.as_str())) {
-            self.same("status", status, &"found".to_owned());
+            self.check_equal("status", status, &"found".to_owned());
         }
         if let Some(certified) = claims.certified {
-            self.same("certified", &certified, &true);
+            self.check_equal("certified", &certified, &true);
         }
         if let Some(units) = &claims.units {
             let is = arm.joints.each_ref().map(|joint| joint.unit()).join(", ");
-            self.same("units", &units.join(", "), &is);
+            self.check_equal("units", &units.join(", "), &is);
         }
         if let Some(duration) = recording.duration() {
             self.number("duration", claims.duration, duration, TIME_TOLERANCE);

@@ -18,8 +18,8 @@ pub fn false_step_claims(
     index: usize,
 ) -> Vec<FalseClaim> {
     let mut ledger = Ledger::default();
-    let ReplayedStep { scene, courses, collision_check, .. } = replayed;
-    let timed = TimedScene { scene, courses };
+    let ReplayedStep { scene, trajectories, collision_check, .. } = replayed;
+    let timed = TimedScene { scene, trajectories };
     let Some(motion) = recording.part(replayed.recorded.samples.clone()) else { return Vec::new() };
     ledger.clearance(whole.clearance, timed, &motion, collision_check);
     ledger.turn(task, replayed, whole.clearance.filter(Option::is_some), "clearance");
@@ -32,12 +32,12 @@ pub fn false_step_claims(
             Action::Place { .. } => "place",
             Action::Move(_) => "move",
         };
-        ledger.same("action", action, &is.to_owned());
+        ledger.check_equal("action", action, &is.to_owned());
     }
     let objects = [("object", &claims.object, replayed.object), ("carried", &claims.carried, replayed.carried)];
     for (what, claim, is) in objects {
         if let Some(claim) = claim {
-            ledger.same(what, &claim.clone().unwrap_or_else(|| "null".into()), &name(is));
+            ledger.check_equal(what, &claim.clone().unwrap_or_else(|| "null".into()), &name(is));
         }
     }
     let [begin, arrival, end] = replayed.times;
@@ -127,10 +127,10 @@ impl Ledger {
         for (index, (event, is)) in stated.iter().zip(happened).enumerate() {
             self.within = format!("events[{index}].");
             let word = if is.pose.is_some() { "release" } else { "grasp" };
-            self.same("event", &event.event, &word.to_owned());
-            self.same("object", &event.object, &task.objects[is.object].name);
-            self.same("step", &event.step, &is.step);
-            self.same("cycle", &event.cycle, &is.cycle);
+            self.check_equal("event", &event.event, &word.to_owned());
+            self.check_equal("object", &event.object, &task.objects[is.object].name);
+            self.check_equal("step", &event.step, &is.step);
+            self.check_equal("cycle", &event.cycle, &is.cycle);
             self.number("time", Some(event.time), is.time, TIME_TOLERANCE);
             self.place("tip", event.tip, is.tip);
             match (event.pose, is.pose) {

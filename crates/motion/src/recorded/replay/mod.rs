@@ -17,7 +17,7 @@ use cplan_core::model::{Goal, Scene};
 use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::{Interval, Point, Pose};
 use cplan_handling::{Action, ObstacleTrajectory, RecordedStep, RecordedTurn, Recording, Step, Task, TimedScene};
-use order::{MatchedStep, matched};
+use order::{MatchedStep, match_steps};
 use state::{State, stroke_seconds};
 
 /// Largest difference between an actual and a required place, metres or radians. It is a thousand times the error of
@@ -66,7 +66,7 @@ pub struct ReplayedStep<'a> {
     /// this is the scene after that step.
     pub scene: Scene,
     /// The trajectories of the scene's moving obstacles, on a clock that begins with the motion.
-    pub courses: Vec<ObstacleTrajectory>,
+    pub trajectories: Vec<ObstacleTrajectory>,
     /// The object that is picked or placed.
     pub object: Option<usize>,
     /// The object that is carried during the motion.
@@ -117,7 +117,7 @@ pub struct Replay<'a> {
 /// Takes `O(n)` for `n` samples, plus the checks of motions.
 #[must_use]
 pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [RecordedStep]) -> Replay<'a> {
-    let (matched, departure) = matched(task, recording, recorded);
+    let (matched, departure) = match_steps(task, recording, recorded);
     Replay { task, recording, recorded, matched, departure, next: 0, state: State::initial(task) }
 }
 
@@ -155,7 +155,7 @@ impl<'a> Iterator for Replay<'a> {
         let (task, step) = (self.task, matched.step);
         let mut faults = Vec::new();
         let [from, to] = [0, motion.positions().len() - 1].map(|sample| motion.positions()[sample]);
-        if index == 0 && !same(task, from, task.start) {
+        if index == 0 && !is_same_pose(task, from, task.start) {
             faults.push(Fault::Start);
         }
         self.state.renew(task, &matched.renewed);
@@ -165,8 +165,8 @@ impl<'a> Iterator for Replay<'a> {
             _ => None,
         };
         let times = self.times(index, recorded);
-        let (mut scene, mut courses) = (self.state.scene(task, picked), self.state.courses(task, times[0]));
-        let timed = TimedScene { scene: &scene, courses: &courses };
+        let (mut scene, mut trajectories) = (self.state.scene(task, picked), self.state.trajectories(task, times[0]));
+        let timed = TimedScene { scene: &scene, trajectories: &trajectories };
         let mut collision_check =
             shifted(check_collision(timed, &motion, task.workspace.fixed.clearance), *recorded.samples.start());
         let mut broken = limit_violations(&task.arm.joints, &motion);
@@ -198,7 +198,7 @@ impl<'a> Iterator for Replay<'a> {
             }
             Action::Move(goal) => {
                 (object, lowered) = (None, None);
-                faults.extend(missed(task, to, goal));
+                faults.extend(distance_from_goal(task, to, goal));
                 turn = self.state.turn(task, to, recorded.turn, &mut faults);
                 self.state.moved();
             }
@@ -212,23 +212,23 @@ impl<'a> Iterator for Replay<'a> {
             && matches!(collision_check, CollisionCheck::Free { .. })
             && let Some(standing) = self.recording.part(*recorded.samples.end()..=self.next_begins(index))
         {
-            let (stays, then) = (self.state.scene(task, released), self.state.courses(task, times[1]));
-            let timed = TimedScene { scene: &stays, courses: &then };
+            let (stays, then) = (self.state.scene(task, released), self.state.trajectories(task, times[1]));
+            let timed = TimedScene { scene: &stays, trajectories: &then };
             let found = super::check_collision(timed, &standing, task.workspace.fixed.clearance);
             if !matches!(found, CollisionCheck::Free { .. }) {
-                (scene, courses, collision_check) = (stays, then, shifted(found, *recorded.samples.end()));
+                (scene, trajectories, collision_check) = (stays, then, shifted(found, *recorded.samples.end()));
             }
         }
         if let (Some(below), Some(standing)) = (lowered, standing()) {
-            let then = task.workspace.courses();
-            let timed = TimedScene { scene: &below, courses: &then };
+            let then = task.workspace.trajectories();
+            let timed = TimedScene { scene: &below, trajectories: &then };
             let found = super::check_collision(timed, &standing, task.workspace.fixed.clearance);
             match (&mut collision_check, found) {
                 (CollisionCheck::Free { clearance, .. }, CollisionCheck::Free { clearance: least, .. }) => {
                     *clearance = clearance.min(least);
                 }
                 (CollisionCheck::Free { .. }, found) => {
-                    (scene, courses, collision_check) = (below, then, shifted(found, *recorded.samples.end()));
+                    (scene, trajectories, collision_check) = (below, then, shifted(found, *recorded.samples.end()));
                 }
                 _ => {}
             }
@@ -242,16 +242,16 @@ impl<'a> Iterator for Replay<'a> {
             && let Some(standing) = standing()
         {
             let after = self.state.scene(task, released.filter(|_| is_last));
-            let then = self.state.courses(task, times[1]);
+            let then = self.state.trajectories(task, times[1]);
             if is_last && broken.iter().all(|excess| excess.limit != Limit::Torque) {
                 let mut held = torque_violations(&after, &standing);
                 held.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.end());
                 broken.extend(held);
             }
-            let timed = TimedScene { scene: &after, courses: &then };
+            let timed = TimedScene { scene: &after, trajectories: &then };
             let found = super::check_collision(timed, &standing, task.workspace.fixed.clearance);
             if !matches!(found, CollisionCheck::Free { .. }) {
-                (scene, courses, collision_check) = (after, then, shifted(found, *recorded.samples.end()));
+                (scene, trajectories, collision_check) = (after, then, shifted(found, *recorded.samples.end()));
             }
         }
         if let Some(stood) = matched.rest.filter(|stood| *stood < asked - TIME_TOLERANCE) {
@@ -269,7 +269,7 @@ impl<'a> Iterator for Replay<'a> {
             step,
             recorded,
             scene,
-            courses,
+            trajectories,
             object,
             carried,
             seconds,
@@ -284,14 +284,14 @@ impl<'a> Iterator for Replay<'a> {
 }
 
 /// Returns true if two configurations are equal up to whole turns of joints on a circle.
-fn same(task: &Task, a: Configuration, b: Configuration) -> bool {
+fn is_same_pose(task: &Task, a: Configuration, b: Configuration) -> bool {
     task.arm.topology().displacement(a, b).amax() <= PLACE_TOLERANCE
 }
 
 /// Returns the difference between a motion's end and the goal of a move. `None` if the goal is reached.
-fn missed(task: &Task, q: Configuration, goal: &Goal) -> Option<Fault> {
+fn distance_from_goal(task: &Task, q: Configuration, goal: &Goal) -> Option<Fault> {
     match goal {
-        Goal::Joints(target) => (!same(task, q, *target)).then_some(Fault::Joints { is: q, target: *target }),
+        Goal::Joints(target) => (!is_same_pose(task, q, *target)).then_some(Fault::Joints { is: q, target: *target }),
         Goal::Tip(_) | Goal::Area(_) => {
             let is = task.arm.tip_at(q);
             let off = (is - goal.nearest_tip(is)?).norm();

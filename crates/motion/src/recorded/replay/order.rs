@@ -15,7 +15,7 @@ pub(super) struct MatchedStep<'a> {
 }
 
 /// Returns the steps of the task in the order of the record, up to the point where the record deviates from the task.
-pub(super) fn matched<'a>(
+pub(super) fn match_steps<'a>(
     task: &'a Task,
     recording: &Recording,
     recorded: &[RecordedStep],
@@ -24,7 +24,7 @@ pub(super) fn matched<'a>(
     let mut all = Vec::new();
     let mut last = 0;
     for (index, record) in recorded.iter().enumerate() {
-        let step = match order.take(record) {
+        let step = match order.match_next(record) {
             Ok(step) => step,
             Err(expected) => {
                 let departure = OrderDeviation::Order { index, number: record.number, cycle: record.cycle, expected };
@@ -35,17 +35,17 @@ pub(super) fn matched<'a>(
         if first < last {
             return (all, Some(OrderDeviation::Overlap { index, first, last }));
         }
-        match stands(recording, last, first) {
+        match rest_duration(recording, last, first) {
             Ok(rest) => all.last_mut().into_iter().for_each(|before: &mut MatchedStep| before.rest = Some(rest)),
             Err(sample) => return (all, Some(OrderDeviation::Moves { index, sample })),
         }
         all.push(MatchedStep { step, renewed: std::mem::take(&mut order.renewed), rest: None });
         last = *record.samples.end();
     }
-    if let Some(expected) = order.expected() {
+    if let Some(expected) = order.describe_next() {
         return (all, Some(OrderDeviation::Missing { count: recorded.len(), expected }));
     }
-    match stands(recording, last, recording.positions().len() - 1) {
+    match rest_duration(recording, last, recording.positions().len() - 1) {
         Ok(rest) => all.last_mut().into_iter().for_each(|before| before.rest = Some(rest)),
         Err(sample) => return (all, Some(OrderDeviation::Moves { index: recorded.len(), sample })),
     }
@@ -57,7 +57,7 @@ pub(super) fn matched<'a>(
 /// # Errors
 /// The sample at which the arm moves, or after which its place has changed. There is no tolerance for rounding: at rest
 /// all positions are equal and velocities 0.
-fn stands(recording: &Recording, first: usize, last: usize) -> Result<f64, usize> {
+fn rest_duration(recording: &Recording, first: usize, last: usize) -> Result<f64, usize> {
     let (positions, zero) = (recording.positions(), Configuration::zeros());
     for sample in first..last {
         let at_rest = |velocities: &[Configuration]| velocities[sample] == zero && velocities[sample + 1] == zero;
@@ -107,10 +107,10 @@ impl<'a> Order<'a> {
     ///
     /// # Errors
     /// A description of the expected steps.
-    fn take(&mut self, record: &RecordedStep) -> Result<&'a Step, String> {
+    fn match_next(&mut self, record: &RecordedStep) -> Result<&'a Step, String> {
         let is_it = |step: &&&Step| step.number == record.number && step.cycle == record.cycle;
         let Some(&step) = self.candidates().iter().find(is_it) else {
-            return Err(self.expected().unwrap_or_else(|| "no more steps".into()));
+            return Err(self.describe_next().unwrap_or_else(|| "no more steps".into()));
         };
         if self.half.take().is_some() {
             return Ok(step);
@@ -123,7 +123,7 @@ impl<'a> Order<'a> {
     }
 
     /// Describes the next step, or returns `None` at the end.
-    fn expected(&mut self) -> Option<String> {
+    fn describe_next(&mut self) -> Option<String> {
         let candidates = self.candidates();
         let first = candidates.first()?;
         let numbers: Vec<String> = candidates.iter().map(|step| step.number.to_string()).collect();

@@ -34,9 +34,9 @@ impl State {
     /// Stops a moving object at its place at a time. Returns true if it was moving.
     pub fn stop(&mut self, task: &Task, object: usize, time: f64) -> bool {
         let moved = self.moving.iter().position(|&other| other == object);
-        if let Some((place, course)) = moved.zip(task.objects[object].course.as_ref()) {
+        if let Some((place, trajectory)) = moved.zip(task.objects[object].trajectory.as_ref()) {
             self.moving.remove(place);
-            self.poses[object] = Some(course.pose(time));
+            self.poses[object] = Some(trajectory.pose(time));
         }
         moved.is_some()
     }
@@ -61,8 +61,8 @@ impl State {
     }
 
     /// Returns the trajectories of the moving obstacles, on a clock that starts at the time `begin` of the task.
-    pub fn courses(&self, task: &Task, begin: f64) -> Vec<ObstacleTrajectory> {
-        task.courses_since(&self.moving, begin)
+    pub fn trajectories(&self, task: &Task, begin: f64) -> Vec<ObstacleTrajectory> {
+        task.trajectories_since(&self.moving, begin)
     }
 
     /// Grasps the object that a step picks, with the arm at `q`. The object keeps its current pose relative to the

@@ -83,7 +83,7 @@ fn case() -> impl Strategy<Value = Case> {
 }
 
 /// Returns the least distance of two convex cores; 0 if they intersect.
-fn apart(a: &[Point], b: &[Point]) -> f64 {
+fn core_distance(a: &[Point], b: &[Point]) -> f64 {
     let cross = |u: Vector, v: Vector| u.x * v.y - u.y * v.x;
     let sides = |core: &[Point]| -> Vec<[Point; 2]> {
         (0..core.len()).map(|i| [core[i], core[(i + 1) % core.len()]]).collect()
@@ -138,7 +138,7 @@ impl Case {
         let at = |k: usize| {
             let pose = self.scene.arm().pose(1, from + (to - from) * (k as f64 / SAMPLES as f64));
             let placed: Vec<Point> = part.core().iter().map(|&a| pose.point(a)).collect();
-            apart(&placed, piece.core())
+            core_distance(&placed, piece.core())
         };
         (0..=SAMPLES).map(at).fold(0.0, f64::max) - part.radius() - piece.radius()
     }

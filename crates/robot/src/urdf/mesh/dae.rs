@@ -34,14 +34,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     let mut scene = Scene { ids, points: Vec::new(), nodes: 0 };
     let shown = child(root, "scene").and_then(|scene| child(scene, "instance_visual_scene"));
     let shown = shown.and_then(|instance| scene.target(instance));
-    let shown = shown.or_else(|| named(document.root_element(), "visual_scene").next());
+    let shown = shown.or_else(|| descendants_named(document.root_element(), "visual_scene").next());
     let pose = Matrix4::new_scaling(metres);
     if let Some(shown) = shown {
         scene.children(shown, &pose, 0)?;
     }
     // Some programs write geometries without a scene. Their coordinates are then used as they are.
     if scene.points.is_empty() {
-        named(root, "geometry").try_for_each(|geometry| scene.geometry(geometry, &pose))?;
+        descendants_named(root, "geometry").try_for_each(|geometry| scene.geometry(geometry, &pose))?;
     }
     if scene.points.is_empty() {
         return Err("the file has no mesh".into());
@@ -66,7 +66,7 @@ fn child<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
 }
 
 /// Iterates over all descendants with a name.
-fn named<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterator<Item = Node<'a, 'i>> {
+fn descendants_named<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterator<Item = Node<'a, 'i>> {
     node.descendants().filter(move |node| node.tag_name().name() == name)
 }
 
@@ -112,12 +112,12 @@ impl<'a, 'i> Scene<'a, 'i> {
 
     /// Reads the positions of a geometry's mesh.
     fn geometry(&mut self, geometry: Node<'a, 'i>, pose: &Matrix4<f64>) -> Result<(), String> {
-        for vertices in named(geometry, "vertices") {
+        for vertices in descendants_named(geometry, "vertices") {
             let mut inputs = vertices.children().filter(|input| input.attribute("semantic") == Some("POSITION"));
             let source = inputs.next().and_then(|input| self.target(input)).ok_or("a mesh has no positions")?;
             let array = child(source, "float_array").ok_or("a mesh has no positions")?;
             let numbers = numbers(array)?;
-            let accessor = named(source, "accessor").next();
+            let accessor = descendants_named(source, "accessor").next();
             let stride = accessor.and_then(|accessor| accessor.attribute("stride")?.trim().parse().ok()).unwrap_or(3);
             if stride < 3 || numbers.len() % stride != 0 {
                 return Err(format!(

@@ -10,7 +10,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
     let mut line = Vec::new();
     while let Some((mut piece, number)) = lines.next() {
         line.clear();
-        while let Some(begun) = continued(piece) {
+        while let Some(begun) = without_continuation_mark(piece) {
             line.extend_from_slice(begun);
             line.push(b' ');
             piece = lines.next().map_or(&[], |(next, _)| next);
@@ -49,6 +49,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
 
 /// Returns the content of a line that continues on the next line, because it ends in a backslash. Returns `None` for
 /// other lines. Comments do not continue, because they may contain Windows paths.
-fn continued(line: &[u8]) -> Option<&[u8]> {
+fn without_continuation_mark(line: &[u8]) -> Option<&[u8]> {
     line.trim_ascii_end().strip_suffix(b"\\").filter(|begun| !begun.trim_ascii_start().starts_with(b"#"))
 }

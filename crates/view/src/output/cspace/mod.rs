@@ -263,17 +263,17 @@ impl CSpace {
             }
             Trace::Roads { edges, expanded, kind } => {
                 let visibility = kind.visibility().map(VisibilityGraph::name);
-                Self { roadmap: Some(Roadmap::of(edges, true, visibility)), expanded: all(expanded), ..self }
+                Self { roadmap: Some(Roadmap::of(edges, true, visibility)), expanded: joint_values(expanded), ..self }
             }
             Trace::Slices { free } => Self { rows: pairs(free), ..self },
             Trace::Channel { cells, channel, points, expanded, .. } => {
                 let cells = Cells {
-                    corners: cells.iter().map(|cell| all(cell)).collect(),
+                    corners: cells.iter().map(|cell| joint_values(cell)).collect(),
                     channel: channel.clone(),
-                    centers: all(&points.centers),
-                    middles: all(&points.middles),
+                    centers: joint_values(&points.centers),
+                    middles: joint_values(&points.middles),
                 };
-                Self { cells: Some(cells), expanded: all(expanded), ..self }
+                Self { cells: Some(cells), expanded: joint_values(expanded), ..self }
             }
             Trace::Boxes { free, stuck, mixed } => {
                 let boxes = Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed) };
@@ -302,7 +302,7 @@ const MAX_GROWTH: f64 = 5.0;
 
 impl PathData {
     fn of(name: String, curve: &CertifiedCurve) -> Self {
-        let values = |path: &Path| all(path.waypoints());
+        let values = |path: &Path| joint_values(path.waypoints());
         Self { name, waypoints: values(curve.curve().path()), outline: values(&curve.outline()) }
     }
 }
@@ -335,7 +335,7 @@ fn spaces_of_task(task: &Task, answer: &TaskAnswer, is_exact: bool) -> Vec<CSpac
     spaces
 }
 
-fn all(configurations: &[Configuration]) -> Vec<Values> {
+fn joint_values(configurations: &[Configuration]) -> Vec<Values> {
     configurations.iter().copied().map(Values::from).collect()
 }
 

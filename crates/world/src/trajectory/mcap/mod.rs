@@ -32,7 +32,7 @@ pub(super) fn read(source: &Source, bytes: &[u8], asked: Option<&str>, names: &N
 /// comes with its time.
 ///
 /// The time of a message is its stamp. If any message lacks a stamp, it is the time of recording for all of them.
-fn in_time(topic: &mut Topic, arm: [&str; 2]) -> (Vec<(i64, Message)>, Vec<Message>) {
+fn messages_by_time(topic: &mut Topic, arm: [&str; 2]) -> (Vec<(i64, Message)>, Vec<Message>) {
     let (messages, others): (Vec<Message>, Vec<Message>) = std::mem::take(&mut topic.messages)
         .into_iter()
         .partition(|message| arm.iter().all(|joint| message.names(joint)));
@@ -45,7 +45,7 @@ fn in_time(topic: &mut Topic, arm: [&str; 2]) -> (Vec<(i64, Message)>, Vec<Messa
 
 /// Converts states to samples, one per message.
 fn states(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, Diagnostic> {
-    let (messages, others) = in_time(&mut topic, names.arm);
+    let (messages, others) = messages_by_time(&mut topic, names.arm);
     let mut table = Table::new(source, &topic.name, &messages);
     let mut repeated = 0;
     for (time, message) in messages {
@@ -67,7 +67,7 @@ fn states(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, D
 
 /// Converts consecutive motions to samples. Each motion begins at the time of its message.
 fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, Diagnostic> {
-    let (messages, others) = in_time(&mut topic, names.arm);
+    let (messages, others) = messages_by_time(&mut topic, names.arm);
     let name = &topic.name;
     let mut table = Table::new(source, name, &messages);
     let (mut rests, mut count) = (Vec::new(), 0);
@@ -128,7 +128,7 @@ struct Table<'a> {
     /// Values in the order of `joints`.
     rows: Vec<Row>,
     /// All values of the other joints, with no regard to times.
-    aside: Vec<(String, Vec<f64>)>,
+    other_series: Vec<(String, Vec<f64>)>,
 }
 
 impl<'a> Table<'a> {
@@ -147,7 +147,7 @@ impl<'a> Table<'a> {
             let is_new = |name: &&String| !joints.contains(name) && !others.contains(name);
             others.extend(message.joints.iter().filter(is_new).cloned().collect::<Vec<_>>());
         }
-        Self { source, topic, joints, others, rows: Vec::new(), aside: Vec::new() }
+        Self { source, topic, joints, others, rows: Vec::new(), other_series: Vec::new() }
     }
 
     /// Adds the rows of a message with this time.
@@ -172,7 +172,7 @@ impl<'a> Table<'a> {
             }
             for name in &self.others {
                 if let Some(place) = message.joints.iter().position(|joint| joint == name) {
-                    aside(&mut self.aside, name, row.values[0][place]);
+                    add_other_value(&mut self.other_series, name, row.values[0][place]);
                 }
             }
             let of_kept = |values: &Vec<f64>| kept.iter().filter_map(|place| values.get(*place).copied()).collect();
@@ -203,7 +203,7 @@ impl<'a> Table<'a> {
                 let values = message.joints.iter().zip(&row.values[0]);
                 values
                     .filter(|(name, _)| !self.joints.contains(name))
-                    .for_each(|(name, value)| aside(&mut self.aside, name, *value));
+                    .for_each(|(name, value)| add_other_value(&mut self.other_series, name, *value));
             }
         }
         let mut notes = Vec::new();
@@ -232,8 +232,8 @@ impl<'a> Table<'a> {
             // Correctly rounded, so that the shortest decimal has at most nine digits after the point.
             time: Some(rows.iter().map(|row| (row.nanoseconds - begin) as f64 / 1e9).collect()),
             joints: self.joints.iter().enumerate().map(series).collect(),
-            aside: self
-                .aside
+            other_series: self
+                .other_series
                 .into_iter()
                 .map(|(name, position)| Series { name, position, ..Series::default() })
                 .collect(),
@@ -244,7 +244,7 @@ impl<'a> Table<'a> {
 }
 
 /// Adds a value of one of the other joints.
-fn aside(all: &mut Vec<(String, Vec<f64>)>, name: &str, value: f64) {
+fn add_other_value(all: &mut Vec<(String, Vec<f64>)>, name: &str, value: f64) {
     match all.iter_mut().find(|(known, _)| known == name) {
         Some((_, values)) => values.push(value),
         None => all.push((name.to_owned(), vec![value])),

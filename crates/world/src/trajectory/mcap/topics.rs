@@ -27,12 +27,12 @@ pub(super) struct Topic {
 
 impl Topic {
     /// Returns true if a message has positions of both of the arm's joints.
-    fn fits(&self, arm: [&str; 2]) -> bool {
+    fn names_arm_joints(&self, arm: [&str; 2]) -> bool {
         self.messages.iter().any(|message| arm.iter().all(|joint| message.names(joint)))
     }
 
     /// Formats name, type and joints of the topic for a list in a message.
-    fn described(&self) -> String {
+    fn describe(&self) -> String {
         let schema = if self.schema.is_empty() { "no type" } else { &self.schema };
         let mut joints: Vec<&String> = Vec::new();
         for name in self.messages.iter().flat_map(|message| message.joints.iter()) {
@@ -90,11 +90,11 @@ pub(super) fn choose(
 ) -> Result<(Topic, Vec<String>), Diagnostic> {
     let of_name = |topic: &Topic| asked.is_none_or(|asked| topic.name == asked);
     let of_kind = |kind: Kind| -> Vec<usize> {
-        let is_candidate = |topic: &Topic| topic.kind == Some(kind) && of_name(topic) && topic.fits(arm);
+        let is_candidate = |topic: &Topic| topic.kind == Some(kind) && of_name(topic) && topic.names_arm_joints(arm);
         (0..topics.len()).filter(|k| is_candidate(&topics[*k])).collect()
     };
     let candidates = [Kind::Trajectory, Kind::State].map(of_kind).into_iter().find(|found| !found.is_empty());
-    let list = |which: &[usize]| which.iter().map(|k| topics[*k].described()).collect::<Vec<_>>().join(", ");
+    let list = |which: &[usize]| which.iter().map(|k| topics[*k].describe()).collect::<Vec<_>>().join(", ");
     let chosen = match candidates.as_deref() {
         Some([only]) => *only,
         Some(several) => {

@@ -49,7 +49,7 @@ impl Cell {
 }
 
 /// Plans with a certificate, and checks it if the task is done.
-fn planned(place: &Place, world: &str) -> Done {
+fn plan_and_check(place: &Place, world: &str) -> Done {
     place.write("world.toml", world);
     let urdf = shipped("robots/scara.urdf");
     let done = place.run(&[&urdf, "world.toml"], "--certificate c.json --output plan.json");
@@ -70,7 +70,7 @@ fn a_part_is_set_on_a_table_that_its_bottom_touches() {
             // A difference of a micrometre is allowed, because stacks add up. Without a lift, the part may slide.
             for (bottom, lift) in [(0.05, 0.1), (0.049_999_5, 0.1), (0.05, 0.0)] {
                 let cell = Cell { bottom, lift, supports, ..Cell::new(hand) };
-                let done = planned(&place, &cell.set_down());
+                let done = plan_and_check(&place, &cell.set_down());
                 assert_eq!(done.code, 0, "{hand:?} {supports} {bottom} {lift}: {}{}", done.stdout, done.stderr);
             }
         }
@@ -78,11 +78,11 @@ fn a_part_is_set_on_a_table_that_its_bottom_touches() {
 }
 
 #[test]
-fn what_lies_deeper_in_a_table_than_the_tolerance_is_a_contact() {
+fn pressing_deeper_than_the_tolerance_is_a_contact() {
     let place = Place::new();
     for hand in [Hand::Lifting, Hand::Stroke] {
         let cell = Cell { bottom: 0.049_998, ..Cell::new(hand) };
-        let done = planned(&place, &cell.set_down());
+        let done = plan_and_check(&place, &cell.set_down());
         assert_eq!(done.code, 3, "{hand:?}: {}{}", done.stdout, done.stderr);
         assert!(done.stdout.contains("payload \"part\" hits obstacle \"table\""), "{}", done.stdout);
     }
@@ -95,14 +95,14 @@ fn the_checker_knows_the_tolerance_by_itself() {
     let without = |certificate: &str| super::certificates::without_digests(certificate);
     for hand in [Hand::Lifting, Hand::Stroke] {
         let cell = Cell::new(hand);
-        assert_eq!(planned(&place, &cell.set_down()).code, 0);
+        assert_eq!(plan_and_check(&place, &cell.set_down()).code, 0);
         let certificate = without(&place.read("c.json"));
         for (top, holds) in [(0.04, true), (0.050_001, true), (0.050_001_1, false), (0.06, false)] {
             let report = check(&urdf, &Cell { top, ..Cell::new(hand) }.set_down(), &certificate);
             assert_eq!(report.is_ok(), holds, "{hand:?}, table up to {top}: {report:?}");
         }
         let deep = Cell { top: 0.06, ..Cell::new(hand) };
-        assert_eq!(planned(&place, &deep.set_down()).code, 3);
+        assert_eq!(plan_and_check(&place, &deep.set_down()).code, 3);
     }
 }
 
@@ -116,13 +116,13 @@ fn parts_are_stacked_and_taken_off_again() {
                      [[step]]\npick = \"lid\"\n[[step]]\nplace = { at = [0.35, -0.25] }\n\
                      [[step]]\npick = \"lid\"\n[[step]]\nplace = { at = [0.0, 0.45] }\n\
                      [[step]]\npick = \"part\"\n[[step]]\nplace = { at = [0.1, 0.4] }\n";
-        let done = planned(&place, &Cell::new(hand).world(&format!("{upper}{steps}")));
+        let done = plan_and_check(&place, &Cell::new(hand).world(&format!("{upper}{steps}")));
         assert_eq!(done.code, 0, "{hand:?}: {}{}", done.stdout, done.stderr);
         // An object with another one on it can be neither lifted nor pulled out from under it.
         let (first, _) = steps.split_at(steps.find("[[step]]\npick = \"lid\"\n[[step]]\nplace = { at = [0.0").unwrap());
         let taken = format!("{upper}{first}[[step]]\npick = \"part\"\n[[step]]\nplace = {{ at = [0.1, 0.4] }}\n");
         let lift = if hand == Hand::Stroke { 0.1 } else { 0.0 };
-        let done = planned(&place, &Cell { lift, ..Cell::new(hand) }.world(&taken));
+        let done = plan_and_check(&place, &Cell { lift, ..Cell::new(hand) }.world(&taken));
         // If top and bottom just touch, neither is proven.
         let code = if hand == Hand::Stroke { 3 } else { 4 };
         assert_eq!(done.code, code, "{hand:?}: {}{}", done.stdout, done.stderr);

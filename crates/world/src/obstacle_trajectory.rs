@@ -75,7 +75,8 @@ impl ObstacleTrajectoryTable {
             Ok(stop)
         });
         let stops = stops.collect::<Result<Vec<Stop>, Diagnostic>>()?;
-        let velocity = self.velocity.as_ref().map(|v| reader.two(v, &format!("{what}, velocity"))).transpose()?;
+        let velocity =
+            self.velocity.as_ref().map(|v| reader.number_pair(v, &format!("{what}, velocity"))).transpose()?;
         let stops = if self.stops.is_none() { vec![given(0.0)] } else { stops };
         ObstacleTrajectory::new(stops, velocity.map_or_else(Vector::zeros, Vector::from)).map_err(|error| {
             let (message, at, help) = match error {

@@ -24,7 +24,7 @@ fn path_of(done: &Done) -> serde_json::Value {
 }
 
 #[test]
-fn rings_that_repeat_points_are_the_rings_without() {
+fn repeated_points_of_rings_are_ignored() {
     let place = Place::new();
     let plain =
         path_of(&place.plan(obstacle("polygon = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]]"), "--json"));
@@ -117,7 +117,7 @@ fn holes_are_free_and_enclosed() {
 }
 
 #[test]
-fn corners_that_touch_are_taken_and_crossings_are_not() {
+fn touching_corners_are_accepted_and_crossings_refused() {
     let place = Place::new();
     // Two lobes that meet in a point, and a ring whose corner lies on another of its sides.
     let lobes = "polygon = [[1.2, 0.2], [1.4, 0.1], [1.4, 0.3], [1.2, 0.2], [1.0, 0.35], [1.0, 0.3]]";
@@ -181,7 +181,7 @@ fn missing_speeds_are_assumed_and_reported() {
 }
 
 #[test]
-fn limits_that_are_none_make_a_joint_continuous() {
+fn missing_limits_make_a_joint_continuous() {
     let place = Place::new();
     place.write("world.toml", TURN);
     let turning = |limits: &str| arm(&format!("{limits} velocity=\"1\"")).replace("\"continuous\"", "\"revolute\"");

@@ -34,14 +34,14 @@ pub fn solids(obstacle: &Obstacle) -> ReadResult<Vec<Shape>> {
 ///
 /// # Errors
 /// If the object has no interior, or is too thin.
-pub fn pressed(object: &Obstacle, by: &Interval) -> ReadResult<Obstacle> {
+pub fn shrunk_object(object: &Obstacle, by: &Interval) -> ReadResult<Obstacle> {
     let wrong = |why: &str| CheckError::in_file(Input::World, why);
     let outline = match &object.outline {
         Outline::Circle(center, radius) => {
             Outline::Circle(center.clone(), (radius - &by.ends()[1]).max(Decimal::whole(0)))
         }
         Outline::Polygon(rings) => {
-            let inset = |(number, ring): (usize, &Vec<Corner>)| inset(bent(ring), number > 0, by);
+            let inset = |(number, ring): (usize, &Vec<Corner>)| inset(without_straight_corners(ring), number > 0, by);
             let smaller: Option<Vec<_>> = rings.iter().enumerate().map(inset).collect();
             let within = smaller.filter(|all| all.iter().flatten().all(|corner| surrounds(rings, corner)));
             let thin =
@@ -67,7 +67,7 @@ fn convex(obstacle: &Obstacle) -> Option<Vec<Corner>> {
         Outline::Circle(center, radius) => (radius.sign() != Sign::Minus).then(|| vec![center.clone()]),
         Outline::Polygon(rings) => {
             let [ring] = &rings[..] else { return None };
-            let mut ring = bent(ring);
+            let mut ring = without_straight_corners(ring);
             if !is_convex(&ring) {
                 ring.reverse();
             }
@@ -78,7 +78,7 @@ fn convex(obstacle: &Obstacle) -> Option<Vec<Corner>> {
 }
 
 /// Removes the corners of a ring that lie on a line with their neighbours.
-fn bent(ring: &[Corner]) -> Vec<Corner> {
+fn without_straight_corners(ring: &[Corner]) -> Vec<Corner> {
     let mut ring = ring.to_vec();
     let is_straight = |ring: &[Corner], k: usize| {
         let [last, next] = [ring.len() - 1, 1].map(|by| &ring[(k + by) % ring.len()]);
@@ -139,13 +139,13 @@ mod tests {
         let by = Interval::whole(2).sqrt().over(10);
         for (outwards, is_inside) in [(false, true), (true, false)] {
             for text in ["0 0 1 0 1 1 0 1", "0 0 0 1 1 1 1 0", "0 0 0.5 0 1 0 1 1 0 1"] {
-                let moved = inset(bent(&ring(text)), outwards, &by).unwrap();
+                let moved = inset(without_straight_corners(&ring(text)), outwards, &by).unwrap();
                 assert_eq!(moved.len(), 4);
                 let is_beside = |(own, moved): (&Corner, &Corner)| {
                     let half = |c: &Decimal| *c > "0.5".parse().unwrap();
                     own.each_ref().map(half) == moved.each_ref().map(half)
                 };
-                assert!(bent(&ring(text)).iter().zip(&moved).all(is_beside), "{text}: {moved:?}");
+                assert!(without_straight_corners(&ring(text)).iter().zip(&moved).all(is_beside), "{text}: {moved:?}");
                 let near = |a: &Decimal, b: &str| {
                     let off = a - &b.parse().unwrap();
                     off < Decimal::power_of_ten(9) && -&off < Decimal::power_of_ten(9)

@@ -48,10 +48,10 @@ impl ObstacleTrajectory for StopTrajectory {
     /// Returns the shape at the middle of the span, grown by its greatest displacement from there. Between stops, a
     /// convex function of time bounds the displacement of a point. So the greatest displacement is at an end of the
     /// span or at a stop.
-    fn during(&self, shape: &Shape, [from, to]: [&Decimal; 2]) -> Shape {
+    fn swept_shape(&self, shape: &Shape, [from, to]: [&Decimal; 2]) -> Shape {
         let middle = Decimal::middle(from, to);
         let (at, angle) = self.pose(&middle);
-        let reach = Interval::exactly(shape.points.iter().map(|p| length(p).upper).max().unwrap_or_default());
+        let reach = Interval::exact(shape.points.iter().map(|p| length(p).upper).max().unwrap_or_default());
         let stops = self.stops.iter().map(|stop| &stop.time).filter(|time| from < time && *time < to);
         let away = [from, to].into_iter().chain(stops).map(|time| {
             let (there, turned) = self.pose(time);
@@ -62,14 +62,14 @@ impl ObstacleTrajectory for StopTrajectory {
         let turn = angle.sin_cos();
         Shape {
             points: shape.points.iter().map(|p| sum(&at, &turned(p, &turn))).collect(),
-            radius: &shape.radius + &Interval::exactly(away),
+            radius: &shape.radius + &Interval::exact(away),
         }
     }
 }
 
 impl Reader<'_> {
     /// Reads the `motion` of an obstacle. `at` and `angle` are the defaults for its stops.
-    pub(super) fn course(&self, value: &Value, at: &Point, angle: &Interval) -> ReadResult<StopTrajectory> {
+    pub(super) fn trajectory(&self, value: &Value, at: &Point, angle: &Interval) -> ReadResult<StopTrajectory> {
         let table = self.table(value)?;
         if let Some((key, _)) = table.iter().find(|(key, _)| !["stops", "velocity"].contains(&&**key.get_ref())) {
             return self.error(value, &format!("the checker does not know the key {} of a motion", key.get_ref()));
@@ -82,8 +82,8 @@ impl Reader<'_> {
             }
             Ok(Stop {
                 time: self.number(time)?,
-                at: stop.get("at").map_or(Ok(at.clone()), |at| Ok(point(&self.two(at, |n| self.number(n))?)))?,
-                angle: stop.get("angle").map_or(Ok(angle.clone()), |a| Ok(Interval::around(&self.quantity(a)?)))?,
+                at: stop.get("at").map_or(Ok(at.clone()), |at| Ok(point(&self.pair(at, |n| self.number(n))?)))?,
+                angle: stop.get("angle").map_or(Ok(angle.clone()), |a| Ok(Interval::enclosing(&self.quantity(a)?)))?,
             })
         };
         let stops: Vec<Stop> = match table.get("stops") {
@@ -94,7 +94,7 @@ impl Reader<'_> {
         if stops.is_empty() || !stops.windows(2).all(is_later) {
             return self.error(value, "a motion needs stops, each later than the previous one");
         }
-        let velocity = table.get("velocity").map(|v| self.two(v, |n| self.number(n))).transpose()?;
+        let velocity = table.get("velocity").map(|v| self.pair(v, |n| self.number(n))).transpose()?;
         Ok(StopTrajectory { stops, velocity: velocity.map_or_else(|| [0, 0].map(Interval::whole), |v| point(&v)) })
     }
 }

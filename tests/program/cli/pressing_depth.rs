@@ -56,7 +56,7 @@ fn no_corner_is_pressed_into_a_support() {
 }
 
 #[test]
-fn what_rests_on_a_support_may_touch_it() {
+fn an_object_may_touch_its_support() {
     for (what, polygon, table, numbers) in [
         ("a needle", NEEDLE, TABLE, [0.18, 0.0, 0.0]),
         ("a needle by half of what is allowed", NEEDLE, TABLE, [0.18, 9e-5, 0.0]),
@@ -135,7 +135,7 @@ fn on_the_axis(y: f64) -> [(&'static str, String); 7] {
 }
 
 /// Returns a world with an object, a support, the depth of the tip, and a clearance.
-fn tipped([outline, held]: [&str; 2], support: &str, numbers: [f64; 3]) -> String {
+fn world_of_outline([outline, held]: [&str; 2], support: &str, numbers: [f64; 3]) -> String {
     cell("[]", support, numbers).replace("polygon = []", outline).replace("\"level\"", &format!("\"{held}\""))
 }
 
@@ -148,7 +148,8 @@ fn with_a_clearance_nothing_is_pressed_deeper_than_without() {
         for (what, support) in on_the_axis(1.2) {
             for (clearance, deeper) in [(0.005, 1.01), (0.02, 20.0)] {
                 for (by, code) in [(0.99, 0), (deeper, 3)] {
-                    let world = tipped(object, &support, [tip, by * share * PENETRATION_ALLOWANCE, clearance]);
+                    let world =
+                        world_of_outline(object, &support, [tip, by * share * PENETRATION_ALLOWANCE, clearance]);
                     let done = Place::new().plan(world, "--json --quiet");
                     let kept = done.code != 0 || done.json()["clearance"].as_f64().unwrap() >= clearance;
                     if done.code != code || !kept {
@@ -179,7 +180,8 @@ fn with_a_clearance_nothing_recorded_may_press_deeper_than_without() {
     for (object, tip, share) in TIPPED {
         for ((what, support), clearance) in on_the_axis(1.2).into_iter().zip([0.005, 0.02].into_iter().cycle()) {
             let place = Place::new();
-            let done = place.plan(tipped(object, &support, [tip, 0.0, clearance]), "--output plan.json --quiet");
+            let done =
+                place.plan(world_of_outline(object, &support, [tip, 0.0, clearance]), "--output plan.json --quiet");
             assert_eq!(done.code, 0, "{object:?} on {what}: {}", done.stderr);
             place.write("plan.json", without_clearances(&place.read("plan.json")));
             for (by, code) in [(0.0, 0), (0.99, 0), (1.01, 3), (20.0, 3)] {
@@ -188,7 +190,7 @@ fn with_a_clearance_nothing_recorded_may_press_deeper_than_without() {
                     .find(|nearer| nearer.0 == what)
                     .unwrap()
                     .1;
-                place.write("nearer.toml", tipped(object, &nearer, [tip, 0.0, clearance]));
+                place.write("nearer.toml", world_of_outline(object, &nearer, [tip, 0.0, clearance]));
                 let done = place.run(&["verify", &shipped("robots/planar_2r.urdf"), "nearer.toml", "plan.json"], "");
                 if done.code != code {
                     wrong.push(format!("{object:?} {by} deep in {what}, {clearance}: {}", done.code));
@@ -260,7 +262,7 @@ fn outlines_say_the_same_however_they_are_written() {
 /// Checks three corners on a line, up to rounding. The middle one does not count as a corner, so it may not be moved
 /// farther than its side.
 #[test]
-fn corners_that_bend_by_rounding_are_none() {
+fn corners_bent_by_rounding_are_ignored() {
     let world = |x: f64, deep: f64| {
         let y = 0.5 + 0.1 * x + deep;
         format!(

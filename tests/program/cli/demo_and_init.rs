@@ -40,7 +40,7 @@ fn the_demo_needs_no_files() {
 }
 
 #[test]
-fn the_demo_spares_what_is_there() {
+fn the_demo_does_not_overwrite_files() {
     let place = Place::new();
     place.write("plan.json", "mine");
     place.run(&["demo"], "").refused(1, &["plan.json exists already", "nothing was written", "--force", "--dir"]);
@@ -62,7 +62,7 @@ fn the_demo_spares_what_is_there() {
 }
 
 #[test]
-fn what_init_writes_can_be_planned_at_once() {
+fn the_files_of_init_can_be_planned_at_once() {
     let place = Place::new();
     for (kind, arm) in KINDS.into_iter().zip(["RR", "RP", "PR", "PP", "RR"]) {
         let done = init(&place, kind);
@@ -137,7 +137,7 @@ fn keys_that_are_commented_out_are_valid() {
 }
 
 #[test]
-fn init_spares_what_is_there() {
+fn init_does_not_overwrite_files() {
     let place = Place::new();
     let done = place.run(&["init"], "");
     assert_eq!(done.code, 0, "{}", done.stderr);

@@ -15,7 +15,7 @@ fn arm(changes: &[(&str, &str)]) -> String {
 const TO_A_TIP: &str = "[start]\njoints = [0.0, 1.0]\n[goal]\ntip = [0.5, 0.5]\n";
 
 /// Checks the hint about a robot that `cplan plan` and `cplan inspect` give.
-fn hinted(changes: &[(&str, &str)], world: &str, parts: &[&str]) {
+fn check_hint(changes: &[(&str, &str)], world: &str, parts: &[&str]) {
     let place = Place::new();
     place.write("arm.urdf", arm(changes));
     place.write("world.toml", world);
@@ -57,9 +57,9 @@ fn limits_that_look_like_degrees_are_refused_with_both_readings() {
 #[test]
 fn robots_in_millimetres_are_noticed() {
     let lengths = [("xyz=\"1.0 0 0\"", "xyz=\"625 0 0\""), ("xyz=\"0.8 0 0\"", "xyz=\"425 0 0\"")];
-    hinted(&lengths, TO_A_TIP, &["the arm is 625 m and 425 m long", "divide lengths in millimetres by 1000"]);
+    check_hint(&lengths, TO_A_TIP, &["the arm is 625 m and 425 m long", "divide lengths in millimetres by 1000"]);
     let shapes = [("size=\"1.0 0.1 0.1\"", "size=\"1000 100 100\"")];
-    hinted(&shapes, FREE, &["the shape of link \"upper_arm\" reaches", "scale=\"0.001 0.001 0.001\""]);
+    check_hint(&shapes, FREE, &["the shape of link \"upper_arm\" reaches", "scale=\"0.001 0.001 0.001\""]);
     let slides = [
         ("type=\"revolute\"", "type=\"prismatic\""),
         ("lower=\"-2.9\" upper=\"2.9\"", "lower=\"0\" upper=\"600\""),
@@ -77,9 +77,13 @@ fn robots_in_millimetres_are_noticed() {
 #[test]
 fn speeds_that_no_drive_has_are_noticed() {
     let fast = "joint \"shoulder\": velocity=\"1000\" in the URDF is 1000 rad/s (57295.8 deg/s), faster than any drive";
-    hinted(&[("velocity=\"2.0\"", "velocity=\"1000\"")], FREE, &[fast, "[robot] velocity = { shoulder = 2.0 }"]);
-    hinted(&[("velocity=\"3.0\"", "velocity=\"100\"")], FREE, &["velocity=\"100\" in the URDF", "times are too short"]);
-    hinted(
+    check_hint(&[("velocity=\"2.0\"", "velocity=\"1000\"")], FREE, &[fast, "[robot] velocity = { shoulder = 2.0 }"]);
+    check_hint(
+        &[("velocity=\"3.0\"", "velocity=\"100\"")],
+        FREE,
+        &["velocity=\"100\" in the URDF", "times are too short"],
+    );
+    check_hint(
         &[("velocity=\"3.0\"", "velocity=\"0.0\"")],
         FREE,
         &["joint \"elbow\": velocity=\"0\" in the URDF counts as missing"],
@@ -94,7 +98,7 @@ fn speeds_that_no_drive_has_are_noticed() {
 #[test]
 fn joints_without_an_axis_are_noticed() {
     let parts = ["joint \"shoulder\" has no <axis>, which means the x axis", "joint \"elbow\" has no <axis>"];
-    hinted(&[("<axis xyz=\"0 0 1\"/>", "")], TO_A_TIP, &parts);
+    check_hint(&[("<axis xyz=\"0 0 1\"/>", "")], TO_A_TIP, &parts);
     let place = Place::new();
     place.write("arm.urdf", arm(&[]).replacen("<axis xyz=\"0 0 1\"/>", "", 1));
     place.write("world.toml", FREE);
