@@ -4,6 +4,7 @@ use super::exit::{DONE, REFUTED};
 use super::failure::Failure;
 use super::files::Files;
 use super::sinks::{self, Sink};
+use super::theme::ThemeArgs;
 use super::values::clearance;
 use crate::draw::{CheckedView, Picture, View};
 use crate::engine::findings::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
@@ -46,6 +47,8 @@ pub struct CheckArgs {
     /// Draw workspace and configuration space with the configuration: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
+    #[command(flatten)]
+    pub theme: ThemeArgs,
     /// Print the findings as JSON.
     #[arg(long)]
     pub json: bool,
@@ -70,7 +73,7 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let findings = check(scene, q);
     for sink in &sinks {
         if let Sink::Picture(format, path) = sink {
-            sinks::save_picture(*format, path, &view(&loaded, q, &findings))?;
+            sinks::save_picture(*format, path, &args.theme.apply(view(&loaded, q, &findings)))?;
         }
     }
     if args.json {

@@ -9,6 +9,7 @@ use super::headings::{OUTPUT, QUERY};
 use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
+use super::theme::ThemeArgs;
 use super::values::time_limit;
 use crate::draw::View;
 use crate::engine::explain::{Explanation, MotionQuestion, TIME_LIMIT, explain};
@@ -62,6 +63,8 @@ pub struct ExplainArgs {
     /// .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
+    #[command(flatten)]
+    pub theme: ThemeArgs,
     /// Time limit for the explanation, seconds, counted from the moment when the existence of a path is decided.
     #[arg(long, value_name = "SECONDS", default_value_t = TIME_LIMIT.as_secs_f64(), value_parser = time_limit, allow_hyphen_values = true)]
     #[arg(help_heading = QUERY)]
@@ -81,7 +84,7 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     loaded.robot.warnings.iter().for_each(|warning| args.print.print_status(&format!("warning: {warning}")));
     let explained = ExplanationResult::of(loaded, &args.query.overrides(), Duration::from_secs_f64(args.time))?;
     if !sinks.is_empty() {
-        let view = explained.view();
+        let view = args.theme.apply(explained.view());
         for sink in &sinks {
             if let Sink::Picture(format, path) = sink {
                 sinks::save_picture(*format, path, &view)?;

@@ -5,6 +5,7 @@ use super::failure::Failure;
 use super::files::XacroArgs;
 use super::inspect_text::text;
 use super::sinks::{self, Sink};
+use super::theme::ThemeArgs;
 use crate::draw::{AxesFrame, Picture, View};
 use crate::input::{self, Diagnostic, InputError, Inspection, RobotFile};
 use crate::model::TimedScene;
@@ -66,6 +67,8 @@ pub struct InspectArgs {
     /// Draw the arm at zero with the frames of its joints: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
+    #[command(flatten)]
+    pub theme: ThemeArgs,
     /// Print the report as JSON.
     #[arg(long)]
     pub json: bool,
@@ -86,7 +89,7 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     for sink in &sinks {
         let Sink::Picture(format, path) = sink else { continue };
         match view(&inspection) {
-            Some(view) => sinks::save_picture(*format, path, &view)?,
+            Some(view) => sinks::save_picture(*format, path, &args.theme.apply(view))?,
             None => sinks::print_status(&format!(
                 "warning: {} is not written: there is no planar arm to draw",
                 path.display()

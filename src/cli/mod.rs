@@ -40,6 +40,7 @@ mod sinks;
 #[cfg(feature = "study")]
 mod study;
 mod terminal;
+mod theme;
 mod values;
 mod variant;
 mod verify;

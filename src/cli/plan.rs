@@ -11,6 +11,7 @@ use super::progress;
 use super::query_args::QueryArgs;
 use super::result_files::ResultFiles;
 use super::sinks::{self, Sink};
+use super::theme::ThemeArgs;
 use crate::draw::FieldLines;
 use crate::engine::{Method, Options, Plan, Planner, Problem, plan_with};
 use crate::grammar::{MotionArgs, PlannerArgs, word};
@@ -73,6 +74,8 @@ pub struct PlanArgs {
     /// or .html (a page that plays the same and lets you move the arm). Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
+    #[command(flatten, next_help_heading = OUTPUT)]
+    pub theme: ThemeArgs,
     /// Lines in pictures of a field (.svg, .png, .gif). Pages can show and hide both kinds.
     #[arg(long, value_enum, value_name = "LINES", default_value_t = FieldLinesName::Equipotentials)]
     #[arg(help_heading = OUTPUT)]
@@ -248,7 +251,7 @@ fn written(
     let plays = sinks.iter().any(|sink| matches!(sink, Sink::Picture(format, _) if format.is_animated()));
     let seen = || {
         let view = if plays { plan.view_with_replay() } else { plan.view() };
-        view.with_field_lines(args.field_lines.into())
+        args.theme.apply(view).with_field_lines(args.field_lines.into())
     };
     let (mut view, mut spaces) = (None, None);
     for sink in sinks {

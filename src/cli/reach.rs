@@ -6,6 +6,7 @@ use super::files::Files;
 use super::headings::OUTPUT;
 use super::print_args::PrintArgs;
 use super::sinks;
+use super::theme::ThemeArgs;
 use super::values::clearance;
 use crate::draw::{Picture, View};
 use crate::engine::{Access, MAX_PLACES, Reach, reach};
@@ -57,6 +58,8 @@ pub struct ReachArgs {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
     #[command(flatten)]
+    pub theme: ThemeArgs,
+    #[command(flatten)]
     pub print: PrintArgs,
 }
 
@@ -96,7 +99,7 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
         written.push((path.clone(), text.into_bytes()));
     }
     for (path, format) in &pictures {
-        written.push((path.clone(), format.bytes(&view(&world, &reach))?));
+        written.push((path.clone(), format.bytes(&args.theme.apply(view(&world, &reach)))?));
     }
     write_whole_set(&written)?;
     args.print.report(DONE, || sinks::pretty(&object(&world, &reach)), || summary(&world, &reach))?;

@@ -101,7 +101,8 @@ pub fn full_answer(
     };
     let figures = Figures {
         length,
-        lower_bound: bound.map(|bound| bound.lower),
+        // Among moving obstacles, the bound says little, since it ignores them.
+        lower_bound: bound.filter(|_| problem.timed().courses.is_empty()).map(|bound| bound.lower),
         clearance: plan.clearance(),
         closest: plan.closest(),
         duration: plan.duration(),

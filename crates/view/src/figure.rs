@@ -1,7 +1,7 @@
 //! The neutral figure: items and their places on the page, without a file format.
 
 use super::letter_widths::letter_width;
-use cplan_theme::{Rgb, WHITE};
+use cplan_theme::{Rgb, WHITE, on_dark};
 
 /// A rectangle of the page, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -169,6 +169,16 @@ pub struct Figure {
     pub height: f64,
     /// Items in drawing order.
     pub items: Vec<Item>,
+    /// True for a dark background. Items have their colours for a light one; writers replace them.
+    pub is_dark: bool,
+}
+
+impl Figure {
+    /// Returns the colour with which a colour is shown on the background of this figure.
+    #[must_use]
+    pub fn shown(&self, color: Rgb) -> Rgb {
+        if self.is_dark { on_dark(color) } else { color }
+    }
 }
 
 /// Returns the outline of an open (or closed) chain of places. Skips a place that is nearer than a quarter of a pixel

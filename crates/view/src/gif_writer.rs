@@ -9,6 +9,7 @@ use super::figure::{Figure, Item, Rect};
 use super::png_writer::{Rasterizer, blank};
 use super::svg_writer;
 use cplan_interrupt::checkpoint;
+use cplan_theme::{Rgb, WHITE};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -110,11 +111,12 @@ struct Unit {
 }
 
 impl Painter {
-    /// Draws the figure on white.
+    /// Draws the figure on its background.
     fn paint(&mut self, figure: &Figure) -> Result<Pixmap, DrawError> {
         let units = units(figure);
         let mut picture = blank([figure.width, figure.height], self.width / figure.width)?;
-        picture.fill(tiny_skia::Color::WHITE);
+        let Rgb(red, green, blue) = figure.shown(WHITE);
+        picture.fill(tiny_skia::Color::from_rgba8(red, green, blue, 255));
         let mut begin = 0;
         for (end, is_same) in runs(&self.before, &units) {
             let run = &units[begin..end];

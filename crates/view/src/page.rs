@@ -69,7 +69,7 @@ pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
         }
         panels => task(view, panels, &keys, 84.0 + lines, &mut items),
     };
-    Figure { width: PAGE_WIDTH, height, items }
+    Figure { width: PAGE_WIDTH, height, items, is_dark: view.still.is_dark }
 }
 
 /// Composes a page with a single panel and a legend below it. The panel's height is `aspect` times its width, unless
@@ -93,7 +93,8 @@ pub fn single_panel_page(
     items.extend(panel(room));
     let below = room.bottom() + AXES_HEIGHT;
     items.extend(legend::items(&keys, width / 2.0, below));
-    Figure { width, height: below + legend::ROW_HEIGHT * keys.len() as f64 + 14.0, items }
+    let height = below + legend::ROW_HEIGHT * keys.len() as f64 + 14.0;
+    Figure { width, height, items, is_dark: false }
 }
 
 /// Draws the workspace, a configuration space for each payload state, and the steps; returns the height of the page.

@@ -4,6 +4,7 @@ use super::figure::{Anchor, Figure, Item, Label, Raster, Rect, Step, Style, text
 use super::letter_widths::letter_width;
 use ::svg::Document;
 use ::svg::node::element::{Circle, ClipPath, Definitions, Group, Path, Rectangle, Text};
+use cplan_theme::WHITE;
 use std::fmt::Write;
 
 /// Fonts of texts. The writer of PNG files has the first one. A viewer uses the first one that is installed.
@@ -18,7 +19,7 @@ const MAX_COORDINATE: f64 = 1e6;
 #[must_use]
 pub fn write(figure: &Figure) -> String {
     let ground = Rectangle::new().set("width", number(figure.width)).set("height", number(figure.height));
-    document(figure, Group::new().add(ground.set("fill", "#ffffff")))
+    document(figure, Group::new().add(ground.set("fill", figure.shown(WHITE).to_string())))
 }
 
 /// Writes the figure without a background.
@@ -32,7 +33,7 @@ fn document(figure: &Figure, ground: Group) -> String {
     let mut clips = Vec::new();
     let mut page = ground.set("font-family", FONTS).set("stroke-linejoin", "round");
     for item in &figure.items {
-        page = add(page, item, &mut clips);
+        page = add(page, item, figure, &mut clips);
     }
     let mut definitions = Definitions::new();
     for (i, rect) in clips.iter().enumerate() {
@@ -45,25 +46,26 @@ fn document(figure: &Figure, ground: Group) -> String {
         .to_string()
 }
 
-fn add(group: Group, item: &Item, clips: &mut Vec<Rect>) -> Group {
+/// Adds an item. Its colours are those for the background of the figure.
+fn add(group: Group, item: &Item, figure: &Figure, clips: &mut Vec<Rect>) -> Group {
     match item {
         Item::Outline(steps, _) if steps.is_empty() => group,
         Item::Outline(steps, style) => {
             let path = Path::new().set("d", commands(steps));
-            group.add(attributes(style).into_iter().fold(path, |p, (key, value)| p.set(key, value)))
+            group.add(attributes(style, figure).into_iter().fold(path, |p, (key, value)| p.set(key, value)))
         }
         Item::Disc([x, y], radius, style) => {
             let disc = Circle::new().set("cx", number(*x)).set("cy", number(*y)).set("r", number(*radius));
-            group.add(attributes(style).into_iter().fold(disc, |d, (key, value)| d.set(key, value)))
+            group.add(attributes(style, figure).into_iter().fold(disc, |d, (key, value)| d.set(key, value)))
         }
-        Item::Text(label) => group.add(text(label)),
+        Item::Text(label) => group.add(text(label, figure)),
         Item::Clip(rect, items) => {
             let id = clip_id(clips.len());
             clips.push(*rect);
             let inner = Group::new().set("clip-path", format!("url(#{id})"));
-            group.add(items.iter().fold(inner, |g, item| add(g, item, clips)))
+            group.add(items.iter().fold(inner, |g, item| add(g, item, figure, clips)))
         }
-        Item::Raster(raster) => group.add(cells(raster)),
+        Item::Raster(raster) => group.add(cells(raster, figure)),
     }
 }
 
@@ -103,10 +105,10 @@ fn commands(steps: &[Step]) -> String {
     d
 }
 
-fn attributes(style: &Style) -> Vec<(&'static str, String)> {
-    let mut all = vec![("fill", style.fill.map_or("none".to_owned(), |c| c.to_string()))];
+fn attributes(style: &Style, figure: &Figure) -> Vec<(&'static str, String)> {
+    let mut all = vec![("fill", style.fill.map_or("none".to_owned(), |color| figure.shown(color).to_string()))];
     if let Some(pen) = style.pen {
-        all.push(("stroke", pen.color.to_string()));
+        all.push(("stroke", figure.shown(pen.color).to_string()));
         all.push(("stroke-width", number(pen.width)));
         if !pen.dash.is_empty() {
             all.push(("stroke-dasharray", pen.dash.iter().map(|&d| number(d)).collect::<Vec<_>>().join(" ")));
@@ -121,18 +123,19 @@ fn attributes(style: &Style) -> Vec<(&'static str, String)> {
     all
 }
 
-fn text(label: &Label) -> Text {
+fn text(label: &Label, figure: &Figure) -> Text {
     // XML 1.0 forbids some characters even when escaped.
     let clean: String = label.text.chars().map(|c| if is_xml(c) { c } else { '\u{fffd}' }).collect();
     let [x, y] = label.at.map(number);
-    let mut text = Text::new(clean).set("font-size", number(label.size)).set("fill", label.color.to_string()).set(
-        "text-anchor",
-        match label.anchor {
-            Anchor::Start => "start",
-            Anchor::Middle => "middle",
-            Anchor::End => "end",
-        },
-    );
+    let mut text =
+        Text::new(clean).set("font-size", number(label.size)).set("fill", figure.shown(label.color).to_string()).set(
+            "text-anchor",
+            match label.anchor {
+                Anchor::Start => "start",
+                Anchor::Middle => "middle",
+                Anchor::End => "end",
+            },
+        );
     // A reader without this font fits its own letters into the same width.
     if label.text.chars().all(|letter| letter_width(letter).is_some()) && !label.text.is_empty() {
         text =
@@ -151,7 +154,7 @@ fn is_xml(c: char) -> bool {
 /// Writes the cells as one path of rectangles per colour, in units of cells. Consecutive cells of one colour in a
 /// column form a rectangle. Equal rectangles in the next columns extend it. Smoothing is off, because it would show
 /// seams between rectangles.
-fn cells(raster: &Raster) -> Group {
+fn cells(raster: &Raster, figure: &Figure) -> Group {
     let [columns, rows] = raster.cells;
     let mut paths = vec![String::new(); raster.palette.len()];
     let mut taken = vec![false; raster.levels.len()];
@@ -186,7 +189,7 @@ fn cells(raster: &Raster) -> Group {
         .into_iter()
         .zip(&raster.palette)
         .filter(|(d, _)| !d.is_empty())
-        .fold(group, |g, (d, color)| g.add(Path::new().set("fill", color.to_string()).set("d", d)))
+        .fold(group, |g, (d, color)| g.add(Path::new().set("fill", figure.shown(*color).to_string()).set("d", d)))
 }
 
 #[cfg(test)]
@@ -213,11 +216,22 @@ mod tests {
             upwards: true,
             color: Rgb(0, 0, 0),
         };
-        let figure = Figure { width: 10.0, height: 10.0, items: vec![Item::Text(label)] };
+        let figure = Figure { width: 10.0, height: 10.0, items: vec![Item::Text(label)], is_dark: false };
         let xml = write(&figure);
         let tree = roxmltree::Document::parse(&xml).unwrap();
         let text = tree.descendants().find(|n| n.has_tag_name("text")).unwrap();
         assert_eq!(text.text().map(str::trim), Some("<a & \"b\">\u{fffd}"));
+    }
+
+    #[test]
+    fn dark_pictures_have_the_dark_colors_of_roles() {
+        let disc = Item::Disc([5.0, 5.0], 2.0, Style::fill(cplan_theme::INK));
+        let figure = |is_dark| Figure { width: 10.0, height: 10.0, items: vec![disc.clone()], is_dark };
+        let [light, dark] = [false, true].map(|is_dark| write(&figure(is_dark)));
+        for (role, name) in [(cplan_theme::INK, "ink"), (WHITE, "paper")] {
+            let role = cplan_theme::ROLES.iter().find(|other| other.name == name && other.light == role).unwrap();
+            assert!(light.contains(&role.light.to_string()) && dark.contains(&role.dark.to_string()), "{name}");
+        }
     }
 
     /// Paints the rectangles and compares the result with the cells.
@@ -232,7 +246,7 @@ mod tests {
             palette: vec![Rgb(0, 0, 0), Rgb(1, 0, 0), Rgb(2, 0, 0)],
             levels: levels.clone(),
         };
-        let xml = write(&Figure { width: 70.0, height: 50.0, items: vec![Item::Raster(raster)] });
+        let xml = write(&Figure { width: 70.0, height: 50.0, items: vec![Item::Raster(raster)], is_dark: false });
         let tree = roxmltree::Document::parse(&xml).unwrap();
         let mut painted = vec![None; columns * rows];
         for path in tree.descendants().filter(|n| n.has_tag_name("path")) {

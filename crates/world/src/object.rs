@@ -52,7 +52,7 @@ pub(super) struct ObjectTable {
     /// Its mass, kg, distributed evenly over its outline; by default 0. Used for torques.
     #[schemars(with = "Option<NotNegative>")]
     mass: Option<Number>,
-    /// How the gripper holds it; by default as in [robot].
+    /// How the gripper holds the object; by default as `payload` in [robot] says.
     #[schemars(with = "Option<HeldAs>")]
     payload: Option<Spanned<String>>,
     /// The point of it that the tip goes to, in its own frame, m; by default its origin.

@@ -23,7 +23,7 @@ use toml::Spanned;
     "dependencies" = { "unknown": ["image"], "holes": ["polygon"] },
 ))]
 pub(super) struct ObstacleTable {
-    /// For messages and pictures; need not be its own.
+    /// Name in messages and pictures. Several obstacles may have the same name.
     name: Option<String>,
     /// Corners in order round the shape, m; may be non-convex and touch itself in points, but not cross itself. Or, as in
     /// GeoJSON, a list of such rings: the outer one, then holes.

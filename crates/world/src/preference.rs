@@ -15,7 +15,7 @@ use toml::Spanned;
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "preference", extend("oneOf" = [{ "required": ["configurations"] }, { "required": ["polygon"] }]))]
 pub(super) struct PreferenceTable {
-    /// For messages and pictures.
+    /// Name in messages and pictures.
     name: Option<String>,
     /// Strength per grid cell; fields bvp and bvp2 avoid a region above 0 and seek one below.
     #[schemars(with = "f64")]

@@ -147,7 +147,7 @@ struct StartTable {
     /// Values of both joints, base to tip, rad or m.
     #[schemars(with = "Option<[AngleOrLength; 2]>")]
     joints: Option<Spanned<Vec<Written>>>,
-    /// Coordinates of the tip, m; taken if one IK solution alone is within the limits and free.
+    /// Coordinates of the tip, m. Exactly one IK solution must be within the limits and free.
     #[schemars(with = "Option<NumberPair>")]
     tip: Option<Numbers>,
 }

@@ -109,9 +109,9 @@ fn judge_task(
 ) -> Result<MotionFindings, InputError> {
     let LoadedTask { task, scene, .. } = loaded.clone().recorded_task(overrides)?;
     notes.push(
-        "judged step by step: whether the steps are the world's, in an order that it allows; each motion with its \
-         payload and the objects at their positions at that time; limits, grasps, places, turns and rests; and the \
-         file's statements about steps and events"
+        "each step is judged by itself: it must be a step of the world, in an order that the world allows. Its motion is \
+         judged with its payload, and with the objects where they lie at that time. Limits, grasps, places, turns and \
+         rests are judged, too, and the file's statements about steps and events"
             .into(),
     );
     let replay = replay(&task, recording, steps);

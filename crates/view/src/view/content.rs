@@ -87,6 +87,8 @@ pub(crate) struct StillContent {
     pub stuck: Option<BlockingView>,
     /// The findings about a checked configuration.
     pub checked: Option<CheckedView>,
+    /// True for pictures with a dark background.
+    pub is_dark: bool,
     /// The arm's final configuration, and the index of the world at the end.
     pub end: Option<([f64; 2], usize)>,
     /// The steps of a task, below the names of the columns; empty for single motions.
@@ -157,6 +159,13 @@ impl View {
     #[must_use]
     pub fn with_blocking(mut self, stuck: BlockingView) -> Self {
         self.still.stuck = Some(stuck);
+        self
+    }
+
+    /// Returns the view for pictures with a dark background, or a light one. Pages follow the reader's system.
+    #[must_use]
+    pub fn on_background(mut self, is_dark: bool) -> Self {
+        self.still.is_dark = is_dark;
         self
     }
 

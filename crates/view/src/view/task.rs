@@ -72,6 +72,7 @@ impl View {
             reach: None,
             stuck: None,
             checked: None,
+            is_dark: false,
             field_lines: FieldLines::default(),
             panels: panels(picture, &order, &paths, world, grain),
             placed: placed.collect(),

@@ -1,0 +1,28 @@
+//! The option for the background of pictures.
+
+use crate::draw::View;
+use clap::{Args, ValueEnum};
+
+/// Backgrounds of pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Theme {
+    /// Dark on light.
+    Light,
+    /// Light on dark.
+    Dark,
+}
+
+/// The background of pictures.
+#[derive(Debug, Args)]
+pub struct ThemeArgs {
+    /// Background of pictures (.svg, .png, .gif). Pages follow the reader's system.
+    #[arg(long, value_enum, value_name = "THEME", default_value_t = Theme::Light)]
+    theme: Theme,
+}
+
+impl ThemeArgs {
+    /// Returns the view for pictures on this background.
+    pub fn apply(&self, view: View) -> View {
+        view.on_background(self.theme == Theme::Dark)
+    }
+}
