@@ -225,7 +225,9 @@ fn the_interpolation_between_knots_matters() {
     for way in [r#""cubic", "quartic", "quintic""#, r#""quintic", "linear", "cubic""#] {
         assert_eq!((code(way, "2"), code(way, "1.99999999999999999999")), (0, 3), "{way}");
     }
-    let code = |ways: &str, knots: &str, limit: &str| judged(&arm(), &world(limit), &certificate("", ways, knots)).0;
+    let code = |ways: &str, knots: &str, limit: &str| {
+        judge_certificate(&arm(), &world(limit), &certificate("", ways, knots)).0
+    };
     let cubic = "[0, 0, 1, 0, 4], [1, 0, 1, 0, 0]";
     // 1 + 4 t (1 - t)^2 is at most 1 + 16 / 27 = 1.5925926 at 1/3.
     assert_eq!((code(r#""cubic""#, cubic, "1.5925926"), code(r#""cubic""#, cubic, "1.5925925")), (0, 3));

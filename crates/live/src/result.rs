@@ -102,7 +102,7 @@ pub fn full_answer(
     let figures = Figures {
         length,
         // Among moving obstacles, the bound says little, since it ignores them.
-        lower_bound: bound.filter(|_| problem.timed().courses.is_empty()).map(|bound| bound.lower),
+        lower_bound: bound.filter(|_| problem.timed().trajectories.is_empty()).map(|bound| bound.lower),
         clearance: plan.clearance(),
         closest: plan.closest(),
         duration: plan.duration(),

@@ -62,7 +62,7 @@ pub fn length(metres: f64) -> String {
 pub fn length_down(metres: f64) -> String {
     let (value, decimals, unit) = in_unit(metres);
     let metres_per_unit = if unit == "mm" { 1e3 } else { 1.0 };
-    let text = shown(value, decimals, |shown| shown / metres_per_unit <= metres, -1.0);
+    let text = round_until(value, decimals, |shown| shown / metres_per_unit <= metres, -1.0);
     let text = if metres > 0.0 && text.parse() == Ok(0.0) { two_digits_below(value) } else { text };
     format!("{text} {unit}")
 }

@@ -1,7 +1,7 @@
 //! The world file's `[[object]]`.
 
-use super::obstacle::{CircleTable
-circle };usesuper::obstacle_trajectory:, :ObstacleTrajectoryTable;
+use super::obstacle::{CircleTable, circle};
+use super::obstacle_trajectory::ObstacleTrajectoryTable;
 use super::pallet::Pallets;
 use super::polygon::{Ring, polygon};
 use super::reader::Reader;
@@ -323,7 +323,8 @@ fn movable(
     if supports.numbers.contains(&names.as_obstacle(index)) {
         return Err(rests_on_itself(reader, &name, &supports));
     }
-    let trajectory = given.motion.as_ref().map(|motion| read_object_trajectory(reader, given, motion, &at, &what)).transpose()?;
+    let trajectory =
+        given.motion.as_ref().map(|motion| read_object_trajectory(reader, given, motion, &at, &what)).transpose()?;
     // The motion determines the initial position.
     let at = trajectory.as_ref().map_or(at, |trajectory| trajectory.pose(0.0));
     let object = Object {
