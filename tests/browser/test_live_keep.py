@@ -70,7 +70,7 @@ def test_edits_made_while_the_server_is_gone_are_sent_when_it_is_back(serve):
     seen.server.stop()
     seen.until("!cplan.isUp")
     assert badge(seen) == "? no connection"
-    lost = seen.page.locator(".line")
+    lost = seen.page.locator(".connection")
     assert lost.is_visible() and "connection to cplan is lost" in lost.inner_text()
     # The page continues without it, and says so.
     drag(seen, "workspace", [0.9, -1.4], [1.15, -0.75])

@@ -41,7 +41,7 @@ def test_swipes_scroll_the_page(serve, fingers):
     for panel, empty in [("workspace", [-1.2, 1.2]), ("cspace", [-2.0, -1.5])]:
         x, y = spot(seen, panel, empty)
         before = scrolled(seen)
-        assert seen.do("([p, v]) => cplan.editor.reached(cplan.view.panels[p], v, { pointerType: 'touch', clientX: -999, clientY: -999 })", [panel, empty]) is None
+        assert seen.do("([p, v]) => cplan.editor.itemUnder(cplan.view.panels[p], v, { pointerType: 'touch', clientX: -999, clientY: -999 })", [panel, empty]) is None
         fingers(seen, [x, y], [x, y - 250])
         assert scrolled(seen) > before + 100, panel
         assert seen.do("cplan.view.probe") is None, "a swipe does not try the arm"

@@ -126,10 +126,10 @@ WATCH = """() => {
   const send = cplan.link.send.bind(cplan.link);
   cplan.link.send = (kind, request, about) => { if (kind === 'plan') told.set(request.id, state()); send(kind, request, about); };
   let certified = state();
-  const hear = cplan.hear.bind(cplan);
-  cplan.hear = (message, about) => {
+  const receive = cplan.receive.bind(cplan);
+  cplan.receive = (message, about) => {
     if (message.kind === 'answer' && message.done) certified = message.certified && message.final && !message.error ? told.get(message.id) : null;
-    hear(message, about);
+    receive(message, about);
   };
   const look = () => {
     const text = document.querySelector('p.status').textContent;

@@ -15,14 +15,14 @@ class Controls {
     this.live = live;
     const button = (text, label, action) => element('button', { type: 'button', class: 'button', 'aria-label': label, title: label, onclick: action }, text);
     const { editor } = live;
-    this.things = element('select', { class: 'things', 'aria-label': 'selected', autocomplete: 'off', onchange: (event) => this.choose(event.target.value) });
+    this.selected = element('select', { class: 'selected', 'aria-label': 'selected', autocomplete: 'off', onchange: (event) => this.choose(event.target.value) });
     this.remove = button('Delete', 'delete what is selected', () => editor.remove());
     this.corner = button('+ corner', 'add a corner to the longest side', () => editor.insertCorner());
-    this.undo = button('\u21b6', 'undo', () => live.turn('undo'));
-    this.redo = button('\u21b7', 'redo', () => live.turn('redo'));
+    this.undo = button('\u21b6', 'undo', () => live.stepHistory('undo'));
+    this.redo = button('\u21b7', 'redo', () => live.stepHistory('redo'));
     this.clearance = element('input', {
       type: 'number', min: '0', step: '1', inputmode: 'decimal', autocomplete: 'off', 'aria-label': 'clearance in millimetres',
-      onchange: () => live.keep(Math.max(0, Number(this.clearance.value) || 0) / 1000),
+      onchange: () => live.setClearance(Math.max(0, Number(this.clearance.value) || 0) / 1000),
     });
     this.planner = element('select', { 'aria-label': 'planner', autocomplete: 'off', onchange: () => this.replan(true) });
     this.menus = element('div', { class: 'group menus' });
@@ -32,7 +32,7 @@ class Controls {
     });
     this.command = element('code', {});
     this.edit = element(
-      'div', { class: 'group' }, this.things, this.corner, this.remove,
+      'div', { class: 'group' }, this.selected, this.corner, this.remove,
       button('+ polygon', 'add a polygon', () => editor.add('polygon')), button('+ circle', 'add a circle', () => editor.add('circle')),
       button('+ wall', 'add a thin wall', () => editor.add('wall')), this.undo, this.redo,
       element('label', {}, 'clearance ', this.clearance, ' mm'),
@@ -53,7 +53,7 @@ class Controls {
       rows: '16', spellcheck: 'false', autocomplete: 'off', 'aria-label': 'world as TOML',
       oninput: () => {
         this.isTyped = true;
-        live.notices.say('text', null);
+        live.notices.show('text', null);
       },
     });
     return element(
@@ -87,7 +87,7 @@ class Controls {
   }
 
   /** Shows the world's text, unless the user is typing there. */
-  type(text) {
+  showText(text) {
     if (this.isTyped && this.text.value !== this.shownText) return;
     this.isTyped = false;
     this.shownText = text;
@@ -99,20 +99,20 @@ class Controls {
   }
 
   /** Marks the typed options as wrong, or removes the mark. */
-  complain(isWrong) {
+  markInvalid(isWrong) {
     if (isWrong) this.more.setAttribute('aria-invalid', 'true');
     else this.more.removeAttribute('aria-invalid');
   }
 
   /** Shows another world. */
-  use(world, scene) {
+  showWorld(world, scene) {
     this.planners = world.menus;
     this.planner.replaceChildren(...entries(this.planners.map(({ name }) => [name, name])));
-    this.read(this.live.words);
+    this.showOptions(this.live.words);
     this.edit.hidden = world.has_steps;
     this.isTyped = false;
     this.showClearance(scene);
-    this.show();
+    this.showCommand();
   }
 
   showClearance(scene) {
@@ -120,7 +120,7 @@ class Controls {
   }
 
   /** Distributes planner and options over the controls. */
-  read(text) {
+  showOptions(text) {
     const [planner, ...words] = text.split(/\s+/);
     this.planner.value = planner;
     const chosen = new Map();
@@ -138,7 +138,7 @@ class Controls {
       } else rest.push(word);
     }
     this.more.value = rest.join(' ');
-    this.offer(chosen);
+    this.showMenus(chosen);
   }
 
   /** Returns the menus of the chosen planner. */
@@ -147,7 +147,7 @@ class Controls {
   }
 
   /** Creates the planner's menus. The entry for the default sends nothing, so that the program chooses. Numbers ascend. */
-  offer(chosen) {
+  showMenus(chosen) {
     this.selects = this.options.map(({ name, label, standard, values }) => {
       const size = Number.parseFloat(standard);
       const larger = values.findIndex(([value]) => Number(value) >= size);
@@ -167,12 +167,12 @@ class Controls {
 
   /** Plans with the current choices. Another planner shows its own menus; those with the same names keep their values. */
   replan(isOther = false) {
-    if (isOther) this.offer(new Map(this.selects.map(([name, { value }]) => [name, value])));
-    this.show();
+    if (isOther) this.showMenus(new Map(this.selects.map(([name, { value }]) => [name, value])));
+    this.showCommand();
     this.live.choose(this.words);
   }
 
-  show() {
+  showCommand() {
     this.command.textContent = `cplan ROBOT.urdf WORLD.toml --planner ${this.words}`;
   }
 
@@ -185,7 +185,7 @@ class Controls {
   }
 
   /** Updates the controls after a change in the editor. */
-  follow() {
+  updateSelection() {
     const { scene, selection } = this.live.editor;
     if (!scene) return;
     const value = !selection ? '' : selection.kind === 'obstacle' ? `obstacle ${selection.index}` : selection.kind;
@@ -193,9 +193,9 @@ class Controls {
     const signature = JSON.stringify(pairs);
     if (signature !== this.signature) {
       this.signature = signature;
-      this.things.replaceChildren(...entries(pairs));
+      this.selected.replaceChildren(...entries(pairs));
     }
-    this.things.value = value;
+    this.selected.value = value;
     const shape = this.live.editor.obstacle?.shape;
     this.remove.disabled = selection?.kind !== 'obstacle';
     this.corner.disabled = !shape || Boolean(shape.circle);

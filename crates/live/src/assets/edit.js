@@ -2,9 +2,9 @@
 'use strict';
 
 /** Distance within which a pointer takes something, in pixels: a mouse, a pen, a finger. */
-const GRASP = { mouse: 9, pen: 12, touch: 20 };
+const GRASP_RADIUS = { mouse: 9, pen: 12, touch: 20 };
 /** Longest time between the taps of a double tap, in milliseconds. */
-const DOUBLE = 350;
+const DOUBLE_TAP_TIME = 350;
 
 /** Room for the name of a shape on each side of it, in pixels. */
 const NAME = 18;
@@ -27,7 +27,7 @@ class Editor {
       move: (panel, value, event) => this.move(panel, value, event),
       up: (panel, value, event) => this.up(panel, value, event),
       tap: (panel) => this.tap(panel),
-      grasps: (panel, value, event) => Boolean(this.reached(panel, value, event)),
+      grasps: (panel, value, event) => Boolean(this.itemUnder(panel, value, event)),
     };
     /** True if nothing was ever dragged in this browser. The page then marks items that can be dragged. */
     this.isNew = !Keep.hasDragged();
@@ -40,7 +40,7 @@ class Editor {
     for (const panel of [workspace, cspace]) panel.canvas.addEventListener('keydown', (event) => this.key(event, panel), true);
   }
 
-  use(scene) {
+  editScene(scene) {
     this.scene = scene;
     this.held = null;
     this.select(null);
@@ -90,8 +90,8 @@ class Editor {
   // The pointer.
 
   /** Returns the item that a pointer at a place of the workspace would take. */
-  find(panel, value, event) {
-    const near = GRASP[event.pointerType] ?? GRASP.mouse;
+  itemAt(panel, value, event) {
+    const near = GRASP_RADIUS[event.pointerType] ?? GRASP_RADIUS.mouse;
     const reach = near / panel.pixels;
     const apart = (p) => Math.hypot(p[0] - value[0], p[1] - value[1]);
     const shape = this.obstacle?.shape;
@@ -113,8 +113,8 @@ class Editor {
   }
 
   /** Returns the item that a pointer would take in the configuration space. */
-  findConfiguration(panel, event) {
-    const near = 1.5 * (GRASP[event.pointerType] ?? GRASP.mouse);
+  configurationAt(panel, event) {
+    const near = 1.5 * (GRASP_RADIUS[event.pointerType] ?? GRASP_RADIUS.mouse);
     const [x, y] = panel.spot(event);
     const is = (q) => q && Math.hypot(...[0, 1].map((k) => CSpace.place(this.view, panel, q)[k] - [x, y][k])) <= near;
     if (is(this.goal)) return { kind: 'goal' };
@@ -122,15 +122,15 @@ class Editor {
   }
 
   /** Returns the item that a pointer in one of the panels would take. */
-  reached(panel, value, event) {
+  itemUnder(panel, value, event) {
     if (!this.scene || this.scene.world.has_steps) return null;
-    return panel === this.view.panels.workspace ? this.find(panel, value, event) : this.findConfiguration(panel, event);
+    return panel === this.view.panels.workspace ? this.itemAt(panel, value, event) : this.configurationAt(panel, event);
   }
 
   down(panel, value, event) {
     if (!this.scene || this.scene.world.has_steps || event.button > 0) return false;
     this.used(panel);
-    const found = this.reached(panel, value, event);
+    const found = this.itemUnder(panel, value, event);
     if (!found) {
       // A finger may be about to scroll.
       if (event.pointerType === 'mouse') this.tap(panel);
@@ -152,13 +152,13 @@ class Editor {
 
   move(panel, value, event) {
     if (!this.held) {
-      if (event.pointerType === 'mouse') panel.canvas.style.cursor = this.reached(panel, value, event) ? 'grab' : '';
+      if (event.pointerType === 'mouse') panel.canvas.style.cursor = this.itemUnder(panel, value, event) ? 'grab' : '';
       return false;
     }
     if (this.held.panel !== panel) return true;
     this.held.moved = true;
     panel.canvas.style.cursor = 'grabbing';
-    this.place(value);
+    this.moveHeldTo(value);
     this.changed(false);
     return true;
   }
@@ -170,23 +170,23 @@ class Editor {
     this.held = null;
     if (moved && this.isNew) {
       this.isNew = false;
-      Keep.drag();
+      Keep.recordDrag();
     }
     if (moved) this.changed(true);
-    else if (event.pointerType === 'touch') this.tapTwice(panel, value);
+    else if (event.pointerType === 'touch') this.detectDoubleTap(panel, value);
     return true;
   }
 
   /** Detects two taps of a finger as a double click. Browsers do not report one if it begins on a handle. */
-  tapTwice(panel, value) {
+  detectDoubleTap(panel, value) {
     const now = performance.now();
-    const isSecond = now - this.tapped.at < DOUBLE && panel === this.view.panels.workspace;
+    const isSecond = now - this.tapped.at < DOUBLE_TAP_TIME && panel === this.view.panels.workspace;
     this.tapped = { at: isSecond ? -Infinity : now };
     if (isSecond) this.insertCorner(value, panel);
   }
 
   /** Moves the grasped item to a place. */
-  place(value) {
+  moveHeldTo(value) {
     const { kind, index, corner, shape, from, panel } = this.held;
     const inWorkspace = panel === this.view.panels.workspace;
     if (kind === 'obstacle') {
@@ -224,7 +224,7 @@ class Editor {
   // Buttons and keys.
 
   /** Returns a place for a new obstacle that leaves start and goal free and touches no other one, if there is one. */
-  room(make) {
+  findRoom(make) {
     const { reach } = this.scene.world;
     const { base, links } = this.arm;
     const configurations = [this.start, ...this.configurations().goals].filter(Boolean);
@@ -253,7 +253,7 @@ class Editor {
       circle: (center) => ({ circle: { center, radius: size } }),
       wall: ([x, y]) => ({ polyline: [[x - size, y], [x + size, y]].map(roundedPoint) }),
     };
-    const index = this.scene.add(kind === 'polygon' ? 'block' : kind === 'circle' ? 'disc' : 'wall', this.room(makers[kind]));
+    const index = this.scene.add(kind === 'polygon' ? 'block' : kind === 'circle' ? 'disc' : 'wall', this.findRoom(makers[kind]));
     this.select({ kind: 'obstacle', index, corner: null });
     // Arrow keys move the new obstacle, and Delete removes it.
     this.focus();
@@ -265,7 +265,7 @@ class Editor {
     if (!obstacle?.shape || obstacle.shape.circle) return;
     const corners = Shapes.corners(obstacle.shape);
     let side = value ? Shapes.nearestSide(obstacle.shape, value) : null;
-    if (value && side.distance * panel.pixels > GRASP.touch) return;
+    if (value && side.distance * panel.pixels > GRASP_RADIUS.touch) return;
     if (!side) {
       const length = ([a, b]) => Math.hypot(corners[b][0] - corners[a][0], corners[b][1] - corners[a][1]);
       const [a, b] = Shapes.sides(obstacle.shape).reduce((best, s) => (length(s) > length(best) ? s : best));
@@ -321,13 +321,13 @@ class Editor {
       const at = Number.isInteger(corner) ? Shapes.corners(shape)[corner] : [0, 0];
       if (corner === 'rim') {
         const { center, radius } = shape.circle;
-        this.place([center[0] + Math.max(step, radius + (dx + dy) * step), center[1]]);
-      } else this.place([at[0] + dx * step, at[1] + dy * step]);
+        this.moveHeldTo([center[0] + Math.max(step, radius + (dx + dy) * step), center[1]]);
+      } else this.moveHeldTo([at[0] + dx * step, at[1] + dy * step]);
     } else {
       const at = inWorkspace ? this.tips[kind] : this[kind];
       if (!at) return;
       this.held = { kind, from: at, panel };
-      this.place([at[0] + dx * step, at[1] + dy * step]);
+      this.moveHeldTo([at[0] + dx * step, at[1] + dy * step]);
     }
     this.held = null;
     this.changed(true);
@@ -423,7 +423,7 @@ class Editor {
   }
 
   drawCSpace(context, panel) {
-    for (const { at } of this.blocked()) this.drawBarred(context, panel, CSpace.place(this.view, panel, at));
+    for (const { at } of this.blocked()) this.drawBlockedConfiguration(context, panel, CSpace.place(this.view, panel, at));
     const kind = this.selection?.kind;
     if (kind !== 'start' && kind !== 'goal') return;
     const q = this[kind];
@@ -437,7 +437,7 @@ class Editor {
   }
 
   /** Draws a configuration that is not free: a cross in a ring. */
-  drawBarred(context, panel, [x, y]) {
+  drawBlockedConfiguration(context, panel, [x, y]) {
     for (const [width, color] of [[6, panel.theme.paper], [3, panel.theme.infeasible]]) {
       [context.lineWidth, context.strokeStyle] = [width, color];
       context.beginPath();

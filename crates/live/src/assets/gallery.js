@@ -78,7 +78,7 @@ class Gallery {
   }
 
   /** Opens a connection to the program. */
-  dial() {
+  openSocket() {
     return this.isAlone ? new Alone(() => this.seconds) : Link.server();
   }
 
@@ -92,7 +92,7 @@ class Gallery {
     // If the address or the connection has changed in the meantime, that change opens a world itself.
     if (hash !== location.hash || socket !== live.link.socket || !live.link.isUp) return;
     live.link.open(files);
-    live.mark();
+    live.updateState();
   }
 
   /** Returns the files of the address: a choice by its name, or files packed in it; otherwise the initial files. */
@@ -102,25 +102,25 @@ class Gallery {
     this.choice = this.choices.find((one) => one.name === name) ?? null;
     this.select.value = this.choice?.name ?? '';
     if (this.choice) return { urdf: this.robots[this.choice.robot], world: this.choice.world, options: 'shortest' };
-    if (!name?.startsWith('w=')) return this.own();
+    if (!name?.startsWith('w=')) return this.ownFiles();
     try {
       const { urdf, world, options } = JSON.parse(await Packed.read(name.slice(2)));
       return { urdf, world, options };
     } catch {
-      return this.instead();
+      return this.ownWithRemark();
     }
   }
 
   /** Returns the initial files. */
-  own() {
+  ownFiles() {
     this.isOwn = true;
     return this.files;
   }
 
   /** Returns the initial files with a remark, if the world in the address cannot be opened. */
-  instead() {
+  ownWithRemark() {
     this.live.remark('The address holds no world that can be read: this is the page\u2019s own.');
-    return this.own();
+    return this.ownFiles();
   }
 
   /** Opens another world by its name. */
@@ -143,7 +143,7 @@ class Gallery {
   }
 
   /** Shows the task of the puzzle, and whether it is solved. */
-  say() {
+  showTask() {
     const isWhole = Boolean(this.live.first?.urdf);
     this.copy.disabled = !isWhole || !this.live.isCurrent;
     this.copy.title = isWhole ? 'copy an address that holds arm, world and options' : 'arm or world name files beside them, which no address holds';

@@ -17,13 +17,13 @@ class Live {
   constructor(root) {
     this.root = root;
     this.waiting = element('p', { class: 'waiting', role: 'status' }, 'Connecting\u2026');
-    this.line = element(
-      'div', { class: 'line', role: 'alert', hidden: true }, element('span', {}),
+    this.connectionBar = element(
+      'div', { class: 'connection', role: 'alert', hidden: true }, element('span', {}),
       element('button', { type: 'button', class: 'button', onclick: () => this.link.retry() }, 'Try now'),
     );
-    root.append(this.waiting, this.line);
+    root.append(this.waiting, this.connectionBar);
     /** Times of the answers during a drag. */
-    this.beats = [];
+    this.answerTimes = [];
     /** Number of the page's current state. Each change increases it. */
     this.edition = 1;
     /** The answer in the picture: the edition, whether it is complete, and its outcome. `null` if there is no connection. */
@@ -34,10 +34,10 @@ class Live {
     /** Worlds to open. */
     this.gallery = new Gallery(this);
     this.link = new Link({
-      dial: () => this.gallery.dial(),
-      hear: (message, about) => this.hear(message, about),
-      file: (head, content) => this.hand(head, content),
-      state: (isUp) => this.lineIs(isUp),
+      openSocket: () => this.gallery.openSocket(),
+      receive: (message, about) => this.receive(message, about),
+      file: (head, content) => this.saveFile(head, content),
+      state: (isUp) => this.connectionChanged(isUp),
     });
     window.addEventListener('pagehide', () => this.keepEdits());
   }
@@ -45,8 +45,8 @@ class Live {
   /** Returns the number of answers per second during a drag. */
   get updatesPerSecond() {
     const now = performance.now();
-    this.beats = this.beats.filter((beat) => now - beat < 1000);
-    return this.beats.length;
+    this.answerTimes = this.answerTimes.filter((time) => now - time < 1000);
+    return this.answerTimes.length;
   }
 
   // Elements of the page. They are built with the first answer.
@@ -57,7 +57,7 @@ class Live {
     this.view.judged = true;
     this.editor = new Editor(this.view, {
       changed: (final) => this.changed(final),
-      selected: () => this.controls?.follow(),
+      selected: () => this.controls?.updateSelection(),
       used: (panel) => this.notices.over(panel),
       configurations: () => ({ start: this.places?.start, goals: this.places?.goals ?? [] }),
       blocked: () => this.blocked ?? [],
@@ -81,7 +81,7 @@ class Live {
       ['Ctrl+Z, Ctrl+Y', 'undo, redo'],
     ].flatMap(([keys, what]) => [element('dt', {}, keys), element('dd', {}, what)]));
     document.addEventListener('keydown', (event) => this.key(event));
-    this.dress();
+    this.showWorld();
   }
 
   key(event) {
@@ -96,24 +96,24 @@ class Live {
     const key = event.key.toLowerCase();
     if (key !== 'z' && key !== 'y') return;
     event.preventDefault();
-    this.turn(key === 'y' || event.shiftKey ? 'redo' : 'undo');
+    this.stepHistory(key === 'y' || event.shiftKey ? 'redo' : 'undo');
   }
 
   /** Starts with a world, or with the edits of it that were kept. */
-  begin(record = null) {
+  startEditing(record = null) {
     this.scene = new Scene(this.world);
     if (record) this.scene.restore(record);
     this.changedSince = this.scene.isChanged;
     this.edition += 1;
-    if (this.view) this.dress();
+    if (this.view) this.showWorld();
   }
 
   /** Shows the world in the controls. */
-  dress() {
-    this.controls.use(this.world, this.scene);
-    this.controls.type(this.world.toml);
-    this.editor.use(this.scene);
-    for (const place of ['picture', 'options', 'text', 'files']) this.notices.say(place, null);
+  showWorld() {
+    this.controls.showWorld(this.world, this.scene);
+    this.controls.showText(this.world.toml);
+    this.editor.editScene(this.scene);
+    for (const place of ['picture', 'options', 'text', 'files']) this.notices.show(place, null);
   }
 
   // Edits that survive the page and the server.
@@ -131,37 +131,37 @@ class Live {
   }
 
   /** Handles an opened world, after a new connection or for another address. */
-  greeted(world) {
+  worldOpened(world) {
     const origin = `${world.robot}\n${world.toml}`;
     if (origin !== this.origin) {
       const hadAnother = Boolean(this.origin && this.scene?.isChanged);
       [this.origin, this.first] = [origin, world];
       const record = Keep.read(origin);
       this.words = record?.words ?? world.options;
-      this.takeUp(world, record);
+      this.continueWith(world, record);
       if (record) this.remark('Your edits of last time are back.');
       else if (hadAnother && !this.gallery.hasMoved) this.remark('cplan now serves this other world. Your edits come back when it serves the one before again.');
     } else if (this.scene) {
       // Send edits that were made without a connection.
       this.continued = true;
-      this.takeUp(world, this.record);
+      this.continueWith(world, this.record);
     }
   }
 
   /** Continues with edits of the server's initial world, or loads the edited text. */
-  takeUp(world, record) {
+  continueWith(world, record) {
     if (record && record.text !== world.toml) {
       this.restoring = record;
       this.fallback = world;
       this.link.load(record.text, record.words);
       return;
     }
-    this.adopt(world, record);
+    this.useWorld(world, record);
     this.plan(true);
   }
 
   /** Uses a world of the server as the one that the page changes. */
-  adopt(world, record) {
+  useWorld(world, record) {
     this.world = world;
     this.toml = world.toml;
     if (record && this.continued && this.scene) {
@@ -171,7 +171,7 @@ class Live {
     }
     this.continued = false;
     this.places = { start: world.start, goals: [] };
-    this.begin(record);
+    this.startEditing(record);
   }
 
   /** Shows a remark beside the files. */
@@ -182,31 +182,31 @@ class Live {
 
   // Messages from the server.
 
-  hear(message, about) {
-    if (message.kind === 'world') this.takeWorld(message);
+  receive(message, about) {
+    if (message.kind === 'world') this.receiveWorld(message);
     else if (message.kind === 'failed') this.fail(message, about);
     else if (about.isAwaited) {
-      clearTimeout(this.soon);
-      if (!message.done) this.soon = setTimeout(() => this.preview(message, about), NOTICED);
+      clearTimeout(this.previewTimer);
+      if (!message.done) this.previewTimer = setTimeout(() => this.preview(message, about), NOTICED);
       else if (message.final || !this.view) this.show(message, about);
       else this.showSoon(message, about);
     }
-    this.mark();
+    this.updateState();
   }
 
-  takeWorld(world) {
+  receiveWorld(world) {
     if (world.options !== null) {
-      this.greeted(world);
+      this.worldOpened(world);
       return;
     }
     const record = this.restoring;
     this.restoring = null;
-    this.adopt(world, record);
+    this.useWorld(world, record);
     // The plan that follows is that of the loaded text.
     if (this.link.awaited?.id === world.id) Object.assign(this.link.awaited, this.about);
     if (record) this.plan(true);
-    this.notices.say('text', null);
-    this.notices.say('files', null);
+    this.notices.show('text', null);
+    this.notices.show('files', null);
     if (!record) this.keepEdits();
   }
 
@@ -214,23 +214,23 @@ class Live {
   fail({ id, error }, about) {
     this.answered = { ...this.answered, id, error };
     if (about.kind === 'open' && !this.gallery.isOwn) {
-      this.link.open(this.gallery.instead());
+      this.link.open(this.gallery.ownWithRemark());
       return;
     }
     if (about.kind === 'load') {
       if (this.restoring) {
         // This server cannot use the edits that were kept.
         this.restoring = null;
-        this.adopt(this.fallback, null);
+        this.useWorld(this.fallback, null);
         this.remark('Your edits of last time cannot be used any more.');
         this.plan(true);
-      } else this.notices.say(this.opened ? 'files' : 'text', error);
-    } else if (about.kind === 'download') this.notices.say('files', error);
+      } else this.notices.show(this.opened ? 'files' : 'text', error);
+    } else if (about.kind === 'download') this.notices.show('files', error);
     else {
       this.shown = { edition: about.edition, final: true, error: 'not planned' };
-      this.troubled('picture', error);
+      this.showError('picture', error);
     }
-    if (this.link.owed) this.plan(true);
+    if (this.link.isPlanDue) this.plan(true);
   }
 
   /** Shows the configuration space before the plan, if that takes long. */
@@ -247,24 +247,24 @@ class Live {
       const show = this.latest;
       this.latest = null;
       show?.();
-      this.mark();
+      this.updateState();
     });
   }
 
   show(message, { since, edition, shapes }) {
     this.latest = null;
-    if (!message.final) this.beats.push(performance.now());
+    if (!message.final) this.answerTimes.push(performance.now());
     this.took = performance.now() - since;
     this.draw(message, shapes);
     const { id, verdict, certified, error } = message;
     this.answered = { id, verdict, certified, final: message.final, error, figures: message.figures };
-    this.shown = { edition, final: message.final, error: error && Live.trouble(message), ...Live.ending(message) };
+    this.shown = { edition, final: message.final, error: error && Live.errorInBrief(message), ...Live.ending(message) };
     if (message.toml) {
       this.toml = message.toml;
-      this.controls?.type(message.toml);
+      this.controls?.showText(message.toml);
     }
-    this.troubled(message.about === 'options' ? 'options' : 'picture', error);
-    this.sum(message);
+    this.showError(message.about === 'options' ? 'options' : 'picture', error);
+    this.showFigures(message);
   }
 
   /** Returns the outcome for the badge: certified only if the server says so of the whole motion. */
@@ -275,16 +275,16 @@ class Live {
   }
 
   /** Describes an error in a word or two. */
-  static trouble({ about, blocked }) {
+  static errorInBrief({ about, blocked }) {
     const places = { start: 'start', goal: 'goal' };
     if (places[about]) return blocked?.some(({ hits }) => hits.length) ? `${places[about]} blocked` : `${places[about]} not possible`;
     return 'not planned';
   }
 
   /** Shows the error of a plan at one of two places. */
-  troubled(place, error) {
-    for (const one of ['picture', 'options']) this.notices.say(one, one === place ? error : null);
-    this.controls?.complain(place === 'options' && Boolean(error));
+  showError(place, error) {
+    for (const one of ['picture', 'options']) this.notices.show(one, one === place ? error : null);
+    this.controls?.markInvalid(place === 'options' && Boolean(error));
     if (!this.view && error) this.waiting.textContent = error;
   }
 
@@ -321,11 +321,11 @@ class Live {
       this.root.classList.toggle('light', light);
       this.view.update(message.view);
     }
-    this.controls.follow();
+    this.controls.updateSelection();
   }
 
   /** Shows the figures in a line. */
-  sum({ figures, reason, final, verdict, certified, error }) {
+  showFigures({ figures, reason, final, verdict, certified, error }) {
     if (!this.figures) return;
     if (error) {
       this.figures.textContent = '';
@@ -349,18 +349,18 @@ class Live {
     if (final) this.spoken.textContent = parts.slice(0, 5).join(', ');
   }
 
-  lineIs(isUp) {
+  connectionChanged(isUp) {
     this.isUp = isUp;
     // The next connection may be to another server.
     this.shown = null;
-    clearTimeout(this.soon);
+    clearTimeout(this.previewTimer);
     this.latest = null;
-    this.line.hidden = isUp || !this.view;
+    this.connectionBar.hidden = isUp || !this.view;
     const lost = 'The connection to cplan is lost. You can go on editing: your changes are kept and sent as soon as it answers again.';
-    this.line.firstChild.textContent = this.line.hidden ? '' : lost;
+    this.connectionBar.firstChild.textContent = this.connectionBar.hidden ? '' : lost;
     if (!this.view) this.waiting.textContent = isUp ? 'Connecting\u2026' : 'cplan does not answer; trying again\u2026';
     if (isUp) this.gallery.open();
-    this.mark();
+    this.updateState();
   }
 
   // State of the picture.
@@ -379,10 +379,10 @@ class Live {
   }
 
   /** Updates the badge at once. An outdated picture turns pale only after a while, so that it does not flicker. */
-  mark() {
+  updateState() {
     if (!this.view) return;
-    clearTimeout(this.late);
-    this.gallery.say();
+    clearTimeout(this.paleTimer);
+    this.gallery.showTask();
     this.view.say(...this.badge);
     const { classList } = this.root;
     const { isCurrent } = this;
@@ -397,7 +397,7 @@ class Live {
       classList.toggle('behind', behind);
       this.editor.redraw();
     };
-    if (isBehind && this.isUp) this.late = setTimeout(() => show(true), NOTICED);
+    if (isBehind && this.isUp) this.paleTimer = setTimeout(() => show(true), NOTICED);
     else show(isBehind);
   }
 
@@ -415,7 +415,7 @@ class Live {
 
   plan(final) {
     this.link.plan(() => ({ body: this.body, about: this.about }), final);
-    this.mark();
+    this.updateState();
   }
 
   changed(final) {
@@ -426,8 +426,8 @@ class Live {
       this.keepEdits();
     }
     // The user continues, so a text or file with errors is no longer relevant.
-    for (const place of ['text', 'files']) this.notices.say(place, null);
-    this.controls.follow();
+    for (const place of ['text', 'files']) this.notices.show(place, null);
+    this.controls.updateSelection();
     this.plan(final);
   }
 
@@ -441,13 +441,14 @@ class Live {
   }
 
   /** Sets the clearance to keep, in metres. */
-  keep(clearance) {
+  setClearance(clearance) {
     this.scene.clearance = clearance;
     this.changed(true);
   }
 
-  turn(way) {
-    if (!this.scene[way]()) return;
+  /** Undoes or redoes the last change. */
+  stepHistory(step) {
+    if (!this.scene[step]()) return;
     this.changedSince = true;
     this.edition += 1;
     this.keepEdits();
@@ -461,11 +462,11 @@ class Live {
     this.opened = opened;
     this.remark('');
     if (!this.isUp) {
-      this.notices.say(opened ? 'files' : 'text', 'There is no connection to cplan: try again when it is back.');
+      this.notices.show(opened ? 'files' : 'text', 'There is no connection to cplan: try again when it is back.');
       return;
     }
     this.link.load(text, this.words);
-    this.mark();
+    this.updateState();
   }
 
   /** Returns to the program's initial world. This step can be undone, unless another text has been loaded. */
@@ -482,21 +483,21 @@ class Live {
   }
 
   save(format) {
-    this.notices.say('files', null);
+    this.notices.show('files', null);
     if (!this.isUp) {
-      this.notices.say('files', 'There is no connection to cplan: save when it is back.');
+      this.notices.show('files', 'There is no connection to cplan: save when it is back.');
       return;
     }
     this.link.download(this.body, format);
-    this.mark();
+    this.updateState();
   }
 
-  hand({ name }, content) {
+  saveFile({ name }, content) {
     const address = URL.createObjectURL(new Blob([content]));
     element('a', { href: address, download: name }).click();
     setTimeout(() => URL.revokeObjectURL(address), 10000);
-    if (this.link.owed) this.plan(true);
-    this.mark();
+    if (this.link.isPlanDue) this.plan(true);
+    this.updateState();
   }
 }
 

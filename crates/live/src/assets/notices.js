@@ -10,7 +10,7 @@ class Notices {
   }
 
   /** Shows a text at a place; an empty one removes it. */
-  say(place, text) {
+  show(place, text) {
     const notice = this.places[place];
     notice.hidden = !text;
     if (notice.textContent !== (text ?? '')) notice.textContent = text ?? '';
