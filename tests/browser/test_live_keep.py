@@ -39,10 +39,11 @@ def test_edits_survive_a_reload(serve):
 def test_what_can_be_dragged_says_so_until_it_was(serve):
     seen = serve(*PLANAR)
     settled(seen)
-    assert seen.do("cplan.editor.isNew")
+    hint = seen.page.locator("figcaption .hint")
+    assert seen.do("cplan.editor.isNew") and "drag" in hint.inner_text()
     drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75])
     settled(seen)
-    assert not seen.do("cplan.editor.isNew")
+    assert not seen.do("cplan.editor.isNew") and hint.count() == 0
     seen.page.reload()
     settled(seen)
     assert not seen.do("cplan.editor.isNew")

@@ -41,9 +41,9 @@ def test_a_blocked_start_is_shown_where_it_is(serve):
     assert text.startswith("The start is blocked: link") and '"shelf"' in text and f"{1e3 * deepest:.3g}"[:3] in text
     assert "line" not in text and ".toml" not in text and "^" not in text and "joints =" not in text
     assert badge(seen) == "\u2715 start blocked"
-    # Over the panel that was used, and visible.
+    # Below the panels, where it covers nothing, and visible.
     notice, canvas = (seen.page.locator(where).bounding_box() for where in (".notice.picture", "canvas[aria-label='Workspace']"))
-    assert canvas["y"] <= notice["y"] + 1 and notice["y"] + notice["height"] <= canvas["y"] + canvas["height"]
+    assert canvas["y"] + canvas["height"] <= notice["y"] and notice["y"] + notice["height"] <= 1000
     seen.shoot("live-blocked")
     seen.page.get_by_label("undo").click()
     assert settled(seen)["certified"]
@@ -203,14 +203,49 @@ def test_delete_works_after_something_was_added(serve):
         assert seen.do(names) == ["shelf", "crate", name]
         seen.page.keyboard.press("Delete")
         assert settled(seen)["certified"] and seen.do(names) == ["shelf", "crate"]
-    # The focus does not matter either.
+    # Without any focus, too.
     seen.page.get_by_role("button", name="add a thin wall").click()
-    seen.page.get_by_label("speed").focus()
+    seen.do("document.activeElement.blur()")
     seen.page.keyboard.press("Delete")
     assert seen.do(names) == ["shelf", "crate"]
-    # In a text field, the key deletes text of the field.
+    # Elsewhere the key belongs to the control with the focus.
     seen.page.get_by_role("button", name="add a thin wall").click()
-    seen.page.get_by_label("clearance in millimetres").focus()
-    seen.page.keyboard.press("Delete")
-    assert seen.do(names) == ["shelf", "crate", "wall 1"]
+    for label in ("speed", "clearance in millimetres"):
+        seen.page.get_by_label(label).focus()
+        seen.page.keyboard.press("Delete")
+        assert seen.do(names) == ["shelf", "crate", "wall 1"], label
     settled(seen)
+
+
+def test_shortcuts_of_a_single_key_can_be_switched_off(serve):
+    seen = serve(*PLANAR)
+    seen.page.get_by_label("selected", exact=True).select_option("obstacle 1")
+    seen.do("localStorage.setItem('cplan-shortcuts', 'off')")
+    for key in ("c", "Delete", "Backspace"):
+        seen.page.keyboard.press(key)
+    assert seen.do("cplan.editor.selection") == {"kind": "obstacle", "index": 1, "corner": None}
+    seen.do("document.activeElement.blur()")
+    seen.page.keyboard.press("Delete")
+    assert seen.do("cplan.scene.obstacles.length") == 2
+    seen.do("localStorage.removeItem('cplan-shortcuts')")
+    seen.page.keyboard.press("Delete")
+    assert seen.do("cplan.scene.obstacles.length") == 1
+
+
+def test_names_of_c_obstacles_are_in_their_visible_parts(serve):
+    """After a drag, the crate's C-obstacle covers the middle of the shelf's."""
+    seen = serve(*PLANAR)
+    covered = """() => { const { world, model } = cplan.view; const context = document.createElement('canvas').getContext('2d');
+         return world.names.filter(({ obstacle, at }) => world.c_obstacles.some((other) => {
+           const path = new Path2D();
+           for (let i = 0; i + 1 < other.contour.length; i += 2) path.lineTo(other.contour[i], other.contour[i + 1]);
+           return other.obstacle > obstacle && context.isPointInPath(path, ...at);
+         })).length; }"""
+    names = []
+    for place in ([0.85, -0.95], [0.65, -1.3], [0.9, -1.2]):
+        at = seen.do("Shapes.middle(cplan.scene.obstacles[0].shape)")
+        drag(seen, "workspace", at, place)
+        settled(seen)
+        assert seen.do(covered) == 0, place
+        names.append(seen.do("cplan.view.world.names.length"))
+    assert 1 in names and 2 in names, "a name without a visible place is left out"

@@ -5,19 +5,17 @@
 const GRASP_RADIUS = { mouse: 9, pen: 12, touch: 20 };
 /** Longest time between the taps of a double tap, in milliseconds. */
 const DOUBLE_TAP_TIME = 350;
-
-/** Room for the name of a shape on each side of it, in pixels. */
-const NAME = 18;
+/** Radius of the rings around items that can be dragged, on the first visit, in pixels. */
+const HINT_RADIUS = 19;
 
 class Editor {
   /**
-   * `changed(final)` is called when the scene has changed, `selected()` when the selection has changed, and
-   * `used(panel)` when a panel is used. `configurations()` returns the start and goals of the last answer; `blocked()`
-   * those that are not free, each with the obstacles in contact. `isDrawn(obstacle)` returns whether an obstacle is
-   * drawn at its current place.
+   * `changed(final)` is called when the scene has changed, and `selected()` when the selection has changed.
+   * `configurations()` returns the start and goals of the last answer; `blocked()` those that are not free, each with
+   * the obstacles in contact. `isDrawn(obstacle)` returns whether an obstacle is drawn at its current place.
    */
-  constructor(view, { changed, selected, used, configurations, blocked, isDrawn }) {
-    Object.assign(this, { view, changed, selected, used, configurations, blocked, isDrawn });
+  constructor(view, { changed, selected, configurations, blocked, isDrawn }) {
+    Object.assign(this, { view, changed, selected, configurations, blocked, isDrawn });
     this.scene = null;
     /** Selection: { kind: 'obstacle', index, corner } | { kind: 'start' } | { kind: 'goal' }. */
     this.selection = null;
@@ -29,8 +27,11 @@ class Editor {
       tap: (panel) => this.tap(panel),
       grasps: (panel, value, event) => Boolean(this.itemUnder(panel, value, event)),
     };
-    /** True if nothing was ever dragged in this browser. The page then marks items that can be dragged. */
+    /** True if nothing was ever dragged in this browser. The page then says what can be dragged. */
     this.isNew = !Keep.hasDragged();
+    /** The invitation to drag, in the caption of the workspace: there it covers nothing. */
+    this.hint = element('span', { class: 'hint' }, 'drag obstacles, start or goal');
+    if (this.isNew) view.panels.workspace.canvas.parentElement.querySelector('figcaption').append(this.hint);
     /** The last tap of a finger that moved nothing. */
     this.tapped = { at: -Infinity };
     const { workspace, cspace } = view.panels;
@@ -129,7 +130,6 @@ class Editor {
 
   down(panel, value, event) {
     if (!this.scene || this.scene.world.has_steps || event.button > 0) return false;
-    this.used(panel);
     const found = this.itemUnder(panel, value, event);
     if (!found) {
       // A finger may be about to scroll.
@@ -170,6 +170,7 @@ class Editor {
     this.held = null;
     if (moved && this.isNew) {
       this.isNew = false;
+      this.hint.remove();
       Keep.recordDrag();
     }
     if (moved) this.changed(true);
@@ -292,14 +293,23 @@ class Editor {
     this.changed(true);
   }
 
+  /** Deletes the selection if this key event asks for it. Returns true if so. */
+  deletes(event) {
+    if (!this.obstacle || !['Delete', 'Backspace'].includes(event.key) || !Keep.hasShortcuts()) return false;
+    event.preventDefault();
+    event.stopPropagation();
+    this.remove();
+    return true;
+  }
+
   key(event, panel) {
     if (!this.selection || event.ctrlKey || event.metaKey || event.altKey) return;
-    const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
-    const way = ways[event.key];
+    const directions = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
+    const direction = directions[event.key];
     const { obstacle } = this;
-    if (way) this.nudge(way, event.shiftKey ? 10 : 1, panel);
-    else if (event.key === 'Delete' || event.key === 'Backspace') this.remove();
-    else if (event.key === 'c' && obstacle?.shape && !obstacle.shape.circle) {
+    if (direction) this.nudge(direction, event.shiftKey ? 10 : 1, panel);
+    else if (this.deletes(event)) return;
+    else if (event.key === 'c' && Keep.hasShortcuts() && obstacle?.shape && !obstacle.shape.circle) {
       const n = Shapes.corners(obstacle.shape).length;
       const next = this.selection.corner === null ? 0 : this.selection.corner + 1;
       this.select({ ...this.selection, corner: next < n ? next : null });
@@ -364,20 +374,18 @@ class Editor {
     if (this.isNew) this.invite(context, panel);
   }
 
-  /** Marks the goal and an obstacle as draggable, on the first visit. */
+  /** Marks start and goal as draggable, on the first visit. */
   invite(context, panel) {
-    const { goal, start } = this.tips;
-    const obstacle = this.scene.obstacles.find(({ shape }) => shape)?.shape;
-    const { center, radius } = obstacle?.circle ?? {};
-    const ends = obstacle && (obstacle.circle ? [-1, 1].map((side) => center.map((x) => x + side * radius)) : Shapes.corners(obstacle));
-    const around = (places) => {
-      const spots = places.map((place) => panel.at(place));
-      const [[x, right], [y, bottom]] = [0, 1].map((k) => [Math.min(...spots.map((spot) => spot[k])), Math.max(...spots.map((spot) => spot[k]))]);
-      // With room for the names.
-      return { x: x - NAME, y: y - NAME, width: right - x + 2 * NAME, height: bottom - y + 2 * NAME };
-    };
-    const names = [goal && around([goal]), ends && around(ends)].filter(Boolean).map((of) => ['drag me', of]);
-    Labels.beside(context, panel, names, [goal, start].filter(Boolean).map((tip) => panel.at(tip)));
+    const { start, goal } = this.tips;
+    context.globalAlpha = 0.4;
+    context.strokeStyle = panel.theme.accent;
+    context.lineWidth = 3;
+    for (const tip of [start, goal].filter(Boolean)) {
+      context.beginPath();
+      context.arc(...panel.at(tip), HINT_RADIUS, 0, 2 * Math.PI);
+      context.stroke();
+    }
+    context.globalAlpha = 1;
   }
 
   /** Draws configurations that are not free: links in contact in red, and the obstacles that they touch. */

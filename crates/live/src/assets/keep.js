@@ -9,6 +9,7 @@ const MAX_STEPS = 20;
 const Keep = (() => {
   const PREFIX = 'cplan edits ';
   const DRAGGED = 'cplan dragged';
+  const SHORTCUTS = 'cplan-shortcuts';
 
   /** Returns the store of this window first, then that of all windows. Browsers may refuse both. */
   function stores() {
@@ -105,5 +106,14 @@ const Keep = (() => {
     }
   }
 
-  return { write, read, forget, hasDragged, recordDrag };
+  /** Returns true unless the user has switched off shortcuts of a single key. */
+  function hasShortcuts() {
+    try {
+      return window.localStorage.getItem(SHORTCUTS) !== 'off';
+    } catch {
+      return true;
+    }
+  }
+
+  return { write, read, forget, hasDragged, recordDrag, hasShortcuts };
 })();

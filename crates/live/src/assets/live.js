@@ -58,7 +58,6 @@ class Live {
     this.editor = new Editor(this.view, {
       changed: (final) => this.changed(final),
       selected: () => this.controls?.updateSelection(),
-      used: (panel) => this.notices.over(panel),
       configurations: () => ({ start: this.places?.start, goals: this.places?.goals ?? [] }),
       blocked: () => this.blocked ?? [],
       isDrawn: ({ shape }) => this.root.classList.contains('behind') || this.shown?.error ? Boolean(this.drawn?.has(shape)) : true,
@@ -68,16 +67,16 @@ class Live {
     this.spoken = element('p', { class: 'spoken', 'aria-live': 'polite' });
     const { places } = this.notices;
     this.root.querySelector('header').after(this.gallery.root, this.controls.root, places.options);
-    this.root.querySelector('.panels').after(this.figures, this.spoken, this.controls.files, places.files);
+    this.outcome = element('div', { class: 'outcome' }, this.figures, places.picture);
+    this.root.querySelector('.panels').after(this.outcome, this.spoken, this.controls.files, places.files);
     this.root.querySelector('.help').before(this.controls.world);
-    this.notices.over(this.view.panels.workspace);
     this.root.querySelector('.help dl').prepend(...[
       ['drag an obstacle, the start\u2019s tip (ring) or the goal (target)', 'the configuration space follows, the plan when you let go'],
       ['drag start (ring) or goal (diamond) in the configuration space', 'the same by joint values'],
       ['click an obstacle, then drag a corner or the rim', 'changes its shape; a double click on a side adds a corner'],
       ['arrow keys with something selected', 'move it (with Shift further)'],
-      ['c', 'selects the next corner'],
-      ['Delete', 'deletes the corner or the obstacle'],
+      ['c in the workspace', 'selects the next corner'],
+      ['Delete in the workspace', 'deletes the corner or the obstacle'],
       ['Ctrl+Z, Ctrl+Y', 'undo, redo'],
     ].flatMap(([keys, what]) => [element('dt', {}, keys), element('dd', {}, what)]));
     document.addEventListener('keydown', (event) => this.key(event));
@@ -86,12 +85,7 @@ class Live {
 
   key(event) {
     if (event.target.matches?.('textarea, input:not([type=checkbox]):not([type=range])')) return;
-    // The selected obstacle can be deleted regardless of the focus.
-    if ((event.key === 'Delete' || event.key === 'Backspace') && this.editor.obstacle) {
-      event.preventDefault();
-      this.editor.remove();
-      return;
-    }
+    if (event.target === document.body && this.editor.deletes(event)) return;
     if (!(event.ctrlKey || event.metaKey)) return;
     const key = event.key.toLowerCase();
     if (key !== 'z' && key !== 'y') return;
@@ -312,6 +306,7 @@ class Live {
       this.editor?.redraw();
       return;
     }
+    for (const world of message.view.worlds) VisibleNames.correct(world, message.view.arm.joints);
     if (!this.view) this.build(message.view);
     else {
       const light = !message.final || !message.done;

@@ -1,11 +1,11 @@
-// Problems, shown where the user looks: on the picture, or beside the options, the text or the files. They disappear
-// when they are solved.
+// Problems, shown beside the place where the user can solve them: below the pictures, or beside the options, the text or
+// the files. They disappear when they are solved.
 'use strict';
 
 class Notices {
   constructor() {
     const alert = (name) => element('p', { class: `notice ${name}`, role: 'alert', hidden: true });
-    /** `picture` lies over the panel that was used last. */
+    /** `picture` has its own room below the panels, so that it covers nothing and moves nothing. */
     this.places = Object.fromEntries(['picture', 'options', 'text', 'files'].map((name) => [name, alert(name)]));
   }
 
@@ -14,12 +14,5 @@ class Notices {
     const notice = this.places[place];
     notice.hidden = !text;
     if (notice.textContent !== (text ?? '')) notice.textContent = text ?? '';
-  }
-
-  /** Moves the notice of the picture over this panel. */
-  over(panel) {
-    const figure = panel.canvas.parentElement;
-    const { picture } = this.places;
-    if (picture.parentElement !== figure) figure.append(picture);
   }
 }
