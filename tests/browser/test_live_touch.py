@@ -84,8 +84,43 @@ def test_a_tap_tries_the_arm_and_the_cross_can_be_taken(serve, fingers):
     assert seen.do("cplan.view.probe") is None
 
 
+def test_fingers_move_obstacles_by_their_body_and_corners_in_a_mode(serve, fingers):
+    seen = serve(*PLANAR, **PHONE)
+    seen.page.touchscreen.tap(*spot(seen, "workspace", [0.65, -1.45]))
+    assert seen.do("cplan.editor.selection.index") == 1
+    corners = seen.do("cplan.scene.obstacles[1].shape.polygon")
+    # Near a corner, a finger takes the whole obstacle.
+    near = [0.76, -1.34]
+    fingers(seen, spot(seen, "workspace", near), spot(seen, "workspace", [0.86, -1.24]))
+    settled(seen)
+    moved = seen.do("cplan.scene.obstacles[1].shape.polygon")
+    by = [moved[0][k] - corners[0][k] for k in (0, 1)]
+    assert by == pytest.approx([0.1, 0.1], abs=0.03)
+    assert moved == [pytest.approx([p[k] + by[k] for k in (0, 1)], abs=1e-3) for p in corners]
+    toggle = seen.page.get_by_role("button", name="drag corners")
+    toggle.click()
+    assert toggle.get_attribute("aria-pressed") == "true"
+    fingers(seen, spot(seen, "workspace", moved[2]), spot(seen, "workspace", [x + 0.1 for x in moved[2]]))
+    settled(seen)
+    assert seen.do("cplan.scene.obstacles[1].shape.polygon[2]") == pytest.approx([x + 0.1 for x in moved[2]], abs=0.03)
+    assert seen.do("cplan.scene.obstacles[1].shape.polygon[0]") == moved[0]
+    toggle.click()
+    assert toggle.get_attribute("aria-pressed") == "false"
+
+
+def test_pictures_outcome_and_tools_are_on_the_first_screen(serve):
+    seen = serve(*PLANAR, **PHONE)
+    assert scrolled(seen) == 0
+    boxes = [seen.page.locator(where).bounding_box() for where in ("h1", "canvas[aria-label='Workspace']", "canvas[aria-label='Configuration space']", ".figures", ".toolbar")]
+    bottoms = [box["y"] + box["height"] for box in boxes]
+    assert bottoms == sorted(bottoms) and bottoms[-1] <= 844
+    assert all(box["height"] > 250 for box in boxes[1:3]), "the pictures take most of it"
+    seen.shoot("live-phone")
+
+
 def test_two_taps_on_a_side_add_a_corner(serve):
     seen = serve(*PLANAR, **PHONE)
+    seen.page.get_by_role("button", name="drag corners").click()
     seen.page.touchscreen.tap(*spot(seen, "workspace", [0.65, -1.45]))
     assert seen.do("cplan.editor.selection.index") == 1
     seen.page.wait_for_timeout(500)

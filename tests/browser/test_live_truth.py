@@ -186,6 +186,10 @@ def test_what_is_awaited_is_not_certified(serve):
     try:
         drag(seen, "workspace", [0.7, -1.5], [0.8, -1.4])
         assert badge(seen) == "\u2026 planning\u2026"
+        # The last verdict and its figures stay in sight, and are named as such.
+        assert seen.page.locator(".last").inner_text() == "last: found, certified"
+        assert seen.do("getComputedStyle(document.querySelector('.figures'), '::before').content") == '"last plan: "'
+        assert seen.page.locator(".figures").inner_text().startswith("found and certified") and seen.page.locator(".figures").is_visible()
         seen.page.wait_for_timeout(600)
         assert badge(seen) == "\u2026 planning\u2026" and "not up to date" in seen.do("getComputedStyle(document.querySelector('.panels figcaption'), '::after').content")
         # Facts of the previous plan are not facts of this world.
@@ -193,6 +197,38 @@ def test_what_is_awaited_is_not_certified(serve):
     finally:
         seen.server.go_on()
     assert settled(seen)["certified"] and "certified" in badge(seen)
+    assert seen.page.locator(".last").inner_text() == ""
+
+
+def test_a_blocked_start_or_goal_is_moved_to_the_nearest_free_place(serve):
+    seen = serve(*PLANAR)
+    drag(seen, "workspace", *ON_THE_ARM)
+    settled(seen)
+    [blocked] = seen.do("cplan.blocked")
+    seen.page.get_by_role("button", name="Move start to nearest free").click()
+    assert settled(seen)["certified"] and notices(seen) == {}
+    start = seen.do("cplan.scene.start.joints")
+    assert 0 < max(abs(a - b) for a, b in zip(start, blocked["at"])) < 0.5, "near"
+    assert seen.do("Geometry.contacts(cplan.view.model.arm, cplan.view.world, cplan.scene.start.joints)[0].distance") < 0.05, "not farther than necessary"
+    assert seen.do("cplan.editor.selection.kind") == "start"
+    seen.page.get_by_label("undo").click()
+    settled(seen)
+    assert "start blocked" in badge(seen)
+    seen.page.get_by_label("undo").click()
+    # A goal given by its tip, at which all IK solutions are blocked.
+    drag(seen, "workspace", seen.do("cplan.editor.tips.goal"), [0.65, -1.45])
+    settled(seen)
+    assert badge(seen) == "\u2715 goal blocked"
+    seen.page.get_by_role("button", name="Move goal to nearest free").click()
+    assert settled(seen)["certified"]
+    # With a clearance, the place keeps it.
+    seen.page.get_by_label("clearance in millimetres").fill("40")
+    seen.page.keyboard.press("Enter")
+    settled(seen)
+    assert badge(seen) == "\u2715 goal blocked"
+    seen.page.get_by_role("button", name="Move goal to nearest free").click()
+    assert settled(seen)["certified"]
+    assert seen.do("Geometry.contacts(cplan.view.model.arm, cplan.view.world, cplan.scene.goal.joints)[0].distance") > 0.04
 
 
 def test_delete_works_after_something_was_added(serve):

@@ -1,4 +1,4 @@
-// The controls: buttons that add something, the planner and its options, files.
+// The controls: the toolbar, the planner and its options, the world as text.
 'use strict';
 
 const FILES = [
@@ -13,41 +13,52 @@ class Controls {
   /** `live` is the page that the buttons act on. */
   constructor(live) {
     this.live = live;
-    const button = (text, label, action) => element('button', { type: 'button', class: 'button', 'aria-label': label, title: label, onclick: action }, text);
     const { editor } = live;
-    this.selected = element('select', { class: 'selected', 'aria-label': 'selected', autocomplete: 'off', onchange: (event) => this.choose(event.target.value) });
-    this.remove = button('Delete', 'delete what is selected', () => editor.remove());
-    this.corner = button('+ corner', 'add a corner to the longest side', () => editor.insertCorner());
-    this.undo = button('\u21b6', 'undo', () => live.stepHistory('undo'));
-    this.redo = button('\u21b7', 'redo', () => live.stepHistory('redo'));
+    this.selected = element('select', { 'aria-label': 'selected', autocomplete: 'off', onchange: (event) => this.choose(event.target.value) });
+    this.inspector = new Inspector(editor, this.selected);
+    this.remove = iconButton('remove', 'delete what is selected', () => editor.remove(), 'Delete');
+    this.corner = iconButton('corner', 'add a corner to the longest side', () => editor.insertCorner(), 'double click on a side');
+    this.cornerMode = iconButton('corners', 'drag corners', () => editor.setCornerMode(!editor.editsCorners));
+    // Elsewhere corners can always be dragged.
+    const offerCornerMode = () => {
+      this.cornerMode.hidden = !Editor.hasCornerMode.matches;
+      editor.setCornerMode(this.cornerMode.hidden);
+    };
+    Editor.hasCornerMode.addEventListener('change', offerCornerMode);
+    this.cornerMode.hidden = !Editor.hasCornerMode.matches;
+    this.undo = iconButton('undo', 'undo', () => live.stepHistory('undo'), 'Ctrl+Z');
+    this.redo = iconButton('redo', 'redo', () => live.stepHistory('redo'), 'Ctrl+Y');
     this.clearance = element('input', {
       type: 'number', min: '0', step: '1', inputmode: 'decimal', autocomplete: 'off', 'aria-label': 'clearance in millimetres',
       onchange: () => live.setClearance(Math.max(0, Number(this.clearance.value) || 0) / 1000),
     });
+    this.clearanceLabel = element('label', {}, 'clearance ', this.clearance, ' mm');
     this.planner = element('select', { 'aria-label': 'planner', autocomplete: 'off', onchange: () => this.replan(true) });
     this.menus = element('div', { class: 'group menus' });
     this.more = element('input', {
-      type: 'text', class: 'more', spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', placeholder: '--field oriented --epsilon 0.5 --direction 0,-1',
+      type: 'text', class: 'more', spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', placeholder: '--field oriented --epsilon 0.5',
       'aria-label': 'more options, as on the command line', onchange: () => this.replan(),
     });
     this.command = element('code', {});
-    this.edit = element(
-      'div', { class: 'group' }, this.selected, this.corner, this.remove,
-      button('+ polygon', 'add a polygon', () => editor.add('polygon')), button('+ circle', 'add a circle', () => editor.add('circle')),
-      button('+ wall', 'add a thin wall', () => editor.add('wall')), this.undo, this.redo,
-      element('label', {}, 'clearance ', this.clearance, ' mm'),
-    );
+    const group = (label, ...children) => element('div', { class: 'tools', role: 'group', 'aria-label': label }, ...children);
+    /** Groups that change the world; hidden for tasks. */
+    this.edits = [
+      group('History', this.undo, this.redo),
+      group('Add', ...[['polygon', 'add a polygon'], ['circle', 'add a circle'], ['wall', 'add a thin wall']].map(([kind, label]) => iconButton(kind, label, () => editor.add(kind)))),
+      group('Selected obstacle', this.cornerMode, this.corner, this.remove),
+    ];
+    this.toolbar = element('section', { class: 'toolbar', 'aria-label': 'Tools' }, ...this.edits, group('Files', ...this.fileTools()));
     this.root = element(
-      'section', { class: 'controls', 'aria-label': 'World and planner' },
-      this.edit,
-      element('div', { class: 'group' }, element('label', {}, 'planner ', this.planner), this.menus, element('label', {}, 'more ', this.more)),
+      'section', { class: 'controls', 'aria-label': 'Planner' },
+      element('div', { class: 'group' }, element('label', {}, 'planner ', this.planner), this.menus, this.clearanceLabel, element('label', { class: 'grows' }, 'more ', this.more)),
     );
-    this.files = this.filePart();
-    this.world = this.textPart(button);
+    this.remarks = element('span', { class: 'remark', role: 'status' }, live.remarked ?? '');
+    this.commandLine = element('p', { class: 'command' }, 'as a command: ', this.command);
+    this.world = this.textPart();
   }
 
   /** Creates the part with the world as text. */
-  textPart(button) {
+  textPart() {
     const { live } = this;
     this.text = element('textarea', {
       rows: '16', spellcheck: 'false', autocomplete: 'off', 'aria-label': 'world as TOML',
@@ -61,23 +72,20 @@ class Controls {
       element('summary', {}, 'World as text'),
       element('p', {}, element('label', {}, this.text)),
       live.notices.places.text,
-      button('Plan in this world', 'take the text for the world', () => live.load(this.text.value)),
+      element('button', { type: 'button', class: 'button', 'aria-label': 'take the text for the world', onclick: () => live.load(this.text.value) }, 'Plan in this world'),
     );
   }
 
-  /** Creates the buttons for files, which are always visible. */
-  filePart() {
+  /** Creates the tools that open and save files. */
+  fileTools() {
     const { live } = this;
-    const button = (text, action, label) => element('button', { type: 'button', class: 'button', title: label, onclick: action }, text);
     this.file = element('input', { type: 'file', accept: '.toml', hidden: true, onchange: () => this.open() });
     this.format = element('select', { 'aria-label': 'file to save', autocomplete: 'off' }, ...entries(live.gallery.isAlone ? FILES.filter(([name]) => name !== 'png') : FILES));
-    this.remarks = element('span', { class: 'remark', role: 'status' }, live.remarked ?? '');
-    return element(
-      'div', { class: 'group files' }, button('Open world\u2026', () => this.file.click()), this.file, this.format,
-      button('Save', () => live.save(this.format.value)),
-      button('Start again', () => live.reset(), 'back to the world that cplan was started with'),
-      this.remarks, element('span', { class: 'command' }, 'as a command: ', this.command),
-    );
+    return [
+      iconButton('open', 'open a world file', () => this.file.click()), this.file,
+      iconButton('save', 'save as', () => live.save(this.format.value)), this.format,
+      iconButton('restart', 'start again with the first world', () => live.reset()),
+    ];
   }
 
   async open() {
@@ -109,7 +117,7 @@ class Controls {
     this.planners = world.menus;
     this.planner.replaceChildren(...entries(this.planners.map(({ name }) => [name, name])));
     this.showOptions(this.live.words);
-    this.edit.hidden = world.has_steps;
+    for (const part of [...this.edits, this.inspector.root, this.clearanceLabel]) part.hidden = world.has_steps;
     this.isTyped = false;
     this.showClearance(scene);
     this.showCommand();
@@ -197,9 +205,11 @@ class Controls {
     }
     this.selected.value = value;
     const shape = this.live.editor.obstacle?.shape;
+    this.cornerMode.setAttribute('aria-pressed', String(this.live.editor.editsCorners));
     this.remove.disabled = selection?.kind !== 'obstacle';
     this.corner.disabled = !shape || Boolean(shape.circle);
     this.undo.disabled = !scene.past.length;
     this.redo.disabled = !scene.future.length;
+    this.inspector.update();
   }
 }

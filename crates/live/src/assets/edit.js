@@ -30,8 +30,13 @@ class Editor {
     /** True if nothing was ever dragged in this browser. The page then says what can be dragged. */
     this.isNew = !Keep.hasDragged();
     /** The invitation to drag, in the caption of the workspace: there it covers nothing. */
-    this.hint = element('span', { class: 'hint' }, 'drag obstacles, start or goal');
+    this.hint = element('span', { class: 'hint' }, 'drag obstacles or goal');
     if (this.isNew) view.panels.workspace.canvas.parentElement.querySelector('figcaption').append(this.hint);
+    /**
+     * True if the corners of the selected obstacle can be dragged. On touch screens and small ones this is a mode of its
+     * own, so that fingers do not grab corners by accident.
+     */
+    this.editsCorners = !Editor.hasCornerMode.matches;
     /** The last tap of a finger that moved nothing. */
     this.tapped = { at: -Infinity };
     const { workspace, cspace } = view.panels;
@@ -66,6 +71,13 @@ class Editor {
     return this.selection?.kind === 'obstacle' ? this.scene.obstacles[this.selection.index] : null;
   }
 
+  /** Switches dragging of corners on or off. */
+  setCornerMode(isOn) {
+    this.editsCorners = isOn;
+    this.selected();
+    this.redraw();
+  }
+
   // Places.
 
   get arm() {
@@ -96,11 +108,12 @@ class Editor {
     const reach = near / panel.pixels;
     const apart = (p) => Math.hypot(p[0] - value[0], p[1] - value[1]);
     const shape = this.obstacle?.shape;
-    if (shape) {
+    if (shape && this.editsCorners) {
       const { index } = this.selection;
       const corners = Shapes.corners(shape) ?? [];
-      const corner = corners.findIndex((p) => apart(p) <= reach);
-      if (corner >= 0) return { kind: 'obstacle', index, corner };
+      const distances = corners.map(apart);
+      const least = Math.min(...distances);
+      if (least <= reach) return { kind: 'obstacle', index, corner: distances.indexOf(least) };
       if (shape.circle && Math.abs(apart(shape.circle.center) - shape.circle.radius) <= reach) return { kind: 'obstacle', index, corner: 'rim' };
     }
     const { tips } = this;
@@ -181,7 +194,7 @@ class Editor {
   /** Detects two taps of a finger as a double click. Browsers do not report one if it begins on a handle. */
   detectDoubleTap(panel, value) {
     const now = performance.now();
-    const isSecond = now - this.tapped.at < DOUBLE_TAP_TIME && panel === this.view.panels.workspace;
+    const isSecond = now - this.tapped.at < DOUBLE_TAP_TIME && panel === this.view.panels.workspace && this.editsCorners;
     this.tapped = { at: isSecond ? -Infinity : now };
     if (isSecond) this.insertCorner(value, panel);
   }
@@ -215,11 +228,39 @@ class Editor {
   }
 
   placeConfiguration(kind, value) {
-    const joints = this.arm.joints.map((joint, k) => {
-      const [low, high] = joint.domain;
-      return joint.circle ? rounded4(Geometry.wrap(joint, value[k])) : rounded4(Math.min(high, Math.max(low, value[k])));
-    });
-    this.scene[kind] = { joints };
+    this.scene[kind] = { joints: this.arm.joints.map((joint, k) => rounded4(Editor.inDomain(joint, value[k]))) };
+  }
+
+  /** Returns the nearest value in the domain of a joint, or the same angle within a turn. */
+  static inDomain(joint, value) {
+    const [low, high] = joint.domain;
+    return joint.circle ? Geometry.wrap(joint, value) : Math.min(high, Math.max(low, value));
+  }
+
+  // Exact coordinates, from the inspector.
+
+  setShape(shape) {
+    this.obstacle.shape = shape;
+    this.finish();
+  }
+
+  setTip(kind, tip) {
+    this.scene[kind] = kind === 'goal' ? { tip } : { tip, near: this.start };
+    this.finish();
+  }
+
+  setConfiguration(kind, q) {
+    this.scene[kind] = { joints: this.arm.joints.map((joint, k) => Editor.inDomain(joint, q[k])) };
+    this.finish();
+  }
+
+  selectCorner(corner) {
+    if (this.obstacle && this.selection.corner !== corner) this.select({ ...this.selection, corner });
+  }
+
+  finish() {
+    this.redraw();
+    this.changed(true);
   }
 
   // Buttons and keys.
@@ -418,6 +459,7 @@ class Editor {
   drawSelected(context, panel, shape) {
     const { theme } = panel;
     this.drawOutline(context, panel, shape);
+    if (!this.editsCorners) return;
     const { center, radius } = shape.circle ?? {};
     const handles = shape.circle ? [[center[0] + radius, center[1]]] : Shapes.corners(shape);
     handles.forEach((p, i) => {
@@ -455,3 +497,6 @@ class Editor {
     }
   }
 }
+
+/** Screens on which corners are dragged in a mode of its own. */
+Editor.hasCornerMode = matchMedia('(max-width: 820px), (pointer: coarse)');

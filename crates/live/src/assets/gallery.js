@@ -62,9 +62,9 @@ class Gallery {
       element('optgroup', { label }, ...choices.filter(isOf).map(({ name, title }) => element('option', { value: name }, title)))
     ));
     this.select = element('select', { 'aria-label': 'world to open', autocomplete: 'off', onchange: () => this.go(this.select.value) }, element('option', { value: '' }, 'this page\u2019s'), ...groups);
-    this.copy = element('button', { type: 'button', class: 'button', onclick: () => this.link() }, 'Copy link');
-    this.task = element('span', { class: 'task', role: 'status' });
-    this.root = element('div', { class: 'group gallery' }, element('label', {}, 'open ', this.select), this.copy, this.task);
+    this.copy = iconButton('link', 'copy link', () => this.link());
+    this.task = element('p', { class: 'task', role: 'status' });
+    this.root = element('div', { class: 'group gallery' }, element('label', {}, 'open ', this.select), this.copy);
     window.addEventListener('hashchange', () => {
       if (location.hash === this.linked) return;
       live.remark('');

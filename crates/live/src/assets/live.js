@@ -10,6 +10,8 @@ const roundedSafely = (value, digits, round) => {
   return value > 0 ? String(+(round(value / unit) * unit).toPrecision(digits)) : '0';
 };
 
+/** Screens on which the panels stand one above the other, as in the style sheet. */
+const SMALL_SCREEN = matchMedia('(max-width: 820px)');
 /** Time of waiting for a plan after which the picture turns pale, in milliseconds. */
 const NOTICED = 150;
 
@@ -64,16 +66,22 @@ class Live {
     });
     this.controls = new Controls(this);
     this.figures = element('p', { class: 'figures' });
+    this.lastVerdict = element('p', { class: 'last' });
+    const { status } = this.view.parts;
+    const verdicts = element('div', { class: 'verdicts' });
+    status.before(verdicts);
+    verdicts.append(status, this.lastVerdict);
     this.spoken = element('p', { class: 'spoken', 'aria-live': 'polite' });
     const { places } = this.notices;
-    this.root.querySelector('header').after(this.gallery.root, this.controls.root, places.options);
-    this.outcome = element('div', { class: 'outcome' }, this.figures, places.picture);
-    this.root.querySelector('.panels').after(this.outcome, this.spoken, this.controls.files, places.files);
-    this.root.querySelector('.help').before(this.controls.world);
+    this.outcome = element('div', { class: 'outcome' }, this.figures, places.picture, places.files, this.controls.remarks);
+    this.root.querySelector('.panels').after(this.outcome, this.spoken, this.controls.inspector.root);
+    this.arrange();
+    SMALL_SCREEN.addEventListener('change', () => this.arrange());
+    this.root.querySelector('.help').before(this.controls.commandLine, this.controls.world);
     this.root.querySelector('.help dl').prepend(...[
       ['drag an obstacle, the start\u2019s tip (ring) or the goal (target)', 'the configuration space follows, the plan when you let go'],
       ['drag start (ring) or goal (diamond) in the configuration space', 'the same by joint values'],
-      ['click an obstacle, then drag a corner or the rim', 'changes its shape; a double click on a side adds a corner'],
+      ['click an obstacle, then drag a corner or the rim', 'changes its shape; a double click on a side adds a corner (on touch screens: after \u201cdrag corners\u201d)'],
       ['arrow keys with something selected', 'move it (with Shift further)'],
       ['c in the workspace', 'selects the next corner'],
       ['Delete in the workspace', 'deletes the corner or the obstacle'],
@@ -81,6 +89,20 @@ class Live {
     ].flatMap(([keys, what]) => [element('dt', {}, keys), element('dd', {}, what)]));
     document.addEventListener('keydown', (event) => this.key(event));
     this.showWorld();
+  }
+
+  /** Puts tools and choices above the pictures; on a small screen below them, because there the pictures come first. */
+  arrange() {
+    const [header, stage, panels] = ['header', '.stage', '.panels'].map((name) => this.root.querySelector(name));
+    const { controls: { toolbar, root }, gallery, outcome, notices: { places } } = this;
+    if (SMALL_SCREEN.matches) {
+      outcome.after(gallery.task, toolbar);
+      stage.after(gallery.root, root, places.options);
+    } else {
+      panels.before(toolbar);
+      header.firstChild.after(gallery.root);
+      header.after(gallery.task, root, places.options);
+    }
   }
 
   key(event) {
@@ -257,7 +279,7 @@ class Live {
       this.toml = message.toml;
       this.controls?.showText(message.toml);
     }
-    this.showError(message.about === 'options' ? 'options' : 'picture', error);
+    this.showError(message.about === 'options' ? 'options' : 'picture', error, message.about);
     this.showFigures(message);
   }
 
@@ -275,11 +297,23 @@ class Live {
     return 'not planned';
   }
 
-  /** Shows the error of a plan at one of two places. */
-  showError(place, error) {
-    for (const one of ['picture', 'options']) this.notices.show(one, one === place ? error : null);
+  /** Shows the error of a plan at one of two places. A blocked start or goal (`about`) can be moved away. */
+  showError(place, error, about = null) {
+    const canMove = error && this.blocked?.length && ['start', 'goal'].includes(about) && !this.world.has_steps;
+    const action = canMove ? { label: `Move ${about} to nearest free`, run: () => this.moveToNearestFree(about) } : null;
+    for (const one of ['picture', 'options']) this.notices.show(one, one === place ? error : null, one === place ? action : null);
     this.controls?.markInvalid(place === 'options' && Boolean(error));
     if (!this.view && error) this.waiting.textContent = error;
+  }
+
+  /** Moves the blocked start or goal to the nearest free configuration. */
+  moveToNearestFree(kind) {
+    const { model, world } = this.view;
+    const found = NearestFree.find(model.arm, world, this.blocked.map(({ at }) => at), this.world.reach);
+    if (found) {
+      this.editor.select({ kind });
+      this.editor.setConfiguration(kind, found.map(rounded4));
+    } else this.remark(`No free configuration was found near the ${kind}.`);
   }
 
   /** Draws an answer. */
@@ -324,6 +358,7 @@ class Live {
     if (!this.figures) return;
     if (error) {
       this.figures.textContent = '';
+      this.lastFigures = null;
       if (final) this.spoken.textContent = '';
       return;
     }
@@ -335,12 +370,16 @@ class Live {
       bound && `at most ${roundedSafely(100 * (length / bound - 1), 2, Math.ceil)} % longer than the shortest`,
       final && clearance && `clearance ${roundedSafely(1000 * clearance, 3, Math.floor)} mm proven`,
       duration && `motion ${duration.toFixed(3)} s`,
+      final && verdict !== 'found' && reason,
+    ].filter(Boolean);
+    const details = [
       size,
       `${final ? 'planned' : 'answered'} in ${milliseconds.toFixed(milliseconds < 10 ? 1 : 0)} ms`,
       !final && `${this.updatesPerSecond} updates/s`,
-      final && verdict !== 'found' && reason,
     ].filter(Boolean);
-    this.figures.textContent = parts.join(' \u00b7 ');
+    const separated = (texts) => texts.join(' \u00b7 ');
+    this.figures.replaceChildren(separated(parts), element('span', { class: 'detail' }, ` \u00b7 ${separated(details)}`));
+    if (final) this.lastFigures = [...this.figures.childNodes];
     if (final) this.spoken.textContent = parts.slice(0, 5).join(', ');
   }
 
@@ -386,6 +425,7 @@ class Live {
     // During a drag, the picture is up to date except for requests in progress.
     const isFollowing = Boolean(this.isUp && this.editor.held && this.updatesPerSecond);
     classList.toggle('following', isFollowing);
+    this.showLastVerdict(isCurrent, isFollowing);
     const isBehind = !isCurrent && !isFollowing;
     const show = (behind) => {
       if (classList.contains('behind') === behind) return;
@@ -394,6 +434,15 @@ class Live {
     };
     if (isBehind && this.isUp) this.paleTimer = setTimeout(() => show(true), NOTICED);
     else show(isBehind);
+  }
+
+  /** Keeps the last verdict and its figures in sight, dimmed and named as such, until there is another one. */
+  showLastVerdict(isCurrent, isFollowing) {
+    if (isCurrent) this.verdict = this.badge;
+    const [, words] = this.verdict ?? [];
+    const text = isCurrent || !words ? '' : `last: ${words}`;
+    if (this.lastVerdict.textContent !== text) this.lastVerdict.textContent = text;
+    if (!isCurrent && !isFollowing && this.lastFigures) this.figures.replaceChildren(...this.lastFigures);
   }
 
   // Requests to the server.
