@@ -7,10 +7,11 @@ use cplan_view::{drawing, shell};
 use std::time::Duration;
 
 /// The scripts of the page, in the order of their dependencies.
-const SCRIPTS: [&str; 13] = [
+const SCRIPTS: [&str; 14] = [
     include_str!("assets/alone.js"),
     include_str!("assets/link.js"),
     include_str!("assets/keep.js"),
+    include_str!("assets/frames.js"),
     include_str!("assets/icons.js"),
     include_str!("assets/notices.js"),
     include_str!("assets/scene.js"),

@@ -12,10 +12,11 @@ class Editor {
   /**
    * `changed(final)` is called when the scene has changed, and `selected()` when the selection has changed.
    * `configurations()` returns the start and goals of the last answer; `blocked()` those that are not free, each with
-   * the obstacles in contact. `isDrawn(obstacle)` returns whether an obstacle is drawn at its current place.
+   * the obstacles in contact. `isDrawn(obstacle)` returns whether an obstacle is drawn at its current place. `frames`
+   * collects work for the next picture of the screen.
    */
-  constructor(view, { changed, selected, configurations, blocked, isDrawn }) {
-    Object.assign(this, { view, changed, selected, configurations, blocked, isDrawn });
+  constructor(view, { changed, selected, configurations, blocked, isDrawn, frames }) {
+    Object.assign(this, { view, changed, selected, configurations, blocked, isDrawn, frames });
     this.scene = null;
     /** Selection: { kind: 'obstacle', index, corner } | { kind: 'start' } | { kind: 'goal' }. */
     this.selection = null;
@@ -169,16 +170,21 @@ class Editor {
       return false;
     }
     if (this.held.panel !== panel) return true;
+    if (!this.held.moved) panel.canvas.style.cursor = 'grabbing';
     this.held.moved = true;
-    panel.canvas.style.cursor = 'grabbing';
-    this.moveHeldTo(value);
-    this.changed(false);
+    // A mouse may report several places per picture of the screen.
+    this.frames.request('drag', () => {
+      this.moveHeldTo(value);
+      this.changed(false);
+    });
     return true;
   }
 
   up(panel, value, event) {
     if (!this.held) return false;
     const { moved } = this.held;
+    if (moved) this.moveHeldTo(value);
+    this.frames.drop('drag');
     this.held.panel.canvas.style.cursor = '';
     this.held = null;
     if (moved && this.isNew) {
@@ -219,7 +225,8 @@ class Editor {
     } else {
       this.placeConfiguration(kind, value);
     }
-    this.redraw();
+    // The configuration space changes with the next answer.
+    this.frames.draw(...(inWorkspace ? [panel] : Object.values(this.view.panels)));
   }
 
   placeTip(kind, value) {

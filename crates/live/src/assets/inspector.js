@@ -5,6 +5,9 @@ const Inspector = (() => {
   const METRES = { unit: 'metres', symbol: 'm', factor: 1, digits: 4, step: '0.001' };
   const DEGREES = { unit: 'degrees', symbol: '\u00b0', factor: 180 / Math.PI, digits: 2, step: '0.1' };
 
+  /** Shortest time between two changes of the fields during a drag, in milliseconds. */
+  const DRAG_INTERVAL = 120;
+
   class Inspector {
     /** `editor` has the selection; `select` is the menu of things to select. */
     constructor(editor, select) {
@@ -58,6 +61,10 @@ const Inspector = (() => {
 
     /** Shows the selection. Fields are created only if other ones are needed; a field in which the user types stays. */
     update() {
+      // Fields cost more time than all of a small picture. During a drag, some of its places are enough.
+      const now = performance.now();
+      if (this.editor.held?.moved && now - this.updated < DRAG_INTERVAL) return;
+      this.updated = now;
       const groups = this.groups();
       const { selection, obstacle } = this.editor;
       const signature = JSON.stringify([selection?.kind, selection?.index, groups.map(({ title, fields }) => [title, fields.map(({ name, unit }) => [name, unit.unit])])]);
@@ -76,7 +83,8 @@ const Inspector = (() => {
           const { unit, value } = field;
           Object.assign(input, { field, corner });
           const text = value === undefined ? '' : String(+(value * unit.factor).toFixed(unit.digits));
-          input.setAttribute('aria-label', `${label ?? title} ${field.name} in ${unit.unit}`.trim());
+          const name = `${label ?? title} ${field.name} in ${unit.unit}`.trim();
+          if (input.getAttribute('aria-label') !== name) input.setAttribute('aria-label', name);
           const isTyping = document.activeElement === input && input.value !== input.shown;
           if (!isTyping && input.value !== text) input.value = text;
           if (!isTyping) input.shown = text;

@@ -12,6 +12,8 @@ const roundedSafely = (value, digits, round) => {
 
 /** Screens on which the panels stand one above the other, as in the style sheet. */
 const SMALL_SCREEN = matchMedia('(max-width: 820px)');
+/** Shortest time between two changes of the figures during a drag, in milliseconds. */
+const FIGURES_INTERVAL = 200;
 /** Time of waiting for a plan after which the picture turns pale, in milliseconds. */
 const NOTICED = 150;
 
@@ -24,6 +26,7 @@ class Live {
       element('button', { type: 'button', class: 'button', onclick: () => this.link.retry() }, 'Try now'),
     );
     root.append(this.waiting, this.connectionBar);
+    this.frames = new Frames();
     /** Times of the answers during a drag. */
     this.answerTimes = [];
     /** Number of the page's current state. Each change increases it. */
@@ -62,10 +65,13 @@ class Live {
       selected: () => this.controls?.updateSelection(),
       configurations: () => ({ start: this.places?.start, goals: this.places?.goals ?? [] }),
       blocked: () => this.blocked ?? [],
+      frames: this.frames,
       isDrawn: ({ shape }) => this.root.classList.contains('behind') || this.shown?.error ? Boolean(this.drawn?.has(shape)) : true,
     });
     this.controls = new Controls(this);
     this.figures = element('p', { class: 'figures' });
+    this.figuresShown = -Infinity;
+    for (const panel of Object.values(this.view.panels)) this.speedUp(panel);
     this.lastVerdict = element('p', { class: 'last' });
     const { status } = this.view.parts;
     const verdicts = element('div', { class: 'verdicts' });
@@ -89,6 +95,14 @@ class Live {
     ].flatMap(([keys, what]) => [element('dt', {}, keys), element('dd', {}, what)]));
     document.addEventListener('keydown', (event) => this.key(event));
     this.showWorld();
+  }
+
+  /** Leaves out transparency while something is dragged: it needs two more copies of the whole picture for each arm. */
+  speedUp(panel) {
+    panel.faded = (context, alpha, draw) => {
+      if (this.view.light) draw(context);
+      else Panel.prototype.faded.call(panel, context, alpha, draw);
+    };
   }
 
   /** Puts tools and choices above the pictures; on a small screen below them, because there the pictures come first. */
@@ -256,19 +270,14 @@ class Live {
 
   /** Draws the latest answer with the next picture of the screen. */
   showSoon(message, about) {
-    const waits = this.latest;
-    this.latest = () => this.show(message, about);
-    if (waits) return;
-    requestAnimationFrame(() => {
-      const show = this.latest;
-      this.latest = null;
-      show?.();
+    this.frames.request('answer', () => {
+      this.show(message, about);
       this.updateState();
     });
   }
 
   show(message, { since, edition, shapes }) {
-    this.latest = null;
+    this.frames.drop('answer');
     if (!message.final) this.answerTimes.push(performance.now());
     this.took = performance.now() - since;
     this.draw(message, shapes);
@@ -341,16 +350,38 @@ class Live {
       return;
     }
     for (const world of message.view.worlds) VisibleNames.correct(world, message.view.arm.joints);
+    const light = !message.final || !message.done;
+    const structure = light && Live.structure(message.view);
     if (!this.view) this.build(message.view);
+    else if (light && structure === this.structure && this.view.mode === 'move') this.follow(message.view);
     else {
-      const light = !message.final || !message.done;
       // Facts of intermediate states would jump. They are updated only when all of them are known.
       if (!message.view.facts.length) message.view.facts = this.view.model.facts;
       this.view.light = light;
       this.root.classList.toggle('light', light);
       this.view.update(message.view);
     }
+    this.structure = structure;
     this.controls.updateSelection();
+  }
+
+  /**
+   * Returns a text that is equal for models that need the same elements of the page: the same ranges, obstacles and
+   * layers.
+   */
+  static structure({ frame, worlds, paths, goals, title }) {
+    const parts = ({ obstacles, movers, trace, proof, c_obstacles: shapes, scale }) => [obstacles.map(({ name, color }) => [name, color]), movers, trace?.kind, proof.length > 0, shapes.length > 0, scale];
+    return JSON.stringify([frame, worlds.map(parts), paths.length, goals.length > 0, title]);
+  }
+
+  /** Shows the next model during a drag: it differs in shapes alone, so only the panels are drawn again. */
+  follow(model) {
+    const { view } = this;
+    Object.assign(model, { facts: view.model.facts });
+    Object.assign(view, { model, traces: null });
+    const panels = Object.values(view.panels);
+    for (const panel of panels) panel.dirty = true;
+    this.frames.draw(...panels);
   }
 
   /** Shows the figures in a line. */
@@ -362,6 +393,10 @@ class Live {
       if (final) this.spoken.textContent = '';
       return;
     }
+    // Numbers that change with every picture could not be read, and each change costs time.
+    const now = performance.now();
+    if (!final && now - this.figuresShown < FIGURES_INTERVAL) return;
+    this.figuresShown = final ? -Infinity : now;
     const { length, lower_bound: bound, clearance, duration, size, milliseconds } = figures;
     const verdicts = { found: certified ? 'found and certified' : 'found', infeasible: 'infeasible: proven', unknown: 'unknown' };
     const parts = [
@@ -388,7 +423,7 @@ class Live {
     // The next connection may be to another server.
     this.shown = null;
     clearTimeout(this.previewTimer);
-    this.latest = null;
+    this.frames.drop('answer');
     this.connectionBar.hidden = isUp || !this.view;
     const lost = 'The connection to cplan is lost. You can go on editing: your changes are kept and sent as soon as it answers again.';
     this.connectionBar.firstChild.textContent = this.connectionBar.hidden ? '' : lost;

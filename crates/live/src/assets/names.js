@@ -12,36 +12,48 @@ const VisibleNames = (() => {
   const raster = element('canvas', { width: COLUMNS, height: ROWS });
   const context = raster.getContext('2d', { willReadFrequently: true });
 
-  /** Returns the outlines of each C-obstacle as one path in fractions of both axes. Later ones are drawn over earlier ones. */
+  /**
+   * Returns the outlines of C-obstacles as seen in the panel, in fractions of both axes: for each its obstacle, its box,
+   * and its corners. A shape of a revolute joint repeats after each turn.
+   */
   function outlines({ c_obstacles }, joints) {
-    const paths = new Map();
-    const width = joints.map(({ domain: [low, high] }) => high - low);
-    // A shape of a revolute joint repeats after each turn.
-    const turns = joints.map((joint) => (joint.sign === undefined ? [0] : [-1, 0, 1].map((n) => n * Geometry.TURN)));
+    const found = [];
     for (const { obstacle, contour } of c_obstacles) {
-      if (!paths.has(obstacle)) paths.set(obstacle, new Path2D());
-      const path = paths.get(obstacle);
-      for (const a of turns[0]) {
-        for (const b of turns[1]) {
-          for (let i = 0; i + 1 < contour.length; i += 2) {
-            const [x, y] = [(contour[i] + a - joints[0].domain[0]) / width[0], (contour[i + 1] + b - joints[1].domain[0]) / width[1]];
-            if (i) path.lineTo(x, y);
-            else path.moveTo(x, y);
-          }
-          path.closePath();
-        }
+      const [xs, ys] = joints.map(({ domain: [low, high] }, k) => {
+        const values = [];
+        for (let i = k; i < contour.length; i += 2) values.push((contour[i] - low) / (high - low));
+        return values;
+      });
+      const shifts = [xs, ys].map((values, k) => {
+        const [least, greatest] = [Math.min(...values), Math.max(...values)];
+        const { sign, domain: [low, high] } = joints[k];
+        const turn = Geometry.TURN / (high - low);
+        return (sign === undefined ? [0] : [-turn, 0, turn]).filter((by) => least + by < 1 && greatest + by > 0).map((by) => [by, least + by, greatest + by]);
+      });
+      for (const [dx, left, right] of shifts[0]) {
+        for (const [dy, low, high] of shifts[1]) found.push({ obstacle, left, right, low, high, xs, ys, dx, dy });
       }
     }
-    return [...paths];
+    return found;
   }
 
-  /** Returns which places of a shape the shapes above it leave visible, as a raster: its alpha values are 255 there. */
+  /** Returns outlines as one path. */
+  function pathOf(shapes) {
+    const path = new Path2D();
+    for (const { xs, ys, dx, dy } of shapes) {
+      xs.forEach((x, i) => (i ? path.lineTo(x + dx, ys[i] + dy) : path.moveTo(x + dx, ys[i] + dy)));
+      path.closePath();
+    }
+    return path;
+  }
+
+  /** Returns which places of a shape the shapes above it (`above`, one path) leave visible, as a raster: its alpha values are 255 there. */
   function visible(shape, above) {
     context.setTransform(COLUMNS, 0, 0, ROWS, 0, 0);
     context.clearRect(0, 0, 1, 1);
     context.fill(shape);
     context.globalCompositeOperation = 'destination-out';
-    for (const other of above) context.fill(other);
+    context.fill(above);
     context.globalCompositeOperation = 'source-over';
     return context.getImageData(0, 0, COLUMNS, ROWS).data;
   }
@@ -73,17 +85,21 @@ const VisibleNames = (() => {
   /** Moves the names in a world of the view that others cover to a visible part, or removes them if there is none. */
   function correct(world, joints) {
     if (world.names.length < 2) return;
-    const paths = outlines(world, joints);
+    const all = outlines(world, joints);
+    // Later C-obstacles are drawn over earlier ones.
+    const orders = new Map([...new Set(all.map(({ obstacle }) => obstacle))].map((obstacle, i) => [obstacle, i]));
     context.resetTransform();
     world.names = world.names.flatMap((name) => {
-      const own = paths.findIndex(([obstacle]) => obstacle === name.obstacle);
-      if (own < 0) return [name];
-      const above = paths.slice(own + 1).map(([, path]) => path);
-      const isHidden = (x, y) => above.some((path) => context.isPointInPath(path, x, y));
       const [x, y] = name.at.map((value, k) => (value - joints[k].domain[0]) / (joints[k].domain[1] - joints[k].domain[0]));
+      const isNear = ({ left, right, low, high }) => left < x + HALF_WIDTH && right > x - HALF_WIDTH && low < y + HALF_HEIGHT && high > y - HALF_HEIGHT;
+      const order = orders.get(name.obstacle);
+      const above = all.filter(({ obstacle }) => orders.get(obstacle) > order);
+      const near = above.filter(isNear);
+      if (!near.length) return [name];
+      const cover = pathOf(near);
       const parts = [[0, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]].map(([dx, dy]) => [x + dx * HALF_WIDTH, y + dy * HALF_HEIGHT]);
-      if (!parts.some((part) => isHidden(...part))) return [name];
-      const found = roomiest(visible(paths[own][1], above));
+      if (!parts.some((part) => context.isPointInPath(cover, ...part))) return [name];
+      const found = roomiest(visible(pathOf(all.filter(({ obstacle }) => obstacle === name.obstacle)), pathOf(above)));
       if (!found) return [];
       const at = found.place.map((part, k) => joints[k].domain[0] + part * (joints[k].domain[1] - joints[k].domain[0]));
       return [{ ...name, at, area: Math.min(name.area, found.area) }];
