@@ -106,3 +106,15 @@ def test_tasks_have_no_tools_that_edit(serve):
     seen = serve(ROOT / "robots/scara.urdf", ROOT / "workspaces/tasks/kitting_cell.toml")
     assert seen.page.get_by_role("button", name="undo").count() == 0 and seen.page.locator(".inspector").is_hidden()
     assert seen.page.get_by_role("button", name="save as").is_visible()
+    assert seen.page.locator(".hint").is_hidden(), "nothing can be dragged"
+
+
+def test_large_text_is_followed(serve):
+    seen = serve(*PLANAR)
+    height = seen.page.get_by_label("undo").bounding_box()["height"]
+    # As a reader who has set the browser to letters of twice the size.
+    seen.do("document.documentElement.style.fontSize = '200%'")
+    assert seen.page.get_by_label("undo").bounding_box()["height"] == pytest.approx(2 * height, abs=1)
+    sizes = seen.do("[...document.querySelectorAll('.inspector label, .figures, .toolbar select, .status')].map((one) => parseFloat(getComputedStyle(one).fontSize))")
+    assert min(sizes) >= 26, "all text grows"
+    assert seen.do("document.documentElement.scrollWidth <= document.documentElement.clientWidth")

@@ -50,6 +50,8 @@ class Editor {
   editScene(scene) {
     this.scene = scene;
     this.held = null;
+    // Tasks cannot be edited.
+    this.hint.hidden = scene.world.has_steps;
     this.select(null);
   }
 
@@ -86,7 +88,7 @@ class Editor {
   }
 
   get start() {
-    return this.configurations().start ?? this.view.model.start;
+    return this.scene.start?.joints ?? this.configurations().start ?? this.view.model.start;
   }
 
   get goal() {
