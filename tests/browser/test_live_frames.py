@@ -45,6 +45,6 @@ def test_answers_during_a_drag_draw_the_panels_and_build_no_elements(serve):
     settled(seen)
     counts = seen.do("counts")
     assert counts["follows"] > counts["updates"] > 0, counts
-    # What the last answers showed is complete.
+    # The final answer is shown completely.
     assert seen.do("cplan.view.light") is False and seen.page.locator(".facts").is_visible()
     assert seen.do("cplan.view.model.facts.length") > 0

@@ -112,7 +112,7 @@ def test_tasks_have_no_tools_that_edit(serve):
 def test_large_text_is_followed(serve):
     seen = serve(*PLANAR)
     height = seen.page.get_by_label("undo").bounding_box()["height"]
-    # As a reader who has set the browser to letters of twice the size.
+    # Like a browser whose text size is set to twice the usual one.
     seen.do("document.documentElement.style.fontSize = '200%'")
     assert seen.page.get_by_label("undo").bounding_box()["height"] == pytest.approx(2 * height, abs=1)
     sizes = seen.do("[...document.querySelectorAll('.inspector label, .figures, .toolbar select, .status')].map((one) => parseFloat(getComputedStyle(one).fontSize))")

@@ -97,7 +97,7 @@ def test_wrong_text_is_told_beside_it_until_it_is_changed(serve):
     seen.page.locator(".world summary").click()
     text = seen.page.get_by_label("world as TOML")
     text.fill("[start]\njoints = [0.1]\n")
-    seen.page.get_by_role("button", name="take the text for the world").click()
+    seen.page.get_by_role("button", name="Plan in this world").click()
     seen.until("cplan.answered.error")
     assert list(notices(seen)) == ["text"] and "line 2" in notices(seen)["text"], "here there are lines"
     box = seen.page.locator(".notice.text").bounding_box()
@@ -186,7 +186,7 @@ def test_what_is_awaited_is_not_certified(serve):
     try:
         drag(seen, "workspace", [0.7, -1.5], [0.8, -1.4])
         assert badge(seen) == "\u2026 planning\u2026"
-        # The last verdict and its figures stay in sight, and are named as such.
+        # The last verdict and its figures stay visible, with a label.
         assert seen.page.locator(".last").inner_text() == "last: found, certified"
         assert seen.do("getComputedStyle(document.querySelector('.figures'), '::before').content") == '"last plan: "'
         assert seen.page.locator(".figures").inner_text().startswith("found and certified") and seen.page.locator(".figures").is_visible()

@@ -68,7 +68,7 @@ class Alone {
       return;
     }
     if (request.do === 'plan') this.waiting = this.waiting.filter((one) => one.do !== 'plan');
-    if (this.waiting.length >= MAX_WAITING) this.reportFailure(request, 'too many requests wait');
+    if (this.waiting.length >= MAX_WAITING) this.reportFailure(request, 'Too many requests are waiting. Try again.');
     else this.waiting.push(request);
     this.sendNext();
   }
@@ -98,7 +98,7 @@ class Alone {
 
   restartWorker(running) {
     this.endWorker();
-    if (running.do === 'download') this.reportFailure(running, 'the file is not made: the page has changed since');
+    if (running.do === 'download') this.reportFailure(running, 'The file was not saved, because the world has changed since. Save again.');
     this.startWorker();
   }
 

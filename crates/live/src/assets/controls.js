@@ -72,7 +72,7 @@ class Controls {
       element('summary', {}, 'World as text'),
       element('p', {}, element('label', {}, this.text)),
       live.notices.places.text,
-      element('button', { type: 'button', class: 'button', 'aria-label': 'take the text for the world', onclick: () => live.load(this.text.value) }, 'Plan in this world'),
+      element('button', { type: 'button', class: 'button', onclick: () => live.load(this.text.value) }, 'Plan in this world'),
     );
   }
 

@@ -35,13 +35,13 @@ const Puzzles = {
   fault({ free }, scene) {
     const first = JSON.parse(scene.first);
     const same = (key) => JSON.stringify(first[key]) === JSON.stringify(scene[key]);
-    if (!same('start') || !same('goal')) return 'Start and goal have to stay.';
-    if (free === 'clearance') return same('obstacles') ? null : 'The obstacles have to stay: change the clearance.';
-    if (!same('clearance')) return 'The clearance has to stay.';
+    if (!same('start') || !same('goal')) return 'Leave start and goal where they were.';
+    if (free === 'clearance') return same('obstacles') ? null : 'Leave the obstacles where they were; change the clearance.';
+    if (!same('clearance')) return 'Leave the clearance as it was.';
     const { obstacles } = scene;
     const areThere = obstacles.length === first.obstacles.length && obstacles.every(({ from }, i) => from === i);
-    if (!areThere) return 'No obstacle may come or go: move those that are there.';
-    return obstacles.every(({ shape }, i) => Puzzles.moved(first.obstacles[i].shape, shape)) ? null : 'Obstacles may be moved, not reshaped.';
+    if (!areThere) return 'Do not add or delete obstacles; move the present ones.';
+    return obstacles.every(({ shape }, i) => Puzzles.moved(first.obstacles[i].shape, shape)) ? null : 'Move the obstacles, but do not change their shapes.';
   },
 
   /** Returns true if an answer solves the puzzle. */
@@ -119,7 +119,7 @@ class Gallery {
 
   /** Returns the initial files with a remark, if the world in the address cannot be opened. */
   ownWithRemark() {
-    this.live.remark('The address holds no world that can be read: this is the page\u2019s own.');
+    this.live.remark('The address contains no readable world, so the page shows its own.');
     return this.ownFiles();
   }
 
@@ -134,11 +134,11 @@ class Gallery {
     const packed = `#w=${await Packed.write(JSON.stringify({ urdf, world: toml, options: words }))}`;
     try {
       await navigator.clipboard.writeText(`${location.href.split('#', 1)[0]}${packed}`);
-      this.live.remark('The link is copied: it holds arm, world and options.');
+      this.live.remark('Link copied. It contains arm, world and options.');
     } catch {
       this.linked = packed;
       location.hash = packed;
-      this.live.remark('The address of this page is the link: it holds arm, world and options.');
+      this.live.remark('The address of this page is now the link. It contains arm, world and options.');
     }
   }
 
@@ -146,7 +146,7 @@ class Gallery {
   showTask() {
     const isWhole = Boolean(this.live.first?.urdf);
     this.copy.disabled = !isWhole || !this.live.isCurrent;
-    this.copy.title = isWhole ? 'copy an address that holds arm, world and options' : 'arm or world name files beside them, which no address holds';
+    this.copy.title = isWhole ? 'copy an address that contains arm, world and options' : 'arm or world name other files, which an address cannot contain';
     const { puzzle } = this.choice ?? {};
     const { scene, answered } = this.live;
     if (!puzzle || !scene) {
@@ -154,7 +154,7 @@ class Gallery {
       return;
     }
     if (this.live.isCurrent) {
-      this.fault = this.live.world.toml === this.choice.world ? Puzzles.fault(puzzle, scene) : 'The world is another one: start again.';
+      this.fault = this.live.world.toml === this.choice.world ? Puzzles.fault(puzzle, scene) : 'This is another world; start again.';
       this.isSolved = !this.fault && Puzzles.isSolved(puzzle, answered, scene);
     }
     const state = this.fault ?? (this.isSolved ? '\u2714 Solved.' : '');

@@ -169,7 +169,7 @@ class Live {
       const record = Keep.read(origin);
       this.words = record?.words ?? world.options;
       this.continueWith(world, record);
-      if (record) this.remark('Your edits of last time are back.');
+      if (record) this.remark('Your last edits are back.');
       else if (hadAnother && !this.gallery.hasMoved) this.remark('cplan now serves this other world. Your edits come back when it serves the one before again.');
     } else if (this.scene) {
       // Send edits that were made without a connection.
@@ -252,7 +252,7 @@ class Live {
         // This server cannot use the edits that were kept.
         this.restoring = null;
         this.useWorld(this.fallback, null);
-        this.remark('Your edits of last time cannot be used any more.');
+        this.remark('Your last edits do not fit this world any more.');
         this.plan(true);
       } else this.notices.show(this.opened ? 'files' : 'text', error);
     } else if (about.kind === 'download') this.notices.show('files', error);
@@ -541,7 +541,7 @@ class Live {
     this.opened = opened;
     this.remark('');
     if (!this.isUp) {
-      this.notices.show(opened ? 'files' : 'text', 'There is no connection to cplan: try again when it is back.');
+      this.notices.show(opened ? 'files' : 'text', 'No connection to cplan. Try again when it is back.');
       return;
     }
     this.link.load(text, this.words);
@@ -564,7 +564,7 @@ class Live {
   save(format) {
     this.notices.show('files', null);
     if (!this.isUp) {
-      this.notices.show('files', 'There is no connection to cplan: save when it is back.');
+      this.notices.show('files', 'No connection to cplan. Save when it is back.');
       return;
     }
     this.link.download(this.body, format);

@@ -11,7 +11,7 @@ const NearestFree = (() => {
 
   /**
    * Tries configurations on growing circles about each of the given ones, and returns the first free one, moved back as
-   * far as it stays free; `null` if none is found in time. `reach` is the arm's reach.
+   * far as it stays free; `null` if the time is up. `reach` is the arm's reach.
    */
   function find(arm, world, blocked, reach) {
     const end = performance.now() + SEARCH_TIME;

@@ -4,7 +4,7 @@
 
 /** Exception that stops work. */
 const STOPPED = Symbol('stopped');
-const FAULT = 'the planner failed on this world: that is an error of cplan\u2019s, and the page goes on';
+const FAULT = 'The planner failed on this world. This is a defect of cplan; you can go on editing.';
 
 /** The module, the order that opens the world, the instance, and the message of the last panic. */
 const program = { module: null, open: null, exports: null, panic: null };
