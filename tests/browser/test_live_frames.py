@@ -46,5 +46,5 @@ def test_answers_during_a_drag_draw_the_panels_and_build_no_elements(serve):
     counts = seen.do("counts")
     assert counts["follows"] > counts["updates"] > 0, counts
     # The final answer is shown completely.
-    assert seen.do("cplan.view.light") is False and seen.page.locator(".facts").is_visible()
+    assert seen.do("cplan.view.light") is False and seen.do("getComputedStyle(document.querySelector('.facts')).visibility") == "visible"
     assert seen.do("cplan.view.model.facts.length") > 0

@@ -266,22 +266,3 @@ def test_shortcuts_of_a_single_key_can_be_switched_off(serve):
     seen.do("localStorage.removeItem('cplan-shortcuts')")
     seen.page.keyboard.press("Delete")
     assert seen.do("cplan.scene.obstacles.length") == 1
-
-
-def test_names_of_c_obstacles_are_in_their_visible_parts(serve):
-    """After a drag, the crate's C-obstacle covers the middle of the shelf's."""
-    seen = serve(*PLANAR)
-    covered = """() => { const { world, model } = cplan.view; const context = document.createElement('canvas').getContext('2d');
-         return world.names.filter(({ obstacle, at }) => world.c_obstacles.some((other) => {
-           const path = new Path2D();
-           for (let i = 0; i + 1 < other.contour.length; i += 2) path.lineTo(other.contour[i], other.contour[i + 1]);
-           return other.obstacle > obstacle && context.isPointInPath(path, ...at);
-         })).length; }"""
-    names = []
-    for place in ([0.85, -0.95], [0.65, -1.3], [0.9, -1.2]):
-        at = seen.do("Shapes.middle(cplan.scene.obstacles[0].shape)")
-        drag(seen, "workspace", at, place)
-        settled(seen)
-        assert seen.do(covered) == 0, place
-        names.append(seen.do("cplan.view.world.names.length"))
-    assert 1 in names and 2 in names, "a name without a visible place is left out"

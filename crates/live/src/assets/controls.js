@@ -197,7 +197,7 @@ class Controls {
     const { scene, selection } = this.live.editor;
     if (!scene) return;
     const value = !selection ? '' : selection.kind === 'obstacle' ? `obstacle ${selection.index}` : selection.kind;
-    const pairs = [['', 'nothing selected'], ['start', 'start'], ['goal', 'goal'], ...scene.obstacles.map(({ name }, i) => [`obstacle ${i}`, name])];
+    const pairs = [['', 'nothing'], ['start', 'start'], ['goal', 'goal'], ...scene.obstacles.map(({ name }, i) => [`obstacle ${i}`, name])];
     const signature = JSON.stringify(pairs);
     if (signature !== this.signature) {
       this.signature = signature;

@@ -9,7 +9,7 @@ const MAX_STEPS = 20;
 const Keep = (() => {
   const PREFIX = 'cplan edits ';
   const DRAGGED = 'cplan dragged';
-  const SHORTCUTS = 'cplan-shortcuts';
+  const SHORTCUTS = ['cplan-shortcuts', 'cplan.shortcuts'];
 
   /** Returns the store of this window first, then that of all windows. Browsers may refuse both. */
   function stores() {
@@ -109,7 +109,7 @@ const Keep = (() => {
   /** Returns true unless the user has switched off shortcuts of a single key. */
   function hasShortcuts() {
     try {
-      return window.localStorage.getItem(SHORTCUTS) !== 'off';
+      return SHORTCUTS.every((name) => window.localStorage.getItem(name) !== 'off');
     } catch {
       return true;
     }

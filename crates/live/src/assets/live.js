@@ -349,7 +349,6 @@ class Live {
       this.editor?.redraw();
       return;
     }
-    for (const world of message.view.worlds) VisibleNames.correct(world, message.view.arm.joints);
     const light = !message.final || !message.done;
     const structure = light && Live.structure(message.view);
     if (!this.view) this.build(message.view);
