@@ -119,6 +119,10 @@ def test_pictures_outcome_and_tools_are_on_the_first_screen(serve):
     assert bottoms == sorted(bottoms) and bottoms[-1] <= 844
     assert all(box["height"] > 250 for box in boxes[1:3]), "the pictures take most of it"
     seen.shoot("live-phone")
+    # All fields of the inspector are within the width of the screen.
+    seen.page.get_by_label("selected", exact=True).select_option("obstacle 1")
+    fields = seen.do("[...document.querySelectorAll('.inspector input')].map((input) => input.getBoundingClientRect()).map(({ left, right }) => [left, right])")
+    assert len(fields) == 8 and all(0 <= left and right <= 390 for left, right in fields)
 
 
 def test_two_taps_on_a_side_add_a_corner(serve):

@@ -508,4 +508,4 @@ class Editor {
 }
 
 /** Screens on which corners are dragged in a mode of its own. */
-Editor.hasCornerMode = matchMedia('(max-width: 820px), (pointer: coarse)');
+Editor.hasCornerMode = matchMedia('(max-width: 51.25rem), (pointer: coarse)');

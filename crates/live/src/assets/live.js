@@ -11,7 +11,7 @@ const roundedSafely = (value, digits, round) => {
 };
 
 /** Screens on which the panels stand one above the other, as in the style sheet. */
-const SMALL_SCREEN = matchMedia('(max-width: 820px)');
+const SMALL_SCREEN = matchMedia('(max-width: 51.25rem)');
 /** Shortest time between two changes of the figures during a drag, in milliseconds. */
 const FIGURES_INTERVAL = 200;
 /** Time of waiting for a plan after which the picture turns pale, in milliseconds. */
