@@ -38,6 +38,25 @@ def test_several_places_of_the_pointer_make_one_move_per_picture(serve):
     assert abs(corner[0] - 0.8) < 0.02 and abs(corner[1] + 1.4) < 0.02
 
 
+def test_a_cancelled_touch_leaves_things_at_their_last_place(serve):
+    seen = serve(*PLANAR)
+    ends = [list(spot(seen, "workspace", place)) for place in ([0.65, -1.45], [0.75, -1.35])]
+    seen.do(
+        """([from, to]) => {
+          const { canvas } = cplan.view.panels.workspace;
+          canvas.setPointerCapture = () => {};
+          const send = (kind, [x, y]) => canvas.dispatchEvent(new PointerEvent(kind, { bubbles: true, pointerType: 'touch', pointerId: 1, clientX: x, clientY: y }));
+          send('pointerdown', from);
+          send('pointermove', to);
+          send('pointercancel', [0, 0]);
+        }""",
+        ends,
+    )
+    assert settled(seen)["final"]
+    corner = seen.do("cplan.scene.obstacles[1].shape.polygon[0]")
+    assert abs(corner[0] - 0.6) < 0.02 and abs(corner[1] + 1.5) < 0.02
+
+
 def test_answers_during_a_drag_draw_the_panels_and_build_no_elements(serve):
     seen = serve(*PLANAR)
     seen.do(COUNT)

@@ -50,6 +50,7 @@ class Editor {
   editScene(scene) {
     this.scene = scene;
     this.held = null;
+    this.frames.drop('drag');
     // Tasks cannot be edited.
     this.hint.hidden = scene.world.has_steps;
     this.select(null);
@@ -175,7 +176,9 @@ class Editor {
     if (!this.held.moved) panel.canvas.style.cursor = 'grabbing';
     this.held.moved = true;
     // A mouse may report several places per picture of the screen.
+    this.held.next = value;
     this.frames.request('drag', () => {
+      this.held.next = null;
       this.moveHeldTo(value);
       this.changed(false);
     });
@@ -184,9 +187,10 @@ class Editor {
 
   up(panel, value, event) {
     if (!this.held) return false;
-    const { moved } = this.held;
-    if (moved) this.moveHeldTo(value);
+    const { moved, next } = this.held;
+    // The last place of a drag, which waits for the next picture. (A cancelled touch has no place of its own.)
     this.frames.drop('drag');
+    if (next) this.moveHeldTo(next);
     this.held.panel.canvas.style.cursor = '';
     this.held = null;
     if (moved && this.isNew) {
