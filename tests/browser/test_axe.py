@@ -69,6 +69,21 @@ def test_nothing_is_found_on_the_live_page(serve, scheme, width, height):
     assert is_in_place(seen)
 
 
+@pytest.mark.parametrize(("scheme", "width", "height"), LOOKS)
+def test_nothing_is_found_on_the_live_page_with_a_notice_and_a_selection(serve, scheme, width, height):
+    seen = serve(ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml", width=width, height=height, color_scheme=scheme)
+    seen.page.get_by_label("selected", exact=True).select_option("start")
+    # A start in the shelf.
+    seen.page.get_by_label("shoulder in degrees").fill("11")
+    seen.page.get_by_label("elbow in degrees").fill("0")
+    seen.page.keyboard.press("Tab")
+    seen.until("cplan.blocked?.length && cplan.isCurrent")
+    seen.do("document.querySelectorAll('details').forEach((folded) => { folded.open = true; })")
+    assert seen.page.locator(".notice.picture").is_visible()
+    assert faults(seen) == []
+    assert is_in_place(seen)
+
+
 def test_an_infeasible_world_says_so_and_shows_the_proof(pages, show_file):
     seen = show_file(pages["infeasible"])
     said = seen.page.locator(".verdict").inner_text()

@@ -94,7 +94,7 @@ def test_what_is_wrong_is_said_and_what_was_there_stays(serve):
     before = path(seen)
     seen.page.locator(".world summary").click()
     seen.page.get_by_label("world as TOML").fill("[start]\njoints = [0.1]\n")
-    seen.page.get_by_role("button", name="plan in the world that the text describes").click()
+    seen.page.get_by_role("button", name="Plan in this world").click()
     seen.until("cplan.answered.error")
     assert "line 2" in seen.page.get_by_role("alert").inner_text()
     assert path(seen) == before

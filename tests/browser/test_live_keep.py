@@ -39,10 +39,11 @@ def test_edits_survive_a_reload(serve):
 def test_what_can_be_dragged_says_so_until_it_was(serve):
     seen = serve(*PLANAR)
     settled(seen)
-    assert seen.do("cplan.editor.isNew")
+    hint = seen.page.locator("figcaption .hint")
+    assert seen.do("cplan.editor.isNew") and "drag" in hint.inner_text()
     drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75])
     settled(seen)
-    assert not seen.do("cplan.editor.isNew")
+    assert not seen.do("cplan.editor.isNew") and hint.count() == 0
     seen.page.reload()
     settled(seen)
     assert not seen.do("cplan.editor.isNew")
@@ -70,7 +71,7 @@ def test_edits_made_while_the_server_is_gone_are_sent_when_it_is_back(serve):
     seen.server.stop()
     seen.until("!cplan.isUp")
     assert badge(seen) == "? no connection"
-    lost = seen.page.locator(".line")
+    lost = seen.page.locator(".connection")
     assert lost.is_visible() and "connection to cplan is lost" in lost.inner_text()
     # The page continues without it, and says so.
     drag(seen, "workspace", [0.9, -1.4], [1.15, -0.75])

@@ -41,11 +41,14 @@ def test_swipes_scroll_the_page(serve, fingers):
     for panel, empty in [("workspace", [-1.2, 1.2]), ("cspace", [-2.0, -1.5])]:
         x, y = spot(seen, panel, empty)
         before = scrolled(seen)
-        assert seen.do("([p, v]) => cplan.editor.reached(cplan.view.panels[p], v, { pointerType: 'touch', clientX: -999, clientY: -999 })", [panel, empty]) is None
+        assert seen.do("([p, v]) => cplan.editor.itemUnder(cplan.view.panels[p], v, { pointerType: 'touch', clientX: -999, clientY: -999 })", [panel, empty]) is None
         fingers(seen, [x, y], [x, y - 250])
         assert scrolled(seen) > before + 100, panel
         assert seen.do("cplan.view.probe") is None, "a swipe does not try the arm"
     seen.do("window.scrollTo(0, 0)")
+    tab = seen.page.get_by_role("tab", name="Plots")
+    if tab.count():
+        tab.click()
     plot = seen.page.locator(".plots canvas").nth(1)
     plot.scroll_into_view_if_needed()
     before, box = scrolled(seen), plot.bounding_box()
@@ -84,8 +87,47 @@ def test_a_tap_tries_the_arm_and_the_cross_can_be_taken(serve, fingers):
     assert seen.do("cplan.view.probe") is None
 
 
+def test_fingers_move_obstacles_by_their_body_and_corners_in_a_mode(serve, fingers):
+    seen = serve(*PLANAR, **PHONE)
+    seen.page.touchscreen.tap(*spot(seen, "workspace", [0.65, -1.45]))
+    assert seen.do("cplan.editor.selection.index") == 1
+    corners = seen.do("cplan.scene.obstacles[1].shape.polygon")
+    # Near a corner, a finger takes the whole obstacle.
+    near = [0.76, -1.34]
+    fingers(seen, spot(seen, "workspace", near), spot(seen, "workspace", [0.86, -1.24]))
+    settled(seen)
+    moved = seen.do("cplan.scene.obstacles[1].shape.polygon")
+    by = [moved[0][k] - corners[0][k] for k in (0, 1)]
+    assert by == pytest.approx([0.1, 0.1], abs=0.03)
+    assert moved == [pytest.approx([p[k] + by[k] for k in (0, 1)], abs=1e-3) for p in corners]
+    toggle = seen.page.get_by_role("button", name="drag corners")
+    toggle.click()
+    assert toggle.get_attribute("aria-pressed") == "true"
+    fingers(seen, spot(seen, "workspace", moved[2]), spot(seen, "workspace", [x + 0.1 for x in moved[2]]))
+    settled(seen)
+    assert seen.do("cplan.scene.obstacles[1].shape.polygon[2]") == pytest.approx([x + 0.1 for x in moved[2]], abs=0.03)
+    assert seen.do("cplan.scene.obstacles[1].shape.polygon[0]") == moved[0]
+    toggle.click()
+    assert toggle.get_attribute("aria-pressed") == "false"
+
+
+def test_pictures_outcome_and_tools_are_on_the_first_screen(serve):
+    seen = serve(*PLANAR, **PHONE)
+    assert scrolled(seen) == 0
+    boxes = [seen.page.locator(where).bounding_box() for where in ("h1", "canvas[aria-label='Workspace']", "canvas[aria-label='Configuration space']", ".figures", ".toolbar")]
+    bottoms = [box["y"] + box["height"] for box in boxes]
+    assert bottoms == sorted(bottoms) and bottoms[-1] <= 844
+    assert all(box["height"] > 250 for box in boxes[1:3]), "the pictures take most of it"
+    seen.shoot("live-phone")
+    # All fields of the inspector are within the width of the screen.
+    seen.page.get_by_label("selected", exact=True).select_option("obstacle 1")
+    fields = seen.do("[...document.querySelectorAll('.inspector input')].map((input) => input.getBoundingClientRect()).map(({ left, right }) => [left, right])")
+    assert len(fields) == 8 and all(0 <= left and right <= 390 for left, right in fields)
+
+
 def test_two_taps_on_a_side_add_a_corner(serve):
     seen = serve(*PLANAR, **PHONE)
+    seen.page.get_by_role("button", name="drag corners").click()
     seen.page.touchscreen.tap(*spot(seen, "workspace", [0.65, -1.45]))
     assert seen.do("cplan.editor.selection.index") == 1
     seen.page.wait_for_timeout(500)

@@ -41,9 +41,9 @@ def test_a_blocked_start_is_shown_where_it_is(serve):
     assert text.startswith("The start is blocked: link") and '"shelf"' in text and f"{1e3 * deepest:.3g}"[:3] in text
     assert "line" not in text and ".toml" not in text and "^" not in text and "joints =" not in text
     assert badge(seen) == "\u2715 start blocked"
-    # Over the panel that was used, and visible.
+    # Below the panels, where it covers nothing, and visible.
     notice, canvas = (seen.page.locator(where).bounding_box() for where in (".notice.picture", "canvas[aria-label='Workspace']"))
-    assert canvas["y"] <= notice["y"] + 1 and notice["y"] + notice["height"] <= canvas["y"] + canvas["height"]
+    assert canvas["y"] + canvas["height"] <= notice["y"] and notice["y"] + notice["height"] <= 1000
     seen.shoot("live-blocked")
     seen.page.get_by_label("undo").click()
     assert settled(seen)["certified"]
@@ -97,7 +97,7 @@ def test_wrong_text_is_told_beside_it_until_it_is_changed(serve):
     seen.page.locator(".world summary").click()
     text = seen.page.get_by_label("world as TOML")
     text.fill("[start]\njoints = [0.1]\n")
-    seen.page.get_by_role("button", name="plan in the world that the text describes").click()
+    seen.page.get_by_role("button", name="Plan in this world").click()
     seen.until("cplan.answered.error")
     assert list(notices(seen)) == ["text"] and "line 2" in notices(seen)["text"], "here there are lines"
     box = seen.page.locator(".notice.text").bounding_box()
@@ -126,10 +126,10 @@ WATCH = """() => {
   const send = cplan.link.send.bind(cplan.link);
   cplan.link.send = (kind, request, about) => { if (kind === 'plan') told.set(request.id, state()); send(kind, request, about); };
   let certified = state();
-  const hear = cplan.hear.bind(cplan);
-  cplan.hear = (message, about) => {
+  const receive = cplan.receive.bind(cplan);
+  cplan.receive = (message, about) => {
     if (message.kind === 'answer' && message.done) certified = message.certified && message.final && !message.error ? told.get(message.id) : null;
-    hear(message, about);
+    receive(message, about);
   };
   const look = () => {
     const text = document.querySelector('p.status').textContent;
@@ -186,6 +186,10 @@ def test_what_is_awaited_is_not_certified(serve):
     try:
         drag(seen, "workspace", [0.7, -1.5], [0.8, -1.4])
         assert badge(seen) == "\u2026 planning\u2026"
+        # The last verdict and its figures stay visible, with a label.
+        assert seen.page.locator(".last").inner_text() == "last: found, certified"
+        assert seen.do("getComputedStyle(document.querySelector('.figures'), '::before').content") == '"last plan: "'
+        assert seen.page.locator(".figures").inner_text().startswith("found and certified") and seen.page.locator(".figures").is_visible()
         seen.page.wait_for_timeout(600)
         assert badge(seen) == "\u2026 planning\u2026" and "not up to date" in seen.do("getComputedStyle(document.querySelector('.panels figcaption'), '::after').content")
         # Facts of the previous plan are not facts of this world.
@@ -193,6 +197,38 @@ def test_what_is_awaited_is_not_certified(serve):
     finally:
         seen.server.go_on()
     assert settled(seen)["certified"] and "certified" in badge(seen)
+    assert seen.page.locator(".last").inner_text() == ""
+
+
+def test_a_blocked_start_or_goal_is_moved_to_the_nearest_free_place(serve):
+    seen = serve(*PLANAR)
+    drag(seen, "workspace", *ON_THE_ARM)
+    settled(seen)
+    [blocked] = seen.do("cplan.blocked")
+    seen.page.get_by_role("button", name="Move start to nearest free").click()
+    assert settled(seen)["certified"] and notices(seen) == {}
+    start = seen.do("cplan.scene.start.joints")
+    assert 0 < max(abs(a - b) for a, b in zip(start, blocked["at"])) < 0.5, "near"
+    assert seen.do("Geometry.contacts(cplan.view.model.arm, cplan.view.world, cplan.scene.start.joints)[0].distance") < 0.05, "not farther than necessary"
+    assert seen.do("cplan.editor.selection.kind") == "start"
+    seen.page.get_by_label("undo").click()
+    settled(seen)
+    assert "start blocked" in badge(seen)
+    seen.page.get_by_label("undo").click()
+    # A goal given by its tip, at which all IK solutions are blocked.
+    drag(seen, "workspace", seen.do("cplan.editor.tips.goal"), [0.65, -1.45])
+    settled(seen)
+    assert badge(seen) == "\u2715 goal blocked"
+    seen.page.get_by_role("button", name="Move goal to nearest free").click()
+    assert settled(seen)["certified"]
+    # With a clearance, the place keeps it.
+    seen.page.get_by_label("clearance in millimetres").fill("40")
+    seen.page.keyboard.press("Enter")
+    settled(seen)
+    assert badge(seen) == "\u2715 goal blocked"
+    seen.page.get_by_role("button", name="Move goal to nearest free").click()
+    assert settled(seen)["certified"]
+    assert seen.do("Geometry.contacts(cplan.view.model.arm, cplan.view.world, cplan.scene.goal.joints)[0].distance") > 0.04
 
 
 def test_delete_works_after_something_was_added(serve):
@@ -203,14 +239,30 @@ def test_delete_works_after_something_was_added(serve):
         assert seen.do(names) == ["shelf", "crate", name]
         seen.page.keyboard.press("Delete")
         assert settled(seen)["certified"] and seen.do(names) == ["shelf", "crate"]
-    # The focus does not matter either.
+    # Without any focus, too.
     seen.page.get_by_role("button", name="add a thin wall").click()
-    seen.page.get_by_label("speed").focus()
+    seen.do("document.activeElement.blur()")
     seen.page.keyboard.press("Delete")
     assert seen.do(names) == ["shelf", "crate"]
-    # In a text field, the key deletes text of the field.
+    # Elsewhere the key belongs to the control with the focus.
     seen.page.get_by_role("button", name="add a thin wall").click()
-    seen.page.get_by_label("clearance in millimetres").focus()
-    seen.page.keyboard.press("Delete")
-    assert seen.do(names) == ["shelf", "crate", "wall 1"]
+    for label in ("speed", "clearance in millimetres"):
+        seen.page.get_by_label(label).focus()
+        seen.page.keyboard.press("Delete")
+        assert seen.do(names) == ["shelf", "crate", "wall 1"], label
     settled(seen)
+
+
+def test_shortcuts_of_a_single_key_can_be_switched_off(serve):
+    seen = serve(*PLANAR)
+    seen.page.get_by_label("selected", exact=True).select_option("obstacle 1")
+    seen.do("localStorage.setItem('cplan-shortcuts', 'off')")
+    for key in ("c", "Delete", "Backspace"):
+        seen.page.keyboard.press(key)
+    assert seen.do("cplan.editor.selection") == {"kind": "obstacle", "index": 1, "corner": None}
+    seen.do("document.activeElement.blur()")
+    seen.page.keyboard.press("Delete")
+    assert seen.do("cplan.scene.obstacles.length") == 2
+    seen.do("localStorage.removeItem('cplan-shortcuts')")
+    seen.page.keyboard.press("Delete")
+    assert seen.do("cplan.scene.obstacles.length") == 1

@@ -7,14 +7,18 @@ use cplan_view::{drawing, shell};
 use std::time::Duration;
 
 /// The scripts of the page, in the order of their dependencies.
-const SCRIPTS: [&str; 9] = [
+const SCRIPTS: [&str; 13] = [
     include_str!("assets/alone.js"),
     include_str!("assets/link.js"),
     include_str!("assets/keep.js"),
+    include_str!("assets/frames.js"),
+    include_str!("assets/icons.js"),
     include_str!("assets/notices.js"),
     include_str!("assets/scene.js"),
+    include_str!("assets/nearest.js"),
     include_str!("assets/gallery.js"),
     include_str!("assets/edit.js"),
+    include_str!("assets/inspector.js"),
     include_str!("assets/controls.js"),
     include_str!("assets/live.js"),
 ];

@@ -2,9 +2,9 @@
 'use strict';
 
 /** Time that a request in progress still has when a newer one arrives, in milliseconds. */
-const GRACE = 120;
+const GRACE_PERIOD = 120;
 /** Largest number of waiting requests; of plans only the latest waits. */
-const MOST_WAITING = 8;
+const MAX_WAITING = 8;
 
 class Alone {
   /** Returns the program, compiled once for the page. */
@@ -18,8 +18,8 @@ class Alone {
   }
 
   static get script() {
-    Alone.address ??= URL.createObjectURL(new Blob([document.getElementById('worker').textContent], { type: 'text/javascript' }));
-    return Alone.address;
+    Alone.scriptAddress ??= URL.createObjectURL(new Blob([document.getElementById('worker').textContent], { type: 'text/javascript' }));
+    return Alone.scriptAddress;
   }
 
   /** `limit` returns the time that a plan may take, in seconds. */
@@ -35,7 +35,7 @@ class Alone {
     try {
       this.module = await Alone.module;
     } catch (error) {
-      this.refuse({ id: 0 }, `This browser cannot run cplan: ${error.message ?? error}`);
+      this.reportFailure({ id: 0 }, `This browser cannot run cplan: ${error.message ?? error}`);
       return;
     }
     if (this.readyState === WebSocket.CLOSED) return;
@@ -44,15 +44,15 @@ class Alone {
   }
 
   /** Starts a worker with the open world. */
-  start() {
+  startWorker() {
     this.worker = new Worker(Alone.script);
-    this.worker.onmessage = ({ data }) => this.hear(data);
+    this.worker.onmessage = ({ data }) => this.receive(data);
     this.running = { do: 'open' };
     this.worker.postMessage({ module: this.module, open: this.open });
   }
 
   /** Ends the worker and its current request. */
-  end() {
+  endWorker() {
     if (!this.worker) return;
     this.worker.onmessage = null;
     this.worker.terminate();
@@ -61,48 +61,48 @@ class Alone {
   send(text) {
     const request = JSON.parse(text);
     if (request.do === 'open') {
-      this.end();
+      this.endWorker();
       this.waiting = [];
       this.open = { ...request, seconds: this.limit(), held: null };
-      this.start();
+      this.startWorker();
       return;
     }
     if (request.do === 'plan') this.waiting = this.waiting.filter((one) => one.do !== 'plan');
-    if (this.waiting.length >= MOST_WAITING) this.refuse(request, 'too many requests are waiting');
+    if (this.waiting.length >= MAX_WAITING) this.reportFailure(request, 'Too many requests are waiting. Try again.');
     else this.waiting.push(request);
-    this.next();
+    this.sendNext();
   }
 
-  refuse(request, error) {
+  reportFailure(request, error) {
     this.onmessage({ data: JSON.stringify({ kind: 'failed', id: request.id ?? request.ask.id, error }) });
   }
 
-  next() {
+  sendNext() {
     if (!this.running) {
       this.running = this.waiting.shift() ?? null;
       if (this.running) this.worker.postMessage({ request: this.running });
     }
-    this.hurry();
+    this.interruptSlowRequest();
   }
 
   /**
    * Ends the request in progress in favour of a newer one, unless it finishes soon. A text is always read, because
    * newer requests may refer to it.
    */
-  hurry() {
+  interruptSlowRequest() {
     const { running } = this;
     if (!running || !this.waiting.length || running.do === 'open' || (running.do === 'load' && !running.isRead) || running.isLate) return;
     running.isLate = true;
-    setTimeout(() => this.running === running && this.waiting.length && this.restart(running), GRACE);
+    setTimeout(() => this.running === running && this.waiting.length && this.restartWorker(running), GRACE_PERIOD);
   }
 
-  restart(running) {
-    this.end();
-    if (running.do === 'download') this.refuse(running, 'the file is not written: the page has changed since');
-    this.start();
+  restartWorker(running) {
+    this.endWorker();
+    if (running.do === 'download') this.reportFailure(running, 'The file was not saved, because the world has changed since. Save again.');
+    this.startWorker();
   }
 
-  hear({ data, held, isFree }) {
+  receive({ data, held, isFree }) {
     if (this.readyState === WebSocket.CLOSED) return;
     if (held) {
       this.open.held = held;
@@ -110,12 +110,12 @@ class Alone {
     }
     if (isFree) this.running = null;
     else this.onmessage({ data });
-    this.next();
+    this.sendNext();
   }
 
   close() {
     this.readyState = WebSocket.CLOSED;
-    this.end();
+    this.endWorker();
     this.onclose();
   }
 }

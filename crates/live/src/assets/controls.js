@@ -1,4 +1,4 @@
-// The controls: buttons that add something, the planner and its options, files.
+// The controls: the toolbar, the planner and its options, the world as text.
 'use strict';
 
 const FILES = [
@@ -13,47 +13,58 @@ class Controls {
   /** `live` is the page that the buttons act on. */
   constructor(live) {
     this.live = live;
-    const button = (text, label, action) => element('button', { type: 'button', class: 'button', 'aria-label': label, title: label, onclick: action }, text);
     const { editor } = live;
-    this.things = element('select', { class: 'things', 'aria-label': 'selected', autocomplete: 'off', onchange: (event) => this.choose(event.target.value) });
-    this.remove = button('Delete', 'delete the selected object or corner', () => editor.remove());
-    this.corner = button('+ corner', 'add a corner to the longest side', () => editor.insertCorner());
-    this.undo = button('\u21b6', 'undo', () => live.turn('undo'));
-    this.redo = button('\u21b7', 'redo', () => live.turn('redo'));
+    this.selected = element('select', { 'aria-label': 'selected', autocomplete: 'off', onchange: (event) => this.choose(event.target.value) });
+    this.inspector = new Inspector(editor, this.selected);
+    this.remove = iconButton('remove', 'delete what is selected', () => editor.remove(), 'Delete');
+    this.corner = iconButton('corner', 'add a corner to the longest side', () => editor.insertCorner(), 'double click on a side');
+    this.cornerMode = iconButton('corners', 'drag corners', () => editor.setCornerMode(!editor.editsCorners));
+    // Elsewhere corners can always be dragged.
+    const offerCornerMode = () => {
+      this.cornerMode.hidden = !Editor.hasCornerMode.matches;
+      editor.setCornerMode(this.cornerMode.hidden);
+    };
+    Editor.hasCornerMode.addEventListener('change', offerCornerMode);
+    this.cornerMode.hidden = !Editor.hasCornerMode.matches;
+    this.undo = iconButton('undo', 'undo', () => live.stepHistory('undo'), 'Ctrl+Z');
+    this.redo = iconButton('redo', 'redo', () => live.stepHistory('redo'), 'Ctrl+Y');
     this.clearance = element('input', {
       type: 'number', min: '0', step: '1', inputmode: 'decimal', autocomplete: 'off', 'aria-label': 'clearance in millimetres',
-      onchange: () => live.keep(Math.max(0, Number(this.clearance.value) || 0) / 1000),
+      onchange: () => live.setClearance(Math.max(0, Number(this.clearance.value) || 0) / 1000),
     });
+    this.clearanceLabel = element('label', {}, 'clearance ', this.clearance, ' mm');
     this.planner = element('select', { 'aria-label': 'planner', autocomplete: 'off', onchange: () => this.replan(true) });
     this.menus = element('div', { class: 'group menus' });
     this.more = element('input', {
-      type: 'text', class: 'more', spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', placeholder: '--field oriented --epsilon 0.5 --direction 0,-1',
+      type: 'text', class: 'more', spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', placeholder: '--field oriented --epsilon 0.5',
       'aria-label': 'more options, as on the command line', onchange: () => this.replan(),
     });
     this.command = element('code', {});
-    this.edit = element(
-      'div', { class: 'group' }, this.things, this.corner, this.remove,
-      button('+ polygon', 'add a polygon', () => editor.add('polygon')), button('+ circle', 'add a circle', () => editor.add('circle')),
-      button('+ wall', 'add a thin wall', () => editor.add('wall')), this.undo, this.redo,
-      element('label', {}, 'clearance ', this.clearance, ' mm'),
-    );
+    const group = (label, ...children) => element('div', { class: 'tools', role: 'group', 'aria-label': label }, ...children);
+    /** Groups that change the world; hidden for tasks. */
+    this.edits = [
+      group('History', this.undo, this.redo),
+      group('Add', ...[['polygon', 'add a polygon'], ['circle', 'add a circle'], ['wall', 'add a thin wall']].map(([kind, label]) => iconButton(kind, label, () => editor.add(kind)))),
+      group('Selected obstacle', this.cornerMode, this.corner, this.remove),
+    ];
+    this.toolbar = element('section', { class: 'toolbar', 'aria-label': 'Tools' }, ...this.edits, group('Files', ...this.fileTools()));
     this.root = element(
-      'section', { class: 'controls', 'aria-label': 'World and planner' },
-      this.edit,
-      element('div', { class: 'group' }, element('label', {}, 'planner ', this.planner), this.menus, element('label', {}, 'more ', this.more)),
+      'section', { class: 'controls', 'aria-label': 'Planner' },
+      element('div', { class: 'group' }, element('label', {}, 'planner ', this.planner), this.menus, this.clearanceLabel, element('label', { class: 'grows' }, 'more ', this.more)),
     );
-    this.files = this.filePart();
-    this.world = this.textPart(button);
+    this.remarks = element('span', { class: 'remark', role: 'status' }, live.remarked ?? '');
+    this.commandLine = element('p', { class: 'command' }, 'as a command: ', this.command);
+    this.world = this.textPart();
   }
 
   /** Creates the part with the world as text. */
-  textPart(button) {
+  textPart() {
     const { live } = this;
     this.text = element('textarea', {
       rows: '16', spellcheck: 'false', autocomplete: 'off', 'aria-label': 'world as TOML',
       oninput: () => {
         this.isTyped = true;
-        live.notices.say('text', null);
+        live.notices.show('text', null);
       },
     });
     return element(
@@ -61,23 +72,20 @@ class Controls {
       element('summary', {}, 'World as text'),
       element('p', {}, element('label', {}, this.text)),
       live.notices.places.text,
-      button('Plan in this world', 'plan in the world that the text describes', () => live.load(this.text.value)),
+      element('button', { type: 'button', class: 'button', onclick: () => live.load(this.text.value) }, 'Plan in this world'),
     );
   }
 
-  /** Creates the buttons for files, which are always visible. */
-  filePart() {
+  /** Creates the tools that open and save files. */
+  fileTools() {
     const { live } = this;
-    const button = (text, action, label) => element('button', { type: 'button', class: 'button', title: label, onclick: action }, text);
     this.file = element('input', { type: 'file', accept: '.toml', hidden: true, onchange: () => this.open() });
     this.format = element('select', { 'aria-label': 'file to save', autocomplete: 'off' }, ...entries(live.gallery.isAlone ? FILES.filter(([name]) => name !== 'png') : FILES));
-    this.remarks = element('span', { class: 'remark', role: 'status' }, live.remarked ?? '');
-    return element(
-      'div', { class: 'group files' }, button('Open world\u2026', () => this.file.click()), this.file, this.format,
-      button('Save', () => live.save(this.format.value)),
-      button('Start again', () => live.reset(), 'return to the initial world'),
-      this.remarks, element('span', { class: 'command' }, 'as a command: ', this.command),
-    );
+    return [
+      iconButton('open', 'open a world file', () => this.file.click()), this.file,
+      iconButton('save', 'save as', () => live.save(this.format.value)), this.format,
+      iconButton('restart', 'start again with the first world', () => live.reset()),
+    ];
   }
 
   async open() {
@@ -87,7 +95,7 @@ class Controls {
   }
 
   /** Shows the world's text, unless the user is typing there. */
-  type(text) {
+  showText(text) {
     if (this.isTyped && this.text.value !== this.shownText) return;
     this.isTyped = false;
     this.shownText = text;
@@ -99,20 +107,20 @@ class Controls {
   }
 
   /** Marks the typed options as wrong, or removes the mark. */
-  complain(isWrong) {
+  markInvalid(isWrong) {
     if (isWrong) this.more.setAttribute('aria-invalid', 'true');
     else this.more.removeAttribute('aria-invalid');
   }
 
   /** Shows another world. */
-  use(world, scene) {
+  showWorld(world, scene) {
     this.planners = world.menus;
     this.planner.replaceChildren(...entries(this.planners.map(({ name }) => [name, name])));
-    this.read(this.live.words);
-    this.edit.hidden = world.has_steps;
+    this.showOptions(this.live.words);
+    for (const part of [...this.edits, this.inspector.root, this.clearanceLabel]) part.hidden = world.has_steps;
     this.isTyped = false;
     this.showClearance(scene);
-    this.show();
+    this.showCommand();
   }
 
   showClearance(scene) {
@@ -120,7 +128,7 @@ class Controls {
   }
 
   /** Distributes planner and options over the controls. */
-  read(text) {
+  showOptions(text) {
     const [planner, ...words] = text.split(/\s+/);
     this.planner.value = planner;
     const chosen = new Map();
@@ -138,7 +146,7 @@ class Controls {
       } else rest.push(word);
     }
     this.more.value = rest.join(' ');
-    this.offer(chosen);
+    this.showMenus(chosen);
   }
 
   /** Returns the menus of the chosen planner. */
@@ -147,7 +155,7 @@ class Controls {
   }
 
   /** Creates the planner's menus. The entry for the default sends nothing, so that the program chooses. Numbers ascend. */
-  offer(chosen) {
+  showMenus(chosen) {
     this.selects = this.options.map(({ name, label, standard, values }) => {
       const size = Number.parseFloat(standard);
       const larger = values.findIndex(([value]) => Number(value) >= size);
@@ -167,12 +175,12 @@ class Controls {
 
   /** Plans with the current choices. Another planner shows its own menus; those with the same names keep their values. */
   replan(isOther = false) {
-    if (isOther) this.offer(new Map(this.selects.map(([name, { value }]) => [name, value])));
-    this.show();
+    if (isOther) this.showMenus(new Map(this.selects.map(([name, { value }]) => [name, value])));
+    this.showCommand();
     this.live.choose(this.words);
   }
 
-  show() {
+  showCommand() {
     this.command.textContent = `cplan ROBOT.urdf WORLD.toml --planner ${this.words}`;
   }
 
@@ -185,21 +193,23 @@ class Controls {
   }
 
   /** Updates the controls after a change in the editor. */
-  follow() {
+  updateSelection() {
     const { scene, selection } = this.live.editor;
     if (!scene) return;
     const value = !selection ? '' : selection.kind === 'obstacle' ? `obstacle ${selection.index}` : selection.kind;
-    const pairs = [['', 'nothing selected'], ['start', 'start'], ['goal', 'goal'], ...scene.obstacles.map(({ name }, i) => [`obstacle ${i}`, name])];
+    const pairs = [['', 'nothing'], ['start', 'start'], ['goal', 'goal'], ...scene.obstacles.map(({ name }, i) => [`obstacle ${i}`, name])];
     const signature = JSON.stringify(pairs);
     if (signature !== this.signature) {
       this.signature = signature;
-      this.things.replaceChildren(...entries(pairs));
+      this.selected.replaceChildren(...entries(pairs));
     }
-    this.things.value = value;
+    this.selected.value = value;
     const shape = this.live.editor.obstacle?.shape;
+    this.cornerMode.setAttribute('aria-pressed', String(this.live.editor.editsCorners));
     this.remove.disabled = selection?.kind !== 'obstacle';
     this.corner.disabled = !shape || Boolean(shape.circle);
     this.undo.disabled = !scene.past.length;
     this.redo.disabled = !scene.future.length;
+    this.inspector.update();
   }
 }

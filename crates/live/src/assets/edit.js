@@ -2,22 +2,21 @@
 'use strict';
 
 /** Distance within which a pointer takes something, in pixels: a mouse, a pen, a finger. */
-const GRASP = { mouse: 9, pen: 12, touch: 20 };
+const GRASP_RADIUS = { mouse: 9, pen: 12, touch: 20 };
 /** Longest time between the taps of a double tap, in milliseconds. */
-const DOUBLE = 350;
-
-/** Room for the name of a shape on each side of it, in pixels. */
-const NAME = 18;
+const DOUBLE_TAP_TIME = 350;
+/** Radius of the rings around items that can be dragged, on the first visit, in pixels. */
+const HINT_RADIUS = 19;
 
 class Editor {
   /**
-   * `changed(final)` is called when the scene has changed, `selected()` when the selection has changed, and
-   * `used(panel)` when a panel is used. `configurations()` returns the start and goals of the last answer; `blocked()`
-   * those that are not free, each with the obstacles in contact. `isDrawn(obstacle)` returns whether an obstacle is
-   * drawn at its current place.
+   * `changed(final)` is called when the scene has changed, and `selected()` when the selection has changed.
+   * `configurations()` returns the start and goals of the last answer; `blocked()` those that are not free, each with
+   * the obstacles in contact. `isDrawn(obstacle)` returns whether an obstacle is drawn at its current place. `frames`
+   * collects work for the next picture of the screen.
    */
-  constructor(view, { changed, selected, used, configurations, blocked, isDrawn }) {
-    Object.assign(this, { view, changed, selected, used, configurations, blocked, isDrawn });
+  constructor(view, { changed, selected, configurations, blocked, isDrawn, frames }) {
+    Object.assign(this, { view, changed, selected, configurations, blocked, isDrawn, frames });
     this.scene = null;
     /** Selection: { kind: 'obstacle', index, corner } | { kind: 'start' } | { kind: 'goal' }. */
     this.selection = null;
@@ -27,10 +26,18 @@ class Editor {
       move: (panel, value, event) => this.move(panel, value, event),
       up: (panel, value, event) => this.up(panel, value, event),
       tap: (panel) => this.tap(panel),
-      grasps: (panel, value, event) => Boolean(this.reached(panel, value, event)),
+      grasps: (panel, value, event) => Boolean(this.itemUnder(panel, value, event)),
     };
-    /** True if nothing was ever dragged in this browser. The page then marks items that can be dragged. */
+    /** True if nothing was ever dragged in this browser. The page then says what can be dragged. */
     this.isNew = !Keep.hasDragged();
+    /** The invitation to drag, in the caption of the workspace: there it covers nothing. */
+    this.hint = element('span', { class: 'hint' }, 'drag obstacles or goal');
+    if (this.isNew) view.panels.workspace.canvas.parentElement.querySelector('figcaption').append(this.hint);
+    /**
+     * True if the corners of the selected obstacle can be dragged. On touch screens and small ones this is a mode of its
+     * own, so that fingers do not grab corners by accident.
+     */
+    this.editsCorners = !Editor.hasCornerMode.matches;
     /** The last tap of a finger that moved nothing. */
     this.tapped = { at: -Infinity };
     const { workspace, cspace } = view.panels;
@@ -40,9 +47,12 @@ class Editor {
     for (const panel of [workspace, cspace]) panel.canvas.addEventListener('keydown', (event) => this.key(event, panel), true);
   }
 
-  use(scene) {
+  editScene(scene) {
     this.scene = scene;
     this.held = null;
+    this.frames.drop('drag');
+    // Tasks cannot be edited.
+    this.hint.hidden = scene.world.has_steps;
     this.select(null);
   }
 
@@ -65,6 +75,13 @@ class Editor {
     return this.selection?.kind === 'obstacle' ? this.scene.obstacles[this.selection.index] : null;
   }
 
+  /** Switches dragging of corners on or off. */
+  setCornerMode(isOn) {
+    this.editsCorners = isOn;
+    this.selected();
+    this.redraw();
+  }
+
   // Places.
 
   get arm() {
@@ -72,7 +89,7 @@ class Editor {
   }
 
   get start() {
-    return this.configurations().start ?? this.view.model.start;
+    return this.scene.start?.joints ?? this.configurations().start ?? this.view.model.start;
   }
 
   get goal() {
@@ -90,16 +107,17 @@ class Editor {
   // The pointer.
 
   /** Returns the item that a pointer at a place of the workspace would take. */
-  find(panel, value, event) {
-    const near = GRASP[event.pointerType] ?? GRASP.mouse;
+  itemAt(panel, value, event) {
+    const near = GRASP_RADIUS[event.pointerType] ?? GRASP_RADIUS.mouse;
     const reach = near / panel.pixels;
     const apart = (p) => Math.hypot(p[0] - value[0], p[1] - value[1]);
     const shape = this.obstacle?.shape;
-    if (shape) {
+    if (shape && this.editsCorners) {
       const { index } = this.selection;
       const corners = Shapes.corners(shape) ?? [];
-      const corner = corners.findIndex((p) => apart(p) <= reach);
-      if (corner >= 0) return { kind: 'obstacle', index, corner };
+      const distances = corners.map(apart);
+      const least = Math.min(...distances);
+      if (least <= reach) return { kind: 'obstacle', index, corner: distances.indexOf(least) };
       if (shape.circle && Math.abs(apart(shape.circle.center) - shape.circle.radius) <= reach) return { kind: 'obstacle', index, corner: 'rim' };
     }
     const { tips } = this;
@@ -113,8 +131,8 @@ class Editor {
   }
 
   /** Returns the item that a pointer would take in the configuration space. */
-  findConfiguration(panel, event) {
-    const near = 1.5 * (GRASP[event.pointerType] ?? GRASP.mouse);
+  configurationAt(panel, event) {
+    const near = 1.5 * (GRASP_RADIUS[event.pointerType] ?? GRASP_RADIUS.mouse);
     const [x, y] = panel.spot(event);
     const is = (q) => q && Math.hypot(...[0, 1].map((k) => CSpace.place(this.view, panel, q)[k] - [x, y][k])) <= near;
     if (is(this.goal)) return { kind: 'goal' };
@@ -122,15 +140,14 @@ class Editor {
   }
 
   /** Returns the item that a pointer in one of the panels would take. */
-  reached(panel, value, event) {
+  itemUnder(panel, value, event) {
     if (!this.scene || this.scene.world.has_steps) return null;
-    return panel === this.view.panels.workspace ? this.find(panel, value, event) : this.findConfiguration(panel, event);
+    return panel === this.view.panels.workspace ? this.itemAt(panel, value, event) : this.configurationAt(panel, event);
   }
 
   down(panel, value, event) {
     if (!this.scene || this.scene.world.has_steps || event.button > 0) return false;
-    this.used(panel);
-    const found = this.reached(panel, value, event);
+    const found = this.itemUnder(panel, value, event);
     if (!found) {
       // A finger may be about to scroll.
       if (event.pointerType === 'mouse') this.tap(panel);
@@ -152,41 +169,50 @@ class Editor {
 
   move(panel, value, event) {
     if (!this.held) {
-      if (event.pointerType === 'mouse') panel.canvas.style.cursor = this.reached(panel, value, event) ? 'grab' : '';
+      if (event.pointerType === 'mouse') panel.canvas.style.cursor = this.itemUnder(panel, value, event) ? 'grab' : '';
       return false;
     }
     if (this.held.panel !== panel) return true;
+    if (!this.held.moved) panel.canvas.style.cursor = 'grabbing';
     this.held.moved = true;
-    panel.canvas.style.cursor = 'grabbing';
-    this.place(value);
-    this.changed(false);
+    // A mouse may report several places per picture of the screen.
+    this.held.next = value;
+    this.frames.request('drag', () => {
+      this.held.next = null;
+      this.moveHeldTo(value);
+      this.changed(false);
+    });
     return true;
   }
 
   up(panel, value, event) {
     if (!this.held) return false;
-    const { moved } = this.held;
+    const { moved, next } = this.held;
+    // The last place of a drag, which waits for the next picture. (A cancelled touch has no place of its own.)
+    this.frames.drop('drag');
+    if (next) this.moveHeldTo(next);
     this.held.panel.canvas.style.cursor = '';
     this.held = null;
     if (moved && this.isNew) {
       this.isNew = false;
-      Keep.drag();
+      this.hint.remove();
+      Keep.recordDrag();
     }
     if (moved) this.changed(true);
-    else if (event.pointerType === 'touch') this.tapTwice(panel, value);
+    else if (event.pointerType === 'touch') this.detectDoubleTap(panel, value);
     return true;
   }
 
   /** Detects two taps of a finger as a double click. Browsers do not report one if it begins on a handle. */
-  tapTwice(panel, value) {
+  detectDoubleTap(panel, value) {
     const now = performance.now();
-    const isSecond = now - this.tapped.at < DOUBLE && panel === this.view.panels.workspace;
+    const isSecond = now - this.tapped.at < DOUBLE_TAP_TIME && panel === this.view.panels.workspace && this.editsCorners;
     this.tapped = { at: isSecond ? -Infinity : now };
     if (isSecond) this.insertCorner(value, panel);
   }
 
   /** Moves the grasped item to a place. */
-  place(value) {
+  moveHeldTo(value) {
     const { kind, index, corner, shape, from, panel } = this.held;
     const inWorkspace = panel === this.view.panels.workspace;
     if (kind === 'obstacle') {
@@ -205,7 +231,8 @@ class Editor {
     } else {
       this.placeConfiguration(kind, value);
     }
-    this.redraw();
+    // The configuration space changes with the next answer.
+    this.frames.draw(...(inWorkspace ? [panel] : Object.values(this.view.panels)));
   }
 
   placeTip(kind, value) {
@@ -214,17 +241,45 @@ class Editor {
   }
 
   placeConfiguration(kind, value) {
-    const joints = this.arm.joints.map((joint, k) => {
-      const [low, high] = joint.domain;
-      return joint.circle ? rounded4(Geometry.wrap(joint, value[k])) : rounded4(Math.min(high, Math.max(low, value[k])));
-    });
-    this.scene[kind] = { joints };
+    this.scene[kind] = { joints: this.arm.joints.map((joint, k) => rounded4(Editor.inDomain(joint, value[k]))) };
+  }
+
+  /** Returns the nearest value in the domain of a joint, or the same angle within a turn. */
+  static inDomain(joint, value) {
+    const [low, high] = joint.domain;
+    return joint.circle ? Geometry.wrap(joint, value) : Math.min(high, Math.max(low, value));
+  }
+
+  // Exact coordinates, from the inspector.
+
+  setShape(shape) {
+    this.obstacle.shape = shape;
+    this.finish();
+  }
+
+  setTip(kind, tip) {
+    this.scene[kind] = kind === 'goal' ? { tip } : { tip, near: this.start };
+    this.finish();
+  }
+
+  setConfiguration(kind, q) {
+    this.scene[kind] = { joints: this.arm.joints.map((joint, k) => Editor.inDomain(joint, q[k])) };
+    this.finish();
+  }
+
+  selectCorner(corner) {
+    if (this.obstacle && this.selection.corner !== corner) this.select({ ...this.selection, corner });
+  }
+
+  finish() {
+    this.redraw();
+    this.changed(true);
   }
 
   // Buttons and keys.
 
   /** Returns a place for a new obstacle that leaves start and goal free and touches no other one, if there is one. */
-  room(make) {
+  findRoom(make) {
     const { reach } = this.scene.world;
     const { base, links } = this.arm;
     const configurations = [this.start, ...this.configurations().goals].filter(Boolean);
@@ -253,7 +308,7 @@ class Editor {
       circle: (center) => ({ circle: { center, radius: size } }),
       wall: ([x, y]) => ({ polyline: [[x - size, y], [x + size, y]].map(roundedPoint) }),
     };
-    const index = this.scene.add(kind === 'polygon' ? 'block' : kind === 'circle' ? 'disc' : 'wall', this.room(makers[kind]));
+    const index = this.scene.add(kind === 'polygon' ? 'block' : kind === 'circle' ? 'disc' : 'wall', this.findRoom(makers[kind]));
     this.select({ kind: 'obstacle', index, corner: null });
     // Arrow keys move the new obstacle, and Delete removes it.
     this.focus();
@@ -265,7 +320,7 @@ class Editor {
     if (!obstacle?.shape || obstacle.shape.circle) return;
     const corners = Shapes.corners(obstacle.shape);
     let side = value ? Shapes.nearestSide(obstacle.shape, value) : null;
-    if (value && side.distance * panel.pixels > GRASP.touch) return;
+    if (value && side.distance * panel.pixels > GRASP_RADIUS.touch) return;
     if (!side) {
       const length = ([a, b]) => Math.hypot(corners[b][0] - corners[a][0], corners[b][1] - corners[a][1]);
       const [a, b] = Shapes.sides(obstacle.shape).reduce((best, s) => (length(s) > length(best) ? s : best));
@@ -292,14 +347,23 @@ class Editor {
     this.changed(true);
   }
 
+  /** Deletes the selection if this key event asks for it. Returns true if so. */
+  deletes(event) {
+    if (!this.obstacle || !['Delete', 'Backspace'].includes(event.key) || !Keep.hasShortcuts()) return false;
+    event.preventDefault();
+    event.stopPropagation();
+    this.remove();
+    return true;
+  }
+
   key(event, panel) {
     if (!this.selection || event.ctrlKey || event.metaKey || event.altKey) return;
-    const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
-    const way = ways[event.key];
+    const directions = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
+    const direction = directions[event.key];
     const { obstacle } = this;
-    if (way) this.nudge(way, event.shiftKey ? 10 : 1, panel);
-    else if (event.key === 'Delete' || event.key === 'Backspace') this.remove();
-    else if (event.key === 'c' && obstacle?.shape && !obstacle.shape.circle) {
+    if (direction) this.nudge(direction, event.shiftKey ? 10 : 1, panel);
+    else if (this.deletes(event)) return;
+    else if (event.key === 'c' && Keep.hasShortcuts() && obstacle?.shape && !obstacle.shape.circle) {
       const n = Shapes.corners(obstacle.shape).length;
       const next = this.selection.corner === null ? 0 : this.selection.corner + 1;
       this.select({ ...this.selection, corner: next < n ? next : null });
@@ -321,13 +385,13 @@ class Editor {
       const at = Number.isInteger(corner) ? Shapes.corners(shape)[corner] : [0, 0];
       if (corner === 'rim') {
         const { center, radius } = shape.circle;
-        this.place([center[0] + Math.max(step, radius + (dx + dy) * step), center[1]]);
-      } else this.place([at[0] + dx * step, at[1] + dy * step]);
+        this.moveHeldTo([center[0] + Math.max(step, radius + (dx + dy) * step), center[1]]);
+      } else this.moveHeldTo([at[0] + dx * step, at[1] + dy * step]);
     } else {
       const at = inWorkspace ? this.tips[kind] : this[kind];
       if (!at) return;
       this.held = { kind, from: at, panel };
-      this.place([at[0] + dx * step, at[1] + dy * step]);
+      this.moveHeldTo([at[0] + dx * step, at[1] + dy * step]);
     }
     this.held = null;
     this.changed(true);
@@ -364,20 +428,18 @@ class Editor {
     if (this.isNew) this.invite(context, panel);
   }
 
-  /** Marks the goal and an obstacle as draggable, on the first visit. */
+  /** Marks start and goal as draggable, on the first visit. */
   invite(context, panel) {
-    const { goal, start } = this.tips;
-    const obstacle = this.scene.obstacles.find(({ shape }) => shape)?.shape;
-    const { center, radius } = obstacle?.circle ?? {};
-    const ends = obstacle && (obstacle.circle ? [-1, 1].map((side) => center.map((x) => x + side * radius)) : Shapes.corners(obstacle));
-    const around = (places) => {
-      const spots = places.map((place) => panel.at(place));
-      const [[x, right], [y, bottom]] = [0, 1].map((k) => [Math.min(...spots.map((spot) => spot[k])), Math.max(...spots.map((spot) => spot[k]))]);
-      // With room for the names.
-      return { x: x - NAME, y: y - NAME, width: right - x + 2 * NAME, height: bottom - y + 2 * NAME };
-    };
-    const names = [goal && around([goal]), ends && around(ends)].filter(Boolean).map((of) => ['drag me', of]);
-    Labels.beside(context, panel, names, [goal, start].filter(Boolean).map((tip) => panel.at(tip)));
+    const { start, goal } = this.tips;
+    context.globalAlpha = 0.4;
+    context.strokeStyle = panel.theme.accent;
+    context.lineWidth = 3;
+    for (const tip of [start, goal].filter(Boolean)) {
+      context.beginPath();
+      context.arc(...panel.at(tip), HINT_RADIUS, 0, 2 * Math.PI);
+      context.stroke();
+    }
+    context.globalAlpha = 1;
   }
 
   /** Draws configurations that are not free: links in contact in red, and the obstacles that they touch. */
@@ -410,6 +472,7 @@ class Editor {
   drawSelected(context, panel, shape) {
     const { theme } = panel;
     this.drawOutline(context, panel, shape);
+    if (!this.editsCorners) return;
     const { center, radius } = shape.circle ?? {};
     const handles = shape.circle ? [[center[0] + radius, center[1]]] : Shapes.corners(shape);
     handles.forEach((p, i) => {
@@ -423,7 +486,7 @@ class Editor {
   }
 
   drawCSpace(context, panel) {
-    for (const { at } of this.blocked()) this.drawBarred(context, panel, CSpace.place(this.view, panel, at));
+    for (const { at } of this.blocked()) this.drawBlockedConfiguration(context, panel, CSpace.place(this.view, panel, at));
     const kind = this.selection?.kind;
     if (kind !== 'start' && kind !== 'goal') return;
     const q = this[kind];
@@ -437,7 +500,7 @@ class Editor {
   }
 
   /** Draws a configuration that is not free: a cross in a ring. */
-  drawBarred(context, panel, [x, y]) {
+  drawBlockedConfiguration(context, panel, [x, y]) {
     for (const [width, color] of [[6, panel.theme.paper], [3, panel.theme.infeasible]]) {
       [context.lineWidth, context.strokeStyle] = [width, color];
       context.beginPath();
@@ -447,3 +510,6 @@ class Editor {
     }
   }
 }
+
+/** Screens on which corners are dragged in a mode of its own. */
+Editor.hasCornerMode = matchMedia('(max-width: 51.25rem), (pointer: coarse)');

@@ -35,12 +35,12 @@ const Puzzles = {
   fault({ free }, scene) {
     const first = JSON.parse(scene.first);
     const same = (key) => JSON.stringify(first[key]) === JSON.stringify(scene[key]);
-    if (!same('start') || !same('goal')) return 'Do not change the start or the goal.';
-    if (free === 'clearance') return same('obstacles') ? null : 'Do not change the obstacles: change only the clearance.';
-    if (!same('clearance')) return 'Do not change the clearance.';
+    if (!same('start') || !same('goal')) return 'Leave start and goal where they were.';
+    if (free === 'clearance') return same('obstacles') ? null : 'Leave the obstacles where they were; change the clearance.';
+    if (!same('clearance')) return 'Leave the clearance as it was.';
     const { obstacles } = scene;
     const areThere = obstacles.length === first.obstacles.length && obstacles.every(({ from }, i) => from === i);
-    if (!areThere) return 'Do not add or delete obstacles: only move them.';
+    if (!areThere) return 'Do not add or delete obstacles; move the present ones.';
     return obstacles.every(({ shape }, i) => Puzzles.moved(first.obstacles[i].shape, shape)) ? null : 'Move the obstacles, but do not change their shapes.';
   },
 
@@ -62,9 +62,9 @@ class Gallery {
       element('optgroup', { label }, ...choices.filter(isOf).map(({ name, title }) => element('option', { value: name }, title)))
     ));
     this.select = element('select', { 'aria-label': 'world to open', autocomplete: 'off', onchange: () => this.go(this.select.value) }, element('option', { value: '' }, 'this page\u2019s'), ...groups);
-    this.copy = element('button', { type: 'button', class: 'button', onclick: () => this.link() }, 'Copy link');
-    this.task = element('span', { class: 'task', role: 'status' });
-    this.root = element('div', { class: 'group gallery' }, element('label', {}, 'open ', this.select), this.copy, this.task);
+    this.copy = iconButton('link', 'copy link', () => this.link());
+    this.task = element('p', { class: 'task', role: 'status' });
+    this.root = element('div', { class: 'group gallery' }, element('label', {}, 'open ', this.select), this.copy);
     window.addEventListener('hashchange', () => {
       if (location.hash === this.linked) return;
       live.remark('');
@@ -78,7 +78,7 @@ class Gallery {
   }
 
   /** Opens a connection to the program. */
-  dial() {
+  openSocket() {
     return this.isAlone ? new Alone(() => this.seconds) : Link.server();
   }
 
@@ -92,7 +92,7 @@ class Gallery {
     // If the address or the connection has changed in the meantime, that change opens a world itself.
     if (hash !== location.hash || socket !== live.link.socket || !live.link.isUp) return;
     live.link.open(files);
-    live.mark();
+    live.updateState();
   }
 
   /** Returns the files of the address: a choice by its name, or files packed in it; otherwise the initial files. */
@@ -102,25 +102,25 @@ class Gallery {
     this.choice = this.choices.find((one) => one.name === name) ?? null;
     this.select.value = this.choice?.name ?? '';
     if (this.choice) return { urdf: this.robots[this.choice.robot], world: this.choice.world, options: 'shortest' };
-    if (!name?.startsWith('w=')) return this.own();
+    if (!name?.startsWith('w=')) return this.ownFiles();
     try {
       const { urdf, world, options } = JSON.parse(await Packed.read(name.slice(2)));
       return { urdf, world, options };
     } catch {
-      return this.instead();
+      return this.ownWithRemark();
     }
   }
 
   /** Returns the initial files. */
-  own() {
+  ownFiles() {
     this.isOwn = true;
     return this.files;
   }
 
   /** Returns the initial files with a remark, if the world in the address cannot be opened. */
-  instead() {
-    this.live.remark('The world in the address cannot be read: this is the page\u2019s own world.');
-    return this.own();
+  ownWithRemark() {
+    this.live.remark('The address contains no readable world, so the page shows its own.');
+    return this.ownFiles();
   }
 
   /** Opens another world by its name. */
@@ -134,19 +134,19 @@ class Gallery {
     const packed = `#w=${await Packed.write(JSON.stringify({ urdf, world: toml, options: words }))}`;
     try {
       await navigator.clipboard.writeText(`${location.href.split('#', 1)[0]}${packed}`);
-      this.live.remark('The link is copied: it contains the arm, the world and the options.');
+      this.live.remark('Link copied. It contains arm, world and options.');
     } catch {
       this.linked = packed;
       location.hash = packed;
-      this.live.remark('The address of this page is now the link: it contains the arm, the world and the options.');
+      this.live.remark('The address of this page is now the link. It contains arm, world and options.');
     }
   }
 
   /** Shows the task of the puzzle, and whether it is solved. */
-  say() {
+  showTask() {
     const isWhole = Boolean(this.live.first?.urdf);
     this.copy.disabled = !isWhole || !this.live.isCurrent;
-    this.copy.title = isWhole ? 'copy an address that contains the arm, the world and the options' : 'the arm or the world names other files, which an address cannot contain';
+    this.copy.title = isWhole ? 'copy an address that contains arm, world and options' : 'arm or world name other files, which an address cannot contain';
     const { puzzle } = this.choice ?? {};
     const { scene, answered } = this.live;
     if (!puzzle || !scene) {
@@ -154,7 +154,7 @@ class Gallery {
       return;
     }
     if (this.live.isCurrent) {
-      this.fault = this.live.world.toml === this.choice.world ? Puzzles.fault(puzzle, scene) : 'This is not the world of the puzzle: start again.';
+      this.fault = this.live.world.toml === this.choice.world ? Puzzles.fault(puzzle, scene) : 'This is another world; start again.';
       this.isSolved = !this.fault && Puzzles.isSolved(puzzle, answered, scene);
     }
     const state = this.fault ?? (this.isSolved ? '\u2714 Solved.' : '');

@@ -2,13 +2,14 @@
 'use strict';
 
 /** Largest number of worlds whose edits are kept; the oldest are dropped first. */
-const MOST_KEPT = 8;
+const MAX_WORLDS = 8;
 /** Largest number of undo steps that are kept with each world. */
-const MOST_STEPS = 20;
+const MAX_STEPS = 20;
 
 const Keep = (() => {
   const PREFIX = 'cplan edits ';
   const DRAGGED = 'cplan dragged';
+  const SHORTCUTS = ['cplan-shortcuts', 'cplan.shortcuts'];
 
   /** Returns the store of this window first, then that of all windows. Browsers may refuse both. */
   function stores() {
@@ -29,7 +30,7 @@ const Keep = (() => {
     return `${PREFIX}${hash(2166136261)} ${hash(40389)} ${origin.length}`;
   }
 
-  function tidy(store) {
+  function dropOldest(store) {
     const names = Object.keys(store).filter((key) => key.startsWith(PREFIX));
     const age = (key) => {
       try {
@@ -38,22 +39,22 @@ const Keep = (() => {
         return 0;
       }
     };
-    if (names.length <= MOST_KEPT) return;
-    names.sort((a, b) => age(b) - age(a)).slice(MOST_KEPT).forEach((key) => store.removeItem(key));
+    if (names.length <= MAX_WORLDS) return;
+    names.sort((a, b) => age(b) - age(a)).slice(MAX_WORLDS).forEach((key) => store.removeItem(key));
   }
 
   /** Keeps the edits of an initial world. */
   function write(origin, record) {
     const dated = { at: Date.now(), ...record };
     const tries = [
-      { ...dated, past: record.past.slice(-MOST_STEPS), future: record.future.slice(-MOST_STEPS) },
+      { ...dated, past: record.past.slice(-MAX_STEPS), future: record.future.slice(-MAX_STEPS) },
       { ...dated, past: [], future: [] },
     ];
     for (const store of stores()) {
       for (const text of tries.map((one) => JSON.stringify(one))) {
         try {
           store.setItem(name(origin), text);
-          tidy(store);
+          dropOldest(store);
           break;
         } catch {
           // There is not enough room.
@@ -97,7 +98,7 @@ const Keep = (() => {
     }
   }
 
-  function drag() {
+  function recordDrag() {
     try {
       window.localStorage.setItem(DRAGGED, '1');
     } catch {
@@ -105,5 +106,14 @@ const Keep = (() => {
     }
   }
 
-  return { write, read, forget, hasDragged, drag };
+  /** Returns true unless the user has switched off shortcuts of a single key. */
+  function hasShortcuts() {
+    try {
+      return SHORTCUTS.every((name) => window.localStorage.getItem(name) !== 'off');
+    } catch {
+      return true;
+    }
+  }
+
+  return { write, read, forget, hasDragged, recordDrag, hasShortcuts };
 })();

@@ -11,11 +11,11 @@ class Link {
   }
 
   /**
-   * `dial` opens a connection. `hear` is called with each message, `file` with the head and content of each file, and
+   * `openSocket` opens a connection. `receive` is called with each message, `file` with the head and content of each file, and
    * `state` when the connection opens or closes. The handler of an open connection has to open a world.
    */
-  constructor({ dial, hear, file, state }) {
-    Object.assign(this, { dial, hear, file, state });
+  constructor({ openSocket, receive, file, state }) {
+    Object.assign(this, { openSocket, receive, file, state });
     this.id = 0;
     /**
      * The request in progress: its number, its kind (open, plan, load, download), whether it is final, and the state
@@ -25,7 +25,7 @@ class Link {
     /** The next request: a function that makes it, and whether it is final. */
     this.next = null;
     /** True if a plan was dropped for a request that may leave the world unchanged. */
-    this.owed = false;
+    this.isPlanDue = false;
     this.pause = PAUSES[0];
     this.connect();
     // A user who comes back to the page does not have to wait for the end of a pause.
@@ -36,7 +36,7 @@ class Link {
 
   connect() {
     clearTimeout(this.later);
-    const socket = this.dial();
+    const socket = this.openSocket();
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => {
       this.pause = PAUSES[0];
@@ -44,7 +44,7 @@ class Link {
     };
     socket.onmessage = ({ data }) => (typeof data === 'string' ? this.message(JSON.parse(data)) : this.content(data));
     socket.onclose = () => {
-      [this.awaited, this.next, this.owed] = [null, null, false];
+      [this.awaited, this.next, this.isPlanDue] = [null, null, false];
       this.state(false);
       this.later = setTimeout(() => this.connect(), this.pause);
       this.pause = Math.min(2 * this.pause, PAUSES[1]);
@@ -68,10 +68,10 @@ class Link {
   plan(make, final) {
     if (!this.isUp) return;
     this.next = { make, final: final || (this.next?.final ?? false) };
-    this.pump();
+    this.sendNext();
   }
 
-  pump() {
+  sendNext() {
     if (!this.next || !this.isUp) return;
     const { awaited } = this;
     // Wait until a world has been opened or loaded. During a drag, the server answers as fast as it can, and a new
@@ -95,13 +95,13 @@ class Link {
     this.id += 1;
     this.next = null;
     this.send('open', { do: 'open', id: this.id, files }, { final: true });
-    this.owed = false;
+    this.isPlanDue = false;
   }
 
   /** Loads another text as the world. */
   load(text, options) {
     this.id += 1;
-    this.owed ||= Boolean(this.next);
+    this.isPlanDue ||= Boolean(this.next);
     this.next = null;
     this.send('load', { do: 'load', id: this.id, text, options }, { final: true });
   }
@@ -113,8 +113,8 @@ class Link {
 
   send(kind, request, about) {
     if (!this.isUp) return;
-    if (kind !== 'plan' && this.awaited?.kind === 'plan') this.owed = true;
-    if (kind === 'plan') this.owed = false;
+    if (kind !== 'plan' && this.awaited?.kind === 'plan') this.isPlanDue = true;
+    if (kind === 'plan') this.isPlanDue = false;
     this.awaited = { id: this.id, kind, since: performance.now(), ...about };
     this.socket.send(JSON.stringify(request));
   }
@@ -129,8 +129,8 @@ class Link {
     if (isAwaited && message.kind === 'world' && awaited.kind === 'load') Object.assign(awaited, { kind: 'plan' });
     else if (isAwaited && (isLast || message.kind === 'world')) this.awaited = null;
     // The server makes the next plan while this one is drawn.
-    this.pump();
-    this.hear(message, { ...awaited, isAwaited });
+    this.sendNext();
+    this.receive(message, { ...awaited, isAwaited });
   }
 
   /** Handles a file: its first four bytes are the length of its head. */
@@ -139,6 +139,6 @@ class Link {
     const head = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));
     if (this.awaited?.id === head.id) this.awaited = null;
     this.file(head, new Uint8Array(data, 4 + length));
-    this.pump();
+    this.sendNext();
   }
 }

@@ -10,6 +10,10 @@ const roundedSafely = (value, digits, round) => {
   return value > 0 ? String(+(round(value / unit) * unit).toPrecision(digits)) : '0';
 };
 
+/** Screens on which the panels stand one above the other, as in the style sheet. */
+const SMALL_SCREEN = matchMedia('(max-width: 51.25rem)');
+/** Shortest time between two changes of the figures during a drag, in milliseconds. */
+const FIGURES_INTERVAL = 200;
 /** Time of waiting for a plan after which the picture turns pale, in milliseconds. */
 const NOTICED = 150;
 
@@ -17,13 +21,14 @@ class Live {
   constructor(root) {
     this.root = root;
     this.waiting = element('p', { class: 'waiting', role: 'status' }, 'Connecting\u2026');
-    this.line = element(
-      'div', { class: 'line', role: 'alert', hidden: true }, element('span', {}),
+    this.connectionBar = element(
+      'div', { class: 'connection', role: 'alert', hidden: true }, element('span', {}),
       element('button', { type: 'button', class: 'button', onclick: () => this.link.retry() }, 'Try now'),
     );
-    root.append(this.waiting, this.line);
+    root.append(this.waiting, this.connectionBar);
+    this.frames = new Frames();
     /** Times of the answers during a drag. */
-    this.beats = [];
+    this.answerTimes = [];
     /** Number of the page's current state. Each change increases it. */
     this.edition = 1;
     /** The answer in the picture: the edition, whether it is complete, and its outcome. `null` if there is no connection. */
@@ -34,10 +39,10 @@ class Live {
     /** Worlds to open. */
     this.gallery = new Gallery(this);
     this.link = new Link({
-      dial: () => this.gallery.dial(),
-      hear: (message, about) => this.hear(message, about),
-      file: (head, content) => this.hand(head, content),
-      state: (isUp) => this.lineIs(isUp),
+      openSocket: () => this.gallery.openSocket(),
+      receive: (message, about) => this.receive(message, about),
+      file: (head, content) => this.saveFile(head, content),
+      state: (isUp) => this.connectionChanged(isUp),
     });
     window.addEventListener('pagehide', () => this.keepEdits());
   }
@@ -45,8 +50,8 @@ class Live {
   /** Returns the number of answers per second during a drag. */
   get updatesPerSecond() {
     const now = performance.now();
-    this.beats = this.beats.filter((beat) => now - beat < 1000);
-    return this.beats.length;
+    this.answerTimes = this.answerTimes.filter((time) => now - time < 1000);
+    return this.answerTimes.length;
   }
 
   // Elements of the page. They are built with the first answer.
@@ -57,63 +62,88 @@ class Live {
     this.view.judged = true;
     this.editor = new Editor(this.view, {
       changed: (final) => this.changed(final),
-      selected: () => this.controls?.follow(),
-      used: (panel) => this.notices.over(panel),
+      selected: () => this.controls?.updateSelection(),
       configurations: () => ({ start: this.places?.start, goals: this.places?.goals ?? [] }),
       blocked: () => this.blocked ?? [],
+      frames: this.frames,
       isDrawn: ({ shape }) => this.root.classList.contains('behind') || this.shown?.error ? Boolean(this.drawn?.has(shape)) : true,
     });
     this.controls = new Controls(this);
     this.figures = element('p', { class: 'figures' });
+    this.figuresShown = -Infinity;
+    for (const panel of Object.values(this.view.panels)) this.speedUp(panel);
+    this.lastVerdict = element('p', { class: 'last' });
+    const { status } = this.view.parts;
+    const verdicts = element('div', { class: 'verdicts' });
+    status.before(verdicts);
+    verdicts.append(status, this.lastVerdict);
     this.spoken = element('p', { class: 'spoken', 'aria-live': 'polite' });
     const { places } = this.notices;
-    this.root.querySelector('header').after(this.gallery.root, this.controls.root, places.options);
-    this.root.querySelector('.panels').after(this.figures, this.spoken, this.controls.files, places.files);
-    this.root.querySelector('.help').before(this.controls.world);
-    this.notices.over(this.view.panels.workspace);
+    this.outcome = element('div', { class: 'outcome' }, this.figures, places.picture, places.files, this.controls.remarks);
+    this.root.querySelector('.panels').after(this.outcome, this.spoken, this.controls.inspector.root);
+    this.arrange();
+    SMALL_SCREEN.addEventListener('change', () => this.arrange());
+    this.root.querySelector('.help').before(this.controls.commandLine, this.controls.world);
     this.root.querySelector('.help dl').prepend(...[
-      ['drag an obstacle, the start\u2019s tip (ring) or the goal (target)', 'moves it; the configuration space follows, and the plan appears when you release it'],
-      ['drag start (ring) or goal (diamond) in the configuration space', 'moves the start or the goal in joint space'],
-      ['click an obstacle, then drag a corner or the rim', 'changes its shape; a double click on a side adds a corner'],
-      ['arrow keys with something selected', 'moves it (with Shift further)'],
-      ['c', 'selects the next corner'],
-      ['Delete', 'deletes the corner or the obstacle'],
+      ['drag an obstacle, the start\u2019s tip (ring) or the goal (target)', 'the configuration space follows, the plan when you let go'],
+      ['drag start (ring) or goal (diamond) in the configuration space', 'the same by joint values'],
+      ['click an obstacle, then drag a corner or the rim', 'changes its shape; a double click on a side adds a corner (on touch screens: after \u201cdrag corners\u201d)'],
+      ['arrow keys with something selected', 'move it (with Shift further)'],
+      ['c in the workspace', 'selects the next corner'],
+      ['Delete in the workspace', 'deletes the corner or the obstacle'],
       ['Ctrl+Z, Ctrl+Y', 'undo, redo'],
     ].flatMap(([keys, what]) => [element('dt', {}, keys), element('dd', {}, what)]));
     document.addEventListener('keydown', (event) => this.key(event));
-    this.dress();
+    this.showWorld();
+  }
+
+  /** Leaves out transparency while something is dragged: it needs two more copies of the whole picture for each arm. */
+  speedUp(panel) {
+    panel.faded = (context, alpha, draw) => {
+      if (this.view.light) draw(context);
+      else Panel.prototype.faded.call(panel, context, alpha, draw);
+    };
+  }
+
+  /** Puts tools and choices above the pictures; on a small screen below them, because there the pictures come first. */
+  arrange() {
+    const [header, stage, panels] = ['header', '.stage', '.panels'].map((name) => this.root.querySelector(name));
+    const { controls: { toolbar, root }, gallery, outcome, notices: { places } } = this;
+    if (SMALL_SCREEN.matches) {
+      outcome.after(gallery.task, toolbar);
+      stage.after(gallery.root, root, places.options);
+    } else {
+      panels.before(toolbar);
+      header.firstChild.after(gallery.root);
+      header.after(gallery.task, root, places.options);
+    }
   }
 
   key(event) {
     if (event.target.matches?.('textarea, input:not([type=checkbox]):not([type=range])')) return;
-    // The selected obstacle can be deleted regardless of the focus.
-    if ((event.key === 'Delete' || event.key === 'Backspace') && this.editor.obstacle) {
-      event.preventDefault();
-      this.editor.remove();
-      return;
-    }
+    if (event.target === document.body && this.editor.deletes(event)) return;
     if (!(event.ctrlKey || event.metaKey)) return;
     const key = event.key.toLowerCase();
     if (key !== 'z' && key !== 'y') return;
     event.preventDefault();
-    this.turn(key === 'y' || event.shiftKey ? 'redo' : 'undo');
+    this.stepHistory(key === 'y' || event.shiftKey ? 'redo' : 'undo');
   }
 
   /** Starts with a world, or with the edits of it that were kept. */
-  begin(record = null) {
+  startEditing(record = null) {
     this.scene = new Scene(this.world);
     if (record) this.scene.restore(record);
     this.changedSince = this.scene.isChanged;
     this.edition += 1;
-    if (this.view) this.dress();
+    if (this.view) this.showWorld();
   }
 
   /** Shows the world in the controls. */
-  dress() {
-    this.controls.use(this.world, this.scene);
-    this.controls.type(this.world.toml);
-    this.editor.use(this.scene);
-    for (const place of ['picture', 'options', 'text', 'files']) this.notices.say(place, null);
+  showWorld() {
+    this.controls.showWorld(this.world, this.scene);
+    this.controls.showText(this.world.toml);
+    this.editor.editScene(this.scene);
+    for (const place of ['picture', 'options', 'text', 'files']) this.notices.show(place, null);
   }
 
   // Edits that survive the page and the server.
@@ -131,37 +161,37 @@ class Live {
   }
 
   /** Handles an opened world, after a new connection or for another address. */
-  greeted(world) {
+  worldOpened(world) {
     const origin = `${world.robot}\n${world.toml}`;
     if (origin !== this.origin) {
       const hadAnother = Boolean(this.origin && this.scene?.isChanged);
       [this.origin, this.first] = [origin, world];
       const record = Keep.read(origin);
       this.words = record?.words ?? world.options;
-      this.takeUp(world, record);
-      if (record) this.remark('Your earlier edits are restored.');
-      else if (hadAnother && !this.gallery.hasMoved) this.remark('cplan now serves this other world. Your edits return when it serves the earlier world again.');
+      this.continueWith(world, record);
+      if (record) this.remark('Your last edits are back.');
+      else if (hadAnother && !this.gallery.hasMoved) this.remark('cplan now serves this other world. Your edits come back when it serves the one before again.');
     } else if (this.scene) {
       // Send edits that were made without a connection.
       this.continued = true;
-      this.takeUp(world, this.record);
+      this.continueWith(world, this.record);
     }
   }
 
   /** Continues with edits of the server's initial world, or loads the edited text. */
-  takeUp(world, record) {
+  continueWith(world, record) {
     if (record && record.text !== world.toml) {
       this.restoring = record;
       this.fallback = world;
       this.link.load(record.text, record.words);
       return;
     }
-    this.adopt(world, record);
+    this.useWorld(world, record);
     this.plan(true);
   }
 
   /** Uses a world of the server as the one that the page changes. */
-  adopt(world, record) {
+  useWorld(world, record) {
     this.world = world;
     this.toml = world.toml;
     if (record && this.continued && this.scene) {
@@ -171,7 +201,7 @@ class Live {
     }
     this.continued = false;
     this.places = { start: world.start, goals: [] };
-    this.begin(record);
+    this.startEditing(record);
   }
 
   /** Shows a remark beside the files. */
@@ -182,31 +212,31 @@ class Live {
 
   // Messages from the server.
 
-  hear(message, about) {
-    if (message.kind === 'world') this.takeWorld(message);
+  receive(message, about) {
+    if (message.kind === 'world') this.receiveWorld(message);
     else if (message.kind === 'failed') this.fail(message, about);
     else if (about.isAwaited) {
-      clearTimeout(this.soon);
-      if (!message.done) this.soon = setTimeout(() => this.preview(message, about), NOTICED);
+      clearTimeout(this.previewTimer);
+      if (!message.done) this.previewTimer = setTimeout(() => this.preview(message, about), NOTICED);
       else if (message.final || !this.view) this.show(message, about);
       else this.showSoon(message, about);
     }
-    this.mark();
+    this.updateState();
   }
 
-  takeWorld(world) {
+  receiveWorld(world) {
     if (world.options !== null) {
-      this.greeted(world);
+      this.worldOpened(world);
       return;
     }
     const record = this.restoring;
     this.restoring = null;
-    this.adopt(world, record);
+    this.useWorld(world, record);
     // The plan that follows is that of the loaded text.
     if (this.link.awaited?.id === world.id) Object.assign(this.link.awaited, this.about);
     if (record) this.plan(true);
-    this.notices.say('text', null);
-    this.notices.say('files', null);
+    this.notices.show('text', null);
+    this.notices.show('files', null);
     if (!record) this.keepEdits();
   }
 
@@ -214,23 +244,23 @@ class Live {
   fail({ id, error }, about) {
     this.answered = { ...this.answered, id, error };
     if (about.kind === 'open' && !this.gallery.isOwn) {
-      this.link.open(this.gallery.instead());
+      this.link.open(this.gallery.ownWithRemark());
       return;
     }
     if (about.kind === 'load') {
       if (this.restoring) {
         // This server cannot use the edits that were kept.
         this.restoring = null;
-        this.adopt(this.fallback, null);
-        this.remark('Your earlier edits cannot be used any more.');
+        this.useWorld(this.fallback, null);
+        this.remark('Your last edits do not fit this world any more.');
         this.plan(true);
-      } else this.notices.say(this.opened ? 'files' : 'text', error);
-    } else if (about.kind === 'download') this.notices.say('files', error);
+      } else this.notices.show(this.opened ? 'files' : 'text', error);
+    } else if (about.kind === 'download') this.notices.show('files', error);
     else {
       this.shown = { edition: about.edition, final: true, error: 'not planned' };
-      this.troubled('picture', error);
+      this.showError('picture', error);
     }
-    if (this.link.owed) this.plan(true);
+    if (this.link.isPlanDue) this.plan(true);
   }
 
   /** Shows the configuration space before the plan, if that takes long. */
@@ -240,31 +270,26 @@ class Live {
 
   /** Draws the latest answer with the next picture of the screen. */
   showSoon(message, about) {
-    const waits = this.latest;
-    this.latest = () => this.show(message, about);
-    if (waits) return;
-    requestAnimationFrame(() => {
-      const show = this.latest;
-      this.latest = null;
-      show?.();
-      this.mark();
+    this.frames.request('answer', () => {
+      this.show(message, about);
+      this.updateState();
     });
   }
 
   show(message, { since, edition, shapes }) {
-    this.latest = null;
-    if (!message.final) this.beats.push(performance.now());
+    this.frames.drop('answer');
+    if (!message.final) this.answerTimes.push(performance.now());
     this.took = performance.now() - since;
     this.draw(message, shapes);
     const { id, verdict, certified, error } = message;
     this.answered = { id, verdict, certified, final: message.final, error, figures: message.figures };
-    this.shown = { edition, final: message.final, error: error && Live.trouble(message), ...Live.ending(message) };
+    this.shown = { edition, final: message.final, error: error && Live.errorInBrief(message), ...Live.ending(message) };
     if (message.toml) {
       this.toml = message.toml;
-      this.controls?.type(message.toml);
+      this.controls?.showText(message.toml);
     }
-    this.troubled(message.about === 'options' ? 'options' : 'picture', error);
-    this.sum(message);
+    this.showError(message.about === 'options' ? 'options' : 'picture', error, message.about);
+    this.showFigures(message);
   }
 
   /** Returns the outcome for the badge: certified only if the server says so of the whole motion. */
@@ -275,17 +300,29 @@ class Live {
   }
 
   /** Describes an error in a word or two. */
-  static trouble({ about, blocked }) {
+  static errorInBrief({ about, blocked }) {
     const places = { start: 'start', goal: 'goal' };
     if (places[about]) return blocked?.some(({ hits }) => hits.length) ? `${places[about]} blocked` : `${places[about]} not possible`;
     return 'not planned';
   }
 
-  /** Shows the error of a plan at one of two places. */
-  troubled(place, error) {
-    for (const one of ['picture', 'options']) this.notices.say(one, one === place ? error : null);
-    this.controls?.complain(place === 'options' && Boolean(error));
+  /** Shows the error of a plan at one of two places. A blocked start or goal (`about`) can be moved away. */
+  showError(place, error, about = null) {
+    const canMove = error && this.blocked?.length && ['start', 'goal'].includes(about) && !this.world.has_steps;
+    const action = canMove ? { label: `Move ${about} to nearest free`, run: () => this.moveToNearestFree(about) } : null;
+    for (const one of ['picture', 'options']) this.notices.show(one, one === place ? error : null, one === place ? action : null);
+    this.controls?.markInvalid(place === 'options' && Boolean(error));
     if (!this.view && error) this.waiting.textContent = error;
+  }
+
+  /** Moves the blocked start or goal to the nearest free configuration. */
+  moveToNearestFree(kind) {
+    const { model, world } = this.view;
+    const found = NearestFree.find(model.arm, world, this.blocked.map(({ at }) => at), this.world.reach);
+    if (found) {
+      this.editor.select({ kind });
+      this.editor.setConfiguration(kind, found.map(rounded4));
+    } else this.remark(`No free configuration was found near the ${kind}.`);
   }
 
   /** Draws an answer. */
@@ -312,26 +349,53 @@ class Live {
       this.editor?.redraw();
       return;
     }
+    const light = !message.final || !message.done;
+    const structure = light && Live.structure(message.view);
     if (!this.view) this.build(message.view);
+    else if (light && structure === this.structure && this.view.mode === 'move') this.follow(message.view);
     else {
-      const light = !message.final || !message.done;
       // Facts of intermediate states would jump. They are updated only when all of them are known.
       if (!message.view.facts.length) message.view.facts = this.view.model.facts;
       this.view.light = light;
       this.root.classList.toggle('light', light);
       this.view.update(message.view);
     }
-    this.controls.follow();
+    this.structure = structure;
+    this.controls.updateSelection();
+  }
+
+  /**
+   * Returns a text that is equal for models that need the same elements of the page: the same ranges, obstacles and
+   * layers.
+   */
+  static structure({ frame, worlds, paths, goals, title }) {
+    const parts = ({ obstacles, movers, trace, proof, c_obstacles: shapes, scale }) => [obstacles.map(({ name, color }) => [name, color]), movers, trace?.kind, proof.length > 0, shapes.length > 0, scale];
+    return JSON.stringify([frame, worlds.map(parts), paths.length, goals.length > 0, title]);
+  }
+
+  /** Shows the next model during a drag: it differs in shapes alone, so only the panels are drawn again. */
+  follow(model) {
+    const { view } = this;
+    Object.assign(model, { facts: view.model.facts });
+    Object.assign(view, { model, traces: null });
+    const panels = Object.values(view.panels);
+    for (const panel of panels) panel.dirty = true;
+    this.frames.draw(...panels);
   }
 
   /** Shows the figures in a line. */
-  sum({ figures, reason, final, verdict, certified, error }) {
+  showFigures({ figures, reason, final, verdict, certified, error }) {
     if (!this.figures) return;
     if (error) {
       this.figures.textContent = '';
+      this.lastFigures = null;
       if (final) this.spoken.textContent = '';
       return;
     }
+    // Numbers that change with every picture could not be read, and each change costs time.
+    const now = performance.now();
+    if (!final && now - this.figuresShown < FIGURES_INTERVAL) return;
+    this.figuresShown = final ? -Infinity : now;
     const { length, lower_bound: bound, clearance, duration, size, milliseconds } = figures;
     const verdicts = { found: certified ? 'found and certified' : 'found', infeasible: 'infeasible: proven', unknown: 'unknown' };
     const parts = [
@@ -340,27 +404,31 @@ class Live {
       bound && `at most ${roundedSafely(100 * (length / bound - 1), 2, Math.ceil)} % longer than the shortest`,
       final && clearance && `clearance ${roundedSafely(1000 * clearance, 3, Math.floor)} mm proven`,
       duration && `motion ${duration.toFixed(3)} s`,
+      final && verdict !== 'found' && reason,
+    ].filter(Boolean);
+    const details = [
       size,
       `${final ? 'planned' : 'answered'} in ${milliseconds.toFixed(milliseconds < 10 ? 1 : 0)} ms`,
       !final && `${this.updatesPerSecond} updates/s`,
-      final && verdict !== 'found' && reason,
     ].filter(Boolean);
-    this.figures.textContent = parts.join(' \u00b7 ');
+    const separated = (texts) => texts.join(' \u00b7 ');
+    this.figures.replaceChildren(separated(parts), element('span', { class: 'detail' }, ` \u00b7 ${separated(details)}`));
+    if (final) this.lastFigures = [...this.figures.childNodes];
     if (final) this.spoken.textContent = parts.slice(0, 5).join(', ');
   }
 
-  lineIs(isUp) {
+  connectionChanged(isUp) {
     this.isUp = isUp;
     // The next connection may be to another server.
     this.shown = null;
-    clearTimeout(this.soon);
-    this.latest = null;
-    this.line.hidden = isUp || !this.view;
-    const lost = 'The connection to cplan is lost. You can continue to edit: the page keeps your changes, and sends them as soon as cplan answers again.';
-    this.line.firstChild.textContent = this.line.hidden ? '' : lost;
+    clearTimeout(this.previewTimer);
+    this.frames.drop('answer');
+    this.connectionBar.hidden = isUp || !this.view;
+    const lost = 'The connection to cplan is lost. You can go on editing: your changes are kept and sent as soon as it answers again.';
+    this.connectionBar.firstChild.textContent = this.connectionBar.hidden ? '' : lost;
     if (!this.view) this.waiting.textContent = isUp ? 'Connecting\u2026' : 'cplan does not answer; trying again\u2026';
     if (isUp) this.gallery.open();
-    this.mark();
+    this.updateState();
   }
 
   // State of the picture.
@@ -379,10 +447,10 @@ class Live {
   }
 
   /** Updates the badge at once. An outdated picture turns pale only after a while, so that it does not flicker. */
-  mark() {
+  updateState() {
     if (!this.view) return;
-    clearTimeout(this.late);
-    this.gallery.say();
+    clearTimeout(this.paleTimer);
+    this.gallery.showTask();
     this.view.say(...this.badge);
     const { classList } = this.root;
     const { isCurrent } = this;
@@ -391,14 +459,24 @@ class Live {
     // During a drag, the picture is up to date except for requests in progress.
     const isFollowing = Boolean(this.isUp && this.editor.held && this.updatesPerSecond);
     classList.toggle('following', isFollowing);
+    this.showLastVerdict(isCurrent, isFollowing);
     const isBehind = !isCurrent && !isFollowing;
     const show = (behind) => {
       if (classList.contains('behind') === behind) return;
       classList.toggle('behind', behind);
       this.editor.redraw();
     };
-    if (isBehind && this.isUp) this.late = setTimeout(() => show(true), NOTICED);
+    if (isBehind && this.isUp) this.paleTimer = setTimeout(() => show(true), NOTICED);
     else show(isBehind);
+  }
+
+  /** Keeps the last verdict and its figures in sight, dimmed and named as such, until there is another one. */
+  showLastVerdict(isCurrent, isFollowing) {
+    if (isCurrent) this.verdict = this.badge;
+    const [, words] = this.verdict ?? [];
+    const text = isCurrent || !words ? '' : `last: ${words}`;
+    if (this.lastVerdict.textContent !== text) this.lastVerdict.textContent = text;
+    if (!isCurrent && !isFollowing && this.lastFigures) this.figures.replaceChildren(...this.lastFigures);
   }
 
   // Requests to the server.
@@ -415,7 +493,7 @@ class Live {
 
   plan(final) {
     this.link.plan(() => ({ body: this.body, about: this.about }), final);
-    this.mark();
+    this.updateState();
   }
 
   changed(final) {
@@ -426,8 +504,8 @@ class Live {
       this.keepEdits();
     }
     // The user continues, so a text or file with errors is no longer relevant.
-    for (const place of ['text', 'files']) this.notices.say(place, null);
-    this.controls.follow();
+    for (const place of ['text', 'files']) this.notices.show(place, null);
+    this.controls.updateSelection();
     this.plan(final);
   }
 
@@ -441,13 +519,14 @@ class Live {
   }
 
   /** Sets the clearance to keep, in metres. */
-  keep(clearance) {
+  setClearance(clearance) {
     this.scene.clearance = clearance;
     this.changed(true);
   }
 
-  turn(way) {
-    if (!this.scene[way]()) return;
+  /** Undoes or redoes the last change. */
+  stepHistory(step) {
+    if (!this.scene[step]()) return;
     this.changedSince = true;
     this.edition += 1;
     this.keepEdits();
@@ -461,11 +540,11 @@ class Live {
     this.opened = opened;
     this.remark('');
     if (!this.isUp) {
-      this.notices.say(opened ? 'files' : 'text', 'There is no connection to cplan: try again when it is back.');
+      this.notices.show(opened ? 'files' : 'text', 'No connection to cplan. Try again when it is back.');
       return;
     }
     this.link.load(text, this.words);
-    this.mark();
+    this.updateState();
   }
 
   /** Returns to the program's initial world. This step can be undone, unless another text has been loaded. */
@@ -482,21 +561,21 @@ class Live {
   }
 
   save(format) {
-    this.notices.say('files', null);
+    this.notices.show('files', null);
     if (!this.isUp) {
-      this.notices.say('files', 'There is no connection to cplan: save when it is back.');
+      this.notices.show('files', 'No connection to cplan. Save when it is back.');
       return;
     }
     this.link.download(this.body, format);
-    this.mark();
+    this.updateState();
   }
 
-  hand({ name }, content) {
+  saveFile({ name }, content) {
     const address = URL.createObjectURL(new Blob([content]));
     element('a', { href: address, download: name }).click();
     setTimeout(() => URL.revokeObjectURL(address), 10000);
-    if (this.link.owed) this.plan(true);
-    this.mark();
+    if (this.link.isPlanDue) this.plan(true);
+    this.updateState();
   }
 }
 

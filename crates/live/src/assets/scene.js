@@ -57,7 +57,7 @@ class Scene {
   }
 
   /** Goes one step back or forward. */
-  turn(from, to) {
+  step(from, to) {
     if (!from.length) return false;
     to.push(this.kept);
     this.kept = from.pop();
@@ -66,11 +66,11 @@ class Scene {
   }
 
   undo() {
-    return this.turn(this.past, this.future);
+    return this.step(this.past, this.future);
   }
 
   redo() {
-    return this.turn(this.future, this.past);
+    return this.step(this.future, this.past);
   }
 
   /** Returns the state in a request. */
