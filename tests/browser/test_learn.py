@@ -17,7 +17,7 @@ def learn(seen, lesson="slice"):
 
 
 def rows_of(seen):
-    return seen.page.locator(".told tbody tr")
+    return seen.page.locator(".lesson tbody tr")
 
 
 def slice_at(seen, part):
@@ -241,7 +241,7 @@ def test_polygons_are_dragged_by_pointer_and_keys_and_stay_convex(program, show_
     canvas.focus()
     for _ in range(12):
         seen.page.keyboard.press("Shift+ArrowDown")
-    assert seen.page.locator(".step").inner_text() == "They do not meet." and "deep" not in seen.page.locator(".told").inner_text()
+    assert seen.page.locator(".step").inner_text() == "They do not meet." and "deep" not in seen.page.locator(".lesson").inner_text()
 
 
 def test_a_link_that_turns_has_a_difference_for_each_angle(program, show_file):

@@ -286,3 +286,99 @@ def test_steps_are_numbered_as_they_are_done(program, show_file):
     assert filed == [step["step"] for step in result["steps"]] and filed != sorted(filed)
     assert seen.do("cplan.model.paths.map(({ step }) => step)") == list(range(1, 25))
     assert any("of the file" in text for _, text in seen.do("cplan.model.facts"))
+
+
+def test_icons_are_drawn_and_not_written(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    play = seen.page.locator(".play")
+    assert play.inner_text() == "" and play.locator("svg").get_attribute("data-icon") == "play"
+    play.click()
+    assert play.locator("svg").get_attribute("data-icon") == "pause" and play.get_attribute("aria-label") == "pause"
+    play.click()
+    assert play.get_attribute("aria-label") == "play"
+    assert seen.page.locator(".zoom svg").count() == seen.page.locator(".zoom button").count() == 6
+
+
+def test_the_list_of_steps_follows_the_motion(program, show_file):
+    page, _ = program.plan("scara", "tasks/kitting_cell")
+    seen = show_file(page, reduced_motion="reduce")
+    scrolled = seen.do("window.scrollY")
+    for part in (0.3, 0.6, 0.95, 0.1):
+        seen.do("(part) => cplan.seek(part * cplan.duration)", part)
+        current = seen.page.locator(".steps [aria-current=step]")
+        assert current.count() == 1
+        box, around = current.bounding_box(), seen.page.locator(".steps").bounding_box()
+        assert around["y"] - 1 <= box["y"] and box["y"] + box["height"] <= around["y"] + around["height"] + 1
+    assert seen.do("window.scrollY") == scrolled, "only the list scrolls"
+
+
+def test_keys_of_one_character_can_be_switched_off(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    keyboard = seen.page.keyboard
+    seen.page.get_by_text("Keys and pointer").click()
+    box = seen.page.get_by_role("checkbox", name="Keys of a single character")
+    assert box.is_checked()
+    box.uncheck()
+    box.blur()
+    for key in ("k", "t", "l", "+"):
+        keyboard.press(key)
+    assert seen.do("[cplan.mode, cplan.playing, cplan.speed]") == ["move", False, 1]
+    keyboard.press("ArrowRight")
+    assert seen.do("cplan.time") == pytest.approx(0.05), "other keys still act"
+    keyboard.press(" ")
+    assert seen.do("cplan.playing")
+    seen.page.reload()
+    assert not seen.page.get_by_role("checkbox", name="Keys of a single character", include_hidden=True).is_checked(), "remembered"
+    keyboard.press("t")
+    assert seen.do("cplan.mode") == "move"
+
+
+def test_the_replay_shows_whole_phases_to_readers_who_prefer_reduced_motion(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page, reduced_motion="reduce")
+    seen.do("cplan.switchTo('think')")
+    ends = seen.do("(() => { let sum = 0; return cplan.model.replay.map(({ seconds }) => (sum += seconds)); })()")
+    shown = seen.do("[0, 0.1, cplan.duration / 2, cplan.duration].map((time) => cplan.shownTime(time))")
+    assert all(any(time == pytest.approx(end, abs=1e-3) for end in ends) for time in shown)
+    seen.do("cplan.switchTo('move')")
+    assert seen.do("cplan.shownTime(0.1)") == 0.1, "the motion itself moves: the reader started it"
+
+
+def test_text_in_pictures_follows_the_text_size(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    size = "Number(/([\\d.]+)px/.exec(cplan.panels.workspace.theme.font())[1])"
+    before = seen.do(size)
+    seen.do("document.documentElement.style.fontSize = '200%'")
+    seen.until(f"Math.abs({size} - 2 * {before}) < 0.01")
+    assert seen.do("document.documentElement.scrollWidth <= innerWidth")
+    seen.shoot("text-200")
+
+
+def test_the_focus_ring_does_not_cross_titles(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    seen.page.keyboard.press("Tab")
+    for name in ("Workspace", "Configuration space"):
+        canvas = seen.page.locator(f"canvas[aria-label='{name}']")
+        canvas.focus()
+        offset, width = seen.do("(() => { const style = getComputedStyle(document.activeElement); return [style.outlineOffset, style.outlineWidth].map(parseFloat); })()")
+        assert width > 0 and offset <= -width
+
+
+def test_space_plays_an_exploration(program, show_file):
+    page = program.folder / "explore.html"
+    program.run("explore", ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml", "--quiet", "--picture", page)
+    seen = show_file(page)
+    play = seen.page.locator(".play")
+    assert (play.get_attribute("aria-label"), play.locator("svg").count()) == ("play", 1)
+    seen.page.keyboard.press(" ")
+    assert play.get_attribute("aria-label") == "pause"
+    seen.page.keyboard.press(" ")
+    assert play.get_attribute("aria-label") == "play"
+    # On a control, the key acts on the control.
+    seen.page.get_by_label("Reading").focus()
+    seen.page.keyboard.press(" ")
+    assert play.get_attribute("aria-label") == "play"

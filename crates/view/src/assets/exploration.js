@@ -33,7 +33,7 @@ const right = panel("Configuration space", "Configurations that are known to be 
 const chart = panel("Seen of the map, against the length of the way", "Share of the map that has been seen, against the length of the way");
 chart.canvas.setAttribute("class", "chart");
 const slider = node("input", { type: "range", min: 0, max: Math.max(count - 1, 0), value: 0, "aria-label": "Reading" });
-const play = node("button", { class: "play", type: "button", "aria-label": "Play" }, "▶");
+const play = node("button", { class: "play", type: "button" });
 const clock = node("span", { class: "clock" });
 const readout = node("p", { class: "readout", "aria-live": "polite" });
 const swatch = (color, name) => add(node("span"), node("span", { class: "swatch", style: `background:${color}` }), name);
@@ -44,6 +44,11 @@ add(main, heading, add(node("div", { class: "panels" }), left.figure, right.figu
   add(node("div", { class: "transport" }), play, slider, clock), readout, chart.figure, key);
 
 const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+/** Returns the font of text on canvases, which follows the text size of the page. */
+const font = () => {
+  const style = getComputedStyle(document.documentElement);
+  return `${parseFloat(style.fontSize) * parseFloat(style.getPropertyValue("--type-small"))}px ${style.getPropertyValue("--font")}`;
+};
 const fitted = (canvas) => {
   const scale = window.devicePixelRatio || 1;
   canvas.width = Math.round(canvas.clientWidth * scale);
@@ -172,7 +177,7 @@ const drawSpace = (at) => {
   context.arc(last[0], last[1], 4, 0, 7);
   context.fill();
   context.fillStyle = color("grey");
-  context.font = "12px system-ui, sans-serif";
+  context.font = font();
   context.textAlign = "center";
   const shown = (axis) => {
     const degrees = axis.unit === "rad";
@@ -204,7 +209,7 @@ const drawChart = (at) => {
   const slowest = Math.max(...decisions.map(([, time]) => time), 1);
   const x = (length) => x0 + (length / whole) * width;
   const y = (share) => y0 + height * (1 - share);
-  context.font = "12px system-ui, sans-serif";
+  context.font = font();
   context.fillStyle = color("grey");
   context.strokeStyle = color("pale");
   context.lineWidth = 1;
@@ -250,22 +255,35 @@ const draw = () => {
   readout.textContent = `${seen} % of the map seen, ${frame.new.length} cells new; ${frame.length.toFixed(3)} on the way`;
 };
 let timer = null;
+/** Shows on the button what a click does. */
+const mark = () => {
+  const action = timer ? "pause" : "play";
+  play.replaceChildren(icon(action));
+  play.setAttribute("aria-label", action);
+  play.title = `${action} (Space)`;
+};
 const stop = () => {
   clearInterval(timer);
   timer = null;
-  play.textContent = "▶";
-  play.setAttribute("aria-label", "Play");
+  mark();
 };
-play.addEventListener("click", () => {
+const toggle = () => {
   if (timer) { stop(); return; }
   if (Number(slider.value) >= count - 1) slider.value = 0;
-  play.textContent = "❚❚";
-  play.setAttribute("aria-label", "Pause");
   timer = setInterval(() => {
     slider.value = Number(slider.value) + 1;
     draw();
     if (Number(slider.value) >= count - 1) stop();
   }, 80);
+  mark();
+};
+mark();
+play.addEventListener("click", toggle);
+document.addEventListener("keydown", (event) => {
+  const isControl = event.target.matches?.("button, input, select, textarea, a, summary");
+  if (event.key !== " " || isControl || event.ctrlKey || event.metaKey || event.altKey) return;
+  event.preventDefault();
+  toggle();
 });
 slider.addEventListener("input", () => { if (timer) stop(); draw(); });
 window.addEventListener("resize", draw);

@@ -203,9 +203,10 @@ const CSpace = (() => {
     const [[x0, y0], [x1, y1]] = [panel.at(panel.whole.map((side) => side[0])), panel.at(panel.whole.map((side) => side[1]))];
     const [width, height] = [(x1 - x0) / nx, (y0 - y1) / ny];
     const digits = `${Math.max(...all)}`.length;
-    const size = Math.min(width / (0.6 * digits), 0.75 * height, 13);
+    const { text } = panel.theme;
+    const size = Math.min(width / (0.6 * digits), 0.75 * height, text);
     if (size < 5) return;
-    context.font = `${size}px sans-serif`;
+    context.font = panel.theme.font(400, size / text);
     context.textAlign = 'center';
     context.textBaseline = 'middle';
     context.lineWidth = 2;
@@ -464,7 +465,7 @@ const CSpace = (() => {
       context.fillStyle = scale.soft ? Theme.mixed(color, theme.paper, 0.25) : color;
       context.fillRect(x, y + k, 12, 1.5);
     }
-    context.font = '12px system-ui, sans-serif';
+    context.font = theme.font();
     context.fillStyle = theme.grey;
     context.textAlign = 'left';
     context.textBaseline = 'middle';

@@ -8,6 +8,14 @@ class Theme {
     const value = (name) => style.getPropertyValue(`--${name}`).trim();
     for (const name of ROLES) this[name] = value(name);
     this.dark = value('dark') === '1';
+    /** Size of text on canvases, in pixels. It follows the reader's text size, as the text around the canvases does. */
+    this.text = parseFloat(style.fontSize) * parseFloat(value('type-small'));
+    this.family = value('font');
+  }
+
+  /** Returns the font of text on canvases. `scale` is relative to the usual size. */
+  font(weight = 400, scale = 1) {
+    return `${weight} ${scale * this.text}px ${this.family}`;
   }
 
   /** Returns a colour with some of another mixed in; both as #rrggbb. */
@@ -57,6 +65,9 @@ function ticks(low, high, degrees, room, spacing) {
 const MOST_TIMES = 2000;
 
 class Panel {
+  /** Text size for which margins and distances are given, in pixels. */
+  static TEXT = 13;
+
   /**
    * @param canvas the canvas to draw on
    * @param options `x`, `y`: ranges; `degrees`: for both axes; `titles`; `scale`: 'fill' (one scale, may show more than
@@ -95,9 +106,9 @@ class Panel {
   /** Fits ranges to pixels. */
   layout() {
     if (!this.size) return;
-    const [narrow, right, top, bottom] = this.margins ?? [48, 10, 8, 40];
+    const [narrow, right, top, bottom] = (this.margins ?? [48, 10, 8, 40]).map((margin) => margin * this.zoom);
     const left = narrow + this.digits;
-    const rect = { x: left, y: top, width: this.size[0] - left - right, height: this.size[1] - top - bottom };
+    const rect = { x: left, y: top, width: Math.max(1, this.size[0] - left - right), height: Math.max(1, this.size[1] - top - bottom) };
     let [x, y] = [this.x.slice(), this.y.slice()];
     for (const range of [x, y]) if (!(range[1] > range[0])) [range[0], range[1]] = [range[0] - 0.5, range[0] + 0.5];
     if (this.scale !== 'free') {
@@ -119,9 +130,14 @@ class Panel {
     });
   }
 
+  /** Returns the size of text relative to the usual one. */
+  get zoom() {
+    return (this.theme?.text ?? Panel.TEXT) / Panel.TEXT;
+  }
+
   /** Returns the room for the additional digits of values in a magnified panel, in pixels. */
   get digits() {
-    return 7 * Math.max(0, Math.ceil(Math.log10(this.times)) - 1);
+    return 7 * this.zoom * Math.max(0, Math.ceil(Math.log10(this.times)) - 1);
   }
 
   /** Magnifies by a factor; the value at a spot stays there as far as possible. */
@@ -253,34 +269,34 @@ class Panel {
   }
 
   axes(context) {
-    const { rect, shown, theme } = this;
+    const { rect, shown, theme, zoom } = this;
     context.fillStyle = theme.paper;
     context.fillRect(rect.x, rect.y, rect.width, rect.height);
-    context.font = '12px system-ui, sans-serif';
+    context.font = theme.font();
     context.fillStyle = theme.grey;
     context.strokeStyle = theme.faint;
     context.lineWidth = 1;
-    const [across, up] = [0, 1].map((k) => ticks(...shown[k], this.degrees[k], [rect.width, rect.height][k], [56 + 1.4 * this.digits, 34][k]));
+    const [across, up] = [0, 1].map((k) => ticks(...shown[k], this.degrees[k], [rect.width, rect.height][k], [56 * zoom + 1.4 * this.digits, 34 * zoom][k]));
     context.textAlign = 'center';
     context.textBaseline = 'top';
     for (const { value, text } of across) {
       const [x] = this.at([value, shown[1][0]]);
       line(context, [[x, rect.y], [x, rect.y + rect.height]]);
-      context.fillText(text, x, rect.y + rect.height + 5);
+      context.fillText(text, x, rect.y + rect.height + 5 * zoom);
     }
     context.textAlign = 'right';
     context.textBaseline = 'middle';
     for (const { value, text } of up) {
       const [, y] = this.at([shown[0][0], value]);
       line(context, [[rect.x, y], [rect.x + rect.width, y]]);
-      context.fillText(text, rect.x - 6, y);
+      context.fillText(text, rect.x - 6 * zoom, y);
     }
     context.fillStyle = theme.ink;
     context.textAlign = 'center';
     context.textBaseline = 'bottom';
-    context.fillText(this.titles[0], rect.x + rect.width / 2, rect.y + rect.height + 36);
+    context.fillText(this.titles[0], rect.x + rect.width / 2, rect.y + rect.height + 37 * zoom);
     context.save();
-    context.translate(rect.x - 36 - this.digits, rect.y + rect.height / 2);
+    context.translate(rect.x - 35 * zoom - this.digits, rect.y + rect.height / 2);
     context.rotate(-Math.PI / 2);
     context.fillText(this.titles[1], 0, 0);
     context.restore();

@@ -38,7 +38,7 @@ const SYMBOLS = { found: '\u2713', infeasible: '\u2715', unknown: '?', shown: '\
 /** A finger that moves less than `TAP` has tapped. One that begins within `NEAR` of the cross takes it. In pixels. */
 const [TAP, NEAR] = [10, 24];
 /** Directions of arrow keys, and the pixels (`PAN`) by which they move a magnified picture. */
-const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
+const DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
 const PAN = 40;
 /** A larger movement drags a magnified picture, in pixels. */
 const DRAG = 4;
@@ -61,12 +61,13 @@ class View {
     this.mode = 'move';
     this.times = { move: 0, think: 0, learn: 0 };
     /** Index of a task's motion whose replay 'think' shows. */
-    this.told = 0;
+    this.replayed = 0;
     this.recall = recall;
     /** Mode that the user has chosen. The view returns to it when it is available again. */
     this.chosen = 'move';
     this.learn = new Learn(this);
     this.speed = 1;
+    this.playing = false;
     this.probe = null;
     this.pinned = false;
     /**
@@ -97,7 +98,7 @@ class View {
     this.hovered = null;
     this.headings();
     this.choices();
-    this.enumerate();
+    this.steps.update(model);
     const { workspace, cspace } = this.panels;
     const { joints, plane, one_scale: alike } = model.arm;
     [workspace.x, workspace.y] = model.frame;
@@ -113,7 +114,7 @@ class View {
     for (const panel of [workspace, cspace]) panel.layout();
     for (const plot of this.plots) plot.fit();
     this.learn.update(model);
-    if (!this.hasReplay(model.motions[this.told])) this.told = 0;
+    if (!this.hasReplay(model.motions[this.replayed])) this.replayed = 0;
     const [moves, thinks, learns] = [Boolean(model.clock), this.thinks, this.learn.lessons.length > 0];
     const there = { move: moves || !thinks, think: thinks, learn: learns };
     for (const button of this.parts.modes.children) button.hidden = !(there[button.dataset.mode] || (button.dataset.mode === 'think' && this.recall));
@@ -150,8 +151,8 @@ class View {
   enter(mode) {
     this.times[this.mode] = this.time;
     // For a task, the replay is that of the current motion.
-    const told = mode === 'think' && this.hasReplay(this.motion) ? this.model.motions.indexOf(this.motion) : this.told;
-    if (told !== this.told) [this.told, this.times.think] = [told, 0];
+    const replayed = mode === 'think' && this.hasReplay(this.motion) ? this.model.motions.indexOf(this.motion) : this.replayed;
+    if (replayed !== this.replayed) [this.replayed, this.times.think] = [replayed, 0];
     this.mode = mode;
     this.time = this.times[mode];
   }
@@ -195,7 +196,7 @@ class View {
 
   /** Returns the replay of a task's motion: its phases, and the planner's trace. */
   get account() {
-    return this.mode === 'think' ? this.model.replays?.[this.model.motions[this.told].replay] : undefined;
+    return this.mode === 'think' ? this.model.replays?.[this.model.motions[this.replayed].replay] : undefined;
   }
 
   /** Returns the phases of the current replay. */
@@ -219,14 +220,14 @@ class View {
   }
 
   /** Returns the duration of the motion. */
-  get lasts() {
+  get motionDuration() {
     return this.model.clock ? this.model.clock.time[this.model.clock.time.length - 1] : 0;
   }
 
   /** Returns the current motion. */
   get motion() {
     const { motions } = this.model;
-    if (this.mode === 'think') return motions[this.told];
+    if (this.mode === 'think') return motions[this.replayed];
     const time = this.mode === 'move' ? this.time : this.times.move;
     let found = 0;
     for (let i = 1; i < motions.length && motions[i].from <= time + 1e-6; i += 1) found = i;
@@ -300,7 +301,7 @@ class View {
   // Elements of the page.
 
   build() {
-    const canvas = (label) => element('canvas', { tabindex: '0', role: 'img', 'aria-label': label, 'aria-describedby': 'told' });
+    const canvas = (label) => element('canvas', { tabindex: '0', role: 'img', 'aria-label': label, 'aria-describedby': 'description' });
     const [left, right] = [canvas('Workspace'), canvas('Configuration space')];
     const parts = {
       title: element('h1'),
@@ -308,11 +309,11 @@ class View {
       status: element('p', { class: 'status', role: 'status' }),
       facts: element('dl', { class: 'facts' }),
       probe: element('p', { class: 'probe', 'aria-live': 'polite' }),
-      told: element('p', { class: 'unseen', id: 'told' }),
+      description: element('p', { class: 'unseen', id: 'description' }),
       legend: element('ul', { class: 'legend', 'aria-label': 'Legend' }),
+      measure: element('span', { class: 'unseen measure', 'aria-hidden': 'true' }),
       ticks: element('span', { class: 'ticks', 'aria-hidden': 'true' }),
-      steps: element('ol', { class: 'steps' }),
-      play: element('button', { type: 'button', class: 'play', onclick: () => this.toggle() }, '\u25b6'),
+      play: element('button', { type: 'button', class: 'play', onclick: () => this.toggle() }),
       scrubber: element('input', {
         type: 'range', min: '0', max: '1', step: 'any', value: '0', 'aria-label': 'time',
         oninput: (event) => this.seek(Number(event.target.value)),
@@ -323,7 +324,7 @@ class View {
       obstacles: element('div', { class: 'choices' }),
       plots: element('section', { class: 'plots', 'aria-label': 'Motion over time' }),
     };
-    const speed = element('select', { 'aria-label': 'speed', onchange: (event) => this.hasten(Number(event.target.value)) });
+    const speed = element('select', { 'aria-label': 'speed', onchange: (event) => this.setSpeed(Number(event.target.value)) });
     for (const value of SPEEDS) speed.append(element('option', { value, selected: value === 1 }, `${value}\u00d7`));
     parts.speed = speed;
     const mode = (name, text) => element('button', { type: 'button', class: 'button', 'data-mode': name, onclick: () => this.switchTo(name) }, text);
@@ -337,6 +338,7 @@ class View {
       parts.probe,
     );
     this.parts = parts;
+    this.steps = new Steps(this);
     this.root.append(
       element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
       element(
@@ -348,17 +350,18 @@ class View {
           parts.panels,
           this.learn.parts.panels,
           parts.legend,
-          parts.told,
+          parts.description,
+          parts.measure,
           parts.transport,
           this.learn.parts.choice,
           parts.step,
-          this.learn.parts.told,
+          this.learn.parts.description,
           parts.plots,
         ),
         element(
           'aside',
           { class: 'side', 'aria-label': 'What is shown' },
-          element('fieldset', { hidden: true }, element('legend', {}, 'Steps'), parts.steps),
+          this.steps.root,
           element('fieldset', {}, element('legend', {}, 'Layers'), parts.layers),
           element('fieldset', {}, element('legend', {}, 'Obstacles'), parts.obstacles),
         ),
@@ -379,6 +382,8 @@ class View {
         beside: (context, panel) => CSpace.beside(context, panel, this),
       }),
     };
+    // Texts on canvases follow the text size of the page.
+    new ResizeObserver(() => this.model && this.recolor()).observe(parts.measure);
     this.plots = Plots.mount(parts.plots, this);
     for (const panel of Object.values(this.panels)) {
       this.listen(panel);
@@ -416,24 +421,11 @@ class View {
     this.parts.legend.replaceChildren(...Legend.items(theme, keys));
   }
 
-  /** Lists the steps of a task as buttons. */
-  enumerate() {
-    const { motions } = this.model;
-    const isTask = motions.length > 1;
-    this.parts.steps.parentElement.hidden = !isTask;
-    const steps = isTask ? motions : [];
-    this.parts.steps.replaceChildren(...steps.map((motion) => {
-      const { label, from } = motion;
-      const go = element('button', { type: 'button', onclick: () => this.go(motion) }, element('span', {}, label), element('span', { class: 'at' }, `${from.toFixed(2)} s`));
-      return element('li', {}, go);
-    }));
-  }
-
   /** Goes to a step: to its time, or to its replay. */
   go(motion) {
     if (this.mode !== 'think') this.seek(motion.from);
     else if (this.hasReplay(motion)) {
-      this.told = this.model.motions.indexOf(motion);
+      this.replayed = this.model.motions.indexOf(motion);
       this.time = 0;
       this.ready();
     }
@@ -452,7 +444,7 @@ class View {
   }
 
   /** Describes the pictures for users of screen readers. */
-  tell() {
+  describe() {
     if (this.playing || this.light) return;
     const { arm } = this.model;
     const touching = Geometry.contacts(arm, this.world, this.q);
@@ -463,7 +455,7 @@ class View {
       return `The path leads from ${this.valued(path.points.slice(0, 2))} to ${this.valued(end)}, over ${n - 2} places in between.`;
     };
     const proven = this.world.proof.length ? ' Boxes of colliding configurations, hatched, prove that there is no path.' : '';
-    this.parts.told.textContent = `${stands} ${path ? goes() : this.isMotion ? 'There is no path here.' : ''}${proven}`;
+    this.parts.description.textContent = `${stands} ${path ? goes() : this.isMotion ? 'There is no path here.' : ''}${proven}`;
   }
 
   /** Lists the available layers, and the obstacles. */
@@ -514,7 +506,10 @@ class View {
 
   recolor() {
     const theme = new Theme(document.documentElement);
-    for (const panel of [...this.allPanels(), ...Object.values(this.learn.panels)]) panel.theme = theme;
+    for (const panel of [...this.allPanels(), ...Object.values(this.learn.panels)]) {
+      panel.theme = theme;
+      panel.layout();
+    }
     if (!this.model) return;
     this.ready();
   }
@@ -552,8 +547,8 @@ class View {
     parts.clock.textContent = `${this.time.toFixed(2)} / ${this.duration.toFixed(2)} s`;
     parts.scrubber.setAttribute('aria-valuetext', `${this.time.toFixed(2)} seconds`);
     const whose = moment && this.account ? `${motion.label}. ` : '';
-    const told = moment && `${whose}${moment.index + 1} of ${this.replay.length}: ${moment.phase.caption}`;
-    const step = told ?? (this.model.motions.length > 1 && motion ? `${motion.label} (${this.world.label})` : '');
+    const phase = moment && `${whose}${moment.index + 1} of ${this.replay.length}: ${moment.phase.caption}`;
+    const step = phase ?? (this.model.motions.length > 1 && motion ? `${motion.label} (${this.world.label})` : '');
     if (parts.step.textContent !== step) parts.step.textContent = step;
     if (motion !== before || moment) {
       for (const panel of Object.values(this.panels)) panel.dirty = true;
@@ -562,11 +557,8 @@ class View {
       if (this.probe) this.examine(this.probe.q);
     }
     const now = this.mode === 'learn' ? -1 : this.model.motions.indexOf(motion);
-    [...parts.steps.children].forEach((item, k) => {
-      item.firstChild.setAttribute('aria-current', k === now ? 'step' : 'false');
-      item.firstChild.disabled = this.mode === 'think' && !this.hasReplay(this.model.motions[k]);
-    });
-    this.tell();
+    this.steps.follow(now);
+    this.describe();
     for (const panel of this.allPanels()) panel.draw();
   }
 
@@ -581,28 +573,51 @@ class View {
     this.playing = true;
     this.mark();
     let before = null;
+    let { time } = this;
+    let last = time;
     const tick = (now) => {
       if (!this.playing) return;
-      if (before !== null) this.seek(this.time + ((now - before) / 1000) * this.speed);
+      // The reader may have moved the scrubber.
+      if (this.time !== last) ({ time } = this);
+      if (before !== null) time = Math.min(this.duration, time + ((now - before) / 1000) * this.speed);
+      const shown = this.shownTime(time);
+      if (shown !== this.time) this.seek(shown);
+      last = this.time;
       before = now;
-      if (this.time >= this.duration) this.pause();
+      if (time >= this.duration) this.pause();
       else requestAnimationFrame(tick);
     };
     requestAnimationFrame(tick);
   }
 
+  /**
+   * Returns the time to show while playing has reached `time`. For readers who prefer reduced motion, the replay shows
+   * the end of each phase at once.
+   */
+  shownTime(time) {
+    if (this.mode !== 'think' || !Settings.reducesMotion) return time;
+    let end = 0;
+    for (const { seconds } of this.replay) {
+      end += seconds;
+      if (time < end) break;
+    }
+    return Math.min(this.duration, end - 1e-6);
+  }
+
   pause() {
     this.playing = false;
     this.mark();
-    if (this.model) this.tell();
+    if (this.model) this.describe();
   }
 
   mark() {
-    this.parts.play.textContent = this.playing ? '\u23f8' : '\u25b6';
-    this.parts.play.setAttribute('aria-label', this.playing ? 'pause' : 'play');
+    const action = this.playing ? 'pause' : 'play';
+    this.parts.play.replaceChildren(icon(action));
+    this.parts.play.setAttribute('aria-label', action);
+    this.parts.play.title = `${action} (Space)`;
   }
 
-  hasten(speed) {
+  setSpeed(speed) {
     this.speed = speed;
     this.parts.speed.value = String(speed);
   }
@@ -724,13 +739,13 @@ class View {
   }
 
   buttons(name, label) {
-    const button = (text, what, act) => element('button', { type: 'button', class: 'button', 'aria-label': `${what}: ${label}`, title: what, onclick: () => act(this.panels[name]) }, text);
+    const button = (sign, what, act) => element('button', { type: 'button', class: 'button', 'aria-label': `${what}: ${label}`, title: what, onclick: () => act(this.panels[name]) }, icon(sign));
     return element(
       'span',
       { class: 'zoom' },
-      button('+', 'zoom in', (panel) => this.magnify(panel, MAGNIFIES)),
-      button('\u2212', 'zoom out', (panel) => this.magnify(panel, 1 / MAGNIFIES)),
-      button('\u21ba', 'show all', (panel) => panel.reset()),
+      button('plus', 'zoom in', (panel) => this.magnify(panel, MAGNIFIES)),
+      button('minus', 'zoom out', (panel) => this.magnify(panel, 1 / MAGNIFIES)),
+      button('reset', 'show all', (panel) => panel.reset()),
     );
   }
 
@@ -820,11 +835,12 @@ class View {
       End: () => !control && this.seek(this.duration),
       t: () => this.switchTo(this.mode === 'think' ? 'move' : 'think'),
       l: () => this.switchTo(this.mode === 'learn' ? 'move' : 'learn'),
-      '+': () => this.hasten(SPEEDS[Math.min(SPEEDS.length - 1, SPEEDS.indexOf(this.speed) + 1)]),
-      '-': () => this.hasten(SPEEDS[Math.max(0, SPEEDS.indexOf(this.speed) - 1)]),
+      '+': () => this.setSpeed(SPEEDS[Math.min(SPEEDS.length - 1, SPEEDS.indexOf(this.speed) + 1)]),
+      '-': () => this.setSpeed(SPEEDS[Math.max(0, SPEEDS.indexOf(this.speed) - 1)]),
       0: () => Object.values(this.panels).forEach((panel) => panel.reset()),
       Escape: () => this.examine(null),
     };
+    if (/^[^ ]$/u.test(event.key) && !Settings.hasShortcuts) return;
     const done = keys[event.key]?.();
     if (done !== undefined && done !== false) event.preventDefault();
     else if (keys[event.key] && !control) event.preventDefault();
@@ -835,10 +851,10 @@ class View {
    * the cross.
    */
   zooms(panel, event) {
-    const way = WAYS[event.key];
+    const direction = DIRECTIONS[event.key];
     const keys = { '+': () => this.magnify(panel, MAGNIFIES), '=': () => this.magnify(panel, MAGNIFIES), '-': () => this.magnify(panel, 1 / MAGNIFIES), 0: () => panel.reset() };
-    const pans = way && event.shiftKey && panel.times > 1 && panel === this.panels.workspace;
-    if (pans) panel.move(-PAN * way[0], PAN * way[1]);
+    const pans = direction && event.shiftKey && panel.times > 1 && panel === this.panels.workspace;
+    if (pans) panel.move(-PAN * direction[0], PAN * direction[1]);
     else if (keys[event.key]) keys[event.key]();
     else return false;
     event.preventDefault();
@@ -847,13 +863,13 @@ class View {
 
   /** Handles arrow keys, which move the cross in the configuration space; by smaller steps if it is magnified. */
   nudge(event) {
-    const way = WAYS[event.key];
-    if (!way) return false;
+    const direction = DIRECTIONS[event.key];
+    if (!direction) return false;
     const from = this.probe?.q ?? this.q;
     const { joints } = this.model.arm;
     const step = (joint) => (joint.unit === 'rad' ? Math.PI / 180 : (joint.domain[1] - joint.domain[0]) / 200) * (event.shiftKey ? 10 : 1) / this.panels.cspace.times;
     const next = joints.map((joint, k) => {
-      const value = Geometry.wrap(joint, from[k] + way[k] * step(joint));
+      const value = Geometry.wrap(joint, from[k] + direction[k] * step(joint));
       return joint.circle ? value : Math.min(joint.domain[1], Math.max(joint.domain[0], value));
     });
     this.pinned = true;
@@ -864,22 +880,26 @@ class View {
   }
 }
 
+/** Returns the part of the page that explains keys and pointer. */
 function help() {
   const rows = [
-    ['point into the configuration space', 'the arm stands there; what it touches is named'],
-    ['click, tap', 'hold it there, or let go'],
+    ['drag the tip of the arm', 'the arm follows; contacts are red'],
+    ['point into the configuration space', 'shows the arm in that configuration, and its contacts'],
+    ['click, tap', 'keeps it there, or releases it'],
     ['arrow keys in the configuration space', 'move the cross by a degree (with Shift by ten)'],
     ['Space or k', 'play, pause'],
     ['arrow keys elsewhere', 'back and forth in time (with Shift further)'],
     ['Home, End', 'to the start, to the end'],
-    ['t', 'the motion, or how the planner came to it'],
+    ['t', 'the motion, or how it was found'],
     ['l', 'lessons: contact angles, the two tests of penetration, Minkowski differences'],
     ['+, \u2212', 'faster, slower; in a panel that was clicked: zoom'],
-    ['wheel, two fingers, then drag', 'zoom where the pointer is, and move what is seen'],
-    ['Shift and arrow keys in a workspace that is magnified', 'move what is seen'],
+    ['wheel, two fingers, then drag', 'zoom at the pointer, and move the visible part'],
+    ['Shift and arrow keys in a magnified workspace', 'move the visible part'],
     ['0, double click', 'shows all again'],
-    ['Escape', 'takes the tried arm away'],
+    ['Escape', 'removes the examined arm'],
   ];
-  const list = element('dl', {}, ...rows.flatMap(([keys, what]) => [element('dt', {}, keys), element('dd', {}, what)]));
-  return element('details', { class: 'help' }, element('summary', {}, 'Keys and pointer'), list);
+  const list = element('dl', {}, ...rows.flatMap(([keys, effect]) => [element('dt', {}, keys), element('dd', {}, effect)]));
+  const box = element('input', { type: 'checkbox', checked: Settings.hasShortcuts, onchange: (event) => (Settings.hasShortcuts = event.target.checked) });
+  const choice = element('p', {}, element('label', {}, box, ' Keys of a single character (k, t, l, +, \u2212, 0) act on the page'));
+  return element('details', { class: 'help' }, element('summary', {}, 'Keys and pointer'), list, choice);
 }

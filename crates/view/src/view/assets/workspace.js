@@ -30,8 +30,8 @@ const Workspace = (() => {
   /** Draws the trajectories of moving obstacles during the arm's motion, and their stops. */
   function courses(context, panel, view, world) {
     for (const mover of world.movers ?? []) {
-      const lasts = Math.min(view.lasts, mover.until ?? Infinity);
-      const moments = [0, ...mover.stops.map(([time]) => time).filter((time) => 0 < time && time < lasts), lasts];
+      const duration = Math.min(view.motionDuration, mover.until ?? Infinity);
+      const moments = [0, ...mover.stops.map(([time]) => time).filter((time) => 0 < time && time < duration), duration];
       const places = moments.map((time) => Geometry.moved(mover, time));
       const origin = { outline: { circle: [0, 0, 0] }, pieces: [], stops: mover.stops, velocity: mover.velocity };
       context.lineWidth = 1;
