@@ -131,3 +131,59 @@ def test_the_start_is_seen_where_the_arm_stands_on_it(program, show_file):
     middle, edge = seen.do(ring)
     assert middle[2] > 150 and middle[0] < 50, "blue: where the arm is"
     assert max(edge) < 90, "ink: where it begins"
+
+
+# Texts that a panel draws in its picture, each as left, top, width and height in pixels.
+NAMES = """(panel) => { const written = []; const prototype = CanvasRenderingContext2D.prototype; const { fillText } = prototype;
+  prototype.fillText = function (text, x, y, ...rest) {
+    if (this.font.includes('600')) { const { width } = this.measureText(text); written.push([text, x - width / 2, y - 6, width, 12]); }
+    fillText.call(this, text, x, y, ...rest); };
+  cplan.panels[panel].dirty = true; cplan.panels[panel].draw(); prototype.fillText = fillText; return written; }"""
+# Points of boxes that lie on the arm at its current configuration.
+ON_THE_ARM = """(boxes) => { const { workspace } = cplan.panels; const { arm } = cplan.model; const at = Geometry.poses(arm, cplan.q);
+  const parts = arm.links.flatMap((link, k) => link.parts.map((part) => Geometry.placed(part, at[k])));
+  return boxes.flatMap(([text, x, y, width, height]) => [0, 0.25, 0.5, 0.75, 1].flatMap((u) => [0, 0.5, 1].map((v) => [text, workspace.value([x + u * width, y + v * height])])))
+    .filter(([, place]) => parts.some((part) => Geometry.separation({ core: place, radius: 0 }, part) < 0)); }"""
+
+
+@pytest.mark.parametrize(("robot", "world"), [("planar_2r", "shelf"), ("planar_2r", "workbench"), ("scara", "tasks/kitting_cell"), ("planar_2r", "moving/crossing")])
+def test_names_lie_on_nothing(program, show_file, robot, world):
+    page, _ = program.plan(robot, world)
+    seen = show_file(page)
+    count = 0
+    for part in (0, 0.15, 0.4, 0.6, 0.85, 1):
+        seen.do("(part) => cplan.seek(part * cplan.duration)", part)
+        for panel in ("workspace", "cspace"):
+            boxes = seen.do(NAMES, panel)
+            count += len(boxes)
+            for i, (one, x, y, width, height) in enumerate(boxes):
+                for other, u, v, w, h in boxes[:i]:
+                    assert x + width <= u or u + w <= x or y + height <= v or v + h <= y, (one, other)
+            if panel == "workspace":
+                assert seen.do(ON_THE_ARM, boxes) == []
+    assert count > 20
+
+
+def test_names_in_the_configuration_space_lie_in_the_visible_part(program, show_file):
+    page, _ = program.plan("planar_2r", "workbench")
+    seen = show_file(page)
+    inside = """(boxes) => boxes.map(([text, x, y, width, height]) => { const { cspace } = cplan.panels;
+      const own = cplan.world.c_obstacles.filter(({ obstacle }) => cplan.world.obstacles[obstacle].name === text);
+      const [u, v] = cspace.value([x + width / 2, y + height / 2]);
+      const holds = (points) => points.reduce((odd, [a, b], k) => { const [c, d] = points[(k + 1) % points.length];
+        return odd !== ((b > v) !== (d > v) && u < a + ((c - a) * (v - b)) / (d - b)); }, false);
+      const turns = [-1, 0, 1].map((n) => 2 * Math.PI * n);
+      return own.some(({ contour }) => turns.some((a) => turns.some((b) => holds([...Geometry.pointsOf(contour)].map(([p, q]) => [p + a, q + b]))))); })"""
+    boxes = seen.do(NAMES, "cspace")
+    assert sorted(name for name, *_ in boxes) == ["board", "bottle", "lamp", "rack", "vice"]
+    assert all(seen.do(inside, boxes))
+    # Where a part is magnified, names move into it.
+    seen.do("cplan.panels.cspace.magnify(4, cplan.panels.cspace.at([0.5, 0.2]))")
+    boxes = seen.do(NAMES, "cspace")
+    assert boxes and all(seen.do(inside, boxes))
+    rect = seen.do("cplan.panels.cspace.rect")
+    assert all(rect["x"] <= x and x + width <= rect["x"] + rect["width"] for _, x, _, width, _ in boxes)
+    # A hidden C-obstacle has no name.
+    seen.do("cplan.panels.cspace.reset()")
+    seen.do("() => { cplan.hidden.add('vice'); cplan.refresh(); }")
+    assert "vice" not in [name for name, *_ in seen.do(NAMES, "cspace")]

@@ -84,6 +84,10 @@ class Panel {
     this.back = document.createElement('canvas');
     this.scratch = document.createElement('canvas');
     this.dirty = true;
+    /** Items that names avoid: those of the fixed content, and all. */
+    this.fixed = this.blocked = Labels.nothing();
+    /** Last place of each name, by its number among the possible places. */
+    this.placed = new Map();
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
@@ -223,12 +227,15 @@ class Panel {
     if (!this.size || !this.theme) return;
     if (this.dirty) {
       this.dirty = false;
+      this.blocked = Labels.nothing();
       const context = this.begin(this.back);
       this.axes(context);
       this.within(context, () => this.still?.(context, this));
       this.border(context);
       this.beside?.(context, this);
+      this.fixed = this.blocked;
     }
+    this.blocked = Labels.copy(this.fixed);
     const context = this.begin(this.canvas);
     context.drawImage(this.back, 0, 0, this.size[0], this.size[1]);
     this.within(context, () => {

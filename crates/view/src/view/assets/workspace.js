@@ -68,21 +68,25 @@ const Workspace = (() => {
   function names(context, panel, view, world) {
     const shown = [];
     const { arm: model } = view.model;
-    const beyond = (text, q) => [text, Labels.beyond(context, text, panel.at(tipAt(model, q)), panel.at(elbowAt(model, q)))];
+    const beyond = (text, q) => [text, Labels.beyond(context, panel, text, panel.at(tipAt(model, q)), panel.at(elbowAt(model, q)))];
     if (view.isTask) {
-      for (const path of view.pathsHere()) shown.push(beyond(String(path.step), path.points.slice(-2)));
+      for (const path of view.pathsHere()) shown.push(beyond(`step ${path.step}`, path.points.slice(-2)));
     } else if (view.shows('poses') && view.isMotion) {
       for (const q of view.ends()) shown.push(beyond('goal', q));
       shown.push(beyond('start', view.beginning()));
     }
     if (!view.isCrowded) {
       world.obstacles.forEach((obstacle, index) => {
-        if (obstacle.own > 0 && !view.hidden.has(obstacle.name)) shown.push([view.called(index), box(panel, obstacle)]);
+        if (obstacle.own === 0 || view.hidden.has(obstacle.name)) return;
+        shown.push([view.called(index), box(panel, obstacle)]);
+        const wall = obstacle.outline.polyline;
+        if (wall) Labels.blockLine(panel, [...pointsOf(wall)].map((p) => panel.at(p)));
       });
       for (const mover of (world.movers ?? []).filter(({ name }) => !view.hidden.has(name))) {
         shown.push([mover.name, box(panel, Geometry.moved(mover, view.now))]);
       }
     }
+    if (view.shows('frames')) for (const { name, at } of view.model.frames) shown.push([name, Labels.about(panel.at(at), 10)]);
     Labels.beside(context, panel, shown);
   }
 
@@ -116,7 +120,10 @@ const Workspace = (() => {
     return index < 0 ? null : index;
   }
 
-  /** Draws the arm at q. `look`: fill, line, width, alpha, whether joints are shown, and colours of links that touch. */
+  /**
+   * Draws the arm at q. `look`: fill, line, width, alpha, whether joints are shown, whether names avoid it, and colours
+   * of links that touch.
+   */
   function arm(context, panel, view, world, q, look) {
     panel.faded(context, look.alpha ?? 1, (layer) => solid(layer, panel, view, world, q, look));
   }
@@ -126,7 +133,11 @@ const Workspace = (() => {
     const at = poses(model, q);
     model.links.forEach((link, k) => {
       context.beginPath();
-      for (const part of link.parts) rounded(context, panel, placed(part, at[k]));
+      for (const part of link.parts) {
+        const shape = placed(part, at[k]);
+        rounded(context, panel, shape);
+        if (look.blocks) Labels.blockShape(panel, shape);
+      }
       context.lineWidth = 2 * look.width;
       context.strokeStyle = look.line;
       context.stroke();
@@ -137,7 +148,10 @@ const Workspace = (() => {
       const pose = payloadPose(model, world.payload, q);
       const { fill, line: edge } = panel.theme.obstacle(world.payload.color);
       context.beginPath();
-      for (const piece of world.payload.pieces) rounded(context, panel, placed(piece, pose));
+      for (const piece of world.payload.pieces) {
+        rounded(context, panel, placed(piece, pose));
+        if (look.blocks) Labels.blockShape(panel, placed(piece, pose));
+      }
       context.strokeStyle = edge;
       context.stroke();
       context.fillStyle = look.touching?.has('payload') ? look.touch : fill;
@@ -182,6 +196,7 @@ const Workspace = (() => {
       for (const path of Think.paths(view, view.pathsHere())) {
         const there = tipTrace(view.model.arm, path.points).map((p) => panel.at(p));
         pathLine(context, panel.theme, path, () => line(context, there));
+        Labels.blockLine(panel, there);
       }
       return;
     }
@@ -195,7 +210,11 @@ const Workspace = (() => {
     context.globalAlpha = 0.22;
     view.model.paths.forEach((path, i) => !here.has(path) && draw(i, path));
     context.globalAlpha = 1;
-    view.model.paths.forEach((path, i) => here.has(path) && draw(i, path));
+    view.model.paths.forEach((path, i) => {
+      if (!here.has(path)) return;
+      draw(i, path);
+      Labels.blockLine(panel, spots[i].map((p) => panel.at(p)));
+    });
   }
 
   function regions(context, panel, world) {
@@ -245,7 +264,7 @@ const Workspace = (() => {
           arm(context, panel, view, world, q, { fill: theme.ghost, line: theme.grey, width: 0.8, alpha: 0.7 });
         }
       }
-      const look = { line: theme.ink, width: 1, alpha: 0.85, joints: true };
+      const look = { line: theme.ink, width: 1, alpha: 0.85, joints: true, blocks: true };
       if (view.isMotion) arm(context, panel, view, world, view.beginning(), { ...look, fill: theme.paper });
       for (const q of view.ends()) arm(context, panel, view, world, q, { ...look, fill: theme.pale });
       for (const q of world.unreached) {
@@ -281,7 +300,7 @@ const Workspace = (() => {
   function moving(context, panel, view) {
     const { theme } = panel;
     movers(context, panel, view, view.world);
-    arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, joints: true });
+    arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, joints: true, blocks: true });
     if (view.probe) tried(context, panel, view);
     if (view.shows('names')) names(context, panel, view, view.world);
     if (view.hovered) Labels.write(context, theme, ...view.hovered);
@@ -302,6 +321,7 @@ const Workspace = (() => {
       width: 1.6,
       alpha: 0.92,
       joints: true,
+      blocks: true,
     });
   }
 
@@ -324,7 +344,6 @@ const Workspace = (() => {
       line(context, [[x, y], [x + AXIS * u, y - AXIS * v]]);
       Labels.write(context, panel.theme, letter, x + (AXIS + 9) * u, y - (AXIS + 9) * v);
     });
-    Labels.write(context, panel.theme, frame.name, x + 30, y + 18);
   }
 
   return { still, moving, found, arm, struck };
