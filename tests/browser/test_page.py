@@ -382,3 +382,18 @@ def test_space_plays_an_exploration(program, show_file):
     seen.page.get_by_label("Reading").focus()
     seen.page.keyboard.press(" ")
     assert play.get_attribute("aria-label") == "play"
+
+
+def test_numbers_have_few_digits_and_units(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    lengths = seen.do("[4e-6, 0.0204, 0.614, 1.4201, 0, -0.0312].map((x) => Numbers.length(x))")
+    assert lengths == ["0.004 mm", "20.4 mm", "614 mm", "1.42 m", "0 mm", "\u221231.2 mm"]
+    assert seen.do("[0.9, -1.8136, 0].map((x) => Numbers.angle(x))") == ["51.6°", "\u2212103.9°", "0.0°"]
+    bounds = seen.do("[8.4e-5, 0.0341, 1.1964, 0, 1e-9].map((x) => Numbers.percent(x, Math.ceil))")
+    assert bounds == ["0.0084 %", "3.41 %", "120 %", "0 %", "0.0001 %"]
+    # The readout has degrees, and radians under the pointer.
+    seen.do("cplan.examine([0.139626, 0])")
+    readout = seen.page.locator(".probe")
+    assert readout.inner_text().startswith("shoulder 8.0°, elbow 0.0°: touches")
+    assert readout.get_attribute("title") == "shoulder 0.1396 rad, elbow 0.0000 rad"

@@ -50,7 +50,7 @@ function ticks(low, high, degrees, room, spacing) {
   const unit = degrees ? Math.PI / 180 : 1;
   const wanted = ((high - low) / unit / Math.max(2, room / spacing)) || 1;
   const power = 10 ** Math.floor(Math.log10(wanted));
-  const steps = degrees && wanted > 4 ? [5, 10, 15, 30, 45, 90, 180, 360, 720, 3600] : [1, 2, 5, 10].map((k) => k * power);
+  const steps = degrees && wanted > 4 && wanted <= 720 ? [5, 10, 15, 30, 45, 90, 180, 360, 720] : [1, 2, 5, 10].map((k) => k * power);
   const step = steps.find((s) => s >= wanted * 0.999) ?? steps[steps.length - 1];
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const found = [];

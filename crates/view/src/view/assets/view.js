@@ -544,7 +544,7 @@ class View {
       for (const panel of this.allPanels()) panel.draw();
       return;
     }
-    parts.clock.textContent = `${this.time.toFixed(2)} / ${this.duration.toFixed(2)} s`;
+    parts.clock.textContent = `${this.time.toFixed(2)} / ${Numbers.seconds(this.duration)}`;
     parts.scrubber.setAttribute('aria-valuetext', `${this.time.toFixed(2)} seconds`);
     const whose = moment && this.account ? `${motion.label}. ` : '';
     const phase = moment && `${whose}${moment.index + 1} of ${this.replay.length}: ${moment.phase.caption}`;
@@ -777,6 +777,7 @@ class View {
     if (!q) this.pinned = false;
     const text = this.probe ? this.described() : '';
     if (this.parts.probe.textContent !== text) this.parts.probe.textContent = text;
+    this.parts.probe.title = this.probe ? Numbers.exact(this.model.arm.joints, q) : '';
     if (this.probe) this.follow(this.probe.q);
     this.parts.probe.dataset.free = this.probe ? String(!(this.probe.contacts[0]?.distance <= 0)) : '';
     for (const panel of Object.values(this.panels)) panel.draw();
@@ -798,9 +799,7 @@ class View {
   /** Describes a configuration. */
   valued(q) {
     // With more digits in a magnified picture.
-    const more = Math.floor(Math.log10(this.panels.cspace.times));
-    const value = (joint, x) => (joint.unit === 'rad' ? `${((x * 180) / Math.PI).toFixed(1 + more)}\u00b0` : `${x.toFixed(3 + more)} m`);
-    return this.model.arm.joints.map((joint, k) => `${joint.name} ${value(joint, q[k])}`).join(', ');
+    return Numbers.configuration(this.model.arm.joints, q, Math.floor(Math.log10(this.panels.cspace.times)));
   }
 
   /** Describes the contacts, or the nearest obstacle. */
@@ -809,12 +808,12 @@ class View {
     const hits = contacts.filter((c) => c.distance <= 0);
     const who = (c) => (c.carried ? `payload "${c.body}"` : `link "${arm.links[c.link].name}"`);
     const pair = (c) => `${who(c)} and "${this.world.obstacles[c.obstacle].name}"`;
-    const depth = (c) => `${(-c.distance * 1000).toPrecision(3)} mm deep`;
-    if (hits.length) return `touches. ${hits.map((c) => `${pair(c)}, ${depth(c)}`).join('; ')}`;
+    const depth = (c) => `${Numbers.length(-c.distance)} deep`;
+    if (hits.length) return `touches: ${hits.map((c) => `${pair(c)}, ${depth(c)}`).join('; ')}`;
     const [nearest] = contacts;
-    if (!nearest) return 'free; nothing can be hit';
-    const room = nearest.distance <= this.world.clearance ? 'nearer than the clearance asked for' : 'free';
-    return `${room}; nearest: ${pair(nearest)}, ${(nearest.distance * 1000).toPrecision(3)} mm`;
+    if (!nearest) return 'free; no obstacle within reach';
+    const room = nearest.distance <= this.world.clearance ? 'closer than the requested clearance' : 'free';
+    return `${room}; nearest: ${pair(nearest)}, ${Numbers.length(nearest.distance)}`;
   }
 
   // Keys.
