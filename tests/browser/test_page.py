@@ -99,7 +99,7 @@ def test_everything_can_be_done_by_keyboard(program, show_file):
     for _ in range(40):
         keyboard.press("Tab")
         reached.add(seen.do("document.activeElement.dataset.layer ?? document.activeElement.dataset.obstacle ?? document.activeElement.tagName"))
-    layers = {"c-obstacles", "path", "rows", "poses", "trace", "names"}
+    layers = {"c-obstacles", "path", "poses", "names"}
     assert layers | {"shelf", "crate", "CANVAS", "BUTTON", "INPUT", "SELECT", "SUMMARY"} <= reached
     nameless = seen.do(
         """[...document.querySelectorAll('button, input, select, canvas')].filter((e) =>
@@ -152,10 +152,16 @@ LAYERS = [
 def test_layers_come_and_go(program, show_file, files, words, layers):
     page, _ = program.plan(*files, *words)
     seen = show_file(page)
-    there = set(seen.do("[...document.querySelectorAll('[data-layer]')].map((box) => box.dataset.layer)"))
-    assert there == layers | {"c-obstacles", "path", "poses", "trace", "names"}
+    shown = lambda: set(seen.do("[...document.querySelectorAll('.legend li:not([hidden]) [data-layer]')].map((box) => box.dataset.layer)"))
+    motion = {"c-obstacles", "path", "poses", "names"}
+    # What the planner did is not drawn over the motion.
+    assert shown() == motion
+    seen.do("cplan.switchTo('think')")
+    seen.do("cplan.seek(cplan.duration)")
+    there = shown()
+    assert there == layers | motion
     for layer in sorted(there):
-        panel = "workspace" if layer in {"poses", "trace"} else "cspace"
+        panel = "workspace" if layer == "poses" else "cspace"
         before = pixels(seen, panel)
         seen.page.locator(f"[data-layer='{layer}']").click()
         assert pixels(seen, panel) != before, layer
@@ -267,12 +273,15 @@ def test_where_the_tip_can_get_is_seen_as_in_the_picture(program, show_file):
         assert sum(letter in letters for letter in reach["cells"]) == told["cells"][access], access
     # The cells are visible: hiding them changes both panels.
     full = pixels(seen, "workspace"), pixels(seen, "cspace")
-    legend = seen.page.locator(".legend li").all_inner_texts()
-    assert "the tip can get there, one way" in legend and all(text in picture.read_text() for text in legend)
+    legend = seen.page.locator(".legend li:visible")
+    drawn = picture.read_text()
+    keys = [key["text"] for key in seen.do("cplan.model.legend")]
+    assert set(keys) <= set(legend.all_inner_texts()) and all(text in drawn for text in keys)
     seen.shoot("reach")
+    before = legend.count()
     seen.page.get_by_role("checkbox", name="where the tip can get").uncheck()
     assert pixels(seen, "workspace") != full[0] and pixels(seen, "cspace") != full[1]
-    assert "the tip can get there, one way" not in seen.page.locator(".legend li").all_inner_texts()
+    assert legend.count() < before, "the meanings of its colours are hidden, too"
 
 
 def test_steps_are_numbered_as_they_are_done(program, show_file):
@@ -397,3 +406,50 @@ def test_numbers_have_few_digits_and_units(program, show_file):
     readout = seen.page.locator(".probe")
     assert readout.inner_text().startswith("shoulder 8.0°, elbow 0.0°: touches")
     assert readout.get_attribute("title") == "shoulder 0.1396 rad, elbow 0.0000 rad"
+
+
+def test_the_result_comes_first_and_the_panels_are_equal(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page, width=1400, height=1000)
+    left, right = (seen.page.locator(f"canvas[aria-label='{name}']").bounding_box() for name in ("Workspace", "Configuration space"))
+    assert (left["y"], left["width"], left["height"]) == pytest.approx((right["y"], right["width"], right["height"]))
+    rects = seen.do("['workspace', 'cspace'].map((name) => cplan.panels[name].rect)")
+    for side in ("x", "y", "width", "height"):
+        assert rects[0][side] == pytest.approx(rects[1][side], abs=0.5), side
+    # The scrubber stays in sight.
+    box = seen.page.locator(".transport").bounding_box()
+    assert box["y"] + box["height"] <= 1000.5
+    small = show_file(page, width=1400, height=500)
+    box = small.page.locator(".transport").bounding_box()
+    assert box["y"] + box["height"] <= 500.5
+
+
+def test_key_figures_are_cards_and_bounds_are_rounded_to_the_safe_side(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    figures = {"duration": 2.063, "gap": 8.41e-5, "clearance": 0.0204999}
+    texts = seen.do("(figures) => View.cards({ figures }).map(([, value]) => value)", figures)
+    assert texts == ["2.06 s", "at most 0.0085 %", "20.4 mm"]
+    seen.do("() => { cplan.model.figures = undefined; cplan.headings(); }")
+    assert seen.page.locator(".cards").is_hidden(), "no figures, no row"
+    seen.do("(figures) => { cplan.model.figures = figures; cplan.headings(); }", figures)
+    assert seen.page.locator(".card").count() == 3
+
+
+def test_tabs_show_one_part_at_a_time(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page, width=1000, height=900)
+    parts = {"Layers": ".legend", "Plots": ".plots", "Details": ".facts"}
+    tabs = seen.page.get_by_role("tab")
+    assert tabs.all_inner_texts() == list(parts)
+    for name in parts:
+        tabs.filter(has_text=name).click()
+        assert [other for other, where in parts.items() if seen.page.locator(where).is_visible()] == [name]
+    seen.page.keyboard.press("ArrowRight")
+    assert seen.page.locator(".legend").is_visible(), "arrow keys go round"
+    # On a wide page, the layers stand beside the pictures.
+    seen.page.set_viewport_size({"width": 1500, "height": 900})
+    seen.until("document.querySelectorAll('[role=tab]:not([hidden])').length === 2")
+    assert seen.page.locator(".legend").is_visible() and seen.page.locator(".plots").is_visible()
+    seen.do("cplan.switchTo('think')")
+    assert seen.page.locator(".facts").is_visible(), "the replay has no plots"

@@ -41,7 +41,7 @@ const key = add(node("p", { class: "key" }),
   swatch("var(--paper)", "free"), swatch("var(--pale)", "unknown, solid"), swatch("var(--ink)", "occupied"),
   swatch("var(--channel)", "new"), swatch("var(--free)", "free configurations"));
 add(main, heading, add(node("div", { class: "panels" }), left.figure, right.figure),
-  add(node("div", { class: "transport" }), play, slider, clock), readout, chart.figure, key);
+  add(node("div", { class: "transport" }), add(node("div", { class: "controls-of-time" }), play, slider, clock)), readout, chart.figure, key);
 
 const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 /** Returns the font of text on canvases, which follows the text size of the page. */

@@ -9,7 +9,7 @@ const STYLE: &str = include_str!("assets/view.css");
 pub(crate) const ICONS: &str = include_str!("assets/icons.js");
 
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 15] = [
+const SCRIPTS: [&str; 17] = [
     ICONS,
     include_str!("assets/settings.js"),
     include_str!("assets/numbers.js"),
@@ -17,6 +17,8 @@ const SCRIPTS: [&str; 15] = [
     include_str!("assets/panel.js"),
     include_str!("assets/labels.js"),
     include_str!("assets/legend.js"),
+    include_str!("assets/layers.js"),
+    include_str!("assets/tabs.js"),
     include_str!("assets/think.js"),
     include_str!("assets/workspace.js"),
     include_str!("assets/cspace.js"),

@@ -12,7 +12,7 @@ const Labels = (() => {
   /** Side of a cell of the raster in which names are placed within regions, in pixels. */
   const CELL = 4;
   /** Value of a cell that no name may cover, and the least part of a name that must lie on its region. */
-  const [BLOCKED, PART] = [-1, 0.4];
+  const [BLOCKED, PART] = [-1, 0.3];
   /** Possible positions of a name: on its shape, then above, below, to the sides and at the corners of it. */
   const SIDES = [[0, 0], [0, -1], [0, 1], [1, 0], [-1, 0], [1, -1], [-1, -1], [1, 1], [-1, 1]];
   /** Costs of a place: crossing a path, and a line to the shape. A name that stays where it was costs less. */

@@ -6,22 +6,28 @@ const Numbers = (() => {
   const DECIMALS = 6;
   const minus = (text) => text.replace('-', '\u2212');
 
-  /** Formats with three significant digits (or `digits`), never with an exponent. Returns '0' instead of a negative zero. */
-  function digits(value, count = 3) {
+  /**
+   * Formats with `count` significant digits, never with an exponent. Returns '0' instead of a negative zero. `round` is
+   * `Math.floor` for a lower bound and `Math.ceil` for an upper one.
+   */
+  function digits(value, count = 3, round = Math.round) {
     if (!Number.isFinite(value)) return value > 0 ? '\u221e' : '\u2212\u221e';
     if (value === 0) return '0';
     const power = Math.floor(Math.log10(Math.abs(value)) + 1e-9);
     const decimals = Math.min(DECIMALS, Math.max(0, count - 1 - power));
-    const text = value.toFixed(decimals);
+    // A value such as 20.4 may be stored as a little less.
+    const hair = round === Math.round ? 0 : (round === Math.floor ? 1e-9 : -1e-9);
+    const unit = 10 ** decimals;
+    const text = (round(value * unit + hair) / unit).toFixed(decimals);
     // Zeros at the end of a very small number would claim a precision that it does not have.
     const short = power < 0 ? String(Number(text)) : text;
     return minus(short.includes('e') || Number(text) === 0 ? '0' : short);
   }
 
   /** Formats a length in metres: millimetres below one metre. `more` adds digits. */
-  function length(metres, more = 0) {
+  function length(metres, more = 0, round = Math.round) {
     const isLong = Math.abs(metres) >= 0.9995;
-    return isLong ? `${digits(metres, 3 + more)} m` : `${digits(1000 * metres, 3 + more)} mm`;
+    return isLong ? `${digits(metres, 3 + more, round)} m` : `${digits(1000 * metres, 3 + more, round)} mm`;
   }
 
   /** Formats an angle in radians as degrees with one decimal; `more` adds decimals. */

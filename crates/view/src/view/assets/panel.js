@@ -45,7 +45,10 @@ class Theme {
   }
 }
 
-/** Returns ticks of an axis from `low` to `high` that is `room` pixels long, at least about `spacing` pixels apart. */
+/**
+ * Returns ticks of an axis from `low` to `high` that is `room` pixels long, at least about `spacing` pixels apart.
+ * `degrees` is true for an axis in radians, or 'plain' to leave out the degree sign.
+ */
 function ticks(low, high, degrees, room, spacing) {
   const unit = degrees ? Math.PI / 180 : 1;
   const wanted = ((high - low) / unit / Math.max(2, room / spacing)) || 1;
@@ -56,7 +59,7 @@ function ticks(low, high, degrees, room, spacing) {
   const found = [];
   for (let k = Math.ceil(low / unit / step - 1e-9); k * step * unit <= high + 1e-9 * (high - low); k += 1) {
     const text = (k * step).toFixed(digits).replace('-', '\u2212');
-    found.push({ value: k * step * unit, text: degrees ? `${text}\u00b0` : text });
+    found.push({ value: k * step * unit, text: degrees === true ? `${text}\u00b0` : text });
   }
   return found;
 }
@@ -72,7 +75,7 @@ class Panel {
    * @param canvas the canvas to draw on
    * @param options `x`, `y`: ranges; `degrees`: for both axes; `titles`; `scale`: 'fill' (one scale, may show more than
    * the ranges), 'fit' (one scale, exactly the ranges) or 'free'; `still` and `moving`: functions that draw the fixed
-   * and the moving content; `beside`: one that draws fixed content outside the sides; `margins`
+   * and the moving content; `shape`: ratio of width to height, or `null` for all the room; `beside`: one that draws fixed content outside the sides; `margins`
    */
   constructor(canvas, options) {
     Object.assign(this, { degrees: [false, false], seams: [false, false], titles: ['', ''], scale: 'free' }, options);
@@ -113,6 +116,11 @@ class Panel {
     const [narrow, right, top, bottom] = (this.margins ?? [48, 10, 8, 40]).map((margin) => margin * this.zoom);
     const left = narrow + this.digits;
     const rect = { x: left, y: top, width: Math.max(1, this.size[0] - left - right), height: Math.max(1, this.size[1] - top - bottom) };
+    // On a broad canvas, such as on a phone, that would waste too much room.
+    if (this.shape && rect.width < 1.7 * rect.height) {
+      const [width, height] = [Math.min(rect.width, rect.height * this.shape), Math.min(rect.height, rect.width / this.shape)];
+      Object.assign(rect, { x: rect.x + (rect.width - width) / 2, width, height });
+    }
     let [x, y] = [this.x.slice(), this.y.slice()];
     for (const range of [x, y]) if (!(range[1] > range[0])) [range[0], range[1]] = [range[0] - 0.5, range[0] + 0.5];
     if (this.scale !== 'free') {
@@ -303,7 +311,7 @@ class Panel {
     context.textBaseline = 'bottom';
     context.fillText(this.titles[0], rect.x + rect.width / 2, rect.y + rect.height + 37 * zoom);
     context.save();
-    context.translate(rect.x - 35 * zoom - this.digits, rect.y + rect.height / 2);
+    context.translate(rect.x - Math.max(35, (this.margins?.[0] ?? 48) - 13) * zoom - this.digits, rect.y + rect.height / 2);
     context.rotate(-Math.PI / 2);
     context.fillText(this.titles[1], 0, 0);
     context.restore();

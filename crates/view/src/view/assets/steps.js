@@ -5,7 +5,8 @@ class Steps {
   constructor(view) {
     this.view = view;
     this.list = element('ol', { class: 'steps' });
-    this.root = element('fieldset', { hidden: true }, element('legend', {}, 'Steps'), this.list);
+    this.timeline = element('div', { class: 'timeline', hidden: true });
+    this.root = element('section', { class: 'box', 'aria-label': 'Steps', hidden: true }, element('h2', {}, 'Steps'), this.list);
     /** Buttons in the order of the motions. */
     this.buttons = [];
     this.current = -1;

@@ -12,28 +12,6 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
-/** Names of layers, and whether they are initially visible. The content determines which of them exist. */
-const LAYERS = [
-  ['c-obstacles', 'C-obstacles', true],
-  ['access', 'where the tip can get', true],
-  ['path', 'path', true],
-  ['roadmap', 'reduced visibility graph', true],
-  ['roads', 'roadmap', true],
-  ['rows', 'slices that the path passes', true],
-  ['channel', 'channel', true],
-  ['cells', 'cells', true],
-  ['expanded', 'order of the search', true],
-  ['wavefront', 'wavefront', true],
-  ['equipotentials', 'equipotentials', true],
-  ['flow', 'flow lines', false],
-  ['boxes', 'subdivision boxes', true],
-  ['proof', 'proof of infeasibility', true],
-  ['regions', 'preferred regions', true],
-  ['poses', 'poses along the path', true],
-  ['trace', 'trace of the tip', true],
-  ['names', 'names', true],
-  ['frames', 'frames', true],
-];
 const SYMBOLS = { found: '\u2713', infeasible: '\u2715', unknown: '?', shown: '\u2022', waiting: '\u2026' };
 /** A finger that moves less than `TAP` has tapped. One that begins within `NEAR` of the cross takes it. In pixels. */
 const [TAP, NEAR] = [10, 24];
@@ -50,11 +28,14 @@ const [MAGNIFIES, A_PIXEL] = [1.5, 0.002];
 /** A wheel that scrolled the page within this time continues to do so, in milliseconds. */
 const SCROLLING = 300;
 
+/** Width of the page from which layers and steps stand beside the pictures. */
+const WIDE = '(min-width: 77.5rem)';
+
 class View {
   /** Creates a view of `model` within `root`. `recall` requests the planner's replay, if there is a program to answer. */
   constructor(root, model, recall = null) {
     this.root = root;
-    this.layers = new Map(LAYERS.map(([name, , shown]) => [name, shown]));
+    root.classList.toggle('live', Boolean(recall));
     this.hidden = new Set();
     this.time = 0;
     /** Content that is played: 'move', the motion; 'think', the planner's replay; or 'learn', a lesson. Each keeps its time. */
@@ -97,8 +78,8 @@ class View {
     [this.named, this.isCrowded] = [count <= NAMED, count > CROWDED];
     this.hovered = null;
     this.headings();
-    this.choices();
     this.steps.update(model);
+    this.layers.update(model);
     const { workspace, cspace } = this.panels;
     const { joints, plane, one_scale: alike } = model.arm;
     [workspace.x, workspace.y] = model.frame;
@@ -108,10 +89,10 @@ class View {
     cspace.seams = joints.map((joint) => joint.circle);
     cspace.titles = joints.map((joint) => `${joint.name}${joint.unit === 'm' ? ' (m)' : ''}${joint.circle ? ', wraps around' : ''}`);
     cspace.scale = alike ? 'fit' : 'free';
-    // Room for a scale of colours beside the panel.
-    const hasScale = [...model.worlds, ...(model.replays ?? [])].some(({ scale }) => scale);
-    cspace.margins = hasScale ? [48, 56, 8, 40] : undefined;
-    for (const panel of [workspace, cspace]) panel.layout();
+    // Both panels have the same shape, so that their edges are aligned.
+    const [width, height] = [cspace.x, cspace.y].map(([low, high]) => high - low);
+    const shape = width / height;
+    workspace.shape = alike && shape > 0.6 && shape < 1.7 ? shape : null;
     for (const plot of this.plots) plot.fit();
     this.learn.update(model);
     if (!this.hasReplay(model.motions[this.replayed])) this.replayed = 0;
@@ -173,7 +154,15 @@ class View {
     const learns = this.mode === 'learn';
     parts.plots.hidden = this.mode !== 'move' || !this.model.clock;
     this.learn.show();
-    parts.panels.hidden = parts.legend.hidden = learns && !this.learn.isSlice;
+    parts.panels.hidden = learns && !this.learn.isSlice;
+    // Room for a scale of colours beside the panel.
+    const { scale } = this;
+    const margins = scale && this.showsSearch ? [48, 56, 8, 40] : undefined;
+    for (const panel of Object.values(this.panels)) {
+      panel.margins = margins;
+      panel.layout();
+    }
+    if (!this.light) this.tabs.refresh();
     // While the user drags, hidden controls keep their room, because they come back.
     parts.transport.classList.toggle('still', !this.duration && !this.light);
     for (const button of parts.modes.children) button.setAttribute('aria-pressed', String(button.dataset.mode === this.mode));
@@ -245,8 +234,20 @@ class View {
     return this.model.clock ? Geometry.moving(this.model.clock, this.time).position : this.beginning();
   }
 
+  /** Returns true if the search of the planner is drawn: not over the motion, unless there is no replay. */
+  get showsSearch() {
+    return this.mode === 'think' || this.chosen === 'think' || (!this.thinks && !this.recall);
+  }
+
+  /** Returns true if the current mode draws a layer, unless the reader hides it. */
+  draws(layer) {
+    if (this.mode === 'learn') return Learn.LAYERS.has(layer);
+    return !PLANNER_LAYERS.has(layer) || this.showsSearch;
+  }
+
+  /** Returns true if a layer is visible. */
   shows(layer) {
-    return this.layers.get(layer) && (this.mode !== 'learn' || Learn.LAYERS.has(layer));
+    return this.layers.shown.get(layer) && this.draws(layer);
   }
 
   /** Returns the paths in the current world. */
@@ -306,12 +307,12 @@ class View {
     const parts = {
       title: element('h1'),
       lines: element('div', { class: 'lines' }),
+      cards: element('dl', { class: 'cards', 'aria-label': 'Key figures', hidden: true }),
       status: element('p', { class: 'status', role: 'status' }),
       facts: element('dl', { class: 'facts' }),
       probe: element('p', { class: 'probe', 'aria-live': 'polite' }),
       description: element('p', { class: 'unseen', id: 'description' }),
-      legend: element('ul', { class: 'legend', 'aria-label': 'Legend' }),
-      measure: element('span', { class: 'unseen measure', 'aria-hidden': 'true' }),
+      measure: element('span', { class: 'measure', 'aria-hidden': 'true' }),
       ticks: element('span', { class: 'ticks', 'aria-hidden': 'true' }),
       play: element('button', { type: 'button', class: 'play', onclick: () => this.toggle() }),
       scrubber: element('input', {
@@ -320,16 +321,18 @@ class View {
       }),
       clock: element('span', { class: 'clock' }),
       step: element('p', { class: 'step', 'aria-live': 'polite' }),
-      layers: element('div', { class: 'choices' }),
-      obstacles: element('div', { class: 'choices' }),
       plots: element('section', { class: 'plots', 'aria-label': 'Motion over time' }),
     };
     const speed = element('select', { 'aria-label': 'speed', onchange: (event) => this.setSpeed(Number(event.target.value)) });
     for (const value of SPEEDS) speed.append(element('option', { value, selected: value === 1 }, `${value}\u00d7`));
     parts.speed = speed;
     const mode = (name, text) => element('button', { type: 'button', class: 'button', 'data-mode': name, onclick: () => this.switchTo(name) }, text);
-    parts.modes = element('span', { class: 'modes', role: 'group', 'aria-label': 'What is played' }, mode('move', 'Move'), mode('think', 'Think'), mode('learn', 'Learn'));
-    parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, parts.modes, parts.play, element('span', { class: 'track' }, parts.ticks, parts.scrubber), parts.clock, speed);
+    parts.modes = element('span', { class: 'modes', role: 'group', 'aria-label': 'What is played' }, mode('move', 'Motion'), mode('think', 'How it was found'), mode('learn', 'Learn'));
+    this.steps = new Steps(this);
+    this.layers = new Layers(this);
+    const track = element('div', { class: 'track' }, this.steps.timeline, element('span', { class: 'slider' }, parts.ticks, parts.scrubber));
+    const controls = element('div', { class: 'controls-of-time' }, parts.modes, parts.play, track, parts.clock, speed);
+    parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, parts.step, controls);
     parts.panels = element(
       'section',
       { class: 'panels' },
@@ -338,35 +341,17 @@ class View {
       parts.probe,
     );
     this.parts = parts;
-    this.steps = new Steps(this);
+    this.tabs = this.buildTabs();
     this.root.append(
       element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
+      parts.cards,
       element(
         'div',
         { class: 'stage' },
-        element(
-          'div',
-          { class: 'pictures' },
-          parts.panels,
-          this.learn.parts.panels,
-          parts.legend,
-          parts.description,
-          parts.measure,
-          parts.transport,
-          this.learn.parts.choice,
-          parts.step,
-          this.learn.parts.description,
-          parts.plots,
-        ),
-        element(
-          'aside',
-          { class: 'side', 'aria-label': 'What is shown' },
-          this.steps.root,
-          element('fieldset', {}, element('legend', {}, 'Layers'), parts.layers),
-          element('fieldset', {}, element('legend', {}, 'Obstacles'), parts.obstacles),
-        ),
+        element('div', { class: 'pictures' }, parts.panels, this.learn.parts.panels, parts.description, parts.measure, parts.transport, this.learn.parts.choice, this.learn.parts.text),
+        element('div', { class: 'below' }, this.tabs.root, ...this.tabs.entries.filter(({ isAside }) => !isAside).map(({ panel }) => panel)),
+        element('aside', { class: 'side', 'aria-label': 'Steps and layers' }, this.steps.root, this.layers.root),
       ),
-      element('section', { class: 'below' }, parts.facts),
       help(),
     );
     this.panels = {
@@ -393,6 +378,21 @@ class View {
     this.recolor();
   }
 
+  /** Creates the tabs. Steps and layers stand beside the pictures if there is room. */
+  buildTabs() {
+    const wide = matchMedia(WIDE);
+    const never = () => false;
+    const isBeside = () => wide.matches;
+    const tabs = new Tabs('More', [
+      { name: 'layers', title: 'Layers', panel: this.layers.root, isAside: true, isOffered: () => true, isBeside },
+      { name: 'steps', title: 'Steps', panel: this.steps.root, isAside: true, isOffered: () => this.steps.buttons.length > 0, isBeside },
+      { name: 'plots', title: 'Plots', panel: element('div', {}, this.parts.plots), isOffered: () => Boolean(this.model?.clock) && this.mode === 'move', isBeside: never },
+      { name: 'details', title: 'Details', panel: element('div', {}, this.parts.facts), isOffered: () => Boolean(this.model?.facts.length), isBeside: never },
+    ]);
+    wide.addEventListener('change', () => tabs.refresh());
+    return tabs;
+  }
+
   headings() {
     const { title, status, ending, facts } = this.model;
     const { parts } = this;
@@ -400,6 +400,20 @@ class View {
     parts.lines.replaceChildren(...title.slice(1).map((text) => element('p', {}, text)));
     if (!this.judged) this.say(ending, status);
     parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), element('dd', {}, text)]));
+    // The live page shows its own figures.
+    const cards = this.recall ? [] : View.cards(this.model);
+    parts.cards.hidden = !cards.length;
+    parts.cards.replaceChildren(...cards.map(([name, value, note]) => element('div', { class: 'card' }, element('dt', {}, name), element('dd', {}, value, element('small', {}, note)))));
+  }
+
+  /** Returns the key figures of a model: name, value and meaning. Proven bounds are rounded to the safe side. */
+  static cards({ figures = {} }) {
+    const { duration, gap, fastest, clearance } = figures;
+    return [
+      duration !== undefined && ['time', Numbers.seconds(duration), 'from rest to rest, within all limits'],
+      gap !== undefined && ['over the optimum', gap === 0 ? '0 %' : `at most ${Numbers.percent(gap, Math.ceil)}`, fastest ? 'longer than the fastest' : 'longer than the shortest'],
+      clearance !== undefined && ['clearance', Numbers.length(clearance, 0, Math.floor), 'proven, to the nearest obstacle'],
+    ].filter(Boolean);
   }
 
   /** Shows the outcome: `ending` for colour and symbol, and `words` as text. */
@@ -408,17 +422,6 @@ class View {
     if (status.dataset.ending === ending && status.dataset.words === words) return;
     Object.assign(status.dataset, { ending, words });
     status.replaceChildren(element('span', { 'aria-hidden': 'true' }, SYMBOLS[ending]), ` ${words}`);
-  }
-
-  /** Shows the legend of the visible signs. */
-  explain() {
-    if (this.light) return;
-    const { theme } = this.panels.workspace;
-    const keys = this.model.legend.filter(({ layers = [], think }) => (!layers.length || layers.some((layer) => this.shows(layer))) && (!think || this.mode === 'think'));
-    const signature = JSON.stringify([keys, theme.dark]);
-    if (signature === this.explained) return;
-    this.explained = signature;
-    this.parts.legend.replaceChildren(...Legend.items(theme, keys));
   }
 
   /** Goes to a step: to its time, or to its replay. */
@@ -458,52 +461,6 @@ class View {
     this.parts.description.textContent = `${stands} ${path ? goes() : this.isMotion ? 'There is no path here.' : ''}${proven}`;
   }
 
-  /** Lists the available layers, and the obstacles. */
-  choices() {
-    const { worlds, paths } = this.model;
-    const seen = [...worlds, ...(this.model.replays ?? [])].map(({ trace }) => trace);
-    const kinds = new Set(seen.map((trace) => trace?.kind));
-    const any = (key) => worlds.some((world) => world[key]?.length > 0);
-    const there = {
-      'c-obstacles': any('c_obstacles') || any('moments'), access: Boolean(this.model.reach), path: paths.length > 0, roadmap: kinds.has('roadmap'), rows: kinds.has('rows'),
-      roads: kinds.has('roads'), expanded: seen.some((trace) => trace?.expanded?.length > 0),
-      channel: kinds.has('channel'), cells: kinds.has('channel'), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'),
-      flow: kinds.has('field'), boxes: kinds.has('boxes'), proof: any('proof'), regions: any('regions'), poses: true,
-      trace: paths.length > 0, names: any('obstacles') || any('movers'), frames: this.model.frames.length > 0,
-    };
-    const wanted = LAYERS.filter(([name]) => there[name]);
-    const names = [...new Map(worlds.flatMap((world) => [...world.obstacles, ...(world.movers ?? [])].map((o) => [o.name, o.color])))];
-    const signature = JSON.stringify([wanted.map(([name]) => name), names]);
-    if (signature === this.signature) return;
-    this.signature = signature;
-    this.parts.layers.replaceChildren(...wanted.map(([name, text]) => {
-      const box = element('input', {
-        type: 'checkbox', checked: this.layers.get(name), 'data-layer': name,
-        onchange: (event) => this.layer(name, event.target.checked),
-      });
-      return element('label', {}, box, ` ${text}`);
-    }));
-    this.parts.obstacles.replaceChildren(...names.map(([name, color], index) => {
-      const box = element('input', {
-        type: 'checkbox', checked: !this.hidden.has(name), 'data-obstacle': name,
-        onchange: (event) => {
-          this.hidden[event.target.checked ? 'delete' : 'add'](name);
-          this.refresh();
-        },
-      });
-      const swatch = element('span', { class: 'swatch', style: `background:${color}` });
-      return element('label', {}, box, swatch, this.named ? name : `${index + 1} ${name}`);
-    }));
-    this.parts.obstacles.parentElement.hidden = names.length === 0;
-  }
-
-  layer(name, shown) {
-    this.layers.set(name, shown);
-    const box = this.parts.layers.querySelector(`[data-layer="${name}"]`);
-    if (box) box.checked = shown;
-    this.refresh();
-  }
-
   recolor() {
     const theme = new Theme(document.documentElement);
     for (const panel of [...this.allPanels(), ...Object.values(this.learn.panels)]) {
@@ -521,7 +478,7 @@ class View {
   /** Draws everything again. */
   refresh() {
     if (!this.model) return;
-    this.explain();
+    if (!this.light) this.layers.refresh();
     for (const panel of this.allPanels()) {
       panel.dirty = true;
       panel.draw();

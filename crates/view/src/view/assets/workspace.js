@@ -272,7 +272,7 @@ const Workspace = (() => {
       }
     }
     if (model.stuck) stuck(context, panel, view, model.stuck);
-    if (view.shows('trace')) traces(context, panel, view);
+    if (view.shows('path')) traces(context, panel, view);
     if (view.shows('frames')) for (const frame of model.frames) axes(context, panel, frame);
   }
 
