@@ -33,7 +33,7 @@ mod trace;
 mod waves;
 mod world;
 
-pub use content::View;
+pub use content::{KeyFigures, View};
 pub use html::{drawing, page, sealed, shell};
 pub use picture::{AxesFrame, Picture};
 pub use task_picture::{Moments, TaskPicture};

@@ -411,6 +411,7 @@ class View {
     const { duration, gap, fastest, clearance } = figures;
     return [
       duration !== undefined && ['time', Numbers.seconds(duration), 'from rest to rest, within all limits'],
+      duration !== undefined && gap === undefined && ['over the optimum', 'not proven', 'no bound on the optimum is known'],
       gap !== undefined && ['over the optimum', gap === 0 ? '0 %' : `at most ${Numbers.percent(gap, Math.ceil)}`, fastest ? 'longer than the fastest' : 'longer than the shortest'],
       clearance !== undefined && ['clearance', Numbers.length(clearance, 0, Math.floor), 'proven, to the nearest obstacle'],
     ].filter(Boolean);
