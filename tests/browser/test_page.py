@@ -454,3 +454,99 @@ def test_tabs_show_one_part_at_a_time(program, show_file):
     assert seen.page.locator(".legend").is_visible() and seen.page.locator(".plots").is_visible()
     seen.do("cplan.switchTo('think')")
     assert seen.page.locator(".facts").is_visible(), "the replay has no plots"
+
+
+def screen(seen, panel, place):
+    """Returns the place on the screen for a value in a panel."""
+    name = {"workspace": "Workspace", "cspace": "Configuration space"}[panel]
+    box = seen.page.locator(f"canvas[aria-label='{name}']").bounding_box()
+    x, y = seen.do("([panel, place]) => cplan.panels[panel].at(place)", [panel, place])
+    return box["x"] + x, box["y"] + y
+
+
+TIP = "Geometry.tipAt(cplan.model.arm, cplan.probe?.q ?? cplan.q)"
+
+
+def test_the_arm_is_dragged_by_its_tip(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    mouse = seen.page.mouse
+    mouse.move(*screen(seen, "workspace", seen.do(TIP)))
+    assert seen.do("cplan.panels.workspace.canvas.style.cursor") == "grab"
+    mouse.down()
+    # Into the shelf.
+    mouse.move(*screen(seen, "workspace", [1.3, 0.25]), steps=12)
+    mouse.up()
+    assert seen.do(TIP) == pytest.approx([1.3, 0.25], abs=0.02)
+    readout = seen.page.locator(".probe")
+    assert "touches" in readout.inner_text() and "shelf" in readout.inner_text()
+    # The place of the contact lies in both shapes.
+    places = seen.do("cplan.probe.contacts.filter((c) => c.distance <= 0).map(({ at, obstacle }) => [at, cplan.world.obstacles[obstacle].pieces])")
+    assert places
+    for at, pieces in places:
+        assert seen.do("([at, pieces]) => Math.min(...pieces.map((piece) => Geometry.separation({ core: at, radius: 0 }, piece)))", [at, pieces]) < 1e-3
+    seen.shoot("dragged")
+    # It stays until Escape, or until the motion is played.
+    mouse.move(5, 5)
+    assert seen.do("cplan.probe") is not None
+    seen.page.keyboard.press("Escape")
+    assert seen.do("cplan.probe") is None
+    mouse.move(*screen(seen, "workspace", seen.do(TIP)))
+    mouse.down()
+    mouse.move(*screen(seen, "workspace", [-0.5, 0.5]), steps=5)
+    mouse.up()
+    assert seen.do("cplan.probe") is not None
+    seen.page.keyboard.press(" ")
+    assert seen.do("cplan.playing") and seen.do("cplan.probe") is None
+
+
+def test_the_dot_in_the_configuration_space_is_dragged(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    mouse = seen.page.mouse
+    mouse.move(*screen(seen, "cspace", seen.do("cplan.q")))
+    mouse.down()
+    mouse.move(*screen(seen, "cspace", [-2.0, 1.5]), steps=6)
+    mouse.up()
+    mouse.move(5, 5)
+    assert seen.do("cplan.probe.q") == pytest.approx([-2.0, 1.5], abs=0.03)
+    mouse.move(*screen(seen, "cspace", [-2.0, 1.5]))
+    mouse.down()
+    mouse.move(*screen(seen, "cspace", [2.0, 1.0]), steps=6)
+    mouse.up()
+    mouse.move(5, 5)
+    assert seen.do("cplan.probe.q") == pytest.approx([2.0, 1.0], abs=0.03)
+
+
+def test_the_arm_is_moved_by_keys(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    seen.page.locator("canvas[aria-label='Workspace']").focus()
+    seen.page.keyboard.press("Enter")
+    before = seen.do(TIP)
+    for _ in range(3):
+        seen.page.keyboard.press("Shift+ArrowUp")
+    after = seen.do(TIP)
+    assert after[0] == pytest.approx(before[0], abs=0.05) and after[1] > before[1] + 0.3
+    assert seen.do("cplan.time") == 0
+    seen.page.keyboard.press("Escape")
+    seen.page.keyboard.press("ArrowRight")
+    assert seen.do("cplan.time") > 0, "without the examined arm, the keys move in time"
+
+
+@pytest.mark.parametrize(("robot", "world"), CASES)
+def test_inverse_kinematics_keeps_to_limits_and_comes_near(program, show_file, robot, world):
+    page, _ = program.plan(robot, world)
+    seen = show_file(page)
+    worst = seen.do(
+        """() => { const { arm } = cplan.model; let worst = 0;
+             for (let k = 1; k < 200; k += 1) {
+               const part = [(k * 0.618034) % 1, (k * 0.754878) % 1];
+               const q = arm.joints.map(({ domain: [low, high] }, j) => low + part[j] * (high - low));
+               const place = Geometry.tipAt(arm, q);
+               const found = Geometry.inverse(arm, place, q.map((x, j) => Math.min(arm.joints[j].domain[1], x + 0.01)));
+               if (found.some((x, j) => x < arm.joints[j].domain[0] - 1e-9 || x > arm.joints[j].domain[1] + 1e-9)) return Infinity;
+               worst = Math.max(worst, Math.hypot(...Geometry.tipAt(arm, found).map((x, j) => x - place[j])));
+             } return worst; }"""
+    )
+    assert worst < 1e-6

@@ -13,8 +13,11 @@ function element(tag, attributes = {}, ...children) {
 }
 
 const SYMBOLS = { found: '\u2713', infeasible: '\u2715', unknown: '?', shown: '\u2022', waiting: '\u2026' };
-/** A finger that moves less than `TAP` has tapped. One that begins within `NEAR` of the cross takes it. In pixels. */
-const [TAP, NEAR] = [10, 24];
+/**
+ * A finger that moves less than `TAP` has tapped. One that begins within `NEAR` of the cross, or of the arm's tip, takes
+ * it; a mouse within `NEAR_MOUSE`. In pixels.
+ */
+const [TAP, NEAR, NEAR_MOUSE] = [10, 24, 12];
 /** Directions of arrow keys, and the pixels (`PAN`) by which they move a magnified picture. */
 const DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
 const PAN = 40;
@@ -527,6 +530,7 @@ class View {
 
   play() {
     if (!this.duration) return;
+    if (this.probe) this.examine(null);
     if (this.time >= this.duration) this.seek(0);
     this.playing = true;
     this.mark();
@@ -600,8 +604,13 @@ class View {
         event.preventDefault();
       } else if (event.button === 0) {
         const spot = panel.spot(event);
-        press = { from: spot, last: spot, holds: isCSpace && event.pointerType !== 'mouse' && this.isAtCross(spot), drags: false };
-        if (panel.times > 1 && event.pointerType === 'mouse') canvas.setPointerCapture(event.pointerId);
+        const holds = this.mode !== 'learn' && (isCSpace ? this.isAtDot(spot, event) : this.isAtTip(spot, event));
+        press = { from: spot, last: spot, holds, drags: false };
+        if (!isCSpace && holds) {
+          this.pause();
+          press.grip = this.tipSpot.map((x, k) => x - spot[k]);
+        }
+        if (holds || (panel.times > 1 && event.pointerType === 'mouse')) canvas.setPointerCapture(event.pointerId);
       }
     });
     canvas.addEventListener('pointermove', (event) => {
@@ -614,6 +623,18 @@ class View {
         press.last = spot;
         return;
       }
+      if (press?.grip) {
+        press.drags ||= Math.hypot(spot[0] - press.from[0], spot[1] - press.from[1]) > DRAG;
+        if (press.drags) this.dragTip(panel.value(spot.map((x, k) => x + press.grip[k])));
+        return;
+      }
+      if (isCSpace && press?.holds && event.pointerType === 'mouse') {
+        press.drags ||= Math.hypot(spot[0] - press.from[0], spot[1] - press.from[1]) > DRAG;
+        if (press.drags) this.place(panel.value(spot));
+        return;
+      }
+      if (!isCSpace && event.pointerType === 'mouse' && this.isAtTip(spot, event)) canvas.style.cursor = 'grab';
+      else if (!isCSpace && !this.tool) canvas.style.cursor = '';
       if (!panel.contains(spot)) return;
       if (!isCSpace) this.hover(panel, event);
       else if (event.pointerType === 'mouse' ? !this.pinned : press?.holds) this.examine(panel.value(spot));
@@ -629,7 +650,7 @@ class View {
       if (!isMouse) this.tool?.tap(panel);
       if (!isCSpace || !panel.contains(spot)) return;
       this.pinned = isMouse ? !this.pinned : !holds;
-      this.examine(holds ? null : panel.value(spot));
+      this.examine(holds && !isMouse ? null : panel.value(spot));
     });
     canvas.addEventListener('pointercancel', (event) => {
       [press, taken] = [null, false];
@@ -643,7 +664,7 @@ class View {
     // picture.
     const takes = ({ clientX, clientY }) => {
       const touch = { clientX, clientY, pointerType: 'touch' };
-      return panel.times > 1 || asTool('grasps', touch) || (isCSpace && this.isAtCross(panel.spot(touch)));
+      return panel.times > 1 || asTool('grasps', touch) || (isCSpace ? this.isAtDot(panel.spot(touch), touch) : this.isAtTip(panel.spot(touch), touch));
     };
     const between = ([a, b]) => ({
       apart: Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY),
@@ -716,11 +737,39 @@ class View {
     panel.draw();
   }
 
-  /** Returns true if a finger at this spot takes the cross in the configuration space. */
-  isAtCross([x, y]) {
-    if (!this.pinned || !this.probe) return false;
-    const at = this.panels.cspace.at(this.probe.q);
-    return Math.hypot(at[0] - x, at[1] - y) < NEAR;
+  /** Returns the spot of the tip of the examined arm, or of the current one. */
+  get tipSpot() {
+    return this.panels.workspace.at(Geometry.tipAt(this.model.arm, this.probe?.q ?? this.q));
+  }
+
+  /** Returns true if a pointer at this spot takes the tip of the arm. */
+  isAtTip([x, y], { pointerType }) {
+    if (this.mode === 'learn') return false;
+    const [u, v] = this.tipSpot;
+    return Math.hypot(u - x, v - y) < (pointerType === 'mouse' ? NEAR_MOUSE : NEAR);
+  }
+
+  /**
+   * Returns true if a pointer at this spot takes the dot of the arm in the configuration space: the cross that is kept
+   * there or, for a mouse, also that of the current arm. A finger that begins elsewhere scrolls the page.
+   */
+  isAtDot([x, y], { pointerType }) {
+    const isMouse = pointerType === 'mouse';
+    if (!isMouse && !(this.pinned && this.probe)) return false;
+    const { cspace } = this.panels;
+    const [u, v] = this.pinned && this.probe ? cspace.at(this.probe.q) : CSpace.place(this, cspace, this.q);
+    return Math.hypot(u - x, v - y) < (isMouse ? NEAR_MOUSE : NEAR);
+  }
+
+  /** Moves the examined arm so that its tip is at a place of the workspace, or as near as the joints allow. */
+  dragTip(place) {
+    this.place(Geometry.inverse(this.model.arm, place, this.probe?.q ?? this.q));
+  }
+
+  /** Keeps the examined arm in a configuration, within the limits of its joints. */
+  place(q) {
+    this.pinned = true;
+    this.examine(this.model.arm.joints.map((joint, k) => (joint.circle ? Geometry.wrap(joint, q[k]) : Math.min(joint.domain[1], Math.max(joint.domain[0], q[k])))));
   }
 
   /** Places a second arm at q, and shows what it touches; without q, removes it. */
@@ -780,7 +829,7 @@ class View {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.target.matches?.('input:not([type=checkbox]):not([type=range]), textarea, select')) return;
     const panel = Object.values(this.panels).find(({ canvas }) => event.target === canvas);
-    if (panel && (this.zooms(panel, event) || (panel === this.panels.cspace && this.nudge(event)))) return;
+    if (panel && (this.zooms(panel, event) || (panel === this.panels.cspace ? this.nudge(event) : this.nudgeTip(event)))) return;
     const control = event.target.matches?.('button, input, a, summary');
     const step = event.shiftKey ? 0.5 : 0.05;
     const keys = {
@@ -825,13 +874,22 @@ class View {
     const from = this.probe?.q ?? this.q;
     const { joints } = this.model.arm;
     const step = (joint) => (joint.unit === 'rad' ? Math.PI / 180 : (joint.domain[1] - joint.domain[0]) / 200) * (event.shiftKey ? 10 : 1) / this.panels.cspace.times;
-    const next = joints.map((joint, k) => {
-      const value = Geometry.wrap(joint, from[k] + direction[k] * step(joint));
-      return joint.circle ? value : Math.min(joint.domain[1], Math.max(joint.domain[0], value));
-    });
-    this.pinned = true;
-    this.examine(next);
-    this.panels.cspace.reveal(next);
+    this.place(joints.map((joint, k) => from[k] + direction[k] * step(joint)));
+    this.panels.cspace.reveal(this.probe.q);
+    event.preventDefault();
+    return true;
+  }
+
+  /** Handles Enter in the workspace, which takes the arm, and then arrow keys, which move its tip. */
+  nudgeTip(event) {
+    const direction = DIRECTIONS[event.key];
+    if (this.mode === 'learn' || !(direction ? this.probe : event.key === 'Enter')) return false;
+    const { arm } = this.model;
+    if (!direction) this.place(this.q);
+    else {
+      const step = ((this.model.frame[0][1] - this.model.frame[0][0]) / 200) * (event.shiftKey ? 10 : 1);
+      this.dragTip(Geometry.tipAt(arm, this.probe.q).map((x, k) => x + direction[k] * step));
+    }
     event.preventDefault();
     return true;
   }
@@ -841,6 +899,7 @@ class View {
 function help() {
   const rows = [
     ['drag the tip of the arm', 'the arm follows; contacts are red'],
+    ['Enter in the workspace, then arrow keys', 'the same by keys (with Shift in larger steps)'],
     ['point into the configuration space', 'shows the arm in that configuration, and its contacts'],
     ['click, tap', 'keeps it there, or releases it'],
     ['arrow keys in the configuration space', 'move the cross by a degree (with Shift by ten)'],

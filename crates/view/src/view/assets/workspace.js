@@ -300,7 +300,9 @@ const Workspace = (() => {
   function moving(context, panel, view) {
     const { theme } = panel;
     movers(context, panel, view, view.world);
-    arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, joints: true, blocks: true });
+    // While another arm is examined, this one steps back.
+    const alpha = view.probe ? 0.45 : 1;
+    arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, alpha, joints: true, blocks: true });
     if (view.probe) tried(context, panel, view);
     if (view.shows('names')) names(context, panel, view, view.world);
     if (view.hovered) Labels.write(context, theme, ...view.hovered);
@@ -323,6 +325,24 @@ const Workspace = (() => {
       joints: true,
       blocks: true,
     });
+    for (const { at } of hits) if (at) touchMark(context, panel, at);
+  }
+
+  /** Marks the place of a contact. */
+  function touchMark(context, panel, at) {
+    const [x, y] = panel.at(at);
+    Labels.blockSpot(panel, [x, y]);
+    for (const [radius, color] of [[7, panel.theme.paper], [5, panel.theme.infeasible]]) {
+      context.beginPath();
+      context.arc(x, y, radius, 0, 2 * Math.PI);
+      context.fillStyle = color;
+      context.fill();
+    }
+    context.beginPath();
+    context.arc(x, y, 11, 0, 2 * Math.PI);
+    context.lineWidth = 2;
+    context.strokeStyle = panel.theme.infeasible;
+    context.stroke();
   }
 
   /** Draws the axes of a link's frame. An axis perpendicular to the plane is a dot (towards the viewer) or a cross. */
