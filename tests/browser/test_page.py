@@ -550,3 +550,73 @@ def test_inverse_kinematics_keeps_to_limits_and_comes_near(program, show_file, r
              } return worst; }"""
     )
     assert worst < 1e-6
+
+
+def test_a_tour_of_four_steps_is_offered_once(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    tour = seen.page.get_by_role("dialog", name="Tour")
+    assert not tour.is_visible(), "not to browsers that a program drives"
+    seen.do("() => { Object.defineProperty(navigator, 'webdriver', { value: false }); cplan.tour.offer(); }")
+    titles = set()
+    for number in (1, 2, 3, 4):
+        assert f"{number} of 4" in tour.inner_text()
+        titles.add(tour.get_by_role("heading").inner_text())
+        assert seen.page.locator(".toured").count() == 1
+        seen.shoot(f"tour-{number}")
+        tour.get_by_role("button", name="Done" if number == 4 else "Next").click()
+    assert len(titles) == 4 and not tour.is_visible() and seen.page.locator(".toured").count() == 0
+    seen.do("cplan.tour.offer()")
+    assert not tour.is_visible(), "only once"
+    # It can be seen again, and closed at any step.
+    seen.page.get_by_text("Keys and pointer").click()
+    seen.page.get_by_role("button", name="Show the tour").click()
+    assert tour.is_visible()
+    tour.get_by_role("button", name="Close").click()
+    assert not tour.is_visible()
+
+
+def test_steps_are_grouped_by_object_and_drawn_as_blocks(program, show_file):
+    page, result = program.plan("rrbot_vertical", "tasks/tower")
+    seen = show_file(page)
+    groups = seen.page.locator(".steps > li")
+    picked = [event["object"] for event in result["events"] if event["event"] == "grasp"]
+    assert [name.strip() for name in seen.page.locator(".steps .object").all_inner_texts()] == picked
+    assert groups.first.locator("button").count() == 2, "pick and place"
+    motions = seen.do("cplan.model.motions")
+    blocks = seen.page.locator(".timeline i")
+    assert blocks.count() == len(motions)
+    duration = seen.do("cplan.duration")
+    for k, motion in enumerate(motions):
+        style = seen.do("(k) => { const { style } = document.querySelectorAll('.timeline i')[k]; return ['--from', '--length', '--color'].map((name) => style.getPropertyValue(name)); }", k)
+        assert float(style[0]) == pytest.approx(motion["from"] / duration, abs=1e-6)
+        payload = seen.do("(w) => cplan.model.worlds[w].payload?.color ?? ''", motion["world"])
+        assert style[2] == payload, "in the colour of the object"
+    blocks.nth(2).click()
+    assert seen.do("cplan.time") == pytest.approx(motions[2]["from"])
+    assert "current" in blocks.nth(2).get_attribute("class")
+
+
+def test_only_this_path_and_the_next_are_drawn(program, show_file):
+    page, _ = program.plan("rrbot_vertical", "tasks/tower")
+    seen = show_file(page)
+    motions = seen.do("cplan.model.motions")
+    for k, motion in enumerate(motions[:-1]):
+        seen.do("(t) => cplan.seek(t)", motion["from"] + 1e-3)
+        own, following = seen.do("[cplan.pathsHere().map(({ step }) => step), cplan.nextPath?.step ?? null]")
+        assert own == [k + 1] and following == (k + 2 if k + 2 < len(motions) else None)
+    # A path further on is not drawn.
+    seen.do("cplan.seek(0)")
+    before = pixels(seen, "workspace")
+    seen.do("() => { cplan.model.paths[3].points = cplan.model.paths[0].points; cplan.traces = null; cplan.refresh(); }")
+    assert pixels(seen, "workspace") == before
+
+
+def test_obstacles_that_shape_nothing_fade(program, show_file):
+    world = (ROOT / "workspaces/shelf.toml").read_text()
+    far = '\n[[obstacle]]\nname = "far"\npolygon = [[2.6, 2.0], [2.9, 2.0], [2.9, 2.3], [2.6, 2.3]]\n'
+    (program.folder / "far.toml").write_text(world + far)
+    program.run(ROOT / "robots/planar_2r.urdf", "far.toml", "--quiet", "--picture", "far.html")
+    seen = show_file(program.folder / "far.html")
+    pale = seen.do("cplan.world.obstacles.filter((obstacle) => cplan.isIrrelevant(obstacle)).map(({ name }) => name)")
+    assert pale == ["far"]

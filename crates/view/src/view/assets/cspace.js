@@ -452,6 +452,7 @@ const CSpace = (() => {
   function moving(context, panel, view) {
     const { theme } = panel;
     inTime(context, panel, view, view.world);
+    if (view.world.moments) stamp(context, panel, Numbers.seconds(view.now));
     const [x, y] = place(view, panel, view.q);
     context.beginPath();
     context.arc(x, y, 4.8, 0, 2 * Math.PI);
@@ -473,6 +474,26 @@ const CSpace = (() => {
     context.lineWidth = 2.4;
     line(context, [[px - 7, py], [px + 7, py]]);
     line(context, [[px, py - 7], [px, py + 7]]);
+  }
+
+  /** Writes the time for which the C-obstacles of moving obstacles are drawn, in a corner. */
+  function stamp(context, panel, text) {
+    const { rect, theme, zoom } = panel;
+    context.font = theme.font(600);
+    const [width, height] = [context.measureText(text).width + 12 * zoom, 22 * zoom];
+    const [x, y] = [rect.x + rect.width - width - 6, rect.y + 6];
+    context.fillStyle = theme.paper;
+    context.strokeStyle = theme.grey;
+    context.lineWidth = 1;
+    context.beginPath();
+    context.roundRect(x, y, width, height, 4);
+    context.fill();
+    context.stroke();
+    context.fillStyle = theme.ink;
+    context.textAlign = 'center';
+    context.textBaseline = 'middle';
+    context.fillText(text, x + width / 2, y + height / 2);
+    panel.blocked.boxes.push({ x, y, width, height });
   }
 
   /** Draws the scale of colours, to the right of the panel. */

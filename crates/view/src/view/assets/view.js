@@ -253,6 +253,13 @@ class View {
     return this.layers.shown.get(layer) && this.draws(layer);
   }
 
+  /** Returns the path of a task's next motion, or `null`. */
+  get nextPath() {
+    const { motions, paths } = this.model;
+    const next = this.isTask && this.motion ? motions[motions.indexOf(this.motion) + 1] : null;
+    return paths[next?.path] ?? null;
+  }
+
   /** Returns the paths in the current world. */
   pathsHere() {
     if (this.account) return [this.model.paths[this.motion.path]];
@@ -286,6 +293,22 @@ class View {
   /** Returns the name of an obstacle, or its number if there are many. */
   called(obstacle) {
     return this.named ? this.world.obstacles[obstacle].name : String(obstacle + 1);
+  }
+
+  /**
+   * Returns true if the arm cannot meet an obstacle anywhere: no part of the arm is compared with it, or it has no
+   * C-obstacle. Such obstacles are drawn pale, except objects that the arm carries at some time.
+   */
+  isIrrelevant(obstacle) {
+    const { world, model } = this;
+    if (this.relevance?.world !== world) {
+      const carried = new Set(model.worlds.map(({ payload }) => payload?.object));
+      const pairs = new Set(world.pairs.map(([, , index]) => index));
+      const shaping = new Set(world.c_obstacles.map(({ obstacle }) => obstacle));
+      const meets = shaping.size ? shaping : pairs;
+      this.relevance = { world, pale: new Set(world.obstacles.filter(({ name }, index) => !(meets.has(index) && pairs.has(index)) && !carried.has(name))) };
+    }
+    return this.relevance.pale.has(obstacle);
   }
 
   get isTask() {
@@ -345,6 +368,7 @@ class View {
     );
     this.parts = parts;
     this.tabs = this.buildTabs();
+    this.tour = new Tour(this);
     this.root.append(
       element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
       parts.cards,
@@ -355,7 +379,8 @@ class View {
         element('div', { class: 'below' }, this.tabs.root, ...this.tabs.entries.filter(({ isAside }) => !isAside).map(({ panel }) => panel)),
         element('aside', { class: 'side', 'aria-label': 'Steps and layers' }, this.steps.root, this.layers.root),
       ),
-      help(),
+      help(this),
+      this.tour.root,
     );
     this.panels = {
       workspace: new Panel(left, {
@@ -896,7 +921,7 @@ class View {
 }
 
 /** Returns the part of the page that explains keys and pointer. */
-function help() {
+function help(view) {
   const rows = [
     ['drag the tip of the arm', 'the arm follows; contacts are red'],
     ['Enter in the workspace, then arrow keys', 'the same by keys (with Shift in larger steps)'],
@@ -917,5 +942,6 @@ function help() {
   const list = element('dl', {}, ...rows.flatMap(([keys, effect]) => [element('dt', {}, keys), element('dd', {}, effect)]));
   const box = element('input', { type: 'checkbox', checked: Settings.hasShortcuts, onchange: (event) => (Settings.hasShortcuts = event.target.checked) });
   const choice = element('p', {}, element('label', {}, box, ' Keys of a single character (k, t, l, +, \u2212, 0) act on the page'));
-  return element('details', { class: 'help' }, element('summary', {}, 'Keys and pointer'), list, choice);
+  const tour = element('button', { type: 'button', class: 'button', onclick: () => view.tour.start() }, 'Show the tour');
+  return element('details', { class: 'help' }, element('summary', {}, 'Keys and pointer'), list, choice, tour);
 }

@@ -50,7 +50,7 @@ const Workspace = (() => {
     const { theme } = panel;
     all.forEach((obstacle) => {
       if (view.hidden.has(obstacle.name)) return;
-      const { fill, line: edge } = theme.obstacle(obstacle.color);
+      const { fill, line: edge } = view.isIrrelevant(obstacle) ? { fill: theme.faint, line: theme.pale } : theme.obstacle(obstacle.color);
       outline(context, panel, obstacle);
       context.fillStyle = fill;
       context.strokeStyle = edge;
@@ -205,10 +205,11 @@ const Workspace = (() => {
       const there = spots[i].map((p) => panel.at(p));
       pathLine(context, panel.theme, path, () => line(context, there));
     };
-    // Paths in other worlds are shown, but pale.
+    // Of a task, the path of the next motion is pale, and others are left out.
     const here = new Set(view.pathsHere());
-    context.globalAlpha = 0.22;
-    view.model.paths.forEach((path, i) => !here.has(path) && draw(i, path));
+    const next = view.model.paths.indexOf(view.nextPath);
+    context.globalAlpha = 0.3;
+    if (next >= 0 && !here.has(view.nextPath)) draw(next, view.nextPath);
     context.globalAlpha = 1;
     view.model.paths.forEach((path, i) => {
       if (!here.has(path)) return;
