@@ -46,6 +46,7 @@ def test_swipes_scroll_the_page(serve, fingers):
         assert scrolled(seen) > before + 100, panel
         assert seen.do("cplan.view.probe") is None, "a swipe does not try the arm"
     seen.do("window.scrollTo(0, 0)")
+    seen.page.get_by_role("tab", name="Plots").click()
     plot = seen.page.locator(".plots canvas").nth(1)
     plot.scroll_into_view_if_needed()
     before, box = scrolled(seen), plot.bounding_box()
