@@ -620,3 +620,17 @@ def test_obstacles_that_shape_nothing_fade(program, show_file):
     seen = show_file(program.folder / "far.html")
     pale = seen.do("cplan.world.obstacles.filter((obstacle) => cplan.isIrrelevant(obstacle)).map(({ name }) => name)")
     assert pale == ["far"]
+
+
+def test_a_checked_configuration_shows_its_contacts_at_once(program, show_file):
+    files = [ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml"]
+    program.run("check", *files, "--at=8deg,0deg", "--picture", "hits.html")
+    seen = show_file(program.folder / "hits.html")
+    readout = seen.page.locator(".probe")
+    assert "touches" in readout.inner_text() and '"shelf"' in readout.inner_text()
+    assert readout.get_attribute("data-free") == "false"
+    # Another configuration can be examined, and the first one comes back.
+    seen.do("cplan.place([-2, 1.5])")
+    assert "free" in readout.inner_text()
+    seen.page.keyboard.press("Escape")
+    assert "touches" in readout.inner_text()

@@ -166,6 +166,7 @@ class View {
       panel.layout();
     }
     if (!this.light) this.tabs.refresh();
+    this.report();
     // While the user drags, hidden controls keep their room, because they come back.
     parts.transport.classList.toggle('still', !this.duration && !this.light);
     for (const button of parts.modes.children) button.setAttribute('aria-pressed', String(button.dataset.mode === this.mode));
@@ -807,12 +808,26 @@ class View {
     }
     this.probe = q && { q, contacts: Geometry.contacts(this.model.arm, this.world, q) };
     if (!q) this.pinned = false;
-    const text = this.probe ? this.described() : '';
-    if (this.parts.probe.textContent !== text) this.parts.probe.textContent = text;
-    this.parts.probe.title = this.probe ? Numbers.exact(this.model.arm.joints, q) : '';
-    if (this.probe) this.follow(this.probe.q);
-    this.parts.probe.dataset.free = this.probe ? String(!(this.probe.contacts[0]?.distance <= 0)) : '';
+    this.report();
+    if (q) this.follow(q);
     for (const panel of Object.values(this.panels)) panel.draw();
+  }
+
+  /** Returns the arm whose contacts are shown: the examined one or, on a page without a motion, the only one. */
+  get examined() {
+    if (this.probe || this.isMotion || this.mode === 'learn') return this.probe;
+    const { q } = this;
+    const contacts = Geometry.contacts(this.model.arm, this.world, q);
+    return contacts.length ? { q, contacts } : null;
+  }
+
+  /** Describes the examined arm below the pictures. */
+  report() {
+    const { examined } = this;
+    const text = examined ? `${this.valued(examined.q)}: ${this.touched(examined.contacts)}` : '';
+    if (this.parts.probe.textContent !== text) this.parts.probe.textContent = text;
+    this.parts.probe.title = examined ? Numbers.exact(this.model.arm.joints, examined.q) : '';
+    this.parts.probe.dataset.free = examined ? String(!(examined.contacts[0]?.distance <= 0)) : '';
   }
 
   /** On a small screen, moves the description above the finger, as far as there is room. */
@@ -822,10 +837,6 @@ class View {
     const { style } = this.parts.probe;
     style.setProperty('--x', `${Math.round(canvas.offsetParent.offsetLeft + canvas.offsetLeft + x)}px`);
     style.setProperty('--y', `${Math.round(canvas.offsetParent.offsetTop + canvas.offsetTop + y)}px`);
-  }
-
-  described() {
-    return `${this.valued(this.probe.q)}: ${this.touched(this.probe.contacts)}`;
   }
 
   /** Describes a configuration. */

@@ -301,18 +301,18 @@ const Workspace = (() => {
   function moving(context, panel, view) {
     const { theme } = panel;
     movers(context, panel, view, view.world);
+    const { examined } = view;
     // While another arm is examined, this one steps back.
     const alpha = view.probe ? 0.45 : 1;
     arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, alpha, joints: true, blocks: true });
-    if (view.probe) tried(context, panel, view);
+    if (examined) tried(context, panel, view, examined);
     if (view.shows('names')) names(context, panel, view, view.world);
     if (view.hovered) Labels.write(context, theme, ...view.hovered);
   }
 
   /** Draws the examined arm, and the obstacles that it touches. */
-  function tried(context, panel, view) {
+  function tried(context, panel, view, { contacts, q }) {
     const { theme } = panel;
-    const { contacts, q } = view.probe;
     const hits = contacts.filter((c) => c.distance <= 0);
     for (const { obstacle } of hits) struck(context, panel, view.world.obstacles[obstacle]);
     const touching = new Set(hits.map((c) => (c.carried ? 'payload' : c.link)));
