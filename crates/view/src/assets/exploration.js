@@ -29,8 +29,8 @@ const panel = (name, label) => {
   return { canvas, figure: add(node("figure"), node("figcaption", {}, name), canvas) };
 };
 const left = panel("Workspace", "The map as far as it is known, the arm and what it sees");
-const right = panel("Configuration space", "Configurations that are known to be free, and the way so far");
-const chart = panel("Seen of the map, against the length of the way", "Share of the map that has been seen, against the length of the way");
+const right = panel("Configuration space", "Configurations that are known to be free, and the path so far");
+const chart = panel("Coverage of the map by path length", "Fraction of the map that has been seen, by path length");
 chart.canvas.setAttribute("class", "chart");
 const slider = node("input", { type: "range", min: 0, max: Math.max(count - 1, 0), value: 0, "aria-label": "Reading" });
 const play = node("button", { class: "play", type: "button" });
@@ -224,7 +224,7 @@ const drawChart = (at) => {
     if (decisions.length) context.fillText(`${(slowest * share).toFixed(share ? 1 : 0)} ms`, x0 + width + 6, y(share) + 4);
   });
   context.textAlign = "center";
-  context.fillText(decisions.length ? "length; dots: how long decisions took" : "length", x0 + width / 2, y0 + height + 28);
+  context.fillText(decisions.length ? "path length; dots: time of each decision" : "path length", x0 + width / 2, y0 + height + 28);
   context.fillText("0", x0, y0 + height + 16);
   context.fillText(whole.toFixed(2), x0 + width, y0 + height + 16);
   context.globalAlpha = 0.5;
@@ -252,7 +252,7 @@ const draw = () => {
   const frame = data.frames[at];
   clock.textContent = `reading ${at + 1} of ${count}`;
   const seen = (100 * known[at] / cells).toFixed(1);
-  readout.textContent = `${seen} % of the map seen, ${frame.new.length} cells new; ${frame.length.toFixed(3)} on the way`;
+  readout.textContent = `${seen} % of the map seen, ${frame.new.length} new cells; path length ${frame.length.toFixed(2)}`;
 };
 let timer = null;
 /** Shows on the button what a click does. */

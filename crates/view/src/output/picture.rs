@@ -154,7 +154,7 @@ pub fn view_with(plan: &Plan, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -
         Detail::Motion { problem, answer } => motion_view(plan, problem, answer, &contours(problem.scene())),
         Detail::Task { task, answer } => View::of_task(&task_picture(plan, task, answer)),
     };
-    View { figures: key_figures(plan), ..view }
+    view.with_figures(key_figures(plan))
 }
 
 /// Returns the key figures of a plan; none unless a motion was found. Among moving obstacles, there is no useful bound on

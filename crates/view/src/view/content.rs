@@ -149,6 +149,13 @@ impl View {
         self
     }
 
+    /// Returns the view with the key figures of a result.
+    #[must_use]
+    pub fn with_figures(mut self, figures: KeyFigures) -> Self {
+        self.figures = figures;
+        self
+    }
+
     /// Returns the view with the places that the tip can reach.
     #[must_use]
     pub fn with_reach(mut self, reach: &Reach) -> Self {

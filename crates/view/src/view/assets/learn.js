@@ -531,12 +531,11 @@ class Learn {
     line(context, there.map((p) => panel.at(p)));
     for (const p of there) this.dot(context, panel, p, edge, 4);
     if (this.lesson === 'sweep') {
-      Labels.inside(context, panel, [], there.map((p, s) => {
-        const [x, y] = panel.at(p);
-        return [`b${steps[s].k + 1} \u2212 a${steps[s].i + 1}`, [x, y - 16], Infinity];
-      }));
-      this.dot(context, panel, there[there.length - 1], theme.infeasible, 6);
       this.drawDirections(context, panel, steps);
+      Labels.blockLine(panel, there.map((p) => panel.at(p)));
+      Labels.blockSpot(panel, panel.at(this.placeOf(this.pieces.at)));
+      Labels.beside(context, panel, there.map((p, s) => [`b${steps[s].k + 1} \u2212 a${steps[s].i + 1}`, Labels.about(panel.at(p), 6)]));
+      this.dot(context, panel, there[there.length - 1], theme.infeasible, 6);
     }
     this.dot(context, panel, this.placeOf(this.pieces.at), theme.accent, 6);
   }
@@ -546,6 +545,7 @@ class Learn {
     const { theme, rect } = panel;
     const r = Math.min(46, rect.width / 8);
     const [x, y] = [rect.x + rect.width - r - 14, rect.y + r + 14];
+    Labels.blockSpot(panel, [x, y], r + 2);
     context.beginPath();
     context.arc(x, y, r, 0, 2 * Math.PI);
     context.fillStyle = theme.paper;
