@@ -364,6 +364,9 @@ def test_text_in_pictures_follows_the_text_size(program, show_file):
     seen.until(f"Math.abs({size} - 2 * {before}) < 0.01")
     assert seen.do("document.documentElement.scrollWidth <= innerWidth")
     seen.shoot("text-200")
+    phone = show_file(page, width=390, height=844)
+    phone.do("document.documentElement.style.fontSize = '200%'")
+    assert phone.do("document.documentElement.scrollWidth <= innerWidth")
 
 
 def test_the_focus_ring_does_not_cross_titles(program, show_file):

@@ -382,7 +382,7 @@ const CSpace = (() => {
     if (seen) above(context, panel, view, seen);
     if (view.model.reach && view.shows('access')) solutions(context, panel, view, view.model.reach);
     if (view.shows('regions')) regions(context, panel, view, world);
-    if (view.shows('proof') && world.proof.length) proof(context, panel, Think.begun(world.proof, 4, Think.part(view, 'proof')));
+    if (view.shows('proof') && world.proof.length) proof(context, panel, Think.firstItems(world.proof, 4, Think.part(view, 'proof')));
     if (view.shows('path')) {
       for (const path of Think.paths(view, view.pathsHere())) {
         pathLine(context, panel.theme, path, () => {

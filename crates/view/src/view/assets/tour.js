@@ -9,7 +9,7 @@ class Tour {
     this.title = element('h2', {});
     this.text = element('p', {});
     this.count = element('span', { class: 'count' });
-    this.next = element('button', { type: 'button', class: 'button primary', onclick: () => this.go(this.step + 1) });
+    this.next = element('button', { type: 'button', class: 'button primary', onclick: () => this.go(this.step + 1) }, 'Next');
     this.root = element(
       'section', { class: 'tour', role: 'dialog', 'aria-label': 'Tour', hidden: true, onkeydown: (event) => event.key === 'Escape' && this.end() },
       this.title, this.text,

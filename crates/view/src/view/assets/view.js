@@ -533,8 +533,8 @@ class View {
     }
     parts.clock.textContent = `${this.time.toFixed(2)} / ${Numbers.seconds(this.duration)}`;
     parts.scrubber.setAttribute('aria-valuetext', `${this.time.toFixed(2)} seconds`);
-    const whose = moment && this.account ? `${motion.label}. ` : '';
-    const phase = moment && `${whose}${moment.index + 1} of ${this.replay.length}: ${moment.phase.caption}`;
+    const owner = moment && this.account ? `${motion.label}. ` : '';
+    const phase = moment && `${owner}${moment.index + 1} of ${this.replay.length}: ${moment.phase.caption}`;
     const step = phase ?? (this.model.motions.length > 1 && motion ? `${motion.label} (${this.world.label})` : '');
     if (parts.step.textContent !== step) parts.step.textContent = step;
     if (motion !== before || moment) {
