@@ -194,3 +194,16 @@ def test_names_in_the_configuration_space_lie_in_the_visible_part(program, show_
     seen.do("cplan.panels.cspace.reset()")
     seen.do("() => { cplan.hidden.add('vice'); cplan.refresh(); }")
     assert "vice" not in [name for name, *_ in seen.do(NAMES, "cspace")]
+
+
+def test_no_number_of_an_axis_is_cut_off(program, show_file):
+    page, _ = program.plan("planar_2r_continuous", "torus_open")
+    seen = show_file(page)
+    ends = seen.do(
+        """() => { const ends = []; const prototype = CanvasRenderingContext2D.prototype; const { fillText } = prototype;
+             prototype.fillText = function (text, x, y, ...rest) {
+               const width = this.measureText(text).width; if (this.textAlign === 'center') ends.push([text, x + width / 2]); fillText.call(this, text, x, y, ...rest); };
+             cplan.panels.cspace.dirty = true; cplan.panels.cspace.draw(); prototype.fillText = fillText; return ends; }"""
+    )
+    assert "180°" in [text for text, _ in ends]
+    assert all(right <= seen.do("cplan.panels.cspace.size[0]") for _, right in ends)

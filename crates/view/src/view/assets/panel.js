@@ -297,7 +297,8 @@ class Panel {
     for (const { value, text } of across) {
       const [x] = this.at([value, shown[1][0]]);
       line(context, [[x, rect.y], [x, rect.y + rect.height]]);
-      context.fillText(text, x, rect.y + rect.height + 5 * zoom);
+      // The last number, with its degree sign, stays within the canvas.
+      context.fillText(text, Math.min(x, this.size[0] - context.measureText(text).width / 2 - 1), rect.y + rect.height + 5 * zoom);
     }
     context.textAlign = 'right';
     context.textBaseline = 'middle';
