@@ -6,6 +6,8 @@ const Workspace = (() => {
 
   /** Length of a straight piece of a tip's path, as a fraction of a turn. */
   const FINE = 0.0125;
+  /** Opacity of the region that a moving obstacle sweeps, and the number of places from which the region is made. */
+  const [SWEPT_OPACITY, SWEPT_PLACES] = [0.22, 120];
   /** Length of the axes of joint frames, in pixels. */
   const AXIS = 46;
 
@@ -27,12 +29,19 @@ const Workspace = (() => {
     solids(context, panel, view, (world.movers ?? []).map((mover) => Geometry.moved(mover, view.now)));
   }
 
-  /** Draws the trajectories of moving obstacles during the arm's motion, and their stops. */
+  /** Draws the regions that moving obstacles sweep during the arm's motion, their trajectories, and their stops. */
   function courses(context, panel, view, world) {
-    for (const mover of world.movers ?? []) {
+    for (const mover of (world.movers ?? []).filter(({ name }) => !view.hidden.has(name))) {
       const duration = Math.min(view.motionDuration, mover.until ?? Infinity);
       const moments = [0, ...mover.stops.map(([time]) => time).filter((time) => 0 < time && time < duration), duration];
       const places = moments.map((time) => Geometry.moved(mover, time));
+      panel.faded(context, SWEPT_OPACITY, (layer) => {
+        layer.fillStyle = panel.theme.obstacle(mover.color).fill;
+        for (let k = 0; k <= SWEPT_PLACES; k += 1) {
+          outline(layer, panel, Geometry.moved(mover, (duration * k) / SWEPT_PLACES));
+          layer.fill();
+        }
+      });
       const origin = { outline: { circle: [0, 0, 0] }, pieces: [], stops: mover.stops, velocity: mover.velocity };
       context.lineWidth = 1;
       context.strokeStyle = panel.theme.grey;
