@@ -61,6 +61,17 @@ def test_nothing_is_found_on_pages(pages, show_file, name):
         seen.shoot(f"axe_{name}_{scheme}_{width}")
 
 
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_is_found_in_any_state_of_a_result(pages, show_file, scheme):
+    seen = show_file(pages["task"], width=1000, height=900, color_scheme=scheme)
+    for state in (
+        "cplan.tour.start()", "cplan.tour.end()", "cplan.tabs.choose('steps')", "cplan.tabs.choose('plots')", "cplan.tabs.choose('details')",
+        "cplan.dragTip([0.3, 0.2])", "cplan.switchTo('think')", "cplan.switchTo('learn')", "document.documentElement.style.fontSize = '200%'",
+    ):
+        seen.do(state)
+        assert faults(seen) == [], state
+
+
 @pytest.mark.parametrize(("scheme", "width", "height"), LOOKS)
 def test_nothing_is_found_on_the_live_page(serve, scheme, width, height):
     files = [ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml"]

@@ -32,13 +32,17 @@ def picture(program, robot, world, *words, code=0):
 def test_the_legend_is_that_of_the_picture(program, show_file, robot, world, words, code, scheme):
     page, _ = program.plan(robot, world, *words, code=code)
     seen = show_file(page, color_scheme=scheme)
-    entries = seen.page.get_by_role("list", name="Legend").get_by_role("listitem").all_inner_texts()
+    # What the planner did is shown, and explained, under "How it was found".
+    if seen.page.get_by_role("button", name="How it was found").is_visible():
+        seen.do("cplan.switchTo('think')")
+        seen.do("cplan.seek(cplan.duration)")
+    entries = seen.page.locator(".legend li:visible").all_inner_texts()
     texts = picture(program, robot, world, *words, code=code)
     # The legend is the last part of the picture.
     begin = len(texts) - 1 - texts[::-1].index("start")
-    assert [text for text in texts[begin:] if text not in STILL_ALONE] == entries
-    signs = seen.page.locator(".legend svg")
-    assert signs.count() == len(entries)
+    assert {text for text in texts[begin:] if text not in STILL_ALONE} <= set(entries)
+    signs = seen.page.locator(".legend li:visible svg")
+    assert signs.count() == len(entries), "each layer has a sign"
     # Each sign is visible.
     bare = seen.do("[...document.querySelectorAll('.legend svg')].filter((sign) => ![...sign.children].some((part) => ['fill', 'stroke'].some((name) => !/^(none|)$/.test(part.getAttribute(name) ?? '')))).length")
     assert bare == 0
@@ -49,6 +53,8 @@ def test_the_legend_is_that_of_the_picture(program, show_file, robot, world, wor
         seen.do("cplan.model.worlds[0].scale.title = 'another'")
         seen.do("cplan.refresh()")
         assert pixels(seen, "cspace") != shown, "the scale of colours stands beside the space"
+        seen.do("cplan.switchTo('move')")
+        assert seen.do("cplan.panels.cspace.margins ?? null") is None, "but not beside the motion"
     seen.shoot(f"grammar-{world.replace('/', '_')}-{'-'.join(words)}-{scheme}")
 
 
@@ -75,7 +81,8 @@ def test_where_it_gets_stuck_is_marked_in_both_spaces(program, show_file):
     files = [ROOT / "robots/planar_2r_continuous.urdf", ROOT / "workspaces/no_path.toml"]
     program.run("explain", *files, "--quiet", "--picture", "why.html", "--picture", "why.svg", code=3)
     seen = show_file(program.folder / "why.html")
-    entries = seen.page.get_by_role("list", name="Legend").get_by_role("listitem").all_inner_texts()
+    entries = [key["text"] for key in seen.do("cplan.model.legend")]
+    assert set(entries) <= set(seen.page.get_by_role("list", name="Legend").get_by_role("listitem").all_inner_texts())
     assert {"in the way", "x: the narrowest place, and the arm there"} <= set(entries)
     drawn = (program.folder / "why.svg").read_text()
     assert all(entry in drawn for entry in entries)
@@ -131,3 +138,72 @@ def test_the_start_is_seen_where_the_arm_stands_on_it(program, show_file):
     middle, edge = seen.do(ring)
     assert middle[2] > 150 and middle[0] < 50, "blue: where the arm is"
     assert max(edge) < 90, "ink: where it begins"
+
+
+# Texts that a panel draws in its picture, each as left, top, width and height in pixels.
+NAMES = """(panel) => { const written = []; const prototype = CanvasRenderingContext2D.prototype; const { fillText } = prototype;
+  prototype.fillText = function (text, x, y, ...rest) {
+    if (this.font.includes('600')) { const { width } = this.measureText(text); written.push([text, x - width / 2, y - 6, width, 12]); }
+    fillText.call(this, text, x, y, ...rest); };
+  cplan.panels[panel].dirty = true; cplan.panels[panel].draw(); prototype.fillText = fillText; return written; }"""
+# Points of boxes that lie on the arm at its current configuration.
+ON_THE_ARM = """(boxes) => { const { workspace } = cplan.panels; const { arm } = cplan.model; const at = Geometry.poses(arm, cplan.q);
+  const parts = arm.links.flatMap((link, k) => link.parts.map((part) => Geometry.placed(part, at[k])));
+  return boxes.flatMap(([text, x, y, width, height]) => [0, 0.25, 0.5, 0.75, 1].flatMap((u) => [0, 0.5, 1].map((v) => [text, workspace.value([x + u * width, y + v * height])])))
+    .filter(([, place]) => parts.some((part) => Geometry.separation({ core: place, radius: 0 }, part) < 0)); }"""
+
+
+@pytest.mark.parametrize(("robot", "world"), [("planar_2r", "shelf"), ("planar_2r", "workbench"), ("scara", "tasks/kitting_cell"), ("planar_2r", "moving/crossing")])
+def test_names_lie_on_nothing(program, show_file, robot, world):
+    page, _ = program.plan(robot, world)
+    seen = show_file(page)
+    count = 0
+    for part in (0, 0.15, 0.4, 0.6, 0.85, 1):
+        seen.do("(part) => cplan.seek(part * cplan.duration)", part)
+        for panel in ("workspace", "cspace"):
+            boxes = seen.do(NAMES, panel)
+            count += len(boxes)
+            for i, (one, x, y, width, height) in enumerate(boxes):
+                for other, u, v, w, h in boxes[:i]:
+                    assert x + width <= u or u + w <= x or y + height <= v or v + h <= y, (one, other)
+            if panel == "workspace":
+                assert seen.do(ON_THE_ARM, boxes) == []
+    assert count > 20
+
+
+def test_names_in_the_configuration_space_lie_in_the_visible_part(program, show_file):
+    page, _ = program.plan("planar_2r", "workbench")
+    seen = show_file(page)
+    inside = """(boxes) => boxes.map(([text, x, y, width, height]) => { const { cspace } = cplan.panels;
+      const own = cplan.world.c_obstacles.filter(({ obstacle }) => cplan.world.obstacles[obstacle].name === text);
+      const [u, v] = cspace.value([x + width / 2, y + height / 2]);
+      const holds = (points) => points.reduce((odd, [a, b], k) => { const [c, d] = points[(k + 1) % points.length];
+        return odd !== ((b > v) !== (d > v) && u < a + ((c - a) * (v - b)) / (d - b)); }, false);
+      const turns = [-1, 0, 1].map((n) => 2 * Math.PI * n);
+      return own.some(({ contour }) => turns.some((a) => turns.some((b) => holds([...Geometry.pointsOf(contour)].map(([p, q]) => [p + a, q + b]))))); })"""
+    boxes = seen.do(NAMES, "cspace")
+    assert sorted(name for name, *_ in boxes) == ["board", "bottle", "lamp", "rack", "vice"]
+    assert all(seen.do(inside, boxes))
+    # Where a part is magnified, names move into it.
+    seen.do("cplan.panels.cspace.magnify(4, cplan.panels.cspace.at([0.5, 0.2]))")
+    boxes = seen.do(NAMES, "cspace")
+    assert boxes and all(seen.do(inside, boxes))
+    rect = seen.do("cplan.panels.cspace.rect")
+    assert all(rect["x"] <= x and x + width <= rect["x"] + rect["width"] for _, x, _, width, _ in boxes)
+    # A hidden C-obstacle has no name.
+    seen.do("cplan.panels.cspace.reset()")
+    seen.do("() => { cplan.hidden.add('vice'); cplan.refresh(); }")
+    assert "vice" not in [name for name, *_ in seen.do(NAMES, "cspace")]
+
+
+def test_no_number_of_an_axis_is_cut_off(program, show_file):
+    page, _ = program.plan("planar_2r_continuous", "torus_open")
+    seen = show_file(page)
+    ends = seen.do(
+        """() => { const ends = []; const prototype = CanvasRenderingContext2D.prototype; const { fillText } = prototype;
+             prototype.fillText = function (text, x, y, ...rest) {
+               const width = this.measureText(text).width; if (this.textAlign === 'center') ends.push([text, x + width / 2]); fillText.call(this, text, x, y, ...rest); };
+             cplan.panels.cspace.dirty = true; cplan.panels.cspace.draw(); prototype.fillText = fillText; return ends; }"""
+    )
+    assert "180°" in [text for text, _ in ends]
+    assert all(right <= seen.do("cplan.panels.cspace.size[0]") for _, right in ends)

@@ -17,7 +17,7 @@ def learn(seen, lesson="slice"):
 
 
 def rows_of(seen):
-    return seen.page.locator(".told tbody tr")
+    return seen.page.locator(".lesson tbody tr")
 
 
 def slice_at(seen, part):
@@ -241,7 +241,7 @@ def test_polygons_are_dragged_by_pointer_and_keys_and_stay_convex(program, show_
     canvas.focus()
     for _ in range(12):
         seen.page.keyboard.press("Shift+ArrowDown")
-    assert seen.page.locator(".step").inner_text() == "They do not meet." and "deep" not in seen.page.locator(".told").inner_text()
+    assert seen.page.locator(".step").inner_text() == "They do not meet." and "deep" not in seen.page.locator(".lesson").inner_text()
 
 
 def test_a_link_that_turns_has_a_difference_for_each_angle(program, show_file):
@@ -296,13 +296,12 @@ def test_an_address_says_what_is_looked_at_first(program, show):
 def test_the_legend_names_what_lessons_draw(program, show_file):
     page, _ = program.plan("planar_2r", "workbench", "--planner", "visibility")
     seen = show_file(page)
-    legend = lambda: seen.page.locator(".legend li").all_inner_texts()
+    legend = lambda: seen.page.locator(".legend li:visible").all_inner_texts()
     moves = legend()
-    assert {"path, and trace of the tip", "reduced visibility graph", "start", "goal"} <= set(moves)
+    assert {"path, and trace of the tip", "start", "goal"} <= set(moves)
     learn(seen)
-    assert set(moves) - set(legend()) == {"path, and trace of the tip", "reduced visibility graph"}
-    seen.page.get_by_role("button", name="Move", exact=True).click()
+    assert set(moves) - set(legend()) == {"path, and trace of the tip", "poses along the path"}
+    seen.page.get_by_role("button", name="How it was found", exact=True).click()
+    assert set(legend()) - set(moves) == {"reduced visibility graph"}
+    seen.page.get_by_role("button", name="Motion", exact=True).click()
     assert legend() == moves
-    # Layers do the same.
-    seen.page.get_by_role("checkbox", name="reduced visibility graph").uncheck()
-    assert set(moves) - set(legend()) == {"reduced visibility graph"}

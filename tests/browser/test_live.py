@@ -262,7 +262,7 @@ def test_three_hundred_obstacles_are_followed_ten_times_a_second(serve, tmp_path
 def test_how_a_plan_was_found_is_told_when_somebody_asks(serve):
     seen = serve(*PLANAR)
     assert seen.do("cplan.view.model.replay") is None, "nobody has asked"
-    seen.page.get_by_role("button", name="Think", exact=True).click()
+    seen.page.get_by_role("button", name="How it was found", exact=True).click()
     assert settled(seen)["certified"]
     seen.until("cplan.view.mode === 'think'")
     phases = seen.do("cplan.view.replay")
@@ -273,7 +273,7 @@ def test_how_a_plan_was_found_is_told_when_somebody_asks(serve):
     drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75])
     assert settled(seen)["certified"]
     assert seen.do("cplan.view.mode") == "think" and seen.do("cplan.view.replay") != phases
-    seen.page.get_by_role("button", name="Move", exact=True).click()
+    seen.page.get_by_role("button", name="Motion", exact=True).click()
     drag(seen, "workspace", [1.15, -0.75], [0.7, -1.5])
     assert settled(seen)["certified"]
     assert seen.do("cplan.view.mode") == "move" and seen.do("cplan.view.model.replay") is None
@@ -281,7 +281,7 @@ def test_how_a_plan_was_found_is_told_when_somebody_asks(serve):
 
 def test_a_proof_is_told_too(serve):
     seen = serve(ROOT / "robots/planar_2r_continuous.urdf", ROOT / "workspaces/no_path.toml")
-    seen.page.get_by_role("button", name="Think", exact=True).click()
+    seen.page.get_by_role("button", name="How it was found", exact=True).click()
     settled(seen)
     seen.until("cplan.view.mode === 'think'")
     seen.do("cplan.view.seek(cplan.view.duration)")

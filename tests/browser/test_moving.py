@@ -29,3 +29,15 @@ def test_both_spaces_show_it_in_time(program, show_file):
     seen.page.get_by_label("cart").uncheck()
     hidden = [pixels(seen, panel) for panel in ("workspace", "cspace")]
     assert all(a != b for a, b in zip(hidden, shown[1]))
+
+
+def test_the_time_is_written_on_the_configuration_space(program, show_file):
+    page, _ = program.plan("planar_2r", "moving/crossing")
+    seen = show_file(page)
+    seen.do("() => { window.written = []; const prototype = CanvasRenderingContext2D.prototype; const { fillText } = prototype; prototype.fillText = function (text, ...rest) { written.push(text); fillText.call(this, text, ...rest); }; }")
+    seen.do("cplan.seek(1.46)")
+    assert "1.46 s" in seen.do("written")
+    # A world in which nothing moves has no time.
+    page, _ = program.plan("planar_2r", "shelf")
+    still = show_file(page)
+    assert still.do("cplan.world.moments ?? null") is None

@@ -99,7 +99,7 @@ def test_everything_can_be_done_by_keyboard(program, show_file):
     for _ in range(40):
         keyboard.press("Tab")
         reached.add(seen.do("document.activeElement.dataset.layer ?? document.activeElement.dataset.obstacle ?? document.activeElement.tagName"))
-    layers = {"c-obstacles", "path", "rows", "poses", "trace", "names"}
+    layers = {"c-obstacles", "path", "poses", "names"}
     assert layers | {"shelf", "crate", "CANVAS", "BUTTON", "INPUT", "SELECT", "SUMMARY"} <= reached
     nameless = seen.do(
         """[...document.querySelectorAll('button, input, select, canvas')].filter((e) =>
@@ -152,10 +152,16 @@ LAYERS = [
 def test_layers_come_and_go(program, show_file, files, words, layers):
     page, _ = program.plan(*files, *words)
     seen = show_file(page)
-    there = set(seen.do("[...document.querySelectorAll('[data-layer]')].map((box) => box.dataset.layer)"))
-    assert there == layers | {"c-obstacles", "path", "poses", "trace", "names"}
+    shown = lambda: set(seen.do("[...document.querySelectorAll('.legend li:not([hidden]) [data-layer]')].map((box) => box.dataset.layer)"))
+    motion = {"c-obstacles", "path", "poses", "names"}
+    # What the planner did is not drawn over the motion.
+    assert shown() == motion
+    seen.do("cplan.switchTo('think')")
+    seen.do("cplan.seek(cplan.duration)")
+    there = shown()
+    assert there == layers | motion
     for layer in sorted(there):
-        panel = "workspace" if layer in {"poses", "trace"} else "cspace"
+        panel = "workspace" if layer == "poses" else "cspace"
         before = pixels(seen, panel)
         seen.page.locator(f"[data-layer='{layer}']").click()
         assert pixels(seen, panel) != before, layer
@@ -267,12 +273,15 @@ def test_where_the_tip_can_get_is_seen_as_in_the_picture(program, show_file):
         assert sum(letter in letters for letter in reach["cells"]) == told["cells"][access], access
     # The cells are visible: hiding them changes both panels.
     full = pixels(seen, "workspace"), pixels(seen, "cspace")
-    legend = seen.page.locator(".legend li").all_inner_texts()
-    assert "the tip can reach it, with one IK solution" in legend and all(text in picture.read_text() for text in legend)
+    legend = seen.page.locator(".legend li:visible")
+    drawn = picture.read_text()
+    keys = [key["text"] for key in seen.do("cplan.model.legend")]
+    assert set(keys) <= set(legend.all_inner_texts()) and all(text in drawn for text in keys)
     seen.shoot("reach")
+    before = legend.count()
     seen.page.get_by_role("checkbox", name="reachable tip positions").uncheck()
     assert pixels(seen, "workspace") != full[0] and pixels(seen, "cspace") != full[1]
-    assert "the tip can reach it, with one IK solution" not in seen.page.locator(".legend li").all_inner_texts()
+    assert legend.count() < before, "the meanings of its colours are hidden, too"
 
 
 def test_steps_are_numbered_as_they_are_done(program, show_file):
@@ -286,3 +295,345 @@ def test_steps_are_numbered_as_they_are_done(program, show_file):
     assert filed == [step["step"] for step in result["steps"]] and filed != sorted(filed)
     assert seen.do("cplan.model.paths.map(({ step }) => step)") == list(range(1, 25))
     assert any("of the file" in text for _, text in seen.do("cplan.model.facts"))
+
+
+def test_icons_are_drawn_and_not_written(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    play = seen.page.locator(".play")
+    assert play.inner_text() == "" and play.locator("svg").get_attribute("data-icon") == "play"
+    play.click()
+    assert play.locator("svg").get_attribute("data-icon") == "pause" and play.get_attribute("aria-label") == "pause"
+    play.click()
+    assert play.get_attribute("aria-label") == "play"
+    assert seen.page.locator(".zoom svg").count() == seen.page.locator(".zoom button").count() == 6
+
+
+def test_the_list_of_steps_follows_the_motion(program, show_file):
+    page, _ = program.plan("scara", "tasks/kitting_cell")
+    seen = show_file(page, reduced_motion="reduce")
+    scrolled = seen.do("window.scrollY")
+    for part in (0.3, 0.6, 0.95, 0.1):
+        seen.do("(part) => cplan.seek(part * cplan.duration)", part)
+        current = seen.page.locator(".steps [aria-current=step]")
+        assert current.count() == 1
+        box, around = current.bounding_box(), seen.page.locator(".steps").bounding_box()
+        assert around["y"] - 1 <= box["y"] and box["y"] + box["height"] <= around["y"] + around["height"] + 1
+    assert seen.do("window.scrollY") == scrolled, "only the list scrolls"
+
+
+def test_keys_of_one_character_can_be_switched_off(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    keyboard = seen.page.keyboard
+    seen.page.get_by_text("Keys and pointer").click()
+    box = seen.page.get_by_role("checkbox", name="Keys of a single character")
+    assert box.is_checked()
+    box.uncheck()
+    box.blur()
+    for key in ("k", "t", "l", "+"):
+        keyboard.press(key)
+    assert seen.do("[cplan.mode, cplan.playing, cplan.speed]") == ["move", False, 1]
+    keyboard.press("ArrowRight")
+    assert seen.do("cplan.time") == pytest.approx(0.05), "other keys still act"
+    keyboard.press(" ")
+    assert seen.do("cplan.playing")
+    seen.page.reload()
+    assert not seen.page.get_by_role("checkbox", name="Keys of a single character", include_hidden=True).is_checked(), "remembered"
+    keyboard.press("t")
+    assert seen.do("cplan.mode") == "move"
+
+
+def test_the_replay_shows_whole_phases_to_readers_who_prefer_reduced_motion(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page, reduced_motion="reduce")
+    seen.do("cplan.switchTo('think')")
+    ends = seen.do("(() => { let sum = 0; return cplan.model.replay.map(({ seconds }) => (sum += seconds)); })()")
+    shown = seen.do("[0, 0.1, cplan.duration / 2, cplan.duration].map((time) => cplan.shownTime(time))")
+    assert all(any(time == pytest.approx(end, abs=1e-3) for end in ends) for time in shown)
+    seen.do("cplan.switchTo('move')")
+    assert seen.do("cplan.shownTime(0.1)") == 0.1, "the motion itself moves: the reader started it"
+
+
+def test_text_in_pictures_follows_the_text_size(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    size = "Number(/([\\d.]+)px/.exec(cplan.panels.workspace.theme.font())[1])"
+    before = seen.do(size)
+    seen.do("document.documentElement.style.fontSize = '200%'")
+    seen.until(f"Math.abs({size} - 2 * {before}) < 0.01")
+    assert seen.do("document.documentElement.scrollWidth <= innerWidth")
+    seen.shoot("text-200")
+    phone = show_file(page, width=390, height=844)
+    phone.do("document.documentElement.style.fontSize = '200%'")
+    assert phone.do("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_the_focus_ring_does_not_cross_titles(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    seen.page.keyboard.press("Tab")
+    for name in ("Workspace", "Configuration space"):
+        canvas = seen.page.locator(f"canvas[aria-label='{name}']")
+        canvas.focus()
+        offset, width = seen.do("(() => { const style = getComputedStyle(document.activeElement); return [style.outlineOffset, style.outlineWidth].map(parseFloat); })()")
+        assert width > 0 and offset <= -width
+
+
+def test_space_plays_an_exploration(program, show_file):
+    page = program.folder / "explore.html"
+    program.run("explore", ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml", "--quiet", "--picture", page)
+    seen = show_file(page)
+    play = seen.page.locator(".play")
+    assert (play.get_attribute("aria-label"), play.locator("svg").count()) == ("play", 1)
+    seen.page.keyboard.press(" ")
+    assert play.get_attribute("aria-label") == "pause"
+    seen.page.keyboard.press(" ")
+    assert play.get_attribute("aria-label") == "play"
+    # On a control, the key acts on the control.
+    seen.page.get_by_label("Reading").focus()
+    seen.page.keyboard.press(" ")
+    assert play.get_attribute("aria-label") == "play"
+
+
+def test_numbers_have_few_digits_and_units(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    lengths = seen.do("[4e-6, 0.0204, 0.614, 1.4201, 0, -0.0312].map((x) => Numbers.length(x))")
+    assert lengths == ["0.004 mm", "20.4 mm", "614 mm", "1.42 m", "0 mm", "\u221231.2 mm"]
+    assert seen.do("[0.9, -1.8136, 0].map((x) => Numbers.angle(x))") == ["51.6°", "\u2212103.9°", "0.0°"]
+    bounds = seen.do("[8.4e-5, 0.0341, 1.1964, 0, 1e-9].map((x) => Numbers.percent(x, Math.ceil))")
+    assert bounds == ["0.0084 %", "3.41 %", "120 %", "0 %", "0.0001 %"]
+    # The readout has degrees, and radians under the pointer.
+    seen.do("cplan.examine([0.139626, 0])")
+    readout = seen.page.locator(".probe")
+    assert readout.inner_text().startswith("shoulder 8.0°, elbow 0.0°: touches")
+    assert readout.get_attribute("title") == "shoulder 0.1396 rad, elbow 0.0000 rad"
+
+
+def test_the_result_comes_first_and_the_panels_are_equal(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page, width=1400, height=1000)
+    left, right = (seen.page.locator(f"canvas[aria-label='{name}']").bounding_box() for name in ("Workspace", "Configuration space"))
+    assert (left["y"], left["width"], left["height"]) == pytest.approx((right["y"], right["width"], right["height"]))
+    rects = seen.do("['workspace', 'cspace'].map((name) => cplan.panels[name].rect)")
+    for side in ("x", "y", "width", "height"):
+        assert rects[0][side] == pytest.approx(rects[1][side], abs=0.5), side
+    # The scrubber stays in sight.
+    box = seen.page.locator(".transport").bounding_box()
+    assert box["y"] + box["height"] <= 1000.5
+    small = show_file(page, width=1400, height=500)
+    box = small.page.locator(".transport").bounding_box()
+    assert box["y"] + box["height"] <= 500.5
+
+
+def test_key_figures_are_cards_and_bounds_are_rounded_to_the_safe_side(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    figures = {"duration": 2.063, "gap": 8.41e-5, "clearance": 0.0204999}
+    texts = seen.do("(figures) => View.cards({ figures }).map(([, value]) => value)", figures)
+    assert texts == ["2.06 s", "at most 0.0085 %", "20.4 mm"]
+    assert seen.do("View.cards({ figures: { duration: 1 } })[1][1]") == "not proven"
+    seen.do("() => { cplan.model.figures = undefined; cplan.headings(); }")
+    assert seen.page.locator(".cards").is_hidden(), "no figures, no row"
+    seen.do("(figures) => { cplan.model.figures = figures; cplan.headings(); }", figures)
+    assert seen.page.locator(".card").count() == 3
+
+
+def test_tabs_show_one_part_at_a_time(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page, width=1000, height=900)
+    parts = {"Layers": ".legend", "Plots": ".plots", "Details": ".facts"}
+    tabs = seen.page.get_by_role("tab")
+    assert tabs.all_inner_texts() == list(parts)
+    for name in parts:
+        tabs.filter(has_text=name).click()
+        assert [other for other, where in parts.items() if seen.page.locator(where).is_visible()] == [name]
+    seen.page.keyboard.press("ArrowRight")
+    assert seen.page.locator(".legend").is_visible(), "arrow keys go round"
+    # On a wide page, the layers stand beside the pictures.
+    seen.page.set_viewport_size({"width": 1500, "height": 900})
+    seen.until("document.querySelectorAll('[role=tab]:not([hidden])').length === 2")
+    assert seen.page.locator(".legend").is_visible() and seen.page.locator(".plots").is_visible()
+    seen.do("cplan.switchTo('think')")
+    assert seen.page.locator(".facts").is_visible(), "the replay has no plots"
+
+
+def screen(seen, panel, place):
+    """Returns the place on the screen for a value in a panel."""
+    name = {"workspace": "Workspace", "cspace": "Configuration space"}[panel]
+    box = seen.page.locator(f"canvas[aria-label='{name}']").bounding_box()
+    x, y = seen.do("([panel, place]) => cplan.panels[panel].at(place)", [panel, place])
+    return box["x"] + x, box["y"] + y
+
+
+TIP = "Geometry.tipAt(cplan.model.arm, cplan.probe?.q ?? cplan.q)"
+
+
+def test_the_arm_is_dragged_by_its_tip(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    mouse = seen.page.mouse
+    mouse.move(*screen(seen, "workspace", seen.do(TIP)))
+    assert seen.do("cplan.panels.workspace.canvas.style.cursor") == "grab"
+    mouse.down()
+    # Into the shelf.
+    mouse.move(*screen(seen, "workspace", [1.3, 0.25]), steps=12)
+    mouse.up()
+    assert seen.do(TIP) == pytest.approx([1.3, 0.25], abs=0.02)
+    readout = seen.page.locator(".probe")
+    assert "touches" in readout.inner_text() and "shelf" in readout.inner_text()
+    # The place of the contact lies in both shapes.
+    places = seen.do("cplan.probe.contacts.filter((c) => c.distance <= 0).map(({ at, obstacle }) => [at, cplan.world.obstacles[obstacle].pieces])")
+    assert places
+    for at, pieces in places:
+        assert seen.do("([at, pieces]) => Math.min(...pieces.map((piece) => Geometry.separation({ core: at, radius: 0 }, piece)))", [at, pieces]) < 1e-3
+    seen.shoot("dragged")
+    # It stays until Escape, or until the motion is played.
+    mouse.move(5, 5)
+    assert seen.do("cplan.probe") is not None
+    seen.page.keyboard.press("Escape")
+    assert seen.do("cplan.probe") is None
+    mouse.move(*screen(seen, "workspace", seen.do(TIP)))
+    mouse.down()
+    mouse.move(*screen(seen, "workspace", [-0.5, 0.5]), steps=5)
+    mouse.up()
+    assert seen.do("cplan.probe") is not None
+    seen.page.keyboard.press(" ")
+    assert seen.do("cplan.playing") and seen.do("cplan.probe") is None
+
+
+def test_the_dot_in_the_configuration_space_is_dragged(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    mouse = seen.page.mouse
+    mouse.move(*screen(seen, "cspace", seen.do("cplan.q")))
+    mouse.down()
+    mouse.move(*screen(seen, "cspace", [-2.0, 1.5]), steps=6)
+    mouse.up()
+    mouse.move(5, 5)
+    assert seen.do("cplan.probe.q") == pytest.approx([-2.0, 1.5], abs=0.03)
+    mouse.move(*screen(seen, "cspace", [-2.0, 1.5]))
+    mouse.down()
+    mouse.move(*screen(seen, "cspace", [2.0, 1.0]), steps=6)
+    mouse.up()
+    mouse.move(5, 5)
+    assert seen.do("cplan.probe.q") == pytest.approx([2.0, 1.0], abs=0.03)
+
+
+def test_the_arm_is_moved_by_keys(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    seen.page.locator("canvas[aria-label='Workspace']").focus()
+    seen.page.keyboard.press("Enter")
+    before = seen.do(TIP)
+    for _ in range(3):
+        seen.page.keyboard.press("Shift+ArrowUp")
+    after = seen.do(TIP)
+    assert after[0] == pytest.approx(before[0], abs=0.05) and after[1] > before[1] + 0.3
+    assert seen.do("cplan.time") == 0
+    seen.page.keyboard.press("Escape")
+    seen.page.keyboard.press("ArrowRight")
+    assert seen.do("cplan.time") > 0, "without the examined arm, the keys move in time"
+
+
+@pytest.mark.parametrize(("robot", "world"), CASES)
+def test_inverse_kinematics_keeps_to_limits_and_comes_near(program, show_file, robot, world):
+    page, _ = program.plan(robot, world)
+    seen = show_file(page)
+    worst = seen.do(
+        """() => { const { arm } = cplan.model; let worst = 0;
+             for (let k = 1; k < 200; k += 1) {
+               const part = [(k * 0.618034) % 1, (k * 0.754878) % 1];
+               const q = arm.joints.map(({ domain: [low, high] }, j) => low + part[j] * (high - low));
+               const place = Geometry.tipAt(arm, q);
+               const found = Geometry.inverse(arm, place, q.map((x, j) => Math.min(arm.joints[j].domain[1], x + 0.01)));
+               if (found.some((x, j) => x < arm.joints[j].domain[0] - 1e-9 || x > arm.joints[j].domain[1] + 1e-9)) return Infinity;
+               worst = Math.max(worst, Math.hypot(...Geometry.tipAt(arm, found).map((x, j) => x - place[j])));
+             } return worst; }"""
+    )
+    assert worst < 1e-6
+
+
+def test_a_tour_of_four_steps_is_offered_once(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    tour = seen.page.get_by_role("dialog", name="Tour")
+    assert not tour.is_visible(), "not to browsers that a program drives"
+    seen.do("() => { Object.defineProperty(navigator, 'webdriver', { value: false }); cplan.tour.offer(); }")
+    titles = set()
+    for number in (1, 2, 3, 4):
+        assert f"{number} of 4" in tour.inner_text()
+        titles.add(tour.get_by_role("heading").inner_text())
+        assert seen.page.locator(".toured").count() == 1
+        seen.shoot(f"tour-{number}")
+        tour.get_by_role("button", name="Done" if number == 4 else "Next").click()
+    assert len(titles) == 4 and not tour.is_visible() and seen.page.locator(".toured").count() == 0
+    seen.do("cplan.tour.offer()")
+    assert not tour.is_visible(), "only once"
+    # It can be seen again, and closed at any step.
+    seen.page.get_by_text("Keys and pointer").click()
+    seen.page.get_by_role("button", name="Show the tour").click()
+    assert tour.is_visible()
+    tour.get_by_role("button", name="Close").click()
+    assert not tour.is_visible()
+
+
+def test_steps_are_grouped_by_object_and_drawn_as_blocks(program, show_file):
+    page, result = program.plan("rrbot_vertical", "tasks/tower")
+    seen = show_file(page)
+    groups = seen.page.locator(".steps > li")
+    picked = [event["object"] for event in result["events"] if event["event"] == "grasp"]
+    assert [name.strip() for name in seen.page.locator(".steps .object").all_inner_texts()] == picked
+    assert groups.first.locator("button").count() == 2, "pick and place"
+    motions = seen.do("cplan.model.motions")
+    blocks = seen.page.locator(".timeline i")
+    assert blocks.count() == len(motions)
+    duration = seen.do("cplan.duration")
+    for k, motion in enumerate(motions):
+        style = seen.do("(k) => { const { style } = document.querySelectorAll('.timeline i')[k]; return ['--from', '--length', '--color'].map((name) => style.getPropertyValue(name)); }", k)
+        assert float(style[0]) == pytest.approx(motion["from"] / duration, abs=1e-6)
+        payload = seen.do("(w) => cplan.model.worlds[w].payload?.color ?? ''", motion["world"])
+        assert style[2] == payload, "in the colour of the object"
+    blocks.nth(2).click()
+    assert seen.do("cplan.time") == pytest.approx(motions[2]["from"])
+    assert "current" in blocks.nth(2).get_attribute("class")
+
+
+def test_only_this_path_and_the_next_are_drawn(program, show_file):
+    page, _ = program.plan("rrbot_vertical", "tasks/tower")
+    seen = show_file(page)
+    motions = seen.do("cplan.model.motions")
+    for k, motion in enumerate(motions[:-1]):
+        seen.do("(t) => cplan.seek(t)", motion["from"] + 1e-3)
+        own, following = seen.do("[cplan.pathsHere().map(({ step }) => step), cplan.nextPath?.step ?? null]")
+        assert own == [k + 1] and following == (k + 2 if k + 2 < len(motions) else None)
+    # A path further on is not drawn.
+    seen.do("cplan.seek(0)")
+    before = pixels(seen, "workspace")
+    seen.do("() => { cplan.model.paths[3].points = cplan.model.paths[0].points; cplan.traces = null; cplan.refresh(); }")
+    assert pixels(seen, "workspace") == before
+
+
+def test_obstacles_that_shape_nothing_fade(program, show_file):
+    world = (ROOT / "workspaces/shelf.toml").read_text()
+    far = '\n[[obstacle]]\nname = "far"\npolygon = [[2.6, 2.0], [2.9, 2.0], [2.9, 2.3], [2.6, 2.3]]\n'
+    (program.folder / "far.toml").write_text(world + far)
+    program.run(ROOT / "robots/planar_2r.urdf", "far.toml", "--quiet", "--picture", "far.html")
+    seen = show_file(program.folder / "far.html")
+    pale = seen.do("cplan.world.obstacles.filter((obstacle) => cplan.isIrrelevant(obstacle)).map(({ name }) => name)")
+    assert pale == ["far"]
+
+
+def test_a_checked_configuration_shows_its_contacts_at_once(program, show_file):
+    files = [ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml"]
+    program.run("check", *files, "--at=8deg,0deg", "--picture", "hits.html")
+    seen = show_file(program.folder / "hits.html")
+    readout = seen.page.locator(".probe")
+    assert "touches" in readout.inner_text() and '"shelf"' in readout.inner_text()
+    assert readout.get_attribute("data-free") == "false"
+    # Another configuration can be examined, and the first one comes back.
+    seen.do("cplan.place([-2, 1.5])")
+    assert "free" in readout.inner_text()
+    seen.page.keyboard.press("Escape")
+    assert "touches" in readout.inner_text()

@@ -58,13 +58,13 @@ def test_pictures_are_told_to_who_does_not_see_them(program, show_file):
     for name in ("Workspace", "Configuration space"):
         canvas = seen.page.locator(f"canvas[aria-label='{name}']")
         assert canvas.get_attribute("aria-describedby") == seen.page.locator(".unseen").get_attribute("id")
-    told = seen.page.locator("#told")
+    told = seen.page.locator("#description")
     first = told.text_content()
     assert "free" in first and "The path leads from shoulder" in first and "nearest: link" in first
     seen.do("cplan.seek(cplan.duration)")
     assert told.text_content() != first
     page, _ = program.plan("planar_2r_continuous", "no_path", code=3)
-    assert "prove that there is no path" in show_file(page).page.locator("#told").text_content()
+    assert "prove that there is no path" in show_file(page).page.locator("#description").text_content()
 
 
 def test_layers_stand_beside_the_pictures_where_there_is_room(program, show_file):

@@ -9,7 +9,7 @@ PLANNERS = ["shortest", "first", "visibility", "trapezoid", "triangles", "vorono
 
 
 def think(seen):
-    seen.page.get_by_role("button", name="Think", exact=True).click()
+    seen.page.get_by_role("button", name="How it was found", exact=True).click()
     assert seen.do("cplan.mode") == "think"
 
 
@@ -32,7 +32,7 @@ def test_each_planner_tells_its_run_phase_by_phase(program, show_file, planner):
         begin += phase["seconds"]
     seen.shoot(f"think_{planner}")
     # Back in the motion, everything is as before.
-    seen.page.get_by_role("button", name="Move", exact=True).click()
+    seen.page.get_by_role("button", name="Motion", exact=True).click()
     assert pixels(seen, "cspace") == still
 
 
@@ -58,7 +58,7 @@ def test_thinking_is_played_by_keyboard_and_each_keeps_its_time(program, show_fi
     # Screen readers announce each phase once.
     assert seen.page.locator(".step").get_attribute("aria-live") == "polite"
     pressed = seen.page.get_by_role("group", name="What is played").get_by_role("button", pressed=True)
-    assert pressed.all_inner_texts() == ["Move"]
+    assert pressed.all_inner_texts() == ["Motion"]
 
 
 def test_the_arm_stands_where_the_planner_looks(program, show_file):

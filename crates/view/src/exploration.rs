@@ -1,6 +1,6 @@
 //! The page that plays an exploration: the known and seen parts of the workspace, and the growing configuration space.
 
-use super::view::sealed;
+use super::view::{ICONS, sealed};
 use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
 use cplan_explore::{Ending, Exploration};
@@ -15,7 +15,13 @@ const SCRIPT: &str = include_str!("assets/exploration.js");
 /// took.
 #[must_use]
 pub fn exploration_page(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration, timed: bool) -> String {
-    sealed(title, STYLE, "exploration", &data(title, scene, sensor, done, timed).to_string(), SCRIPT)
+    sealed(
+        title,
+        STYLE,
+        "exploration",
+        &data(title, scene, sensor, done, timed).to_string(),
+        &(ICONS.to_owned() + SCRIPT),
+    )
 }
 
 fn data(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration, timed: bool) -> Value {

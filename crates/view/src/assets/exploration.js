@@ -29,11 +29,11 @@ const panel = (name, label) => {
   return { canvas, figure: add(node("figure"), node("figcaption", {}, name), canvas) };
 };
 const left = panel("Workspace", "The map as far as it is known, the arm and what it sees");
-const right = panel("Configuration space", "Configurations that are known to be free, and the way so far");
-const chart = panel("Seen of the map, against the length of the way", "Share of the map that has been seen, against the length of the way");
+const right = panel("Configuration space", "Configurations that are known to be free, and the path so far");
+const chart = panel("Coverage of the map by path length", "Fraction of the map that has been seen, by path length");
 chart.canvas.setAttribute("class", "chart");
 const slider = node("input", { type: "range", min: 0, max: Math.max(count - 1, 0), value: 0, "aria-label": "Reading" });
-const play = node("button", { class: "play", type: "button", "aria-label": "Play" }, "▶");
+const play = node("button", { class: "play", type: "button" });
 const clock = node("span", { class: "clock" });
 const readout = node("p", { class: "readout", "aria-live": "polite" });
 const swatch = (color, name) => add(node("span"), node("span", { class: "swatch", style: `background:${color}` }), name);
@@ -41,9 +41,14 @@ const key = add(node("p", { class: "key" }),
   swatch("var(--paper)", "free"), swatch("var(--pale)", "unknown, solid"), swatch("var(--ink)", "occupied"),
   swatch("var(--channel)", "new"), swatch("var(--free)", "free configurations"));
 add(main, heading, add(node("div", { class: "panels" }), left.figure, right.figure),
-  add(node("div", { class: "transport" }), play, slider, clock), readout, chart.figure, key);
+  add(node("div", { class: "transport" }), add(node("div", { class: "controls-of-time" }), play, slider, clock)), readout, chart.figure, key);
 
 const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+/** Returns the font of text on canvases, which follows the text size of the page. */
+const font = () => {
+  const style = getComputedStyle(document.documentElement);
+  return `${parseFloat(style.fontSize) * parseFloat(style.getPropertyValue("--type-small"))}px ${style.getPropertyValue("--font")}`;
+};
 const fitted = (canvas) => {
   const scale = window.devicePixelRatio || 1;
   canvas.width = Math.round(canvas.clientWidth * scale);
@@ -172,7 +177,7 @@ const drawSpace = (at) => {
   context.arc(last[0], last[1], 4, 0, 7);
   context.fill();
   context.fillStyle = color("grey");
-  context.font = "12px system-ui, sans-serif";
+  context.font = font();
   context.textAlign = "center";
   const shown = (axis) => {
     const degrees = axis.unit === "rad";
@@ -204,7 +209,7 @@ const drawChart = (at) => {
   const slowest = Math.max(...decisions.map(([, time]) => time), 1);
   const x = (length) => x0 + (length / whole) * width;
   const y = (share) => y0 + height * (1 - share);
-  context.font = "12px system-ui, sans-serif";
+  context.font = font();
   context.fillStyle = color("grey");
   context.strokeStyle = color("pale");
   context.lineWidth = 1;
@@ -219,7 +224,7 @@ const drawChart = (at) => {
     if (decisions.length) context.fillText(`${(slowest * share).toFixed(share ? 1 : 0)} ms`, x0 + width + 6, y(share) + 4);
   });
   context.textAlign = "center";
-  context.fillText(decisions.length ? "length; dots: how long decisions took" : "length", x0 + width / 2, y0 + height + 28);
+  context.fillText(decisions.length ? "path length; dots: time of each decision" : "path length", x0 + width / 2, y0 + height + 28);
   context.fillText("0", x0, y0 + height + 16);
   context.fillText(whole.toFixed(2), x0 + width, y0 + height + 16);
   context.globalAlpha = 0.5;
@@ -247,25 +252,38 @@ const draw = () => {
   const frame = data.frames[at];
   clock.textContent = `reading ${at + 1} of ${count}`;
   const seen = (100 * known[at] / cells).toFixed(1);
-  readout.textContent = `${seen} % of the map seen, ${frame.new.length} cells new; ${frame.length.toFixed(3)} on the way`;
+  readout.textContent = `${seen} % of the map seen, ${frame.new.length} new cells; path length ${frame.length.toFixed(2)}`;
 };
 let timer = null;
+/** Shows on the button what a click does. */
+const mark = () => {
+  const action = timer ? "pause" : "play";
+  play.replaceChildren(icon(action));
+  play.setAttribute("aria-label", action);
+  play.title = `${action} (Space)`;
+};
 const stop = () => {
   clearInterval(timer);
   timer = null;
-  play.textContent = "▶";
-  play.setAttribute("aria-label", "Play");
+  mark();
 };
-play.addEventListener("click", () => {
+const toggle = () => {
   if (timer) { stop(); return; }
   if (Number(slider.value) >= count - 1) slider.value = 0;
-  play.textContent = "❚❚";
-  play.setAttribute("aria-label", "Pause");
   timer = setInterval(() => {
     slider.value = Number(slider.value) + 1;
     draw();
     if (Number(slider.value) >= count - 1) stop();
   }, 80);
+  mark();
+};
+mark();
+play.addEventListener("click", toggle);
+document.addEventListener("keydown", (event) => {
+  const isControl = event.target.matches?.("button, input, select, textarea, a, summary");
+  if (event.key !== " " || isControl || event.ctrlKey || event.metaKey || event.altKey) return;
+  event.preventDefault();
+  toggle();
 });
 slider.addEventListener("input", () => { if (timer) stop(); draw(); });
 window.addEventListener("resize", draw);

@@ -1,12 +1,12 @@
 //! Pictures and pages of a plan.
 
 use super::summary::facts;
-use crate::{DrawError, Moments, Picture, TaskPicture, View};
+use crate::{DrawError, KeyFigures, Moments, Picture, TaskPicture, View};
 use cplan_core::cspace::{CObstacle, c_obstacles, exact_c_obstacles};
 use cplan_core::model::{MotionProblem, Outcome, Scene, Status};
 use cplan_engine::{Detail, Motion, Plan};
 use cplan_handling::{Task, TimedScene};
-use cplan_solver::{Answer, Options};
+use cplan_solver::{Answer, Bound, Options};
 use cplan_tasks::TaskAnswer;
 use cplan_text::{counted, length_down};
 use std::path::Path;
@@ -150,10 +150,28 @@ pub fn replayed(plan: &Plan, view: View) -> View {
 /// Returns the view. If the plan is a single motion, `contours` computes its C-obstacles.
 #[must_use]
 pub fn view_with(plan: &Plan, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -> View {
-    match plan.detail() {
+    let view = match plan.detail() {
         Detail::Motion { problem, answer } => motion_view(plan, problem, answer, &contours(problem.scene())),
         Detail::Task { task, answer } => View::of_task(&task_picture(plan, task, answer)),
+    };
+    view.with_figures(key_figures(plan))
+}
+
+/// Returns the key figures of a plan; none unless a motion was found. Among moving obstacles, there is no useful bound on
+/// the optimum.
+fn key_figures(plan: &Plan) -> KeyFigures {
+    if plan.status() != Status::Found {
+        return KeyFigures::default();
     }
+    let (gap, fastest) = match plan.detail() {
+        Detail::Motion { answer, .. } => {
+            (answer.outcome.found().and_then(|motion| motion.path.bound.as_ref().map(Bound::gap)), false)
+        }
+        Detail::Task { answer, .. } => (answer.gap(), true),
+    };
+    let is_static = plan.problem().timed().scene.loose().is_empty();
+    let gap = gap.filter(|gap| is_static && gap.is_finite());
+    KeyFigures { duration: plan.duration(), gap, fastest, clearance: plan.clearance() }
 }
 
 fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, contours: &[CObstacle]) -> View {

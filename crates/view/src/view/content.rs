@@ -21,6 +21,30 @@ fn ending<S: Serializer>(status: &Option<Status>, serializer: S) -> Result<S::Ok
     serializer.serialize_str(status.map_or("shown", Status::name))
 }
 
+/// Key figures of a result, which pages show first.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct KeyFigures {
+    /// Duration of the motion, in seconds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub duration: Option<f64>,
+    /// Proven upper bound on how much longer the motion is than the optimum, as a fraction. `None` if nothing is proven.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gap: Option<f64>,
+    /// True if the optimum is the fastest motion, false if it is the shortest path.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub fastest: bool,
+    /// Proven lower bound on the distance between arm and obstacles, in metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
+}
+
+impl KeyFigures {
+    /// Returns true if there is nothing to show.
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
 /// The content of a picture or a page. Lengths are in metres, angles in radians, and times in seconds. Numbers are
 /// rounded to the visible resolution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -34,6 +58,9 @@ pub struct View {
     pub ending: Option<Status>,
     /// Facts about the result: names and values, such as `length` and `4.4963 rad`.
     pub facts: Vec<[String; 2]>,
+    /// Key figures of a result. They are empty without one.
+    #[serde(skip_serializing_if = "KeyFigures::is_empty")]
+    pub figures: KeyFigures,
     /// The arm without a payload.
     #[serde(serialize_with = "arm::document")]
     pub(crate) arm: Arm,
@@ -125,6 +152,13 @@ impl View {
     #[must_use]
     pub fn with_field_lines(mut self, lines: FieldLines) -> Self {
         self.still.field_lines = lines;
+        self
+    }
+
+    /// Returns the view with the key figures of a result.
+    #[must_use]
+    pub fn with_figures(mut self, figures: KeyFigures) -> Self {
+        self.figures = figures;
         self
     }
 

@@ -5,18 +5,28 @@ use cplan_text::markup;
 
 const STYLE: &str = include_str!("assets/view.css");
 
+/// Code that draws icons.
+pub(crate) const ICONS: &str = include_str!("assets/icons.js");
+
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 11] = [
+const SCRIPTS: [&str; 18] = [
+    ICONS,
+    include_str!("assets/settings.js"),
+    include_str!("assets/numbers.js"),
     include_str!("assets/geometry.js"),
     include_str!("assets/panel.js"),
     include_str!("assets/labels.js"),
     include_str!("assets/legend.js"),
+    include_str!("assets/layers.js"),
+    include_str!("assets/tabs.js"),
     include_str!("assets/think.js"),
     include_str!("assets/workspace.js"),
     include_str!("assets/cspace.js"),
     include_str!("assets/plots.js"),
     include_str!("assets/contact.js"),
     include_str!("assets/learn.js"),
+    include_str!("assets/steps.js"),
+    include_str!("assets/tour.js"),
     include_str!("assets/view.js"),
 ];
 

@@ -33,7 +33,7 @@ mod trace;
 mod waves;
 mod world;
 
-pub use content::View;
+pub use content::{KeyFigures, View};
 pub use html::{drawing, page, sealed, shell};
 pub use picture::{AxesFrame, Picture};
 pub use task_picture::{Moments, TaskPicture};
@@ -41,6 +41,7 @@ pub use task_picture::{Moments, TaskPicture};
 pub(super) use arm::{reach_shape, titles};
 pub(super) use content::{FrameView, PanelView};
 pub(super) use extent::bounding_box;
+pub(super) use html::ICONS;
 pub(super) use motion::PathView;
 pub(super) use names::NameView;
 pub(super) use numbers::{Chain, RoundingSteps};

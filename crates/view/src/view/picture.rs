@@ -1,7 +1,7 @@
 //! The content of a picture of a scene: with one motion, with several to compare, or with none.
 
 use super::arm;
-use super::content::{FrameView, PanelView, StillContent, View};
+use super::content::{FrameView, KeyFigures, PanelView, StillContent, View};
 use super::extent;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::{RoundingSteps, number};
@@ -116,6 +116,7 @@ impl View {
             status: picture.status.clone(),
             ending: picture.ending,
             facts: picture.facts.clone(),
+            figures: KeyFigures::default(),
             arm: arm::empty_handed(scene, grain),
             frame: extent::sides(scene, &shown).map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
             start: grain.configuration(start),

@@ -1,7 +1,7 @@
 //! A task: its worlds, the times of its events, and the motions that a still picture shows together.
 
 use super::arm;
-use super::content::{PanelView, StillContent, View};
+use super::content::{KeyFigures, PanelView, StillContent, View};
 use super::extent;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::RoundingSteps;
@@ -88,6 +88,7 @@ impl View {
             status,
             ending: picture.ending,
             facts: picture.facts.clone(),
+            figures: KeyFigures::default(),
             arm: arm::empty_handed(&overview, grain),
             frame: extent::sides(&overview, &shown).map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
             start: grain.configuration(task.start),

@@ -91,6 +91,7 @@ const CSpace = (() => {
       context.fill();
       context.globalAlpha = 1;
     }
+    if (view.shows('names')) names(context, panel, view, (obstacle) => world.movers[obstacle].name, byObstacle(view, moment.c_obstacles, world.movers));
   }
 
   function rectangles(context, panel, boxes, least = 0) {
@@ -203,9 +204,10 @@ const CSpace = (() => {
     const [[x0, y0], [x1, y1]] = [panel.at(panel.whole.map((side) => side[0])), panel.at(panel.whole.map((side) => side[1]))];
     const [width, height] = [(x1 - x0) / nx, (y0 - y1) / ny];
     const digits = `${Math.max(...all)}`.length;
-    const size = Math.min(width / (0.6 * digits), 0.75 * height, 13);
+    const { text } = panel.theme;
+    const size = Math.min(width / (0.6 * digits), 0.75 * height, text);
     if (size < 5) return;
-    context.font = `${size}px sans-serif`;
+    context.font = panel.theme.font(400, size / text);
     context.textAlign = 'center';
     context.textBaseline = 'middle';
     context.lineWidth = 2;
@@ -335,13 +337,29 @@ const CSpace = (() => {
     }
   }
 
-  /** Draws names within the C-obstacles, except those that would cover their shape or another name. */
-  function names(context, panel, view, world) {
-    const [[x0, x1], [y0, y1]] = panel.shown;
-    const [width, height] = panel.whole.map(([low, high]) => high - low);
-    const room = (panel.rect.width * width / (x1 - x0)) * (panel.rect.height * height / (y1 - y0));
-    const shown = world.names.filter(({ obstacle, at }) => !view.hidden.has(world.obstacles[obstacle].name) && panel.contains(panel.at(at)));
-    Labels.inside(context, panel, markers(panel, view), shown.map(({ obstacle, at, area }) => [view.called(obstacle), panel.at(at), area * room]));
+  /** Draws names on the visible parts of the C-obstacles. `contours` are those of the C-obstacles by obstacle, in order. */
+  function names(context, panel, view, named, contours) {
+    const repeats = turning(view);
+    const regions = [...contours].map(([obstacle, own]) => ({
+      text: named(obstacle),
+      paint: (painter) => {
+        painter.beginPath();
+        for (const contour of own) shifted(painter, panel, contour, repeats, true);
+        painter.fill();
+      },
+    }));
+    Labels.onRegions(context, panel, regions);
+  }
+
+  /** Returns the contours of the visible C-obstacles by obstacle. `obstacles` are the shapes that the contours belong to. */
+  function byObstacle(view, all, obstacles) {
+    const groups = new Map();
+    for (const { obstacle, contour } of all) {
+      if (view.hidden.has(obstacles[obstacle].name)) continue;
+      if (!groups.has(obstacle)) groups.set(obstacle, []);
+      groups.get(obstacle).push(contour);
+    }
+    return groups;
   }
 
   /** Draws IK solutions with the tip at the centres of cells, by whether a motion leads there. */
@@ -364,8 +382,7 @@ const CSpace = (() => {
     if (seen) above(context, panel, view, seen);
     if (view.model.reach && view.shows('access')) solutions(context, panel, view, view.model.reach);
     if (view.shows('regions')) regions(context, panel, view, world);
-    if (view.shows('proof') && world.proof.length) proof(context, panel, Think.begun(world.proof, 4, Think.part(view, 'proof')));
-    if (view.shows('names') && view.shows('c-obstacles') && !view.isCrowded) names(context, panel, view, world);
+    if (view.shows('proof') && world.proof.length) proof(context, panel, Think.firstItems(world.proof, 4, Think.part(view, 'proof')));
     if (view.shows('path')) {
       for (const path of Think.paths(view, view.pathsHere())) {
         pathLine(context, panel.theme, path, () => {
@@ -373,6 +390,9 @@ const CSpace = (() => {
           shifted(context, panel, path.points, circles(view), false);
           context.stroke();
         });
+        for (const by of shifts(panel, path.points, circles(view))) {
+          Labels.blockLine(panel, [...Geometry.pointsOf(path.points)].map((q) => panel.at([q[0] + by[0], q[1] + by[1]])));
+        }
       }
     }
     if (seen?.kind === 'channel' && view.shows('channel')) channelPoints(context, panel, view, seen);
@@ -380,10 +400,13 @@ const CSpace = (() => {
     if (view.model.stuck?.at) cross(context, panel.theme, place(view, panel, view.model.stuck.at[0]));
     view.goals().forEach(([q, reached]) => diamond(context, panel, place(view, panel, q), reached));
     ring(context, panel, place(view, panel, view.beginning()), 7);
+    for (const spot of markers(panel, view)) Labels.blockSpot(panel, spot, 10);
     if (view.isTask) {
-      const ends = view.pathsHere().map((path) => [String(path.step), Labels.about(place(view, panel, path.points.slice(-2)), 7)]);
-      Labels.beside(context, panel, ends, markers(panel, view));
+      const ends = view.pathsHere().map((path) => [`step ${path.step}`, Labels.about(place(view, panel, path.points.slice(-2)), 7)]);
+      Labels.beside(context, panel, ends);
     }
+    const isNamed = view.shows('names') && view.shows('c-obstacles') && !view.isCrowded;
+    if (isNamed) names(context, panel, view, (obstacle) => view.called(obstacle), byObstacle(view, world.c_obstacles, world.obstacles));
   }
 
   /** Draws goals with a free joint: dots along a line. */
@@ -429,6 +452,7 @@ const CSpace = (() => {
   function moving(context, panel, view) {
     const { theme } = panel;
     inTime(context, panel, view, view.world);
+    if (view.world.moments) stamp(context, panel, Numbers.seconds(view.now));
     const [x, y] = place(view, panel, view.q);
     context.beginPath();
     context.arc(x, y, 4.8, 0, 2 * Math.PI);
@@ -452,6 +476,26 @@ const CSpace = (() => {
     line(context, [[px, py - 7], [px, py + 7]]);
   }
 
+  /** Writes the time for which the C-obstacles of moving obstacles are drawn, in a corner. */
+  function stamp(context, panel, text) {
+    const { rect, theme, zoom } = panel;
+    context.font = theme.font(600);
+    const [width, height] = [context.measureText(text).width + 12 * zoom, 22 * zoom];
+    const [x, y] = [rect.x + rect.width - width - 6, rect.y + 6];
+    context.fillStyle = theme.paper;
+    context.strokeStyle = theme.grey;
+    context.lineWidth = 1;
+    context.beginPath();
+    context.roundRect(x, y, width, height, 4);
+    context.fill();
+    context.stroke();
+    context.fillStyle = theme.ink;
+    context.textAlign = 'center';
+    context.textBaseline = 'middle';
+    context.fillText(text, x + width / 2, y + height / 2);
+    panel.blocked.boxes.push({ x, y, width, height });
+  }
+
   /** Draws the scale of colours, to the right of the panel. */
   function beside(context, panel, view) {
     const { scale, trace: seen } = view;
@@ -464,7 +508,7 @@ const CSpace = (() => {
       context.fillStyle = scale.soft ? Theme.mixed(color, theme.paper, 0.25) : color;
       context.fillRect(x, y + k, 12, 1.5);
     }
-    context.font = '12px system-ui, sans-serif';
+    context.font = theme.font();
     context.fillStyle = theme.grey;
     context.textAlign = 'left';
     context.textBaseline = 'middle';

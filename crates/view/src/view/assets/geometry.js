@@ -4,6 +4,12 @@
 
 const Geometry = (() => {
   const TURN = 2 * Math.PI;
+  /** Angle of a short side that stands for a part of an arc. */
+  const ARC = Math.PI / 12;
+  /** Number of rounds in which inverse kinematics approaches a place beside the limits. */
+  const ROUNDS = 8;
+  /** Error, as a fraction of the arm's size, that is accepted to change the joints by one radian less. */
+  const STEADY = 0.02;
 
   const compose = (a, b) => [
     a[0] + a[2] * b[0] - a[3] * b[1],
@@ -124,7 +130,45 @@ const Geometry = (() => {
     return distance - a.radius - b.radius;
   }
 
-  /** Returns the signed distance of every link (or payload) and obstacle that can meet, nearest first. */
+  /** Returns the corners of a shape, with its rounding as short sides, counter-clockwise. */
+  function corners({ core, radius }) {
+    const points = [...pointsOf(core)];
+    if (!radius) return points;
+    const n = points.length;
+    const around = (center, from, to) => {
+      const count = Math.max(1, Math.ceil((to - from) / ARC));
+      return Array.from({ length: count + 1 }, (_, k) => from + ((to - from) * k) / count).map((angle) => [center[0] + radius * Math.cos(angle), center[1] + radius * Math.sin(angle)]);
+    };
+    if (n === 1) return around(points[0], 0, TURN - ARC);
+    const normal = (a, b) => Math.atan2(a[0] - b[0], b[1] - a[1]);
+    return points.flatMap((point, i) => {
+      const from = normal(points[(i + n - 1) % n], point);
+      const turn = normal(point, points[(i + 1) % n]) - from;
+      return around(point, from, from + turn - TURN * Math.floor(turn / TURN));
+    });
+  }
+
+  /** Returns the middle of the common part of two convex shapes, or `null` if they have none. */
+  function touch(a, b) {
+    let common = corners(a);
+    const sides = corners(b);
+    sides.forEach((p, i) => {
+      const q = sides[(i + 1) % sides.length];
+      const depth = ([x, y]) => (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
+      common = common.flatMap((to, k) => {
+        const from = common[(k + common.length - 1) % common.length];
+        const [d, e] = [depth(from), depth(to)];
+        const cut = d < 0 !== e < 0 ? [[0, 1].map((c) => from[c] + ((to[c] - from[c]) * d) / (d - e))] : [];
+        return e >= 0 ? [...cut, to] : cut;
+      });
+    });
+    return common.length ? [0, 1].map((c) => common.reduce((sum, point) => sum + point[c], 0) / common.length) : null;
+  }
+
+  /**
+   * Returns the signed distance of every link (or payload) and obstacle that can meet, nearest first. A contact has the
+   * place of the touch as `at`.
+   */
   function contacts(arm, world, q) {
     // Poses of both links, and of link 2 relative to link 1.
     const at = [...poses(arm, q), poses(arm, [0, q[1]])[1]];
@@ -142,10 +186,112 @@ const Geometry = (() => {
       for (let piece = first; piece < end; piece += 1) {
         const distance = separation(shape, world.obstacles[obstacle].pieces[piece]);
         const name = `${carried ? 'payload' : link} ${obstacle}`;
-        if (!(nearest.get(name)?.distance <= distance)) nearest.set(name, { link: Math.min(link, 1), carried, body, obstacle, distance });
+        if (nearest.get(name)?.distance <= distance) continue;
+        const contact = { link: Math.min(link, 1), carried, body, obstacle, distance };
+        if (distance <= 0) contact.at = touch(shape, world.obstacles[obstacle].pieces[piece]);
+        // If an obstacle moves with link 1, both are placed as for joint 1 at zero.
+        if (contact.at && link > 1) contact.at = apply(at[0], contact.at[0] - arm.base[0], contact.at[1] - arm.base[1]);
+        nearest.set(name, contact);
       }
     }
     return [...nearest.values()].sort((a, b) => a.distance - b.distance);
+  }
+
+  // Inverse kinematics.
+
+  const minus = (a, b) => [a[0] - b[0], a[1] - b[1]];
+  const dot = (a, b) => a[0] * b[0] + a[1] * b[1];
+  const angleOf = ([x, y]) => Math.atan2(y, x);
+  const rotated = ([x, y], angle) => [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle)];
+  const isRevolute = (joint) => joint.sign !== undefined;
+
+  /** Returns the value of joint 1 that brings the tip nearest to a place, for a value of joint 2. */
+  function firstFor(arm, place, second) {
+    const [joint] = arm.joints;
+    const tip = apply(motion(arm.joints[1], second), ...arm.tip);
+    const [to, from] = [minus(place, arm.base), [arm.offset[0] + tip[0], arm.offset[1] + tip[1]]];
+    if (isRevolute(joint)) return joint.sign * (angleOf(to) - angleOf(from));
+    return dot(minus(to, from), joint.direction) / dot(joint.direction, joint.direction);
+  }
+
+  /** Returns the value of joint 2 that brings the tip nearest to a place, for a value of joint 1. */
+  function secondFor(arm, place, first) {
+    const [own, joint] = arm.joints;
+    const to = minus(place, arm.base);
+    const seen = isRevolute(own) ? rotated(to, -own.sign * first) : minus(to, own.direction.map((x) => x * first));
+    const from = minus(seen, arm.offset);
+    if (isRevolute(joint)) return joint.sign * (angleOf(from) - angleOf(arm.tip));
+    return dot(minus(from, arm.tip), joint.direction) / dot(joint.direction, joint.direction);
+  }
+
+  /** Returns both solutions of a quadratic equation, or the place of the minimum if it has none. */
+  function roots(a, b, c) {
+    const root = Math.sqrt(Math.max(0, b * b - 4 * a * c));
+    return [(-b - root) / (2 * a), (-b + root) / (2 * a)];
+  }
+
+  /** Returns IK solutions for a place of the tip, without regard to limits. If it is out of reach, they come near. */
+  function solutions(arm, place) {
+    const [one, two] = arm.joints;
+    const { base, offset, tip } = arm;
+    const to = minus(place, base);
+    const by = (second) => [firstFor(arm, place, second), second];
+    if (isRevolute(one) && isRevolute(two)) {
+      const [a, b] = [Math.hypot(...offset), Math.hypot(...tip)];
+      const half = Math.acos(Math.min(1, Math.max(-1, (dot(to, to) - a * a - b * b) / (2 * a * b || 1))));
+      return [half, -half].map((angle) => by(two.sign * (angle + angleOf(offset) - angleOf(tip))));
+    }
+    if (isRevolute(one)) {
+      const rest = [offset[0] + tip[0], offset[1] + tip[1]];
+      return roots(dot(two.direction, two.direction), 2 * dot(rest, two.direction), dot(rest, rest) - dot(to, to)).map(by);
+    }
+    const rest = minus(to, offset);
+    if (isRevolute(two)) {
+      const values = roots(dot(one.direction, one.direction), -2 * dot(rest, one.direction), dot(rest, rest) - dot(tip, tip));
+      return values.map((first) => [first, secondFor(arm, place, first)]);
+    }
+    const [u, v, goal] = [one.direction, two.direction, minus(rest, tip)];
+    const determinant = u[0] * v[1] - u[1] * v[0];
+    return [[(goal[0] * v[1] - goal[1] * v[0]) / determinant, (u[0] * goal[1] - u[1] * goal[0]) / determinant]];
+  }
+
+  /** Returns the value within a joint's limits that has the same effect, or the nearest limit; near another value. */
+  function limited(joint, value, near) {
+    if (joint.circle) return wrap(joint, value);
+    const [low, high] = joint.domain;
+    if (!isRevolute(joint)) return Math.min(high, Math.max(low, value));
+    const turns = [-2, -1, 0, 1, 2].map((n) => value + TURN * (n + Math.round((near - value) / TURN)));
+    const allowed = turns.filter((x) => x >= low && x <= high);
+    const best = (all) => all.reduce((a, b) => (Math.abs(b - near) < Math.abs(a - near) ? b : a));
+    if (allowed.length) return best(allowed);
+    const excess = (x) => Math.max(low - x, x - high);
+    return Math.min(high, Math.max(low, turns.reduce((a, b) => (excess(b) < excess(a) ? b : a))));
+  }
+
+  /** Returns the difference of two values of a joint; on a circle, the shorter way round. */
+  const apart = (joint, a, b) => Math.abs(joint.circle ? wrap(joint, a - b) : a - b);
+
+  /**
+   * Returns the configuration with the tip at a place, or as near to it as the joints allow: of several solutions, one
+   * near `near`.
+   */
+  function inverse(arm, place, near) {
+    const size = Math.hypot(...arm.offset) + Math.hypot(...arm.tip) || 1;
+    const fit = (q) => q.map((value, k) => limited(arm.joints[k], value, near[k]));
+    let [best, least] = [near, Infinity];
+    for (const solution of solutions(arm, place)) {
+      let q = fit(solution);
+      // At a limit, each joint in turn comes nearer.
+      for (let k = 0; k < ROUNDS; k += 1) {
+        q = fit([firstFor(arm, place, q[1]), q[1]]);
+        q = fit([q[0], secondFor(arm, place, q[0])]);
+      }
+      const error = Math.hypot(...minus(tipAt(arm, q), place));
+      const change = arm.joints.reduce((sum, joint, k) => sum + apart(joint, q[k], near[k]) / (isRevolute(joint) ? 1 : size), 0);
+      const cost = error + STEADY * size * change;
+      if (cost < least) [best, least] = [q, cost];
+    }
+    return best;
   }
 
   /** Returns the value of a circle within its domain; other values stay unchanged. */
@@ -190,5 +336,5 @@ const Geometry = (() => {
     for (let i = 0; i + 1 < flat.length; i += 2) yield [flat[i], flat[i + 1]];
   }
 
-  return { TURN, apply, poses, tipAt, elbowAt, payloadPose, placed, moved, separation, contacts, wrap, moving, pointsOf };
+  return { TURN, apply, poses, tipAt, elbowAt, payloadPose, placed, moved, separation, contacts, inverse, wrap, moving, pointsOf };
 })();

@@ -1,62 +1,273 @@
-// Names in a panel, placed as in pictures: no name covers another one, or its own shape.
+// The placer of names in a panel. A name lies neither on the arm, nor on a marker, nor on another name. It avoids paths
+// as far as possible, is joined to a distant shape by a line, and is left out if there is no place for it.
 'use strict';
 
 const Labels = (() => {
-  const FONT = '600 12px system-ui, sans-serif';
-  /** Height of a name's box, and its distance from the shape beside it, in pixels. */
-  const [LINE, GAP] = [15, 3];
-  /** Half the width of the markers of start and goals, in pixels. */
-  const MARKER = 8;
+  /** Height of a name's box, its distance from the shape beside it, and half the width of markers, in pixels. */
+  const [LINE, GAP, MARKER] = [15, 3, 8];
+  /** Distances from the shape at which a name needs a line to it, in pixels. */
+  const LEADERS = [18, 36, 58];
   /** Largest fraction of a named area that its name may cover. */
   const COVERED = 0.5;
+  /** Side of a cell of the raster in which names are placed within regions, in pixels. */
+  const CELL = 4;
+  /** Value of a cell that no name may cover, and the least part of a name that must lie on its region. */
+  const [BLOCKED, PART] = [-1, 0.3];
   /** Possible positions of a name: on its shape, then above, below, to the sides and at the corners of it. */
   const SIDES = [[0, 0], [0, -1], [0, 1], [1, 0], [-1, 0], [1, -1], [-1, -1], [1, 1], [-1, 1]];
+  /** Costs of a place: crossing a path, and a line to the shape. A name that stays where it was costs less. */
+  const [CROSSING, LEADER, STAYING] = [3, 0.6, -0.3];
+
+  // Boxes.
 
   /** Returns a square about a spot. */
   const about = ([x, y], half = 0) => ({ x: x - half, y: y - half, width: 2 * half, height: 2 * half });
-
+  const middle = ({ x, y, width, height }) => [x + width / 2, y + height / 2];
+  const grown = ({ x, y, width, height }, by) => ({ x: x - by, y: y - by, width: width + 2 * by, height: height + 2 * by });
   /** Returns the common area in square pixels. */
   const common = (a, b) => Math.max(0, Math.min(a.x + a.width, b.x + b.width) - Math.max(a.x, b.x)) * Math.max(0, Math.min(a.y + a.height, b.y + b.height) - Math.max(a.y, b.y));
+  const within = (a, b) => a.x >= b.x && a.y >= b.y && a.x + a.width <= b.x + b.width && a.y + a.height <= b.y + b.height;
+  const holds = (box, [x, y]) => x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
   /** Moves a box into another one. */
   const pushed = (a, b) => ({ ...a, x: Math.max(b.x, Math.min(b.x + b.width - a.width, a.x)), y: Math.max(b.y, Math.min(b.y + b.height - a.height, a.y)) });
-  const within = (a, b) => a.x >= b.x && a.y >= b.y && a.x + a.width <= b.x + b.width && a.y + a.height <= b.y + b.height;
 
-  function size(context, text) {
-    context.font = FONT;
-    return [context.measureText(text).width + 6, LINE];
+  function size(context, panel, text) {
+    context.font = panel.theme.font(600);
+    return [context.measureText(text).width + 6 * panel.zoom, LINE * panel.zoom];
+  }
+
+  // What names must avoid.
+
+  /** Returns an empty collection: boxes of names and markers, shapes of arms, and points on paths, all in pixels. */
+  const nothing = () => ({ boxes: [], shapes: [], points: [] });
+  const copy = ({ boxes, shapes, points }) => ({ boxes: [...boxes], shapes: [...shapes], points });
+
+  /** Returns a shape in pixels that count upwards, so that corners stay counter-clockwise. */
+  function inPixels(panel, { core, radius }) {
+    const flat = [];
+    for (let i = 0; i + 1 < core.length; i += 2) {
+      const [x, y] = panel.at([core[i], core[i + 1]]);
+      flat.push(x, -y);
+    }
+    return { core: flat, radius: radius * panel.pixels };
+  }
+
+  /** Lets names avoid a convex shape of the panel's plane, such as a part of the arm. */
+  const blockShape = (panel, shape) => panel.blocked.shapes.push(inPixels(panel, shape));
+  const blockSpot = (panel, spot, half = MARKER) => panel.blocked.boxes.push(about(spot, half));
+
+  /** Lets names dodge a line through spots. */
+  function blockLine(panel, spots) {
+    const { points } = panel.blocked;
+    spots.forEach((spot, i) => {
+      points.push(spot);
+      const before = spots[i - 1];
+      const length = before ? Math.hypot(spot[0] - before[0], spot[1] - before[1]) : 0;
+      for (let k = 1; k * CELL < length; k += 1) points.push([0, 1].map((c) => before[c] + ((spot[c] - before[c]) * k * CELL) / length));
+    });
+  }
+
+  /** Returns true if a name in this box would lie on something. */
+  function isBlocked(panel, box) {
+    const { boxes, shapes } = panel.blocked;
+    if (!within(box, panel.rect) || boxes.some((other) => common(box, other) > 0)) return true;
+    const { x, y, width, height } = box;
+    const corners = { core: [x, -y - height, x + width, -y - height, x + width, -y, x, -y], radius: 1 };
+    return shapes.some((shape) => Geometry.separation(corners, shape) <= 0);
+  }
+
+  const crosses = (panel, box) => panel.blocked.points.some((point) => holds(grown(box, 2), point));
+
+  // Placing.
+
+  /** Returns the possible places of a name, nearest first: { box, isFar }. */
+  function places(panel, [width, height], of) {
+    const fits = width <= of.width && height <= of.height;
+    const at = (gap) => ([dx, dy]) => ({
+      x: of.x + of.width / 2 - width / 2 + dx * (width / 2 + gap + of.width / 2),
+      y: of.y + of.height / 2 - height / 2 + dy * (height / 2 + gap + of.height / 2),
+      width, height,
+    });
+    const near = SIDES.slice(fits ? 0 : 1).map(at(GAP)).map((box) => ({ box, isFar: false }));
+    const far = LEADERS.flatMap((gap) => SIDES.slice(1).map(at(gap * panel.zoom))).map((box) => ({ box, isFar: true }));
+    return [...near, ...far];
+  }
+
+  /** Draws a line from a name to the shape that it names. */
+  function leader(context, panel, box, of) {
+    const [x, y] = middle(box);
+    const end = [Math.max(of.x, Math.min(of.x + of.width, x)), Math.max(of.y, Math.min(of.y + of.height, y))];
+    const begin = [Math.max(box.x, Math.min(box.x + box.width, end[0])), Math.max(box.y, Math.min(box.y + box.height, end[1]))];
+    for (const [width, color] of [[3, panel.theme.paper], [1, panel.theme.grey]]) {
+      [context.lineWidth, context.strokeStyle] = [width, color];
+      line(context, [begin, end]);
+    }
+  }
+
+  /** Draws a name at the best of its free places, or leaves it out. `cost` adds to the cost of a box. */
+  function put(context, panel, text, of, cost) {
+    const before = panel.placed.get(text);
+    let [best, least] = [null, Infinity];
+    places(panel, size(context, panel, text), of).forEach(({ box, isFar }, index) => {
+      const known = 0.01 * index + (isFar ? LEADER : 0) + (before === index ? STAYING : 0);
+      if (known >= least || isBlocked(panel, box)) return;
+      const whole = known + (crosses(panel, box) ? CROSSING : 0) + cost(box);
+      if (whole < least) [best, least] = [{ box, isFar, index }, whole];
+    });
+    if (!best) {
+      panel.placed.delete(text);
+      return false;
+    }
+    panel.placed.set(text, best.index);
+    panel.blocked.boxes.push(best.box);
+    if (best.isFar) leader(context, panel, best.box, of);
+    write(context, panel.theme, text, ...middle(best.box));
+    return true;
   }
 
   /**
    * Draws names, each with the box of its shape: on the shape or, if that is smaller, beside it, where the name covers
-   * least of the others. Earlier names choose first. No name covers one of the markers.
+   * least of the others. Earlier names choose first.
    */
   function beside(context, panel, names, markers = []) {
-    const taken = markers.map((spot) => about(spot, MARKER));
+    for (const spot of markers) blockSpot(panel, spot);
+    // It is better to hide a part of a large shape than all of a small one.
+    const share = (box, other) => common(box, other) / Math.max(LINE * LINE, other.width * other.height);
     for (const [text, of] of names) {
-      const [width, height] = size(context, text);
-      const fits = width <= of.width && height <= of.height;
-      const free = SIDES.slice(fits ? 0 : 1)
-        .map(([dx, dy]) => ({
-          x: of.x + of.width / 2 - width / 2 + dx * (width / 2 + GAP + of.width / 2),
-          y: of.y + of.height / 2 - height / 2 + dy * (height / 2 + GAP + of.height / 2),
-          width, height,
-        }))
-        .filter((box) => within(box, panel.rect) && !taken.some((other) => common(box, other) > 0));
-      if (!free.length) continue;
-      // It is better to hide a part of a large shape than all of a small one.
-      const share = (box, other) => common(box, other) / Math.max(LINE * LINE, other.width * other.height);
-      const hidden = (box) => names.reduce((sum, [, other]) => sum + (other === of ? 0 : share(box, other)), 0);
-      const place = free.reduce((best, box) => (hidden(box) < hidden(best) ? box : best));
-      taken.push(place);
-      write(context, panel.theme, text, place.x + width / 2, place.y + height / 2);
+      put(context, panel, text, of, (box) => names.reduce((sum, [, other]) => sum + (other === of ? 0 : share(box, other)), 0));
     }
+  }
+
+  /**
+   * Draws names on regions of any shape: within the part of a region that is visible, as far as possible from its
+   * outline, or beside a smaller part with a line to it. A region is { text, paint(context) }; later ones cover earlier
+   * ones.
+   */
+  function onRegions(context, panel, regions) {
+    if (!regions.length) return;
+    const { rect, blocked } = panel;
+    const [columns, rows] = [rect.width, rect.height].map((side) => Math.max(1, Math.ceil(side / CELL)));
+    const raster = document.createElement('canvas');
+    [raster.width, raster.height] = [columns, rows];
+    const painter = raster.getContext('2d', { willReadFrequently: true });
+    painter.setTransform(1 / CELL, 0, 0, 1 / CELL, -rect.x / CELL, -rect.y / CELL);
+    regions.forEach(({ paint }, index) => {
+      painter.fillStyle = `rgb(${(index + 1) % 256}, ${(index + 1) >> 8}, 255)`;
+      paint(painter);
+    });
+    const { data } = painter.getImageData(0, 0, columns, rows);
+    /** Number of the region in each cell, from 1; 0 for none. */
+    const cells = new Int32Array(columns * rows);
+    for (let k = 0; k < cells.length; k += 1) {
+      const [red, green, blue, alpha] = data.subarray(4 * k, 4 * k + 4);
+      if (blue === 255 && alpha === 255) cells[k] = red + 256 * green;
+    }
+    const full = cells.slice();
+    const clear = ({ x, y, width, height }) => {
+      const [x0, x1] = [x - rect.x, x + width - rect.x].map((at) => Math.floor(at / CELL));
+      const [y0, y1] = [y - rect.y, y + height - rect.y].map((at) => Math.floor(at / CELL));
+      for (let j = Math.max(0, y0); j <= Math.min(rows - 1, y1); j += 1) {
+        cells.fill(BLOCKED, j * columns + Math.max(0, x0), j * columns + Math.max(0, Math.min(columns - 1, x1) + 1));
+      }
+    };
+    blocked.boxes.forEach(clear);
+    for (const point of blocked.points) clear(about(point, 2));
+    const isRegion = (x, y) => full[Math.floor((y - rect.y) / CELL) * columns + Math.floor((x - rect.x) / CELL)] > 0;
+    const rest = [];
+    regions.forEach(({ text }, index) => {
+      const [width, height] = size(context, panel, text);
+      const spot = roomiest(cells, [columns, rows], index + 1, [width, height].map((side) => Math.ceil(side / CELL)));
+      if (spot?.fits) {
+        const [x, y] = [0, 1].map((k) => [rect.x, rect.y][k] + spot.at[k] * CELL);
+        blocked.boxes.push({ x: x - width / 2, y: y - height / 2, width, height });
+        write(context, panel.theme, text, x, y);
+      } else {
+        // The path may cover all of a small region.
+        const place = spot ?? roomiest(full, [columns, rows], index + 1, [1, 1]);
+        if (place) rest.push([text, about([0, 1].map((k) => [rect.x, rect.y][k] + place.at[k] * CELL), CELL)]);
+      }
+    });
+    // Of the points of a box, how many lie on regions.
+    const covered = ({ x, y, width, height }) => {
+      let count = 0;
+      for (let i = 0; i < 5; i += 1) for (let j = 0; j < 3; j += 1) count += isRegion(x + (width * (i + 0.5)) / 5, y + (height * (j + 0.5)) / 3);
+      return count / 15;
+    };
+    for (const [text, of] of rest) put(context, panel, text, of, covered);
+  }
+
+  /**
+   * Returns the place in region `id` for a name of this size: { at, fits }, with the middle in cells. A name that fits
+   * within the region lies as far as possible from the outline. Otherwise its middle lies on the region, and the rest
+   * covers nothing else. `fits` is false if there is no such place. Returns `null` if the region has no cells.
+   */
+  function roomiest(cells, [columns, rows], id, [width, height]) {
+    let [x0, x1, y0, y1] = [columns, -1, rows, -1];
+    for (let k = 0; k < cells.length; k += 1) {
+      if (cells[k] !== id) continue;
+      const [x, y] = [k % columns, Math.floor(k / columns)];
+      [x0, x1, y0, y1] = [Math.min(x0, x), Math.max(x1, x), Math.min(y0, y), Math.max(y1, y)];
+    }
+    if (x1 < 0) return null;
+    const center = [(x0 + x1 + 1) / 2, (y0 + y1 + 1) / 2];
+    // A name may stick out of the region.
+    [x0, x1] = [Math.max(0, x0 - width), Math.min(columns - 1, x1 + width)];
+    [y0, y1] = [Math.max(0, y0 - height), Math.min(rows - 1, y1 + height)];
+    const [nx, ny] = [x1 - x0 + 1, y1 - y0 + 1];
+    /** Returns a function that counts the cells of a kind in a box. */
+    const counter = (isCounted) => {
+      const sums = new Int32Array((nx + 1) * (ny + 1));
+      for (let y = 0; y < ny; y += 1) {
+        for (let x = 0, row = 0; x < nx; x += 1) {
+          row += isCounted(cells[(y0 + y) * columns + x0 + x]);
+          sums[(y + 1) * (nx + 1) + x + 1] = sums[y * (nx + 1) + x + 1] + row;
+        }
+      }
+      return (x, y, w, h) => sums[(y + h) * (nx + 1) + x + w] - sums[y * (nx + 1) + x + w] - sums[(y + h) * (nx + 1) + x] + sums[y * (nx + 1) + x];
+    };
+    const own = counter((cell) => cell === id);
+    /** Returns the middle of the best box by `rate`, which returns -1 for a box that is not possible. */
+    const find = (w, h, rate) => {
+      let [best, most] = [null, -Infinity];
+      for (let y = 0; y + h <= ny; y += 1) {
+        for (let x = 0; x + w <= nx; x += 1) {
+          const rating = rate(x, y);
+          if (rating < 0) continue;
+          const at = [x0 + x + w / 2, y0 + y + h / 2];
+          const whole = rating - 1e-4 * (Math.abs(at[0] - center[0]) + Math.abs(at[1] - center[1]));
+          if (whole > most) [best, most] = [at, whole];
+        }
+      }
+      return best;
+    };
+    const fitting = (w, h) => find(w, h, (x, y) => (own(x, y, w, h) === w * h ? 1 : -1));
+    let fit = fitting(width, height);
+    if (!fit) {
+      const foreign = counter((cell) => cell !== id && cell !== 0);
+      const part = (x, y) => own(x, y, width, height) / (width * height);
+      const isOn = (x, y) => cells[(y0 + y + (height >> 1)) * columns + x0 + x + (width >> 1)] === id;
+      const place = find(width, height, (x, y) => (isOn(x, y) && !foreign(x, y, width, height) && part(x, y) >= PART ? part(x, y) : -1));
+      if (place) return { at: place, fits: true };
+      let side = 1;
+      while (fitting(2 * side, 2 * side)) side *= 2;
+      return { at: fitting(side, side), fits: false };
+    }
+    // The largest margin about the name, by bisection.
+    let [low, high] = [0, Math.ceil(Math.max(nx, ny) / 2)];
+    while (high - low > 1) {
+      const margin = (low + high) >> 1;
+      const found = fitting(width + 2 * margin, height + 2 * margin);
+      if (found) [fit, low] = [found, margin];
+      else high = margin;
+    }
+    return { at: fit, fits: true };
   }
 
   /** Draws names centred at spots, each with the area of its shape in square pixels. No name covers one of the markers. */
   function inside(context, panel, markers, names) {
     const taken = markers.map((spot) => about(spot, MARKER));
     for (const [text, [x, y], area] of names) {
-      const [width, height] = size(context, text);
+      const [width, height] = size(context, panel, text);
       const place = pushed({ x: x - width / 2, y: y - height / 2, width, height }, panel.rect);
       if (width * height > COVERED * area || taken.some((other) => common(place, other) > 0)) continue;
       taken.push(place);
@@ -65,8 +276,8 @@ const Labels = (() => {
   }
 
   /** Returns the box for a name beyond `tip`, as seen from `from`. */
-  function beyond(context, text, tip, from) {
-    const [width, height] = size(context, text);
+  function beyond(context, panel, text, tip, from) {
+    const [width, height] = size(context, panel, text);
     const away = [tip[0] - from[0], tip[1] - from[1]];
     const length = Math.hypot(...away) || 1;
     const [x, y] = [width, height].map((side, k) => tip[k] + (away[k] / length) * (side / 2 + 2 * GAP) - side / 2);
@@ -74,7 +285,7 @@ const Labels = (() => {
   }
 
   function write(context, theme, text, x, y) {
-    context.font = FONT;
+    context.font = theme.font(600);
     context.textAlign = 'center';
     context.textBaseline = 'middle';
     context.lineWidth = 3.5;
@@ -84,5 +295,5 @@ const Labels = (() => {
     context.fillText(text, x, y);
   }
 
-  return { about, beside, beyond, inside, write };
+  return { about, beside, beyond, inside, onRegions, write, nothing, copy, blockShape, blockSpot, blockLine };
 })();

@@ -14,14 +14,6 @@ class Learn {
   /** Number of slices from which the first one to show is chosen: the one with the most contacts. */
   static TRIED = 25;
 
-  static degrees(angle) {
-    return `${((angle * 180) / Math.PI).toFixed(1).replace('-', '\u2212')}\u00b0`;
-  }
-
-  static metres(length) {
-    return `${length.toFixed(4).replace('-', '\u2212')} m`;
-  }
-
   /** Returns the name of a side of a polygon with `count` corners. */
   static side(letter, index, count) {
     return `${letter}${index + 1}${letter}${((index + 1) % count) + 1}`;
@@ -43,7 +35,7 @@ class Learn {
       lesson: select('lesson', (value) => this.start(value)),
       a: select('polygon of the arm', (value) => this.take([Number(value), this.pair[1]])),
       b: select('polygon of an obstacle', (value) => this.take([this.pair[0], Number(value)])),
-      told: element('div', { class: 'told' }),
+      text: element('div', { class: 'lesson' }),
     };
     this.parts.choice = element('p', { class: 'choice' }, this.parts.lesson, ' ', this.parts.a, ' ', this.parts.b);
     this.parts.panels = element(
@@ -168,19 +160,19 @@ class Learn {
 
   choose(contact) {
     this.chosen = contact;
-    this.tell();
+    this.describe();
     for (const panel of Object.values(this.view.panels)) panel.draw();
   }
 
   /** Chooses a contact by its button. The list is built again, so the new button gets the focus. */
   pick(contact) {
     this.choose(contact);
-    this.parts.told.querySelectorAll('button')[contact].focus();
+    this.parts.text.querySelectorAll('button')[contact].focus();
   }
 
   /** Formats a value of a joint with its unit. */
   value(k, value) {
-    return this.view.model.arm.joints[k].unit === 'rad' ? Learn.degrees(value) : Learn.metres(value);
+    return Numbers.joint(this.view.model.arm.joints[k], value);
   }
 
   /** Describes the features that touch. */
@@ -273,7 +265,7 @@ class Learn {
 
   changed() {
     if (this.view.mode !== 'learn') return;
-    this.tell();
+    this.describe();
     for (const panel of Object.values(this.panels)) panel.draw();
   }
 
@@ -281,7 +273,7 @@ class Learn {
   show() {
     const pair = !this.isSlice;
     const active = this.view.mode === 'learn';
-    this.parts.choice.hidden = this.parts.told.hidden = !active;
+    this.parts.choice.hidden = this.parts.text.hidden = !active;
     this.parts.panels.hidden = !active || !pair;
     this.parts.a.hidden = this.parts.b.hidden = !pair;
     if (!active || !pair) return;
@@ -296,7 +288,7 @@ class Learn {
   /** Returns the text beside the scrubber. */
   get clock() {
     if (this.isSlice) return `${this.view.model.arm.joints[0].name} ${this.value(0, this.q1)}`;
-    return this.lesson === 'stack' ? Learn.degrees(2 * Math.PI * this.part) : `${this.step + 1} of ${this.steps.length}`;
+    return this.lesson === 'stack' ? Numbers.angle(2 * Math.PI * this.part) : `${this.step + 1} of ${this.steps.length}`;
   }
 
   get caption() {
@@ -304,7 +296,7 @@ class Learn {
     if (this.isSlice) {
       const { contacts, bands } = this.slice;
       const names = bands.map((index) => this.view.world.obstacles[index].name).join(', ');
-      if (bands.length) return `Link 1 touches ${names} for all values of ${joints[1].name}`;
+      if (bands.length) return `Link 1 touches ${names} at every value of ${joints[1].name}`;
       return `Contacts of ${joints[1].name} here: ${contacts.length || 'none'}`;
     }
     if (this.lesson === 'tests') {
@@ -328,16 +320,17 @@ class Learn {
     return Contact.polygonTest(this.moved, this.pieces.b);
   }
 
-  tell() {
-    const cell = (tag, text, attributes = {}) => element(tag, attributes, text);
+  /** Writes the caption, and the tables below the pictures. */
+  describe() {
+    const cell = (tag, content, attributes = {}) => element(tag, attributes, content);
     const table = (caption, head, rows) => element(
       'table',
       {},
       element('caption', {}, caption),
-      element('thead', {}, element('tr', {}, ...head.map((text) => cell('th', text, { scope: 'col' })))),
+      element('thead', {}, element('tr', {}, ...head.map((name) => cell('th', name, { scope: 'col' })))),
       element('tbody', {}, ...rows),
     );
-    const { told } = this.parts;
+    const { text } = this.parts;
     const { step } = this.view.parts;
     if (step.textContent !== this.caption) step.textContent = this.caption;
     if (this.isSlice) {
@@ -348,28 +341,28 @@ class Learn {
         element('td', {}, element('button', { type: 'button', class: 'button', onclick: () => this.pick(index) }, this.value(1, contact.value))),
         cell('td', this.touching(contact)),
       ));
-      told.replaceChildren(...(rows.length ? [table('Contacts of this slice', [this.view.model.arm.joints[1].name, 'touching features'], rows)] : []));
+      text.replaceChildren(...(rows.length ? [table('Contacts of this slice', [this.view.model.arm.joints[1].name, 'touching features'], rows)] : []));
     } else if (this.lesson === 'tests') {
       const { mine, others, crossings } = this.test();
       const distances = (letter, name, tests, count) => table(
-        `Corners of ${name}: signed distances, m`,
+        `Corners of ${name}: signed distances, mm`,
         ['corner', ...Array.from({ length: count }, (_, k) => Learn.side(letter === 'a' ? 'b' : 'a', k, count)), 'within'],
         tests.map((test, i) => element(
           'tr',
           {},
           cell('th', `${letter}${i + 1}`, { scope: 'row' }),
-          ...test.distances.map((d, k) => cell('td', d.toFixed(4).replace('-', '\u2212'), { class: k === test.side ? 'least' : undefined })),
-          cell('td', test.inside ? `${Learn.metres(test.depth)} deep` : 'no'),
+          ...test.distances.map((d, k) => cell('td', Numbers.digits(1000 * d), { class: k === test.side ? 'least' : undefined })),
+          cell('td', test.inside ? `${Numbers.length(test.depth)} deep` : 'no'),
         )),
       );
       const { a, b } = this.pieces;
       const crossed = crossings.map(([i, k]) => `${Learn.side('a', i, a.length)} and ${Learn.side('b', k, b.length)}`).join('; ');
-      told.replaceChildren(
+      text.replaceChildren(
         distances('a', 'the link, sides of the obstacle', mine, b.length),
         distances('b', 'the obstacle, sides of the link', others, a.length),
         element('p', { class: 'crossings' }, crossings.length ? `Sides that cross: ${crossed}.` : 'No sides cross.'),
       );
-    } else told.replaceChildren();
+    } else text.replaceChildren();
   }
 
   // Drawings.
@@ -538,12 +531,11 @@ class Learn {
     line(context, there.map((p) => panel.at(p)));
     for (const p of there) this.dot(context, panel, p, edge, 4);
     if (this.lesson === 'sweep') {
-      Labels.inside(context, panel, [], there.map((p, s) => {
-        const [x, y] = panel.at(p);
-        return [`b${steps[s].k + 1} \u2212 a${steps[s].i + 1}`, [x, y - 16], Infinity];
-      }));
-      this.dot(context, panel, there[there.length - 1], theme.infeasible, 6);
       this.drawDirections(context, panel, steps);
+      Labels.blockLine(panel, there.map((p) => panel.at(p)));
+      Labels.blockSpot(panel, panel.at(this.placeOf(this.pieces.at)));
+      Labels.beside(context, panel, there.map((p, s) => [`b${steps[s].k + 1} \u2212 a${steps[s].i + 1}`, Labels.about(panel.at(p), 6)]));
+      this.dot(context, panel, there[there.length - 1], theme.infeasible, 6);
     }
     this.dot(context, panel, this.placeOf(this.pieces.at), theme.accent, 6);
   }
@@ -553,6 +545,7 @@ class Learn {
     const { theme, rect } = panel;
     const r = Math.min(46, rect.width / 8);
     const [x, y] = [rect.x + rect.width - r - 14, rect.y + r + 14];
+    Labels.blockSpot(panel, [x, y], r + 2);
     context.beginPath();
     context.arc(x, y, r, 0, 2 * Math.PI);
     context.fillStyle = theme.paper;
@@ -626,10 +619,10 @@ class Learn {
       if (event.touches.length === 1 && grasp(panel.spot({ clientX, clientY }))) event.preventDefault();
     }, { passive: false });
     canvas.addEventListener('keydown', (event) => {
-      const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
-      if (!way || event.ctrlKey || event.metaKey || event.altKey) return;
+      const direction = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
+      if (!direction || event.ctrlKey || event.metaKey || event.altKey) return;
       const step = (this.size / 100) * (event.shiftKey ? 10 : 1);
-      this.pieces.at = snap(Contact.plus(this.pieces.at, way.map((x) => x * step)));
+      this.pieces.at = snap(Contact.plus(this.pieces.at, direction.map((x) => x * step)));
       this.settle();
       event.preventDefault();
       event.stopPropagation();

@@ -1,4 +1,4 @@
-// The legend: the entries of the picture's legend, each with its sign.
+// Signs of the legend: those of the program's pictures, and those of layers that only pages have.
 'use strict';
 
 const Legend = (() => {
@@ -20,16 +20,32 @@ const Legend = (() => {
     center: () => '<circle cx="18" cy="8" r="3" fill="var(--ink)" stroke="var(--paper)" stroke-width="0.8"/>',
     middle: () => '<circle cx="18" cy="8" r="3" fill="var(--paper)" stroke="var(--ink)" stroke-width="1.4"/>',
     hatched: (theme) => `<path d="M6 7l5-5M6 14l12-12M13 14l9-9M20 14l2-2" stroke="${theme.proof}" stroke-width="1.6"/><path ${SQUARE} fill="none" stroke="${theme.proof}" stroke-width="1.1"/>`,
+    path: () => '<path d="M0 8h26" stroke="var(--ink)" stroke-width="2.4"/>',
+    'c-obstacles': () => `<path d="M7 12c-3-5 2-10 8-9s9 6 5 9s-9 3-13 0z" fill="var(--ghost)" stroke="var(--grey)" stroke-width="1.2"/>`,
+    access: () => `<path ${SQUARE} fill="var(--reached)" stroke="var(--grey)"/>`,
+    poses: () => '<path d="M5 14l7-9l9-2" fill="none" stroke="var(--grey)" stroke-width="5" stroke-linejoin="round"/><path d="M5 14l7-9l9-2" fill="none" stroke="var(--ghost)" stroke-width="3.4" stroke-linejoin="round"/>',
+    names: () => '<path d="M4 13L8.5 2.5L13 13M5.7 9.5h5.6M22 6v7M22 9.5a3 3.4 0 1 0-.01 .1" fill="none" stroke="var(--ink)" stroke-width="1.6"/>',
+    frames: () => '<path d="M7 14V2M7 14h14" stroke="var(--ink)" stroke-width="1.8"/>',
+    regions: () => `<path ${SQUARE} fill="none" stroke="var(--preferred)" stroke-width="1.4" stroke-dasharray="5 3"/>`,
+    proof: (theme) => SIGNS.hatched(theme),
+    channel: () => `<path ${SQUARE} fill="var(--channel)" stroke="var(--grey)"/>`,
+    cells: () => '<path d="M2 2v12M9 2v12M16 2v12M24 2v12M2 3h22M2 13h22" stroke="var(--edge)"/>',
+    rows: () => '<path d="M4 1v14M8 1v14M12 1v14M18 1v14M22 1v14" stroke="var(--edge)"/>',
+    roadmap: () => '<path d="M1 14L10 3l14 9M10 3l-2 12" fill="none" stroke="var(--edge)" stroke-width="1.2"/>',
+    roads: () => '<path d="M1 14L10 3l14 9M10 3l-2 12" fill="none" stroke="var(--edge)" stroke-width="1.2"/>',
+    expanded: (theme) => [0, 0.5, 1].map((part, k) => `<circle cx="${5 + 8 * k}" cy="8" r="3" fill="${theme.scale(part)}"/>`).join(''),
+    wavefront: (theme) => [0, 0.33, 0.67, 1].map((part, k) => `<path d="M${1 + 6 * k} 2h6v12h-6z" fill="${theme.scale(part)}"/>`).join(''),
+    equipotentials: (theme) => `<path d="M2 14c2-10 20-10 22 0M7 14c2-6 10-6 12 0" fill="none" stroke="${theme.scale(0.5)}" stroke-width="1.4"/>`,
+    flow: () => '<path d="M2 12c8 0 12-8 20-8m-5-3l5 3l-4 4" fill="none" stroke="var(--accent)" stroke-width="1.4"/>',
+    boxes: () => '<path d="M2 2h11v12h-11z" fill="var(--free)" stroke="var(--edge)"/><path d="M13 2h11v12h-11z" fill="var(--undecided)" stroke="var(--edge)"/>',
   };
 
-  /** Returns the entries as items of a list. */
-  function items(theme, keys) {
-    return keys.map((key) => {
-      const sign = document.createElement('template');
-      sign.innerHTML = `<svg width="26" height="16" viewBox="0 0 26 16" aria-hidden="true">${SIGNS[key.sign](theme, key)}</svg>`;
-      return element('li', {}, sign.content, key.text);
-    });
+  /** Returns the sign of an entry. */
+  function sign(theme, key) {
+    const made = document.createElement('template');
+    made.innerHTML = `<svg viewBox="0 0 26 16" aria-hidden="true">${SIGNS[key.sign](theme, key)}</svg>`;
+    return made.content;
   }
 
-  return { items };
+  return { sign };
 })();

@@ -8,6 +8,14 @@ class Theme {
     const value = (name) => style.getPropertyValue(`--${name}`).trim();
     for (const name of ROLES) this[name] = value(name);
     this.dark = value('dark') === '1';
+    /** Size of text on canvases, in pixels. It follows the reader's text size, as the text around the canvases does. */
+    this.text = parseFloat(style.fontSize) * parseFloat(value('type-small'));
+    this.family = value('font');
+  }
+
+  /** Returns the font of text on canvases. `scale` is relative to the usual size. */
+  font(weight = 400, scale = 1) {
+    return `${weight} ${scale * this.text}px ${this.family}`;
   }
 
   /** Returns a colour with some of another mixed in; both as #rrggbb. */
@@ -37,18 +45,21 @@ class Theme {
   }
 }
 
-/** Returns ticks of an axis from `low` to `high` that is `room` pixels long, at least about `spacing` pixels apart. */
+/**
+ * Returns ticks of an axis from `low` to `high` that is `room` pixels long, at least about `spacing` pixels apart.
+ * `degrees` is true for an axis in radians, or 'plain' to leave out the degree sign.
+ */
 function ticks(low, high, degrees, room, spacing) {
   const unit = degrees ? Math.PI / 180 : 1;
   const wanted = ((high - low) / unit / Math.max(2, room / spacing)) || 1;
   const power = 10 ** Math.floor(Math.log10(wanted));
-  const steps = degrees && wanted > 4 ? [5, 10, 15, 30, 45, 90, 180, 360, 720, 3600] : [1, 2, 5, 10].map((k) => k * power);
+  const steps = degrees && wanted > 4 && wanted <= 720 ? [5, 10, 15, 30, 45, 90, 180, 360, 720] : [1, 2, 5, 10].map((k) => k * power);
   const step = steps.find((s) => s >= wanted * 0.999) ?? steps[steps.length - 1];
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const found = [];
   for (let k = Math.ceil(low / unit / step - 1e-9); k * step * unit <= high + 1e-9 * (high - low); k += 1) {
     const text = (k * step).toFixed(digits).replace('-', '\u2212');
-    found.push({ value: k * step * unit, text: degrees ? `${text}\u00b0` : text });
+    found.push({ value: k * step * unit, text: degrees === true ? `${text}\u00b0` : text });
   }
   return found;
 }
@@ -57,11 +68,14 @@ function ticks(low, high, degrees, room, spacing) {
 const MOST_TIMES = 2000;
 
 class Panel {
+  /** Text size for which margins and distances are given, in pixels. */
+  static TEXT = 13;
+
   /**
    * @param canvas the canvas to draw on
    * @param options `x`, `y`: ranges; `degrees`: for both axes; `titles`; `scale`: 'fill' (one scale, may show more than
    * the ranges), 'fit' (one scale, exactly the ranges) or 'free'; `still` and `moving`: functions that draw the fixed
-   * and the moving content; `beside`: one that draws fixed content outside the sides; `margins`
+   * and the moving content; `shape`: ratio of width to height, or `null` for all the room; `beside`: one that draws fixed content outside the sides; `margins`
    */
   constructor(canvas, options) {
     Object.assign(this, { degrees: [false, false], seams: [false, false], titles: ['', ''], scale: 'free' }, options);
@@ -73,6 +87,10 @@ class Panel {
     this.back = document.createElement('canvas');
     this.scratch = document.createElement('canvas');
     this.dirty = true;
+    /** Items that names avoid: those of the fixed content, and all. */
+    this.fixed = this.blocked = Labels.nothing();
+    /** Last place of each name, by its number among the possible places. */
+    this.placed = new Map();
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
@@ -95,9 +113,14 @@ class Panel {
   /** Fits ranges to pixels. */
   layout() {
     if (!this.size) return;
-    const [narrow, right, top, bottom] = this.margins ?? [48, 10, 8, 40];
+    const [narrow, right, top, bottom] = (this.margins ?? [48, 10, 8, 40]).map((margin) => margin * this.zoom);
     const left = narrow + this.digits;
-    const rect = { x: left, y: top, width: this.size[0] - left - right, height: this.size[1] - top - bottom };
+    const rect = { x: left, y: top, width: Math.max(1, this.size[0] - left - right), height: Math.max(1, this.size[1] - top - bottom) };
+    // On a broad canvas, such as on a phone, that would waste too much room.
+    if (this.shape && rect.width < 1.7 * rect.height) {
+      const [width, height] = [Math.min(rect.width, rect.height * this.shape), Math.min(rect.height, rect.width / this.shape)];
+      Object.assign(rect, { x: rect.x + (rect.width - width) / 2, width, height });
+    }
     let [x, y] = [this.x.slice(), this.y.slice()];
     for (const range of [x, y]) if (!(range[1] > range[0])) [range[0], range[1]] = [range[0] - 0.5, range[0] + 0.5];
     if (this.scale !== 'free') {
@@ -119,9 +142,14 @@ class Panel {
     });
   }
 
+  /** Returns the size of text relative to the usual one. */
+  get zoom() {
+    return (this.theme?.text ?? Panel.TEXT) / Panel.TEXT;
+  }
+
   /** Returns the room for the additional digits of values in a magnified panel, in pixels. */
   get digits() {
-    return 7 * Math.max(0, Math.ceil(Math.log10(this.times)) - 1);
+    return 7 * this.zoom * Math.max(0, Math.ceil(Math.log10(this.times)) - 1);
   }
 
   /** Magnifies by a factor; the value at a spot stays there as far as possible. */
@@ -207,12 +235,15 @@ class Panel {
     if (!this.size || !this.theme) return;
     if (this.dirty) {
       this.dirty = false;
+      this.blocked = Labels.nothing();
       const context = this.begin(this.back);
       this.axes(context);
       this.within(context, () => this.still?.(context, this));
       this.border(context);
       this.beside?.(context, this);
+      this.fixed = this.blocked;
     }
+    this.blocked = Labels.copy(this.fixed);
     const context = this.begin(this.canvas);
     context.drawImage(this.back, 0, 0, this.size[0], this.size[1]);
     this.within(context, () => {
@@ -253,34 +284,35 @@ class Panel {
   }
 
   axes(context) {
-    const { rect, shown, theme } = this;
+    const { rect, shown, theme, zoom } = this;
     context.fillStyle = theme.paper;
     context.fillRect(rect.x, rect.y, rect.width, rect.height);
-    context.font = '12px system-ui, sans-serif';
+    context.font = theme.font();
     context.fillStyle = theme.grey;
     context.strokeStyle = theme.faint;
     context.lineWidth = 1;
-    const [across, up] = [0, 1].map((k) => ticks(...shown[k], this.degrees[k], [rect.width, rect.height][k], [56 + 1.4 * this.digits, 34][k]));
+    const [across, up] = [0, 1].map((k) => ticks(...shown[k], this.degrees[k], [rect.width, rect.height][k], [56 * zoom + 1.4 * this.digits, 34 * zoom][k]));
     context.textAlign = 'center';
     context.textBaseline = 'top';
     for (const { value, text } of across) {
       const [x] = this.at([value, shown[1][0]]);
       line(context, [[x, rect.y], [x, rect.y + rect.height]]);
-      context.fillText(text, x, rect.y + rect.height + 5);
+      // The last number, with its degree sign, stays within the canvas.
+      context.fillText(text, Math.min(x, this.size[0] - context.measureText(text).width / 2 - 1), rect.y + rect.height + 5 * zoom);
     }
     context.textAlign = 'right';
     context.textBaseline = 'middle';
     for (const { value, text } of up) {
       const [, y] = this.at([shown[0][0], value]);
       line(context, [[rect.x, y], [rect.x + rect.width, y]]);
-      context.fillText(text, rect.x - 6, y);
+      context.fillText(text, rect.x - 6 * zoom, y);
     }
     context.fillStyle = theme.ink;
     context.textAlign = 'center';
     context.textBaseline = 'bottom';
-    context.fillText(this.titles[0], rect.x + rect.width / 2, rect.y + rect.height + 36);
+    context.fillText(this.titles[0], rect.x + rect.width / 2, rect.y + rect.height + 37 * zoom);
     context.save();
-    context.translate(rect.x - 36 - this.digits, rect.y + rect.height / 2);
+    context.translate(rect.x - Math.max(35, (this.margins?.[0] ?? 48) - 13) * zoom - this.digits, rect.y + rect.height / 2);
     context.rotate(-Math.PI / 2);
     context.fillText(this.titles[1], 0, 0);
     context.restore();

@@ -5,5 +5,6 @@ window.cplan = new View(document.querySelector('main'), JSON.parse(document.getE
 {
   const [mode, lesson] = location.hash.slice(1).split('/');
   if (['move', 'think', 'learn'].includes(mode)) cplan.switchTo(mode);
+  if (!mode) cplan.tour.offer();
   if (cplan.mode === 'learn' && cplan.learn.lessons.some(([name]) => name === lesson)) cplan.learn.start(lesson);
 }

@@ -75,7 +75,7 @@ const Plots = (() => {
         x: [0, 1],
         y: [-1, 1],
         titles: ['time (s)', quantity.title],
-        margins: [52, 8, 6, 38],
+        margins: [58, 10, 6, 38],
         still: (context, panel) => shows(view, quantity) && draw(context, panel, view, quantity),
         moving: (context, panel) => shows(view, quantity) && cursor(context, panel, view),
       });
@@ -106,7 +106,10 @@ const Plots = (() => {
     if (!shows(view, quantity)) return;
     const [first, second] = arm.joints.map((joint) => joint.name);
     legend.textContent = `${first} solid, ${second} dashed; limits dotted`;
-    const units = [...new Set(arm.joints.map((joint) => (of ? of[joint.unit] : joint.unit + per)))].join(', ');
+    const turns = !of && arm.joints.every((joint) => joint.unit === 'rad');
+    const units = turns ? `\u00b0${per}` : [...new Set(arm.joints.map((joint) => (of ? of[joint.unit] : joint.unit + per)))].join(', ');
+    // Angles in degrees; the data of the page are in radians.
+    panel.degrees = [false, turns && 'plain'];
     panel.titles = ['time (s)', `${title} (${units})`];
     panel.x = [0, Math.max(clock.time[clock.time.length - 1], 1e-6)];
     panel.y = span(view.model, key);

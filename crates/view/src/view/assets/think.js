@@ -30,10 +30,10 @@ const Think = (() => {
   const count = (all, share) => Math.min(all, Math.round(all * share));
 
   /** Returns the first items of a list, each of which consists of `each` numbers. */
-  const begun = (flat, each, share) => flat.slice(0, each * count(flat.length / each, share));
+  const firstItems = (flat, each, share) => flat.slice(0, each * count(flat.length / each, share));
 
   /** Returns the beginning of a path, as a part of its length. */
-  function gone(points, share) {
+  function firstPart(points, share) {
     const at = (i) => [points[2 * i], points[2 * i + 1]];
     const n = points.length / 2;
     const length = (i) => Math.hypot(points[2 * i + 2] - points[2 * i], points[2 * i + 3] - points[2 * i + 1]);
@@ -93,10 +93,10 @@ const Think = (() => {
       return { kind: 'wavefront', ...phase.frames[at][1] };
     }
     const less = { ...trace };
-    if (trace.edges) less.edges = begun(trace.edges, 4, phase.kind === 'nodes' ? 0 : of('edges'));
-    if (phase.kind === 'nodes') less.nodes = begun(trace.edges, 4, now.part);
-    if (trace.expanded) less.expanded = begun(trace.expanded, 2, of('expanded'));
-    if (trace.kind === 'rows') less.free = begun(trace.free, 4, of('slices'));
+    if (trace.edges) less.edges = firstItems(trace.edges, 4, phase.kind === 'nodes' ? 0 : of('edges'));
+    if (phase.kind === 'nodes') less.nodes = firstItems(trace.edges, 4, now.part);
+    if (trace.expanded) less.expanded = firstItems(trace.expanded, 2, of('expanded'));
+    if (trace.kind === 'rows') less.free = firstItems(trace.free, 4, of('slices'));
     if (trace.kind === 'channel') {
       less.cells = trace.cells.slice(0, count(trace.cells.length, of('cells')));
       less.channel = trace.channel.slice(0, count(trace.channel.length, of('channel')));
@@ -119,9 +119,9 @@ const Think = (() => {
     if (!now) return all;
     const own = view.replay.find((phase) => phase.kind === 'own');
     const begins = own ? part(view, 'own') : 0;
-    const before = begins > 0 ? [{ color: view.panels.cspace.theme.grey, width: 1.6, dash: [], points: gone(own.points, begins) }] : [];
+    const before = begins > 0 ? [{ color: view.panels.cspace.theme.grey, width: 1.6, dash: [], points: firstPart(own.points, begins) }] : [];
     const share = part(view, 'path');
-    return [...before, ...(share > 0 ? all.map((path) => ({ ...path, points: gone(path.points, share) })) : [])]
+    return [...before, ...(share > 0 ? all.map((path) => ({ ...path, points: firstPart(path.points, share) })) : [])]
       .map((path) => ({ ...path, ghosts: [] }));
   }
 
@@ -145,10 +145,10 @@ const Think = (() => {
       case 'slices': return last(trace.free, 4);
       case 'cells': return trace.cells.length ? middle(trace.cells[trace.cells.length - 1]) : null;
       case 'channel': return trace.channel.length ? middle(trace.cells[trace.channel[trace.channel.length - 1]]) : null;
-      case 'proof': return last(begun(view.world.proof, 4, now.part), 4);
+      case 'proof': return last(firstItems(view.world.proof, 4, now.part), 4);
       default: return null;
     }
   }
 
-  return { duration, moment, part, begun, seen, paths, focus };
+  return { duration, moment, part, firstItems, seen, paths, focus };
 })();

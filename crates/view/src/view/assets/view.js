@@ -12,33 +12,14 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
-/** Names of layers, and whether they are initially visible. The content determines which of them exist. */
-const LAYERS = [
-  ['c-obstacles', 'C-obstacles', true],
-  ['access', 'reachable tip positions', true],
-  ['path', 'path', true],
-  ['roadmap', 'reduced visibility graph', true],
-  ['roads', 'roadmap', true],
-  ['rows', 'slices that the path passes', true],
-  ['channel', 'channel', true],
-  ['cells', 'cells', true],
-  ['expanded', 'order of the search', true],
-  ['wavefront', 'wavefront', true],
-  ['equipotentials', 'equipotentials', true],
-  ['flow', 'flow lines', false],
-  ['boxes', 'subdivision boxes', true],
-  ['proof', 'proof of infeasibility', true],
-  ['regions', 'preferred regions', true],
-  ['poses', 'poses along the path', true],
-  ['trace', 'trace of the tip', true],
-  ['names', 'names', true],
-  ['frames', 'frames', true],
-];
 const SYMBOLS = { found: '\u2713', infeasible: '\u2715', unknown: '?', shown: '\u2022', waiting: '\u2026' };
-/** A finger that moves less than `TAP` has tapped. One that begins within `NEAR` of the cross takes it. In pixels. */
-const [TAP, NEAR] = [10, 24];
+/**
+ * A finger that moves less than `TAP` has tapped. One that begins within `NEAR` of the cross, or of the arm's tip, takes
+ * it; a mouse within `NEAR_MOUSE`. In pixels.
+ */
+const [TAP, NEAR, NEAR_MOUSE] = [10, 24, 12];
 /** Directions of arrow keys, and the pixels (`PAN`) by which they move a magnified picture. */
-const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
+const DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
 const PAN = 40;
 /** A larger movement drags a magnified picture, in pixels. */
 const DRAG = 4;
@@ -50,23 +31,27 @@ const [MAGNIFIES, A_PIXEL] = [1.5, 0.002];
 /** A wheel that scrolled the page within this time continues to do so, in milliseconds. */
 const SCROLLING = 300;
 
+/** Width of the page from which layers and steps stand beside the pictures. */
+const WIDE = '(min-width: 77.5rem)';
+
 class View {
   /** Creates a view of `model` within `root`. `recall` requests the planner's replay, if there is a program to answer. */
   constructor(root, model, recall = null) {
     this.root = root;
-    this.layers = new Map(LAYERS.map(([name, , shown]) => [name, shown]));
+    root.classList.toggle('live', Boolean(recall));
     this.hidden = new Set();
     this.time = 0;
     /** Content that is played: 'move', the motion; 'think', the planner's replay; or 'learn', a lesson. Each keeps its time. */
     this.mode = 'move';
     this.times = { move: 0, think: 0, learn: 0 };
     /** Index of a task's motion whose replay 'think' shows. */
-    this.told = 0;
+    this.replayed = 0;
     this.recall = recall;
     /** Mode that the user has chosen. The view returns to it when it is available again. */
     this.chosen = 'move';
     this.learn = new Learn(this);
     this.speed = 1;
+    this.playing = false;
     this.probe = null;
     this.pinned = false;
     /**
@@ -96,8 +81,8 @@ class View {
     [this.named, this.isCrowded] = [count <= NAMED, count > CROWDED];
     this.hovered = null;
     this.headings();
-    this.choices();
-    this.enumerate();
+    this.steps.update(model);
+    this.layers.update(model);
     const { workspace, cspace } = this.panels;
     const { joints, plane, one_scale: alike } = model.arm;
     [workspace.x, workspace.y] = model.frame;
@@ -107,13 +92,13 @@ class View {
     cspace.seams = joints.map((joint) => joint.circle);
     cspace.titles = joints.map((joint) => `${joint.name}${joint.unit === 'm' ? ' (m)' : ''}${joint.circle ? ', wraps around' : ''}`);
     cspace.scale = alike ? 'fit' : 'free';
-    // Room for a scale of colours beside the panel.
-    const hasScale = [...model.worlds, ...(model.replays ?? [])].some(({ scale }) => scale);
-    cspace.margins = hasScale ? [48, 56, 8, 40] : undefined;
-    for (const panel of [workspace, cspace]) panel.layout();
+    // Both panels have the same shape, so that their edges are aligned.
+    const [width, height] = [cspace.x, cspace.y].map(([low, high]) => high - low);
+    const shape = width / height;
+    workspace.shape = alike && shape > 0.6 && shape < 1.7 ? shape : null;
     for (const plot of this.plots) plot.fit();
     this.learn.update(model);
-    if (!this.hasReplay(model.motions[this.told])) this.told = 0;
+    if (!this.hasReplay(model.motions[this.replayed])) this.replayed = 0;
     const [moves, thinks, learns] = [Boolean(model.clock), this.thinks, this.learn.lessons.length > 0];
     const there = { move: moves || !thinks, think: thinks, learn: learns };
     for (const button of this.parts.modes.children) button.hidden = !(there[button.dataset.mode] || (button.dataset.mode === 'think' && this.recall));
@@ -150,8 +135,8 @@ class View {
   enter(mode) {
     this.times[this.mode] = this.time;
     // For a task, the replay is that of the current motion.
-    const told = mode === 'think' && this.hasReplay(this.motion) ? this.model.motions.indexOf(this.motion) : this.told;
-    if (told !== this.told) [this.told, this.times.think] = [told, 0];
+    const replayed = mode === 'think' && this.hasReplay(this.motion) ? this.model.motions.indexOf(this.motion) : this.replayed;
+    if (replayed !== this.replayed) [this.replayed, this.times.think] = [replayed, 0];
     this.mode = mode;
     this.time = this.times[mode];
   }
@@ -172,7 +157,16 @@ class View {
     const learns = this.mode === 'learn';
     parts.plots.hidden = this.mode !== 'move' || !this.model.clock;
     this.learn.show();
-    parts.panels.hidden = parts.legend.hidden = learns && !this.learn.isSlice;
+    parts.panels.hidden = learns && !this.learn.isSlice;
+    // Room for a scale of colours beside the panel.
+    const { scale } = this;
+    const margins = scale && this.showsSearch ? [48, 56, 8, 40] : undefined;
+    for (const panel of Object.values(this.panels)) {
+      panel.margins = margins;
+      panel.layout();
+    }
+    if (!this.light) this.tabs.refresh();
+    this.report();
     // While the user drags, hidden controls keep their room, because they come back.
     parts.transport.classList.toggle('still', !this.duration && !this.light);
     for (const button of parts.modes.children) button.setAttribute('aria-pressed', String(button.dataset.mode === this.mode));
@@ -195,7 +189,7 @@ class View {
 
   /** Returns the replay of a task's motion: its phases, and the planner's trace. */
   get account() {
-    return this.mode === 'think' ? this.model.replays?.[this.model.motions[this.told].replay] : undefined;
+    return this.mode === 'think' ? this.model.replays?.[this.model.motions[this.replayed].replay] : undefined;
   }
 
   /** Returns the phases of the current replay. */
@@ -219,14 +213,14 @@ class View {
   }
 
   /** Returns the duration of the motion. */
-  get lasts() {
+  get motionDuration() {
     return this.model.clock ? this.model.clock.time[this.model.clock.time.length - 1] : 0;
   }
 
   /** Returns the current motion. */
   get motion() {
     const { motions } = this.model;
-    if (this.mode === 'think') return motions[this.told];
+    if (this.mode === 'think') return motions[this.replayed];
     const time = this.mode === 'move' ? this.time : this.times.move;
     let found = 0;
     for (let i = 1; i < motions.length && motions[i].from <= time + 1e-6; i += 1) found = i;
@@ -244,8 +238,27 @@ class View {
     return this.model.clock ? Geometry.moving(this.model.clock, this.time).position : this.beginning();
   }
 
+  /** Returns true if the search of the planner is drawn: not over the motion, unless there is no replay. */
+  get showsSearch() {
+    return this.mode === 'think' || this.chosen === 'think' || (!this.thinks && !this.recall);
+  }
+
+  /** Returns true if the current mode draws a layer, unless the reader hides it. */
+  draws(layer) {
+    if (this.mode === 'learn') return Learn.LAYERS.has(layer);
+    return !PLANNER_LAYERS.has(layer) || this.showsSearch;
+  }
+
+  /** Returns true if a layer is visible. */
   shows(layer) {
-    return this.layers.get(layer) && (this.mode !== 'learn' || Learn.LAYERS.has(layer));
+    return this.layers.shown.get(layer) && this.draws(layer);
+  }
+
+  /** Returns the path of a task's next motion, or `null`. */
+  get nextPath() {
+    const { motions, paths } = this.model;
+    const next = this.isTask && this.motion ? motions[motions.indexOf(this.motion) + 1] : null;
+    return paths[next?.path] ?? null;
   }
 
   /** Returns the paths in the current world. */
@@ -283,6 +296,22 @@ class View {
     return this.named ? this.world.obstacles[obstacle].name : String(obstacle + 1);
   }
 
+  /**
+   * Returns true if the arm cannot meet an obstacle anywhere: no part of the arm is compared with it, or it has no
+   * C-obstacle. Such obstacles are drawn pale, except objects that the arm carries at some time.
+   */
+  isIrrelevant(obstacle) {
+    const { world, model } = this;
+    if (this.relevance?.world !== world) {
+      const carried = new Set(model.worlds.map(({ payload }) => payload?.object));
+      const pairs = new Set(world.pairs.map(([, , index]) => index));
+      const shaping = new Set(world.c_obstacles.map(({ obstacle }) => obstacle));
+      const meets = shaping.size ? shaping : pairs;
+      this.relevance = { world, pale: new Set(world.obstacles.filter(({ name }, index) => !(meets.has(index) && pairs.has(index)) && !carried.has(name))) };
+    }
+    return this.relevance.pale.has(obstacle);
+  }
+
   get isTask() {
     return this.model.paths.some((path) => path.step);
   }
@@ -300,35 +329,37 @@ class View {
   // Elements of the page.
 
   build() {
-    const canvas = (label) => element('canvas', { tabindex: '0', role: 'img', 'aria-label': label, 'aria-describedby': 'told' });
+    const canvas = (label) => element('canvas', { tabindex: '0', role: 'img', 'aria-label': label, 'aria-describedby': 'description' });
     const [left, right] = [canvas('Workspace'), canvas('Configuration space')];
     const parts = {
       title: element('h1'),
       lines: element('div', { class: 'lines' }),
+      cards: element('dl', { class: 'cards', 'aria-label': 'Key figures', hidden: true }),
       status: element('p', { class: 'status', role: 'status' }),
       facts: element('dl', { class: 'facts' }),
       probe: element('p', { class: 'probe', 'aria-live': 'polite' }),
-      told: element('p', { class: 'unseen', id: 'told' }),
-      legend: element('ul', { class: 'legend', 'aria-label': 'Legend' }),
+      description: element('p', { class: 'unseen', id: 'description' }),
+      measure: element('span', { class: 'measure', 'aria-hidden': 'true' }),
       ticks: element('span', { class: 'ticks', 'aria-hidden': 'true' }),
-      steps: element('ol', { class: 'steps' }),
-      play: element('button', { type: 'button', class: 'play', onclick: () => this.toggle() }, '\u25b6'),
+      play: element('button', { type: 'button', class: 'play', onclick: () => this.toggle() }),
       scrubber: element('input', {
         type: 'range', min: '0', max: '1', step: 'any', value: '0', 'aria-label': 'time',
         oninput: (event) => this.seek(Number(event.target.value)),
       }),
       clock: element('span', { class: 'clock' }),
       step: element('p', { class: 'step', 'aria-live': 'polite' }),
-      layers: element('div', { class: 'choices' }),
-      obstacles: element('div', { class: 'choices' }),
       plots: element('section', { class: 'plots', 'aria-label': 'Motion over time' }),
     };
-    const speed = element('select', { 'aria-label': 'speed', onchange: (event) => this.hasten(Number(event.target.value)) });
+    const speed = element('select', { 'aria-label': 'speed', onchange: (event) => this.setSpeed(Number(event.target.value)) });
     for (const value of SPEEDS) speed.append(element('option', { value, selected: value === 1 }, `${value}\u00d7`));
     parts.speed = speed;
     const mode = (name, text) => element('button', { type: 'button', class: 'button', 'data-mode': name, onclick: () => this.switchTo(name) }, text);
-    parts.modes = element('span', { class: 'modes', role: 'group', 'aria-label': 'What is played' }, mode('move', 'Move'), mode('think', 'Think'), mode('learn', 'Learn'));
-    parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, parts.modes, parts.play, element('span', { class: 'track' }, parts.ticks, parts.scrubber), parts.clock, speed);
+    parts.modes = element('span', { class: 'modes', role: 'group', 'aria-label': 'What is played' }, mode('move', 'Motion'), mode('think', 'How it was found'), mode('learn', 'Learn'));
+    this.steps = new Steps(this);
+    this.layers = new Layers(this);
+    const track = element('div', { class: 'track' }, this.steps.timeline, element('span', { class: 'slider' }, parts.ticks, parts.scrubber));
+    const controls = element('div', { class: 'controls-of-time' }, parts.modes, parts.play, track, parts.clock, speed);
+    parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, parts.step, controls);
     parts.panels = element(
       'section',
       { class: 'panels' },
@@ -337,34 +368,20 @@ class View {
       parts.probe,
     );
     this.parts = parts;
+    this.tabs = this.buildTabs();
+    this.tour = new Tour(this);
     this.root.append(
       element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
+      parts.cards,
       element(
         'div',
         { class: 'stage' },
-        element(
-          'div',
-          { class: 'pictures' },
-          parts.panels,
-          this.learn.parts.panels,
-          parts.legend,
-          parts.told,
-          parts.transport,
-          this.learn.parts.choice,
-          parts.step,
-          this.learn.parts.told,
-          parts.plots,
-        ),
-        element(
-          'aside',
-          { class: 'side', 'aria-label': 'What is shown' },
-          element('fieldset', { hidden: true }, element('legend', {}, 'Steps'), parts.steps),
-          element('fieldset', {}, element('legend', {}, 'Layers'), parts.layers),
-          element('fieldset', {}, element('legend', {}, 'Obstacles'), parts.obstacles),
-        ),
+        element('div', { class: 'pictures' }, parts.panels, this.learn.parts.panels, parts.description, parts.measure, parts.transport, this.learn.parts.choice, this.learn.parts.text),
+        element('div', { class: 'below' }, this.tabs.root, ...this.tabs.entries.filter(({ isAside }) => !isAside).map(({ panel }) => panel)),
+        element('aside', { class: 'side', 'aria-label': 'Steps and layers' }, this.steps.root, this.layers.root),
       ),
-      element('section', { class: 'below' }, parts.facts),
-      help(),
+      help(this),
+      this.tour.root,
     );
     this.panels = {
       workspace: new Panel(left, {
@@ -379,6 +396,8 @@ class View {
         beside: (context, panel) => CSpace.beside(context, panel, this),
       }),
     };
+    // Texts on canvases follow the text size of the page.
+    new ResizeObserver(() => this.model && this.recolor()).observe(parts.measure);
     this.plots = Plots.mount(parts.plots, this);
     for (const panel of Object.values(this.panels)) {
       this.listen(panel);
@@ -388,6 +407,21 @@ class View {
     this.recolor();
   }
 
+  /** Creates the tabs. Steps and layers stand beside the pictures if there is room. */
+  buildTabs() {
+    const wide = matchMedia(WIDE);
+    const never = () => false;
+    const isBeside = () => wide.matches;
+    const tabs = new Tabs('More', [
+      { name: 'layers', title: 'Layers', panel: this.layers.root, isAside: true, isOffered: () => true, isBeside },
+      { name: 'steps', title: 'Steps', panel: this.steps.root, isAside: true, isOffered: () => this.steps.buttons.length > 0, isBeside },
+      { name: 'plots', title: 'Plots', panel: element('div', {}, this.parts.plots), isOffered: () => Boolean(this.model?.clock) && this.mode === 'move', isBeside: never },
+      { name: 'details', title: 'Details', panel: element('div', {}, this.parts.facts), isOffered: () => Boolean(this.model?.facts.length), isBeside: never },
+    ]);
+    wide.addEventListener('change', () => tabs.refresh());
+    return tabs;
+  }
+
   headings() {
     const { title, status, ending, facts } = this.model;
     const { parts } = this;
@@ -395,6 +429,21 @@ class View {
     parts.lines.replaceChildren(...title.slice(1).map((text) => element('p', {}, text)));
     if (!this.judged) this.say(ending, status);
     parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), element('dd', {}, text)]));
+    // The live page shows its own figures.
+    const cards = this.recall ? [] : View.cards(this.model);
+    parts.cards.hidden = !cards.length;
+    parts.cards.replaceChildren(...cards.map(([name, value, note]) => element('div', { class: 'card' }, element('dt', {}, name), element('dd', {}, value, element('small', {}, note)))));
+  }
+
+  /** Returns the key figures of a model: name, value and meaning. Proven bounds are rounded to the safe side. */
+  static cards({ figures = {} }) {
+    const { duration, gap, fastest, clearance } = figures;
+    return [
+      duration !== undefined && ['time', Numbers.seconds(duration), 'from rest to rest, within all limits'],
+      duration !== undefined && gap === undefined && ['over the optimum', 'not proven', 'no bound on the optimum is known'],
+      gap !== undefined && ['over the optimum', gap === 0 ? '0 %' : `at most ${Numbers.percent(gap, Math.ceil)}`, fastest ? 'longer than the fastest' : 'longer than the shortest'],
+      clearance !== undefined && ['clearance', Numbers.length(clearance, 0, Math.floor), 'proven, to the nearest obstacle'],
+    ].filter(Boolean);
   }
 
   /** Shows the outcome: `ending` for colour and symbol, and `words` as text. */
@@ -405,35 +454,11 @@ class View {
     status.replaceChildren(element('span', { 'aria-hidden': 'true' }, SYMBOLS[ending]), ` ${words}`);
   }
 
-  /** Shows the legend of the visible signs. */
-  explain() {
-    if (this.light) return;
-    const { theme } = this.panels.workspace;
-    const keys = this.model.legend.filter(({ layers = [], think }) => (!layers.length || layers.some((layer) => this.shows(layer))) && (!think || this.mode === 'think'));
-    const signature = JSON.stringify([keys, theme.dark]);
-    if (signature === this.explained) return;
-    this.explained = signature;
-    this.parts.legend.replaceChildren(...Legend.items(theme, keys));
-  }
-
-  /** Lists the steps of a task as buttons. */
-  enumerate() {
-    const { motions } = this.model;
-    const isTask = motions.length > 1;
-    this.parts.steps.parentElement.hidden = !isTask;
-    const steps = isTask ? motions : [];
-    this.parts.steps.replaceChildren(...steps.map((motion) => {
-      const { label, from } = motion;
-      const go = element('button', { type: 'button', onclick: () => this.go(motion) }, element('span', {}, label), element('span', { class: 'at' }, `${from.toFixed(2)} s`));
-      return element('li', {}, go);
-    }));
-  }
-
   /** Goes to a step: to its time, or to its replay. */
   go(motion) {
     if (this.mode !== 'think') this.seek(motion.from);
     else if (this.hasReplay(motion)) {
-      this.told = this.model.motions.indexOf(motion);
+      this.replayed = this.model.motions.indexOf(motion);
       this.time = 0;
       this.ready();
     }
@@ -452,7 +477,7 @@ class View {
   }
 
   /** Describes the pictures for users of screen readers. */
-  tell() {
+  describe() {
     if (this.playing || this.light) return;
     const { arm } = this.model;
     const touching = Geometry.contacts(arm, this.world, this.q);
@@ -463,58 +488,15 @@ class View {
       return `The path leads from ${this.valued(path.points.slice(0, 2))} to ${this.valued(end)}, through ${n - 2} waypoints in between.`;
     };
     const proven = this.world.proof.length ? ' Boxes of colliding configurations, hatched, prove that there is no path.' : '';
-    this.parts.told.textContent = `${stands} ${path ? goes() : this.isMotion ? 'There is no path here.' : ''}${proven}`;
-  }
-
-  /** Lists the available layers, and the obstacles. */
-  choices() {
-    const { worlds, paths } = this.model;
-    const seen = [...worlds, ...(this.model.replays ?? [])].map(({ trace }) => trace);
-    const kinds = new Set(seen.map((trace) => trace?.kind));
-    const any = (key) => worlds.some((world) => world[key]?.length > 0);
-    const there = {
-      'c-obstacles': any('c_obstacles') || any('moments'), access: Boolean(this.model.reach), path: paths.length > 0, roadmap: kinds.has('roadmap'), rows: kinds.has('rows'),
-      roads: kinds.has('roads'), expanded: seen.some((trace) => trace?.expanded?.length > 0),
-      channel: kinds.has('channel'), cells: kinds.has('channel'), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'),
-      flow: kinds.has('field'), boxes: kinds.has('boxes'), proof: any('proof'), regions: any('regions'), poses: true,
-      trace: paths.length > 0, names: any('obstacles') || any('movers'), frames: this.model.frames.length > 0,
-    };
-    const wanted = LAYERS.filter(([name]) => there[name]);
-    const names = [...new Map(worlds.flatMap((world) => [...world.obstacles, ...(world.movers ?? [])].map((o) => [o.name, o.color])))];
-    const signature = JSON.stringify([wanted.map(([name]) => name), names]);
-    if (signature === this.signature) return;
-    this.signature = signature;
-    this.parts.layers.replaceChildren(...wanted.map(([name, text]) => {
-      const box = element('input', {
-        type: 'checkbox', checked: this.layers.get(name), 'data-layer': name,
-        onchange: (event) => this.layer(name, event.target.checked),
-      });
-      return element('label', {}, box, ` ${text}`);
-    }));
-    this.parts.obstacles.replaceChildren(...names.map(([name, color], index) => {
-      const box = element('input', {
-        type: 'checkbox', checked: !this.hidden.has(name), 'data-obstacle': name,
-        onchange: (event) => {
-          this.hidden[event.target.checked ? 'delete' : 'add'](name);
-          this.refresh();
-        },
-      });
-      const swatch = element('span', { class: 'swatch', style: `background:${color}` });
-      return element('label', {}, box, swatch, this.named ? name : `${index + 1} ${name}`);
-    }));
-    this.parts.obstacles.parentElement.hidden = names.length === 0;
-  }
-
-  layer(name, shown) {
-    this.layers.set(name, shown);
-    const box = this.parts.layers.querySelector(`[data-layer="${name}"]`);
-    if (box) box.checked = shown;
-    this.refresh();
+    this.parts.description.textContent = `${stands} ${path ? goes() : this.isMotion ? 'There is no path here.' : ''}${proven}`;
   }
 
   recolor() {
     const theme = new Theme(document.documentElement);
-    for (const panel of [...this.allPanels(), ...Object.values(this.learn.panels)]) panel.theme = theme;
+    for (const panel of [...this.allPanels(), ...Object.values(this.learn.panels)]) {
+      panel.theme = theme;
+      panel.layout();
+    }
     if (!this.model) return;
     this.ready();
   }
@@ -526,7 +508,7 @@ class View {
   /** Draws everything again. */
   refresh() {
     if (!this.model) return;
-    this.explain();
+    if (!this.light) this.layers.refresh();
     for (const panel of this.allPanels()) {
       panel.dirty = true;
       panel.draw();
@@ -549,11 +531,11 @@ class View {
       for (const panel of this.allPanels()) panel.draw();
       return;
     }
-    parts.clock.textContent = `${this.time.toFixed(2)} / ${this.duration.toFixed(2)} s`;
+    parts.clock.textContent = `${this.time.toFixed(2)} / ${Numbers.seconds(this.duration)}`;
     parts.scrubber.setAttribute('aria-valuetext', `${this.time.toFixed(2)} seconds`);
-    const whose = moment && this.account ? `${motion.label}. ` : '';
-    const told = moment && `${whose}${moment.index + 1} of ${this.replay.length}: ${moment.phase.caption}`;
-    const step = told ?? (this.model.motions.length > 1 && motion ? `${motion.label} (${this.world.label})` : '');
+    const owner = moment && this.account ? `${motion.label}. ` : '';
+    const phase = moment && `${owner}${moment.index + 1} of ${this.replay.length}: ${moment.phase.caption}`;
+    const step = phase ?? (this.model.motions.length > 1 && motion ? `${motion.label} (${this.world.label})` : '');
     if (parts.step.textContent !== step) parts.step.textContent = step;
     if (motion !== before || moment) {
       for (const panel of Object.values(this.panels)) panel.dirty = true;
@@ -562,11 +544,8 @@ class View {
       if (this.probe) this.examine(this.probe.q);
     }
     const now = this.mode === 'learn' ? -1 : this.model.motions.indexOf(motion);
-    [...parts.steps.children].forEach((item, k) => {
-      item.firstChild.setAttribute('aria-current', k === now ? 'step' : 'false');
-      item.firstChild.disabled = this.mode === 'think' && !this.hasReplay(this.model.motions[k]);
-    });
-    this.tell();
+    this.steps.follow(now);
+    this.describe();
     for (const panel of this.allPanels()) panel.draw();
   }
 
@@ -577,32 +556,56 @@ class View {
 
   play() {
     if (!this.duration) return;
+    if (this.probe) this.examine(null);
     if (this.time >= this.duration) this.seek(0);
     this.playing = true;
     this.mark();
     let before = null;
+    let { time } = this;
+    let last = time;
     const tick = (now) => {
       if (!this.playing) return;
-      if (before !== null) this.seek(this.time + ((now - before) / 1000) * this.speed);
+      // The reader may have moved the scrubber.
+      if (this.time !== last) ({ time } = this);
+      if (before !== null) time = Math.min(this.duration, time + ((now - before) / 1000) * this.speed);
+      const shown = this.shownTime(time);
+      if (shown !== this.time) this.seek(shown);
+      last = this.time;
       before = now;
-      if (this.time >= this.duration) this.pause();
+      if (time >= this.duration) this.pause();
       else requestAnimationFrame(tick);
     };
     requestAnimationFrame(tick);
   }
 
+  /**
+   * Returns the time to show while playing has reached `time`. For readers who prefer reduced motion, the replay shows
+   * the end of each phase at once.
+   */
+  shownTime(time) {
+    if (this.mode !== 'think' || !Settings.reducesMotion) return time;
+    let end = 0;
+    for (const { seconds } of this.replay) {
+      end += seconds;
+      if (time < end) break;
+    }
+    return Math.min(this.duration, end - 1e-6);
+  }
+
   pause() {
     this.playing = false;
     this.mark();
-    if (this.model) this.tell();
+    if (this.model) this.describe();
   }
 
   mark() {
-    this.parts.play.textContent = this.playing ? '\u23f8' : '\u25b6';
-    this.parts.play.setAttribute('aria-label', this.playing ? 'pause' : 'play');
+    const action = this.playing ? 'pause' : 'play';
+    this.parts.play.replaceChildren(icon(action));
+    this.parts.play.setAttribute('aria-label', action);
+    this.parts.play.title = `${action} (Space)`;
   }
 
-  hasten(speed) {
+  setSpeed(speed) {
     this.speed = speed;
     this.parts.speed.value = String(speed);
   }
@@ -627,8 +630,13 @@ class View {
         event.preventDefault();
       } else if (event.button === 0) {
         const spot = panel.spot(event);
-        press = { from: spot, last: spot, holds: isCSpace && event.pointerType !== 'mouse' && this.isAtCross(spot), drags: false };
-        if (panel.times > 1 && event.pointerType === 'mouse') canvas.setPointerCapture(event.pointerId);
+        const holds = this.mode !== 'learn' && (isCSpace ? this.isAtDot(spot, event) : this.isAtTip(spot, event));
+        press = { from: spot, last: spot, holds, drags: false };
+        if (!isCSpace && holds) {
+          this.pause();
+          press.grip = this.tipSpot.map((x, k) => x - spot[k]);
+        }
+        if (holds || (panel.times > 1 && event.pointerType === 'mouse')) canvas.setPointerCapture(event.pointerId);
       }
     });
     canvas.addEventListener('pointermove', (event) => {
@@ -641,6 +649,18 @@ class View {
         press.last = spot;
         return;
       }
+      if (press?.grip) {
+        press.drags ||= Math.hypot(spot[0] - press.from[0], spot[1] - press.from[1]) > DRAG;
+        if (press.drags) this.dragTip(panel.value(spot.map((x, k) => x + press.grip[k])));
+        return;
+      }
+      if (isCSpace && press?.holds && event.pointerType === 'mouse') {
+        press.drags ||= Math.hypot(spot[0] - press.from[0], spot[1] - press.from[1]) > DRAG;
+        if (press.drags) this.place(panel.value(spot));
+        return;
+      }
+      if (!isCSpace && event.pointerType === 'mouse' && this.isAtTip(spot, event)) canvas.style.cursor = 'grab';
+      else if (!isCSpace && !this.tool) canvas.style.cursor = '';
       if (!panel.contains(spot)) return;
       if (!isCSpace) this.hover(panel, event);
       else if (event.pointerType === 'mouse' ? !this.pinned : press?.holds) this.examine(panel.value(spot));
@@ -656,7 +676,7 @@ class View {
       if (!isMouse) this.tool?.tap(panel);
       if (!isCSpace || !panel.contains(spot)) return;
       this.pinned = isMouse ? !this.pinned : !holds;
-      this.examine(holds ? null : panel.value(spot));
+      this.examine(holds && !isMouse ? null : panel.value(spot));
     });
     canvas.addEventListener('pointercancel', (event) => {
       [press, taken] = [null, false];
@@ -670,7 +690,7 @@ class View {
     // picture.
     const takes = ({ clientX, clientY }) => {
       const touch = { clientX, clientY, pointerType: 'touch' };
-      return panel.times > 1 || asTool('grasps', touch) || (isCSpace && this.isAtCross(panel.spot(touch)));
+      return panel.times > 1 || asTool('grasps', touch) || (isCSpace ? this.isAtDot(panel.spot(touch), touch) : this.isAtTip(panel.spot(touch), touch));
     };
     const between = ([a, b]) => ({
       apart: Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY),
@@ -724,13 +744,13 @@ class View {
   }
 
   buttons(name, label) {
-    const button = (text, what, act) => element('button', { type: 'button', class: 'button', 'aria-label': `${what}: ${label}`, title: what, onclick: () => act(this.panels[name]) }, text);
+    const button = (sign, what, act) => element('button', { type: 'button', class: 'button', 'aria-label': `${what}: ${label}`, title: what, onclick: () => act(this.panels[name]) }, icon(sign));
     return element(
       'span',
       { class: 'zoom' },
-      button('+', 'zoom in', (panel) => this.magnify(panel, MAGNIFIES)),
-      button('\u2212', 'zoom out', (panel) => this.magnify(panel, 1 / MAGNIFIES)),
-      button('\u21ba', 'show all', (panel) => panel.reset()),
+      button('plus', 'zoom in', (panel) => this.magnify(panel, MAGNIFIES)),
+      button('minus', 'zoom out', (panel) => this.magnify(panel, 1 / MAGNIFIES)),
+      button('reset', 'show all', (panel) => panel.reset()),
     );
   }
 
@@ -743,11 +763,39 @@ class View {
     panel.draw();
   }
 
-  /** Returns true if a finger at this spot takes the cross in the configuration space. */
-  isAtCross([x, y]) {
-    if (!this.pinned || !this.probe) return false;
-    const at = this.panels.cspace.at(this.probe.q);
-    return Math.hypot(at[0] - x, at[1] - y) < NEAR;
+  /** Returns the spot of the tip of the examined arm, or of the current one. */
+  get tipSpot() {
+    return this.panels.workspace.at(Geometry.tipAt(this.model.arm, this.probe?.q ?? this.q));
+  }
+
+  /** Returns true if a pointer at this spot takes the tip of the arm. */
+  isAtTip([x, y], { pointerType }) {
+    if (this.mode === 'learn') return false;
+    const [u, v] = this.tipSpot;
+    return Math.hypot(u - x, v - y) < (pointerType === 'mouse' ? NEAR_MOUSE : NEAR);
+  }
+
+  /**
+   * Returns true if a pointer at this spot takes the dot of the arm in the configuration space: the cross that is kept
+   * there or, for a mouse, also that of the current arm. A finger that begins elsewhere scrolls the page.
+   */
+  isAtDot([x, y], { pointerType }) {
+    const isMouse = pointerType === 'mouse';
+    if (!isMouse && !(this.pinned && this.probe)) return false;
+    const { cspace } = this.panels;
+    const [u, v] = this.pinned && this.probe ? cspace.at(this.probe.q) : CSpace.place(this, cspace, this.q);
+    return Math.hypot(u - x, v - y) < (isMouse ? NEAR_MOUSE : NEAR);
+  }
+
+  /** Moves the examined arm so that its tip is at a place of the workspace, or as near as the joints allow. */
+  dragTip(place) {
+    this.place(Geometry.inverse(this.model.arm, place, this.probe?.q ?? this.q));
+  }
+
+  /** Keeps the examined arm in a configuration, within the limits of its joints. */
+  place(q) {
+    this.pinned = true;
+    this.examine(this.model.arm.joints.map((joint, k) => (joint.circle ? Geometry.wrap(joint, q[k]) : Math.min(joint.domain[1], Math.max(joint.domain[0], q[k])))));
   }
 
   /** Places a second arm at q, and shows what it touches; without q, removes it. */
@@ -760,11 +808,26 @@ class View {
     }
     this.probe = q && { q, contacts: Geometry.contacts(this.model.arm, this.world, q) };
     if (!q) this.pinned = false;
-    const text = this.probe ? this.described() : '';
-    if (this.parts.probe.textContent !== text) this.parts.probe.textContent = text;
-    if (this.probe) this.follow(this.probe.q);
-    this.parts.probe.dataset.free = this.probe ? String(!(this.probe.contacts[0]?.distance <= 0)) : '';
+    this.report();
+    if (q) this.follow(q);
     for (const panel of Object.values(this.panels)) panel.draw();
+  }
+
+  /** Returns the arm whose contacts are shown: the examined one or, on a page without a motion, the only one. */
+  get examined() {
+    if (this.probe || this.isMotion || this.mode === 'learn') return this.probe;
+    const { q } = this;
+    const contacts = Geometry.contacts(this.model.arm, this.world, q);
+    return contacts.length ? { q, contacts } : null;
+  }
+
+  /** Describes the examined arm below the pictures. */
+  report() {
+    const { examined } = this;
+    const text = examined ? `${this.valued(examined.q)}: ${this.touched(examined.contacts)}` : '';
+    if (this.parts.probe.textContent !== text) this.parts.probe.textContent = text;
+    this.parts.probe.title = examined ? Numbers.exact(this.model.arm.joints, examined.q) : '';
+    this.parts.probe.dataset.free = examined ? String(!(examined.contacts[0]?.distance <= 0)) : '';
   }
 
   /** On a small screen, moves the description above the finger, as far as there is room. */
@@ -776,16 +839,10 @@ class View {
     style.setProperty('--y', `${Math.round(canvas.offsetParent.offsetTop + canvas.offsetTop + y)}px`);
   }
 
-  described() {
-    return `${this.valued(this.probe.q)}: ${this.touched(this.probe.contacts)}`;
-  }
-
   /** Describes a configuration. */
   valued(q) {
     // With more digits in a magnified picture.
-    const more = Math.floor(Math.log10(this.panels.cspace.times));
-    const value = (joint, x) => (joint.unit === 'rad' ? `${((x * 180) / Math.PI).toFixed(1 + more)}\u00b0` : `${x.toFixed(3 + more)} m`);
-    return this.model.arm.joints.map((joint, k) => `${joint.name} ${value(joint, q[k])}`).join(', ');
+    return Numbers.configuration(this.model.arm.joints, q, Math.floor(Math.log10(this.panels.cspace.times)));
   }
 
   /** Describes the contacts, or the nearest obstacle. */
@@ -794,12 +851,12 @@ class View {
     const hits = contacts.filter((c) => c.distance <= 0);
     const who = (c) => (c.carried ? `payload "${c.body}"` : `link "${arm.links[c.link].name}"`);
     const pair = (c) => `${who(c)} and "${this.world.obstacles[c.obstacle].name}"`;
-    const depth = (c) => `${(-c.distance * 1000).toPrecision(3)} mm deep`;
-    if (hits.length) return `touches. ${hits.map((c) => `${pair(c)}, ${depth(c)}`).join('; ')}`;
+    const depth = (c) => `${Numbers.length(-c.distance)} deep`;
+    if (hits.length) return `touches: ${hits.map((c) => `${pair(c)}, ${depth(c)}`).join('; ')}`;
     const [nearest] = contacts;
     if (!nearest) return 'free; no obstacle within reach';
-    const room = nearest.distance <= this.world.clearance ? 'nearer than the required clearance' : 'free';
-    return `${room}; nearest: ${pair(nearest)}, ${(nearest.distance * 1000).toPrecision(3)} mm`;
+    const room = nearest.distance <= this.world.clearance ? 'closer than the requested clearance' : 'free';
+    return `${room}; nearest: ${pair(nearest)}, ${Numbers.length(nearest.distance)}`;
   }
 
   // Keys.
@@ -808,7 +865,7 @@ class View {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.target.matches?.('input:not([type=checkbox]):not([type=range]), textarea, select')) return;
     const panel = Object.values(this.panels).find(({ canvas }) => event.target === canvas);
-    if (panel && (this.zooms(panel, event) || (panel === this.panels.cspace && this.nudge(event)))) return;
+    if (panel && (this.zooms(panel, event) || (panel === this.panels.cspace ? this.nudge(event) : this.nudgeTip(event)))) return;
     const control = event.target.matches?.('button, input, a, summary');
     const step = event.shiftKey ? 0.5 : 0.05;
     const keys = {
@@ -820,11 +877,12 @@ class View {
       End: () => !control && this.seek(this.duration),
       t: () => this.switchTo(this.mode === 'think' ? 'move' : 'think'),
       l: () => this.switchTo(this.mode === 'learn' ? 'move' : 'learn'),
-      '+': () => this.hasten(SPEEDS[Math.min(SPEEDS.length - 1, SPEEDS.indexOf(this.speed) + 1)]),
-      '-': () => this.hasten(SPEEDS[Math.max(0, SPEEDS.indexOf(this.speed) - 1)]),
+      '+': () => this.setSpeed(SPEEDS[Math.min(SPEEDS.length - 1, SPEEDS.indexOf(this.speed) + 1)]),
+      '-': () => this.setSpeed(SPEEDS[Math.max(0, SPEEDS.indexOf(this.speed) - 1)]),
       0: () => Object.values(this.panels).forEach((panel) => panel.reset()),
       Escape: () => this.examine(null),
     };
+    if (/^[^ ]$/u.test(event.key) && !Settings.hasShortcuts) return;
     const done = keys[event.key]?.();
     if (done !== undefined && done !== false) event.preventDefault();
     else if (keys[event.key] && !control) event.preventDefault();
@@ -835,10 +893,10 @@ class View {
    * the cross.
    */
   zooms(panel, event) {
-    const way = WAYS[event.key];
+    const direction = DIRECTIONS[event.key];
     const keys = { '+': () => this.magnify(panel, MAGNIFIES), '=': () => this.magnify(panel, MAGNIFIES), '-': () => this.magnify(panel, 1 / MAGNIFIES), 0: () => panel.reset() };
-    const pans = way && event.shiftKey && panel.times > 1 && panel === this.panels.workspace;
-    if (pans) panel.move(-PAN * way[0], PAN * way[1]);
+    const pans = direction && event.shiftKey && panel.times > 1 && panel === this.panels.workspace;
+    if (pans) panel.move(-PAN * direction[0], PAN * direction[1]);
     else if (keys[event.key]) keys[event.key]();
     else return false;
     event.preventDefault();
@@ -847,39 +905,54 @@ class View {
 
   /** Handles arrow keys, which move the cross in the configuration space; by smaller steps if it is magnified. */
   nudge(event) {
-    const way = WAYS[event.key];
-    if (!way) return false;
+    const direction = DIRECTIONS[event.key];
+    if (!direction) return false;
     const from = this.probe?.q ?? this.q;
     const { joints } = this.model.arm;
     const step = (joint) => (joint.unit === 'rad' ? Math.PI / 180 : (joint.domain[1] - joint.domain[0]) / 200) * (event.shiftKey ? 10 : 1) / this.panels.cspace.times;
-    const next = joints.map((joint, k) => {
-      const value = Geometry.wrap(joint, from[k] + way[k] * step(joint));
-      return joint.circle ? value : Math.min(joint.domain[1], Math.max(joint.domain[0], value));
-    });
-    this.pinned = true;
-    this.examine(next);
-    this.panels.cspace.reveal(next);
+    this.place(joints.map((joint, k) => from[k] + direction[k] * step(joint)));
+    this.panels.cspace.reveal(this.probe.q);
+    event.preventDefault();
+    return true;
+  }
+
+  /** Handles Enter in the workspace, which takes the arm, and then arrow keys, which move its tip. */
+  nudgeTip(event) {
+    const direction = DIRECTIONS[event.key];
+    if (this.mode === 'learn' || !(direction ? this.probe : event.key === 'Enter')) return false;
+    const { arm } = this.model;
+    if (!direction) this.place(this.q);
+    else {
+      const step = ((this.model.frame[0][1] - this.model.frame[0][0]) / 200) * (event.shiftKey ? 10 : 1);
+      this.dragTip(Geometry.tipAt(arm, this.probe.q).map((x, k) => x + direction[k] * step));
+    }
     event.preventDefault();
     return true;
   }
 }
 
-function help() {
+/** Returns the part of the page that explains keys and pointer. */
+function help(view) {
   const rows = [
-    ['point into the configuration space', 'moves the arm there, and names its contacts'],
-    ['click, tap', 'holds the arm there, or releases it'],
-    ['arrow keys in the configuration space', 'moves the cross by a degree (with Shift by ten)'],
-    ['Space or k', 'plays, pauses'],
-    ['arrow keys elsewhere', 'moves back and forth in time (with Shift further)'],
-    ['Home, End', 'moves to the start, to the end'],
-    ['t', 'shows the motion, or the search of the planner'],
-    ['l', 'shows lessons: contact angles, the two tests of penetration, Minkowski differences'],
-    ['+, \u2212', 'plays faster, slower; in a panel that was clicked, zooms'],
-    ['wheel, two fingers, then drag', 'zooms at the pointer, and moves the view'],
-    ['Shift and arrow keys in a magnified workspace', 'moves the view'],
-    ['0, double click', 'shows everything again'],
-    ['Escape', 'removes the arm that was put there'],
+    ['drag the tip of the arm', 'the arm follows; contacts are red'],
+    ['Enter in the workspace, then arrow keys', 'the same by keys (with Shift in larger steps)'],
+    ['point into the configuration space', 'shows the arm in that configuration, and its contacts'],
+    ['click, tap', 'keeps it there, or releases it'],
+    ['arrow keys in the configuration space', 'move the cross by a degree (with Shift by ten)'],
+    ['Space or k', 'play, pause'],
+    ['arrow keys elsewhere', 'back and forth in time (with Shift further)'],
+    ['Home, End', 'to the start, to the end'],
+    ['t', 'the motion, or how it was found'],
+    ['l', 'lessons: contact angles, the two tests of penetration, Minkowski differences'],
+    ['+, \u2212', 'faster, slower; in a panel that was clicked: zoom'],
+    ['wheel, two fingers, then drag', 'zoom at the pointer, and move the visible part'],
+    ['Shift and arrow keys in a magnified workspace', 'move the visible part'],
+    ['0, double click', 'shows all again'],
+    ['Escape', 'removes the examined arm'],
   ];
-  const list = element('dl', {}, ...rows.flatMap(([keys, what]) => [element('dt', {}, keys), element('dd', {}, what)]));
-  return element('details', { class: 'help' }, element('summary', {}, 'Keys and pointer'), list);
+  const list = element('dl', {}, ...rows.flatMap(([keys, effect]) => [element('dt', {}, keys), element('dd', {}, effect)]));
+  const box = element('input', { type: 'checkbox', checked: Settings.hasShortcuts, onchange: (event) => (Settings.hasShortcuts = event.target.checked) });
+  const choice = element('p', {}, element('label', {}, box, ' Keys of a single character (k, t, l, +, \u2212, 0) act on the page'));
+  const tour = element('button', { type: 'button', class: 'button', onclick: () => view.tour.start() }, 'Show the tour');
+  return element('details', { class: 'help' }, element('summary', {}, 'Keys and pointer'), list, choice, tour);
 }

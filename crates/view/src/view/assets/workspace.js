@@ -6,6 +6,8 @@ const Workspace = (() => {
 
   /** Length of a straight piece of a tip's path, as a fraction of a turn. */
   const FINE = 0.0125;
+  /** Opacity of the region that a moving obstacle sweeps, and the number of places from which the region is made. */
+  const [SWEPT_OPACITY, SWEPT_PLACES] = [0.22, 120];
   /** Length of the axes of joint frames, in pixels. */
   const AXIS = 46;
 
@@ -27,12 +29,19 @@ const Workspace = (() => {
     solids(context, panel, view, (world.movers ?? []).map((mover) => Geometry.moved(mover, view.now)));
   }
 
-  /** Draws the trajectories of moving obstacles during the arm's motion, and their stops. */
+  /** Draws the regions that moving obstacles sweep during the arm's motion, their trajectories, and their stops. */
   function courses(context, panel, view, world) {
-    for (const mover of world.movers ?? []) {
-      const lasts = Math.min(view.lasts, mover.until ?? Infinity);
-      const moments = [0, ...mover.stops.map(([time]) => time).filter((time) => 0 < time && time < lasts), lasts];
+    for (const mover of (world.movers ?? []).filter(({ name }) => !view.hidden.has(name))) {
+      const duration = Math.min(view.motionDuration, mover.until ?? Infinity);
+      const moments = [0, ...mover.stops.map(([time]) => time).filter((time) => 0 < time && time < duration), duration];
       const places = moments.map((time) => Geometry.moved(mover, time));
+      panel.faded(context, SWEPT_OPACITY, (layer) => {
+        layer.fillStyle = panel.theme.obstacle(mover.color).fill;
+        for (let k = 0; k <= SWEPT_PLACES; k += 1) {
+          outline(layer, panel, Geometry.moved(mover, (duration * k) / SWEPT_PLACES));
+          layer.fill();
+        }
+      });
       const origin = { outline: { circle: [0, 0, 0] }, pieces: [], stops: mover.stops, velocity: mover.velocity };
       context.lineWidth = 1;
       context.strokeStyle = panel.theme.grey;
@@ -50,7 +59,7 @@ const Workspace = (() => {
     const { theme } = panel;
     all.forEach((obstacle) => {
       if (view.hidden.has(obstacle.name)) return;
-      const { fill, line: edge } = theme.obstacle(obstacle.color);
+      const { fill, line: edge } = view.isIrrelevant(obstacle) ? { fill: theme.faint, line: theme.pale } : theme.obstacle(obstacle.color);
       outline(context, panel, obstacle);
       context.fillStyle = fill;
       context.strokeStyle = edge;
@@ -68,21 +77,25 @@ const Workspace = (() => {
   function names(context, panel, view, world) {
     const shown = [];
     const { arm: model } = view.model;
-    const beyond = (text, q) => [text, Labels.beyond(context, text, panel.at(tipAt(model, q)), panel.at(elbowAt(model, q)))];
+    const beyond = (text, q) => [text, Labels.beyond(context, panel, text, panel.at(tipAt(model, q)), panel.at(elbowAt(model, q)))];
     if (view.isTask) {
-      for (const path of view.pathsHere()) shown.push(beyond(String(path.step), path.points.slice(-2)));
+      for (const path of view.pathsHere()) shown.push(beyond(`step ${path.step}`, path.points.slice(-2)));
     } else if (view.shows('poses') && view.isMotion) {
       for (const q of view.ends()) shown.push(beyond('goal', q));
       shown.push(beyond('start', view.beginning()));
     }
     if (!view.isCrowded) {
       world.obstacles.forEach((obstacle, index) => {
-        if (obstacle.own > 0 && !view.hidden.has(obstacle.name)) shown.push([view.called(index), box(panel, obstacle)]);
+        if (obstacle.own === 0 || view.hidden.has(obstacle.name)) return;
+        shown.push([view.called(index), box(panel, obstacle)]);
+        const wall = obstacle.outline.polyline;
+        if (wall) Labels.blockLine(panel, [...pointsOf(wall)].map((p) => panel.at(p)));
       });
       for (const mover of (world.movers ?? []).filter(({ name }) => !view.hidden.has(name))) {
         shown.push([mover.name, box(panel, Geometry.moved(mover, view.now))]);
       }
     }
+    if (view.shows('frames')) for (const { name, at } of view.model.frames) shown.push([name, Labels.about(panel.at(at), 10)]);
     Labels.beside(context, panel, shown);
   }
 
@@ -116,7 +129,10 @@ const Workspace = (() => {
     return index < 0 ? null : index;
   }
 
-  /** Draws the arm at q. `look`: fill, line, width, alpha, whether joints are shown, and colours of links that touch. */
+  /**
+   * Draws the arm at q. `look`: fill, line, width, alpha, whether joints are shown, whether names avoid it, and colours
+   * of links that touch.
+   */
   function arm(context, panel, view, world, q, look) {
     panel.faded(context, look.alpha ?? 1, (layer) => solid(layer, panel, view, world, q, look));
   }
@@ -126,7 +142,11 @@ const Workspace = (() => {
     const at = poses(model, q);
     model.links.forEach((link, k) => {
       context.beginPath();
-      for (const part of link.parts) rounded(context, panel, placed(part, at[k]));
+      for (const part of link.parts) {
+        const shape = placed(part, at[k]);
+        rounded(context, panel, shape);
+        if (look.blocks) Labels.blockShape(panel, shape);
+      }
       context.lineWidth = 2 * look.width;
       context.strokeStyle = look.line;
       context.stroke();
@@ -137,7 +157,10 @@ const Workspace = (() => {
       const pose = payloadPose(model, world.payload, q);
       const { fill, line: edge } = panel.theme.obstacle(world.payload.color);
       context.beginPath();
-      for (const piece of world.payload.pieces) rounded(context, panel, placed(piece, pose));
+      for (const piece of world.payload.pieces) {
+        rounded(context, panel, placed(piece, pose));
+        if (look.blocks) Labels.blockShape(panel, placed(piece, pose));
+      }
       context.strokeStyle = edge;
       context.stroke();
       context.fillStyle = look.touching?.has('payload') ? look.touch : fill;
@@ -182,6 +205,7 @@ const Workspace = (() => {
       for (const path of Think.paths(view, view.pathsHere())) {
         const there = tipTrace(view.model.arm, path.points).map((p) => panel.at(p));
         pathLine(context, panel.theme, path, () => line(context, there));
+        Labels.blockLine(panel, there);
       }
       return;
     }
@@ -190,12 +214,17 @@ const Workspace = (() => {
       const there = spots[i].map((p) => panel.at(p));
       pathLine(context, panel.theme, path, () => line(context, there));
     };
-    // Paths in other worlds are shown, but pale.
+    // Of a task, the path of the next motion is pale, and others are left out.
     const here = new Set(view.pathsHere());
-    context.globalAlpha = 0.22;
-    view.model.paths.forEach((path, i) => !here.has(path) && draw(i, path));
+    const next = view.model.paths.indexOf(view.nextPath);
+    context.globalAlpha = 0.3;
+    if (next >= 0 && !here.has(view.nextPath)) draw(next, view.nextPath);
     context.globalAlpha = 1;
-    view.model.paths.forEach((path, i) => here.has(path) && draw(i, path));
+    view.model.paths.forEach((path, i) => {
+      if (!here.has(path)) return;
+      draw(i, path);
+      Labels.blockLine(panel, spots[i].map((p) => panel.at(p)));
+    });
   }
 
   function regions(context, panel, world) {
@@ -245,7 +274,7 @@ const Workspace = (() => {
           arm(context, panel, view, world, q, { fill: theme.ghost, line: theme.grey, width: 0.8, alpha: 0.7 });
         }
       }
-      const look = { line: theme.ink, width: 1, alpha: 0.85, joints: true };
+      const look = { line: theme.ink, width: 1, alpha: 0.85, joints: true, blocks: true };
       if (view.isMotion) arm(context, panel, view, world, view.beginning(), { ...look, fill: theme.paper });
       for (const q of view.ends()) arm(context, panel, view, world, q, { ...look, fill: theme.pale });
       for (const q of world.unreached) {
@@ -253,7 +282,7 @@ const Workspace = (() => {
       }
     }
     if (model.stuck) stuck(context, panel, view, model.stuck);
-    if (view.shows('trace')) traces(context, panel, view);
+    if (view.shows('path')) traces(context, panel, view);
     if (view.shows('frames')) for (const frame of model.frames) axes(context, panel, frame);
   }
 
@@ -281,16 +310,18 @@ const Workspace = (() => {
   function moving(context, panel, view) {
     const { theme } = panel;
     movers(context, panel, view, view.world);
-    arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, joints: true });
-    if (view.probe) tried(context, panel, view);
+    const { examined } = view;
+    // While another arm is examined, this one steps back.
+    const alpha = view.probe ? 0.45 : 1;
+    arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, alpha, joints: true, blocks: true });
+    if (examined) tried(context, panel, view, examined);
     if (view.shows('names')) names(context, panel, view, view.world);
     if (view.hovered) Labels.write(context, theme, ...view.hovered);
   }
 
   /** Draws the examined arm, and the obstacles that it touches. */
-  function tried(context, panel, view) {
+  function tried(context, panel, view, { contacts, q }) {
     const { theme } = panel;
-    const { contacts, q } = view.probe;
     const hits = contacts.filter((c) => c.distance <= 0);
     for (const { obstacle } of hits) struck(context, panel, view.world.obstacles[obstacle]);
     const touching = new Set(hits.map((c) => (c.carried ? 'payload' : c.link)));
@@ -302,7 +333,26 @@ const Workspace = (() => {
       width: 1.6,
       alpha: 0.92,
       joints: true,
+      blocks: true,
     });
+    for (const { at } of hits) if (at) touchMark(context, panel, at);
+  }
+
+  /** Marks the place of a contact. */
+  function touchMark(context, panel, at) {
+    const [x, y] = panel.at(at);
+    Labels.blockSpot(panel, [x, y]);
+    for (const [radius, color] of [[7, panel.theme.paper], [5, panel.theme.infeasible]]) {
+      context.beginPath();
+      context.arc(x, y, radius, 0, 2 * Math.PI);
+      context.fillStyle = color;
+      context.fill();
+    }
+    context.beginPath();
+    context.arc(x, y, 11, 0, 2 * Math.PI);
+    context.lineWidth = 2;
+    context.strokeStyle = panel.theme.infeasible;
+    context.stroke();
   }
 
   /** Draws the axes of a link's frame. An axis perpendicular to the plane is a dot (towards the viewer) or a cross. */
@@ -324,7 +374,6 @@ const Workspace = (() => {
       line(context, [[x, y], [x + AXIS * u, y - AXIS * v]]);
       Labels.write(context, panel.theme, letter, x + (AXIS + 9) * u, y - (AXIS + 9) * v);
     });
-    Labels.write(context, panel.theme, frame.name, x + 30, y + 18);
   }
 
   return { still, moving, found, arm, struck };

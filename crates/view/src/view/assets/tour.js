@@ -1,0 +1,70 @@
+// A tour of the page in four steps, for the first visit. It covers nothing that the reader needs, and can be closed at
+// any time.
+'use strict';
+
+class Tour {
+  constructor(view) {
+    this.view = view;
+    this.step = 0;
+    this.title = element('h2', {});
+    this.text = element('p', {});
+    this.count = element('span', { class: 'count' });
+    this.next = element('button', { type: 'button', class: 'button primary', onclick: () => this.go(this.step + 1) }, 'Next');
+    this.root = element(
+      'section', { class: 'tour', role: 'dialog', 'aria-label': 'Tour', hidden: true, onkeydown: (event) => event.key === 'Escape' && this.end() },
+      this.title, this.text,
+      element('p', { class: 'actions' }, this.count, element('button', { type: 'button', class: 'button', onclick: () => this.end() }, 'Close'), this.next),
+    );
+  }
+
+  /** Steps: title, text, and the element that the step is about. */
+  get steps() {
+    const { parts, layers, panels } = this.view;
+    return [
+      ['One motion, seen twice', 'On the left, the arm among its obstacles. On the right, the same arm as one point: a coordinate for each joint. Coloured regions on the right are collisions.', parts.panels],
+      ['Take the arm', 'Drag the tip of the arm, or its dot on the right. Contacts are marked in red. Escape puts the arm back.', panels.workspace.canvas.parentElement],
+      ['Play it', 'Space plays the motion. \u201cHow it was found\u201d replays the search of the planner, and \u201cLearn\u201d has lessons in geometry.', parts.transport],
+      ['Choose what is drawn', 'Each layer has its sign and a checkbox. More about the result is in the tabs below the pictures.', layers.root],
+    ];
+  }
+
+  /** Starts the tour if this is the first visit. Browsers that are driven by a program, or remember nothing, see none. */
+  offer() {
+    if (navigator.webdriver || Settings.read('tour') !== null || !Settings.write('tour', 'offered')) return;
+    this.start();
+  }
+
+  start() {
+    this.root.hidden = false;
+    this.go(0);
+  }
+
+  go(step) {
+    this.mark(null);
+    const { steps } = this;
+    if (step >= steps.length) {
+      this.end();
+      return;
+    }
+    this.step = step;
+    const [title, text, about] = steps[step];
+    this.title.textContent = title;
+    this.text.textContent = text;
+    this.count.textContent = `${step + 1} of ${steps.length}`;
+    this.next.textContent = step + 1 < steps.length ? 'Next' : 'Done';
+    this.mark(about);
+    about.scrollIntoView?.({ block: 'nearest', behavior: Settings.reducesMotion ? 'auto' : 'smooth' });
+  }
+
+  /** Frames the element that a step is about. */
+  mark(about) {
+    this.about?.classList.remove('toured');
+    this.about = about;
+    about?.classList.add('toured');
+  }
+
+  end() {
+    this.mark(null);
+    this.root.hidden = true;
+  }
+}
