@@ -169,7 +169,7 @@ fn key_figures(plan: &Plan) -> KeyFigures {
         }
         Detail::Task { answer, .. } => (answer.gap(), true),
     };
-    let is_static = plan.problem().timed().scene.loose().is_empty();
+    let is_static = plan.problem().timed().scene.loose_obstacles().is_empty();
     let gap = gap.filter(|gap| is_static && gap.is_finite());
     KeyFigures { duration: plan.duration(), gap, fastest, clearance: plan.clearance() }
 }
