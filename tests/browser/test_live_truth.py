@@ -256,13 +256,13 @@ def test_delete_works_after_something_was_added(serve):
 def test_shortcuts_of_a_single_key_can_be_switched_off(serve):
     seen = serve(*PLANAR)
     seen.page.get_by_label("selected", exact=True).select_option("obstacle 1")
-    seen.do("localStorage.setItem('cplan-shortcuts', 'off')")
+    seen.do("localStorage.setItem('cplan.shortcuts', 'off')")
     for key in ("c", "Delete", "Backspace"):
         seen.page.keyboard.press(key)
     assert seen.do("cplan.editor.selection") == {"kind": "obstacle", "index": 1, "corner": None}
     seen.do("document.activeElement.blur()")
     seen.page.keyboard.press("Delete")
     assert seen.do("cplan.scene.obstacles.length") == 2
-    seen.do("localStorage.removeItem('cplan-shortcuts')")
+    seen.do("localStorage.removeItem('cplan.shortcuts')")
     seen.page.keyboard.press("Delete")
     assert seen.do("cplan.scene.obstacles.length") == 1

@@ -349,7 +349,7 @@ class Editor {
 
   /** Deletes the selection if this key event asks for it. Returns true if so. */
   deletes(event) {
-    if (!this.obstacle || !['Delete', 'Backspace'].includes(event.key) || !Keep.hasShortcuts()) return false;
+    if (!this.obstacle || !['Delete', 'Backspace'].includes(event.key) || !Settings.hasShortcuts) return false;
     event.preventDefault();
     event.stopPropagation();
     this.remove();
@@ -363,7 +363,7 @@ class Editor {
     const { obstacle } = this;
     if (direction) this.nudge(direction, event.shiftKey ? 10 : 1, panel);
     else if (this.deletes(event)) return;
-    else if (event.key === 'c' && Keep.hasShortcuts() && obstacle?.shape && !obstacle.shape.circle) {
+    else if (event.key === 'c' && Settings.hasShortcuts && obstacle?.shape && !obstacle.shape.circle) {
       const n = Shapes.corners(obstacle.shape).length;
       const next = this.selection.corner === null ? 0 : this.selection.corner + 1;
       this.select({ ...this.selection, corner: next < n ? next : null });

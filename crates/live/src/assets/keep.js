@@ -9,7 +9,6 @@ const MAX_STEPS = 20;
 const Keep = (() => {
   const PREFIX = 'cplan edits ';
   const DRAGGED = 'cplan dragged';
-  const SHORTCUTS = ['cplan-shortcuts', 'cplan.shortcuts'];
 
   /** Returns the store of this window first, then that of all windows. Browsers may refuse both. */
   function stores() {
@@ -106,14 +105,5 @@ const Keep = (() => {
     }
   }
 
-  /** Returns true unless the user has switched off shortcuts of a single key. */
-  function hasShortcuts() {
-    try {
-      return SHORTCUTS.every((name) => window.localStorage.getItem(name) !== 'off');
-    } catch {
-      return true;
-    }
-  }
-
-  return { write, read, forget, hasDragged, recordDrag, hasShortcuts };
+  return { write, read, forget, hasDragged, recordDrag };
 })();
