@@ -7,7 +7,7 @@ use crate::engine::findings::{
 use crate::model::Arm;
 use crate::output::{Line, StepLine, configuration, format_columns, step_lines};
 use crate::space::Recording;
-use crate::text::{counted, format_distinct, length, length_down, nonzero};
+use crate::text::{counted, format_distinct, length, length_down};
 
 /// Depth of a contact, in metres, below which it counts as rounding.
 const TOUCHING_DEPTH: f64 = 1e-9;
@@ -78,10 +78,11 @@ fn collisions(arm: &Arm, collisions: &CollisionFinding, verdict: Judgement) -> V
     lines.extend(
         collisions.deepest.iter().map(|deepest| ("deepest", format!("{}, {}", place(deepest), depth(deepest)))),
     );
-    lines.extend(collisions.undecided.iter().map(|nearest| {
-        let distance = nonzero(-nearest.depth, 6);
-        ("undecided", format!("{}: {distance} m, too near to decide", place(nearest)))
-    }));
+    lines.extend(
+        collisions.undecided.iter().map(|nearest| {
+            ("undecided", format!("{}: {}, too near to decide", place(nearest), length(-nearest.depth)))
+        }),
+    );
     lines
 }
 
@@ -125,7 +126,7 @@ fn rows(steps: &[StepFinding]) -> Vec<String> {
         let carried = step.carried.as_ref().map_or("empty-handed".into(), |object| format!("carrying \"{object}\""));
         let turn = step.turn.as_ref().map_or(String::new(), |turn| format!(", turn in {:.3} s", turn.seconds));
         let found = match (step.verdict, step.clearance()) {
-            (Judgement::Free, Some(clearance)) => format!("clearance {} m", nonzero(clearance, 4)),
+            (Judgement::Free, Some(clearance)) => format!("clearance {}", length_down(clearance)),
             (Judgement::Free, None) => "no obstacle within reach".into(),
             (Judgement::Collision, _) => "collides".into(),
             (Judgement::Task | Judgement::Ends | Judgement::Claims, _) => "not as required".into(),

@@ -119,7 +119,7 @@ fn a_motion_that_grazes_at_exactly_the_clearance_is_undecided() {
     assert_eq!(code, Some(4), "{text}");
     let line = |key: &str| text.lines().find(|line| line.starts_with(key)).unwrap_or_else(|| panic!("{key}:\n{text}"));
     assert_eq!(line("result"), "result     undecided");
-    for part in ["link \"head\"", "obstacle \"wall\"", "0.250000 m, too near to decide"] {
+    for part in ["link \"head\"", "obstacle \"wall\"", "250.0 mm, too near to decide"] {
         assert!(line("undecided").contains(part), "no \"{part}\" in:\n{text}");
     }
     assert!(!text.contains("proven"), "{text}");

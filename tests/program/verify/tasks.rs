@@ -140,7 +140,7 @@ fn the_summary_has_a_line_a_step() {
     {
         assert!(text.contains(part), "no {part:?} in:\n{text}");
     }
-    assert!(text.contains("step by step"), "{text}");
+    assert!(text.contains("each step is judged by itself"), "{text}");
     let turned = shipped_task("board_turned").in_world("velocity = 3.0", "velocity = 0.3");
     let (code, text, _) = turned.report(&[]);
     assert_eq!(code, 3);
