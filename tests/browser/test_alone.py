@@ -64,7 +64,7 @@ def test_what_takes_too_long_is_shown_without_a_plan(alone):
 WORDS = ["shortest", "visibility --gap 0.001", "trapezoid", "voronoi", "wavefront", "harmonic --cells 64", "prm", "subdivision", "fastest"]
 
 TALK = """async (requests) => {
-  const socket = cplan.gallery.dial();
+  const socket = cplan.gallery.openSocket();
   socket.binaryType = 'arraybuffer';
   const messages = [];
   let heard = () => {};

@@ -18,7 +18,7 @@ def test_the_live_figure_shows_what_the_chapter_says(program, show, chapter):
     mark, command = re.search(rf"(<!-- exit: 3 -->\n)?```sh\ncplan (.* --picture {page})\n```", text).groups()
     program.run(*[str(ROOT / word) if word.endswith((".urdf", ".toml")) else word for word in shlex.split(command)], code=3 if mark else 0)
     file = program.folder / page
-    assert file.stat().st_size < 330_000
+    assert file.stat().st_size < 400_000
     seen = show(f"{file.as_uri()}#{mode}" + (f"/{lesson}" if lesson else ""))
     assert (seen.do("cplan.mode"), seen.do("cplan.learn.lesson")) == (mode, lesson or "slice")
     # It moves.

@@ -637,3 +637,18 @@ def test_a_checked_configuration_shows_its_contacts_at_once(program, show_file):
     assert "free" in readout.inner_text()
     seen.page.keyboard.press("Escape")
     assert "touches" in readout.inner_text()
+
+
+def test_a_checked_configuration_shows_where_it_touches_and_the_nearest_free_one(program, show_file):
+    page = program.folder / "contact.html"
+    files = [ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml"]
+    report = json.loads(program.run("check", *files, "--at=0.9,-1.8", "--json", "--picture", page))
+    seen = show_file(page)
+    checked = seen.do("cplan.model.checked")
+    assert checked["is_blocked"] and checked["nearest_free"] == report["nearest_free"]["configuration"]
+    corner = report["contacts"][0]["link_corners_inside"][0]["at"]
+    assert corner in checked["contacts"] and len(checked["contacts"]) == 3
+    keys = seen.page.get_by_role("list", name="Legend").get_by_role("listitem").all_inner_texts()
+    assert {"contact", "nearest free configuration"} <= set(keys)
+    details = seen.page.locator(".facts").inner_text()
+    assert "penetrates by 8.064 mm" in details and "free: shoulder 51.19 deg" in details

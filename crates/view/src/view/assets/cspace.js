@@ -397,6 +397,7 @@ const CSpace = (() => {
     }
     if (seen?.kind === 'channel' && view.shows('channel')) channelPoints(context, panel, view, seen);
     goalLines(context, panel, view);
+    if (view.model.checked?.nearest_free) ring(context, panel, place(view, panel, view.model.checked.nearest_free), 5, panel.theme.grey);
     if (view.model.stuck?.at) cross(context, panel.theme, place(view, panel, view.model.stuck.at[0]));
     view.goals().forEach(([q, reached]) => diamond(context, panel, place(view, panel, q), reached));
     ring(context, panel, place(view, panel, view.beginning()), 7);
@@ -429,13 +430,13 @@ const CSpace = (() => {
   /** Returns the configurations with markers: start, goals, and where the arm gets stuck. */
   const markers = (panel, view) => [view.beginning(), ...view.goals().map(([q]) => q), ...(view.model.stuck?.at?.slice(0, 1) ?? [])].map((q) => place(view, panel, q));
 
-  function ring(context, panel, [x, y], r) {
+  function ring(context, panel, [x, y], r, color = panel.theme.ink) {
     context.beginPath();
     context.arc(x, y, r, 0, 2 * Math.PI);
     context.fillStyle = panel.theme.paper;
     context.fill();
     context.lineWidth = 2.2;
-    context.strokeStyle = panel.theme.ink;
+    context.strokeStyle = color;
     context.stroke();
   }
 

@@ -281,6 +281,8 @@ const Workspace = (() => {
         arm(context, panel, view, world, q, { fill: theme.paper, line: theme.infeasible, width: 0.9, alpha: 0.65 });
       }
     }
+    const nearestFree = model.checked?.nearest_free;
+    if (nearestFree) arm(context, panel, view, world, nearestFree, { fill: theme.ghost, line: theme.grey, width: 1.2, alpha: 0.8, joints: true });
     if (model.stuck) stuck(context, panel, view, model.stuck);
     if (view.shows('path')) traces(context, panel, view);
     if (view.shows('frames')) for (const frame of model.frames) axes(context, panel, frame);
