@@ -205,7 +205,7 @@ impl MotionQuestion {
     }
 
     /// Returns the question without some of its elements. A removed limit is replaced by a wider one, see
-    /// [`MotionQuestion::beyond`]. The clearance is at least [`MIN_CLEARANCE`], unless start or goals are nearer to
+    /// [`MotionQuestion::margin_beyond_limit`]. The clearance is at least [`MIN_CLEARANCE`], unless start or goals are nearer to
     /// obstacles. The other elements keep their indices, so a proof that names no removed element is valid for both
     /// questions.
     #[must_use]

@@ -67,7 +67,7 @@ pub struct Streamline {
 /// fourth-order Runge-Kutta method in steps of [`STEP_LENGTH`].
 /// Beside walls, only the centres of free cells count, which leads the curve away from the walls. A step that would
 /// still leave the free cells slides along their sides. Where the curve makes no progress (at a saddle, or in a narrow
-/// bend), it moves to a better cell by [`Guide::onward`]. So the curve stays in free cells, and it can always be
+/// bend), it moves to a better cell by [`Guide::next_cells`]. So the curve stays in free cells, and it can always be
 /// continued if the guide's cells lead to a goal.
 ///
 /// # Errors

@@ -51,7 +51,7 @@ pub struct Leg {
     pub step: Step,
     /// The world during the motion, with the payload.
     pub scene: Arc<Scene>,
-    /// The indices of the objects that still move by themselves ([`cplan_handling::Task::courses`]).
+    /// The indices of the objects that still move by themselves ([`cplan_handling::Task::trajectories`]).
     pub moving: Arc<[usize]>,
     /// The object that is carried during the motion. `None` if the gripper is empty.
     pub carried: Option<usize>,

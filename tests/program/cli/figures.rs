@@ -143,3 +143,21 @@ fn flow_lines_are_drawn_if_requested() {
         .sum::<usize>();
     assert!((100..=256).contains(&heads), "{heads}");
 }
+
+/// Checks that a dark picture has the same items as a light one, and differs in colours alone.
+#[test]
+fn dark_pictures_differ_in_their_colors_alone() {
+    let place = Place::new();
+    let [light, dark] = ["", "--theme dark"].map(|theme| drawn(&place, &shelf(), theme));
+    assert_eq!(light, drawn(&place, &shelf(), "--theme light"));
+    let colors = |picture: &str| -> Vec<String> {
+        picture.split('#').skip(1).filter_map(|rest| Some(rest.get(..6)?.to_owned())).collect()
+    };
+    let without_colors = |picture: &str| {
+        colors(picture).iter().fold(picture.to_owned(), |text, color| text.replace(&format!("#{color}"), "#"))
+    };
+    assert_eq!(without_colors(&light), without_colors(&dark));
+    // The background is the first colour.
+    assert_eq!([&colors(&light)[0], &colors(&dark)[0]], ["ffffff", "16191d"]);
+    assert!(!colors(&dark).contains(&"ffffff".to_owned()), "nothing is left white");
+}
