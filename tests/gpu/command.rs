@@ -39,7 +39,7 @@ fn fields_of_a_gpu_are_followed_and_certified() {
 #[test]
 #[ignore = "needs a Vulkan driver: .ci/gpu"]
 fn the_summary_names_the_adapter() {
-    let done = cplan("shelf", "--planner harmonic --cells 64 --on gpu").output().unwrap();
+    let done = cplan("shelf", "--planner harmonic --cells 64 --on gpu --verbose").output().unwrap();
     let text = String::from_utf8_lossy(&done.stdout).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains("harmonic; gauss-seidel, red-black; on "), "{text}");
 }
