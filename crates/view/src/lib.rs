@@ -24,6 +24,7 @@ mod chart;
 mod checked;
 mod copies;
 mod cspace;
+mod explanation;
 mod exploration;
 mod figure;
 mod flow;
@@ -57,6 +58,7 @@ mod workspace;
 
 pub use blocking::BlockingView;
 pub use checked::CheckedView;
+pub use explanation::ExplanationView;
 pub use exploration::exploration_page;
 pub use flow::FieldLines;
 pub use obstacles::{extent, obstacles, still_page};

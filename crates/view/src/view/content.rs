@@ -9,6 +9,7 @@ use super::trace::TraceView;
 use super::world::{ObstacleView, WorldView};
 use crate::blocking::BlockingView;
 use crate::checked::CheckedView;
+use crate::explanation::ExplanationView;
 use crate::flow::FieldLines;
 use cplan_core::model::{Arm, Status};
 use cplan_core::space::Configuration;
@@ -112,6 +113,8 @@ pub(crate) struct StillContent {
     pub time: f64,
     /// The obstacles that block the motion.
     pub stuck: Option<BlockingView>,
+    /// The explanation, with its cards. Pictures show only the obstacles that block the motion.
+    pub explanation: Option<ExplanationView>,
     /// The findings about a checked configuration.
     pub checked: Option<CheckedView>,
     /// True for pictures with a dark background.
@@ -193,6 +196,13 @@ impl View {
     #[must_use]
     pub fn with_blocking(mut self, stuck: BlockingView) -> Self {
         self.still.stuck = Some(stuck);
+        self
+    }
+
+    /// Returns the view with an explanation.
+    #[must_use]
+    pub fn with_explanation(mut self, explanation: ExplanationView) -> Self {
+        self.still.explanation = Some(explanation);
         self
     }
 

@@ -9,7 +9,7 @@ const STYLE: &str = include_str!("assets/view.css");
 pub(crate) const ICONS: &str = include_str!("assets/icons.js");
 
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 18] = [
+const SCRIPTS: [&str; 19] = [
     ICONS,
     include_str!("assets/settings.js"),
     include_str!("assets/numbers.js"),
@@ -27,6 +27,7 @@ const SCRIPTS: [&str; 18] = [
     include_str!("assets/learn.js"),
     include_str!("assets/steps.js"),
     include_str!("assets/tour.js"),
+    include_str!("assets/explain.js"),
     include_str!("assets/view.js"),
 ];
 

@@ -71,6 +71,7 @@ impl View {
             now: None,
             reach: None,
             stuck: None,
+            explanation: None,
             checked: None,
             is_dark: false,
             field_lines: FieldLines::default(),

@@ -50,6 +50,7 @@ class View {
     /** Mode that the user has chosen. The view returns to it when it is available again. */
     this.chosen = 'move';
     this.learn = new Learn(this);
+    this.explain = new Explain(this);
     this.speed = 1;
     this.playing = false;
     this.probe = null;
@@ -77,6 +78,7 @@ class View {
   update(model) {
     this.model = model;
     this.traces = null;
+    this.explain.update(model);
     const count = model.worlds[0]?.obstacles.length ?? 0;
     [this.named, this.isCrowded] = [count <= NAMED, count > CROWDED];
     this.hovered = null;
@@ -234,6 +236,7 @@ class View {
   /** Returns the configuration of the arm. */
   get q() {
     if (this.mode === 'learn' && this.learn.isSlice) return this.learn.q;
+    if (this.explain.q) return this.explain.q;
     if (this.moment) return Think.focus(this) ?? this.beginning();
     return this.model.clock ? Geometry.moving(this.model.clock, this.time).position : this.beginning();
   }
@@ -373,6 +376,7 @@ class View {
     this.root.append(
       element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
       parts.cards,
+      this.explain.root,
       element(
         'div',
         { class: 'stage' },
@@ -396,6 +400,7 @@ class View {
         beside: (context, panel) => CSpace.beside(context, panel, this),
       }),
     };
+    this.explain.watch(this.panels);
     // Texts on canvases follow the text size of the page.
     new ResizeObserver(() => this.model && this.recolor()).observe(parts.measure);
     this.plots = Plots.mount(parts.plots, this);
