@@ -80,6 +80,8 @@ pub(crate) struct CardView {
 pub(crate) enum Edit {
     /// Another shape of the obstacle with this index.
     Obstacle { number: usize, shape: EditedShape },
+    /// The obstacle with this index is deleted.
+    Removal(usize),
     /// Another clearance, in metres.
     Clearance(f64),
     /// Another range of the joint with this index, in radians or metres.

@@ -4,7 +4,7 @@ use super::explained_cards::{blocking, explanation_view};
 use super::explained_words::{bounds, headline, instruction};
 use super::picture::{contours, title_of};
 use super::summary::{Line, configuration, format_columns, goal_lines};
-use crate::{ExplanationView, Picture, View};
+use crate::{Picture, View};
 use cplan_core::model::{Outcome, Scene};
 use cplan_explain::{
     BlockedEnd, Bottleneck, End, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach, TIME_LIMIT, Target,
@@ -60,12 +60,6 @@ pub fn view(explanation: &Explanation) -> View {
         Some(stuck) => view.with_blocking(stuck),
         None => view,
     }
-}
-
-/// Returns the explanation for a page that shows the world by itself. `view` is the view that the page shows.
-#[must_use]
-pub fn cards(explanation: &Explanation, view: &View) -> ExplanationView {
-    explanation_view(explanation, view.frame)
 }
 
 /// Returns the answer in a sentence.

@@ -17,6 +17,9 @@ use cplan_text::{headline_length, length};
 /// Largest share of the visible workspace by which it grows on a side to include changed obstacles.
 const MAX_GROWTH: f64 = 0.35;
 
+/// Distance between a changed obstacle and the border of the workspace, as a share of the visible part.
+const MARGIN: f64 = 0.04;
+
 /// Returns the explanation for a page. `frame` is the visible part of the workspace.
 pub fn explanation_view(explanation: &Explanation, frame: [[f64; 2]; 2]) -> ExplanationView {
     let question = &explanation.question;
@@ -77,11 +80,13 @@ impl CardMaker<'_> {
             ChangeContext::Set => set.others(self.scene()).into_iter().filter_map(Element::obstacle).collect(),
         };
         let view = obstacle.as_ref().zip(number);
+        let is_gone = obstacle.as_ref().is_some_and(|obstacle| obstacle.pieces.is_empty());
         let [opens, closed] = bounds(self.scene(), set, change);
         CardView {
             title: instruction(self.scene(), change, is_only),
             opens,
             closed,
+            note: if is_gone { "nothing is left of it then".into() } else { String::new() },
             obstacle: number,
             changed: view.map(|(obstacle, number)| ObstacleView::new(obstacle, number, self.grain)),
             removed,
@@ -97,6 +102,9 @@ impl CardMaker<'_> {
         match change.element {
             Element::Obstacle { number } => {
                 let obstacle = change.changed_obstacle(self.scene())?;
+                if obstacle.pieces.is_empty() {
+                    return Some(Edit::Removal(number));
+                }
                 EditedShape::new(&obstacle.shape).map(|shape| Edit::Obstacle { number, shape })
             }
             Element::Link { .. } => None,
@@ -235,8 +243,14 @@ impl CardMaker<'_> {
 /// Returns the visible part of the workspace, extended to include changed obstacles as far as they are not too far away.
 fn extended(frame: [[f64; 2]; 2], cards: &[CardView]) -> [[f64; 2]; 2] {
     let shapes = cards.iter().filter_map(|card| card.changed.as_ref()).flat_map(ObstacleView::own);
-    let bounds = bounding_box(shapes);
     let size = frame.map(|[lower, upper]| upper - lower).into_iter().fold(0.0, f64::max);
+    let bounds = bounding_box(shapes).map(|(lower, upper)| (lower - MARGIN * size, upper + MARGIN * size));
+    // Obstacles within the frame need no margin.
+    let bounds = [0, 1].map(|k| {
+        let [lower, upper] = frame[k];
+        let is_in = lower <= bounds[k].0 + MARGIN * size && bounds[k].1 - MARGIN * size <= upper;
+        if is_in { (lower, upper) } else { bounds[k] }
+    });
     [0, 1].map(|k| {
         let [lower, upper] = frame[k];
         [lower.min(bounds[k].0).max(lower - MAX_GROWTH * size), upper.max(bounds[k].1).min(upper + MAX_GROWTH * size)]

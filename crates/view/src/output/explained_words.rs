@@ -145,8 +145,8 @@ pub fn evidence(explanation: &Explanation) -> String {
         Outcome::Infeasible(closed) => {
             let Some(set) = closed.sets.iter().find(|set| !set.blockers.is_empty()) else { return String::new() };
             let boxes = set.proof.as_ref().map(|proof| match proof.collision_boxes().len() {
-                1 => " by a box of collisions".into(),
-                n => format!(" by {n} boxes of collisions"),
+                1 => " by 1 collision box".into(),
+                n => format!(" by {n} collision boxes"),
             });
             let proven = format!("proven{}", boxes.unwrap_or_default());
             match (set.blockers.len(), set.is_irreducible()) {

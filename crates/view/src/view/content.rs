@@ -206,6 +206,12 @@ impl View {
         self
     }
 
+    /// Returns the explanation, if the view has one.
+    #[must_use]
+    pub fn explanation(&self) -> Option<&ExplanationView> {
+        self.still.explanation.as_ref()
+    }
+
     /// Returns the view for pictures with a dark background, or a light one. Pages follow the reader's system.
     #[must_use]
     pub fn on_background(mut self, is_dark: bool) -> Self {

@@ -93,7 +93,7 @@ class Explain {
     if (!this.explanation) return;
     [this.hovered, this.kept] = [null, null];
     this.render();
-    this.explanation = null;
+    [this.base.stuck, this.base.explanation, this.explanation] = [null, null, null];
     this.root.hidden = true;
   }
 
@@ -103,7 +103,8 @@ class Explain {
    * @returns {HTMLElement}
    */
   button(card) {
-    const line = (sign, text) => text && element('span', { class: `line ${sign}` }, icon(sign), element('span', {}, text));
+    const readable = (text) => text.replace(/(^|[\s(])-(?=\d)/g, '$1\u2212');
+    const line = (sign, text) => (text ? element('span', { class: `line ${sign}` }, icon(sign), element('span', {}, readable(text))) : null);
     return element(
       'button',
       {
@@ -114,10 +115,10 @@ class Explain {
         onblur: () => this.hover(null),
         onclick: () => this.toggle(card),
       },
-      element('span', { class: 'title' }, card.title),
+      element('span', { class: 'title' }, readable(card.title)),
       line('found', card.opens),
       line('infeasible', card.closed),
-      card.note && element('span', { class: 'line' }, card.note),
+      card.note ? element('span', { class: 'line' }, readable(card.note)) : null,
     );
   }
 
@@ -308,7 +309,8 @@ class Explain {
    */
   arrow(context, theme, from, to) {
     const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-    if (Math.hypot(dx, dy) < EXPLAIN_ARROW) return;
+    // An obstacle of which nothing is left has no place.
+    if (!(Math.hypot(dx, dy) >= EXPLAIN_ARROW)) return;
     const angle = Math.atan2(dy, dx);
     const wing = (turn) => [to[0] + 10 * Math.cos(angle + turn), to[1] + 10 * Math.sin(angle + turn)];
     for (const [width, color] of [[6, theme.paper], [2.6, theme.found]]) {
