@@ -9,9 +9,40 @@ const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 10];
 const [NAMED, CROWDED] = [16, 40];
 
 class View {
-  /** Creates a view of `model` within `root`. `recall` requests the planner's replay, if there is a program to answer. */
+  /**
+   * Creates a view of a model.
+   * @param {HTMLElement} root element that the view fills
+   * @param {Model} model
+   * @param {?() => void} recall requests the planner's replay, if there is a program to answer
+   */
   constructor(root, model, recall = null) {
     this.root = root;
+    /** @type {?Model} */
+    this.model = null;
+    /** The elements of the page by name. See `buildPage`. @type {Record<string, any>} */
+    this.parts = {};
+    /** @type {{ workspace: Panel, cspace: Panel }} */
+    this.panels = null;
+    /** @type {{ panel: Panel, fit: () => void }[]} */
+    this.plots = [];
+    /** @type {Steps} */
+    this.steps = null;
+    /** @type {Layers} */
+    this.layers = null;
+    /** @type {Tabs} */
+    this.tabs = null;
+    /** @type {Tour} */
+    this.tour = null;
+    /** True if obstacles are written with their names; otherwise with numbers. */
+    this.named = true;
+    /** True if names appear only under the pointer. */
+    this.isCrowded = false;
+    /** The name under the pointer and its spot, if names are not written. @type {?[string, number, number]} */
+    this.hovered = null;
+    /** Obstacles that the arm cannot meet, by world. @type {?{ world: WorldModel, pale: Set<ObstacleModel> }} */
+    this.relevance = null;
+    /** Traces of the tip. @type {any} */
+    this.traces = null;
     root.classList.toggle('live', Boolean(recall));
     this.hidden = new Set();
     this.time = 0;
@@ -26,13 +57,10 @@ class View {
     this.learn = new Learn(this);
     this.speed = 1;
     this.playing = false;
+    /** The examined arm. @type {?{ q: Point, contacts: ContactModel[] }} */
     this.probe = null;
     this.pinned = false;
-    /**
-     * Handler that receives pointer events before the view: { down, move, up }, each called with panel, value and
-     * event. `tap(panel)` is called for a finger's tap on nothing, and `grasps(panel, value, event)` returns whether
-     * there is something to take.
-     */
+    /** Handler that receives pointer events before the view. @type {?Tool} */
     this.tool = null;
     /** True if another script reports the outcome: see `say`. */
     this.judged = false;
@@ -316,7 +344,10 @@ class View {
     parts.cards.replaceChildren(...cards.map(([name, value, note]) => element('div', { class: 'card' }, element('dt', {}, name), element('dd', {}, value, element('small', {}, note)))));
   }
 
-  /** Returns the key figures of a model: name, value and meaning. Proven bounds are rounded to the safe side. */
+  /**
+   * Returns the key figures of a model: name, value and meaning. Proven bounds are rounded to the safe side.
+   * @param {{ figures?: FiguresModel }} model
+   */
   static cards({ figures = {} }) {
     const { duration, gap, fastest, clearance } = figures;
     return [
@@ -383,7 +414,7 @@ class View {
   }
 
   allPanels() {
-    return [...Object.values(this.panels), ...(this.plots ?? []).map((plot) => plot.panel)];
+    return [...Object.values(this.panels), ...this.plots.map((plot) => plot.panel)];
   }
 
   /** Draws everything again. */
@@ -503,7 +534,11 @@ class View {
     return this.panels.workspace.at(Geometry.tipAt(this.model.arm, this.probe?.q ?? this.q));
   }
 
-  /** Returns true if a pointer at this spot takes the tip of the arm. */
+  /**
+   * Returns true if a pointer at this spot takes the tip of the arm.
+   * @param {Point} spot
+   * @param {{ pointerType: string }} event
+   */
   isAtTip([x, y], { pointerType }) {
     if (this.mode === 'learn') return false;
     const [u, v] = this.tipSpot;
@@ -513,6 +548,8 @@ class View {
   /**
    * Returns true if a pointer at this spot takes the dot of the arm in the configuration space: the cross that is kept
    * there or, for a mouse, also that of the current arm. A finger that begins elsewhere scrolls the page.
+   * @param {Point} spot
+   * @param {{ pointerType: string }} event
    */
   isAtDot([x, y], { pointerType }) {
     const isMouse = pointerType === 'mouse';
@@ -568,10 +605,11 @@ class View {
   /** On a small screen, moves the description above the finger, as far as there is room. */
   follow(q) {
     const { canvas } = this.panels.cspace;
+    const frame = /** @type {HTMLElement} */ (canvas.offsetParent);
     const [x, y] = this.panels.cspace.at(q);
     const { style } = this.parts.probe;
-    style.setProperty('--x', `${Math.round(canvas.offsetParent.offsetLeft + canvas.offsetLeft + x)}px`);
-    style.setProperty('--y', `${Math.round(canvas.offsetParent.offsetTop + canvas.offsetTop + y)}px`);
+    style.setProperty('--x', `${Math.round(frame.offsetLeft + canvas.offsetLeft + x)}px`);
+    style.setProperty('--y', `${Math.round(frame.offsetTop + canvas.offsetTop + y)}px`);
   }
 
   /** Describes a configuration. */

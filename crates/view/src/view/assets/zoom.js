@@ -76,7 +76,7 @@ const Zoom = {
     const { canvas } = panel;
     /** Distance of the fingers, and the spot between them. */
     let pinch = null;
-    const between = ([a, b]) => ({
+    const between = (/** @type {TouchList} */ [a, b]) => ({
       apart: Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY),
       spot: panel.spot({ clientX: (a.clientX + b.clientX) / 2, clientY: (a.clientY + b.clientY) / 2 }),
     });
