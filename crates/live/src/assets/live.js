@@ -32,8 +32,17 @@ class Live {
     /** Number of the page's current state. Each change increases it. */
     this.edition = 1;
     /** The answer in the picture: the edition, whether it is complete, and its outcome. `null` if there is no connection. */
+    /** @type {?{ edition: number, final: boolean, ending?: string, status?: string, error: ?string }} */
     this.shown = null;
     this.notices = new Notices();
+    /** The edited world. @type {?Scene} */
+    this.scene = null;
+    /** The first world that was opened, and its origin: robot and text. @type {any} */
+    this.first = null;
+    /** @type {?string} */
+    this.origin = null;
+    /** @type {View} */
+    this.view = null;
     /** State for scripts that observe the page, such as tests. */
     this.answered = { id: 0, verdict: null, certified: false, final: false, error: null };
     /** Worlds to open. */
@@ -81,7 +90,7 @@ class Live {
     this.spoken = element('p', { class: 'spoken', 'aria-live': 'polite' });
     const { places } = this.notices;
     this.outcome = element('div', { class: 'outcome' }, this.figures, places.picture, places.files, this.controls.remarks);
-    this.root.querySelector('.panels').after(this.outcome, this.view.explain.root, this.spoken, this.controls.inspector.root);
+    this.root.querySelector('.panels').after(this.outcome, this.spoken, this.controls.inspector.root);
     this.arrange();
     SMALL_SCREEN.addEventListener('change', () => this.arrange());
     this.root.querySelector('.help').before(this.controls.commandLine, this.controls.world);
@@ -112,9 +121,12 @@ class Live {
     const { controls: { toolbar, root }, gallery, outcome, notices: { places } } = this;
     if (SMALL_SCREEN.matches) {
       outcome.after(gallery.task, toolbar);
+      // Above the pictures, where its cards and the pictures are in sight together.
+      panels.before(this.view.explain.root);
       stage.after(gallery.root, root, places.options);
     } else {
       panels.before(toolbar);
+      outcome.after(this.view.explain.root);
       header.firstChild.after(gallery.root);
       header.after(gallery.task, root, places.options);
     }

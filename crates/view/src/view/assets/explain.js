@@ -7,29 +7,13 @@ const [EXPLAIN_MOVES, EXPLAIN_RESTS] = [2600, 700];
 /** A move of an obstacle by fewer pixels has no arrow. */
 const EXPLAIN_ARROW = 14;
 
-/**
- * @typedef {object} Card
- * @property {string} title the change as an instruction
- * @property {string} [opens] the amount that opens a path
- * @property {string} [closed] the amount that does not
- * @property {string} [note] anything else that is known
- * @property {number} [obstacle] index of the changed obstacle
- * @property {object} [changed] the obstacle after the change
- * @property {number[]} [removed] indices of the obstacles that are not there
- * @property {object[]} [c_obstacles] C-obstacles after the change
- * @property {number[][]} [domains] ranges of both joints after the change
- * @property {object} [path] the certified path
- * @property {number[]} [at] a configuration to look at
- * @property {object} [edit] the change of the world file
- */
-
 class Explain {
   /** @param {View} view the page whose pictures show the cards */
   constructor(view) {
     this.view = view;
-    /** @type {object | null} */
+    /** @type {?ExplanationModel} */
     this.explanation = null;
-    /** The model of the world as it is. */
+    /** The model of the world as it is. @type {Model} */
     this.base = null;
     /** @type {Card | null} */
     this.hovered = null;
@@ -37,13 +21,17 @@ class Explain {
     this.kept = null;
     /** @type {Card | null} */
     this.shown = null;
-    /** Configuration of the arm on the path of the shown card; `null` without one. */
+    /** Configuration of the arm on the path of the shown card; `null` without one. @type {?Point} */
     this.q = null;
     /**
      * Applies the change of a card. `null` on pages that cannot change the world.
      * @type {((card: Card) => void) | null}
      */
     this.apply = null;
+    /** The buttons of the cards, in order. @type {HTMLElement[]} */
+    this.buttons = [];
+    /** Number of the requested frame. */
+    this.request = 0;
     this.headline = element('p', { class: 'headline' });
     this.evidence = element('p', { class: 'evidence' });
     this.title = element('h2');
@@ -62,7 +50,7 @@ class Explain {
 
   /**
    * Shows the explanation of a model; without one, removes the cards.
-   * @param {object} model the model that the page is going to show
+   * @param {Model} model the model that the page is going to show
    * @returns {void}
    */
   update(model) {
@@ -80,7 +68,6 @@ class Explain {
     this.evidence.textContent = evidence;
     this.title.textContent = title;
     this.title.hidden = !cards.length;
-    /** The buttons of the cards, in order. */
     this.buttons = cards.map((card) => this.button(card));
     this.list.replaceChildren(...cards.map((card, k) => element('li', {}, this.buttons[k], this.applyButton(card))));
   }
@@ -172,7 +159,7 @@ class Explain {
   render() {
     const { view } = this;
     const card = this.hovered ?? this.kept;
-    this.buttons?.forEach((button, k) => {
+    this.buttons.forEach((button, k) => {
       const own = this.explanation.cards[k];
       button.setAttribute('aria-pressed', String(own === this.kept));
       button.classList.toggle('shown', own === card);
@@ -197,7 +184,7 @@ class Explain {
   /**
    * Returns the model of the world with the change of a card.
    * @param {Card} card
-   * @returns {object}
+   * @returns {Model}
    */
   changed(card) {
     const { base, view } = this;
@@ -303,8 +290,8 @@ class Explain {
    * Draws an arrow from the old place of an obstacle to the new one.
    * @param {CanvasRenderingContext2D} context
    * @param {Theme} theme
-   * @param {number[]} from in pixels
-   * @param {number[]} to in pixels
+   * @param {Point} from in pixels
+   * @param {Point} to in pixels
    * @returns {void}
    */
   arrow(context, theme, from, to) {
