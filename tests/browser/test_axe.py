@@ -46,12 +46,15 @@ def pages(program):
     ]:
         made[name] = program.folder / f"axe_{name}.html"
         program.run(*words, "--output", made[name], code=code)
+    for name, words, code in [("explained", [robot, closed], 3), ("explained_limits", [robot, ROOT / "workspaces/limits_closed.toml"], 3)]:
+        made[name] = program.folder / f"axe_{name}.html"
+        program.run("explain", *words, "--quiet", "--picture", made[name], code=code)
     made["convergence"] = program.folder / "axe_convergence.html"
     program.run("converge", robot, shelf, "--cells", "24", "--quiet", "--picture", made["convergence"])
     return made
 
 
-@pytest.mark.parametrize("name", ["plan", "proof", "task", "report", "infeasible", "queries", "study", "convergence"])
+@pytest.mark.parametrize("name", ["plan", "proof", "task", "report", "infeasible", "queries", "study", "convergence", "explained", "explained_limits"])
 def test_nothing_is_found_on_pages(pages, show_file, name):
     for scheme, width, height in LOOKS:
         seen = show_file(pages[name], width=width, height=height, color_scheme=scheme)
@@ -93,6 +96,18 @@ def test_nothing_is_found_on_the_live_page_with_a_notice_and_a_selection(serve, 
     assert seen.page.locator(".notice.picture").is_visible()
     assert faults(seen) == []
     assert is_in_place(seen)
+
+
+@pytest.mark.parametrize(("scheme", "width", "height"), LOOKS)
+def test_nothing_is_found_on_explanations(pages, show_file, serve, scheme, width, height):
+    seen = show_file(pages["explained"], width=width, height=height, color_scheme=scheme)
+    seen.page.locator(".change").first.click()
+    seen.do("document.documentElement.style.fontSize = '200%'")
+    assert faults(seen) == [] and is_in_place(seen)
+    live = serve(ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/no_path.toml", width=width, height=height, color_scheme=scheme)
+    live.page.get_by_role("button", name="Why?").click()
+    live.until("!cplan.view.explain.root.hidden")
+    assert faults(live) == [] and is_in_place(live)
 
 
 def test_an_infeasible_world_says_so_and_shows_the_proof(pages, show_file):
