@@ -15,7 +15,7 @@ SHELF = [ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml"]
 def explained(program, files, *words, code=3):
     """Explains a world; returns its page and the result."""
     page = program.folder / f"explained_{files[1].stem}{len(words)}.html"
-    result = program.run("explain", *files, *words, "--json", "--picture", page, code=code)
+    result = program.run("explain", *files, *words, "--time", "60", "--json", "--picture", page, code=code)
     return page, json.loads(result)
 
 

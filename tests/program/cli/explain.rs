@@ -107,7 +107,7 @@ fn the_first_line_says_what_is_wrong() {
     assert_eq!(first("planar_2r", "shelf", "--goal 0.14,0"), "At the goal, the forearm hits the shelf.");
     assert_eq!(first("planar_2r", "shelf", "--goal-tip 5,0"), "The goal is out of reach.");
     assert_eq!(first("planar_2r", "shelf", ""), "The shelf makes the path longer.");
-    let limits = explain(&place, "planar_2r", "limits_closed", "").stdout;
+    let limits = explain(&place, "planar_2r", "limits_closed", "--time 60").stdout;
     let line = "Widen the upper limit of the elbow to 87.2 deg: 87.15 deg opens a path, certified; 87.11 deg does not";
     assert!(limits.contains(line), "{limits}");
 }
