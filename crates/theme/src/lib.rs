@@ -2,23 +2,26 @@
 //! spacing. Pages have it as a style sheet ([`css`]), pictures as constants. This crate uses no other crate.
 
 mod color;
+mod planners;
 mod roles;
 
 pub use color::{PATH_COLORS, Rgb, obstacle, path, scale};
+pub use planners::{PlannerFamily, PlannerPen};
 pub use roles::*;
 
 /// Sizes of type, spacing and corners, which are the same for both backgrounds.
 const SIZES: &str = include_str!("tokens.css");
 
 /// Returns the style sheet that all pages begin with: the variables of `tokens.css`, and one variable `--NAME` for each
-/// role and `--path-0` to `--path-5`, light or dark as the reader's system asks.
+/// role, `--path-0` to `--path-5`, and one for each colour of planners, light or dark as the reader's system asks.
 #[must_use]
 pub fn css() -> String {
     let variables = |is_dark: bool| -> String {
         let roles = ROLES.iter().map(|role| (role.name.to_owned(), role.light, role.dark));
         let paths = (0..).zip(PATH_COLORS).map(|(index, (light, dark))| (format!("path-{index}"), light, dark));
+        let planners = PlannerPen::all().map(|pen| (pen.name(), pen.light(), pen.dark()));
         let variable = |(name, light, dark)| format!(" --{name}: {};", if is_dark { dark } else { light });
-        roles.chain(paths).map(variable).collect()
+        roles.chain(paths).chain(planners).map(variable).collect()
     };
     let [light, dark] = [variables(false), variables(true)];
     format!(
