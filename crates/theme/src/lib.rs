@@ -5,7 +5,7 @@ mod color;
 mod planners;
 mod roles;
 
-pub use color::{PATH_COLORS, Rgb, obstacle, path, scale};
+pub use color::{PATH_COLORS, Rgb, obstacle, path, recolored, scale};
 pub use planners::{PlannerFamily, PlannerPen};
 pub use roles::*;
 
@@ -28,6 +28,11 @@ pub fn css() -> String {
         "{SIZES}:root {{ color-scheme: light dark; --dark: 0;{light} }}\n\
          @media (prefers-color-scheme: dark) {{\n:root {{ --dark: 1;{dark} }}\n}}\n"
     )
+}
+
+/// Iterates over the names of the colours of roles and planners in style sheets.
+pub fn names() -> impl Iterator<Item = String> {
+    ROLES.iter().map(|role| role.name.to_owned()).chain(PlannerPen::all().map(PlannerPen::name))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Colours by role: what they mean, for a light and a dark background.
 
-use super::{PlannerPen, Rgb};
+use super::{PATH_COLORS, PlannerPen, Rgb};
 
 /// A meaning that has a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -101,13 +101,14 @@ pub fn role_or_hex(color: Rgb) -> String {
     variable(color).unwrap_or_else(|| color.to_string())
 }
 
-/// Returns the colour for a dark background that corresponds to a colour for a light one: the other colour of its role
-/// or planner, or a colour of the same hue with the lightness reversed.
+/// Returns the colour for a dark background that corresponds to a colour for a light one: the other colour of its
+/// role, planner or path, or a colour of the same hue with the lightness reversed.
 #[must_use]
 pub fn on_dark(color: Rgb) -> Rgb {
     let role = ROLES.iter().find(|role| role.light == color).map(|role| role.dark);
     let planner = || PlannerPen::all().find(|pen| pen.light() == color).map(PlannerPen::dark);
-    role.or_else(planner).unwrap_or_else(|| color.with_reversed_lightness())
+    let path = || PATH_COLORS.iter().find(|(light, _)| *light == color).map(|(_, dark)| *dark);
+    role.or_else(planner).or_else(path).unwrap_or_else(|| color.with_reversed_lightness())
 }
 
 #[cfg(test)]

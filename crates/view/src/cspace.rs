@@ -2,7 +2,7 @@
 
 use super::axes::Frame;
 use super::chart::{self, Chart};
-use super::figure::{Item, Pen, Rect, Step, Style, lines};
+use super::figure::{Item, Pen, Rect, Step, Style, lines, lines_by_path};
 use super::shapes::ABSENT_DASH;
 use super::view::{ContourView, NameView, PanelView, View, WorldView};
 use super::{blocking, boxes, checked, labels, preferences, reach, tags, trace};
@@ -46,7 +46,8 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     let markers = marked.map(|q| labels::centered_rect(chart.place(q), [MARKER_WIDTH; 2])).collect();
     inside.extend(names(world, frame, markers));
     inside.extend(lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOAL_SEGMENT_PEN))));
-    inside.extend(lines(paths.map(|path| (chart.outline(&path.points.0), path.pen()))));
+    let outlines = paths.map(|path| (chart.outline(&path.points.0), path.pen()));
+    inside.extend(if view.still.lights_paths { lines_by_path(outlines) } else { lines(outlines) });
     inside.extend(world.trace.iter().flat_map(|trace| trace::items_above_path(trace, chart)));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));
@@ -73,7 +74,8 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
 
 /// Draws the C-obstacles. If link 2 may reach into an obstacle in one of the worlds, some part of its C-obstacle is
 /// free there. That part is dashed.
-fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
+#[must_use]
+pub fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     let (mut dashed, mut solid) = (Vec::new(), Vec::new());
     for (number, obstacle) in worlds[0].obstacles.iter().enumerate() {
         let open = |world: &&&WorldView| world.open.iter().any(|c| c.obstacle == number);

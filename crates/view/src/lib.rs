@@ -21,6 +21,7 @@ mod axes;
 mod boxes;
 mod channel;
 mod chart;
+mod compared;
 mod checked;
 mod copies;
 mod cspace;
@@ -57,6 +58,7 @@ mod workspace;
 
 pub use blocking::BlockingView;
 pub use checked::CheckedView;
+pub use compared::{ComparedPaths, SmallPicture, compared};
 pub use exploration::exploration_page;
 pub use flow::FieldLines;
 pub use obstacles::{extent, obstacles, still_page};

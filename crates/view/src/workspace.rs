@@ -2,7 +2,7 @@
 
 use super::arm::{self, CURRENT_LOOK, GHOST_LOOK, GOAL_LOOK, START_LOOK, UNREACHED_LOOK};
 use super::axes::{Frame, Unit};
-use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines};
+use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines, lines_by_path};
 use super::labels::{self, Named};
 use super::view::{ObstacleView, PathView, View, bounding_box, reach_shape, titles};
 use super::{blocking, checked, frames, preferences, reach, shapes, tags};
@@ -35,7 +35,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     let paths = still.panels.iter().flat_map(|panel| &panel.paths).map(|&index| &view.paths[index]);
     let traces: Vec<_> = paths.map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
     let spots: Vec<[f64; 2]> = traces.iter().flat_map(|(steps, _)| steps.iter().filter_map(end)).collect();
-    inside.extend(lines(traces));
+    inside.extend(if still.lights_paths { lines_by_path(traces) } else { lines(traces) });
     let named = if view.is_task() || view.still.panels.is_empty() { Vec::new() } else { names(view, &frame) };
     inside.extend(labels::items(&frame.rect, &named));
     if view.is_task() {
@@ -145,7 +145,8 @@ fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
 }
 
 /// Returns the path of the tip. Straight motions in joint space are curves here, so they are drawn in small steps.
-fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
+#[must_use]
+pub fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
     /// Step in radians. With it, a chord deviates from its arc by at most 2e-5 of the reach, which is a hundredth of a
     /// pixel.
     const ARC_STEP: f64 = 0.0125;

@@ -116,6 +116,8 @@ pub(crate) struct StillContent {
     pub checked: Option<CheckedView>,
     /// True for pictures with a dark background.
     pub is_dark: bool,
+    /// True if a page can light up each path.
+    pub lights_paths: bool,
     /// The arm's final configuration, and the index of the world at the end.
     pub end: Option<([f64; 2], usize)>,
     /// The steps of a task, below the names of the columns; empty for single motions.

@@ -43,7 +43,7 @@ pub fn page(view: &View) -> String {
 /// Returns the scripts that draw a view, for pages that add their own code after them.
 #[must_use]
 pub fn drawing() -> String {
-    let roles: Vec<&str> = cplan_theme::ROLES.iter().map(|role| role.name).collect();
+    let roles: Vec<String> = cplan_theme::names().collect();
     format!("/** Names of the colours in the style sheet. */\nconst ROLES = {roles:?};\n{}", SCRIPTS.concat())
 }
 

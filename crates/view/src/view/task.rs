@@ -73,6 +73,7 @@ impl View {
             stuck: None,
             checked: None,
             is_dark: false,
+            lights_paths: false,
             field_lines: FieldLines::default(),
             panels: panels(picture, &order, &paths, world, grain),
             placed: placed.collect(),

@@ -384,7 +384,7 @@ const Workspace = (() => {
 /** Draws a path or trace in its colour, over a broad pale line that makes it visible on any ground. */
 function pathLine(context, theme, path, stroke) {
   context.lineCap = 'round';
-  for (const [color, width, dash] of [[theme.paper, path.width + 2.6, []], [path.color ?? theme.ink, path.width, path.dash]]) {
+  for (const [color, width, dash] of [[theme.paper, path.width + 2.6, []], [theme.tint(path.color ?? 'ink'), path.width, path.dash]]) {
     context.strokeStyle = color;
     context.lineWidth = width;
     context.setLineDash(dash);
