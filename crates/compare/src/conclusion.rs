@@ -12,7 +12,7 @@ const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 impl Study {
     /// Returns the conclusion in one sentence: about the paths if there is one problem, and otherwise about the number of
-    /// problems in which each planner is the best.
+    /// problems in which each planner is the best. Names of planners are between backticks.
     #[must_use]
     pub fn conclusion(&self) -> String {
         match &self.comparisons[..] {
@@ -30,7 +30,7 @@ impl Study {
         }
         let claim = |purpose: Purpose, what: &str| {
             let (planner, wins) = self.most_recommended(purpose)?;
-            Some(format!("{} {what} {wins}", self.planners()[planner]))
+            Some(format!("`{}` {what} {wins}", self.planners()[planner]))
         };
         let claims = [
             claim(Purpose::Shortest, "has the shortest path in"),
@@ -65,7 +65,7 @@ impl Study {
 }
 
 impl Comparison {
-    /// Returns the conclusion in one sentence.
+    /// Returns the conclusion in one sentence, with names of planners between backticks.
     #[must_use]
     pub fn conclusion(&self) -> String {
         let count = |outcome| self.rows.iter().filter(|row| row.outcome == outcome).count();
@@ -78,24 +78,28 @@ impl Comparison {
             };
         };
         let who = match found {
-            _ if all == 1 => format!("{} found a path", shortest.planner),
+            _ if all == 1 => format!("`{}` found a path", shortest.planner),
             _ if found == all => format!("All {all} planners found a path"),
             _ => format!("{found} of {all} planners found a path"),
         };
         let over = |row| self.over_optimum(row).map(|ratio| percent(ratio - 1.0));
-        let near = over(shortest).map_or_else(String::new, |over| format!(" is at most {over} longer than the optimum"));
+        let near = over(shortest).map_or_else(
+            || format!("`{}` has the shortest", shortest.planner),
+            |over| format!("`{}` comes within {over} of the optimum", shortest.planner),
+        );
         let clearance = |row: &super::Row| match row.clearance {
             Some(metres) => format!("keeps {} from obstacles", length_down(metres)),
             None => "has no obstacle within reach".to_owned(),
         };
         if found == 1 {
-            return format!("{who}, which{near}{} {}.", if near.is_empty() { "" } else { " and" }, clearance(shortest));
+            let near = over(shortest).map_or_else(String::new, |over| format!(" is within {over} of the optimum and"));
+            return format!("{who}, which{near} {}.", clearance(shortest));
         }
         if std::ptr::eq(shortest, safest) {
-            return format!("{who}: that of {} is the shortest and the safest, and {}.", shortest.planner, clearance(safest));
+            return format!("{who}: `{}` has both the shortest and the safest, which {}.", shortest.planner, clearance(safest));
         }
         let longer = self.ratio(safest).map_or_else(String::new, |ratio| format!(" for {} more length", percent(ratio - 1.0)));
-        format!("{who}: the shortest ({}){near}, and the safest ({}) {}{longer}.", shortest.planner, safest.planner, clearance(safest))
+        format!("{who}: {near}, and `{}` {}{longer}.", safest.planner, clearance(safest))
     }
 }
 
@@ -125,18 +129,18 @@ mod tests {
         let all = comparison(&[("a", Some(1.25), 0.001), ("b", Some(2.5), 0.1204), ("c", Some(1.5), 0.05)]);
         assert_eq!(
             all.conclusion(),
-            "All 3 planners found a path: the shortest (a) is at most 25.00 % longer than the optimum, and the safest (b) \
-             keeps 120.4 mm from obstacles for 100.00 % more length."
+            "All 3 planners found a path: `a` comes within 25.00 % of the optimum, and `b` keeps 120.4 mm from obstacles for \
+             100.00 % more length."
         );
         let some = comparison(&[("a", Some(1.25), 0.12), ("b", None, 0.0), ("c", Some(1.5), 0.05)]);
         assert_eq!(
             some.conclusion(),
-            "2 of 3 planners found a path: that of a is the shortest and the safest, and keeps 120.0 mm from obstacles."
+            "2 of 3 planners found a path: `a` has both the shortest and the safest, which keeps 120.0 mm from obstacles."
         );
         let one = comparison(&[("a", Some(1.25), 0.12)]);
         assert_eq!(
             one.conclusion(),
-            "a found a path, which is at most 25.00 % longer than the optimum and keeps 120.0 mm from obstacles."
+            "`a` found a path, which is within 25.00 % of the optimum and keeps 120.0 mm from obstacles."
         );
     }
 
@@ -159,8 +163,8 @@ mod tests {
         assert_eq!([0, 1].map(|planner| study.wins(planner, Purpose::Shortest)), [2, 1]);
         assert_eq!(
             study.conclusion(),
-            "Of 2 problems with a certified path, a has the shortest path in 2, b the greatest clearance in 2, a the quickest \
-             answer in 2."
+            "Of 2 problems with a certified path, `a` has the shortest path in 2, `b` the greatest clearance in 2, `a` the \
+             quickest answer in 2."
         );
     }
 }

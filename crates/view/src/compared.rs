@@ -70,7 +70,7 @@ pub fn compared(view: &View, id: &str) -> Option<ComparedPaths> {
     let small = [small_workspace(&view), small_cspace(&view)].map(|drawing| {
         let mut text = |items: &[Item]| with_colors(svg_writer::with_variables(&svg_writer::elements(items)));
         SmallPicture {
-            size: SMALL_SIZE,
+            size: drawing.size,
             ground: text(&drawing.ground),
             paths: drawing.paths.iter().map(|steps| svg_writer::commands(steps)).collect(),
             markers: text(&drawing.markers),
@@ -81,6 +81,7 @@ pub fn compared(view: &View, id: &str) -> Option<ComparedPaths> {
 
 /// The parts of a small drawing, not yet as text.
 struct SmallDrawing {
+    size: [f64; 2],
     ground: Vec<Item>,
     paths: Vec<Vec<Step>>,
     markers: Vec<Item>,
@@ -103,16 +104,19 @@ fn small_workspace(view: &View) -> SmallDrawing {
         ground.extend(arm::items(&frame, &view.arm, None, q.into(), &look.thin()));
     }
     let paths = view.paths.iter().map(|path| workspace::tip_trace(&frame, &view.arm, path)).collect();
-    SmallDrawing { ground, paths, markers: Vec::new() }
+    SmallDrawing { size: SMALL_SIZE, ground, paths, markers: Vec::new() }
 }
 
 fn small_cspace(view: &View) -> SmallDrawing {
-    let chart = Chart::new(&view.arm, small_area());
+    // The picture is as wide as the joint space, without room beside it.
+    let Rect { width, height, .. } = Chart::new(&view.arm, small_area()).frame.rect;
+    let chart = Chart::new(&view.arm, Rect { width, height, ..small_area() });
     let worlds: [&WorldView; 1] = [view.first_world()];
     let mut ground = cspace::c_obstacles(&worlds, &chart);
     ground.extend(chart.frame.sides([false; 2]));
     let ring = Item::Disc(chart.place(view.start.into()), 3.6, Style::line(INK, 1.6).filled(WHITE));
     let goals = view.goals.iter().map(|&q| Item::Disc(chart.place(q.into()), 3.6, Style::line(WHITE, 1.0).filled(INK)));
     let markers = goals.chain([ring]).collect();
-    SmallDrawing { ground, paths: view.paths.iter().map(|path| chart.outline(&path.points.0)).collect(), markers }
+    let paths = view.paths.iter().map(|path| chart.outline(&path.points.0)).collect();
+    SmallDrawing { size: [width, height].map(|side| side + 2.0 * SMALL_MARGIN), ground, paths, markers }
 }

@@ -21,9 +21,12 @@ pub use markup::{image_source, number, table};
 pub use overlay::Overlay;
 pub use paths::{PathPictures, SmallPicture};
 
+use super::comparison::Comparison;
 use super::measure::Measure;
 use super::study::Study;
+use super::table::Table;
 use super::words::words;
+use cplan_core::model::Status;
 use cplan_text::{counted, markup};
 
 /// A picture that a page includes.
@@ -57,7 +60,7 @@ impl Page<'_> {
             html +=
                 &format!("<p class=\"alarm\" role=\"alert\"><strong>Contradiction.</strong> {}</p>\n", markup(&alarm));
         }
-        html += &format!("<p class=\"conclusion\">{}</p>\n", markup(&study.conclusion()));
+        html += &format!("<p class=\"conclusion\">{}{}</p>\n", self.verdict_sign(), with_names(&study.conclusion()));
         html += &cards::cards(study, self.pictures);
         html += &match &study.comparisons[..] {
             [only] => section("Paths and planners", &planners::of_problem(only, self.pictures.first())),
@@ -79,6 +82,15 @@ impl Page<'_> {
             n => format!(" ({n} more not run)"),
         };
         format!("{problems}{refused}, {planners}. {}", words(self.study).first().map_or("", String::as_str))
+    }
+
+    /// Returns the sign of the best outcome of a single problem.
+    fn verdict_sign(&self) -> String {
+        let best = |only: &Comparison| Status::ALL.into_iter().find(|status| only.rows.iter().any(|row| row.outcome == *status));
+        let outcome = if let [only] = &self.study.comparisons[..] { best(only) } else { None };
+        outcome.map_or_else(String::new, |outcome| {
+            format!("<span class=\"o-{outcome} sign\">{}</span> ", outcomes::sign(outcome))
+        })
     }
 
     /// Draws box plots if there are enough runs of each planner.
@@ -112,11 +124,14 @@ impl Page<'_> {
                 overlay.note.as_deref().map_or_else(String::new, |n| format!("<p class=\"sub\">{}</p>\n", markup(n)));
             html += &format!("<h3>{}</h3>\n{note}{}", markup(&overlay.title), overlay::panels(overlay, id));
         }
-        for picture in self.pictures {
+        for (index, picture) in self.pictures.iter().enumerate() {
             let Some(comparison) = self.study.comparisons.get(picture.problem) else { continue };
             let heading = format!("{}: {}", comparison.problem, comparison.outcome());
-            let conclusion = format!("<p>{}</p>\n", markup(&comparison.conclusion()));
-            html += &collapsible_section(&heading, &(conclusion + &planners::of_problem(comparison, Some(picture))));
+            let conclusion = format!("<p>{}</p>\n", with_names(&comparison.conclusion()));
+            let part = collapsible_section(&heading, &(conclusion + &planners::of_problem(comparison, Some(picture))));
+            // Without other pictures, the first part is unfolded: a page of folded parts looks empty.
+            let is_unfolded = self.overlays.is_empty() && index == 0;
+            html += &if is_unfolded { part.replacen("<details", "<details open=\"\"", 1) } else { part };
         }
         section("Problems", &html)
     }
@@ -128,12 +143,10 @@ impl Page<'_> {
         html += &match &self.study.comparisons[..] {
             // A single problem has no distributions.
             [only] => collapsible_section("All figures", &table(&only.table())),
-            _ => self
-                .study
-                .tables()
-                .into_iter()
-                .map(|(heading, rows)| collapsible_section(&heading, &table(&rows)))
-                .collect(),
+            _ => {
+                let part = |(heading, rows): (String, Table)| format!("<h3>{}</h3>\n{}", markup(&heading), table(&rows));
+                collapsible_section("All figures", &self.study.tables().into_iter().map(part).collect::<String>())
+            }
         };
         let notes: String = self.study.footnotes().map(|note| format!("<li>{}</li>\n", markup(&note))).collect();
         if !notes.is_empty() {
@@ -141,6 +154,14 @@ impl Page<'_> {
         }
         section("Details", &html)
     }
+}
+
+/// Formats a sentence in which names are between backticks. Names are emphasised.
+fn with_names(text: &str) -> String {
+    let part = |(index, part): (usize, &str)| {
+        if index % 2 == 1 { format!("<strong class=\"planner\">{}</strong>", markup(part)) } else { markup(part) }
+    };
+    text.split('`').enumerate().map(part).collect()
 }
 
 /// What a page has in addition to the usual style sheet.

@@ -20,7 +20,7 @@ pub fn key() -> String {
 pub fn sign(outcome: Status) -> char {
     match outcome {
         Status::Found => '\u{2713}',
-        Status::Infeasible => '\u{2205}',
+        Status::Infeasible => '\u{2715}',
         Status::Unknown => '?',
     }
 }
