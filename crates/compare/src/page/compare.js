@@ -98,8 +98,10 @@ class Compared {
    */
   listen(element) {
     const path = element.getAttribute('data-path');
-    element.addEventListener('pointerenter', (event) => event.pointerType !== 'touch' && this.light(path));
-    element.addEventListener('pointerleave', (event) => event.pointerType !== 'touch' && this.light(this.pinned));
+    // A tap sends a click as well, which pins.
+    const point = (/** @type {PointerEvent} */ event, /** @type {string | null} */ lit) => event.pointerType !== 'touch' && this.light(lit);
+    element.addEventListener('pointerenter', (/** @type {PointerEvent} */ event) => point(event, path));
+    element.addEventListener('pointerleave', (/** @type {PointerEvent} */ event) => point(event, this.pinned));
     element.addEventListener('click', () => this.pin(this.pinned === path ? null : path));
   }
 
@@ -134,7 +136,7 @@ class Compared {
   }
 }
 
-for (const table of document.querySelectorAll('table.ranking')) makeSortable(table);
+for (const table of document.querySelectorAll('table')) if (table.matches('.ranking')) makeSortable(table);
 const compared = [...document.querySelectorAll('.compared')].map((root, index) => {
   // Only the page of a single problem has cards with a path.
   const cards = index === 0 ? [...document.querySelectorAll('.pick[data-path]')] : [];
