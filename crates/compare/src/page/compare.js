@@ -87,8 +87,26 @@ class Compared {
     button.textContent = name.textContent;
     button.setAttribute('aria-pressed', 'false');
     name.replaceWith(button);
-    button.addEventListener('focus', () => this.light(row.getAttribute('data-path')));
+    button.addEventListener('focus', () => {
+      this.light(row.getAttribute('data-path'));
+      this.reveal(row);
+    });
     button.addEventListener('blur', () => this.light(this.pinned));
+  }
+
+  /**
+   * Scrolls until a row is not below the pictures, which stay in place on large screens.
+   * @param {Element} row
+   * @returns {void}
+   */
+  reveal(row) {
+    const pictures = this.root.querySelector('.pictures');
+    if (!pictures || getComputedStyle(pictures).position !== 'sticky') return;
+    // The first scroll may move the pictures as well.
+    for (let turn = 0; turn < 2; turn += 1) {
+      const hidden = pictures.getBoundingClientRect().bottom - row.getBoundingClientRect().top;
+      if (hidden > 0) window.scrollBy(0, -hidden);
+    }
   }
 
   /**
