@@ -14,7 +14,7 @@ use crate::grammar::positive;
 use crate::input::{self, Explorable, JointValues, Overrides};
 use crate::motion::{check_writable, write_whole_set};
 use crate::output::{PictureFormat, contours, format_columns, title_of};
-use crate::text::counted;
+use crate::text::{counted, percent};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -178,11 +178,22 @@ fn summary(world: &Explorable, reach: &Reach) -> String {
     format!("{}\n{}", title_of(&world.scene), format_columns(&lines))
 }
 
+/// Returns the headline: the part of the workspace that the tip reaches, among all cells with an IK solution.
+fn headline(reach: &Reach) -> String {
+    let [reachable, unknown, unreachable, blocked] = reach.tally();
+    let all = reachable + unknown + unreachable + blocked;
+    if all == 0 {
+        return "The tip reaches no cell: no cell centre has an IK solution".into();
+    }
+    let at_least = if unknown > 0 { "at least " } else { "" };
+    format!("The tip reaches {at_least}{} of the arm's workspace", percent(reachable as f64 / all as f64))
+}
+
 fn view(world: &Explorable, reach: &Reach) -> View {
     let facts = facts(world, reach);
     let picture = Picture {
-        title: vec![title_of(&world.scene), format!("reach of the tip: {}", facts[2].1)],
-        status: "reach".into(),
+        title: vec![headline(reach), title_of(&world.scene)],
+        status: counted(reach.tally()[0], "cell") + " reached",
         facts: facts.into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
         c_obstacles: &contours(&world.scene),
         ..Picture::new(&world.scene, world.start)
