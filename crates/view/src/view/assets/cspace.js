@@ -362,13 +362,16 @@ const CSpace = (() => {
     return groups;
   }
 
-  /** Draws IK solutions with the tip at the centres of cells, by whether a motion leads there. */
-  function solutions(context, panel, view, { kinds }) {
-    for (const { color, solutions: flat } of kinds) {
-      context.fillStyle = panel.theme.tint(color);
-      for (let i = 0; i < flat.length; i += 2) {
-        const [x, y] = place(view, panel, flat.slice(i, i + 2));
-        context.fillRect(x - 1, y - 1, 2, 2);
+  /** Draws free IK solutions with the tip at the centres of cells, by whether a motion leads there. */
+  function solutions(context, panel, view, { solutions: flat, access, colors }) {
+    const half = 2;
+    // Those of rare kinds lie above the reached ones.
+    for (const kind of ['1', '4', '2']) {
+      context.fillStyle = panel.theme.tint(kind === '1' ? colors[0] : colors[Number(kind)]);
+      for (let i = 0; i < access.length; i += 1) {
+        if (access[i] !== kind) continue;
+        const [x, y] = place(view, panel, flat.slice(2 * i, 2 * i + 2));
+        context.fillRect(x - half, y - half, 2 * half, 2 * half);
       }
     }
   }
@@ -378,22 +381,13 @@ const CSpace = (() => {
     const { world } = view;
     const seen = Think.seen(view, view.trace);
     if (seen) below(context, panel, view, seen);
+    if (view.model.reach && view.shows('access')) solutions(context, panel, view, view.model.reach);
     if (view.shows('c-obstacles')) cObstacles(context, panel, view, world);
     if (seen) above(context, panel, view, seen);
-    if (view.model.reach && view.shows('access')) solutions(context, panel, view, view.model.reach);
     if (view.shows('regions')) regions(context, panel, view, world);
     if (view.shows('proof') && world.proof.length) proof(context, panel, Think.firstItems(world.proof, 4, Think.part(view, 'proof')));
     if (view.shows('path')) {
-      for (const path of Think.paths(view, view.pathsHere())) {
-        pathLine(context, panel.theme, path, () => {
-          context.beginPath();
-          shifted(context, panel, path.points, circles(view), false);
-          context.stroke();
-        });
-        for (const by of shifts(panel, path.points, circles(view))) {
-          Labels.blockLine(panel, [...Geometry.pointsOf(path.points)].map((q) => panel.at([q[0] + by[0], q[1] + by[1]])));
-        }
-      }
+      for (const path of Think.paths(view, view.pathsHere())) pathOf(context, panel, view, path);
     }
     if (seen?.kind === 'channel' && view.shows('channel')) channelPoints(context, panel, view, seen);
     goalLines(context, panel, view);
@@ -408,6 +402,18 @@ const CSpace = (() => {
     }
     const isNamed = view.shows('names') && view.shows('c-obstacles') && !view.isCrowded;
     if (isNamed) names(context, panel, view, (obstacle) => view.called(obstacle), byObstacle(view, world.c_obstacles, world.obstacles));
+  }
+
+  /** Draws a path, on circles also its parts beyond a turn. Names dodge it. */
+  function pathOf(context, panel, view, path) {
+    pathLine(context, panel.theme, path, () => {
+      context.beginPath();
+      shifted(context, panel, path.points, circles(view), false);
+      context.stroke();
+    });
+    for (const by of shifts(panel, path.points, circles(view))) {
+      Labels.blockLine(panel, [...Geometry.pointsOf(path.points)].map((q) => panel.at([q[0] + by[0], q[1] + by[1]])));
+    }
   }
 
   /** Draws goals with a free joint: dots along a line. */
@@ -453,6 +459,7 @@ const CSpace = (() => {
   function moving(context, panel, view) {
     const { theme } = panel;
     inTime(context, panel, view, view.world);
+    view.reachMap?.inCSpace(context, panel);
     if (view.world.moments) stamp(context, panel, Numbers.seconds(view.now));
     const [x, y] = place(view, panel, view.q);
     context.beginPath();
@@ -523,5 +530,5 @@ const CSpace = (() => {
     context.restore();
   }
 
-  return { still, moving, beside, place };
+  return { still, moving, beside, place, path: pathOf };
 })();
