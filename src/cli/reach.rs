@@ -12,9 +12,10 @@ use crate::draw::{Picture, View};
 use crate::engine::{Access, MAX_PLACES, Reach, reach};
 use crate::grammar::positive;
 use crate::input::{self, Explorable, JointValues, Overrides};
+use crate::model::Status;
 use crate::motion::{check_writable, write_whole_set};
 use crate::output::{PictureFormat, contours, format_columns, title_of};
-use crate::text::{counted, percent};
+use crate::text::{counted, length, percent};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -190,11 +191,22 @@ fn headline(reach: &Reach) -> String {
 }
 
 fn view(world: &Explorable, reach: &Reach) -> View {
-    let facts = facts(world, reach);
+    let [_, unknown, ..] = reach.tally();
+    let joints = &world.scene.arm().joints;
+    let value = |k: usize| match joints[k].joint_type.is_revolute() {
+        true => format!("{} {:.1}\u{b0}", joints[k].name, reach.home[k].to_degrees()),
+        false => format!("{} {}", joints[k].name, length(reach.home[k])),
+    };
+    let facts = [
+        ("home", [0, 1].map(value).join(", ")),
+        ("cells", format!("squares of {}, judged at their centres", length(reach.cell))),
+    ];
+    let notes = world.notes.iter().map(|note| ["note".to_owned(), note.clone()]);
     let picture = Picture {
         title: vec![headline(reach), title_of(&world.scene)],
-        status: counted(reach.tally()[0], "cell") + " reached",
-        facts: facts.into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
+        status: if unknown == 0 { "every cell decided".into() } else { counted(unknown, "cell") + " unknown" },
+        ending: Some(if unknown == 0 { Status::Found } else { Status::Unknown }),
+        facts: facts.map(|(name, value)| [name.to_owned(), value]).into_iter().chain(notes).collect(),
         c_obstacles: &contours(&world.scene),
         ..Picture::new(&world.scene, world.start)
     };

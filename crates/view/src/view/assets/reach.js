@@ -55,7 +55,12 @@ class ReachMap {
     this.root = element('section', { class: 'box cell-report', 'aria-label': 'Cell' });
     this.build();
     view.reachMap = this;
-    view.parts.panels.closest('.stage').querySelector('.side').prepend(this.root);
+    view.root.classList.add('maps');
+    const wide = matchMedia(WIDE);
+    // Beside the panels if there is room, otherwise right below them.
+    const place = () => (wide.matches ? view.root.querySelector('.side').prepend(this.root) : view.parts.panels.after(this.root));
+    wide.addEventListener('change', place);
+    place();
     view.parts.modes.querySelector('[data-mode=move]').textContent = 'Map';
     view.showCards(this.cards());
     this.listen(view.panels.workspace);
@@ -163,6 +168,30 @@ class ReachMap {
       ['not free', grouped(blocked), `cells in which every IK solution collides, ${area(blocked)}`],
     ];
     return unknown ? [...cards, ['unknown', grouped(unknown), 'cells that were not decided']] : cards;
+  }
+
+  /**
+   * Returns for each solution the parallelogram of configurations that its cell corresponds to, as four corners relative
+   * to the solution: the sides of the cell, mapped by the inverse Jacobian. Near singularities it is cut to `MOST`.
+   * @param {object} arm
+   * @param {ReachData} data
+   * @returns {Float64Array} eight numbers for each solution
+   */
+  static shapes(arm, { solutions, cell }) {
+    const [STEP, MOST] = [1e-4, 6 * cell / (Math.hypot(...arm.offset) + Math.hypot(...arm.tip) || 1)];
+    const shapes = new Float64Array(4 * solutions.length);
+    for (let i = 0; i < solutions.length; i += 2) {
+      const q = [solutions[i], solutions[i + 1]];
+      const tip = Geometry.tipAt(arm, q);
+      const [[a, c], [b, d]] = [[q[0] + STEP, q[1]], [q[0], q[1] + STEP]].map((near) => Geometry.tipAt(arm, near).map((x, k) => (x - tip[k]) / STEP));
+      const determinant = a * d - b * c;
+      const cut = (x) => (Number.isFinite(x) ? Math.min(MOST, Math.max(-MOST, x)) : 0);
+      [[-1, -1], [1, -1], [1, 1], [-1, 1]].forEach(([x, y], k) => {
+        shapes[4 * i + 2 * k] = cut((cell / 2) * (d * x - b * y) / determinant);
+        shapes[4 * i + 2 * k + 1] = cut((cell / 2) * (a * y - c * x) / determinant);
+      });
+    }
+    return shapes;
   }
 
   // The state.
