@@ -53,8 +53,11 @@ fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
     let always = |key: Key| -> Layered { (key, &[]) };
     let mut keys = if view.still.reach.is_some() {
         vec![always((Sign::Start, "home".to_owned()))]
-    } else {
+    } else if view.frames.is_empty() {
         vec![always((Sign::Start, "start".to_owned())), always((Sign::Goal, goal.to_owned()))]
+    } else {
+        // The view of an arm alone has no motion.
+        Vec::new()
     };
     keys.extend(paths(view).into_iter().map(|key| -> Layered { (key, &["path", "trace"]) }));
     if still && view.worlds.iter().any(|world| !world.open.is_empty()) {

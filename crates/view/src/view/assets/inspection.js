@@ -131,7 +131,7 @@ class Inspection {
     if (!report.joints.length) return null;
     const has = (key) => report.joints.some((joint) => joint[key]);
     const efforts = report.dynamics?.efforts;
-    const columns = ['joint', 'role', ...(this.view ? ['value'] : []), 'limits', 'speed', 'acceleration', ...(has('jerk') ? ['jerk'] : []), ...(efforts ? ['effort'] : []), 'axis'];
+    const columns = ['joint', 'role', ...(this.view ? ['value'] : []), 'limits', 'speed', 'acceleration', ...(has('jerk') ? ['jerk'] : []), ...(efforts ? ['effort'] : [])];
     const rows = report.joints.map((joint) => {
       const { name, type, line, child, mimics, limits, velocity, acceleration, jerk } = joint;
       const isTurning = type !== 'prismatic';
@@ -139,16 +139,14 @@ class Inspection {
       const value = Inspection.cell(joint.value === null ? '\u2013' : Inspection.quantity(isTurning, joint.value));
       if (this.view && number >= 0) this.values[number] = value;
       const per = (rate, unit) => (rate ? Inspection.cell(`${Inspection.quantity(isTurning, rate.value)}${unit}`, Inspection.SOURCES[rate.source]) : Inspection.cell('\u2013'));
-      const axis = joint.direction ?? joint.axis;
       return this.row(name, `${type}, line ${line}`, child, [
-        Inspection.cell(Inspection.role(joint, number), mimics ? `mimics ${mimics}` : ''),
+        Inspection.cell(Inspection.role(joint, number), [mimics && `mimics ${mimics}`, Inspection.axis(joint)].filter(Boolean).join(', ')),
         ...(this.view ? [value] : []),
         limits ? Inspection.cell(Inspection.range(isTurning, limits), Inspection.SOURCES[limits.source]) : Inspection.cell('\u2013'),
         per(velocity, '/s'),
         per(acceleration, '/s\u00b2'),
         ...(has('jerk') ? [per(jerk, '/s\u00b3')] : []),
         ...(efforts ? [Inspection.cell(number < 0 ? '\u2013' : `${Numbers.digits(efforts[number])} ${isTurning ? 'N m' : 'N'}`)] : []),
-        axis ? Inspection.cell(`(${axis.map((x) => Number(x.toFixed(4)) + 0).join(', ')})`, joint.direction ? 'root frame' : 'own frame') : Inspection.cell('\u2013'),
       ]);
     });
     return Inspection.section('Joints', Inspection.table('Table of joints', columns, rows));
@@ -168,12 +166,24 @@ class Inspection {
   }
 
   /**
+   * Describes the axis of a joint.
+   * @param {JointReport} joint
+   */
+  static axis({ direction, axis }) {
+    const components = (direction ?? axis)?.map((x) => Number(x.toFixed(4)) + 0).join(', ');
+    return components && `axis (${components})${direction ? '' : ' in its own frame'}`;
+  }
+
+  /**
    * Formats an angle in degrees or a length.
    * @param {boolean} isTurning
    * @param {number} value
    */
   static quantity(isTurning, value) {
-    return isTurning ? Numbers.angle(value) : Numbers.length(value);
+    if (!isTurning) return Numbers.length(value);
+    const degrees = (value * 180) / Math.PI;
+    // Limits are often stated with four digits of a radian.
+    return `${(Math.round(10 * degrees) / 10 + 0).toString().replace('-', '\u2212')}\u00b0`;
   }
 
   /**
@@ -193,7 +203,7 @@ class Inspection {
     const bodies = new Map(outlines.flatMap(({ source, bodies: all, link }) => all.map((body) => [body.link, { ...body, source, of: link }])));
     const whole = new Map(outlines.map((outline) => [outline.link, outline]));
     const masses = new Map((dynamics && chosen ? chosen : []).map((name, k) => [joints.find((joint) => joint.name === name).child, dynamics.masses[k]]));
-    const columns = ['link', 'shapes in the URDF', 'outline', 'heights', ...(masses.size ? ['mass, with all that it carries'] : [])];
+    const columns = ['link', 'shapes in the URDF', 'outline', 'heights', ...(masses.size ? ['mass'] : [])];
     const rows = links.map(({ name, above, collision, visual }) => {
       const [body, outline] = [bodies.get(name), whole.get(name)];
       const parts = body && `${body.parts} part${body.parts === 1 ? '' : 's'}, ${Numbers.digits(body.area * 1e4)} cm\u00b2`;
@@ -203,7 +213,7 @@ class Inspection {
         Inspection.cell(collision + visual ? [collision && `${collision} collision`, visual && `${visual} visual`].filter(Boolean).join(', ') : 'none'),
         Inspection.cell(parts ?? none, from),
         Inspection.cell(outline?.heights ? outline.heights.map((height) => Numbers.length(height)).join(' to ') : '\u2013'),
-        ...(masses.size ? [Inspection.cell(masses.has(name) ? `${Numbers.digits(masses.get(name))} kg` : '\u2013')] : []),
+        ...(masses.size ? [Inspection.cell(masses.has(name) ? `${Numbers.digits(masses.get(name))} kg` : '\u2013', masses.has(name) ? 'with all that it carries' : '')] : []),
       ]);
     });
     return Inspection.section('Links', Inspection.table('Table of links', columns, rows));
