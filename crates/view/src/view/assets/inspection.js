@@ -131,7 +131,7 @@ class Inspection {
     if (!report.joints.length) return null;
     const has = (key) => report.joints.some((joint) => joint[key]);
     const efforts = report.dynamics?.efforts;
-    const columns = ['joint', 'role', ...(this.view ? ['value'] : []), 'limits', 'speed', 'acceleration', ...(has('jerk') ? ['jerk'] : []), ...(efforts ? ['effort'] : [])];
+    const columns = ['joint', 'role', 'value', 'limits', 'speed', 'acceleration', ...(has('jerk') ? ['jerk'] : []), ...(efforts ? ['effort'] : [])];
     const rows = report.joints.map((joint) => {
       const { name, type, line, child, mimics, limits, velocity, acceleration, jerk } = joint;
       const isTurning = type !== 'prismatic';
@@ -141,7 +141,7 @@ class Inspection {
       const per = (rate, unit) => (rate ? Inspection.cell(`${Inspection.quantity(isTurning, rate.value)}${unit}`, Inspection.SOURCES[rate.source]) : Inspection.cell('\u2013'));
       return this.row(name, `${type}, line ${line}`, child, [
         Inspection.cell(Inspection.role(joint, number), [mimics && `mimics ${mimics}`, Inspection.axis(joint)].filter(Boolean).join(', ')),
-        ...(this.view ? [value] : []),
+        value,
         limits ? Inspection.cell(Inspection.range(isTurning, limits), Inspection.SOURCES[limits.source]) : Inspection.cell('\u2013'),
         per(velocity, '/s'),
         per(acceleration, '/s\u00b2'),
@@ -157,11 +157,9 @@ class Inspection {
    * @param {JointReport} joint
    * @param {number} number index of the joint among the two of the arm, or -1
    */
-  static role({ role, type, value }, number) {
-    const at = value === null ? '' : ` at ${Inspection.quantity(type !== 'prismatic', value)}`;
+  static role({ role }, number) {
     return {
-      moves: number === 0 ? 'first joint' : 'second joint', held: `held${at}`, follows: `follows, held${at}`,
-      ignored: 'ignored: the arm does not depend on it', rigid: 'fixed', undecided: 'not decided',
+      moves: number === 0 ? 'first joint' : 'second joint', held: 'held', follows: 'follows, held', ignored: 'ignored: not part of the arm', rigid: 'fixed', undecided: 'not decided',
     }[role];
   }
 

@@ -841,6 +841,8 @@ class View {
   /** On a small screen, moves the description above the finger, as far as there is room. */
   follow(q) {
     const { canvas } = this.panels.cspace;
+    // The page of an inspection has no configuration space.
+    if (!canvas.offsetParent) return;
     const [x, y] = this.panels.cspace.at(q);
     const { style } = this.parts.probe;
     style.setProperty('--x', `${Math.round(canvas.offsetParent.offsetLeft + canvas.offsetLeft + x)}px`);
