@@ -15,7 +15,7 @@ use crate::input::{self, Explorable, JointValues, Overrides};
 use crate::model::Status;
 use crate::motion::{check_writable, write_whole_set};
 use crate::output::{PictureFormat, contours, format_columns, title_of};
-use crate::text::{counted, length, percent};
+use crate::text::{counted, fixed, length, percent};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -193,9 +193,10 @@ fn headline(reach: &Reach) -> String {
 fn view(world: &Explorable, reach: &Reach) -> View {
     let [_, unknown, ..] = reach.tally();
     let joints = &world.scene.arm().joints;
+    let minus = |text: &str| text.replace('-', "\u{2212}");
     let value = |k: usize| match joints[k].joint_type.is_revolute() {
-        true => format!("{} {:.1}\u{b0}", joints[k].name, reach.home[k].to_degrees()),
-        false => format!("{} {}", joints[k].name, length(reach.home[k])),
+        true => format!("{} {}\u{b0}", joints[k].name, minus(&fixed(reach.home[k].to_degrees(), 1))),
+        false => format!("{} {}", joints[k].name, minus(&length(reach.home[k]))),
     };
     let facts = [
         ("home", [0, 1].map(value).join(", ")),

@@ -178,7 +178,7 @@ class ReachMap {
    * @returns {Float64Array} eight numbers for each solution
    */
   static shapes(arm, { solutions, cell }) {
-    const [STEP, MOST] = [1e-4, 6 * cell / (Math.hypot(...arm.offset) + Math.hypot(...arm.tip) || 1)];
+    const [STEP, MOST] = [1e-4, 12 * cell / (Math.hypot(...arm.offset) + Math.hypot(...arm.tip) || 1)];
     const shapes = new Float64Array(4 * solutions.length);
     for (let i = 0; i < solutions.length; i += 2) {
       const q = [solutions[i], solutions[i + 1]];
