@@ -46,12 +46,18 @@ def pages(program):
     ]:
         made[name] = program.folder / f"axe_{name}.html"
         program.run(*words, "--output", made[name], code=code)
+    made["reach"], made["inspection"] = (program.folder / f"axe_{name}.html" for name in ("reach", "inspection"))
+    program.run("reach", robot, shelf, "--cell", "0.1", "--quiet", "--picture", made["reach"])
+    program.run("inspect", ROOT / "robots/scara.urdf", ROOT / "workspaces/scara_cell.toml", "--picture", made["inspection"])
+    (program.folder / "two.urdf").write_text('<robot name="two"><link name="a"/><link name="b"/></robot>')
+    made["defects"] = program.folder / "axe_defects.html"
+    program.run("inspect", program.folder / "two.urdf", "--picture", made["defects"], code=1)
     made["convergence"] = program.folder / "axe_convergence.html"
     program.run("converge", robot, shelf, "--cells", "24", "--quiet", "--picture", made["convergence"])
     return made
 
 
-@pytest.mark.parametrize("name", ["plan", "proof", "task", "report", "infeasible", "queries", "study", "convergence"])
+@pytest.mark.parametrize("name", ["plan", "proof", "task", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects"])
 def test_nothing_is_found_on_pages(pages, show_file, name):
     for scheme, width, height in LOOKS:
         seen = show_file(pages[name], width=width, height=height, color_scheme=scheme)

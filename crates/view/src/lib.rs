@@ -62,7 +62,7 @@ pub use compared::{ComparedPaths, SmallPicture, compared};
 pub use exploration::exploration_page;
 pub use flow::FieldLines;
 pub use obstacles::{extent, obstacles, still_page};
-pub use view::{AxesFrame, KeyFigures, Moments, Picture, TaskPicture, View, drawing, page, shell};
+pub use view::{AxesFrame, KeyFigures, Moments, Picture, TaskPicture, View, drawing, inspection_page, page, shell};
 
 /// The reason why there is no picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

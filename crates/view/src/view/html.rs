@@ -9,7 +9,7 @@ const STYLE: &str = include_str!("assets/view.css");
 pub(crate) const ICONS: &str = include_str!("assets/icons.js");
 
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 23] = [
+const SCRIPTS: [&str; 24] = [
     include_str!("assets/element.js"),
     ICONS,
     include_str!("assets/settings.js"),
@@ -32,6 +32,7 @@ const SCRIPTS: [&str; 23] = [
     include_str!("assets/pointer.js"),
     include_str!("assets/keys.js"),
     include_str!("assets/layout.js"),
+    include_str!("assets/reach.js"),
     include_str!("assets/view.js"),
 ];
 
@@ -43,6 +44,18 @@ const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
 pub fn page(view: &View) -> String {
     let title = view.title.first().map_or("cplan", String::as_str);
     sealed(title, "", "view", &view.json(), &(drawing() + PLAN_SCRIPT))
+}
+
+/// Code of the page of an inspection.
+const INSPECTION_SCRIPT: &str = include_str!("assets/inspection.js");
+
+/// Returns the page of a robot's inspection. `report` is a JSON object. `view` shows the arm; `None` if the robot has
+/// none.
+#[must_use]
+pub fn inspection_page(title: &str, view: Option<&View>, report: &str) -> String {
+    let view = view.map_or_else(|| "null".into(), View::json);
+    let data = format!("{{\"view\":{view},\"report\":{report}}}");
+    sealed(title, "", "view", &data, &(drawing() + INSPECTION_SCRIPT))
 }
 
 /// Returns the scripts that draw a view, for pages that add their own code after them.

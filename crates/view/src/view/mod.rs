@@ -34,7 +34,7 @@ mod waves;
 mod world;
 
 pub use content::{KeyFigures, View};
-pub use html::{drawing, page, sealed, shell};
+pub use html::{drawing, inspection_page, page, sealed, shell};
 pub use picture::{AxesFrame, Picture};
 pub use task_picture::{Moments, TaskPicture};
 

@@ -2,9 +2,10 @@
 'use strict';
 
 window.cplan = new View(document.querySelector('main'), JSON.parse(document.getElementById('view').textContent));
+if (cplan.model.reach) new ReachMap(cplan);
 {
   const [mode, lesson] = location.hash.slice(1).split('/');
   if (['move', 'think', 'learn'].includes(mode)) cplan.switchTo(mode);
-  if (!mode) cplan.tour.offer();
+  if (!mode && cplan.isMotion) cplan.tour.offer();
   if (cplan.mode === 'learn' && cplan.learn.lessons.some(([name]) => name === lesson)) cplan.learn.start(lesson);
 }

@@ -64,6 +64,8 @@ class View {
     this.tool = null;
     /** True if another script reports the outcome: see `say`. */
     this.judged = false;
+    /** Map of the tip's reach; see `ReachMap`. */
+    this.reachMap = null;
     /** True to leave out everything that is slow to draw, while something moves. */
     this.light = false;
     buildPage(this);
@@ -240,6 +242,7 @@ class View {
   /** Returns the configuration of the arm. */
   get q() {
     if (this.mode === 'learn' && this.learn.isSlice) return this.learn.q;
+    if (this.reachMap?.q) return this.reachMap.q;
     if (this.moment) return Think.focus(this) ?? this.beginning();
     return this.model.clock ? Geometry.moving(this.model.clock, this.time).position : this.beginning();
   }
@@ -345,7 +348,12 @@ class View {
     if (!this.judged) this.say(ending, status);
     parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), readable(text, 'dd')]));
     // The live page shows its own figures.
-    const cards = this.recall ? [] : View.cards(this.model);
+    this.showCards(this.recall ? [] : View.cards(this.model));
+  }
+
+  /** Shows key figures: name, value and meaning of each. */
+  showCards(cards) {
+    const { parts } = this;
     parts.cards.hidden = !cards.length;
     parts.cards.replaceChildren(...cards.map(([name, value, note]) => element('div', { class: 'card' }, element('dt', {}, name), element('dd', {}, value, element('small', {}, note)))));
   }
@@ -593,7 +601,7 @@ class View {
 
   /** Returns the arm whose contacts are shown: the examined one or, on a page without a motion, the only one. */
   get examined() {
-    if (this.probe || this.isMotion || this.mode === 'learn') return this.probe;
+    if (this.probe || this.isMotion || this.reachMap || this.mode === 'learn') return this.probe;
     const { q } = this;
     const contacts = Geometry.contacts(this.model.arm, this.world, q);
     return contacts.length ? { q, contacts } : null;
@@ -611,6 +619,8 @@ class View {
   /** On a small screen, moves the description above the finger, as far as there is room. */
   follow(q) {
     const { canvas } = this.panels.cspace;
+    // The page of an inspection has no configuration space.
+    if (!canvas.offsetParent) return;
     const frame = /** @type {HTMLElement} */ (canvas.offsetParent);
     const [x, y] = this.panels.cspace.at(q);
     const { style } = this.parts.probe;

@@ -245,9 +245,9 @@ const Workspace = (() => {
   }
 
   /** Draws the reachable cells, coloured by their kind. */
-  function cells(context, panel, { corner, cell, size: [columns], kinds, cells: all }) {
+  function cells(context, panel, { corner, cell, size: [columns], colors: names, cells: all }) {
     const { theme } = panel;
-    const colors = kinds.map(({ color }) => theme.tint(color));
+    const colors = names.map((color) => theme.tint(color));
     for (const [place, kind] of [...all].entries()) {
       if (kind === '.') continue;
       const low = [corner[0] + cell * (place % columns), corner[1] + cell * Math.floor(place / columns)];
@@ -313,11 +313,13 @@ const Workspace = (() => {
   function moving(context, panel, view) {
     const { theme } = panel;
     movers(context, panel, view, view.world);
+    view.reachMap?.inWorkspace(context, panel);
     const { examined } = view;
     // While another arm is examined, this one steps back.
     const alpha = view.probe ? 0.45 : 1;
     arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, alpha, joints: true, blocks: true });
     if (examined) tried(context, panel, view, examined);
+    view.reachMap?.aboveArm(context, panel);
     if (view.shows('names')) names(context, panel, view, view.world);
     if (view.hovered) Labels.write(context, theme, ...view.hovered);
   }
@@ -379,7 +381,7 @@ const Workspace = (() => {
     });
   }
 
-  return { still, moving, found, arm, struck };
+  return { still, moving, found, arm, struck, outline, tipTrace };
 })();
 
 /** Draws a path or trace in its colour, over a broad pale line that makes it visible on any ground. */
