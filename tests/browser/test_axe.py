@@ -46,12 +46,14 @@ def pages(program):
     ]:
         made[name] = program.folder / f"axe_{name}.html"
         program.run(*words, "--output", made[name], code=code)
+    made["exploration"] = program.folder / "axe_exploration.html"
+    program.run("explore", robot, shelf, "--quiet", "--timings", "--picture", made["exploration"])
     made["convergence"] = program.folder / "axe_convergence.html"
     program.run("converge", robot, shelf, "--cells", "24", "--quiet", "--picture", made["convergence"])
     return made
 
 
-@pytest.mark.parametrize("name", ["plan", "proof", "task", "report", "infeasible", "queries", "study", "convergence"])
+@pytest.mark.parametrize("name", ["plan", "proof", "task", "report", "infeasible", "queries", "study", "convergence", "exploration"])
 def test_nothing_is_found_on_pages(pages, show_file, name):
     for scheme, width, height in LOOKS:
         seen = show_file(pages[name], width=width, height=height, color_scheme=scheme)

@@ -5,12 +5,9 @@ use cplan_text::markup;
 
 const STYLE: &str = include_str!("assets/view.css");
 
-/// Code that draws icons.
-pub(crate) const ICONS: &str = include_str!("assets/icons.js");
-
 /// Code that draws a view. Each script needs only the scripts before it.
 const SCRIPTS: [&str; 18] = [
-    ICONS,
+    include_str!("assets/icons.js"),
     include_str!("assets/settings.js"),
     include_str!("assets/numbers.js"),
     include_str!("assets/geometry.js"),

@@ -176,6 +176,11 @@ class View {
     this.refresh();
   }
 
+  /** True if the page has the modes 'think' and 'learn'. */
+  get hasModes() {
+    return true;
+  }
+
   get duration() {
     if (this.mode === 'learn') return this.learn.duration;
     if (this.mode === 'think') return Think.duration(this.replay);
@@ -430,7 +435,7 @@ class View {
     if (!this.judged) this.say(ending, status);
     parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), element('dd', {}, text)]));
     // The live page shows its own figures.
-    const cards = this.recall ? [] : View.cards(this.model);
+    const cards = this.recall ? [] : this.constructor.cards(this.model);
     parts.cards.hidden = !cards.length;
     parts.cards.replaceChildren(...cards.map(([name, value, note]) => element('div', { class: 'card' }, element('dt', {}, name), element('dd', {}, value, element('small', {}, note)))));
   }
@@ -942,8 +947,7 @@ function help(view) {
     ['Space or k', 'play, pause'],
     ['arrow keys elsewhere', 'back and forth in time (with Shift further)'],
     ['Home, End', 'to the start, to the end'],
-    ['t', 'the motion, or how it was found'],
-    ['l', 'lessons: contact angles, the two tests of penetration, Minkowski differences'],
+    ...(view.hasModes ? [['t', 'the motion, or how it was found'], ['l', 'the course: lessons with a question each']] : []),
     ['+, \u2212', 'faster, slower; in a panel that was clicked: zoom'],
     ['wheel, two fingers, then drag', 'zoom at the pointer, and move the visible part'],
     ['Shift and arrow keys in a magnified workspace', 'move the visible part'],
