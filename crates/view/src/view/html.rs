@@ -6,12 +6,14 @@ use cplan_text::markup;
 const STYLE: &str = include_str!("assets/view.css");
 
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 18] = [
+const SCRIPTS: [&str; 23] = [
+    include_str!("assets/element.js"),
     include_str!("assets/icons.js"),
     include_str!("assets/settings.js"),
     include_str!("assets/numbers.js"),
     include_str!("assets/geometry.js"),
     include_str!("assets/panel.js"),
+    include_str!("assets/zoom.js"),
     include_str!("assets/labels.js"),
     include_str!("assets/legend.js"),
     include_str!("assets/layers.js"),
@@ -24,6 +26,9 @@ const SCRIPTS: [&str; 18] = [
     include_str!("assets/learn.js"),
     include_str!("assets/steps.js"),
     include_str!("assets/tour.js"),
+    include_str!("assets/pointer.js"),
+    include_str!("assets/keys.js"),
+    include_str!("assets/layout.js"),
     include_str!("assets/view.js"),
 ];
 

@@ -229,7 +229,7 @@ class ExplorationView extends View {
     if (play.dataset.action === action) return;
     play.dataset.action = action;
     const label = action[0].toUpperCase() + action.slice(1);
-    play.replaceChildren(icon(action), ...(action === 'replay' ? [label] : []));
+    play.replaceChildren(icon(action === 'replay' ? 'reset' : action), ...(action === 'replay' ? [label] : []));
     play.setAttribute('aria-label', label);
     play.title = `${label} (Space)`;
   }

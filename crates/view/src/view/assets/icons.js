@@ -5,7 +5,6 @@
 const ICONS = {
   play: { fill: 'M7 4.5v15l12.5-7.5z' },
   pause: { fill: 'M6.5 4.5h4v15h-4zM13.5 4.5h4v15h-4z' },
-  replay: { stroke: 'M4.5 9.5a8 8 0 1 1-.4 4.4M4.5 4.2v5.3h5.3' },
   plus: { stroke: 'M12 5v14M5 12h14' },
   minus: { stroke: 'M5 12h14' },
   reset: { stroke: 'M4.5 9.5a8 8 0 1 1-.4 4.4M4.5 4.2v5.3h5.3' },

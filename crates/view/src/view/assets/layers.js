@@ -1,7 +1,10 @@
 // The layers of the pictures. Their list is the legend: each layer has its sign, and a checkbox that shows or hides it.
 'use strict';
 
-/** Name, label, and visibility at the beginning of each layer. The content determines which of them exist. */
+/**
+ * Name, label, and visibility at the beginning of each layer. The content determines which of them exist.
+ * @type {[string, string, boolean][]}
+ */
 const LAYERS = [
   ['map', 'map of what has been seen', true],
   ['sensor', 'view of the sensor', true],
@@ -106,7 +109,10 @@ class Layers {
     });
   }
 
-  /** Adds a row: a sign and its meaning, with a checkbox if it can be hidden. */
+  /**
+   * Adds a row: a sign and its meaning, with a checkbox if it can be hidden.
+   * @param {{ key: any, layer?: string, box?: HTMLElement }} row
+   */
   row({ key, layer, box }) {
     const sign = element('span', { class: 'sign' });
     const parts = [sign, element('span', {}, key.text)];
