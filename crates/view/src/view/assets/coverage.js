@@ -24,7 +24,9 @@ class Coverage {
    * title of the length axis, whether lengths are angles, the description of a reading, and what a choice of the reader does
    */
   constructor(points, { title, degrees, describe, seek }) {
-    Object.assign(this, { points, describe, seek });
+    this.points = points;
+    this.describe = describe;
+    this.seek = seek;
     this.index = points.length - 1;
     this.canvas = element('canvas', {
       class: 'coverage', tabindex: '0', role: 'slider', 'aria-label': 'Reading', 'aria-valuemin': '1', 'aria-valuemax': String(points.length),

@@ -56,6 +56,7 @@ class Survey {
   /** Returns the readings with path lengths, coverage and, if they were measured, times of decisions. */
   get points() {
     const { frames, opened, decisions_ms: times } = this.data;
+    /** @type {CoveragePoint[]} */
     const points = frames.map(({ length }, reading) => ({ length, seen: this.seen(reading) }));
     (times ?? []).forEach((time, k) => (points[Math.max(opened[k + 1][0] - 1, 0)].decision = time));
     return points;
@@ -86,8 +87,9 @@ class ExplorationView extends View {
     return `${Numbers.digits(value)} (rad, m)`;
   }
 
-  /** Returns the key figures: name, value and meaning. */
-  static cards({ survey, arm, exploration: { frames, known_length: known, decisions_ms: times, opened, map: { size } } }) {
+  /** Returns the key figures: coverage, path length, readings and, if they were measured, times of decisions. */
+  cards() {
+    const { survey, arm, exploration: { frames, known_length: known, decisions_ms: times, opened, map: { size } } } = this.model;
     const last = frames.length - 1;
     const { length } = frames[last];
     const decided = [...(times ?? [])].sort((a, b) => a - b);

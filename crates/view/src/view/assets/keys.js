@@ -75,7 +75,7 @@ class Keys {
   nudgeTip(event) {
     const { view } = this;
     const direction = DIRECTIONS[event.key];
-    if (view.mode === 'learn' || !(direction ? view.probe : event.key === 'Enter')) return false;
+    if (view.drawn === 'slice' || !(direction ? view.probe : event.key === 'Enter')) return false;
     const { arm } = view.model;
     if (!direction) view.place(view.q);
     else {
