@@ -106,9 +106,11 @@ def answers(seen, lesson):
         assert refused(check(seen)), "nothing was chosen"
         click(seen, do(f"{model}.start"))
         assert refused(check(seen)), "the start is free"
-        box = do(f"{model}.worlds[0].c_obstacles[0].contour")
-        middle = [sum(box[k::2]) / (len(box) // 2) for k in (0, 1)]
-        click(seen, middle)
+        wanted = do(f"{model}.worlds[0].c_obstacles[0].obstacle")
+        touching = """(wanted) => { for (let x = -1.5; x < 1.5; x += 0.1) for (let y = -1.5; y < 1.5; y += 0.1) {
+            const hits = Geometry.contacts(cplan.model.arm, cplan.world, [x, y]).filter((one) => one.distance < -0.01);
+            if (hits.some((one) => one.obstacle === wanted)) return [x, y]; } }"""
+        click(seen, do(touching, wanted))
         return accepted(check(seen))
     if lesson == "slice":
         assert refused(answer(seen, "no")) and refused(answer(seen, -1))

@@ -76,7 +76,7 @@ const CELLS = (() => {
       {
         name: 'splits', figure: 'think', title: () => 'Why the splitting ends',
         isOffered: isKind('boxes'),
-        text: ({ model }) => `Boxes are split only where nothing is decided, so they are small along the boundary of the C-obstacles. If a free path exists, it has some clearance, and boxes of that size on it are decided. Here the smallest box is the ${Numbers.digits(2 ** splits(model), 12)}th part of the space.`,
+        text: ({ model }) => `Boxes are split only where nothing is decided, so they are small along the boundary of the C-obstacles. If a free path exists, it has some clearance, and boxes of that size on it are decided. Here the smallest box is the ${2 ** splits(model)}th part of the space.`,
         question: ({ model }) => {
           const count = splits(model);
           return Ask.number({
