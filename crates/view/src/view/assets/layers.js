@@ -50,7 +50,8 @@ class Layers {
       path: paths.length > 0 || Boolean(exploration), 'c-obstacles': any('c_obstacles') || any('moments'), access: Boolean(reach), proof: any('proof'), regions: any('regions'),
       roadmap: kinds.has('roadmap'), roads: kinds.has('roads'), rows: kinds.has('rows'), channel: kinds.has('channel'), cells: kinds.has('channel'),
       expanded: traces.some((trace) => trace?.expanded?.length > 0), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'), flow: kinds.has('field'),
-      boxes: kinds.has('boxes'), poses: !exploration, map: Boolean(exploration), sensor: Boolean(exploration), known: Boolean(exploration), names: any('obstacles') || any('movers'), frames: frames.length > 0,
+      boxes: kinds.has('boxes'), poses: paths.length > 0, map: Boolean(exploration), sensor: Boolean(exploration), known: Boolean(exploration),
+      names: any('obstacles') || any('movers'), frames: frames.length > 0,
     };
     return LAYERS.map(([name]) => name).filter((name) => exists[name]);
   }

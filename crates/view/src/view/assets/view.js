@@ -107,6 +107,7 @@ class View {
     const [moves, thinks, learns] = [Boolean(model.clock), this.thinks, this.learn.isOffered];
     const there = { move: moves || !thinks, think: thinks, learn: learns };
     for (const button of this.parts.modes.children) button.hidden = !(there[button.dataset.mode] || (button.dataset.mode === 'think' && this.recall));
+    this.parts.modes.firstChild.textContent = moves ? 'Motion' : 'Picture';
     const choices = [...this.parts.modes.children].filter((button) => !button.hidden).length;
     this.parts.modes.hidden = choices < 2;
     this.parts.transport.hidden = !moves && !thinks && (this.light || choices < 2);
@@ -343,10 +344,15 @@ class View {
   headings() {
     const { title, status, ending, facts } = this.model;
     const { parts } = this;
+    /** Shows a text with angles in degrees; its tooltip has radians, too. */
+    const readable = (text, tag = 'p') => {
+      const shown = Numbers.readable(text);
+      return element(tag, shown === text ? {} : { title: text }, shown);
+    };
     parts.title.textContent = title[0] ?? '';
-    parts.lines.replaceChildren(...title.slice(1).map((text) => element('p', {}, text)));
+    parts.lines.replaceChildren(...title.slice(1).map((text) => readable(text)));
     if (!this.judged) this.say(ending, status);
-    parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), element('dd', {}, text)]));
+    parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), readable(text, 'dd')]));
     // The live page shows its own figures.
     const cards = this.recall ? [] : this.cards();
     parts.cards.hidden = !cards.length;
