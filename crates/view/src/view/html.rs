@@ -5,13 +5,10 @@ use cplan_text::markup;
 
 const STYLE: &str = include_str!("assets/view.css");
 
-/// Code that draws icons.
-pub(crate) const ICONS: &str = include_str!("assets/icons.js");
-
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 24] = [
+const SCRIPTS: [&str; 34] = [
     include_str!("assets/element.js"),
-    ICONS,
+    include_str!("assets/icons.js"),
     include_str!("assets/settings.js"),
     include_str!("assets/numbers.js"),
     include_str!("assets/geometry.js"),
@@ -26,6 +23,16 @@ const SCRIPTS: [&str; 24] = [
     include_str!("assets/cspace.js"),
     include_str!("assets/plots.js"),
     include_str!("assets/contact.js"),
+    include_str!("assets/lessons/question.js"),
+    include_str!("assets/lessons/slice.js"),
+    include_str!("assets/lessons/polygons.js"),
+    include_str!("assets/lessons/c_obstacles.js"),
+    include_str!("assets/lessons/roadmaps.js"),
+    include_str!("assets/lessons/cells.js"),
+    include_str!("assets/lessons/waves.js"),
+    include_str!("assets/lessons/fields.js"),
+    include_str!("assets/lessons/proofs.js"),
+    include_str!("assets/lessons/tasks.js"),
     include_str!("assets/learn.js"),
     include_str!("assets/steps.js"),
     include_str!("assets/tour.js"),

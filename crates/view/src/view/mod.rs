@@ -41,7 +41,6 @@ pub use task_picture::{Moments, TaskPicture};
 pub(super) use arm::{reach_shape, titles};
 pub(super) use content::{FrameView, PanelView};
 pub(super) use extent::bounding_box;
-pub(super) use html::ICONS;
 pub(super) use motion::PathView;
 pub(super) use names::NameView;
 pub(super) use numbers::{Chain, RoundingSteps};

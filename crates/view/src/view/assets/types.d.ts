@@ -109,6 +109,9 @@ interface Model {
   stuck?: any;
   checked?: any;
   reach?: any;
+  /** The data of an exploration, and the knowledge over time. */
+  exploration?: any;
+  survey?: any;
 }
 
 /** The pair of an arm's part and an obstacle that is in contact or nearest. */

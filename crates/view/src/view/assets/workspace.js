@@ -24,6 +24,16 @@ const Workspace = (() => {
     solids(context, panel, view, world.obstacles);
   }
 
+  /** Draws only the outlines of the obstacles. */
+  function outlines(context, panel, view, world) {
+    for (const obstacle of world.obstacles.filter(({ name }) => !view.hidden.has(name))) {
+      outline(context, panel, obstacle);
+      context.lineWidth = obstacle.outline.polyline ? 3 : 1.6;
+      context.strokeStyle = panel.theme.obstacle(obstacle.color).line;
+      context.stroke();
+    }
+  }
+
   /** Draws moving obstacles at their current poses. */
   function movers(context, panel, view, world) {
     solids(context, panel, view, (world.movers ?? []).map((mover) => Geometry.moved(mover, view.now)));
@@ -381,7 +391,7 @@ const Workspace = (() => {
     });
   }
 
-  return { still, moving, found, arm, struck, outline, tipTrace };
+  return { still, moving, found, arm, struck, outline, tipTrace, outlines };
 })();
 
 /** Draws a path or trace in its colour, over a broad pale line that makes it visible on any ground. */
