@@ -1,5 +1,7 @@
 // The placer of names in a panel. A name lies neither on the arm, nor on a marker, nor on another name. It avoids paths
 // as far as possible, is joined to a distant shape by a line, and is left out if there is no place for it.
+// Pictures have the same rule in `labels.rs` and `regions.rs`: the same places in the same order, with the same costs. A
+// change here needs the same change there.
 'use strict';
 
 const Labels = (() => {
@@ -138,6 +140,11 @@ const Labels = (() => {
     }
   }
 
+  /** Does the same among regions. `covered` returns the share of a box that lies on regions. */
+  function besideAmong(context, panel, names, covered) {
+    for (const [text, of] of names) put(context, panel, text, of, covered);
+  }
+
   /**
    * Draws names on regions of any shape: within the part of a region that is visible, as far as possible from its
    * outline, or beside a smaller part with a line to it. A region is { text, paint(context) }; later ones cover earlier
@@ -177,10 +184,12 @@ const Labels = (() => {
     regions.forEach(({ text }, index) => {
       const [width, height] = size(context, panel, text);
       const spot = roomiest(cells, [columns, rows], index + 1, [width, height].map((side) => Math.ceil(side / CELL)));
-      if (spot?.fits) {
-        const [x, y] = [0, 1].map((k) => [rect.x, rect.y][k] + spot.at[k] * CELL);
-        blocked.boxes.push({ x: x - width / 2, y: y - height / 2, width, height });
-        write(context, panel.theme, text, x, y);
+      const [x, y] = spot ? [0, 1].map((k) => [rect.x, rect.y][k] + spot.at[k] * CELL) : [0, 0];
+      const box = pushed({ x: x - width / 2, y: y - height / 2, width, height }, rect);
+      // A name that sticks out of its region may meet another one that does.
+      if (spot?.fits && !isBlocked(panel, box)) {
+        blocked.boxes.push(box);
+        write(context, panel.theme, text, ...middle(box));
       } else {
         // The path may cover all of a small region.
         const place = spot ?? roomiest(full, [columns, rows], index + 1, [1, 1]);
@@ -295,5 +304,5 @@ const Labels = (() => {
     context.fillText(text, x, y);
   }
 
-  return { about, beside, beyond, inside, onRegions, write, nothing, copy, blockShape, blockSpot, blockLine };
+  return { about, beside, besideAmong, beyond, inside, onRegions, write, nothing, copy, blockShape, blockSpot, blockLine };
 })();

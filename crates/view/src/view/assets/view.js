@@ -157,6 +157,7 @@ class View {
     const learns = this.mode === 'learn';
     parts.plots.hidden = this.mode !== 'move' || !this.model.clock;
     this.learn.show();
+    this.strip.show();
     parts.panels.hidden = learns && !this.learn.isSlice;
     // Room for a scale of colours beside the panel.
     const { scale } = this;
@@ -370,13 +371,14 @@ class View {
     this.parts = parts;
     this.tabs = this.buildTabs();
     this.tour = new Tour(this);
+    this.strip = Strip.mount(this);
     this.root.append(
       element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
       parts.cards,
       element(
         'div',
         { class: 'stage' },
-        element('div', { class: 'pictures' }, parts.panels, this.learn.parts.panels, parts.description, parts.measure, parts.transport, this.learn.parts.choice, this.learn.parts.text),
+        element('div', { class: 'pictures' }, parts.panels, this.learn.parts.panels, parts.description, parts.measure, this.strip.root, parts.transport, this.learn.parts.choice, this.learn.parts.text),
         element('div', { class: 'below' }, this.tabs.root, ...this.tabs.entries.filter(({ isAside }) => !isAside).map(({ panel }) => panel)),
         element('aside', { class: 'side', 'aria-label': 'Steps and layers' }, this.steps.root, this.layers.root),
       ),
@@ -398,7 +400,7 @@ class View {
     };
     // Texts on canvases follow the text size of the page.
     new ResizeObserver(() => this.model && this.recolor()).observe(parts.measure);
-    this.plots = Plots.mount(parts.plots, this);
+    this.plots = [...Plots.mount(parts.plots, this), this.strip];
     for (const panel of Object.values(this.panels)) {
       this.listen(panel);
       this.magnifies(panel);
@@ -545,6 +547,7 @@ class View {
     }
     const now = this.mode === 'learn' ? -1 : this.model.motions.indexOf(motion);
     this.steps.follow(now);
+    this.strip.follow();
     this.describe();
     for (const panel of this.allPanels()) panel.draw();
   }
