@@ -651,4 +651,4 @@ def test_a_checked_configuration_shows_where_it_touches_and_the_nearest_free_one
     keys = seen.page.get_by_role("list", name="Legend").get_by_role("listitem").all_inner_texts()
     assert {"contact", "nearest free configuration"} <= set(keys)
     details = seen.page.locator(".facts").inner_text()
-    assert "penetrates by 8.064 mm" in details and "free: shoulder 51.19 deg" in details
+    assert "penetrates by 8.064 mm" in details and "free: shoulder 51.19°" in details

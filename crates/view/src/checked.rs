@@ -56,6 +56,13 @@ impl From<&ConfigurationFindings> for CheckedView {
     }
 }
 
+impl CheckedView {
+    /// Returns true if the configuration is not free.
+    pub(crate) fn is_blocked(&self) -> bool {
+        self.is_blocked
+    }
+}
+
 /// Returns the point in which two sides cross, up to rounding. `None` for parallel sides.
 fn crossing([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     let minus = |p: [f64; 2], q: [f64; 2]| [p[0] - q[0], p[1] - q[1]];

@@ -51,7 +51,11 @@ fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
     let world = view.first_world();
     let goal = if view.is_task() { "end of a step" } else { "goal" };
     let always = |key: Key| -> Layered { (key, &[]) };
-    let mut keys = vec![always((Sign::Start, "start".to_owned())), always((Sign::Goal, goal.to_owned()))];
+    let start = if view.moves() { "start" } else { "configuration" };
+    let mut keys = vec![always((Sign::Start, start.to_owned()))];
+    if view.moves() {
+        keys.push(always((Sign::Goal, goal.to_owned())));
+    }
     keys.extend(paths(view).into_iter().map(|key| -> Layered { (key, &["path", "trace"]) }));
     if still && view.worlds.iter().any(|world| !world.open.is_empty()) {
         keys.push(always((Sign::Dashed(GRAY), "open to link 2 (picked or placed)".to_owned())));

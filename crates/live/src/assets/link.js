@@ -15,7 +15,10 @@ class Link {
    * `state` when the connection opens or closes. The handler of an open connection has to open a world.
    */
   constructor({ openSocket, receive, file, state }) {
-    Object.assign(this, { openSocket, receive, file, state });
+    this.openSocket = openSocket;
+    this.receive = receive;
+    this.file = file;
+    this.state = state;
     this.id = 0;
     /**
      * The request in progress: its number, its kind (open, plan, load, download), whether it is final, and the state
@@ -29,9 +32,9 @@ class Link {
     this.pause = PAUSES[0];
     this.connect();
     // A user who comes back to the page does not have to wait for the end of a pause.
-    for (const [target, name] of [[window, 'online'], [window, 'focus'], [document, 'visibilitychange']]) {
-      target.addEventListener(name, () => !document.hidden && this.retry());
-    }
+    const retry = () => !document.hidden && this.retry();
+    for (const name of ['online', 'focus']) window.addEventListener(name, retry);
+    document.addEventListener('visibilitychange', retry);
   }
 
   connect() {

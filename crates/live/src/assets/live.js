@@ -32,8 +32,17 @@ class Live {
     /** Number of the page's current state. Each change increases it. */
     this.edition = 1;
     /** The answer in the picture: the edition, whether it is complete, and its outcome. `null` if there is no connection. */
+    /** @type {?{ edition: number, final: boolean, ending?: string, status?: string, error: ?string }} */
     this.shown = null;
     this.notices = new Notices();
+    /** The edited world. @type {?Scene} */
+    this.scene = null;
+    /** The first world that was opened, and its origin: robot and text. @type {any} */
+    this.first = null;
+    /** @type {?string} */
+    this.origin = null;
+    /** @type {View} */
+    this.view = null;
     /** State for scripts that observe the page, such as tests. */
     this.answered = { id: 0, verdict: null, certified: false, final: false, error: null };
     /** Worlds to open. */

@@ -10,6 +10,7 @@ class Scene {
   constructor(world) {
     this.world = world;
     this.obstacles = world.obstacles.map(({ name, ...shape }, from) => ({ from, name, shape: Object.keys(shape).length ? shape : null }));
+    /** @type {{ joints?: Point, tip?: Point, near?: Point } | null | undefined} */
     this.start = world.start && { joints: world.start };
     this.goal = world.goal;
     this.clearance = world.clearance;

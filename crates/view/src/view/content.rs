@@ -54,7 +54,8 @@ pub struct View {
     pub title: Vec<String>,
     /// The outcome, in a word or two.
     pub status: String,
-    /// The outcome, from which colours and symbols follow. `None` for a view without a query.
+    /// The outcome, from which colours and symbols follow: for a checked configuration, `Found` if it is free. `None` for
+    /// a view without a query.
     #[serde(serialize_with = "ending")]
     pub ending: Option<Status>,
     /// Facts about the result: names and values, such as `length` and `4.4963 rad`.
@@ -149,6 +150,12 @@ impl View {
         !self.still.steps.is_empty()
     }
 
+    /// Returns true for the view of a motion or a query, and false for that of a single configuration.
+    pub(crate) fn moves(&self) -> bool {
+        let has_goal = !self.goals.is_empty() || !self.goal_lines.is_empty() || self.unreached().next().is_some();
+        has_goal || !self.paths.is_empty() || self.is_task()
+    }
+
     /// Returns the traces of the planner for the motions of a task. Empty if the view does not show them.
     pub(crate) fn traces_of_steps(&self) -> impl Iterator<Item = &TraceView> {
         self.replays.iter().filter_map(|replay| replay.trace.as_ref())
@@ -212,6 +219,7 @@ impl View {
     /// Returns the view with the findings about its configuration.
     #[must_use]
     pub fn with_findings(mut self, checked: CheckedView) -> Self {
+        self.ending = Some(if checked.is_blocked() { Status::Infeasible } else { Status::Found });
         self.still.checked = Some(checked);
         self
     }

@@ -9,12 +9,14 @@ const STYLE: &str = include_str!("assets/view.css");
 pub(crate) const ICONS: &str = include_str!("assets/icons.js");
 
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 19] = [
+const SCRIPTS: [&str; 24] = [
+    include_str!("assets/element.js"),
     ICONS,
     include_str!("assets/settings.js"),
     include_str!("assets/numbers.js"),
     include_str!("assets/geometry.js"),
     include_str!("assets/panel.js"),
+    include_str!("assets/zoom.js"),
     include_str!("assets/labels.js"),
     include_str!("assets/legend.js"),
     include_str!("assets/layers.js"),
@@ -28,6 +30,9 @@ const SCRIPTS: [&str; 19] = [
     include_str!("assets/learn.js"),
     include_str!("assets/steps.js"),
     include_str!("assets/tour.js"),
+    include_str!("assets/pointer.js"),
+    include_str!("assets/keys.js"),
+    include_str!("assets/layout.js"),
     include_str!("assets/view.js"),
 ];
 

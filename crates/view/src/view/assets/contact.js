@@ -194,8 +194,8 @@ const Contact = (() => {
 
   // The Minkowski difference.
 
-  /** Returns true if a direction points into [pi, 2 pi). */
-  const isDown = ([x, y]) => y < 0 || (y === 0 && x < 0);
+  /** Returns 1 if a direction points into [pi, 2 pi), otherwise 0. */
+  const isDown = (/** @type {Point} */ [x, y]) => Number(y < 0 || (y === 0 && x < 0));
 
   /**
    * Returns `b - a` of convex polygons by a sweep: the sides of `b` and of `-a`, ordered by the angles of their

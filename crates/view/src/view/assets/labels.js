@@ -23,7 +23,7 @@ const Labels = (() => {
   // Boxes.
 
   /** Returns a square about a spot. */
-  const about = ([x, y], half = 0) => ({ x: x - half, y: y - half, width: 2 * half, height: 2 * half });
+  const about = (/** @type {Point} */ [x, y], half = 0) => ({ x: x - half, y: y - half, width: 2 * half, height: 2 * half });
   const middle = ({ x, y, width, height }) => [x + width / 2, y + height / 2];
   const grown = ({ x, y, width, height }, by) => ({ x: x - by, y: y - by, width: width + 2 * by, height: height + 2 * by });
   /** Returns the common area in square pixels. */
@@ -83,7 +83,7 @@ const Labels = (() => {
   // Placing.
 
   /** Returns the possible places of a name, nearest first: { box, isFar }. */
-  function places(panel, [width, height], of) {
+  function places(panel, /** @type {Point} */ [width, height], of) {
     const fits = width <= of.width && height <= of.height;
     const at = (gap) => ([dx, dy]) => ({
       x: of.x + of.width / 2 - width / 2 + dx * (width / 2 + gap + of.width / 2),
@@ -199,7 +199,7 @@ const Labels = (() => {
     // Of the points of a box, how many lie on regions.
     const covered = ({ x, y, width, height }) => {
       let count = 0;
-      for (let i = 0; i < 5; i += 1) for (let j = 0; j < 3; j += 1) count += isRegion(x + (width * (i + 0.5)) / 5, y + (height * (j + 0.5)) / 3);
+      for (let i = 0; i < 5; i += 1) for (let j = 0; j < 3; j += 1) count += Number(isRegion(x + (width * (i + 0.5)) / 5, y + (height * (j + 0.5)) / 3));
       return count / 15;
     };
     for (const [text, of] of rest) put(context, panel, text, of, covered);
@@ -210,7 +210,7 @@ const Labels = (() => {
    * within the region lies as far as possible from the outline. Otherwise its middle lies on the region, and the rest
    * covers nothing else. `fits` is false if there is no such place. Returns `null` if the region has no cells.
    */
-  function roomiest(cells, [columns, rows], id, [width, height]) {
+  function roomiest(cells, /** @type {Point} */ [columns, rows], id, /** @type {Point} */ [width, height]) {
     let [x0, x1, y0, y1] = [columns, -1, rows, -1];
     for (let k = 0; k < cells.length; k += 1) {
       if (cells[k] !== id) continue;

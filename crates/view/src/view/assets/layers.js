@@ -1,7 +1,10 @@
 // The layers of the pictures. Their list is the legend: each layer has its sign, and a checkbox that shows or hides it.
 'use strict';
 
-/** Name, label, and visibility at the beginning of each layer. The content determines which of them exist. */
+/**
+ * Name, label, and visibility at the beginning of each layer. The content determines which of them exist.
+ * @type {[string, string, boolean][]}
+ */
 const LAYERS = [
   ['path', 'paths, and traces of the tip', true],
   ['c-obstacles', 'C-obstacles', true],
@@ -44,7 +47,7 @@ class Layers {
       path: paths.length > 0, 'c-obstacles': any('c_obstacles') || any('moments'), access: Boolean(reach), proof: any('proof'), regions: any('regions'),
       roadmap: kinds.has('roadmap'), roads: kinds.has('roads'), rows: kinds.has('rows'), channel: kinds.has('channel'), cells: kinds.has('channel'),
       expanded: traces.some((trace) => trace?.expanded?.length > 0), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'), flow: kinds.has('field'),
-      boxes: kinds.has('boxes'), poses: true, names: any('obstacles') || any('movers'), frames: frames.length > 0,
+      boxes: kinds.has('boxes'), poses: paths.length > 0, names: any('obstacles') || any('movers'), frames: frames.length > 0,
     };
     return LAYERS.map(([name]) => name).filter((name) => exists[name]);
   }
@@ -103,7 +106,10 @@ class Layers {
     });
   }
 
-  /** Adds a row: a sign and its meaning, with a checkbox if it can be hidden. */
+  /**
+   * Adds a row: a sign and its meaning, with a checkbox if it can be hidden.
+   * @param {{ key: any, layer?: string, box?: HTMLElement }} row
+   */
   row({ key, layer, box }) {
     const sign = element('span', { class: 'sign' });
     const parts = [sign, element('span', {}, key.text)];

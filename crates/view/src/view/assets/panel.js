@@ -71,14 +71,28 @@ class Panel {
   static TEXT = 13;
 
   /**
-   * @param canvas the canvas to draw on
-   * @param options `x`, `y`: ranges; `degrees`, `percent`: for both axes; `titles`; `scale`: 'fill' (one scale, may show more than
+   * @param {HTMLCanvasElement} canvas the canvas to draw on
+   * @param {{ x: Point, y: Point, degrees?: (boolean | string)[], percent?: boolean[], titles?: string[], scale?: string, still?: Drawing, moving?: Drawing, beside?: Drawing, shape?: ?number, margins?: number[] }} options `x`, `y`: ranges; `degrees`, `percent`: for both axes; `titles`; `scale`: 'fill' (one scale, may show more than
    * the ranges), 'fit' (one scale, exactly the ranges) or 'free'; `still` and `moving`: functions that draw the fixed
    * and the moving content; `shape`: ratio of width to height, or `null` for all the room; `beside`: one that draws fixed content outside the sides; `margins`
    */
-  constructor(canvas, options) {
-    Object.assign(this, { degrees: [false, false], percent: [false, false], seams: [false, false], titles: ['', ''], scale: 'free' }, options);
+  constructor(canvas, { x, y, degrees = [false, false], percent = [false, false], titles = ['', ''], scale = 'free', still = null, moving = null, beside = null, shape = null, margins = undefined }) {
     this.canvas = canvas;
+    this.x = x;
+    this.y = y;
+    this.degrees = degrees;
+    this.percent = percent;
+    /** True for each axis whose ends are the same position of the joint. */
+    this.seams = [false, false];
+    this.titles = titles;
+    this.scale = scale;
+    this.still = still;
+    this.moving = moving;
+    this.beside = beside;
+    this.shape = shape;
+    this.margins = margins;
+    /** @type {?Theme} */
+    this.theme = null;
     this.overlays = [];
     /** Magnification, and the part of the ranges that is then in the middle. */
     this.times = 1;
@@ -128,7 +142,7 @@ class Panel {
       if (this.scale === 'fit') {
         Object.assign(rect, { x: rect.x + (rect.width - width) / 2, width, height });
       } else {
-        const about = ([a, b], length) => [(a + b - length) / 2, (a + b + length) / 2];
+        const about = (/** @type {Point} */ [a, b], length) => [(a + b - length) / 2, (a + b + length) / 2];
         [x, y] = [about(x, rect.width / scale), about(y, rect.height / scale)];
       }
     }
@@ -198,6 +212,11 @@ class Panel {
     });
   }
 
+  /**
+   * Returns the spot of a value, in pixels.
+   * @param {Point} value
+   * @returns {Point}
+   */
   at([x, y]) {
     const { rect, shown } = this;
     return [
@@ -206,6 +225,11 @@ class Panel {
     ];
   }
 
+  /**
+   * Returns the value at a spot.
+   * @param {Point} spot in pixels
+   * @returns {Point}
+   */
   value([px, py]) {
     const { rect, shown } = this;
     return [
@@ -225,6 +249,7 @@ class Panel {
     return [event.clientX - box.left, event.clientY - box.top];
   }
 
+  /** @param {Point} spot */
   contains([px, py]) {
     const { rect } = this;
     return px >= rect.x && px <= rect.x + rect.width && py >= rect.y && py <= rect.y + rect.height;

@@ -8,9 +8,9 @@ const Strip = (() => {
 
   /**
    * Returns the wait of the motion at a time, or `null`.
-   * @param {object} model
+   * @param {Model} model
    * @param {number} time in seconds
-   * @returns {{from: number, to: number, at: number, text: string} | null}
+   * @returns {WaitModel | null}
    */
   function waitAt(model, time) {
     return model.strip?.waits.find(({ from, to }) => time >= from && time < to) ?? null;
@@ -19,7 +19,7 @@ const Strip = (() => {
   /**
    * Returns the outline of the regions that an obstacle blocks, in pixels.
    * @param {Panel} panel
-   * @param {{regions: number[][]}} obstacle
+   * @param {{ regions: Chain[] }} obstacle
    * @returns {Path2D}
    */
   function outline(panel, { regions }) {
@@ -33,7 +33,7 @@ const Strip = (() => {
    * @param {CanvasRenderingContext2D} context
    * @param {Panel} panel
    * @param {Path2D[]} outlines
-   * @returns {function(object): number}
+   * @returns {(box: Rect) => number}
    */
   function covering(context, panel, outlines) {
     const [across, down] = SAMPLES;
@@ -51,7 +51,7 @@ const Strip = (() => {
    * Draws the regions, the motion and its waits.
    * @param {CanvasRenderingContext2D} context
    * @param {Panel} panel
-   * @param {object} strip
+   * @param {StripModel} strip
    */
   function draw(context, panel, { obstacles, motion, waits }) {
     const { theme } = panel;
@@ -89,8 +89,9 @@ const Strip = (() => {
     const [x] = panel.at([view.time, 0]);
     [context.lineWidth, context.strokeStyle] = [1.5, theme.accent];
     line(context, [[x, rect.y], [x, rect.y + rect.height]]);
+    const [, y] = panel.at([view.time, progress(view.model.strip, view.time)]);
     context.beginPath();
-    context.arc(...panel.at([view.time, progress(view.model.strip, view.time)]), 5, 0, 2 * Math.PI);
+    context.arc(x, y, 5, 0, 2 * Math.PI);
     [context.fillStyle, context.strokeStyle, context.lineWidth] = [theme.accent, theme.paper, 1.5];
     context.fill();
     context.stroke();
@@ -98,7 +99,7 @@ const Strip = (() => {
 
   /**
    * Returns the progress of the motion at a time.
-   * @param {{motion: number[]}} strip
+   * @param {StripModel} strip
    * @param {number} time in seconds
    * @returns {number} from 0 to 1
    */
@@ -112,7 +113,7 @@ const Strip = (() => {
   /**
    * Creates the strip of a view.
    * @param {View} view
-   * @returns {{root: HTMLElement, panel: Panel, fit: function(): void, show: function(): void, follow: function(): void}}
+   * @returns {{ root: HTMLElement, panel: Panel, fit: () => void, show: () => void, follow: () => void }}
    */
   function mount(view) {
     const canvas = element('canvas', { role: 'img' });

@@ -107,6 +107,7 @@ const Workspace = (() => {
     if (polyline) {
       const points = [...pointsOf(polyline)];
       const sides = points.slice(1).map((b, i) => [points[i], b]);
+      /** @param {Point[]} side */
       const length = ([a, b]) => Math.hypot(b[0] - a[0], b[1] - a[1]);
       const [a, b] = sides.reduce((best, side) => (length(side) > length(best) ? side : best));
       return Labels.about(panel.at([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]), 5);
