@@ -55,7 +55,7 @@ function buildPage(view) {
     element(
       'div',
       { class: 'stage' },
-      element('div', { class: 'pictures' }, parts.panels, view.learn.parts.panels, parts.description, parts.measure, view.strip.root, parts.transport, view.learn.parts.choice, view.learn.parts.text),
+      element('div', { class: 'pictures' }, parts.panels, view.learn.parts.panels, parts.description, parts.measure, parts.transport, view.strip.root, view.learn.parts.choice, view.learn.parts.text),
       element('div', { class: 'below' }, view.tabs.root, ...view.tabs.entries.filter(({ isAside }) => !isAside).map(({ panel }) => panel)),
       element('aside', { class: 'side', 'aria-label': 'Steps and layers' }, view.steps.root, view.layers.root),
     ),

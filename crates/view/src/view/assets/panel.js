@@ -105,6 +105,8 @@ class Panel {
     /** Last place of each name, by its number among the possible places. */
     this.placed = new Map();
     new ResizeObserver(() => this.resize()).observe(canvas);
+    // The first picture may be drawn before the page's font is ready.
+    document.fonts.addEventListener('loadingdone', () => this.resize());
     this.resize();
   }
 
