@@ -57,6 +57,8 @@ pub struct Placer {
     page: Rect,
     /// Boxes of names and markers.
     boxes: Vec<Rect>,
+    /// Boxes of names.
+    names: Vec<Rect>,
     /// Shapes of arms in pixels that count upwards, so that corners stay counter-clockwise.
     shapes: Vec<Convex>,
     /// Points on lines.
@@ -68,7 +70,7 @@ impl Placer {
     /// Creates the placer of a panel that fills `page`.
     #[must_use]
     pub fn new(page: Rect) -> Self {
-        Self { page, boxes: Vec::new(), shapes: Vec::new(), points: Vec::new(), items: Vec::new() }
+        Self { page, boxes: Vec::new(), names: Vec::new(), shapes: Vec::new(), points: Vec::new(), items: Vec::new() }
     }
 
     /// Lets names avoid a convex shape of the panel's plane, such as a part of the arm.
@@ -184,6 +186,17 @@ impl Placer {
         self.shapes.iter().any(|shape| separation(&own, shape).distance <= 0.0)
     }
 
+    /// Returns true if the line from a name to its shape would cross another name.
+    fn crosses_name(&self, place: &Rect, of: &Rect) -> bool {
+        let [Step::Move(begin), Step::Line(end)] = leader(place, of)[..] else { return false };
+        let count = ((end[0] - begin[0]).hypot(end[1] - begin[1]) / LINE_STEP).ceil();
+        let spot = |k: usize| [0, 1].map(|c| begin[c] + (end[c] - begin[c]) * k as f64 / count.max(1.0));
+        let holds = |name: &Rect, [x, y]: [f64; 2]| {
+            (name.x..=name.right()).contains(&x) && (name.y..=name.bottom()).contains(&y)
+        };
+        (0..=count as usize).map(spot).any(|spot| self.names.iter().any(|name| holds(name, spot)))
+    }
+
     fn crosses_line(&self, place: &Rect) -> bool {
         let [x, y] = [place.x - LINE_GAP..=place.right() + LINE_GAP, place.y - LINE_GAP..=place.bottom() + LINE_GAP];
         self.points.iter().any(|point| x.contains(&point[0]) && y.contains(&point[1]))
@@ -195,7 +208,7 @@ impl Placer {
         let (mut best, mut least) = (None, f64::INFINITY);
         for (index, (place, is_far)) in places(size(&name), of).into_iter().enumerate() {
             let known = PLACE_COST * index as f64 + if is_far { LEADER_COST } else { 0.0 };
-            if known >= least || self.is_blocked(&place) {
+            if known >= least || self.is_blocked(&place) || is_far && self.crosses_name(&place, of) {
                 continue;
             }
             let whole = known + if self.crosses_line(&place) { CROSSING_COST } else { 0.0 } + cost(&place);
@@ -205,7 +218,10 @@ impl Placer {
         }
         let Some((place, is_far)) = best else { return };
         if is_far {
-            self.items.extend(leader(&place, of));
+            let steps = leader(&place, of);
+            self.block_line(&steps);
+            let pens = [(WHITE, 3.0), (GRAY, 1.0)];
+            self.items.extend(pens.map(|(color, width)| Item::Outline(steps.clone(), Style::line(color, width))));
         }
         self.write(name, place);
     }
@@ -223,6 +239,7 @@ impl Placer {
             is_bold: true,
         }));
         self.boxes.push(place);
+        self.names.push(place);
     }
 }
 
@@ -239,12 +256,11 @@ fn places(size: [f64; 2], of: &Rect) -> Vec<(Rect, bool)> {
     near.chain(far.map(|(side, gap)| (at(side, gap), true))).collect()
 }
 
-/// Draws a line from a name to the shape that it names.
-fn leader(place: &Rect, of: &Rect) -> [Item; 2] {
+/// Returns the line from a name to the shape that it names.
+fn leader(place: &Rect, of: &Rect) -> Vec<Step> {
     let into = |r: &Rect, [x, y]: [f64; 2]| [x.clamp(r.x, r.right()), y.clamp(r.y, r.bottom())];
     let end = into(of, [place.x + place.width / 2.0, place.y + place.height / 2.0]);
-    let steps = vec![Step::Move(into(place, end)), Step::Line(end)];
-    [(WHITE, 3.0), (GRAY, 1.0)].map(|(color, width)| Item::Outline(steps.clone(), Style::line(color, width)))
+    vec![Step::Move(into(place, end)), Step::Line(end)]
 }
 
 /// Returns the share of a shape's box that a name would cover. It is better to hide a part of a large shape than the
@@ -342,7 +358,7 @@ mod tests {
         let of = centered_rect([150.0, 150.0], [10.0, 10.0]);
         let frame = Frame::filling(PAGE, (0.0, 300.0), (0.0, 300.0));
         let arm = Convex::trusted(
-            [[120.0, 152.0], [180.0, 152.0], [180.0, 180.0]].map(|[x, y]| Point::new(x, y)).to_vec(),
+            [[120.0, 160.0], [180.0, 160.0], [180.0, 185.0]].map(|[x, y]| Point::new(x, y)).to_vec(),
             1.0,
         );
         let mut placer = Placer::new(PAGE);
