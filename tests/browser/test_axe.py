@@ -37,6 +37,7 @@ def pages(program):
         "plan": program.plan("planar_2r", "shelf")[0],
         "proof": program.plan("planar_2r", "no_path", code=3)[0],
         "task": program.plan("scara", "tasks/kitting_cell")[0],
+        "moving": program.plan("planar_2r", "moving/gate")[0],
     }
     for name, words, code in [
         ("report", ["compare", robot, shelf, "--quiet"], 0),
@@ -59,7 +60,7 @@ def pages(program):
     return made
 
 
-@pytest.mark.parametrize("name", ["plan", "proof", "task", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects", "exploration"])
+@pytest.mark.parametrize("name", ["plan", "proof", "task", "moving", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects", "exploration"])
 def test_nothing_is_found_on_pages(pages, show_file, name):
     for scheme, width, height in LOOKS:
         seen = show_file(pages[name], width=width, height=height, color_scheme=scheme)

@@ -44,8 +44,10 @@ mod page;
 mod png_writer;
 mod preferences;
 mod reach;
+mod regions;
 mod shapes;
 mod steps;
+mod strip;
 mod blocking;
 #[cfg(feature = "png")]
 mod svg_painter;

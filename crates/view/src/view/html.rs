@@ -6,7 +6,7 @@ use cplan_text::markup;
 const STYLE: &str = include_str!("assets/view.css");
 
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 34] = [
+const SCRIPTS: [&str; 35] = [
     include_str!("assets/element.js"),
     include_str!("assets/icons.js"),
     include_str!("assets/settings.js"),
@@ -22,6 +22,7 @@ const SCRIPTS: [&str; 34] = [
     include_str!("assets/workspace.js"),
     include_str!("assets/cspace.js"),
     include_str!("assets/plots.js"),
+    include_str!("assets/strip.js"),
     include_str!("assets/contact.js"),
     include_str!("assets/lessons/question.js"),
     include_str!("assets/lessons/slice.js"),
@@ -69,14 +70,20 @@ pub fn inspection_page(title: &str, view: Option<&View>, report: &str) -> String
 #[must_use]
 pub fn drawing() -> String {
     let roles: Vec<String> = cplan_theme::names().collect();
-    format!("/** Names of the colours in the style sheet. */\nconst ROLES = {roles:?};\n{}", SCRIPTS.concat())
+    let stops = cplan_theme::SCALE_STOPS.map(|color| color.to_string());
+    format!(
+        "/** Names of the colours in the style sheet. */\nconst ROLES = {roles:?};\n\
+         /** Colours of the scale of values, from light to dark. */\nconst SCALE_STOPS = {stops:?};\n{}",
+        SCRIPTS.concat()
+    )
 }
 
 /// Returns a self-contained page. It loads nothing, and the browser does not allow it to load anything. The element
 /// `id` contains `json`, which `code` reads.
 #[must_use]
 pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> String {
-    let policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
+    let policy =
+        "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; font-src data:";
     let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n");
     // Only a less-than sign could end the script.
     let data = json.replace('<', "\\u003c");

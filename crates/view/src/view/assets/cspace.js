@@ -506,9 +506,12 @@ const CSpace = (() => {
   /** Draws everything that moves: the arm's configuration, and the one that the user examines. */
   function moving(context, panel, view) {
     const { theme } = panel;
+    const stamps = () => view.world.moments && stamp(context, panel, Numbers.seconds(view.now));
+    // Names avoid the stamp, which lies over the C-obstacles.
+    stamps();
     inTime(context, panel, view, view.world);
     view.reachMap?.inCSpace(context, panel);
-    if (view.world.moments) stamp(context, panel, Numbers.seconds(view.now));
+    stamps();
     const [x, y] = place(view, panel, view.q);
     context.beginPath();
     context.arc(x, y, 4.8, 0, 2 * Math.PI);

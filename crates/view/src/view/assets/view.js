@@ -33,6 +33,8 @@ class View {
     this.tabs = null;
     /** @type {Tour} */
     this.tour = null;
+    /** Progress against time. @type {ReturnType<typeof Strip.mount>} */
+    this.strip = null;
     /** True if obstacles are written with their names; otherwise with numbers. */
     this.named = true;
     /** True if names appear only under the pointer. */
@@ -164,6 +166,7 @@ class View {
     const { parts } = this;
     parts.plots.hidden = this.mode !== 'move' || !this.model.clock;
     this.learn.show();
+    this.strip.show();
     parts.panels.hidden = this.drawn === 'pair';
     // Room for a scale of colours beside the panel.
     const { scale } = this;
@@ -488,6 +491,7 @@ class View {
     }
     const now = this.model.motions.indexOf(motion);
     this.steps.follow(now);
+    this.strip.follow();
     this.describe();
     for (const panel of this.allPanels()) panel.draw();
   }
