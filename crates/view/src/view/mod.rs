@@ -48,4 +48,5 @@ pub(super) use steps::Row;
 pub(super) use strip::{StripView, plane_of_motion, plane_of_task};
 pub(super) use trace::{LevelView, ScaleView, TraceView};
 pub(super) use waves::{LEVELS, Waves};
+pub(super) use world::contours as contour_views;
 pub(super) use world::{ContourView, MAX_NAMED_OBSTACLES, ObstacleView, PayloadView, RegionView, WorldView};

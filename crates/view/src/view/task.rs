@@ -73,6 +73,7 @@ impl View {
             now: None,
             reach: None,
             stuck: None,
+            explanation: None,
             checked: None,
             is_dark: false,
             lights_paths: false,

@@ -52,6 +52,7 @@ function buildPage(view) {
   view.root.append(
     element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
     parts.cards,
+    view.explain.root,
     element(
       'div',
       { class: 'stage' },
@@ -75,6 +76,7 @@ function buildPage(view) {
       beside: (context, panel) => CSpace.beside(context, panel, view),
     }),
   };
+  view.explain.watch(view.panels);
   // Texts on canvases follow the text size of the page.
   new ResizeObserver(() => view.model && view.recolor()).observe(parts.measure);
   view.plots = [...Plots.mount(parts.plots, view), view.strip];

@@ -57,6 +57,7 @@ class View {
     /** Mode that the user has chosen. The view returns to it when it is available again. */
     this.chosen = 'move';
     this.learn = new Learn(this);
+    this.explain = new Explain(this);
     this.speed = 1;
     this.playing = false;
     /** The examined arm. @type {?{ q: Point, contacts: ContactModel[] }} */
@@ -86,6 +87,7 @@ class View {
   update(model) {
     this.model = model;
     this.traces = null;
+    this.explain.update(model);
     const count = model.worlds[0]?.obstacles.length ?? 0;
     [this.named, this.isCrowded] = [count <= NAMED, count > CROWDED];
     this.hovered = null;
@@ -255,6 +257,7 @@ class View {
   get q() {
     if (this.drawn === 'slice') return this.learn.slices.q;
     if (this.reachMap?.q) return this.reachMap.q;
+    if (this.explain.q) return this.explain.q;
     if (this.moment) return Think.focus(this) ?? this.beginning();
     return this.model.clock ? Geometry.moving(this.model.clock, this.time).position : this.beginning();
   }

@@ -391,7 +391,13 @@ const Workspace = (() => {
     });
   }
 
-  return { still, moving, found, arm, struck, outline, tipTrace, outlines };
+  /** Returns the middle of an obstacle's bounding box, in pixels. */
+  function middle(panel, obstacle) {
+    const { x, y, width, height } = box(panel, { ...obstacle, outline: {} });
+    return [x + width / 2, y + height / 2];
+  }
+
+  return { still, moving, found, arm, struck, outline, tipTrace, outlines, middle };
 })();
 
 /** Draws a path or trace in its colour, over a broad pale line that makes it visible on any ground. */
