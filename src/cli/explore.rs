@@ -14,7 +14,7 @@ use crate::explore::{Ending, Exploration, ExploreError, Settings, Strategy, expl
 use crate::grammar::{PlannerArgs, positive, word};
 use crate::input::{self, Explorable, OccupancyMap};
 use crate::model::{Scene, Status};
-use crate::motion::{Format, JointMotion, check_writable, csv, ros_yaml, write_whole_set};
+use crate::motion::{Format, JointMotion, Trajectory, check_writable, csv, ros_yaml, write_whole_set};
 use crate::output::{Line, contours, format_columns, title_of};
 use crate::space::{Configuration, Path as JointPath};
 use crate::text::{counted, short};
@@ -163,11 +163,11 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
             },
             Sink::CSpace(..) | Sink::Certificate(_) => (),
             Sink::Picture(format, path) => {
-                let view = || args.theme.apply(view(&world, &done));
-                let page = || {
-                    draw::exploration_page(&title_of(&world.scene), &world.scene, &world.sensor, &done, args.timings)
-                };
-                files.push((path.clone(), format.bytes_of(|| draw::svg(&view()), page)?));
+                let svg = || draw::svg(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
+                // The page plays the readings, and needs no times of the motion.
+                let page_view = || view(&world, &done, None);
+                let page = || draw::exploration_page(&page_view(), &world.scene, &world.sensor, &done, args.timings);
+                files.push((path.clone(), format.bytes_of(svg, page)?));
             }
         }
     }
@@ -240,7 +240,7 @@ fn explored_path(done: &Exploration, start: Configuration) -> JointPath {
     JointPath::new(std::iter::once(start).chain(legs).collect())
 }
 
-fn view(world: &Explorable, done: &Exploration) -> View {
+fn view(world: &Explorable, done: &Exploration, trajectory: Option<&Trajectory>) -> View {
     let scene: &Scene = &world.scene;
     let explored_path = explored_path(done, world.start);
     let status = match done.ending {
@@ -248,17 +248,21 @@ fn view(world: &Explorable, done: &Exploration) -> View {
         Ending::Unreachable(_) => Status::Infeasible,
         Ending::Unknown(_) => Status::Unknown,
     };
+    let verdict = match status {
+        Status::Unknown => status.name().to_owned(),
+        _ => format!("{}: {}", status.name(), done.ending.name()),
+    };
     View::of_picture(&Picture {
         title: vec![
             title_of(scene),
             format!("{} after {}", done.ending.name(), counted(done.readings.len(), "reading")),
         ],
-        status: done.ending.name().into(),
+        status: verdict,
         ending: Some(status),
         facts: facts(done).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
         goals: world.goals.as_ref().filter(|_| done.strategy == Strategy::Goal).map_or(&[], |goals| goals.pieces()),
         paths: vec![("way".to_owned(), &explored_path)],
-        trajectory: done.trajectory.as_ref(),
+        trajectory,
         c_obstacles: &contours(scene),
         ..Picture::new(scene, world.start)
     })

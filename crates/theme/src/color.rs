@@ -118,20 +118,22 @@ pub fn path(index: usize) -> (Rgb, &'static [f64]) {
     (PATH_COLORS[index % PATH_COLORS.len()].0, PATH_DASHES[(index + index / PATH_COLORS.len()) % PATH_DASHES.len()])
 }
 
-/// Returns the colour for `value` from 0 (light) to 1 (dark) on a perceptually uniform scale. The scale is seaborn's
-/// "mako" without its darkest third, reversed, so that a dark path stays legible on it.
+/// Colours of the scale of values, evenly spaced from light to dark: seaborn's "mako" without its darkest third, reversed,
+/// so that a dark path stays legible on it. Pages get them from here.
+pub const SCALE_STOPS: [Rgb; 8] = [
+    Rgb(0xde, 0xf5, 0xe5),
+    Rgb(0xa8, 0xe1, 0xbc),
+    Rgb(0x60, 0xce, 0xac),
+    Rgb(0x3e, 0xb4, 0xad),
+    Rgb(0x34, 0x98, 0xa9),
+    Rgb(0x35, 0x7b, 0xa3),
+    Rgb(0x3b, 0x5d, 0x9a),
+    Rgb(0x41, 0x3f, 0x80),
+];
+
+/// Returns the colour for `value` from 0 (light) to 1 (dark) on a perceptually uniform scale.
 #[must_use]
 pub fn scale(value: f64) -> Rgb {
-    const SCALE_STOPS: [Rgb; 8] = [
-        Rgb(0xde, 0xf5, 0xe5),
-        Rgb(0xa8, 0xe1, 0xbc),
-        Rgb(0x60, 0xce, 0xac),
-        Rgb(0x3e, 0xb4, 0xad),
-        Rgb(0x34, 0x98, 0xa9),
-        Rgb(0x35, 0x7b, 0xa3),
-        Rgb(0x3b, 0x5d, 0x9a),
-        Rgb(0x41, 0x3f, 0x80),
-    ];
     let at = value.clamp(0.0, 1.0) * (SCALE_STOPS.len() - 1) as f64;
     let below = (at as usize).min(SCALE_STOPS.len() - 2);
     SCALE_STOPS[below].mixed(SCALE_STOPS[below + 1], at - below as f64)

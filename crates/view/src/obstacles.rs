@@ -4,8 +4,9 @@ use super::axes::{Frame, Range, Unit};
 
 use super::figure::{Figure, Item};
 use super::key::{Key, Sign};
+use super::labels::{self, Placer};
 use super::view::{ObstacleView, RoundingSteps, bounding_box};
-use super::{labels, page, shapes, svg_writer};
+use super::{page, shapes, svg_writer};
 use cplan_core::model::Obstacle;
 use cplan_text::markup;
 
@@ -58,7 +59,9 @@ fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {
         return Vec::new();
     }
     let named = |o: &Obstacle| (o.name.clone(), labels::place(frame, &o.shape, &o.pieces));
-    labels::items(&frame.rect, &obstacles.iter().map(named).collect::<Vec<_>>())
+    let mut placer = Placer::new(frame.rect);
+    placer.beside(&obstacles.iter().map(named).collect::<Vec<_>>());
+    placer.into_items()
 }
 
 /// Returns least and greatest coordinates of obstacles.

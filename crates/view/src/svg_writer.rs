@@ -1,18 +1,21 @@
 //! Figures as SVG.
 
-use super::figure::{Anchor, Figure, Item, Label, Raster, Rect, Step, Style, text_width};
+use super::figure::{Anchor, Figure, Item, Label, Raster, Rect, Step, Style};
 use super::letter_widths::letter_width;
 use ::svg::Document;
 use ::svg::node::element::{Circle, ClipPath, Definitions, Group, Path, Rectangle, Text};
-use cplan_theme::{Rgb, WHITE};
+use cplan_theme::{PICTURE_FONTS, Rgb, WHITE};
 use std::fmt::Write;
 
-/// Fonts of texts. The writer of PNG files has the first one. A viewer uses the first one that is installed.
-const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
+/// Weight of bold texts.
+pub const BOLD_WEIGHT: &str = "600";
 
 /// Greatest absolute value of coordinates, in pixels. Places beyond it are invisible. Up to here, viewers that compute
 /// in single precision are exact to a tenth of a pixel.
 const MAX_COORDINATE: f64 = 1e6;
+
+/// Width of the pale line around letters, in pixels. Half of it shows.
+const HALO_WIDTH: f64 = 3.5;
 
 /// Writes the figure as an SVG document without a size of its own: it fills the width that its reader gives it. Texts have
 /// the widths of the built-in font in any other font, too. The result is deterministic to the byte; coordinates have two decimals.
@@ -74,7 +77,7 @@ pub fn layer(figure: &Figure) -> String {
 
 fn document(figure: &Figure, ground: Group) -> String {
     let mut clips = Vec::new();
-    let mut page = ground.set("font-family", FONTS).set("stroke-linejoin", "round");
+    let mut page = ground.set("font-family", PICTURE_FONTS).set("stroke-linejoin", "round");
     for item in &figure.items {
         page = add(page, item, figure, &mut clips);
     }
@@ -185,10 +188,17 @@ fn text(label: &Label, figure: &Figure) -> Text {
                 Anchor::End => "end",
             },
         );
-    // A reader without this font fits its own letters into the same width.
-    if label.text.chars().all(|letter| letter_width(letter).is_some()) && !label.text.is_empty() {
-        text =
-            text.set("textLength", number(text_width(&label.text, label.size))).set("lengthAdjust", "spacingAndGlyphs");
+    if label.is_bold {
+        text = text.set("font-weight", BOLD_WEIGHT);
+    }
+    // The font is not part of the document, which would be much larger: a reader without it fits its own letters into the
+    // same width.
+    if label.text.chars().all(|letter| letter_width(letter, label.is_bold).is_some()) && !label.text.is_empty() {
+        text = text.set("textLength", number(label.width())).set("lengthAdjust", "spacingAndGlyphs");
+    }
+    if label.has_halo {
+        let halo = text.set("stroke", figure.shown(WHITE).to_string()).set("stroke-width", number(HALO_WIDTH));
+        text = halo.set("paint-order", "stroke");
     }
     if label.upwards {
         text = text.set("transform", format!("rotate(-90 {x} {y})"));
@@ -263,6 +273,8 @@ mod tests {
             anchor: Anchor::Start,
             upwards: true,
             color: Rgb(0, 0, 0),
+            has_halo: false,
+            is_bold: false,
         };
         let figure = Figure { width: 10.0, height: 10.0, items: vec![Item::Text(label)], is_dark: false };
         let xml = write(&figure);

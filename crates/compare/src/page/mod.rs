@@ -186,7 +186,7 @@ fn head_with(title: &str, subtitle: &str, additions: &Additions) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <meta name=\"color-scheme\" content=\"light dark\"/>\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'{3}\"/>\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; font-src data:; style-src 'unsafe-inline'{3}\"/>\n\
          <title>{0}</title>\n<style>\n{2}{STYLE}{4}</style>\n</head>\n<body>\n<main>\n<header><h1>{0}</h1>\n<p class=\"sub\">{1}</p></header>\n",
         markup(title),
         markup(subtitle),

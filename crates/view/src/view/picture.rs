@@ -5,6 +5,7 @@ use super::content::{FrameView, KeyFigures, PanelView, StillContent, View};
 use super::extent;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::{RoundingSteps, number};
+use super::strip::{StripView, plane_of_motion};
 use super::trace::TraceView;
 use super::world::WorldView;
 use cplan_core::check::CheckedProof;
@@ -15,6 +16,7 @@ use cplan_core::space::{Configuration, Measure, Metric, Path, Segment};
 use cplan_geometry::Point;
 use cplan_handling::TimedScene;
 use cplan_motion::Trajectory;
+use cplan_movers::Wait;
 use cplan_theme::PlannerPen;
 use nalgebra::Vector3;
 
@@ -43,6 +45,8 @@ pub struct Picture<'a> {
     pub pens: &'a [PlannerPen],
     /// The motion along the only path.
     pub trajectory: Option<&'a Trajectory>,
+    /// Waits of that motion for moving obstacles.
+    pub waits: &'a [Wait],
     /// The planner's trace.
     pub trace: Option<&'a Trace>,
     /// Proof of infeasibility, if that is the answer.
@@ -80,11 +84,18 @@ impl<'a> Picture<'a> {
             paths: Vec::new(),
             pens: &[],
             trajectory: None,
+            waits: &[],
             trace: None,
             proof: None,
             c_obstacles: &[],
             moments: &[],
         }
+    }
+
+    /// Returns the strip of progress against time. `None` unless obstacles move.
+    fn strip(&self, world: &WorldView) -> Option<StripView> {
+        let plane = plane_of_motion(self.scene, self.trajectory?)?;
+        Some(StripView::new(&plane, self.trajectory?.duration(), self.waits, std::slice::from_ref(world)))
     }
 
     /// Returns the goals that are single configurations. If there is no path, also returns the place nearest to the
@@ -133,14 +144,16 @@ impl View {
             motions: picture.trajectory.map(|t| MotionView::only(t.duration())).into_iter().collect(),
             clock: picture.trajectory.map(|trajectory| Clock::new(trajectory, grain)),
             frames: Vec::new(),
+            strip: picture.strip(&world),
             replay: Vec::new(),
             replays: Vec::new(),
             still: StillContent {
                 panels: vec![PanelView {
                     title: "Configuration space".to_owned(),
+                    subtitle: String::new(),
                     worlds: vec![0],
                     paths: (0..count).collect(),
-                    start: grain.configuration(start),
+                    starts: vec![grain.configuration(start)],
                     fails: None,
                 }],
                 end: end.map(|q| (q, 0)),
