@@ -37,6 +37,7 @@ def pages(program):
         "plan": program.plan("planar_2r", "shelf")[0],
         "proof": program.plan("planar_2r", "no_path", code=3)[0],
         "task": program.plan("scara", "tasks/kitting_cell")[0],
+        "moving": program.plan("planar_2r", "moving/gate")[0],
     }
     for name, words, code in [
         ("report", ["compare", robot, shelf, "--quiet"], 0),
@@ -52,12 +53,14 @@ def pages(program):
     (program.folder / "two.urdf").write_text('<robot name="two"><link name="a"/><link name="b"/></robot>')
     made["defects"] = program.folder / "axe_defects.html"
     program.run("inspect", program.folder / "two.urdf", "--picture", made["defects"], code=1)
+    made["exploration"] = program.folder / "axe_exploration.html"
+    program.run("explore", robot, shelf, "--quiet", "--timings", "--picture", made["exploration"])
     made["convergence"] = program.folder / "axe_convergence.html"
     program.run("converge", robot, shelf, "--cells", "24", "--quiet", "--picture", made["convergence"])
     return made
 
 
-@pytest.mark.parametrize("name", ["plan", "proof", "task", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects"])
+@pytest.mark.parametrize("name", ["plan", "proof", "task", "moving", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects", "exploration"])
 def test_nothing_is_found_on_pages(pages, show_file, name):
     for scheme, width, height in LOOKS:
         seen = show_file(pages[name], width=width, height=height, color_scheme=scheme)
@@ -72,7 +75,8 @@ def test_nothing_is_found_in_any_state_of_a_result(pages, show_file, scheme):
     seen = show_file(pages["task"], width=1000, height=900, color_scheme=scheme)
     for state in (
         "cplan.tour.start()", "cplan.tour.end()", "cplan.tabs.choose('steps')", "cplan.tabs.choose('plots')", "cplan.tabs.choose('details')",
-        "cplan.dragTip([0.3, 0.2])", "cplan.switchTo('think')", "cplan.switchTo('learn')", "document.documentElement.style.fontSize = '200%'",
+        "cplan.dragTip([0.3, 0.2])", "cplan.switchTo('think')", "cplan.switchTo('learn')", "cplan.learn.open('carrying')",
+        "cplan.learn.question.submit(new Event('submit'))", "cplan.learn.open('slice')", "cplan.learn.open('tests')", "document.documentElement.style.fontSize = '200%'",
     ):
         seen.do(state)
         assert faults(seen) == [], state

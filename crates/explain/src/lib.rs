@@ -24,6 +24,7 @@
 mod blockers;
 mod bottleneck;
 mod change;
+mod changed;
 mod element;
 mod ends;
 mod explanation;

@@ -7,6 +7,7 @@ use super::figure::{Item, Pen, Style};
 use super::key::{Key, Sign};
 use super::view::WorldView;
 use cplan_core::model::Arm;
+use cplan_core::space::Configuration;
 use cplan_engine::findings::{ConfigurationFindings, PairFinding};
 use cplan_theme::{GRAY, INFEASIBLE, WHITE};
 use serde::Serialize;
@@ -28,6 +29,18 @@ pub struct CheckedView {
     nearest_free: Option<[f64; 2]>,
 }
 
+impl CheckedView {
+    /// Returns the configurations at which the arm is drawn.
+    pub fn drawn_arms(&self) -> impl Iterator<Item = Configuration> {
+        self.nearest_free.into_iter().chain(self.is_blocked.then_some(self.at)).map(Configuration::from)
+    }
+
+    /// Returns the places of contact in the plane.
+    pub fn contacts(&self) -> &[[f64; 2]] {
+        &self.contacts
+    }
+}
+
 impl From<&ConfigurationFindings> for CheckedView {
     fn from(findings: &ConfigurationFindings) -> Self {
         let places = |pair: &PairFinding| -> Vec<[f64; 2]> {
@@ -40,6 +53,13 @@ impl From<&ConfigurationFindings> for CheckedView {
             contacts: findings.contacts.iter().flat_map(places).collect(),
             nearest_free: findings.nearest_free.as_ref().map(|nearest| nearest.configuration),
         }
+    }
+}
+
+impl CheckedView {
+    /// Returns true if the configuration is not free.
+    pub(crate) fn is_blocked(&self) -> bool {
+        self.is_blocked
     }
 }
 

@@ -51,14 +51,16 @@ fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
     let world = view.first_world();
     let goal = if view.is_task() { "end of a step" } else { "goal" };
     let always = |key: Key| -> Layered { (key, &[]) };
-    let mut keys = if view.still.reach.is_some() {
-        vec![always((Sign::Start, "home".to_owned()))]
-    } else if view.frames.is_empty() {
-        vec![always((Sign::Start, "start".to_owned())), always((Sign::Goal, goal.to_owned()))]
-    } else {
-        // The view of an arm alone has no motion.
-        Vec::new()
+    let start = match (view.still.reach.is_some(), view.moves()) {
+        (true, _) => Some("home"),
+        (false, true) => Some("start"),
+        // The view of an arm alone has no configuration of interest.
+        (false, false) => view.frames.is_empty().then_some("configuration"),
     };
+    let mut keys: Vec<Layered> = start.map(|start| always((Sign::Start, start.to_owned()))).into_iter().collect();
+    if view.moves() && view.still.reach.is_none() {
+        keys.push(always((Sign::Goal, goal.to_owned())));
+    }
     keys.extend(paths(view).into_iter().map(|key| -> Layered { (key, &["path", "trace"]) }));
     if still && view.worlds.iter().any(|world| !world.open.is_empty()) {
         keys.push(always((Sign::Dashed(GRAY), "open to link 2 (picked or placed)".to_owned())));

@@ -7,6 +7,10 @@ const GRACE_PERIOD = 120;
 const MAX_WAITING = 8;
 
 class Alone {
+  /** The compiled program. @type {Promise<WebAssembly.Module> | undefined} */
+  static compiled;
+  /** The address of the worker's script. @type {string | undefined} */
+  static scriptAddress;
   /** Returns the program, compiled once for the page. */
   static get module() {
     Alone.compiled ??= (async () => {
@@ -27,7 +31,12 @@ class Alone {
     this.limit = limit;
     this.waiting = [];
     this.running = null;
+    /** State of the connection, as of a WebSocket. @type {number} */
     this.readyState = WebSocket.CONNECTING;
+    /** Handlers, as of a WebSocket. */
+    this.onopen = () => {};
+    this.onmessage = (_message) => {};
+    this.onclose = () => {};
     this.compile();
   }
 

@@ -14,12 +14,22 @@ class Editor {
    * `configurations()` returns the start and goals of the last answer; `blocked()` those that are not free, each with
    * the obstacles in contact. `isDrawn(obstacle)` returns whether an obstacle is drawn at its current place. `frames`
    * collects work for the next picture of the screen.
+   * @param {View} view
+   * @param {{ changed: (final: boolean) => void, selected: () => void, configurations: () => { start?: Point, goals: Point[] }, blocked: () => any[], isDrawn: (obstacle: any) => boolean, frames: Frames }} handlers
    */
   constructor(view, { changed, selected, configurations, blocked, isDrawn, frames }) {
-    Object.assign(this, { view, changed, selected, configurations, blocked, isDrawn, frames });
+    this.view = view;
+    this.changed = changed;
+    this.selected = selected;
+    this.configurations = configurations;
+    this.blocked = blocked;
+    this.isDrawn = isDrawn;
+    this.frames = frames;
+    /** @type {?Scene} */
     this.scene = null;
-    /** Selection: { kind: 'obstacle', index, corner } | { kind: 'start' } | { kind: 'goal' }. */
+    /** @type {?{ kind: 'obstacle' | 'start' | 'goal', index?: number, corner?: number | 'rim' }} */
     this.selection = null;
+    /** The thing that the pointer has taken: its kind, the panel, and where it was. @type {any} */
     this.held = null;
     view.tool = {
       down: (panel, value, event) => this.down(panel, value, event),
@@ -322,9 +332,10 @@ class Editor {
     let side = value ? Shapes.nearestSide(obstacle.shape, value) : null;
     if (value && side.distance * panel.pixels > GRASP_RADIUS.touch) return;
     if (!side) {
+      /** @param {number[]} side */
       const length = ([a, b]) => Math.hypot(corners[b][0] - corners[a][0], corners[b][1] - corners[a][1]);
       const [a, b] = Shapes.sides(obstacle.shape).reduce((best, s) => (length(s) > length(best) ? s : best));
-      side = { after: a, at: [0, 1].map((k) => (corners[a][k] + corners[b][k]) / 2) };
+      side = { distance: 0, after: a, at: [0, 1].map((k) => (corners[a][k] + corners[b][k]) / 2) };
     }
     obstacle.shape = Shapes.cornered(obstacle.shape, corners.toSpliced(side.after + 1, 0, roundedPoint(side.at)));
     this.select({ ...this.selection, corner: side.after + 1 });
@@ -365,7 +376,7 @@ class Editor {
     else if (this.deletes(event)) return;
     else if (event.key === 'c' && Settings.hasShortcuts && obstacle?.shape && !obstacle.shape.circle) {
       const n = Shapes.corners(obstacle.shape).length;
-      const next = this.selection.corner === null ? 0 : this.selection.corner + 1;
+      const next = this.selection.corner === null ? 0 : Number(this.selection.corner) + 1;
       this.select({ ...this.selection, corner: next < n ? next : null });
     } else if (event.key === 'Escape') this.select(null);
     else return;

@@ -53,11 +53,24 @@ const Puzzles = {
 };
 
 class Gallery {
+  /** @param {Live} live */
   constructor(live) {
+    this.live = live;
     const { alone, robots, choices } = JSON.parse(document.getElementById('gallery').textContent);
     /** Initial files of the page, if the program is inside it; otherwise `null`, and the server has them. */
-    [this.files, this.seconds] = alone ?? [null, null];
-    Object.assign(this, { live, robots, choices, choice: null });
+    this.files = alone?.[0] ?? null;
+    /** Time that a plan may take, in seconds. */
+    this.seconds = alone?.[1] ?? null;
+    this.robots = robots;
+    this.choices = choices;
+    /** The choice that the address names. @type {any} */
+    this.choice = null;
+    /** Name in the address, without its number sign. `undefined` before the first world. @type {string | undefined} */
+    this.name = undefined;
+    /** True if the address has changed to another world. */
+    this.hasMoved = false;
+    /** Reason why the puzzle is not solved. @type {?string} */
+    this.fault = null;
     const groups = [['worlds', (one) => !one.puzzle], ['puzzles', (one) => one.puzzle]].map(([label, isOf]) => (
       element('optgroup', { label }, ...choices.filter(isOf).map(({ name, title }) => element('option', { value: name }, title)))
     ));

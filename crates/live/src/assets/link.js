@@ -15,10 +15,13 @@ class Link {
    * `state` when the connection opens or closes. The handler of an open connection has to open a world.
    */
   constructor({ openSocket, receive, file, state }) {
-    Object.assign(this, { openSocket, receive, file, state });
+    this.openSocket = openSocket;
+    this.receive = receive;
+    this.file = file;
+    this.state = state;
     this.id = 0;
     /**
-     * The request in progress: its number, its kind (open, plan, load, download), whether it is final, and the state
+     * The request in progress: its number, its kind (open, plan, load, explain, download), whether it is final, and the state
      * that it is about.
      */
     this.awaited = null;
@@ -29,9 +32,9 @@ class Link {
     this.pause = PAUSES[0];
     this.connect();
     // A user who comes back to the page does not have to wait for the end of a pause.
-    for (const [target, name] of [[window, 'online'], [window, 'focus'], [document, 'visibilitychange']]) {
-      target.addEventListener(name, () => !document.hidden && this.retry());
-    }
+    const retry = () => !document.hidden && this.retry();
+    for (const name of ['online', 'focus']) window.addEventListener(name, retry);
+    document.addEventListener('visibilitychange', retry);
   }
 
   connect() {
@@ -106,6 +109,12 @@ class Link {
     this.send('load', { do: 'load', id: this.id, text, options }, { final: true });
   }
 
+  /** Requests an explanation of a state, and repeats the description `about` with the answer. */
+  explain(body, about) {
+    const ask = this.ask(body, true);
+    this.send('explain', { do: 'explain', ...ask }, { final: true, ...about });
+  }
+
   download(body, format) {
     const ask = this.ask(body, true);
     this.send('download', { do: 'download', ask, format }, { final: true });
@@ -120,7 +129,7 @@ class Link {
   }
 
   message(message) {
-    const isLast = message.kind === 'failed' || message.done;
+    const isLast = message.kind === 'failed' || message.kind === 'explanation' || message.done;
     const { awaited } = this;
     const isAwaited = Boolean(awaited && (message.id === awaited.id || message.id === 0));
     // Answers about the previous world are not relevant any more.

@@ -5,16 +5,15 @@ use cplan_text::markup;
 
 const STYLE: &str = include_str!("assets/view.css");
 
-/// Code that draws icons.
-pub(crate) const ICONS: &str = include_str!("assets/icons.js");
-
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 19] = [
-    ICONS,
+const SCRIPTS: [&str; 36] = [
+    include_str!("assets/element.js"),
+    include_str!("assets/icons.js"),
     include_str!("assets/settings.js"),
     include_str!("assets/numbers.js"),
     include_str!("assets/geometry.js"),
     include_str!("assets/panel.js"),
+    include_str!("assets/zoom.js"),
     include_str!("assets/labels.js"),
     include_str!("assets/legend.js"),
     include_str!("assets/layers.js"),
@@ -23,10 +22,25 @@ const SCRIPTS: [&str; 19] = [
     include_str!("assets/workspace.js"),
     include_str!("assets/cspace.js"),
     include_str!("assets/plots.js"),
+    include_str!("assets/strip.js"),
     include_str!("assets/contact.js"),
+    include_str!("assets/lessons/question.js"),
+    include_str!("assets/lessons/slice.js"),
+    include_str!("assets/lessons/polygons.js"),
+    include_str!("assets/lessons/c_obstacles.js"),
+    include_str!("assets/lessons/roadmaps.js"),
+    include_str!("assets/lessons/cells.js"),
+    include_str!("assets/lessons/waves.js"),
+    include_str!("assets/lessons/fields.js"),
+    include_str!("assets/lessons/proofs.js"),
+    include_str!("assets/lessons/tasks.js"),
     include_str!("assets/learn.js"),
     include_str!("assets/steps.js"),
     include_str!("assets/tour.js"),
+    include_str!("assets/explain.js"),
+    include_str!("assets/pointer.js"),
+    include_str!("assets/keys.js"),
+    include_str!("assets/layout.js"),
     include_str!("assets/reach.js"),
     include_str!("assets/view.js"),
 ];
@@ -56,15 +70,21 @@ pub fn inspection_page(title: &str, view: Option<&View>, report: &str) -> String
 /// Returns the scripts that draw a view, for pages that add their own code after them.
 #[must_use]
 pub fn drawing() -> String {
-    let roles: Vec<&str> = cplan_theme::ROLES.iter().map(|role| role.name).collect();
-    format!("/** Names of the colours in the style sheet. */\nconst ROLES = {roles:?};\n{}", SCRIPTS.concat())
+    let roles: Vec<String> = cplan_theme::names().collect();
+    let stops = cplan_theme::SCALE_STOPS.map(|color| color.to_string());
+    format!(
+        "/** Names of the colours in the style sheet. */\nconst ROLES = {roles:?};\n\
+         /** Colours of the scale of values, from light to dark. */\nconst SCALE_STOPS = {stops:?};\n{}",
+        SCRIPTS.concat()
+    )
 }
 
 /// Returns a self-contained page. It loads nothing, and the browser does not allow it to load anything. The element
 /// `id` contains `json`, which `code` reads.
 #[must_use]
 pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> String {
-    let policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
+    let policy =
+        "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; font-src data:";
     let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n");
     // Only a less-than sign could end the script.
     let data = json.replace('<', "\\u003c");

@@ -9,7 +9,9 @@ const Contact = (() => {
   const ROUNDING = 1e-9;
 
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1];
+  /** @type {(a: Point, b: Point) => Point} */
   const minus = (a, b) => [a[0] - b[0], a[1] - b[1]];
+  /** @type {(a: Point, b: Point) => Point} */
   const plus = (a, b) => [a[0] + b[0], a[1] + b[1]];
   const angle = ([x, y]) => Math.atan2(y, x);
   /** Cross product; positive if `b` is counter-clockwise of `a`. */
@@ -194,8 +196,8 @@ const Contact = (() => {
 
   // The Minkowski difference.
 
-  /** Returns true if a direction points into [pi, 2 pi). */
-  const isDown = ([x, y]) => y < 0 || (y === 0 && x < 0);
+  /** Returns 1 if a direction points into [pi, 2 pi), otherwise 0. */
+  const isDown = (/** @type {Point} */ [x, y]) => Number(y < 0 || (y === 0 && x < 0));
 
   /**
    * Returns `b - a` of convex polygons by a sweep: the sides of `b` and of `-a`, ordered by the angles of their

@@ -10,6 +10,8 @@ const CSpace = (() => {
   const SMALL = 5;
   /** Cells narrower than this have finer sides, in pixels. */
   const NARROW = 5;
+  /** Opacity that is indistinguishable from 1, for drawings on a layer of their own. */
+  const ALMOST_OPAQUE = 0.999;
 
   function bounds(flat) {
     let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
@@ -409,18 +411,45 @@ const CSpace = (() => {
       for (const path of Think.paths(view, view.pathsHere())) pathOf(context, panel, view, path);
     }
     if (seen?.kind === 'channel' && view.shows('channel')) channelPoints(context, panel, view, seen);
-    goalLines(context, panel, view);
     if (view.model.checked?.nearest_free) ring(context, panel, place(view, panel, view.model.checked.nearest_free), 5, panel.theme.grey);
     if (view.model.stuck?.at) cross(context, panel.theme, place(view, panel, view.model.stuck.at[0]));
-    view.goals().forEach(([q, reached]) => diamond(context, panel, place(view, panel, q), reached));
-    ring(context, panel, place(view, panel, view.beginning()), 7);
-    for (const spot of markers(panel, view)) Labels.blockSpot(panel, spot, 10);
+    ends(context, panel, view);
     if (view.isTask) {
       const ends = view.pathsHere().map((path) => [`step ${path.step}`, Labels.about(place(view, panel, path.points.slice(-2)), 7)]);
       Labels.beside(context, panel, ends);
     }
-    const isNamed = view.shows('names') && view.shows('c-obstacles') && !view.isCrowded;
-    if (isNamed) names(context, panel, view, (obstacle) => view.called(obstacle), byObstacle(view, world.c_obstacles, world.obstacles));
+    obstacleNames(context, panel, view, world);
+  }
+
+  /** Draws the start and the goals. Names avoid them. */
+  function ends(context, panel, view) {
+    goalLines(context, panel, view);
+    view.goals().forEach(([q, reached]) => diamond(context, panel, place(view, panel, q), reached));
+    ring(context, panel, place(view, panel, view.beginning()), 7);
+    for (const spot of markers(panel, view)) Labels.blockSpot(panel, spot, 10);
+  }
+
+  /** Draws only the outlines of the C-obstacles. */
+  function outlines(context, panel, view, world) {
+    for (const [obstacle, contours] of byObstacle(view, world.c_obstacles, world.obstacles)) {
+      // On a layer of its own, because lines within a C-obstacle of several pieces are removed.
+      panel.faded(context, ALMOST_OPAQUE, (layer) => {
+        layer.beginPath();
+        for (const contour of contours) shifted(layer, panel, contour, turning(view), true);
+        layer.lineWidth = 3;
+        layer.strokeStyle = panel.theme.obstacle(world.obstacles[obstacle].color).line;
+        layer.stroke();
+        layer.globalCompositeOperation = 'destination-out';
+        layer.fill();
+        layer.globalCompositeOperation = 'source-over';
+      });
+    }
+  }
+
+  /** Draws the names of the C-obstacles. */
+  function obstacleNames(context, panel, view, world) {
+    if (!view.shows('names') || !view.shows('c-obstacles') || view.isCrowded) return;
+    names(context, panel, view, (obstacle) => view.called(obstacle), byObstacle(view, world.c_obstacles, world.obstacles));
   }
 
   /** Draws a path, on circles also its parts beyond a turn. Names dodge it. */
@@ -477,9 +506,12 @@ const CSpace = (() => {
   /** Draws everything that moves: the arm's configuration, and the one that the user examines. */
   function moving(context, panel, view) {
     const { theme } = panel;
+    const stamps = () => view.world.moments && stamp(context, panel, Numbers.seconds(view.now));
+    // Names avoid the stamp, which lies over the C-obstacles.
+    stamps();
     inTime(context, panel, view, view.world);
     view.reachMap?.inCSpace(context, panel);
-    if (view.world.moments) stamp(context, panel, Numbers.seconds(view.now));
+    stamps();
     const [x, y] = place(view, panel, view.q);
     context.beginPath();
     context.arc(x, y, 4.8, 0, 2 * Math.PI);
@@ -549,5 +581,5 @@ const CSpace = (() => {
     context.restore();
   }
 
-  return { still, moving, beside, place, path: pathOf };
+  return { still, moving, beside, place, path: pathOf, outlines, obstacleNames, ends };
 })();

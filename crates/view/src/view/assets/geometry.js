@@ -154,6 +154,7 @@ const Geometry = (() => {
     const sides = corners(b);
     sides.forEach((p, i) => {
       const q = sides[(i + 1) % sides.length];
+      /** @param {Point} point */
       const depth = ([x, y]) => (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
       common = common.flatMap((to, k) => {
         const from = common[(k + common.length - 1) % common.length];
@@ -201,7 +202,8 @@ const Geometry = (() => {
 
   const minus = (a, b) => [a[0] - b[0], a[1] - b[1]];
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1];
-  const angleOf = ([x, y]) => Math.atan2(y, x);
+  const angleOf = (/** @type {Point} */ [x, y]) => Math.atan2(y, x);
+  /** @type {(point: Point, angle: number) => Point} */
   const rotated = ([x, y], angle) => [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle)];
   const isRevolute = (joint) => joint.sign !== undefined;
 

@@ -10,11 +10,11 @@ const Numbers = (() => {
    * Formats with `count` significant digits, never with an exponent. Returns '0' instead of a negative zero. `round` is
    * `Math.floor` for a lower bound and `Math.ceil` for an upper one.
    */
-  function digits(value, count = 3, round = Math.round) {
+  function digits(value, count = 3, round = Math.round, mostDecimals = DECIMALS) {
     if (!Number.isFinite(value)) return value > 0 ? '\u221e' : '\u2212\u221e';
     if (value === 0) return '0';
     const power = Math.floor(Math.log10(Math.abs(value)) + 1e-9);
-    const decimals = Math.min(DECIMALS, Math.max(0, count - 1 - power));
+    const decimals = Math.min(mostDecimals, Math.max(0, count - 1 - power));
     // A value such as 20.4 may be stored as a little less.
     const hair = round === Math.round ? 0 : (round === Math.floor ? 1e-9 : -1e-9);
     const unit = 10 ** decimals;
@@ -24,11 +24,20 @@ const Numbers = (() => {
     return minus(short.includes('e') || Number(text) === 0 ? '0' : short);
   }
 
-  /** Formats a length in metres: millimetres below one metre. `more` adds digits. */
+  /**
+   * Formats a length in metres: millimetres below one metre, with at most three decimals unless that would be zero, as
+   * the terminal does. `more` adds digits.
+   */
   function length(metres, more = 0, round = Math.round) {
-    const isLong = Math.abs(metres) >= 0.9995;
-    return isLong ? `${digits(metres, 3 + more, round)} m` : `${digits(1000 * metres, 3 + more, round)} mm`;
+    if (Math.abs(metres) >= 0.9995) return `${digits(metres, 3 + more, round)} m`;
+    const text = digits(1000 * metres, 3 + more, round, 3 + more);
+    return `${text === '0' ? digits(1000 * metres, 2, round) : text} mm`;
   }
+
+  /** Returns a text of the terminal with angles in degrees alone: `-45.84 deg (-0.8000 rad)` becomes `\u221245.84\u00b0`. */
+  const readable = (text) => text
+    .replace(/(-?\d+(?:\.\d+)?) deg \(-?\d+(?:\.\d+)? rad\)/g, (_, degrees) => `${minus(degrees)}\u00b0`)
+    .replace(/(-?\d+(?:\.\d+)?) rad\/s2/g, '$1 rad/s\u00b2');
 
   /** Formats an angle in radians as degrees with one decimal; `more` adds decimals. */
   function angle(radians, more = 0) {
@@ -58,5 +67,5 @@ const Numbers = (() => {
 
   const seconds = (value) => `${value.toFixed(2)} s`;
 
-  return { digits, length, angle, joint, configuration, exact, percent, seconds };
+  return { digits, length, angle, joint, configuration, exact, readable, percent, seconds };
 })();

@@ -38,10 +38,9 @@ class Theme {
 
   /** Returns a colour of the scale from 0 to 1, which is read by its lightness. */
   scale(part) {
-    const stops = ['#def5e5', '#a8e1bc', '#60ceac', '#3eb4ad', '#3498a9', '#357ba3', '#3b5d9a', '#413f80'];
-    const at = Math.min(1, Math.max(0, this.dark ? 1 - part : part)) * (stops.length - 1);
-    const below = Math.min(Math.floor(at), stops.length - 2);
-    return Theme.mixed(stops[below], stops[below + 1], at - below);
+    const at = Math.min(1, Math.max(0, this.dark ? 1 - part : part)) * (SCALE_STOPS.length - 1);
+    const below = Math.min(Math.floor(at), SCALE_STOPS.length - 2);
+    return Theme.mixed(SCALE_STOPS[below], SCALE_STOPS[below + 1], at - below);
   }
 }
 
@@ -72,14 +71,28 @@ class Panel {
   static TEXT = 13;
 
   /**
-   * @param canvas the canvas to draw on
-   * @param options `x`, `y`: ranges; `degrees`: for both axes; `titles`; `scale`: 'fill' (one scale, may show more than
+   * @param {HTMLCanvasElement} canvas the canvas to draw on
+   * @param {{ x: Point, y: Point, degrees?: (boolean | string)[], percent?: boolean[], titles?: string[], scale?: string, still?: Drawing, moving?: Drawing, beside?: Drawing, shape?: ?number, margins?: number[] }} options `x`, `y`: ranges; `degrees`, `percent`: for both axes; `titles`; `scale`: 'fill' (one scale, may show more than
    * the ranges), 'fit' (one scale, exactly the ranges) or 'free'; `still` and `moving`: functions that draw the fixed
    * and the moving content; `shape`: ratio of width to height, or `null` for all the room; `beside`: one that draws fixed content outside the sides; `margins`
    */
-  constructor(canvas, options) {
-    Object.assign(this, { degrees: [false, false], seams: [false, false], titles: ['', ''], scale: 'free' }, options);
+  constructor(canvas, { x, y, degrees = [false, false], percent = [false, false], titles = ['', ''], scale = 'free', still = null, moving = null, beside = null, shape = null, margins = undefined }) {
     this.canvas = canvas;
+    this.x = x;
+    this.y = y;
+    this.degrees = degrees;
+    this.percent = percent;
+    /** True for each axis whose ends are the same position of the joint. */
+    this.seams = [false, false];
+    this.titles = titles;
+    this.scale = scale;
+    this.still = still;
+    this.moving = moving;
+    this.beside = beside;
+    this.shape = shape;
+    this.margins = margins;
+    /** @type {?Theme} */
+    this.theme = null;
     this.overlays = [];
     /** Magnification, and the part of the ranges that is then in the middle. */
     this.times = 1;
@@ -92,6 +105,8 @@ class Panel {
     /** Last place of each name, by its number among the possible places. */
     this.placed = new Map();
     new ResizeObserver(() => this.resize()).observe(canvas);
+    // The first picture may be drawn before the page's font is ready.
+    document.fonts.addEventListener('loadingdone', () => this.resize());
     this.resize();
   }
 
@@ -129,7 +144,7 @@ class Panel {
       if (this.scale === 'fit') {
         Object.assign(rect, { x: rect.x + (rect.width - width) / 2, width, height });
       } else {
-        const about = ([a, b], length) => [(a + b - length) / 2, (a + b + length) / 2];
+        const about = (/** @type {Point} */ [a, b], length) => [(a + b - length) / 2, (a + b + length) / 2];
         [x, y] = [about(x, rect.width / scale), about(y, rect.height / scale)];
       }
     }
@@ -199,6 +214,11 @@ class Panel {
     });
   }
 
+  /**
+   * Returns the spot of a value, in pixels.
+   * @param {Point} value
+   * @returns {Point}
+   */
   at([x, y]) {
     const { rect, shown } = this;
     return [
@@ -207,6 +227,11 @@ class Panel {
     ];
   }
 
+  /**
+   * Returns the value at a spot.
+   * @param {Point} spot in pixels
+   * @returns {Point}
+   */
   value([px, py]) {
     const { rect, shown } = this;
     return [
@@ -226,6 +251,7 @@ class Panel {
     return [event.clientX - box.left, event.clientY - box.top];
   }
 
+  /** @param {Point} spot */
   contains([px, py]) {
     const { rect } = this;
     return px >= rect.x && px <= rect.x + rect.width && py >= rect.y && py <= rect.y + rect.height;
@@ -305,7 +331,7 @@ class Panel {
     for (const { value, text } of up) {
       const [, y] = this.at([shown[0][0], value]);
       line(context, [[rect.x, y], [rect.x + rect.width, y]]);
-      context.fillText(text, rect.x - 6 * zoom, y);
+      context.fillText(this.percent[1] ? `${Math.round(100 * value)} %` : text, rect.x - 6 * zoom, y);
     }
     context.fillStyle = theme.ink;
     context.textAlign = 'center';

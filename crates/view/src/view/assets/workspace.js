@@ -24,6 +24,16 @@ const Workspace = (() => {
     solids(context, panel, view, world.obstacles);
   }
 
+  /** Draws only the outlines of the obstacles. */
+  function outlines(context, panel, view, world) {
+    for (const obstacle of world.obstacles.filter(({ name }) => !view.hidden.has(name))) {
+      outline(context, panel, obstacle);
+      context.lineWidth = obstacle.outline.polyline ? 3 : 1.6;
+      context.strokeStyle = panel.theme.obstacle(obstacle.color).line;
+      context.stroke();
+    }
+  }
+
   /** Draws moving obstacles at their current poses. */
   function movers(context, panel, view, world) {
     solids(context, panel, view, (world.movers ?? []).map((mover) => Geometry.moved(mover, view.now)));
@@ -107,6 +117,7 @@ const Workspace = (() => {
     if (polyline) {
       const points = [...pointsOf(polyline)];
       const sides = points.slice(1).map((b, i) => [points[i], b]);
+      /** @param {Point[]} side */
       const length = ([a, b]) => Math.hypot(b[0] - a[0], b[1] - a[1]);
       const [a, b] = sides.reduce((best, side) => (length(side) > length(best) ? side : best));
       return Labels.about(panel.at([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]), 5);
@@ -380,13 +391,19 @@ const Workspace = (() => {
     });
   }
 
-  return { still, moving, found, arm, struck, outline, tipTrace };
+  /** Returns the middle of an obstacle's bounding box, in pixels. */
+  function middle(panel, obstacle) {
+    const { x, y, width, height } = box(panel, { ...obstacle, outline: {} });
+    return [x + width / 2, y + height / 2];
+  }
+
+  return { still, moving, found, arm, struck, outline, tipTrace, outlines, middle };
 })();
 
 /** Draws a path or trace in its colour, over a broad pale line that makes it visible on any ground. */
 function pathLine(context, theme, path, stroke) {
   context.lineCap = 'round';
-  for (const [color, width, dash] of [[theme.paper, path.width + 2.6, []], [path.color ?? theme.ink, path.width, path.dash]]) {
+  for (const [color, width, dash] of [[theme.paper, path.width + 2.6, []], [theme.tint(path.color ?? 'ink'), path.width, path.dash]]) {
     context.strokeStyle = color;
     context.lineWidth = width;
     context.setLineDash(dash);

@@ -1,0 +1,98 @@
+// The elements of the page and their arrangement.
+'use strict';
+
+/** Width of the page from which layers and steps stand beside the pictures. */
+const WIDE = '(min-width: 77.5rem)';
+
+/** Creates the elements of the page, its panels and everything in them, as properties of the view. */
+function buildPage(view) {
+  const canvas = (label) => element('canvas', { tabindex: '0', role: 'img', 'aria-label': label, 'aria-describedby': 'description' });
+  const [left, right] = [canvas('Workspace'), canvas('Configuration space')];
+  const parts = {
+    title: element('h1'),
+    lines: element('div', { class: 'lines' }),
+    cards: element('dl', { class: 'cards', 'aria-label': 'Key figures', hidden: true }),
+    status: element('p', { class: 'status', role: 'status' }),
+    facts: element('dl', { class: 'facts' }),
+    probe: element('p', { class: 'probe', 'aria-live': 'polite' }),
+    description: element('p', { class: 'unseen', id: 'description' }),
+    measure: element('span', { class: 'measure', 'aria-hidden': 'true' }),
+    ticks: element('span', { class: 'ticks', 'aria-hidden': 'true' }),
+    play: element('button', { type: 'button', class: 'play', onclick: () => view.toggle() }),
+    scrubber: element('input', {
+      type: 'range', min: '0', max: '1', step: 'any', value: '0', 'aria-label': 'time',
+      oninput: (event) => view.seek(Number(event.target.value)),
+    }),
+    clock: element('span', { class: 'clock' }),
+    step: element('p', { class: 'step', 'aria-live': 'polite' }),
+    plots: element('section', { class: 'plots', 'aria-label': 'Motion over time' }),
+  };
+  const speed = element('select', { 'aria-label': 'speed', onchange: (event) => view.setSpeed(Number(event.target.value)) });
+  for (const value of SPEEDS) speed.append(element('option', { value, selected: value === 1 }, `${value}\u00d7`));
+  parts.speed = speed;
+  const mode = (name, text) => element('button', { type: 'button', class: 'button', 'data-mode': name, onclick: () => view.switchTo(name) }, text);
+  parts.modes = element('span', { class: 'modes', role: 'group', 'aria-label': 'What is played' }, mode('move', 'Motion'), mode('think', 'How it was found'), mode('learn', 'Learn'));
+  view.steps = new Steps(view);
+  view.layers = new Layers(view);
+  const track = element('div', { class: 'track' }, view.steps.timeline, element('span', { class: 'slider' }, parts.ticks, parts.scrubber));
+  const controls = element('div', { class: 'controls-of-time' }, parts.modes, parts.play, track, parts.clock, speed);
+  parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, parts.step, controls);
+  const zoom = (name, label) => Zoom.buttons(label, () => view.panels[name], () => view.zoomSpot(view.panels[name]));
+  parts.panels = element(
+    'section',
+    { class: 'panels' },
+    element('figure', {}, element('figcaption', {}, 'Workspace'), left, zoom('workspace', 'Workspace')),
+    element('figure', {}, element('figcaption', {}, 'Configuration space'), right, zoom('cspace', 'Configuration space')),
+    parts.probe,
+  );
+  view.parts = parts;
+  view.tabs = buildTabs(view);
+  view.tour = new Tour(view);
+  view.strip = Strip.mount(view);
+  view.root.append(
+    element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
+    parts.cards,
+    view.explain.root,
+    element(
+      'div',
+      { class: 'stage' },
+      element('div', { class: 'pictures' }, view.learn.head, parts.panels, view.learn.pair.root, parts.description, parts.measure, parts.transport, view.strip.root, view.learn.foot, view.learn.steps, view.learn.details),
+      element('div', { class: 'below' }, view.tabs.root, ...view.tabs.entries.filter(({ isAside }) => !isAside).map(({ panel }) => panel)),
+      element('aside', { class: 'side', 'aria-label': 'Steps and layers' }, view.steps.root, view.layers.root),
+    ),
+    help(view),
+    view.tour.root,
+  );
+  view.panels = {
+    workspace: new Panel(left, {
+      x: [0, 1], y: [0, 1], scale: 'fill',
+      still: (context, panel) => Workspace.still(context, panel, view),
+      moving: (context, panel) => (view.drawn === 'slice' ? view.learn.slices.drawArm(context, panel) : Workspace.moving(context, panel, view)),
+    }),
+    cspace: new Panel(right, {
+      x: [0, 1], y: [0, 1], scale: 'fit',
+      still: (context, panel) => CSpace.still(context, panel, view),
+      moving: (context, panel) => (view.drawn === 'slice' ? view.learn.slices.drawSlice(context, panel) : CSpace.moving(context, panel, view)),
+      beside: (context, panel) => CSpace.beside(context, panel, view),
+    }),
+  };
+  view.explain.watch(view.panels);
+  // Texts on canvases follow the text size of the page.
+  new ResizeObserver(() => view.model && view.recolor()).observe(parts.measure);
+  view.plots = [...Plots.mount(parts.plots, view), view.strip];
+}
+
+/** Creates the tabs. Steps and layers stand beside the pictures if there is room. */
+function buildTabs(view) {
+  const wide = matchMedia(WIDE);
+  const never = () => false;
+  const isBeside = () => wide.matches;
+  const tabs = new Tabs('More', [
+    { name: 'layers', title: 'Layers', panel: view.layers.root, isAside: true, isOffered: () => true, isBeside },
+    { name: 'steps', title: 'Steps', panel: view.steps.root, isAside: true, isOffered: () => view.steps.buttons.length > 0, isBeside },
+    { name: 'plots', title: 'Plots', panel: element('div', {}, view.parts.plots), isOffered: () => Boolean(view.model?.clock) && view.mode === 'move', isBeside: never },
+    { name: 'details', title: 'Details', panel: element('div', {}, view.parts.facts), isOffered: () => Boolean(view.model?.facts.length), isBeside: never },
+  ]);
+  wide.addEventListener('change', () => tabs.refresh());
+  return tabs;
+}
