@@ -7,6 +7,7 @@ use super::headings::{EXPLORATION, OUTPUT, PLANNER};
 use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
+use super::theme::ThemeArgs;
 use crate::draw::{self, Picture, View};
 use crate::engine::{CellCounts, Method, Options};
 use crate::explore::{Ending, Exploration, ExploreError, Settings, Strategy, explore, map_description, map_picture};
@@ -77,6 +78,8 @@ pub struct ExploreArgs {
     /// Draw the world and the whole path: .svg, .png, or .html (a page that plays the exploration). Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
+    #[command(flatten)]
+    pub theme: ThemeArgs,
     #[command(flatten)]
     pub print: PrintArgs,
     /// Also report the time of decisions. Without this option, the same input gives the same output.
@@ -160,7 +163,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
             },
             Sink::CSpace(..) | Sink::Certificate(_) => (),
             Sink::Picture(format, path) => {
-                let svg = || draw::svg(&view(&world, &done, done.trajectory.as_ref()));
+                let svg = || draw::svg(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
                 // The page plays the readings, and needs no times of the motion.
                 let page_view = || view(&world, &done, None);
                 let page = || draw::exploration_page(&page_view(), &world.scene, &world.sensor, &done, args.timings);

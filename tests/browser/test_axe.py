@@ -37,6 +37,7 @@ def pages(program):
         "plan": program.plan("planar_2r", "shelf")[0],
         "proof": program.plan("planar_2r", "no_path", code=3)[0],
         "task": program.plan("scara", "tasks/kitting_cell")[0],
+        "moving": program.plan("planar_2r", "moving/gate")[0],
     }
     for name, words, code in [
         ("report", ["compare", robot, shelf, "--quiet"], 0),
@@ -46,6 +47,12 @@ def pages(program):
     ]:
         made[name] = program.folder / f"axe_{name}.html"
         program.run(*words, "--output", made[name], code=code)
+    made["reach"], made["inspection"] = (program.folder / f"axe_{name}.html" for name in ("reach", "inspection"))
+    program.run("reach", robot, shelf, "--cell", "0.1", "--quiet", "--picture", made["reach"])
+    program.run("inspect", ROOT / "robots/scara.urdf", ROOT / "workspaces/scara_cell.toml", "--picture", made["inspection"])
+    (program.folder / "two.urdf").write_text('<robot name="two"><link name="a"/><link name="b"/></robot>')
+    made["defects"] = program.folder / "axe_defects.html"
+    program.run("inspect", program.folder / "two.urdf", "--picture", made["defects"], code=1)
     made["exploration"] = program.folder / "axe_exploration.html"
     program.run("explore", robot, shelf, "--quiet", "--timings", "--picture", made["exploration"])
     made["convergence"] = program.folder / "axe_convergence.html"
@@ -53,7 +60,7 @@ def pages(program):
     return made
 
 
-@pytest.mark.parametrize("name", ["plan", "proof", "task", "report", "infeasible", "queries", "study", "convergence", "exploration"])
+@pytest.mark.parametrize("name", ["plan", "proof", "task", "moving", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects", "exploration"])
 def test_nothing_is_found_on_pages(pages, show_file, name):
     for scheme, width, height in LOOKS:
         seen = show_file(pages[name], width=width, height=height, color_scheme=scheme)

@@ -7,7 +7,7 @@ use cplan_view::{drawing, shell};
 use std::time::Duration;
 
 /// The scripts of the page, in the order of their dependencies.
-const SCRIPTS: [&str; 13] = [
+const SCRIPTS: [&str; 14] = [
     include_str!("assets/alone.js"),
     include_str!("assets/link.js"),
     include_str!("assets/keep.js"),
@@ -20,13 +20,14 @@ const SCRIPTS: [&str; 13] = [
     include_str!("assets/edit.js"),
     include_str!("assets/inspector.js"),
     include_str!("assets/controls.js"),
+    include_str!("assets/why.js"),
     include_str!("assets/live.js"),
 ];
 
 /// Content security policy of a page with the program inside. The page may run the program in a worker, but must not
 /// load anything.
 const CONTENT_POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; \
-                      img-src blob: data:; base-uri 'none'; form-action 'none'";
+                      img-src blob: data:; font-src data:; base-uri 'none'; form-action 'none'";
 
 /// Returns the page with its scripts and styles as one document. In the browser, it connects to a server.
 #[must_use]

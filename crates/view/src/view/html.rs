@@ -6,7 +6,7 @@ use cplan_text::markup;
 const STYLE: &str = include_str!("assets/view.css");
 
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 33] = [
+const SCRIPTS: [&str; 36] = [
     include_str!("assets/element.js"),
     include_str!("assets/icons.js"),
     include_str!("assets/settings.js"),
@@ -22,6 +22,7 @@ const SCRIPTS: [&str; 33] = [
     include_str!("assets/workspace.js"),
     include_str!("assets/cspace.js"),
     include_str!("assets/plots.js"),
+    include_str!("assets/strip.js"),
     include_str!("assets/contact.js"),
     include_str!("assets/lessons/question.js"),
     include_str!("assets/lessons/slice.js"),
@@ -36,9 +37,11 @@ const SCRIPTS: [&str; 33] = [
     include_str!("assets/learn.js"),
     include_str!("assets/steps.js"),
     include_str!("assets/tour.js"),
+    include_str!("assets/explain.js"),
     include_str!("assets/pointer.js"),
     include_str!("assets/keys.js"),
     include_str!("assets/layout.js"),
+    include_str!("assets/reach.js"),
     include_str!("assets/view.js"),
 ];
 
@@ -52,18 +55,36 @@ pub fn page(view: &View) -> String {
     sealed(title, "", "view", &view.json(), &(drawing() + PLAN_SCRIPT))
 }
 
+/// Code of the page of an inspection.
+const INSPECTION_SCRIPT: &str = include_str!("assets/inspection.js");
+
+/// Returns the page of a robot's inspection. `report` is a JSON object. `view` shows the arm; `None` if the robot has
+/// none.
+#[must_use]
+pub fn inspection_page(title: &str, view: Option<&View>, report: &str) -> String {
+    let view = view.map_or_else(|| "null".into(), View::json);
+    let data = format!("{{\"view\":{view},\"report\":{report}}}");
+    sealed(title, "", "view", &data, &(drawing() + INSPECTION_SCRIPT))
+}
+
 /// Returns the scripts that draw a view, for pages that add their own code after them.
 #[must_use]
 pub fn drawing() -> String {
-    let roles: Vec<&str> = cplan_theme::ROLES.iter().map(|role| role.name).collect();
-    format!("/** Names of the colours in the style sheet. */\nconst ROLES = {roles:?};\n{}", SCRIPTS.concat())
+    let roles: Vec<String> = cplan_theme::names().collect();
+    let stops = cplan_theme::SCALE_STOPS.map(|color| color.to_string());
+    format!(
+        "/** Names of the colours in the style sheet. */\nconst ROLES = {roles:?};\n\
+         /** Colours of the scale of values, from light to dark. */\nconst SCALE_STOPS = {stops:?};\n{}",
+        SCRIPTS.concat()
+    )
 }
 
 /// Returns a self-contained page. It loads nothing, and the browser does not allow it to load anything. The element
 /// `id` contains `json`, which `code` reads.
 #[must_use]
 pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> String {
-    let policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
+    let policy =
+        "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; font-src data:";
     let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n");
     // Only a less-than sign could end the script.
     let data = json.replace('<', "\\u003c");

@@ -48,13 +48,15 @@ function buildPage(view) {
   view.parts = parts;
   view.tabs = buildTabs(view);
   view.tour = new Tour(view);
+  view.strip = Strip.mount(view);
   view.root.append(
     element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
     parts.cards,
+    view.explain.root,
     element(
       'div',
       { class: 'stage' },
-      element('div', { class: 'pictures' }, view.learn.head, parts.panels, view.learn.pair.root, parts.description, parts.measure, parts.transport, view.learn.foot, view.learn.steps, view.learn.details),
+      element('div', { class: 'pictures' }, view.learn.head, parts.panels, view.learn.pair.root, parts.description, parts.measure, parts.transport, view.strip.root, view.learn.foot, view.learn.steps, view.learn.details),
       element('div', { class: 'below' }, view.tabs.root, ...view.tabs.entries.filter(({ isAside }) => !isAside).map(({ panel }) => panel)),
       element('aside', { class: 'side', 'aria-label': 'Steps and layers' }, view.steps.root, view.layers.root),
     ),
@@ -74,9 +76,10 @@ function buildPage(view) {
       beside: (context, panel) => CSpace.beside(context, panel, view),
     }),
   };
+  view.explain.watch(view.panels);
   // Texts on canvases follow the text size of the page.
   new ResizeObserver(() => view.model && view.recolor()).observe(parts.measure);
-  view.plots = Plots.mount(parts.plots, view);
+  view.plots = [...Plots.mount(parts.plots, view), view.strip];
 }
 
 /** Creates the tabs. Steps and layers stand beside the pictures if there is room. */

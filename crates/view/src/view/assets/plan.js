@@ -3,6 +3,7 @@
 'use strict';
 
 window.cplan = new View(document.querySelector('main'), JSON.parse(document.getElementById('view').textContent));
+if (cplan.model.reach) new ReachMap(cplan);
 {
   /** Shows what the address asks for. */
   const follow = () => {
@@ -11,6 +12,6 @@ window.cplan = new View(document.querySelector('main'), JSON.parse(document.getE
     if (cplan.mode === 'learn' && place.length) cplan.learn.open(place[0], place[1]);
     return mode;
   };
-  if (!follow()) cplan.tour.offer();
+  if (!follow() && cplan.isMotion) cplan.tour.offer();
   addEventListener('hashchange', follow);
 }

@@ -13,6 +13,8 @@ interface PointerPlace { clientX: number; clientY: number; pointerType: string }
 
 /** The colours of the page's style sheet. Rust writes this constant before the scripts. */
 declare const ROLES: string[];
+/** The colours of the scale of values, from light to dark. Rust writes this constant, too. */
+declare const SCALE_STOPS: string[];
 
 interface Theme {
   [role: string]: any;
@@ -63,7 +65,6 @@ interface WorldModel {
   pairs: number[][];
   c_obstacles: { obstacle: number; link: number; contour: Chain }[];
   moments?: any[];
-  names: any[];
   regions: any[];
   trace?: any;
   scale?: any;
@@ -83,8 +84,44 @@ interface ClockModel { time: number[]; position: Chain; velocity: Chain; acceler
 /** A phase of the planner's replay. */
 interface PhaseModel { seconds: number; caption: string; [name: string]: any }
 
+/** A wait of the motion for a moving obstacle. `at` is the progress. */
+interface WaitModel { from: number; to: number; at: number; text: string }
+
+/** Progress along a motion against time, with the regions that moving obstacles block. */
+interface StripModel {
+  duration: number;
+  obstacles: { name: string; color: string; regions: Chain[] }[];
+  motion: Chain;
+  waits: WaitModel[];
+}
+
 /** Key figures of a result. */
 interface FiguresModel { duration?: number; gap?: number; fastest?: boolean; clearance?: number }
+
+/** A card of an explanation: a change of the world with the path that it opens, or a configuration to look at. */
+interface Card {
+  /** The change as an instruction. */
+  title: string;
+  /** The amount that opens a path, that which does not, and anything else that is known. */
+  opens?: string;
+  closed?: string;
+  note?: string;
+  /** Index of the changed obstacle, and the obstacle after the change. */
+  obstacle?: number;
+  changed?: ObstacleModel;
+  /** Indices of the obstacles that are not there. */
+  removed?: number[];
+  /** C-obstacles after the change, and ranges of both joints. */
+  c_obstacles?: WorldModel['c_obstacles'];
+  domains?: [number, number][];
+  path?: PathModel;
+  at?: Point;
+  /** The change of the world file. */
+  edit?: { obstacle?: { number: number; shape: any }; removal?: number; clearance?: number; limits?: { joint: number; range: Point } };
+}
+
+/** Why there is no path, or what makes it longer. */
+interface ExplanationModel { headline: string; evidence: string; title: string; cards: Card[]; frame: [Point, Point]; stuck?: any }
 
 /** The data of a page. */
 interface Model {
@@ -103,10 +140,12 @@ interface Model {
   motions: MotionModel[];
   clock: ClockModel | null;
   frames: any[];
+  strip?: StripModel;
   replay?: PhaseModel[];
   replays?: { phases: PhaseModel[]; trace?: any; scale?: any }[];
   legend: any[];
   stuck?: any;
+  explanation?: ExplanationModel;
   checked?: any;
   reach?: any;
   /** The data of an exploration, and the knowledge over time. */

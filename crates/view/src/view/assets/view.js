@@ -33,6 +33,8 @@ class View {
     this.tabs = null;
     /** @type {Tour} */
     this.tour = null;
+    /** Progress against time. @type {ReturnType<typeof Strip.mount>} */
+    this.strip = null;
     /** True if obstacles are written with their names; otherwise with numbers. */
     this.named = true;
     /** True if names appear only under the pointer. */
@@ -55,6 +57,7 @@ class View {
     /** Mode that the user has chosen. The view returns to it when it is available again. */
     this.chosen = 'move';
     this.learn = new Learn(this);
+    this.explain = new Explain(this);
     this.speed = 1;
     this.playing = false;
     /** The examined arm. @type {?{ q: Point, contacts: ContactModel[] }} */
@@ -64,6 +67,8 @@ class View {
     this.tool = null;
     /** True if another script reports the outcome: see `say`. */
     this.judged = false;
+    /** Map of the tip's reach; see `ReachMap`. */
+    this.reachMap = null;
     /** True to leave out everything that is slow to draw, while something moves. */
     this.light = false;
     buildPage(this);
@@ -82,6 +87,7 @@ class View {
   update(model) {
     this.model = model;
     this.traces = null;
+    this.explain.update(model);
     const count = model.worlds[0]?.obstacles.length ?? 0;
     [this.named, this.isCrowded] = [count <= NAMED, count > CROWDED];
     this.hovered = null;
@@ -162,6 +168,7 @@ class View {
     const { parts } = this;
     parts.plots.hidden = this.mode !== 'move' || !this.model.clock;
     this.learn.show();
+    this.strip.show();
     parts.panels.hidden = this.drawn === 'pair';
     // Room for a scale of colours beside the panel.
     const { scale } = this;
@@ -249,6 +256,8 @@ class View {
   /** Returns the configuration of the arm. */
   get q() {
     if (this.drawn === 'slice') return this.learn.slices.q;
+    if (this.reachMap?.q) return this.reachMap.q;
+    if (this.explain.q) return this.explain.q;
     if (this.moment) return Think.focus(this) ?? this.beginning();
     return this.model.clock ? Geometry.moving(this.model.clock, this.time).position : this.beginning();
   }
@@ -354,7 +363,12 @@ class View {
     if (!this.judged) this.say(ending, status);
     parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), readable(text, 'dd')]));
     // The live page shows its own figures.
-    const cards = this.recall ? [] : this.cards();
+    this.showCards(this.recall ? [] : this.cards());
+  }
+
+  /** Shows key figures: name, value and meaning of each. */
+  showCards(cards) {
+    const { parts } = this;
     parts.cards.hidden = !cards.length;
     parts.cards.replaceChildren(...cards.map(([name, value, note]) => element('div', { class: 'card' }, element('dt', {}, name), element('dd', {}, value, element('small', {}, note)))));
   }
@@ -480,6 +494,7 @@ class View {
     }
     const now = this.model.motions.indexOf(motion);
     this.steps.follow(now);
+    this.strip.follow();
     this.describe();
     for (const panel of this.allPanels()) panel.draw();
   }
@@ -610,7 +625,7 @@ class View {
 
   /** Returns the arm whose contacts are shown: the examined one or, on a page without a motion, the only one. */
   get examined() {
-    if (this.probe || this.isMotion || this.drawn === 'slice') return this.probe;
+    if (this.probe || this.isMotion || this.reachMap || this.drawn === 'slice') return this.probe;
     const { q } = this;
     const contacts = Geometry.contacts(this.model.arm, this.world, q);
     return contacts.length ? { q, contacts } : null;
@@ -628,6 +643,8 @@ class View {
   /** On a small screen, moves the description above the finger, as far as there is room. */
   follow(q) {
     const { canvas } = this.panels.cspace;
+    // The page of an inspection has no configuration space.
+    if (!canvas.offsetParent) return;
     const frame = /** @type {HTMLElement} */ (canvas.offsetParent);
     const [x, y] = this.panels.cspace.at(q);
     const { style } = this.parts.probe;
