@@ -47,12 +47,20 @@ def pages(program):
     ]:
         made[name] = program.folder / f"axe_{name}.html"
         program.run(*words, "--output", made[name], code=code)
+    made["reach"], made["inspection"] = (program.folder / f"axe_{name}.html" for name in ("reach", "inspection"))
+    program.run("reach", robot, shelf, "--cell", "0.1", "--quiet", "--picture", made["reach"])
+    program.run("inspect", ROOT / "robots/scara.urdf", ROOT / "workspaces/scara_cell.toml", "--picture", made["inspection"])
+    (program.folder / "two.urdf").write_text('<robot name="two"><link name="a"/><link name="b"/></robot>')
+    made["defects"] = program.folder / "axe_defects.html"
+    program.run("inspect", program.folder / "two.urdf", "--picture", made["defects"], code=1)
+    made["exploration"] = program.folder / "axe_exploration.html"
+    program.run("explore", robot, shelf, "--quiet", "--timings", "--picture", made["exploration"])
     made["convergence"] = program.folder / "axe_convergence.html"
     program.run("converge", robot, shelf, "--cells", "24", "--quiet", "--picture", made["convergence"])
     return made
 
 
-@pytest.mark.parametrize("name", ["plan", "proof", "task", "moving", "report", "infeasible", "queries", "study", "convergence"])
+@pytest.mark.parametrize("name", ["plan", "proof", "task", "moving", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects", "exploration"])
 def test_nothing_is_found_on_pages(pages, show_file, name):
     for scheme, width, height in LOOKS:
         seen = show_file(pages[name], width=width, height=height, color_scheme=scheme)
@@ -67,7 +75,8 @@ def test_nothing_is_found_in_any_state_of_a_result(pages, show_file, scheme):
     seen = show_file(pages["task"], width=1000, height=900, color_scheme=scheme)
     for state in (
         "cplan.tour.start()", "cplan.tour.end()", "cplan.tabs.choose('steps')", "cplan.tabs.choose('plots')", "cplan.tabs.choose('details')",
-        "cplan.dragTip([0.3, 0.2])", "cplan.switchTo('think')", "cplan.switchTo('learn')", "document.documentElement.style.fontSize = '200%'",
+        "cplan.dragTip([0.3, 0.2])", "cplan.switchTo('think')", "cplan.switchTo('learn')", "cplan.learn.open('carrying')",
+        "cplan.learn.question.submit(new Event('submit'))", "cplan.learn.open('slice')", "cplan.learn.open('tests')", "document.documentElement.style.fontSize = '200%'",
     ):
         seen.do(state)
         assert faults(seen) == [], state

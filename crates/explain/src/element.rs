@@ -2,6 +2,7 @@
 
 use cplan_core::model::{Arm, Scene};
 use cplan_core::space::JointRange;
+use cplan_text::chosen_length;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -75,7 +76,7 @@ impl Element {
                 let which = if side == Side::Lower { "lower" } else { "upper" };
                 format!("the {which} limit of joint \"{}\"", scene.arm().joints[joint].name)
             }
-            Self::Clearance => format!("the clearance of {} m", scene.workspace().clearance),
+            Self::Clearance => format!("the clearance of {}", chosen_length(scene.workspace().clearance)),
         }
     }
 

@@ -92,10 +92,8 @@ impl InfeasibleExplanation {
 /// Explains why there is no motion.
 fn closed(question: &MotionQuestion, proof: Option<CheckedProof>) -> InfeasibleExplanation {
     let mut sets = blocking_sets(question, proof.clone(), [BOXES_PER_DECISION, BOXES_FOR_LAST_DECISIONS]);
-    let all = super::Element::all(question.scene());
     for set in &mut sets {
-        let elements = set.elements();
-        let others: Vec<_> = all.iter().filter(|element| !elements.contains(element)).copied().collect();
+        let others = set.others(question.scene());
         for blocker in &mut set.blockers {
             let element = blocker.element;
             let opens = matches!(question.without(&[element]).answer(BOXES_PER_DECISION), Outcome::Found(_));

@@ -61,7 +61,7 @@ fn merged(mut object: Map<String, Value>, more: Value) -> Value {
 
 fn of_found(scene: &Scene, FoundExplanation { answer, savings }: &FoundExplanation) -> Value {
     let saving = |saving: &Saving| {
-        let Saving { element, length, at_least, at_most } = *saving;
+        let Saving { element, length, at_least, at_most, .. } = *saving;
         let more = json!({ "length": length, "shorter_by": { "at_least": at_least, "at_most": at_most } });
         merged(of_element(scene, element), more)
     };

@@ -2,15 +2,18 @@
 
 use super::element::Element;
 use super::question::MotionQuestion;
+use cplan_core::space::Path;
 use cplan_interrupt::checkpoint;
 use cplan_solver::{Answer, Bound, Options, solve};
 
 /// An element that makes the shortest path longer.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Saving {
     /// The element.
     pub element: Element,
-    /// Length of a path that is found when the element is removed.
+    /// A certified path that is found when the element is removed.
+    pub path: Path,
+    /// Length of that path.
     pub length: f64,
     /// Lower bound on how much shorter the shortest path is without the element.
     pub at_least: f64,
@@ -28,10 +31,10 @@ pub fn savings(question: &MotionQuestion, answer: &Answer, options: &Options) ->
         checkpoint();
         let Some(problem) = question.without_at_clearance(&[element]).problem() else { continue };
         let Some(without) = question.within_time_limit(|| solve(&problem, options, &mut |_| ())) else { break };
-        if let Some(Bound { lower, upper, .. }) = without.bound() {
+        if let (Some(Bound { lower, upper, .. }), Some(path)) = (without.bound(), without.path()) {
             let (at_least, at_most) = (whole.lower - upper, whole.upper - lower);
             if at_least > 0.0 {
-                savings.push(Saving { element, length: upper, at_least, at_most });
+                savings.push(Saving { element, path: path.clone(), length: upper, at_least, at_most });
             }
         }
     }

@@ -118,7 +118,7 @@ fn millimetres(metres: f64) -> String {
 }
 
 /// Formats the diagnostics without file, line and column, because the user does not see the text.
-fn without_places(error: &InputError) -> String {
+pub fn without_places(error: &InputError) -> String {
     let sentence = |diagnostic: &Diagnostic| {
         let mut letters = diagnostic.message.chars();
         let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();

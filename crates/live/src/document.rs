@@ -1,6 +1,6 @@
 //! The text of a world, edited as the page requests. Comments, names, heights and unknown keys are preserved.
 
-use super::protocol::{Begin, End, Form, MAX_CORNERS, MAX_OBSTACLES, Pair, Piece, State};
+use super::protocol::{Begin, End, Form, JointLimits, MAX_CORNERS, MAX_OBSTACLES, Pair, Piece, State};
 use std::collections::BTreeSet;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
@@ -79,6 +79,9 @@ impl Document {
         if clearance != state.clearance {
             set_value(toml.as_table_mut(), "clearance", value(state.clearance));
             touched = true;
+        }
+        for limits in &state.limits {
+            touched |= change_limits(&mut toml, limits)?;
         }
         let joints = start.or(match state.start {
             Some(Begin::Joints { joints }) => Some(joints),
@@ -194,6 +197,27 @@ fn change_place(toml: &mut DocumentMut, name: &str, key: &str, [a, b]: Pair) -> 
     true
 }
 
+/// Writes the limits of a joint into the table `robot.limits`. Returns true if this is a change.
+///
+/// # Errors
+/// The text has something else in the place of these tables.
+fn change_limits(toml: &mut DocumentMut, JointLimits { joint, range }: &JointLimits) -> Result<bool, String> {
+    let not_a_table = || "the text's [robot] limits are not a table".to_owned();
+    let robot = toml.entry("robot").or_insert_with(|| {
+        let mut table = Table::new();
+        table.decor_mut().set_prefix("\n");
+        Item::Table(table)
+    });
+    let robot = robot.as_table_like_mut().ok_or_else(not_a_table)?;
+    let limits = robot.entry("limits").or_insert_with(|| Item::Value(InlineTable::new().into()));
+    let limits = limits.as_table_like_mut().ok_or_else(not_a_table)?;
+    if pair(limits.get(joint)) == Some(*range) {
+        return Ok(false);
+    }
+    limits.insert(joint, Item::Value(Value::from(Array::from_iter(*range))));
+    Ok(true)
+}
+
 fn key_of(shape: &Form) -> &'static str {
     match shape {
         Form::Polygon(_) => "polygon",
@@ -291,6 +315,7 @@ image = \"map.yaml\"
             start: Some(Begin::Joints { joints: [0.0, 1.5] }),
             goal: Some(End::Tip([1.0, 2.0])),
             clearance: 0.0,
+            limits: Vec::new(),
         }
     }
 
@@ -352,6 +377,21 @@ image = \"map.yaml\"
             .replace("[0, 1.5] # here", "[0.25, 1.5] # here")
             .replace("tip = [1.0, 2.0]", "joints = [0.5, 0.75]");
         assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn limits_are_written_for_the_robot() {
+        let limits = vec![JointLimits { joint: "elbow".into(), range: [-1.5, 1.5] }];
+        let state = State { limits: limits.clone(), ..state(vec![kept_piece(0), kept_piece(1), kept_piece(2)]) };
+        let text = document().changed(&state, None).unwrap();
+        let again = Document::parse(&text).unwrap();
+        assert_eq!(pair(again.toml["robot"]["limits"].get("elbow")), Some([-1.5, 1.5]), "{text}");
+        let table = Document::parse("[robot.limits]\nelbow = [0, 1] # here\n").unwrap();
+        let state = State { start: None, goal: None, limits, ..self::state(Vec::new()) };
+        assert_eq!(
+            pair(Document::parse(&table.changed(&state, None).unwrap()).unwrap().toml["robot"]["limits"].get("elbow")),
+            Some([-1.5, 1.5])
+        );
     }
 
     #[test]

@@ -20,6 +20,8 @@
 //! - Each change gives the page's world a new number (`edition`), and an answer belongs to the number in its request.
 //!   The badge says certified only for the final answer to the current number, with a working connection. Edits are
 //!   kept in the browser (`keep`), under the program's initial text.
+//! - `explain` answers why there is no path. The page shows a card for each change that opens one (`why`), and applies it
+//!   on request.
 //! - The page speaks first: it opens the program's initial world, or the one in its address (`gallery`): arm, world and
 //!   options, which it sends as text (`Host::from_texts`). Worlds that name files with which the program was not started
 //!   are refused (`Host::read`).
@@ -33,6 +35,7 @@ mod blocked;
 mod contours;
 mod live_session;
 mod document;
+mod explain;
 mod files;
 mod gallery;
 mod menus;

@@ -5,6 +5,7 @@ use super::answer::{Answering, Deadlines, TimeSpent, refused, time_up};
 use super::blocked;
 use super::contours::Contours;
 use super::document::Document;
+use super::explain;
 use super::files;
 use super::menus;
 use super::options::Options;
@@ -19,6 +20,7 @@ use cplan_geometry::Point;
 use cplan_interrupt::{Instant, Interrupt, Interrupted};
 use cplan_solver::Method;
 use cplan_world::{LoadedScene, Overrides};
+use serde_json::value::RawValue;
 use std::sync::Arc;
 
 /// Number of bisection steps when the tip is moved towards a place that it cannot reach.
@@ -79,6 +81,12 @@ impl LiveSession {
                 Err(error) => Reply::Failed { id: *id, error },
             }),
             Request::Plan(ask) => self.plan(ask, interrupt, spent, &mut reply),
+            Request::Explain(ask) => match self.explain(ask, interrupt, spent) {
+                Ok(Some(explanation)) => reply(Reply::Explanation { id: ask.id, explanation }),
+                // A newer request has arrived.
+                Ok(None) => {}
+                Err(error) => reply(Reply::Failed { id: ask.id, error }),
+            },
             Request::Load { id, text, options } => self.load(*id, text, options, (interrupt, spent), &mut reply),
             Request::Download { ask, format } => match self.download(ask, format, interrupt, spent) {
                 Ok((name, content)) => send(Message::file(ask.id, &name, &content)),
@@ -225,6 +233,27 @@ impl LiveSession {
                 let start = ask.state.as_ref().and_then(|state| self.begin(state.start));
                 answering.blocked(&loaded, &error, start.or_else(|| self.document.start()))
             }
+        }
+    }
+
+    /// Returns the reasons why there is no path. `None` if a newer request has arrived.
+    ///
+    /// # Errors
+    /// The reason why there is no explanation.
+    fn explain(
+        &self,
+        ask: &PlanRequest,
+        interrupt: &Interrupt,
+        spent: TimeSpent,
+    ) -> Result<Option<Box<RawValue>>, String> {
+        let source = self.host.world.with_text(self.text(ask)?.as_str());
+        let loaded =
+            self.scene.with_world_text(&self.host.urdf, source).map_err(|error| blocked::without_places(&error))?;
+        let deadlines = Deadlines::new(interrupt, spent, self.host.time);
+        match deadlines.plan.run(|| explain::explanation(loaded, self.host.time)) {
+            Ok(explanation) => explanation.map(Some),
+            Err(Interrupted::Set) => Ok(None),
+            Err(Interrupted::TimeUp) => Err(format!("There is no explanation yet: {}.", time_up(self.host.time))),
         }
     }
 

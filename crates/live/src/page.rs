@@ -7,7 +7,7 @@ use cplan_view::{drawing, shell};
 use std::time::Duration;
 
 /// The scripts of the page, in the order of their dependencies.
-const SCRIPTS: [&str; 13] = [
+const SCRIPTS: [&str; 14] = [
     include_str!("assets/alone.js"),
     include_str!("assets/link.js"),
     include_str!("assets/keep.js"),
@@ -20,6 +20,7 @@ const SCRIPTS: [&str; 13] = [
     include_str!("assets/edit.js"),
     include_str!("assets/inspector.js"),
     include_str!("assets/controls.js"),
+    include_str!("assets/why.js"),
     include_str!("assets/live.js"),
 ];
 

@@ -26,6 +26,8 @@ pub enum Request {
     },
     /// Plans in the world that the page shows.
     Plan(PlanRequest),
+    /// Explains why there is no path in the world that the page shows.
+    Explain(PlanRequest),
     /// Replaces the world by another text, and plans in it.
     Load {
         /// Number of the request, which its answers repeat.
@@ -48,7 +50,7 @@ impl Request {
     /// Returns the number of the request.
     pub fn id(&self) -> u64 {
         match self {
-            Self::Plan(ask) | Self::Download { ask, .. } => ask.id,
+            Self::Plan(ask) | Self::Explain(ask) | Self::Download { ask, .. } => ask.id,
             Self::Open { id, .. } | Self::Load { id, .. } => *id,
         }
     }
@@ -98,6 +100,19 @@ pub struct State {
     pub goal: Option<End>,
     /// Least distance to keep from obstacles, in metres.
     pub clearance: f64,
+    /// Limits of joints that differ from those of the text.
+    #[serde(default)]
+    pub limits: Vec<JointLimits>,
+}
+
+/// The limits of a joint.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JointLimits {
+    /// Name of the joint in the URDF.
+    pub joint: String,
+    /// Least and greatest value, in radians or metres.
+    pub range: Pair,
 }
 
 /// An obstacle as the page edits it.
@@ -176,6 +191,13 @@ pub enum Reply {
     World(Box<WorldReply>),
     /// The result of a plan.
     Answer(Box<AnswerReply>),
+    /// The reasons why there is no path, with the changes that open one.
+    Explanation {
+        /// Number of the request.
+        id: u64,
+        /// The explanation as JSON.
+        explanation: Box<RawValue>,
+    },
     /// The request is invalid or has failed. The page keeps its state.
     Failed {
         /// Number of the request.

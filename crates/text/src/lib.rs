@@ -14,7 +14,8 @@ pub use columns::{Columns, SECOND_COLUMN};
 pub use markup::markup;
 pub use plain::plain_json;
 pub use plain::{plain, plain_line};
-pub use rounded::{fixed, format_distinct, length, length_down, nonzero, percent, round_down, round_up, short};
+pub use rounded::{chosen_length, headline_length, headline_number, length_down, length_up};
+pub use rounded::{fixed, format_distinct, length, nonzero, percent, round_down, round_up, short};
 pub use wrapped::wrapped;
 
 /// Formats a count with its noun: `1 obstacle`, `3 obstacles`, `2 boxes`.

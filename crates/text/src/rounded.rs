@@ -67,6 +67,46 @@ pub fn length_down(metres: f64) -> String {
     format!("{text} {unit}")
 }
 
+/// Formats a positive length in metres as [`length`] does, but rounded up, so that an upper bound is still true as
+/// printed.
+#[must_use]
+pub fn length_up(metres: f64) -> String {
+    let (value, decimals, unit) = in_unit(metres);
+    let metres_per_unit = if unit == "mm" { 1e3 } else { 1.0 };
+    format!("{} {unit}", round_until(value, decimals, |shown| shown / metres_per_unit >= metres, 1.0))
+}
+
+/// Formats a length in metres that somebody chose, such as a clearance, without zeros at its end: `200 mm`, `1.5 m`.
+#[must_use]
+pub fn chosen_length(metres: f64) -> String {
+    let (value, _, unit) = in_unit(metres);
+    format!("{} {unit}", short(value))
+}
+
+/// Formats a number with three significant digits and without zeros at its end, for a headline: rounded up if `up`,
+/// otherwise down.
+#[must_use]
+pub fn headline_number(value: f64, up: bool) -> String {
+    /// Number of significant digits.
+    const DIGITS: i32 = 3;
+    /// Share of the last digit by which the rounding error of a product may exceed a number.
+    const HAIR: f64 = 1e-6;
+    if value == 0.0 || !value.is_finite() {
+        return format!("{}", value + 0.0);
+    }
+    let decimals = (DIGITS - 1 - value.abs().log10().floor() as i32).max(0);
+    let unit = 10_f64.powi(decimals);
+    let units = if up { (value * unit - HAIR).ceil() } else { (value * unit + HAIR).floor() };
+    format!("{}", units / unit + 0.0)
+}
+
+/// Formats a length in metres for a headline, see [`headline_number`]: `614 mm`, `1.24 m`.
+#[must_use]
+pub fn headline_length(metres: f64, up: bool) -> String {
+    let (value, _, unit) = in_unit(metres);
+    format!("{} {unit}", headline_number(value, up))
+}
+
 /// Returns a length in the unit in which it is displayed, the number of decimals, and the unit.
 fn in_unit(metres: f64) -> (f64, usize, &'static str) {
     let millimetres = 1e3 * metres;
@@ -146,6 +186,15 @@ mod tests {
     fn short_numbers_keep_six_digits() {
         let shown = [0.2617993877991494, 0.281882666843, 1e-4 / 3.0, 123_456.789, 0.1 + 0.2, -0.0, 1.0].map(short);
         assert_eq!(shown, [0.261799, 0.281883, 3.33333e-5, 123_457.0, 0.3, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn lengths_of_headlines_have_three_digits_and_are_rounded_to_the_safe_side() {
+        let up = [0.6136, 0.04, 0.004_201, 1.2341, 0.95, 0.0].map(|metres| headline_length(metres, true));
+        assert_eq!(up, ["614 mm", "40 mm", "4.21 mm", "1.24 m", "950 mm", "0 mm"]);
+        assert_eq!([0.0137, 0.2].map(|metres| headline_length(metres, false)), ["13.7 mm", "200 mm"]);
+        assert_eq!([0.2, 0.003, 1.5, 0.0].map(chosen_length), ["200 mm", "3 mm", "1.5 m", "0 mm"]);
+        assert_eq!([length_up(0.613_62), length_up(0.04), length_up(1.2341)], ["613.7 mm", "40.00 mm", "1.235 m"]);
     }
 
     #[test]

@@ -51,6 +51,24 @@ impl Serialize for Rgb {
     }
 }
 
+/// Replaces the colours `#rrggbb` in the attributes of an SVG document. `replaced` receives each colour and returns the new
+/// text of the attribute.
+pub fn recolored(svg: &str, mut replaced: impl FnMut(Rgb) -> String) -> String {
+    let mut parts = svg.split("=\"#");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let channel = |k: usize| part.get(2 * k..2 * k + 2).and_then(|hex| u8::from_str_radix(hex, 16).ok());
+        let color = channel(0).zip(channel(1)).zip(channel(2)).map(|((r, g), b)| Rgb(r, g, b));
+        match (color, part.get(6..)) {
+            (Some(color), Some(rest)) if rest.starts_with('"') => {
+                text.extend(["=\"", &replaced(color), rest]);
+            }
+            _ => text.extend(["=\"#", part]),
+        }
+    }
+    text
+}
+
 /// Colours of obstacles: Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), ordered so that
 /// neighbours in the list differ strongly.
 const OBSTACLE_COLORS: [Rgb; 9] = [
@@ -169,6 +187,14 @@ mod tests {
         assert!(all.windows(2).all(|w| w[1] < w[0]));
         assert_eq!(scale(-1.0), scale(0.0));
         assert_eq!(scale(2.0), Rgb(0x41, 0x3f, 0x80));
+    }
+
+    #[test]
+    fn only_colors_in_attributes_are_replaced() {
+        let svg = "<a fill=\"#0a0B0c\" href=\"#ground\"/><b x=\"#123\">#0a0b0c \u{e9}=\"#\u{e9}\u{e9}\u{e9}\"</b>";
+        let text = recolored(svg, |color| format!("[{color}]"));
+        assert_eq!(text, svg.replacen("#0a0B0c", "[#0a0b0c]", 1));
+        assert_eq!(recolored("", |color| color.to_string()), "");
     }
 
     #[test]

@@ -3,9 +3,11 @@
 //! the program for pixels.
 
 mod color;
+mod planners;
 mod roles;
 
-pub use color::{PATH_COLORS, Rgb, SCALE_STOPS, obstacle, path, scale};
+pub use color::{PATH_COLORS, Rgb, SCALE_STOPS, obstacle, path, recolored, scale};
+pub use planners::{PlannerFamily, PlannerPen};
 pub use roles::*;
 
 use cplan_text::base64;
@@ -29,14 +31,15 @@ const PAGE_FONTS: [(&str, &[u8]); 2] = [
 const SIZES: &str = include_str!("tokens.css");
 
 /// Returns the style sheet that all pages begin with: the variables of `tokens.css`, and one variable `--NAME` for each
-/// role and `--path-0` to `--path-5`, light or dark as the reader's system asks.
+/// role, `--path-0` to `--path-5`, and one for each colour of planners, light or dark as the reader's system asks.
 #[must_use]
 pub fn css() -> String {
     let variables = |is_dark: bool| -> String {
         let roles = ROLES.iter().map(|role| (role.name.to_owned(), role.light, role.dark));
         let paths = (0..).zip(PATH_COLORS).map(|(index, (light, dark))| (format!("path-{index}"), light, dark));
+        let planners = PlannerPen::all().map(|pen| (pen.name(), pen.light(), pen.dark()));
         let variable = |(name, light, dark)| format!(" --{name}: {};", if is_dark { dark } else { light });
-        roles.chain(paths).map(variable).collect()
+        roles.chain(paths).chain(planners).map(variable).collect()
     };
     let [light, dark] = [variables(false), variables(true)];
     let face = |(range, bytes): (&str, &[u8])| {
@@ -48,6 +51,11 @@ pub fn css() -> String {
         "{faces}{SIZES}:root {{ color-scheme: light dark; --dark: 0;{light} }}\n\
          @media (prefers-color-scheme: dark) {{\n:root {{ --dark: 1;{dark} }}\n}}\n"
     )
+}
+
+/// Iterates over the names of the colours of roles and planners in style sheets.
+pub fn names() -> impl Iterator<Item = String> {
+    ROLES.iter().map(|role| role.name.to_owned()).chain(PlannerPen::all().map(PlannerPen::name))
 }
 
 #[cfg(test)]

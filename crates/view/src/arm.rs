@@ -27,6 +27,14 @@ impl ArmStyle {
     }
 }
 
+impl ArmStyle {
+    /// Returns this style for a small drawing, with thin lines and without joints.
+    #[must_use]
+    pub fn thin(&self) -> Self {
+        Self { width: 0.5 * self.width, joints: false, ..*self }
+    }
+}
+
 /// The arm at the start of the motion.
 pub const START_LOOK: ArmStyle =
     ArmStyle { fill: WHITE, line: INK, width: 1.4, opacity: 0.9, joints: true, blocks: true };

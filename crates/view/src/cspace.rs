@@ -2,7 +2,7 @@
 
 use super::chart::{self, Chart};
 use super::checked::{self, CheckedView};
-use super::figure::{Item, Pen, Rect, Step, Style, lines};
+use super::figure::{Item, Pen, Rect, Step, Style, lines, lines_by_path};
 use super::labels::{NamedRegion, Placer};
 use super::shapes::ABSENT_DASH;
 use super::view::{ContourView, MAX_NAMED_OBSTACLES, PanelView, View, WorldView};
@@ -45,7 +45,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     inside.extend(lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOAL_SEGMENT_PEN))));
     let paths: Vec<_> = paths.map(|path| (chart.outline(&path.points.0), path.pen())).collect();
     let names = names(view, panel, chart, &paths);
-    inside.extend(lines(paths));
+    inside.extend(if view.still.lights_paths { lines_by_path(paths) } else { lines(paths) });
     inside.extend(world.trace.iter().flat_map(|trace| trace::items_above_path(trace, chart)));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));
@@ -69,7 +69,8 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
 
 /// Draws the C-obstacles. If link 2 may reach into an obstacle in one of the worlds, some part of its C-obstacle is
 /// free there. That part is dashed.
-fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
+#[must_use]
+pub fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     let (mut dashed, mut solid) = (Vec::new(), Vec::new());
     for (number, obstacle) in worlds[0].obstacles.iter().enumerate() {
         let open = |world: &&&WorldView| world.open.iter().any(|c| c.obstacle == number);

@@ -157,6 +157,8 @@ pub enum Item {
     Clip(Rect, Vec<Item>),
     /// A rectangle of coloured cells.
     Raster(Raster),
+    /// Items that belong to the path with this index, which a page can light up.
+    OfPath(usize, Vec<Item>),
 }
 
 /// Cells in columns from left to right, each from the bottom up.
@@ -232,6 +234,21 @@ pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> 
         lines.push(Item::Outline(steps, Style { pen: Some(pen), ..Style::line(pen.color, pen.width) }));
     }
     halos.extend(lines);
+    halos
+}
+
+/// Draws the same as [`lines`], in groups by path. Each path also has a broad invisible line, which is easy to point at.
+#[must_use]
+pub fn lines_by_path(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
+    const POINTER_WIDTH: f64 = 14.0;
+    let (mut halos, mut drawn) = (Vec::new(), Vec::new());
+    for (index, (steps, pen)) in outlines.into_iter().enumerate() {
+        let pointed = Item::Outline(steps.clone(), Style::line(pen.color, POINTER_WIDTH).faded(0.0));
+        let mut both = lines([(steps, pen)]).into_iter();
+        halos.extend(both.next().map(|halo| Item::OfPath(index, vec![halo])));
+        drawn.push(Item::OfPath(index, both.chain([pointed]).collect()));
+    }
+    halos.extend(drawn);
     halos
 }
 

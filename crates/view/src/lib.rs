@@ -21,9 +21,11 @@ mod axes;
 mod boxes;
 mod channel;
 mod chart;
+mod compared;
 mod checked;
 mod copies;
 mod cspace;
+mod explanation;
 mod exploration;
 mod figure;
 mod flow;
@@ -59,10 +61,12 @@ mod workspace;
 
 pub use blocking::BlockingView;
 pub use checked::CheckedView;
+pub use compared::{ComparedPaths, SmallPicture, compared};
+pub use explanation::ExplanationView;
 pub use exploration::exploration_page;
 pub use flow::FieldLines;
 pub use obstacles::{extent, obstacles, still_page};
-pub use view::{AxesFrame, KeyFigures, Moments, Picture, TaskPicture, View, drawing, page, shell};
+pub use view::{AxesFrame, KeyFigures, Moments, Picture, TaskPicture, View, drawing, inspection_page, page, shell};
 
 /// The reason why there is no picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -2,7 +2,7 @@
 
 use super::arm::{self, ArmStyle, CURRENT_LOOK, GHOST_LOOK, GOAL_LOOK, START_LOOK, UNREACHED_LOOK};
 use super::axes::{Frame, Unit};
-use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines, text_width};
+use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines, lines_by_path, text_width};
 use super::labels::{self, Named, Placer};
 use super::tags::{self, Tag};
 use super::view::{ObstacleView, PathView, View, bounding_box, reach_shape, titles};
@@ -41,7 +41,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     let paths = still.panels.iter().flat_map(|panel| &panel.paths).map(|&index| &view.paths[index]);
     let traces: Vec<_> = paths.map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
     traces.iter().for_each(|(steps, _)| placer.block_line(steps));
-    inside.extend(lines(traces));
+    inside.extend(if still.lights_paths { lines_by_path(traces) } else { lines(traces) });
     let tags = if view.is_task() { step_ends(view, &frame, &mut inside) } else { Vec::new() };
     if let Some((q, world)) = still.now {
         inside.extend(pose(view, &frame, &mut placer, world, q.into(), &CURRENT_LOOK));
@@ -183,7 +183,8 @@ fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
 }
 
 /// Returns the path of the tip. Straight motions in joint space are curves here, so they are drawn in small steps.
-fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
+#[must_use]
+pub fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
     /// Step in radians. With it, a chord deviates from its arc by at most 2e-5 of the reach, which is a hundredth of a
     /// pixel.
     const ARC_STEP: f64 = 0.0125;

@@ -21,7 +21,7 @@ class Link {
     this.state = state;
     this.id = 0;
     /**
-     * The request in progress: its number, its kind (open, plan, load, download), whether it is final, and the state
+     * The request in progress: its number, its kind (open, plan, load, explain, download), whether it is final, and the state
      * that it is about.
      */
     this.awaited = null;
@@ -109,6 +109,12 @@ class Link {
     this.send('load', { do: 'load', id: this.id, text, options }, { final: true });
   }
 
+  /** Requests an explanation of a state, and repeats the description `about` with the answer. */
+  explain(body, about) {
+    const ask = this.ask(body, true);
+    this.send('explain', { do: 'explain', ...ask }, { final: true, ...about });
+  }
+
   download(body, format) {
     const ask = this.ask(body, true);
     this.send('download', { do: 'download', ask, format }, { final: true });
@@ -123,7 +129,7 @@ class Link {
   }
 
   message(message) {
-    const isLast = message.kind === 'failed' || message.done;
+    const isLast = message.kind === 'failed' || message.kind === 'explanation' || message.done;
     const { awaited } = this;
     const isAwaited = Boolean(awaited && (message.id === awaited.id || message.id === 0));
     // Answers about the previous world are not relevant any more.

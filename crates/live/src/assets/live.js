@@ -85,7 +85,8 @@ class Live {
     const { status } = this.view.parts;
     const verdicts = element('div', { class: 'verdicts' });
     status.before(verdicts);
-    verdicts.append(status, this.lastVerdict);
+    this.why = new Why(this);
+    verdicts.append(status, element('div', { class: 'aside' }, this.lastVerdict, this.why.button));
     this.spoken = element('p', { class: 'spoken', 'aria-live': 'polite' });
     const { places } = this.notices;
     this.outcome = element('div', { class: 'outcome' }, this.figures, places.picture, places.files, this.controls.remarks);
@@ -120,9 +121,12 @@ class Live {
     const { controls: { toolbar, root }, gallery, outcome, notices: { places } } = this;
     if (SMALL_SCREEN.matches) {
       outcome.after(gallery.task, toolbar);
+      // Above the pictures, where its cards and the pictures are in sight together.
+      panels.before(this.view.explain.root);
       stage.after(gallery.root, root, places.options);
     } else {
       panels.before(toolbar);
+      outcome.after(this.view.explain.root);
       header.firstChild.after(gallery.root);
       header.after(gallery.task, root, places.options);
     }
@@ -223,6 +227,7 @@ class Live {
 
   receive(message, about) {
     if (message.kind === 'world') this.receiveWorld(message);
+    else if (message.kind === 'explanation') this.why.receive(message, about);
     else if (message.kind === 'failed') this.fail(message, about);
     else if (about.isAwaited) {
       clearTimeout(this.previewTimer);
@@ -264,7 +269,7 @@ class Live {
         this.remark('Your last edits do not fit this world any more.');
         this.plan(true);
       } else this.notices.show(this.opened ? 'files' : 'text', error);
-    } else if (about.kind === 'download') this.notices.show('files', error);
+    } else if (about.kind === 'download' || about.kind === 'explain') this.notices.show('files', error);
     else {
       this.shown = { edition: about.edition, final: true, error: 'not planned' };
       this.showError('picture', error);
@@ -293,6 +298,8 @@ class Live {
     const { id, verdict, certified, error } = message;
     this.answered = { id, verdict, certified, final: message.final, error, figures: message.figures };
     this.shown = { edition, final: message.final, error: error && Live.errorInBrief(message), ...Live.ending(message) };
+    /** Subject of the error: start, goal, world or options. */
+    this.refused = message.about;
     if (message.toml) {
       this.toml = message.toml;
       this.controls?.showText(message.toml);
@@ -461,6 +468,7 @@ class Live {
     clearTimeout(this.paleTimer);
     this.gallery.showTask();
     this.view.say(...this.badge);
+    this.why.update();
     const { classList } = this.root;
     const { isCurrent } = this;
     classList.toggle('known', isCurrent && !this.shown.error);

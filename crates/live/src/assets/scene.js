@@ -14,6 +14,8 @@ class Scene {
     this.start = world.start && { joints: world.start };
     this.goal = world.goal;
     this.clearance = world.clearance;
+    /** Limits of joints that differ from those of the text: least and greatest value by the joint's name. */
+    this.limits = {};
     this.past = [];
     this.future = [];
     this.kept = this.snapshot();
@@ -21,8 +23,8 @@ class Scene {
   }
 
   snapshot() {
-    const { obstacles, start, goal, clearance } = this;
-    return JSON.stringify({ obstacles, start, goal, clearance });
+    const { obstacles, start, goal, clearance, limits } = this;
+    return JSON.stringify({ obstacles, start, goal, clearance, limits });
   }
 
   /** Returns the record to keep. */
@@ -77,7 +79,7 @@ class Scene {
   /** Returns the state in a request. */
   request() {
     const piece = ({ from, name, shape }) => ({ from, ...(from === null ? { name } : {}), ...(shape ?? {}) });
-    return { obstacles: this.obstacles.map(piece), start: this.start, goal: this.goal, clearance: this.clearance };
+    return { obstacles: this.obstacles.map(piece), start: this.start, goal: this.goal, clearance: this.clearance, limits: Object.entries(this.limits).map(([joint, range]) => ({ joint, range })) };
   }
 
   /** Returns a name that no obstacle has. */

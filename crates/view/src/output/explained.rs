@@ -1,15 +1,16 @@
 //! An explanation for people, in words and as a picture.
 
+use super::explained_cards::{blocking, explanation_view};
+use super::explained_words::{bounds, headline, instruction};
 use super::picture::{contours, title_of};
 use super::summary::{Line, configuration, format_columns, goal_lines};
-use crate::{BlockingView, Picture, View};
+use crate::{Picture, View};
 use cplan_core::model::{Outcome, Scene};
 use cplan_explain::{
-    BlockedEnd, BlockingSet, Bottleneck, Change, ChangeContext, ChangeKind, Element, End, Explanation,
-    FoundExplanation, InfeasibleExplanation, OutOfReach, TIME_LIMIT, Target,
+    BlockedEnd, Bottleneck, End, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach, TIME_LIMIT, Target,
 };
 use cplan_solver::BoundedPath;
-use cplan_text::{fixed, length_down, listed, nonzero, percent, round_down, round_up, short};
+use cplan_text::{fixed, length, length_down, length_up, listed, percent, round_down, round_up, short};
 
 /// If an explanation was stopped early, cplan suggests a time limit that is longer by this factor.
 const TIME_LIMIT_FACTOR: f64 = 12.0;
@@ -27,7 +28,8 @@ pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
         Target::Tip(tip) => lines.push(("goal", format!("tip at ({}, {}) m", tip.x, tip.y))),
     }
     lines.extend(notes.iter().map(|note| ("note", note.clone())));
-    format!("{}\n{}", title_of(scene), format_columns(&lines))
+    let said = format!("{}\n{}\n{}", headline(explanation), title_of(scene), format_columns(&lines));
+    said.replace('\u{b0}', " deg")
 }
 
 /// Returns the content of the explanation's pictures and pages.
@@ -41,8 +43,8 @@ pub fn view(explanation: &Explanation) -> View {
         Outcome::Unknown(_) => (None, None),
     };
     let picture = Picture {
-        title: vec![title_of(question.scene()), verdict(explanation)],
-        status: explanation.status().name().into(),
+        title: vec![headline(explanation), title_of(question.scene())],
+        status: super::picture::status(explanation.status()).into(),
         ending: Some(explanation.status()),
         facts: facts(explanation).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
         goals: &goals,
@@ -52,12 +54,12 @@ pub fn view(explanation: &Explanation) -> View {
         ..Picture::new(question.scene(), question.start())
     };
     let view = View::of_picture(&picture);
-    if let Outcome::Infeasible(closed) = &explanation.outcome {
-        let blockers = closed.sets.iter().flat_map(BlockingSet::elements).filter_map(Element::obstacle).collect();
-        let at = closed.bottleneck.as_ref().map(|bottleneck| (bottleneck.at, bottleneck.point));
-        return view.with_blocking(BlockingView { blockers, at });
+    let cards = explanation_view(explanation, view.frame);
+    let view = view.with_explanation(cards);
+    match blocking(explanation) {
+        Some(stuck) => view.with_blocking(stuck),
+        None => view,
     }
-    view
 }
 
 /// Returns the answer in a sentence.
@@ -149,9 +151,12 @@ fn infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Vec<Line> {
             lines.push(("", format!("  without {what}, {known}{others}")));
         }
     }
+    let is_only = closed.sets.iter().map(|set| set.blockers.len()).sum::<usize>() == 1;
     for set in &closed.sets {
         let changes = set.blockers.iter().flat_map(|blocker| &blocker.changes);
-        lines.extend(changes.map(|change| ("opens", describe_change(scene, set, change))));
+        let line =
+            |change| format!("{}: {}", instruction(scene, change, is_only), bounds(scene, set, change).join("; "));
+        lines.extend(changes.map(|change| ("opens", line(change))));
     }
     lines.extend(closed.bottleneck.iter().map(|bottleneck| ("stuck", bottleneck_line(scene, bottleneck))));
     lines
@@ -174,7 +179,7 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
     lines.push(match (&blocked.nearest, blocked.tip_moves(arm)) {
         (Some(nearest), Some(tip)) => {
             let (at, far) = (configuration(arm, nearest.configuration), nearest.distance);
-            ("", format!("  nearest free: {at}; {far:.4} away in joint space, the tip moves by {tip:.4} m"))
+            ("", format!("  nearest free: {at}; {far:.4} away in joint space, the tip moves by {}", length(tip)))
         }
         _ => ("", "  a search found no free configuration; that is not proven".into()),
     });
@@ -185,38 +190,14 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
 fn misses(scene: &Scene, out: &OutOfReach) -> String {
     let OutOfReach { tip, nearest, at } = out;
     format!(
-        "within the limits, the tip misses ({:.4}, {:.4}) m by {:.4} m: its nearest position is ({:.4}, {:.4}) m, at {}",
+        "within the limits, the tip misses ({:.4}, {:.4}) m by {}: its nearest position is ({:.4}, {:.4}) m, at {}",
         tip.x,
         tip.y,
-        (tip - nearest).norm(),
+        length((tip - nearest).norm()),
         nearest.x,
         nearest.y,
         configuration(scene.arm(), *at)
     )
-}
-
-/// Describes a change that opens a path.
-fn describe_change(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
-    let Change { element, cure, among, by } = change;
-    let (what, unit) = (element.describe(scene), element.unit(scene.arm()));
-    let how = match cure {
-        ChangeKind::Moved { direction: [x, y] } => format!("{what} moved towards ({x:.3}, {y:.3}) by"),
-        ChangeKind::Eroded => format!("{what} smaller on all sides by"),
-        ChangeKind::Scaled { to } => {
-            format!("{what} scaled to {:.1} % about its centre, its farthest point by", 100.0 * to)
-        }
-        ChangeKind::Widened => format!("{what} wider by"),
-        ChangeKind::Lowered => format!("{what} lowered by"),
-    };
-    let others: Vec<String> =
-        set.elements().iter().filter(|other| *other != element).map(|other| other.describe(scene)).collect();
-    let others = if others.is_empty() { "nothing else".into() } else { format!("only {}", others.join(", ")) };
-    let nothing_else = if *among == ChangeContext::Set { format!(", with {others} in the way") } else { String::new() };
-    let is_length =
-        !matches!(element, Element::Limit { joint, .. } if scene.arm().joints[*joint].joint_type.is_revolute());
-    let digits = if is_length && by.opens < 0.01 { 6 } else { 4 };
-    let (open, shut) = (round_up(by.opens, digits), round_down(by.closed, digits));
-    format!("{how} {open} {unit} opens a path (certified), by {shut} {unit} does not (proven){nothing_else}")
 }
 
 /// Describes a bottleneck.
@@ -227,12 +208,12 @@ fn bottleneck_line(scene: &Scene, bottleneck: &Bottleneck) -> String {
     let point = bottleneck.point;
     let between: Vec<String> = bottleneck.hits.iter().map(|hit| scene.describe(hit.contact.pair)).collect();
     let between = listed(&between);
-    let (open, shut) = (round_up(bottleneck.by.opens, 4), round_down(bottleneck.by.closed, 4));
+    let (open, shut) = (length_up(bottleneck.by.opens), length_down(bottleneck.by.closed));
     format!(
-        "at {at}, near ({}, {}) m: too narrow by {} m ({between}); a path opens if all shapes shrink by {open} m, but not \
-         by {shut} m",
+        "at {at}, near ({}, {}) m: too narrow by {} ({between}); a path opens if all shapes shrink by {open}, but not by \
+         {shut}",
         fixed(point.x, 4),
         fixed(point.y, 4),
-        nonzero(lacking, 4)
+        length(lacking)
     )
 }

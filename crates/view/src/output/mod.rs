@@ -5,6 +5,8 @@
 
 mod cspace;
 pub mod explained;
+mod explained_cards;
+mod explained_words;
 mod file;
 mod motion_summary;
 mod picture;

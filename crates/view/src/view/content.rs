@@ -10,6 +10,7 @@ use super::trace::TraceView;
 use super::world::{ObstacleView, WorldView};
 use crate::blocking::BlockingView;
 use crate::checked::CheckedView;
+use crate::explanation::ExplanationView;
 use crate::flow::FieldLines;
 use cplan_core::model::{Arm, Status};
 use cplan_core::space::Configuration;
@@ -117,10 +118,14 @@ pub(crate) struct StillContent {
     pub time: f64,
     /// The obstacles that block the motion.
     pub stuck: Option<BlockingView>,
+    /// The explanation, with its cards. Pictures show only the obstacles that block the motion.
+    pub explanation: Option<ExplanationView>,
     /// The findings about a checked configuration.
     pub checked: Option<CheckedView>,
     /// True for pictures with a dark background.
     pub is_dark: bool,
+    /// True if a page can light up each path.
+    pub lights_paths: bool,
     /// The arm's final configuration, and the index of the world at the end.
     pub end: Option<([f64; 2], usize)>,
     /// The steps of a task, below the names of the columns; empty for single motions.
@@ -207,6 +212,19 @@ impl View {
     pub fn with_blocking(mut self, stuck: BlockingView) -> Self {
         self.still.stuck = Some(stuck);
         self
+    }
+
+    /// Returns the view with an explanation.
+    #[must_use]
+    pub fn with_explanation(mut self, explanation: ExplanationView) -> Self {
+        self.still.explanation = Some(explanation);
+        self
+    }
+
+    /// Returns the explanation, if the view has one.
+    #[must_use]
+    pub fn explanation(&self) -> Option<&ExplanationView> {
+        self.still.explanation.as_ref()
     }
 
     /// Returns the view for pictures with a dark background, or a light one. Pages follow the reader's system.

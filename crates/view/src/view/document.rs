@@ -4,6 +4,7 @@ use super::content::{StillContent, View};
 use super::numbers::RoundingSteps;
 use crate::blocking::BlockingView;
 use crate::checked::CheckedView;
+use crate::explanation::ExplanationView;
 use crate::key::KeyView;
 use crate::legend;
 use crate::reach::ReachView;
@@ -19,6 +20,8 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     stuck: Option<&'a BlockingView>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    explanation: Option<&'a ExplanationView>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     checked: Option<&'a CheckedView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<ReachView>,
@@ -32,9 +35,9 @@ impl View {
     #[must_use]
     pub fn json(&self) -> String {
         let reach = self.still.reach.as_ref().map(|reach| ReachView::new(reach, RoundingSteps::of(&self.arm)));
-        let StillContent { stuck, checked, .. } = &self.still;
-        let (stuck, checked) = (stuck.as_ref(), checked.as_ref());
-        let document = Document { view: self, legend: legend::on_pages(self), stuck, checked, reach };
+        let StillContent { stuck, explanation, checked, .. } = &self.still;
+        let (stuck, explanation, checked) = (stuck.as_ref(), explanation.as_ref(), checked.as_ref());
+        let document = Document { view: self, legend: legend::on_pages(self), stuck, explanation, checked, reach };
         serde_json::to_string(&document).expect("numbers and strings")
     }
 }

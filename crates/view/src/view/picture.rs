@@ -17,6 +17,7 @@ use cplan_geometry::Point;
 use cplan_handling::TimedScene;
 use cplan_motion::Trajectory;
 use cplan_movers::Wait;
+use cplan_theme::PlannerPen;
 use nalgebra::Vector3;
 
 /// The content of a picture of a scene. With one path, a picture shows the arm's poses along it. With several paths, it
@@ -40,6 +41,8 @@ pub struct Picture<'a> {
     pub goals: &'a [Segment],
     /// Paths with their names, in unwrapped values.
     pub paths: Vec<(String, &'a Path)>,
+    /// Colours and dashes of the paths, if planners are compared; otherwise empty.
+    pub pens: &'a [PlannerPen],
     /// The motion along the only path.
     pub trajectory: Option<&'a Trajectory>,
     /// Waits of that motion for moving obstacles.
@@ -79,6 +82,7 @@ impl<'a> Picture<'a> {
             start,
             goals: &[],
             paths: Vec::new(),
+            pens: &[],
             trajectory: None,
             waits: &[],
             trace: None,
@@ -114,8 +118,12 @@ impl View {
         let world = world.proven(picture.proof, grain).traced(trace).timed(picture.moments, grain);
         let count = picture.paths.len();
         let named = picture.paths.iter().enumerate();
+        let path_view = |path: PathView, i: usize| match picture.pens.get(i) {
+            Some(&pen) => path.of_planner(pen),
+            None => path,
+        };
         let paths: Vec<PathView> =
-            named.map(|(i, (name, path))| PathView::of_several(name, path, [i, count], grain)).collect();
+            named.map(|(i, (name, path))| path_view(PathView::of_several(name, path, [i, count], grain), i)).collect();
         let goals = picture.single_goals();
         let ends = picture.paths.iter().map(|(_, path)| path.goal());
         let shown: Vec<Configuration> = [start].into_iter().chain(goals.iter().copied()).chain(ends).collect();

@@ -98,6 +98,31 @@ interface StripModel {
 /** Key figures of a result. */
 interface FiguresModel { duration?: number; gap?: number; fastest?: boolean; clearance?: number }
 
+/** A card of an explanation: a change of the world with the path that it opens, or a configuration to look at. */
+interface Card {
+  /** The change as an instruction. */
+  title: string;
+  /** The amount that opens a path, that which does not, and anything else that is known. */
+  opens?: string;
+  closed?: string;
+  note?: string;
+  /** Index of the changed obstacle, and the obstacle after the change. */
+  obstacle?: number;
+  changed?: ObstacleModel;
+  /** Indices of the obstacles that are not there. */
+  removed?: number[];
+  /** C-obstacles after the change, and ranges of both joints. */
+  c_obstacles?: WorldModel['c_obstacles'];
+  domains?: [number, number][];
+  path?: PathModel;
+  at?: Point;
+  /** The change of the world file. */
+  edit?: { obstacle?: { number: number; shape: any }; removal?: number; clearance?: number; limits?: { joint: number; range: Point } };
+}
+
+/** Why there is no path, or what makes it longer. */
+interface ExplanationModel { headline: string; evidence: string; title: string; cards: Card[]; frame: [Point, Point]; stuck?: any }
+
 /** The data of a page. */
 interface Model {
   title: string[];
@@ -120,8 +145,12 @@ interface Model {
   replays?: { phases: PhaseModel[]; trace?: any; scale?: any }[];
   legend: any[];
   stuck?: any;
+  explanation?: ExplanationModel;
   checked?: any;
   reach?: any;
+  /** The data of an exploration, and the knowledge over time. */
+  exploration?: any;
+  survey?: any;
 }
 
 /** The pair of an arm's part and an obstacle that is in contact or nearest. */

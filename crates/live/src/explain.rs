@@ -1,0 +1,26 @@
+//! Explains to a page why there is no path.
+
+use super::blocked;
+use cplan_explain::{MotionQuestion, TIME_LIMIT, explain};
+use cplan_solver::Options;
+use cplan_view::output::explained;
+use cplan_world::{LoadedScene, Overrides};
+use serde_json::value::RawValue;
+use std::time::Duration;
+
+/// Returns the explanation of a world's motion as JSON. It takes at most `limit` after it is known whether there is a
+/// path, or the usual time if that is less.
+///
+/// # Errors
+/// The reason why this world cannot be explained.
+pub fn explanation(loaded: LoadedScene, limit: Duration) -> Result<Box<RawValue>, String> {
+    if loaded.has_steps() || !loaded.trajectories.is_empty() {
+        return Err("Worlds with steps or moving obstacles are explained only by `cplan explain`.".into());
+    }
+    let query = loaded.query(&Overrides::default()).map_err(|error| blocked::without_places(&error))?;
+    let question = MotionQuestion::of_goals(query.scene, query.start, &query.goals);
+    let question = question.with_time_limit(limit.min(TIME_LIMIT));
+    let view = explained::view(&explain(&question, &Options::default()));
+    let json = view.explanation().map(|explanation| explanation.json()).unwrap_or_default();
+    RawValue::from_string(json).map_err(|error| error.to_string())
+}

@@ -1,0 +1,385 @@
+//! The sentences of an explanation: who is in the way, and what would open a path.
+
+use cplan_core::model::{Arm, Joint, Obstruction, Outcome, Scene};
+use cplan_explain::{
+    BlockedEnd, BlockingSet, Change, ChangeContext, ChangeKind, Element, End, Explanation, FoundExplanation,
+    InfeasibleExplanation, Saving, Side,
+};
+use cplan_text::{chosen_length, fixed, headline_length, headline_number, length_down, length_up};
+
+/// Largest number of things that a headline names. More are only counted.
+const MAX_NAMED: usize = 3;
+
+/// Largest angle, in degrees, between the direction of a move and one of the eight directions that have words.
+const DIRECTION_TOLERANCE: f64 = 1.0;
+
+/// Words for the eight directions, counter-clockwise from the first coordinate.
+const DIRECTIONS: [&str; 8] =
+    ["right", "up and right", "up", "up and left", "left", "down and left", "down", "down and right"];
+
+/// Returns the reason in a sentence that a person would say: `The front wall is in the way.`
+#[must_use]
+pub fn headline(explanation: &Explanation) -> String {
+    let scene = explanation.question.scene();
+    match &explanation.outcome {
+        Outcome::Unknown(_) => "It is not known whether there is a path.".into(),
+        Outcome::Found(found) => headline_of_found(scene, found, explanation.is_stopped),
+        Outcome::Infeasible(closed) => headline_of_infeasible(scene, closed),
+    }
+}
+
+fn headline_of_found(scene: &Scene, found: &FoundExplanation, is_stopped: bool) -> String {
+    let names: Vec<String> = found.savings.iter().map(|saving| subject(scene, saving.element)).collect();
+    match names.len() {
+        0 if is_stopped => "There is a path.".into(),
+        0 => "There is a path, and no single thing makes it longer.".into(),
+        1 => sentence(&format!("{} makes the path longer.", names[0])),
+        n if n <= MAX_NAMED => sentence(&format!("{} each make the path longer.", joined(&names))),
+        n => format!("{n} things each make the path longer."),
+    }
+}
+
+fn headline_of_infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> String {
+    if closed.out_of_reach.is_some() {
+        return "The goal is out of reach.".into();
+    }
+    if !closed.ends.is_empty() {
+        return headline_of_ends(scene, &closed.ends);
+    }
+    let sets: Vec<&BlockingSet> = closed.sets.iter().filter(|set| !set.blockers.is_empty()).collect();
+    let Some((first, more)) = sets.split_first() else {
+        return "There is no path, and nothing is known whose removal opens one.".into();
+    };
+    let also = match more {
+        [] => String::new(),
+        [one] => {
+            let names: Vec<String> = one.elements().into_iter().map(|element| subject(scene, element)).collect();
+            format!(", and so {} {}", is_or_are(names.len()), joined(&names))
+        }
+        _ => format!(", and so are {} further sets of obstacles", more.len()),
+    };
+    format!("{}{also}.", blame(scene, first))
+}
+
+/// Says that the elements of a set are in the way, without the full stop.
+fn blame(scene: &Scene, set: &BlockingSet) -> String {
+    let elements = set.elements();
+    let obstacles: Vec<String> = elements
+        .iter()
+        .filter(|element| element.obstacle().is_some())
+        .map(|&element| subject(scene, element))
+        .collect();
+    let mut joints: Vec<usize> = elements
+        .iter()
+        .filter_map(|element| if let Element::Limit { joint, .. } = element { Some(*joint) } else { None })
+        .collect();
+    joints.dedup();
+    let mut parts = Vec::new();
+    match obstacles.len() {
+        0 => {}
+        n if n <= MAX_NAMED => parts.push(format!("{} {} in the way", joined(&obstacles), is_or_are(n))),
+        n => parts.push(format!("{n} obstacles together are in the way")),
+    }
+    parts.extend(short_joints(scene.arm(), &joints));
+    let text = parts.join(", and ");
+    let clearance = chosen_length(scene.workspace().clearance);
+    sentence(&match (elements.contains(&Element::Clearance), text.is_empty()) {
+        (false, _) => text,
+        (true, true) => format!("the clearance of {clearance} leaves no path"),
+        (true, false) => format!("with a clearance of {clearance}, {text}"),
+    })
+}
+
+/// Says that these joints end too early.
+fn short_joints(arm: &Arm, joints: &[usize]) -> Option<String> {
+    let names: Vec<String> = joints.iter().map(|&joint| joint_name(&arm.joints[joint])).collect();
+    let all_turn = joints.iter().all(|&joint| arm.joints[joint].joint_type.is_revolute());
+    let all_slide = joints.iter().all(|&joint| !arm.joints[joint].joint_type.is_revolute());
+    let verb = match (all_turn, all_slide) {
+        (true, _) => "turn",
+        (_, true) => "slide",
+        _ => "move",
+    };
+    (!names.is_empty()).then(|| format!("{} cannot {verb} far enough", joined(&names)))
+}
+
+/// Says what is wrong with the start and the first goal.
+fn headline_of_ends(scene: &Scene, ends: &[BlockedEnd]) -> String {
+    let first = |end: End| ends.iter().find(move |one| one.end == end);
+    let said = [first(End::Start), first(End::Goal)].into_iter().flatten().map(|end| describe_end(scene, end));
+    said.collect::<Vec<_>>().join(" ")
+}
+
+fn describe_end(scene: &Scene, blocked: &BlockedEnd) -> String {
+    let end = if blocked.end == End::Start { "start" } else { "goal" };
+    let beyond: Vec<String> =
+        (0..2).filter(|&k| blocked.beyond[k] > 0.0).map(|k| joint_name(&scene.arm().joints[k])).collect();
+    if !beyond.is_empty() {
+        return format!("The {end} is beyond the limits of {}.", joined(&beyond));
+    }
+    let touching: Vec<&Obstruction> = blocked.hits.iter().filter(|hit| hit.touches).collect();
+    let (hits, verb) =
+        if touching.is_empty() { (blocked.hits.iter().collect(), "is too close to") } else { (touching, "hits") };
+    let mut obstacles: Vec<String> = hits.iter().map(|hit| obstacle_name(scene, hit.contact.pair.obstacle)).collect();
+    obstacles.dedup();
+    let who = match hits[..] {
+        [only] => part_name(scene, only),
+        _ => "the arm".into(),
+    };
+    let what = if obstacles.len() > MAX_NAMED { format!("{} obstacles", obstacles.len()) } else { joined(&obstacles) };
+    format!("At the {end}, {who} {verb} {what}.")
+}
+
+/// Returns a sentence about the proof behind the headline. Empty if there is nothing to add.
+#[must_use]
+pub fn evidence(explanation: &Explanation) -> String {
+    match &explanation.outcome {
+        Outcome::Unknown(reason) => sentence(&format!("{reason}.")),
+        Outcome::Found(found) => found.answer.bound().map_or_else(String::new, |bound| {
+            let gap = cplan_text::percent(bound.gap());
+            format!(
+                "The shortest path has length {}; it is proven to be at most {gap} longer than the optimum.",
+                fixed(bound.upper, 4)
+            )
+        }),
+        Outcome::Infeasible(closed) => {
+            let Some(set) = closed.sets.iter().find(|set| !set.blockers.is_empty()) else { return String::new() };
+            let boxes = set.proof.as_ref().map(|proof| match proof.collision_boxes().len() {
+                1 => " by 1 collision box".into(),
+                n => format!(" by {n} collision boxes"),
+            });
+            let proven = format!("proven{}", boxes.unwrap_or_default());
+            match (set.blockers.len(), set.is_irreducible()) {
+                (1, true) => format!("With it there is no path, {proven}. Without it there is one, certified."),
+                (_, true) => format!(
+                    "Together they leave no path, {proven}. Without any one of them there is a path, certified."
+                ),
+                (1, false) => format!("With it there is no path, {proven}."),
+                (_, false) => format!("Together they leave no path, {proven}; perhaps fewer would suffice."),
+            }
+        }
+    }
+}
+
+/// Returns a change as an instruction: `Move it 614 mm right`. `is_only` is true if "it" can mean nothing else than the
+/// changed obstacle. The number is rounded so that the instruction does enough.
+#[must_use]
+pub fn instruction(scene: &Scene, change: &Change, is_only: bool) -> String {
+    let opens = change.by.opens;
+    let what = || match change.element {
+        Element::Obstacle { number } if !is_only => obstacle_name(scene, number),
+        _ => "it".to_owned(),
+    };
+    match change.cure {
+        ChangeKind::Moved { direction } => {
+            format!("Move {} {} {}", what(), headline_length(opens, true), direction_in_words(direction))
+        }
+        ChangeKind::Eroded => format!("Shrink {} by {} on all sides", what(), headline_length(opens, true)),
+        ChangeKind::Scaled { to } => format!("Shrink {} to {} %", what(), headline_number(100.0 * to, false)),
+        ChangeKind::Widened => match change.element {
+            Element::Limit { joint, side } => {
+                let joint = &scene.arm().joints[joint];
+                let which = if side == Side::Lower { "lower" } else { "upper" };
+                let to = limit_after(joint, side, opens);
+                format!(
+                    "Widen the {which} limit of {} to {}",
+                    joint_name(joint),
+                    headline_value(joint, to, side == Side::Upper)
+                )
+            }
+            _ => String::new(),
+        },
+        ChangeKind::Lowered => {
+            let to = (scene.workspace().clearance - opens).max(0.0);
+            format!("Lower the clearance to {}", headline_length(to, false))
+        }
+    }
+}
+
+/// Returns the amount with which there is a path, and that with which there is none: `613.6 mm opens a path, certified`
+/// and `613.0 mm does not, proven`. For a move or an erosion this is the distance, otherwise the value after the change.
+#[must_use]
+pub fn bounds(scene: &Scene, set: &BlockingSet, change: &Change) -> [String; 2] {
+    let (opens, closed) = (change.by.opens, change.by.closed);
+    let [open, shut] = match (change.cure, change.element) {
+        (ChangeKind::Scaled { to }, _) => {
+            let most = opens / (1.0 - to);
+            [
+                format!("{} %", cplan_text::round_down(100.0 * to, 1)),
+                format!("{} %", cplan_text::round_up(100.0 * (1.0 - closed / most), 1)),
+            ]
+        }
+        (ChangeKind::Widened, Element::Limit { joint, side }) => {
+            let (joint, is_upper) = (&scene.arm().joints[joint], side == Side::Upper);
+            [
+                precise_value(joint, limit_after(joint, side, opens), is_upper),
+                precise_value(joint, limit_after(joint, side, closed), !is_upper),
+            ]
+        }
+        (ChangeKind::Lowered, _) => {
+            let clearance = scene.workspace().clearance;
+            [positive_down((clearance - opens).max(0.0)), length_up(clearance - closed)]
+        }
+        _ => [length_up(opens), positive_down(closed)],
+    };
+    [format!("{open} opens a path, certified"), format!("{shut} does not, proven{}", context(scene, set, change))]
+}
+
+/// Formats a length that is not negative, rounded down.
+fn positive_down(metres: f64) -> String {
+    if metres == 0.0 { "0 mm".into() } else { length_down(metres) }
+}
+
+/// Says which other elements were in the way when a change was tried, if not all of them were.
+fn context(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
+    if change.among == ChangeContext::World {
+        return String::new();
+    }
+    let others: Vec<String> = set
+        .elements()
+        .into_iter()
+        .filter(|&other| other != change.element)
+        .map(|other| subject(scene, other))
+        .collect();
+    if others.is_empty() {
+        return ", with nothing else in the way".into();
+    }
+    format!(", with only {} in the way", joined(&others))
+}
+
+/// Returns the instruction to remove an element that makes the path longer, and the effect.
+#[must_use]
+pub fn removal(scene: &Scene, saving: &Saving, length: f64) -> [String; 2] {
+    let name = subject(scene, saving.element);
+    let instruction = match saving.element {
+        Element::Obstacle { .. } | Element::Link { .. } => format!("Remove {name}"),
+        Element::Limit { .. } => format!("Remove {name}"),
+        Element::Clearance => "Require no clearance".into(),
+    };
+    let share = headline_number(100.0 * saving.at_least / length, false);
+    let effect = format!(
+        "the path is at least {share} % shorter, proven: {} instead of {}",
+        fixed(saving.length, 4),
+        fixed(length, 4)
+    );
+    [instruction, effect]
+}
+
+/// Returns the end of a joint's range after a change.
+fn limit_after(joint: &Joint, side: Side, by: f64) -> f64 {
+    let (lower, upper) = joint.range.domain();
+    if side == Side::Lower { lower - by } else { upper + by }
+}
+
+/// Formats a value of a joint for a headline.
+fn headline_value(joint: &Joint, value: f64, up: bool) -> String {
+    if !joint.joint_type.is_revolute() {
+        return headline_length(value, up);
+    }
+    let tenths = 10.0 * value.to_degrees();
+    let rounded = if up { (tenths - 1e-6).ceil() } else { (tenths + 1e-6).floor() };
+    format!("{}\u{b0}", rounded / 10.0)
+}
+
+/// Formats a value of a joint with two decimals of a degree, or in millimetres.
+fn precise_value(joint: &Joint, value: f64, up: bool) -> String {
+    let round = if up { cplan_text::round_up } else { cplan_text::round_down };
+    if joint.joint_type.is_revolute() {
+        return format!("{}\u{b0}", round(value.to_degrees(), 2));
+    }
+    if value.abs() < 1.0 { format!("{} mm", round(1e3 * value, 1)) } else { format!("{} m", round(value, 4)) }
+}
+
+/// Returns the direction of a move in words, with degrees unless it is one of the eight directions that have words.
+fn direction_in_words([x, y]: [f64; 2]) -> String {
+    let degrees = y.atan2(x).to_degrees().rem_euclid(360.0);
+    let eighth = (degrees / 45.0).round();
+    let word = DIRECTIONS[eighth as usize % DIRECTIONS.len()];
+    if (degrees - 45.0 * eighth).abs() <= DIRECTION_TOLERANCE {
+        return word.into();
+    }
+    // The nearest word and the angle, counter-clockwise from the first coordinate.
+    format!("{word}, at {}\u{b0}", fixed(degrees, 0))
+}
+
+/// Names an element as the subject of a sentence: `the front wall`, `the upper limit of the elbow`.
+pub(super) fn subject(scene: &Scene, element: Element) -> String {
+    match element {
+        Element::Obstacle { number } => obstacle_name(scene, number),
+        Element::Link { number } => {
+            format!("the robot\u{2019}s own {}", noun("link", &scene.obstacle(number).name).trim_start_matches("the "))
+        }
+        Element::Limit { joint, side } => {
+            let which = if side == Side::Lower { "lower" } else { "upper" };
+            format!("the {which} limit of {}", joint_name(&scene.arm().joints[joint]))
+        }
+        Element::Clearance => format!("the clearance of {}", chosen_length(scene.workspace().clearance)),
+    }
+}
+
+fn obstacle_name(scene: &Scene, number: usize) -> String {
+    let kind = if scene.self_obstacles().contains(&number) { "link" } else { "obstacle" };
+    noun(kind, &scene.obstacle(number).name)
+}
+
+fn joint_name(joint: &Joint) -> String {
+    noun("joint", &joint.name)
+}
+
+/// Names the part of the arm in an obstruction.
+pub(super) fn part_name(scene: &Scene, hit: &Obstruction) -> String {
+    let pair = hit.contact.pair;
+    let link = scene.link(pair);
+    if scene.is_attached(pair) { noun("payload", &link.parts[pair.part].body) } else { noun("link", &link.name) }
+}
+
+/// Returns a name with an article if it consists of ordinary words, and otherwise in quotation marks after its kind:
+/// `the front wall`, `obstacle "o1"`.
+pub(super) fn noun(kind: &str, name: &str) -> String {
+    let is_word =
+        |word: &str| !word.is_empty() && word.chars().all(|letter| letter.is_alphabetic() && letter.is_lowercase());
+    match name.split([' ', '_', '-']).all(is_word) && name.chars().count() > 1 {
+        true => format!("the {}", name.replace('_', " ")),
+        false => format!("{kind} \"{name}\""),
+    }
+}
+
+/// Joins names: `a, b and c`.
+pub(super) fn joined(names: &[String]) -> String {
+    match names {
+        [all @ .., before, last] => {
+            let all: String = all.iter().map(|one| format!("{one}, ")).collect();
+            format!("{all}{before} and {last}")
+        }
+        _ => names.concat(),
+    }
+}
+
+/// Begins a sentence with a capital letter.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn is_or_are(count: usize) -> &'static str {
+    if count == 1 { "is" } else { "are" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ordinary_words_have_an_article() {
+        assert_eq!([noun("obstacle", "front wall"), noun("link", "upper_arm")], ["the front wall", "the upper arm"]);
+        assert_eq!([noun("obstacle", "o1"), noun("obstacle", "Vice")], ["obstacle \"o1\"", "obstacle \"Vice\""]);
+        assert_eq!(joined(&["a", "b", "c"].map(str::to_owned)), "a, b and c");
+    }
+
+    #[test]
+    fn directions_have_words() {
+        let toward = |degrees: f64| direction_in_words([degrees.to_radians().cos(), degrees.to_radians().sin()]);
+        assert_eq!([0.0, 90.0, 180.4, 315.0].map(toward), ["right", "up", "left", "down and right"]);
+        assert_eq!([30.0, -90.0, 359.6].map(toward), ["up and right, at 30\u{b0}", "down", "right"]);
+    }
+}
