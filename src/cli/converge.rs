@@ -7,6 +7,7 @@ use super::headings::{OUTPUT, RELAXATION};
 use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
+use super::theme::ThemeArgs;
 use crate::cspace::ZonedGrid;
 use crate::engine::{Problem, field_on_cells};
 use crate::field::{Difference, Direction, Domain, Equation, Limits, Measure, Stencil, Stopping};
@@ -86,6 +87,8 @@ pub struct ConvergeArgs {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
     #[command(flatten)]
+    pub theme: ThemeArgs,
+    #[command(flatten)]
     pub print: PrintArgs,
 }
 
@@ -123,7 +126,10 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     }
     for sink in &pictures {
         if let Sink::Picture(format, path) = sink {
-            written.push((path.clone(), format.bytes_of(|| measured.to_svg(), || measured.to_html())?));
+            written.push((
+                path.clone(),
+                format.bytes_of(|| measured.to_svg(args.theme.is_dark()), || measured.to_html())?,
+            ));
         }
     }
     write_whole_set(&written)?;

@@ -7,13 +7,14 @@ use super::headings::{EXPLORATION, OUTPUT, PLANNER};
 use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
+use super::theme::ThemeArgs;
 use crate::draw::{self, Picture, View};
 use crate::engine::{CellCounts, Method, Options};
 use crate::explore::{Ending, Exploration, ExploreError, Settings, Strategy, explore, map_description, map_picture};
 use crate::grammar::{PlannerArgs, positive, word};
 use crate::input::{self, Explorable, OccupancyMap};
 use crate::model::{Scene, Status};
-use crate::motion::{Format, JointMotion, check_writable, csv, ros_yaml, write_whole_set};
+use crate::motion::{Format, JointMotion, Trajectory, check_writable, csv, ros_yaml, write_whole_set};
 use crate::output::{Line, contours, format_columns, title_of};
 use crate::space::{Configuration, Path as JointPath};
 use crate::text::{counted, short};
@@ -77,6 +78,8 @@ pub struct ExploreArgs {
     /// Draw the world and the whole path: .svg, .png, or .html (a page that plays the exploration). Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
+    #[command(flatten)]
+    pub theme: ThemeArgs,
     #[command(flatten)]
     pub print: PrintArgs,
     /// Also report the time of decisions. Without this option, the same input gives the same output.
@@ -160,11 +163,11 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
             },
             Sink::CSpace(..) | Sink::Certificate(_) => (),
             Sink::Picture(format, path) => {
-                let view = || view(&world, &done);
-                let page = || {
-                    draw::exploration_page(&title_of(&world.scene), &world.scene, &world.sensor, &done, args.timings)
-                };
-                files.push((path.clone(), format.bytes_of(|| draw::svg(&view()), page)?));
+                let svg = || draw::svg(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
+                // The page plays the readings, and needs no times of the motion.
+                let page_view = || view(&world, &done, None);
+                let page = || draw::exploration_page(&page_view(), &world.scene, &world.sensor, &done, args.timings);
+                files.push((path.clone(), format.bytes_of(svg, page)?));
             }
         }
     }
@@ -237,7 +240,7 @@ fn explored_path(done: &Exploration, start: Configuration) -> JointPath {
     JointPath::new(std::iter::once(start).chain(legs).collect())
 }
 
-fn view(world: &Explorable, done: &Exploration) -> View {
+fn view(world: &Explorable, done: &Exploration, trajectory: Option<&Trajectory>) -> View {
     let scene: &Scene = &world.scene;
     let explored_path = explored_path(done, world.start);
     let status = match done.ending {
@@ -245,17 +248,21 @@ fn view(world: &Explorable, done: &Exploration) -> View {
         Ending::Unreachable(_) => Status::Infeasible,
         Ending::Unknown(_) => Status::Unknown,
     };
+    let verdict = match status {
+        Status::Unknown => status.name().to_owned(),
+        _ => format!("{}: {}", status.name(), done.ending.name()),
+    };
     View::of_picture(&Picture {
         title: vec![
             title_of(scene),
             format!("{} after {}", done.ending.name(), counted(done.readings.len(), "reading")),
         ],
-        status: done.ending.name().into(),
+        status: verdict,
         ending: Some(status),
         facts: facts(done).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
         goals: world.goals.as_ref().filter(|_| done.strategy == Strategy::Goal).map_or(&[], |goals| goals.pieces()),
         paths: vec![("way".to_owned(), &explored_path)],
-        trajectory: done.trajectory.as_ref(),
+        trajectory,
         c_obstacles: &contours(scene),
         ..Picture::new(scene, world.start)
     })

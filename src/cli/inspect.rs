@@ -6,10 +6,11 @@ use super::files::XacroArgs;
 use super::inspect_text::text;
 use super::sinks::{self, Sink};
 use super::theme::ThemeArgs;
-use crate::draw::{AxesFrame, Picture, View};
+use crate::draw::{AxesFrame, Picture, View, inspection_page};
 use crate::input::{self, Diagnostic, InputError, Inspection, RobotFile};
 use crate::model::TimedScene;
 use crate::motion::write_whole;
+use crate::output::PictureFormat;
 use crate::space::Configuration;
 use clap::{Args, ValueHint};
 use serde::Serialize;
@@ -25,6 +26,33 @@ struct Json<'a> {
     /// All defects that prevent planning.
     #[serde(rename = "defects")]
     diagnostics: Vec<DiagnosticEntry<'a>>,
+}
+
+impl<'a> Json<'a> {
+    fn new(inspection: &'a Inspection) -> Self {
+        let diagnostics = inspection.errors.iter().flat_map(|e| e.diagnostics()).map(entry).collect();
+        Self { plannable: inspection.is_plannable(), inspection, diagnostics }
+    }
+}
+
+/// The report as the page reads it.
+#[derive(Serialize)]
+struct PageReport<'a> {
+    #[serde(flatten)]
+    json: Json<'a>,
+    /// Masses and effort limits. `None` if they are not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    dynamics: Option<DynamicsEntry>,
+    /// The report as the terminal shows it.
+    text: String,
+}
+
+#[derive(Serialize)]
+struct DynamicsEntry {
+    /// Mass of each arm link with everything that it carries, kg.
+    masses: [f64; 2],
+    /// Effort limit of each joint, N m or N. `None` if motions need not respect it.
+    efforts: Option<[f64; 2]>,
 }
 
 #[derive(Serialize)]
@@ -64,7 +92,7 @@ pub struct InspectArgs {
     /// xacro file it finds the same meshes.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub expanded: Option<PathBuf>,
-    /// Draw the arm at zero with the frames of its joints: .svg, .png or .html. Can be repeated.
+    /// Draw the arm at zero with the frames of its joints: .svg or .png, or .html with the whole report. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
     #[command(flatten)]
@@ -88,18 +116,18 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     }
     for sink in &sinks {
         let Sink::Picture(format, path) = sink else { continue };
-        match view(&inspection) {
-            Some(view) => sinks::save_picture(*format, path, &args.theme.apply(view))?,
-            None => sinks::print_status(&format!(
+        let view = view(&inspection).map(|view| args.theme.apply(view));
+        match (*format, &view) {
+            (PictureFormat::Html, _) => write_whole(path, page(&inspection, view.as_ref())?.as_bytes())?,
+            (_, Some(view)) => sinks::save_picture(*format, path, view)?,
+            (_, None) => sinks::print_status(&format!(
                 "warning: {} is not written: there is no planar arm to draw",
                 path.display()
             )),
         }
     }
     if args.json {
-        let diagnostics = inspection.errors.iter().flat_map(|e| e.diagnostics()).map(entry).collect();
-        let json = Json { plannable: inspection.is_plannable(), inspection: &inspection, diagnostics };
-        sinks::print_json(&sinks::pretty(&json)?)?;
+        sinks::print_json(&sinks::pretty(&Json::new(&inspection))?)?;
     } else {
         sinks::sum_up(&text(&inspection), if inspection.is_plannable() { DONE } else { REFUTED })?;
     }
@@ -134,6 +162,17 @@ fn entry(diagnostic: &Diagnostic) -> DiagnosticEntry<'_> {
         message: &diagnostic.message,
         help: diagnostic.help.as_deref(),
     }
+}
+
+/// Returns the page of the report, with the arm if there is one.
+fn page(inspection: &Inspection, view: Option<&View>) -> Result<String, Failure> {
+    let dynamics = inspection.scene.as_ref().and_then(|scene| scene.arm().dynamics).map(|dynamics| DynamicsEntry {
+        masses: dynamics.bodies.map(|body| body.mass),
+        efforts: dynamics.limits.then_some(dynamics.effort),
+    });
+    let report = PageReport { json: Json::new(inspection), dynamics, text: text(inspection) };
+    let title = inspection.robot.as_deref().unwrap_or("Robot without a name");
+    Ok(inspection_page(title, view, &sinks::pretty(&report)?))
 }
 
 /// Returns the view of the arm at its zero configuration. `None` if there is no arm.

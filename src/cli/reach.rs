@@ -12,9 +12,10 @@ use crate::draw::{Picture, View};
 use crate::engine::{Access, MAX_PLACES, Reach, reach};
 use crate::grammar::positive;
 use crate::input::{self, Explorable, JointValues, Overrides};
+use crate::model::Status;
 use crate::motion::{check_writable, write_whole_set};
 use crate::output::{PictureFormat, contours, format_columns, title_of};
-use crate::text::counted;
+use crate::text::{counted, fixed, length, percent};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -178,12 +179,35 @@ fn summary(world: &Explorable, reach: &Reach) -> String {
     format!("{}\n{}", title_of(&world.scene), format_columns(&lines))
 }
 
+/// Returns the headline: the part of the workspace that the tip reaches, among all cells with an IK solution.
+fn headline(reach: &Reach) -> String {
+    let [reachable, unknown, unreachable, blocked] = reach.tally();
+    let all = reachable + unknown + unreachable + blocked;
+    if all == 0 {
+        return "The tip reaches no cell: no cell centre has an IK solution".into();
+    }
+    let at_least = if unknown > 0 { "at least " } else { "" };
+    format!("The tip reaches {at_least}{} of the arm's workspace", percent(reachable as f64 / all as f64))
+}
+
 fn view(world: &Explorable, reach: &Reach) -> View {
-    let facts = facts(world, reach);
+    let [_, unknown, ..] = reach.tally();
+    let joints = &world.scene.arm().joints;
+    let minus = |text: &str| text.replace('-', "\u{2212}");
+    let value = |k: usize| match joints[k].joint_type.is_revolute() {
+        true => format!("{} {}\u{b0}", joints[k].name, minus(&fixed(reach.home[k].to_degrees(), 1))),
+        false => format!("{} {}", joints[k].name, minus(&length(reach.home[k]))),
+    };
+    let facts = [
+        ("home", [0, 1].map(value).join(", ")),
+        ("cells", format!("squares of {}, judged at their centres", length(reach.cell))),
+    ];
+    let notes = world.notes.iter().map(|note| ["note".to_owned(), note.clone()]);
     let picture = Picture {
-        title: vec![title_of(&world.scene), format!("reach of the tip: {}", facts[2].1)],
-        status: "reach".into(),
-        facts: facts.into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
+        title: vec![headline(reach), title_of(&world.scene)],
+        status: if unknown == 0 { "every cell decided".into() } else { counted(unknown, "cell") + " unknown" },
+        ending: Some(if unknown == 0 { Status::Found } else { Status::Unknown }),
+        facts: facts.map(|(name, value)| [name.to_owned(), value]).into_iter().chain(notes).collect(),
         c_obstacles: &contours(&world.scene),
         ..Picture::new(&world.scene, world.start)
     };

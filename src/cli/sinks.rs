@@ -152,6 +152,15 @@ pub fn report(text: &str) -> Result<(), Failure> {
     print(&plain(text))
 }
 
+/// Prints text with styles on stdout. Names in the text must have no control characters. Outputs without colours get the
+/// text alone.
+///
+/// # Errors
+/// I/O.
+pub fn print_styled(text: &str) -> Result<(), Failure> {
+    printed(anstream::stdout().lock(), text)
+}
+
 /// Prints a summary on stdout. The exit code determines the colour of its verdict. Lines are at most as wide as the
 /// terminal.
 ///

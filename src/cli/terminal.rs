@@ -14,6 +14,9 @@ const MIN_WIDTH: usize = 40;
 /// Greatest width of messages and help, in characters. Longer lines are hard to read.
 pub const WIDEST: usize = 80;
 
+/// The escape sequences before and after the best value of a column: bold.
+pub const BEST_VALUE: [&str; 2] = ["\u{1b}[1m", "\u{1b}[0m"];
+
 /// Returns the number of characters per line of a terminal: the variable `COLUMNS`, or the terminal's size. Returns
 /// `None` for other outputs.
 fn width(is_terminal: bool, size: Option<(Width, Height)>) -> Option<usize> {

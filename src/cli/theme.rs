@@ -21,8 +21,13 @@ pub struct ThemeArgs {
 }
 
 impl ThemeArgs {
+    /// Returns true for a dark background.
+    pub fn is_dark(&self) -> bool {
+        self.theme == Theme::Dark
+    }
+
     /// Returns the view for pictures on this background.
     pub fn apply(&self, view: View) -> View {
-        view.on_background(self.theme == Theme::Dark)
+        view.on_background(self.is_dark())
     }
 }

@@ -12,7 +12,7 @@ from test_page import CASES, pixels
 
 def learn(seen, lesson="slice"):
     seen.page.get_by_role("button", name="Learn", exact=True).click()
-    seen.page.get_by_label("lesson", exact=True).select_option(lesson)
+    assert seen.do("(lesson) => cplan.learn.open('c_obstacles', lesson)", lesson)
     assert (seen.do("cplan.mode"), seen.do("cplan.learn.lesson")) == ("learn", lesson)
 
 
@@ -26,7 +26,7 @@ def slice_at(seen, part):
     """
     seen.do("(part) => cplan.seek(part * cplan.duration)", part)
     return seen.do(
-        """() => { const { q1, bands, rows } = cplan.learn.slice; const name = (k) => cplan.world.obstacles[k].name;
+        """() => { const { q1, bands, rows } = cplan.learn.slices.slice; const name = (k) => cplan.world.obstacles[k].name;
              return [q1, bands.map(name), rows.map(({ obstacle, intervals }) => [name(obstacle), intervals.map((ends) => ends.map((end) => [end.value, Boolean(end.features)]))])]; }"""
     )
 
@@ -170,9 +170,9 @@ def test_both_tests_of_penetration_are_the_programs(program, block, corners):
     for _ in range(40):
         # Sixteenths, so that corners sometimes lie on sides and on other corners.
         at = [source.randint(5, 22) / 16, source.randint(5, 18) / 16]
-        seen.do("(at) => { cplan.learn.pieces.at = at; cplan.learn.changed(); }", at)
-        test = seen.do("cplan.learn.test()")
-        moved, rests = seen.do("[cplan.learn.moved, cplan.learn.pieces.b]")
+        seen.do("(at) => { cplan.learn.pair.pieces.at = at; cplan.learn.changed(); }", at)
+        test = seen.do("cplan.learn.pair.test()")
+        moved, rests = seen.do("[cplan.learn.pair.moved, cplan.learn.pair.pieces.b]")
         said = json.loads(program.run("check", "bare.urdf", "block.toml", f"--at={at[0]},{at[1]}", "--json"))["contacts"]
         assert test["meet"] == bool(said)
         found = said[0] if said else {"link_corners_inside": [], "obstacle_corners_inside": [], "crossing_sides": []}
@@ -194,11 +194,11 @@ def test_both_tests_of_penetration_are_the_programs(program, block, corners):
 def test_the_difference_is_swept_to_the_c_obstacle(program, block, corners):
     seen = block(corners)
     learn(seen, "sweep")
-    steps = seen.do("cplan.learn.steps")
+    steps = seen.do("cplan.learn.pair.steps")
     # Parallel sides of the block and of the tool are merged.
     assert len(steps) == (4 if len(corners) == 4 else 7)
     assert {step["of"] for step in steps} == ({"both"} if len(corners) == 4 else {"a", "b"})
-    swept = seen.do("cplan.learn.steps.map((step) => cplan.learn.placeOf(step.at))")
+    swept = seen.do("cplan.learn.pair.steps.map((step) => cplan.learn.pair.placeOf(step.at))")
     exact = json.loads((program.folder / "block.cspace.json").read_text())["spaces"][0]["c_obstacles"]
     ring = exact[0]["polygons"][0][0]
     assert len(ring) - 1 == len(swept) and all(min(math.dist(p, q) for q in ring) < 1e-3 for p in swept)
@@ -206,8 +206,8 @@ def test_the_difference_is_swept_to_the_c_obstacle(program, block, corners):
     for step in range(len(steps)):
         seen.do("([k, n]) => cplan.seek((k + 0.5) / n * cplan.duration)", [step, len(steps)])
         i, k = steps[step]["i"] + 1, steps[step]["k"] + 1
-        assert seen.page.locator(".step").inner_text().startswith(f"{step + 1} of {len(steps)}: corner b{k} − a{i}; next by its angle: ")
-        shown.append(seen.do("cplan.learn.panels.right.canvas.toDataURL()"))
+        assert seen.page.locator(".step").inner_text().startswith(f"Step {step + 1}: corner b{k} − a{i}; next by its angle: ")
+        shown.append(seen.do("cplan.learn.pair.panels.right.canvas.toDataURL()"))
     assert len(set(shown)) == len(steps)
     seen.shoot("learn_sweep")
 
@@ -220,21 +220,21 @@ def test_polygons_are_dragged_by_pointer_and_keys_and_stay_convex(program, show_
     box = canvas.bounding_box()
 
     def drag(place, by):
-        x, y = seen.do("(p) => cplan.learn.panels.left.at(p)", place)
+        x, y = seen.do("(p) => cplan.learn.pair.panels.left.at(p)", place)
         seen.page.mouse.move(box["x"] + x, box["y"] + y)
         seen.page.mouse.down()
         seen.page.mouse.move(box["x"] + x + by[0], box["y"] + y + by[1], steps=4)
         seen.page.mouse.up()
 
     assert seen.page.locator(".step").inner_text() == "They meet. Corners within the other one: 1; crossings of sides: 2"
-    corner = seen.do("cplan.learn.pieces.b[2]")
+    corner = seen.do("cplan.learn.pair.pieces.b[2]")
     drag(corner, (30, -25))
-    after = seen.do("cplan.learn.pieces.b")
+    after = seen.do("cplan.learn.pair.pieces.b")
     assert after[2][0] > corner[0] and after[2][1] > corner[1]
     # Beyond the opposite corner, the polygon would not be convex.
     drag(after[2], (-600, 400))
     turns = seen.do(
-        """cplan.learn.pieces.b.map((p, i, all) => { const [q, r] = [1, 2].map((k) => all[(i + k) % all.length]);
+        """cplan.learn.pair.pieces.b.map((p, i, all) => { const [q, r] = [1, 2].map((k) => all[(i + k) % all.length]);
              return Contact.cross(Contact.minus(q, p), Contact.minus(r, q)); })"""
     )
     assert min(turns) > 0
@@ -253,11 +253,11 @@ def test_a_link_that_turns_has_a_difference_for_each_angle(program, show_file):
         seen.do("(part) => cplan.seek(part * cplan.duration)", part)
         # The origin of the link is in the difference exactly if the polygons meet.
         for dx in (-0.4, -0.1, 0, 0.2, 0.7):
-            seen.do("(dx) => { const [x, y] = cplan.learn.pieces.b[0]; cplan.learn.pieces.at = [x + dx, y + 0.04]; }", dx)
-            inside = "Contact.pointTest(cplan.learn.pieces.at, cplan.learn.steps.map((step) => step.at)).inside"
-            assert seen.do(inside) == seen.do("cplan.learn.test().meet")
+            seen.do("(dx) => { const [x, y] = cplan.learn.pair.pieces.b[0]; cplan.learn.pair.pieces.at = [x + dx, y + 0.04]; }", dx)
+            inside = "Contact.pointTest(cplan.learn.pair.pieces.at, cplan.learn.pair.steps.map((step) => step.at)).inside"
+            assert seen.do(inside) == seen.do("cplan.learn.pair.test().meet")
         seen.do("cplan.learn.changed()")
-        shown.add(seen.do("cplan.learn.panels.right.canvas.toDataURL()"))
+        shown.add(seen.do("cplan.learn.pair.panels.right.canvas.toDataURL()"))
     assert len(shown) == 3
     seen.shoot("learn_stack")
 
@@ -283,14 +283,20 @@ def test_there_are_lessons_only_where_there_is_something_to_learn_from(program, 
     page, _ = program.plan("gantry", "gantry_maze")
     seen = show_file(page)
     learn(seen)
-    assert seen.page.get_by_label("lesson", exact=True).locator("option").count() == 3, "a gantry does not turn"
+    lessons = seen.do("cplan.learn.chapters[0].lessons.map((lesson) => lesson.name)")
+    assert lessons == ["point", "slice", "tests", "sweep"], "a gantry does not turn"
 
 
 def test_an_address_says_what_is_looked_at_first(program, show):
     page, _ = program.plan("planar_2r", "shelf")
-    for address, mode, lesson in (("", "move", "slice"), ("#think", "think", "slice"), ("#learn/sweep", "learn", "sweep"), ("#learn/x", "learn", "slice")):
+    for address, mode, lesson in (
+        ("", "move", "point"), ("#think", "think", "point"), ("#learn", "learn", "point"), ("#learn/sweep", "learn", "sweep"), ("#learn=c_obstacles", "learn", "point"),
+        ("#learn=c_obstacles/stack", "learn", "stack"), ("#learn=proofs", "learn", "certified"), ("#learn=proofs/clearance", "learn", "clearance"), ("#learn/x", "learn", "point"),
+    ):
         seen = show(page.as_uri() + address)
-        assert (seen.do("cplan.mode"), seen.do("cplan.learn.lesson")) == (mode, lesson)
+        assert (seen.do("cplan.mode"), seen.do("cplan.learn.lesson")) == (mode, lesson), address
+    seen.do("location.hash = '#learn=roadmaps'")
+    seen.until("cplan.learn.lesson === 'graph'")
 
 
 def test_the_legend_names_what_lessons_draw(program, show_file):

@@ -26,7 +26,7 @@ def test_both_spaces_show_it_in_time(program, show_file):
         assert seen.do("cplan.q") == [-0.9, 0.3]
     for before, after in zip(*shown):
         assert before != after
-    seen.page.get_by_label("cart").uncheck()
+    seen.page.get_by_role("checkbox", name="cart").uncheck()
     hidden = [pixels(seen, panel) for panel in ("workspace", "cspace")]
     assert all(a != b for a, b in zip(hidden, shown[1]))
 
@@ -41,3 +41,57 @@ def test_the_time_is_written_on_the_configuration_space(program, show_file):
     page, _ = program.plan("planar_2r", "shelf")
     still = show_file(page)
     assert still.do("cplan.world.moments ?? null") is None
+
+
+def test_the_strip_says_which_obstacle_the_arm_waits_for(program, show_file):
+    page, plan = program.plan("planar_2r", "moving/crossing")
+    seen = show_file(page)
+    strip = seen.do("cplan.model.strip")
+    assert [wait["text"] for wait in strip["waits"]] == ["waits 1.46 s for cart"]
+    assert math.isclose(strip["duration"], plan["duration"], abs_tol=1e-3)
+    wait = seen.page.get_by_role("button", name="waits 1.46 s for cart")
+    wait.click()
+    assert seen.do("cplan.time") == 0 and wait.get_attribute("aria-current") == "time"
+    seen.do("cplan.seek(2)")
+    assert wait.get_attribute("aria-current") is None
+    assert "waits 1.46 s for cart" in seen.page.locator(".strip canvas").get_attribute("aria-label")
+
+
+def test_the_motion_passes_between_the_blocked_regions(program, show_file):
+    for world in ("crossing", "gate", "swing"):
+        page, _ = program.plan("planar_2r", f"moving/{world}")
+        seen = show_file(page)
+        # Progress never decreases, from 0 to 1, and rests during a wait.
+        strip = seen.do("cplan.model.strip")
+        progress = strip["motion"][1::2]
+        assert progress == sorted(progress) and (progress[0], progress[-1]) == (0, 1)
+        for wait in strip["waits"]:
+            ends = [seen.do("(t) => Strip.progress(cplan.model.strip, t)", wait[end]) for end in ("from", "to")]
+            assert math.isclose(*ends, abs_tol=5e-3) and math.isclose(ends[0], wait["at"], abs_tol=5e-3)
+        # No place of the motion lies clearly within a region that an obstacle blocks.
+        inside = """(margin) => {
+          const { obstacles, duration } = cplan.model.strip;
+          const context = document.createElement('canvas').getContext('2d');
+          const blocked = (t, p) => obstacles.some(({ regions }) => regions.some((flat) => {
+            const path = new Path2D();
+            for (let i = 0; i < flat.length; i += 2) path.lineTo(1e3 * flat[i], 1e3 * flat[i + 1]);
+            return context.isPointInPath(path, 1e3 * t, 1e3 * p);
+          }));
+          let count = 0;
+          for (let k = 0; k <= 400; k += 1) {
+            const t = (k / 400) * duration;
+            const p = Strip.progress(cplan.model.strip, t);
+            if ([-1, 1].every((s) => blocked(t + s * margin, p))) count += 1;
+          }
+          return count;
+        }"""
+        assert seen.do(inside, 0.06) == 0, world
+        assert strip["obstacles"], world
+
+
+def test_the_strip_is_there_for_motions_among_moving_obstacles_alone(program, show_file):
+    seen = show_file(program.plan("planar_2r", "shelf")[0])
+    assert not seen.page.locator(".strip").is_visible()
+    seen = show_file(program.plan("planar_2r", "moving/cart_in_task")[0])
+    assert seen.page.locator(".strip").is_visible()
+    assert seen.page.locator(".waits li").count() == 1

@@ -380,22 +380,6 @@ def test_the_focus_ring_does_not_cross_titles(program, show_file):
         assert width > 0 and offset <= -width
 
 
-def test_space_plays_an_exploration(program, show_file):
-    page = program.folder / "explore.html"
-    program.run("explore", ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml", "--quiet", "--picture", page)
-    seen = show_file(page)
-    play = seen.page.locator(".play")
-    assert (play.get_attribute("aria-label"), play.locator("svg").count()) == ("play", 1)
-    seen.page.keyboard.press(" ")
-    assert play.get_attribute("aria-label") == "pause"
-    seen.page.keyboard.press(" ")
-    assert play.get_attribute("aria-label") == "play"
-    # On a control, the key acts on the control.
-    seen.page.get_by_label("Reading").focus()
-    seen.page.keyboard.press(" ")
-    assert play.get_attribute("aria-label") == "play"
-
-
 def test_numbers_have_few_digits_and_units(program, show_file):
     page, _ = program.plan("planar_2r", "shelf")
     seen = show_file(page)

@@ -1,11 +1,12 @@
 //! Several planners on one problem.
 
+use super::best::Better;
 use super::row::Row;
-use super::table::{Align, Column, MAX_TABLE_WIDTH, Table, fixed, quoted};
+use super::table::{Align, Column, Emphasis, MAX_TABLE_WIDTH, PLAIN, Table, fixed, quoted};
 use cplan_core::model::Status;
 use cplan_core::planner::{PathKind, Size};
 use cplan_core::space::Configuration;
-use cplan_text::wrapped;
+use cplan_text::{plain, wrapped};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -90,14 +91,29 @@ impl Comparison {
     /// stands for a missing value. The planners' notes follow, one per line. The text ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
-        let remarks = self.remarks().map(|line| wrapped(&line, MAX_TABLE_WIDTH, 2) + "\n");
-        self.table().of_columns(&LEADING_COLUMNS).to_text_within(MAX_TABLE_WIDTH) + &remarks.collect::<String>()
+        self.to_text_with(PLAIN)
+    }
+
+    /// Returns the same text as [`Comparison::to_text`] for a terminal, with an emphasis on the best value of each column.
+    /// Control characters in names are escaped.
+    #[must_use]
+    pub fn to_text_with(&self, emphasis: Emphasis) -> String {
+        let remarks = self.remarks().map(|line| wrapped(&plain(&line), MAX_TABLE_WIDTH, 2) + "\n");
+        let table = self.table().of_columns(&LEADING_COLUMNS);
+        table.to_text_within_with(MAX_TABLE_WIDTH, emphasis) + &remarks.collect::<String>()
     }
 
     /// Returns the table with all columns, without a limit on its width.
     #[must_use]
     pub fn to_wide_text(&self) -> String {
-        self.table().to_text() + &self.remarks().map(|line| line + "\n").collect::<String>()
+        self.to_wide_text_with(PLAIN)
+    }
+
+    /// Returns the same text as [`Comparison::to_wide_text`] for a terminal, as [`Comparison::to_text_with`] does.
+    #[must_use]
+    pub fn to_wide_text_with(&self, emphasis: Emphasis) -> String {
+        self.table().to_text_with(emphasis)
+            + &self.remarks().map(|line| plain(&line).into_owned() + "\n").collect::<String>()
     }
 
     fn remarks(&self) -> impl Iterator<Item = String> {
@@ -215,9 +231,35 @@ impl Comparison {
             }
             cells
         };
-        Table { columns, rows: self.rows.iter().map(cells).collect() }
+        let rows: Vec<Vec<Option<String>>> = self.rows.iter().map(cells).collect();
+        let columns = columns.into_iter().enumerate().map(|(k, column)| {
+            let shown: Vec<Option<String>> = rows.iter().map(|row| row[k].clone()).collect();
+            column.with_best(self.best_rows(k, &shown))
+        });
+        Table { columns: columns.collect(), rows }
+    }
+
+    /// Returns the rows with the best value of a column of the table, given the column's texts. A planner that found
+    /// neither a path nor a proof cannot be the best.
+    fn best_rows(&self, column: usize, shown: &[Option<String>]) -> Vec<usize> {
+        let better = match column {
+            0 | 1 | SIZE_COLUMN => return Vec::new(),
+            CLEARANCE_COLUMN => Better::More,
+            // The last columns are length and clearance of each kind of path in turn.
+            k if k > MEMORY_COLUMN && (k - MEMORY_COLUMN) % 2 == 0 => Better::More,
+            _ => Better::Less,
+        };
+        let value = |(row, text): (&Row, &Option<String>)| {
+            text.as_deref().filter(|_| row.outcome != Status::Unknown)?.parse().ok()
+        };
+        better.that_stand_out(&self.rows.iter().zip(shown).map(value).collect::<Vec<_>>(), shown)
     }
 }
+
+/// Indices of columns of the table.
+const CLEARANCE_COLUMN: usize = 5;
+const SIZE_COLUMN: usize = 7;
+const MEMORY_COLUMN: usize = 12;
 
 /// Indices of the table's columns in 80 characters: planner, outcome, length, length over the optimum, clearance,
 /// motion, time, memory.
@@ -287,6 +329,18 @@ mod tests {
     #[test]
     fn text_is_aligned() {
         assert_eq!(example().to_wide_text(), include_str!("expected/table.txt"));
+    }
+
+    #[test]
+    fn the_best_value_of_each_column_stands_out() {
+        let mut example = example();
+        example.rows[2].total = Some(1e-9);
+        let marked = example.to_text_with(["<", ">"]);
+        for best in ["<4.0000>", "<1.2500>", "<12.500>", "<3.250>"] {
+            assert!(marked.contains(best), "no {best} in {marked}");
+        }
+        assert!(!marked.contains("<0.000>"), "an unknown outcome is never the best: {marked}");
+        assert_eq!(marked.replace(['<', '>'], ""), example.to_text());
     }
 
     #[test]

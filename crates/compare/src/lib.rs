@@ -13,11 +13,15 @@
 //! with its own SVG charts; pictures from `draw` are passed in as text.
 
 mod arena;
+mod best;
 mod comparison;
+mod conclusion;
 mod convergence;
 mod labels;
 mod measure;
 pub mod page;
+mod pens;
+mod recommendation;
 mod row;
 mod sign;
 mod spread;
@@ -26,17 +30,18 @@ mod study_files;
 mod table;
 mod words;
 
+pub use best::Better;
 pub use comparison::Comparison;
 pub use convergence::{Convergence, FactorScan, Point, RelaxationRun, Setup, StrengthScan, WeightScan, convergence};
 pub use cplan_solver::Family;
 pub use labels::labels;
 pub use measure::Measure;
-pub use page::{Overlay, Page, Picture};
+pub use page::{Overlay, Page, PathPictures, Picture, SmallPicture};
+pub use pens::hue;
+pub use recommendation::Purpose;
 pub use row::{OtherPath, Row};
 pub use sign::sign_test;
 pub use spread::Spread;
 pub use study::{Refusal, Sampling, Study};
-pub use table::MAX_TABLE_WIDTH;
-pub use table::quoted;
-pub use table::{Align, Column, Table};
+pub use table::{Align, Column, Emphasis, MAX_TABLE_WIDTH, PLAIN, Table, quoted};
 pub use words::words;

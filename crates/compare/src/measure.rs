@@ -1,5 +1,6 @@
 //! Quantities measured for each run.
 
+use super::best::Better;
 use super::comparison::Comparison;
 use super::row::Row;
 
@@ -50,6 +51,12 @@ impl Measure {
             Measure::Total => "total [ms]",
             Measure::Memory => "memory [MiB]",
         }
+    }
+
+    /// Returns which value of the measure is the better one.
+    #[must_use]
+    pub fn better(self) -> Better {
+        if self == Measure::Clearance { Better::More } else { Better::Less }
     }
 
     /// Returns the measure's key in JSON. Values in JSON are in SI units and bytes.

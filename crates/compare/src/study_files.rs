@@ -4,10 +4,10 @@ use super::comparison::{CSV_HEADER, Comparison};
 use super::measure::Measure;
 use super::row::Row;
 use super::study::{Refusal, Study};
-use super::table::{Align, Column, MAX_TABLE_WIDTH, Table, quoted};
+use super::table::{Align, Column, Emphasis, MAX_TABLE_WIDTH, PLAIN, Table, quoted};
 use super::words::words;
 use cplan_core::model::Status;
-use cplan_text::{plain_line, wrapped};
+use cplan_text::{plain, plain_line, wrapped};
 use serde_json::{Value, json};
 
 /// Number of problems up to which tables list the problems one by one. CSV, JSON and the page list all of them.
@@ -21,23 +21,36 @@ impl Study {
     /// problems one by one if they differ in more than start and goal. The text ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
-        self.text(|table| table.to_text_within(MAX_TABLE_WIDTH))
+        self.to_text_with(PLAIN)
+    }
+
+    /// Returns the same text as [`Study::to_text`] for a terminal, with an emphasis on the best value of each column.
+    /// Control characters in names are escaped.
+    #[must_use]
+    pub fn to_text_with(&self, emphasis: Emphasis) -> String {
+        self.text(|table| table.to_text_within_with(MAX_TABLE_WIDTH, emphasis))
     }
 
     /// Does the same as [`Study::to_text`], with tables of any width.
     #[must_use]
     pub fn to_wide_text(&self) -> String {
-        self.text(Table::to_text)
+        self.to_wide_text_with(PLAIN)
+    }
+
+    /// Returns the same text as [`Study::to_wide_text`] for a terminal, as [`Study::to_text_with`] does.
+    #[must_use]
+    pub fn to_wide_text_with(&self, emphasis: Emphasis) -> String {
+        self.text(|table| table.to_text_with(emphasis))
     }
 
     fn text(&self, shown: impl Fn(&Table) -> String) -> String {
         let mut text = format!("{}\n", plain_line(&self.title));
         for (heading, table) in self.tables() {
-            text += &format!("\n{heading}\n{}", shown(&table));
+            text += &format!("\n{}\n{}", plain_line(&heading), shown(&table));
         }
-        let paragraphs = words(self).into_iter().map(|paragraph| wrapped(&paragraph, MAX_TABLE_WIDTH, 0));
+        let paragraphs = words(self).into_iter().map(|paragraph| wrapped(&plain(&paragraph), MAX_TABLE_WIDTH, 0));
         text += &format!("\n{}\n", paragraphs.collect::<Vec<_>>().join("\n"));
-        text + &self.footnotes().map(|line| wrapped(&line, MAX_TABLE_WIDTH, 2) + "\n").collect::<String>()
+        text + &self.footnotes().map(|line| wrapped(&plain(&line), MAX_TABLE_WIDTH, 2) + "\n").collect::<String>()
     }
 
     /// Returns the same content as [`Study::to_text`] in Markdown.
@@ -146,13 +159,20 @@ impl Study {
         const SPREAD_NAMES: [&str; 7] = ["n", "min", "quartile", "median", "quartile", "max", "mean"];
         let mut columns = vec![Column::new("planner", Align::Left)];
         columns.extend(SPREAD_NAMES.map(|name| Column::new(name, Align::Right)));
-        let row = |(i, name): (usize, &&str)| {
+        let row = |(i, name): (usize, &&str)| -> Option<Vec<Option<String>>> {
             let spread = self.spread(i, measure)?;
             let numbers = spread.numbers().map(|value| measure.format(value));
             let cells = [(*name).to_owned(), spread.n.to_string()].into_iter().chain(numbers);
             Some(cells.map(Some).collect())
         };
-        Table { columns, rows: self.planners().iter().enumerate().filter_map(row).collect() }
+        let rows: Vec<Vec<Option<String>>> = self.planners().iter().enumerate().filter_map(row).collect();
+        let columns = columns.into_iter().enumerate().map(|(k, column)| {
+            let shown: Vec<Option<String>> = rows.iter().map(|row| row[k].clone()).collect();
+            let values: Vec<Option<f64>> = shown.iter().map(|text| text.as_ref()?.parse().ok()).collect();
+            // The first column has names, the second one counts.
+            column.with_best(if k < 2 { Vec::new() } else { measure.better().that_stand_out(&values, &shown) })
+        });
+        Table { columns: columns.collect(), rows }
     }
 
     fn problems(&self) -> Table {

@@ -19,12 +19,20 @@ pub enum Align {
 pub struct Column {
     name: String,
     align: Align,
+    /// Indices of the rows that have the best value of this column, which stands out.
+    best: Vec<usize>,
 }
 
 impl Column {
     /// Creates a column with a name.
     pub fn new(name: &str, align: Align) -> Self {
-        Self { name: name.to_owned(), align }
+        Self { name: name.to_owned(), align, best: Vec::new() }
+    }
+
+    /// Returns this column with the indices of the rows that have its best value.
+    #[must_use]
+    pub fn with_best(self, best: Vec<usize>) -> Self {
+        Self { best, ..self }
     }
 
     /// Returns the name of the column.
@@ -40,6 +48,12 @@ impl Column {
     }
 }
 
+/// The texts before and after the best value of each column.
+pub type Emphasis<'a> = [&'a str; 2];
+
+/// The emphasis of plain text.
+pub const PLAIN: Emphasis = ["", ""];
+
 /// Columns and rows of cells; a missing cell is shown as `-`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
@@ -53,16 +67,25 @@ impl Table {
     /// Returns the table as text. Columns are two spaces apart, the header is underlined, and there are no trailing
     /// spaces.
     pub fn to_text(&self) -> String {
+        self.to_text_with(PLAIN)
+    }
+
+    /// Returns the same text as [`Table::to_text`], with an emphasis on the best values, which takes no room.
+    pub fn to_text_with(&self, emphasis: Emphasis) -> String {
         let table = self.with_cells(|cell| plain_line(cell).into_owned());
-        table.text_under(&[table.header()])
+        table.text_under(&[table.header()], emphasis)
     }
 
     /// Returns the table in lines of at most `width` characters. If it is too wide, splits headers into two lines. If
     /// that does not suffice, splits the table into several, one below the other, each with the first column.
     pub fn to_text_within(&self, width: usize) -> String {
-        let text = self.to_text();
-        if self.columns.len() < 2 || text.lines().all(|line| line.chars().count() <= width) {
-            return text;
+        self.to_text_within_with(width, PLAIN)
+    }
+
+    /// Returns the same text as [`Table::to_text_within`], with an emphasis on the best values, which takes no room.
+    pub fn to_text_within_with(&self, width: usize, emphasis: Emphasis) -> String {
+        if self.columns.len() < 2 || self.to_text().lines().all(|line| line.chars().count() <= width) {
+            return self.to_text_with(emphasis);
         }
         let table = self.with_cells(|cell| plain_line(cell).into_owned());
         let broken = |k: usize| {
@@ -86,7 +109,7 @@ impl Table {
         let part = |part: Vec<usize>| {
             let heads = [&upper, &lower].map(|head| part.iter().map(|&k| head[k]).collect::<Vec<_>>());
             let heads = if heads[1].iter().all(|head| head.is_empty()) { &heads[..1] } else { &heads[..] };
-            table.of_columns(&part).text_under(heads)
+            table.of_columns(&part).text_under(heads, emphasis)
         };
         parts.into_iter().map(part).collect::<Vec<_>>().join("\n")
     }
@@ -100,13 +123,18 @@ impl Table {
         }
     }
 
-    fn text_under(&self, heads: &[Vec<&str>]) -> String {
+    fn text_under(&self, heads: &[Vec<&str>], [before, after]: Emphasis) -> String {
         let widths = self.widths(heads);
         let line = |cells: Vec<String>| format!("{}\n", cells.join("  ").trim_end());
         let mut text: String = heads.iter().map(|head| line(self.padded(head, &widths))).collect();
         text += &line(widths.iter().map(|&w| "-".repeat(w)).collect());
-        for row in &self.rows {
-            text += &line(self.padded(&shown_cells(row), &widths));
+        for (number, row) in self.rows.iter().enumerate() {
+            let mut cells = self.padded(&shown_cells(row), &widths);
+            for (cell, _) in cells.iter_mut().zip(&self.columns).filter(|(_, column)| column.best.contains(&number)) {
+                let value = cell.trim();
+                *cell = cell.replacen(value, &format!("{before}{value}{after}"), 1);
+            }
+            text += &line(cells);
         }
         text
     }
@@ -117,9 +145,10 @@ impl Table {
         Self { columns: self.columns.clone(), rows: self.rows.iter().map(row).collect() }
     }
 
-    /// Returns a table in GitHub's Markdown, whose columns are aligned in the source as well.
+    /// Returns a table in GitHub's Markdown, whose columns are aligned in the source as well. The best values are bold.
     pub fn to_markdown(&self) -> String {
         let escaped = self.with_cells(|cell| plain_line(&cell.replace('|', "\\|").replace('<', "&lt;")).into_owned());
+        let escaped = escaped.with_bold_best_cells();
         // A rule needs three characters.
         let widths: Vec<usize> = escaped.widths(&[escaped.header()]).into_iter().map(|w| w.max(3)).collect();
         let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
@@ -133,6 +162,15 @@ impl Table {
             text += &line(escaped.padded(&shown_cells(row), &widths));
         }
         text
+    }
+
+    /// Returns the table with asterisks around the best values.
+    fn with_bold_best_cells(mut self) -> Self {
+        for (number, row) in self.rows.iter_mut().enumerate() {
+            let best = row.iter_mut().zip(&self.columns).filter(|(_, column)| column.best.contains(&number));
+            best.filter_map(|(cell, _)| cell.as_mut()).for_each(|cell| *cell = format!("**{cell}**"));
+        }
+        self
     }
 
     fn header(&self) -> Vec<&str> {
@@ -191,6 +229,16 @@ mod tests {
         let parts = table.to_text_within(20);
         assert_eq!(parts.lines().filter(|line| line.starts_with("planner")).count(), 2, "{parts}");
         assert!(parts.lines().all(|line| line.chars().count() <= 20), "{parts}");
+    }
+
+    #[test]
+    fn the_best_values_stand_out_and_keep_the_columns() {
+        let mut table = table(&["planner", "total"]);
+        table.columns[1] = table.columns[1].clone().with_best(vec![1]);
+        let [plain, marked] = [PLAIN, ["<", ">"]].map(|emphasis| table.to_text_within_with(30, emphasis));
+        assert!(marked.ends_with("second    <1.25>\n") && marked.contains("a         1.25\n"), "{marked}");
+        assert_eq!(marked.replace(['<', '>'], ""), plain);
+        assert!(table.to_markdown().ends_with("| second  | **1.25** |\n"), "{}", table.to_markdown());
     }
 
     #[test]

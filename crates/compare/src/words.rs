@@ -198,7 +198,8 @@ fn aspect(
     })
 }
 
-fn capitalized(text: &str) -> String {
+/// Returns the text with a capital first letter.
+pub(super) fn capitalized(text: &str) -> String {
     let mut characters = text.chars();
     characters.next().map_or_else(String::new, |first| first.to_uppercase().chain(characters).collect())
 }

@@ -1,13 +1,14 @@
 //! Reachability: the places that the tip can reach from a home configuration, with their IK solutions. The answers are
 //! certified, or proven impossible.
 
+use super::flood::Solutions;
+use super::motion_tree::MotionTree;
 use cplan_core::check::certify;
 use cplan_core::model::{Arm, MotionProblem, Outcome, Scene, inverse};
 use cplan_core::space::{Configuration, GoalSet, Measure, Metric, Path, Segment};
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
 use cplan_solver::decide;
-use petgraph::unionfind::UnionFind;
 use serde::{Serialize, Serializer};
 
 /// Largest number of square cells that are examined.
@@ -79,6 +80,9 @@ pub struct Reach {
     /// For each cell, the solutions that put the tip at its centre, row by row from the lowest row. Empty if the centre
     /// is out of reach.
     pub places: Vec<Vec<Solution>>,
+    /// Certified motions to the solutions, which are counted through all cells in order.
+    #[serde(skip)]
+    pub motions: MotionTree,
 }
 
 impl Reach {
@@ -98,6 +102,19 @@ impl Reach {
         })
     }
 
+    /// Iterates over the solutions of all cells, in order.
+    pub fn solutions(&self) -> impl Iterator<Item = &Solution> {
+        self.places.iter().flatten()
+    }
+
+    /// Returns the certified motion from home to the solution with this index among all solutions. `None` if there is
+    /// none.
+    #[must_use]
+    pub fn motion_to(&self, number: usize, arm: &Arm) -> Option<Path> {
+        let joints: Vec<Configuration> = self.solutions().map(|solution| solution.joints).collect();
+        self.motions.motion_to(number, &arm.topology(), |solution| joints[solution])
+    }
+
     /// Counts cells by the best reachability of their solutions, in the order of [`Access::ALL`].
     #[must_use]
     pub fn tally(&self) -> [usize; 4] {
@@ -108,11 +125,12 @@ impl Reach {
 /// Computes the IK solutions for the centre of each square cell of side `cell`, in metres. For each solution, decides
 /// whether a motion from `home` leads to it that keeps the world's clearance.
 ///
-/// Solutions of neighbouring cells are connected if the straight motion between them is certified. Of each set of
-/// connected solutions, only one is decided. A certified motion to it extends to the whole set, and a proof that it is
-/// unreachable holds for the whole set. Returns `None` if there are more than [`MAX_PLACES`] cells.
+/// Solutions of neighbouring cells are connected if a straight motion to one of them is certified, which begins at the
+/// other one or at an earlier solution of the same set. Of each set of connected solutions, only one is decided. A
+/// certified motion to it extends to the whole set, and a proof that it is unreachable holds for the whole set. Returns
+/// `None` if there are more than [`MAX_PLACES`] cells.
 ///
-/// Takes `O(n)` short certificates for `n` solutions, and one decision per set.
+/// Takes `O(n)` certificates for `n` solutions, and one decision per set.
 #[must_use]
 pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
     let arm = scene.arm();
@@ -123,29 +141,39 @@ pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
     if !(cell > 0.0 && count[0] * count[1] <= MAX_PLACES as f64) {
         return None;
     }
-    let mut reach =
-        Reach { home, cell, corner: first.map(|n| n * cell), size: count.map(|n| n as usize), places: Vec::new() };
+    let mut reach = Reach {
+        home,
+        cell,
+        corner: first.map(|n| n * cell),
+        size: count.map(|n| n as usize),
+        places: Vec::new(),
+        motions: MotionTree::default(),
+    };
     // A solution with a free joint stands for many configurations. One of them that can be reached suffices.
     let mut open = Vec::new();
-    reach.places = (0..reach.size[0] * reach.size[1])
-        .map(|place| {
-            checkpoint();
-            let solutions = inverse(arm, reach.center(place), home).solutions(arm).into_iter().enumerate();
-            let judged = |(number, solution): (usize, Segment)| {
-                let [joints, _] = solution.ends();
-                if !solution.is_point() {
-                    open.push((place, number, solution));
-                    return Solution { joints, access: Access::Blocked };
+    let mut number = 0;
+    for place in 0..reach.size[0] * reach.size[1] {
+        checkpoint();
+        let mut solutions = Vec::new();
+        for (index, solution) in inverse(arm, reach.center(place), home).solutions(arm).into_iter().enumerate() {
+            let [joints, _] = solution.ends();
+            let access = match solution.is_point() {
+                true if is_free(scene, joints) => Access::Unknown,
+                true => Access::Blocked,
+                false => {
+                    open.push((place, index, number, solution));
+                    Access::Blocked
                 }
-                let access = if is_free(scene, joints) { Access::Unknown } else { Access::Blocked };
-                Solution { joints, access }
             };
-            solutions.map(judged).collect()
-        })
-        .collect();
+            solutions.push(Solution { joints, access });
+            number += 1;
+        }
+        reach.places.push(solutions);
+    }
+    reach.motions = MotionTree::without_motions(number);
     decide_places(scene, &mut reach);
-    for (place, number, solution) in open {
-        reach.places[place][number] = solution_with_free_joint(scene, home, solution);
+    for (place, index, number, solution) in open {
+        reach.places[place][index] = solution_with_free_joint(scene, home, solution, number, &mut reach.motions);
     }
     Some(reach)
 }
@@ -167,72 +195,102 @@ fn is_free(scene: &Scene, q: Configuration) -> bool {
     certify(scene, Path::new(vec![q]), scene.workspace().clearance).is_ok()
 }
 
-/// Decides for all free solutions whether a motion from home leads to them.
+/// Decides for all free solutions whether a motion from home leads to them: set by set, beginning with the solution
+/// nearest to home.
 fn decide_places(scene: &Scene, reach: &mut Reach) {
-    // All free solutions, and for each cell the index of its first one.
-    let mut firsts = Vec::with_capacity(reach.places.len() + 1);
-    let mut free: Vec<(usize, usize)> = Vec::new();
-    for (place, solutions) in reach.places.iter().enumerate() {
-        firsts.push(free.len());
-        free.extend((0..solutions.len()).filter(|&s| solutions[s].access == Access::Unknown).map(|s| (place, s)));
-    }
-    firsts.push(free.len());
-    let joints = |node: usize| reach.places[free[node].0][free[node].1].joints;
-    let mut sets = UnionFind::<usize>::new(free.len());
-    let (columns, places) = (reach.size[0], reach.places.len());
-    for place in 0..places {
+    let mut solutions = Solutions::new(scene, reach);
+    for seed in solutions.by_distance(reach.home) {
         checkpoint();
-        let right = (place % columns + 1 < columns).then_some(place + 1);
-        for beside in [right, Some(place + columns).filter(|&above| above < places)].into_iter().flatten() {
-            for a in firsts[place]..firsts[place + 1] {
-                // Of the two solutions with different elbows, the nearer one has the same elbow.
-                let far = |b: &usize| scene.arm().topology().distance(joints(a), joints(*b));
-                let nearest = (firsts[beside]..firsts[beside + 1]).min_by(|b, c| far(b).total_cmp(&far(c)));
-                if let Some(b) = nearest.filter(|&b| !sets.equiv(a, b))
-                    && is_straight_motion_free(scene, joints(a), joints(b))
-                {
-                    sets.union(a, b);
-                }
+        if solutions.is_visited(seed) {
+            continue;
+        }
+        let node = solutions.nodes[seed];
+        let (access, path) = decide_access(scene, reach.home, node.joints);
+        let route = path.map(|path| {
+            let origin = reach.motions.add_path(node.number, &path);
+            (origin, *reach.motions.routes.last().and_then(|route| route.last()).expect("a route begins at home"))
+        });
+        for reached in solutions.flood(seed, route) {
+            let node = solutions.nodes[reached.node];
+            reach.places[node.place][node.index].access = access;
+            if access == Access::Reachable {
+                reach.motions.origins[node.number] = Some(reached.origin);
             }
         }
     }
-    let labels = sets.into_labeling();
-    let mut known: Vec<Option<Access>> = vec![None; free.len()];
-    for node in 0..free.len() {
-        checkpoint();
-        let access =
-            *known[labels[node]].get_or_insert_with(|| decide_access(scene, reach.home, joints(labels[node])).0);
-        known[node] = Some(access);
-    }
-    for (&(place, solution), access) in free.iter().zip(known) {
-        reach.places[place][solution].access = access.unwrap_or(Access::Unknown);
-    }
 }
 
-/// Returns true if the straight motion between two configurations is certified. On a circle, it takes the shorter
-/// direction.
-fn is_straight_motion_free(scene: &Scene, from: Configuration, to: Configuration) -> bool {
-    let displacement = scene.arm().topology().displacement(from, to);
-    certify(scene, Path::new(vec![from, from + displacement]), scene.workspace().clearance).is_ok()
-}
-
-/// Decides whether a motion from home leads to one of these goals. Also returns the goal where the motion ends.
-fn decide_access(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Access, Option<Configuration>) {
+/// Decides whether a motion from home leads to one of these goals. Also returns the motion.
+fn decide_access(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Access, Option<Path>) {
     let Ok(problem) = MotionProblem::new(scene.clone(), home, to) else { return (Access::Unknown, None) };
     match decide(&problem, BOXES_PER_SET) {
-        Outcome::Found(path) => (Access::Reachable, Some(path.path().goal())),
+        Outcome::Found(path) => (Access::Reachable, Some(path.path().clone())),
         Outcome::Infeasible(_) => (Access::Unreachable, None),
         Outcome::Unknown(_) => (Access::Unknown, None),
     }
 }
 
-/// Returns the result for a solution with a free joint. It is blocked only if all of its configurations are blocked,
-/// and reachable if any of them is reachable.
-fn solution_with_free_joint(scene: &Scene, home: Configuration, solution: Segment) -> Solution {
+/// Returns the result for a solution with a free joint, and adds the motion to it. The solution is blocked only if all
+/// of its configurations are blocked, and reachable if any of them is reachable.
+fn solution_with_free_joint(
+    scene: &Scene,
+    home: Configuration,
+    solution: Segment,
+    number: usize,
+    motions: &mut MotionTree,
+) -> Solution {
     let nearest = || solution.nearest(Measure::from(Metric::Euclidean), home);
     if scene.blocked_along(&solution).is_some() {
         return Solution { joints: nearest(), access: Access::Blocked };
     }
-    let (access, end) = decide_access(scene, home, solution);
-    Solution { joints: end.unwrap_or_else(nearest), access }
+    let (access, path) = decide_access(scene, home, solution);
+    if let Some(path) = &path {
+        motions.add_path(number, path);
+    }
+    Solution { joints: path.map_or_else(nearest, |path| path.goal()), access }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_core::model::{Joint, Obstacle, Workspace};
+
+    /// A post that the arm must go around, and a first joint that turns without end.
+    fn scene() -> Scene {
+        let mut arm = Arm::rr([1.0, 0.8], 0.04).expect("an arm");
+        arm.joints[1] = Joint::turning("elbow", -2.8, 2.8);
+        let post = Obstacle::circle("post", [1.1, 0.3], 0.15).expect("a disc");
+        Scene::new(arm, Workspace::new([post])).expect("a scene")
+    }
+
+    #[test]
+    fn motions_to_all_reachable_solutions_are_certified() {
+        let scene = scene();
+        let home = Configuration::new(-1.0, 0.5);
+        let reach = reach(&scene, home, 0.1).expect("few cells");
+        let mut reachable = 0;
+        for (number, solution) in reach.solutions().enumerate() {
+            let motion = reach.motion_to(number, scene.arm());
+            assert_eq!(motion.is_some(), solution.access == Access::Reachable, "{solution:?}");
+            let Some(motion) = motion else { continue };
+            reachable += 1;
+            assert_eq!(motion.start(), home);
+            assert!(scene.arm().topology().distance(motion.goal(), solution.joints) < 1e-9, "{solution:?}");
+            assert!(certify(&scene, motion, scene.workspace().clearance).is_ok(), "{solution:?}");
+        }
+        assert!(reachable > 500 && reachable < reach.solutions().count());
+    }
+
+    #[test]
+    fn motions_are_as_short_as_straight_ones_where_nothing_is_in_between() {
+        let mut arm = Arm::rr([1.0, 0.8], 0.04).expect("an arm");
+        arm.joints.iter_mut().for_each(|joint| *joint = Joint::turning("joint", -2.8, 2.8));
+        let scene = Scene::new(arm, Workspace::new([])).expect("a scene");
+        let home = Configuration::new(-1.0, 0.5);
+        let reach = reach(&scene, home, 0.2).expect("few cells");
+        for (number, solution) in reach.solutions().enumerate() {
+            let motion = reach.motion_to(number, scene.arm()).expect("nothing is in the way");
+            assert_eq!(motion.waypoints().len(), 2, "{solution:?}");
+        }
+    }
 }

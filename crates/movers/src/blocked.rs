@@ -3,6 +3,7 @@
 
 use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::{Pair, Scene};
+use cplan_core::space::Configuration;
 use cplan_geometry::{
     Convex, Interval, Point, Pose, Vector, cross, merge_in_place, separation, separation_at, sliding,
 };
@@ -266,6 +267,21 @@ impl<'a> MovingObstacles<'a> {
     /// Returns all pairs that can meet, at all times.
     pub(crate) fn meetings(&self) -> &[Meeting] {
         &self.meetings
+    }
+
+    /// Returns the times at which each moving obstacle is nearer to the arm at `q` than the clearance, in order and
+    /// disjoint. They are exact up to the tolerances of this module.
+    #[must_use]
+    pub fn blocked_times(&self, q: Configuration) -> Vec<Vec<Interval>> {
+        let (posture, mut known) = (Posture::new(self.scene, q), None);
+        let mut times = vec![Vec::new(); self.scene.loose_obstacles().len()];
+        for &meeting in &self.meetings {
+            let Some(mover) = self.scene.loose_index(meeting.pair) else { continue };
+            let around = PartDeviation::of(&mut known, self, &posture, NO_DEVIATION, meeting);
+            self.near(around, meeting, &mut times[mover]);
+        }
+        times.iter_mut().for_each(merge_in_place);
+        times
     }
 
     /// Finds the times of a meeting at which some deviation of the part may be nearer to the obstacle than the

@@ -4,6 +4,7 @@
 //! - A path past the static obstacles is certified first, without the moving ones.
 //! - Along it, the arm moves from rest to rest between places at which it may wait. For each of these motions, the
 //!   blocked departures are intervals of time (`departures`). They are exact, as slices are in joint space (`blocked`).
+//! - `place_time` computes these regions along a motion, for people.
 //! - A search over safe intervals finds the earliest motion (`schedule`).
 //! - If it finds no motion, `refutation` tries to prove that no timing avoids the obstacles along this path.
 //! - Other paths lead around the moving obstacle at the place where the motion meets it.
@@ -11,10 +12,12 @@
 
 mod blocked;
 mod departures;
+mod place_time;
 mod refutation;
 mod schedule;
 
 pub use blocked::MovingObstacles;
+pub use place_time::{MotionPart, PlaceTime, TimedPlace, WaitReason};
 pub use schedule::{TimingRequirements, Wait};
 
 use cplan_core::check::{CertifiedPath, Nearest, certify};

@@ -12,6 +12,8 @@
 //! ```
 
 mod address;
+mod answer;
+mod drawings;
 mod file;
 mod journal;
 mod measure;

@@ -1,14 +1,21 @@
-//! A study as one page of HTML: heat maps, the Pareto fronts of two measures, the best and worst layouts, and the
-//! reasons why others fail.
+//! A study as one page of HTML: the answer, heat maps, the Pareto fronts of two measures, the best and worst layouts, and
+//! the reasons why others fail. A script links maps, charts and tables: the layout that the reader points at is drawn,
+//! and is marked everywhere.
 
 use super::Study;
+use super::answer::{self, with_unit};
+use super::drawings::Drawings;
 use super::measure::{Measure, Objective};
 use super::parameter::{Parameter, Values};
 use super::row::{Ending, Row};
 use super::summary::{Summary, format_value};
-use cplan_compare::page::{Axis, Frame, collapsible_section, foot, frame, head, image_source, number, section, table};
+use cplan_compare::page::{
+    Additions, Axis, Frame, collapsible_section, foot, frame, head_with, image_source, number, section, table,
+};
 use cplan_compare::{Align, Column, Picture, Table};
 use cplan_text::{counted, markup};
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Largest number of parameters for which each pair has a map.
 const MAX_MAPPED_PARAMETERS: usize = 4;
@@ -27,17 +34,50 @@ impl Study {
         let summary = Summary::new(self, rows);
         let names: Vec<String> = self.parameters.iter().map(Parameter::titled).collect();
         let subtitle = format!("{} over {}", counted(rows.len(), "layout"), names.join("; "));
-        let mut html = head(&self.name, &subtitle);
-        html += &section("Outcomes", &self.outcomes(&summary));
-        html += &self.maps(&summary, rows);
-        html += &self.fronts(&summary, rows);
+        let mut linked = BTreeSet::new();
+        let mut html = head_with(&self.name, &subtitle, &Additions { style: STYLE, has_script: true });
+        let is_best = |picture: &&Picture| picture.title.starts_with("best: ") && summary.best().is_some();
+        let best = pictures.first().filter(is_best);
+        html += &answer::section(self, &summary, rows, best);
+        html += &self.maps(&summary, rows, &mut linked);
+        html += &self.fronts(&summary, rows, &mut linked);
         if summary.best().is_some() {
-            let edges: String =
-                summary.edges().iter().map(|edge| format!("<p class=\"sub\">{}</p>\n", markup(edge))).collect();
-            html += &section("Best layouts", &(table(&summary.best_table()) + &edges));
+            html += &section("Best layouts", &table(&summary.best_table()));
         }
-        html += &pictures_section(pictures);
+        html += &section("Outcomes", &self.outcomes(&summary));
+        html += &pictures_section(&pictures[usize::from(best.is_some())..]);
+        linked.extend(summary.best_rows().map(|row| row.layout));
+        html += &self.script(&summary, rows, &linked);
         html + &foot(METHOD_NOTE)
+    }
+
+    /// Returns the data of the layouts that the page shows in more than one place, and the script that links them.
+    fn script(&self, summary: &Summary, rows: &[Row], linked: &BTreeSet<usize>) -> String {
+        let shown = || rows.iter().filter(|row| linked.contains(&row.layout));
+        let fact = |name: &str, text: String| json!([name, text]);
+        let described = |row: &Row| {
+            let values = self.parameters.iter().zip(&row.values);
+            let mut facts: Vec<Value> =
+                values.map(|(p, value)| fact(&p.name, with_unit(*value, p.unit.as_deref()))).collect();
+            let measured = self.measures.iter().zip(&row.measured);
+            facts.extend(measured.filter_map(|(m, value)| Some(fact(m.name(), with_unit((*value)?, m.unit())))));
+            facts.extend(row.reason.iter().map(|reason| fact("why", reason.clone())));
+            json!({
+                "ending": row.ending.name(),
+                "fits": row.fits,
+                "facts": facts,
+                "command": answer::command(self, row.layout),
+            })
+        };
+        let layouts: BTreeMap<usize, Value> = shown().map(|row| (row.layout, described(row))).collect();
+        let data = json!({
+            "best": summary.best().map(|best| best.layout),
+            "layouts": layouts,
+            "drawings": Drawings::new(self, shown()).to_json(),
+        });
+        // Only a less-than sign could end the script.
+        let data = data.to_string().replace('<', "\\u003c");
+        format!("<script id=\"study\" type=\"application/json\">{data}</script>\n<script>\n{SCRIPT}</script>\n")
     }
 
     fn outcomes(&self, summary: &Summary) -> String {
@@ -58,10 +98,10 @@ impl Study {
 
     /// Draws a map for each pair of parameters. It shows where a motion exists, and the best value of the objective in
     /// each cell.
-    fn maps(&self, summary: &Summary, rows: &[Row]) -> String {
+    fn maps(&self, summary: &Summary, rows: &[Row], linked: &mut BTreeSet<usize>) -> String {
         let mapped = self.parameters.len().min(MAX_MAPPED_PARAMETERS);
         let pairs = (0..mapped).flat_map(|a| (a + 1..mapped).map(move |b| [a, b]));
-        let maps: String = pairs.map(|pair| self.map(summary, rows, pair)).collect();
+        let maps: String = pairs.map(|pair| self.map(summary, rows, pair, linked)).collect();
         if maps.is_empty() {
             return maps;
         }
@@ -77,15 +117,16 @@ impl Study {
         let note = format!(
             "<p class=\"sub\">{what}the cross is the best of all.</p>\n<ul class=\"key signs\">\n{keys}</ul>\n"
         );
-        section("Maps", &format!("{note}<div class=\"charts\">\n{maps}</div>\n"))
+        let pointed = "<div class=\"pointed card\" hidden></div>\n";
+        section("Map", &format!("{note}<div class=\"linked\">\n<div class=\"maps\">\n{maps}</div>\n{pointed}</div>\n"))
     }
 
-    fn map(&self, summary: &Summary, rows: &[Row], [a, b]: [usize; 2]) -> String {
+    fn map(&self, summary: &Summary, rows: &[Row], [a, b]: [usize; 2], linked: &mut BTreeSet<usize>) -> String {
         let bins = [a, b].map(|k| Bins::of(&self.parameters[k]));
         let mut cells = vec![Cell::default(); bins[0].count * bins[1].count];
         for row in rows {
             let [i, j] = [(a, &bins[0]), (b, &bins[1])].map(|(k, bins)| bins.place(row.values[k]));
-            cells[j * bins[0].count + i].add(row.ending, self.cost(row));
+            cells[j * bins[0].count + i].add(row, self.cost(row));
         }
         let costs = || cells.iter().filter_map(|cell| cell.cost);
         let [least, greatest] = [costs().fold(f64::INFINITY, f64::min), costs().fold(f64::NEG_INFINITY, f64::max)];
@@ -97,8 +138,10 @@ impl Study {
             let (i, j) = ((number_of % bins[0].count) as f64, (number_of / bins[0].count) as f64);
             let ([left, bottom], [right, top]) = (corner(i, j), corner(i + 1.0, j + 1.0));
             let Some((color, text)) = cell.color_and_label(least, greatest) else { continue };
+            let Some((.., layout)) = cell.shown else { continue };
+            linked.insert(layout);
             svg += &format!(
-                "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{color}\"><title>{}</title></rect>\n",
+                "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{color}\" data-layout=\"{layout}\" data-cell=\"{i},{j}\"><title>{}</title></rect>\n",
                 number(left),
                 number(top),
                 number(right - left),
@@ -120,7 +163,7 @@ impl Study {
     }
 
     /// Draws a chart of the objective against each other measure, with the layouts on the Pareto front.
-    fn fronts(&self, summary: &Summary, rows: &[Row]) -> String {
+    fn fronts(&self, summary: &Summary, rows: &[Row], linked: &mut BTreeSet<usize>) -> String {
         let Some(objective) = self.objective else { return String::new() };
         let others = self.measures.iter().filter(|measure| **measure != objective.measure);
         let of = |row: &Row, measure: Measure| self.column(measure).and_then(|column| row.measured[column]);
@@ -133,7 +176,9 @@ impl Study {
         for other in others {
             let pair = [objective.measure, *other];
             let point = |row: &Row| Some([of(row, pair[0])?, of(row, pair[1])?]);
-            let points: Vec<[f64; 2]> = rows.iter().filter(|row| row.fits).filter_map(point).collect();
+            let fitting = rows.iter().filter(|row| row.fits);
+            let (layouts, points): (Vec<usize>, Vec<[f64; 2]>) =
+                fitting.filter_map(|row| Some((row.layout, point(row)?))).unzip();
             let axis = |k: usize| Axis::over(points.iter().map(|point| point[k]), None);
             let (Some(first), Some(second)) = (axis(0), axis(1)) else { continue };
             let axes = [first, second];
@@ -144,17 +189,18 @@ impl Study {
             }
             let titles = pair.map(titled);
             let Frame { mut svg, place } = frame(axes, titles.each_ref().map(String::as_str), "Chart");
-            let dot = |at: [f64; 2], radius: &str| {
+            let dot = |at: [f64; 2], radius: &str, layout: usize| {
                 let [x, y] = place(at).map(number);
-                format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>")
+                format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" data-layout=\"{layout}\"/>")
             };
             let stride = dots.len().div_ceil(MAX_CHART_POINTS).max(1);
             svg += "<g class=\"p0 dot\">";
-            dots.iter().step_by(stride).for_each(|at| svg += &dot(*at, "1.5"));
+            dots.iter().zip(&layouts).step_by(stride).for_each(|(at, layout)| svg += &dot(*at, "1.5", *layout));
             svg += "</g>\n<g class=\"p1 only\">";
             for (row, point) in summary.pareto(pair).into_iter().filter_map(|row| Some((row, point(row)?))) {
+                linked.insert(row.layout);
                 let text = format!("layout {}: {}", row.layout, point.map(format_value).join(", "));
-                svg += &format!("<g><title>{}</title>{}</g>", markup(&text), dot(places(point), "4"));
+                svg += &format!("<g><title>{}</title>{}</g>", markup(&text), dot(places(point), "4", row.layout));
             }
             charts += &figure(&format!("{} against {}", titles[1], titles[0]), &(svg + "</g></svg>\n"));
             drawn.push(dots);
@@ -232,6 +278,12 @@ const OUTCOME_HEADINGS: [&str; 3] = ["outcome", "layouts", "why"];
 /// Largest number of reasons that are listed.
 const MAX_REASONS: usize = 12;
 
+/// Styles of this page, after those of all reports.
+const STYLE: &str = include_str!("assets/study.css");
+
+/// The script that links maps, charts and tables.
+const SCRIPT: &str = include_str!("assets/study.js");
+
 const METHOD_NOTE: &str = "Every layout was planned separately. <em>Found</em>: the whole continuous motion is \
                            certified free of collision. <em>Infeasible</em>: proven. <em>Refused</em>: there is \
                            nothing to plan, because start or goal is not free or out of reach, or a value is not \
@@ -292,10 +344,18 @@ struct Cell {
     found: usize,
     fitting: usize,
     cost: Option<f64>,
+    /// The layout that stands for the cell: the best one that fits, or otherwise one with the best ending. Its rank, its
+    /// cost and its number.
+    shown: Option<(usize, f64, usize)>,
 }
 
 impl Cell {
-    fn add(&mut self, ending: Ending, cost: f64) {
+    fn add(&mut self, row: &Row, cost: f64) {
+        let ending = row.ending;
+        let rank = if cost.is_finite() { 0 } else { 1 + ending as usize };
+        if self.shown.is_none_or(|(best, least, _)| (rank, cost) < (best, least)) {
+            self.shown = Some((rank, cost, row.layout));
+        }
         self.layouts += 1;
         self.infeasible += usize::from(ending == Ending::Infeasible);
         self.refused += usize::from(ending == Ending::Refused);

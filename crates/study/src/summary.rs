@@ -223,6 +223,12 @@ impl<'a> Summary<'a> {
         json!({ "layout": row.layout, "parameters": Value::from_iter(values), "measured": Value::from_iter(measured) })
     }
 
+    /// Iterates over the rows of the table of the best layouts.
+    pub(super) fn best_rows(&self) -> impl Iterator<Item = &'a Row> {
+        let rows = self.rows;
+        self.ranked.iter().take(2 * LISTED_LAYOUTS).map(move |&i| &rows[i])
+    }
+
     /// Returns the table of the best layouts.
     pub(super) fn best_table(&self) -> Table {
         self.table(self.ranked.iter().take(2 * LISTED_LAYOUTS))

@@ -51,6 +51,24 @@ impl Serialize for Rgb {
     }
 }
 
+/// Replaces the colours `#rrggbb` in the attributes of an SVG document. `replaced` receives each colour and returns the new
+/// text of the attribute.
+pub fn recolored(svg: &str, mut replaced: impl FnMut(Rgb) -> String) -> String {
+    let mut parts = svg.split("=\"#");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let channel = |k: usize| part.get(2 * k..2 * k + 2).and_then(|hex| u8::from_str_radix(hex, 16).ok());
+        let color = channel(0).zip(channel(1)).zip(channel(2)).map(|((r, g), b)| Rgb(r, g, b));
+        match (color, part.get(6..)) {
+            (Some(color), Some(rest)) if rest.starts_with('"') => {
+                text.extend(["=\"", &replaced(color), rest]);
+            }
+            _ => text.extend(["=\"#", part]),
+        }
+    }
+    text
+}
+
 /// Colours of obstacles: Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), ordered so that
 /// neighbours in the list differ strongly.
 const OBSTACLE_COLORS: [Rgb; 9] = [
@@ -100,20 +118,22 @@ pub fn path(index: usize) -> (Rgb, &'static [f64]) {
     (PATH_COLORS[index % PATH_COLORS.len()].0, PATH_DASHES[(index + index / PATH_COLORS.len()) % PATH_DASHES.len()])
 }
 
-/// Returns the colour for `value` from 0 (light) to 1 (dark) on a perceptually uniform scale. The scale is seaborn's
-/// "mako" without its darkest third, reversed, so that a dark path stays legible on it.
+/// Colours of the scale of values, evenly spaced from light to dark: seaborn's "mako" without its darkest third, reversed,
+/// so that a dark path stays legible on it. Pages get them from here.
+pub const SCALE_STOPS: [Rgb; 8] = [
+    Rgb(0xde, 0xf5, 0xe5),
+    Rgb(0xa8, 0xe1, 0xbc),
+    Rgb(0x60, 0xce, 0xac),
+    Rgb(0x3e, 0xb4, 0xad),
+    Rgb(0x34, 0x98, 0xa9),
+    Rgb(0x35, 0x7b, 0xa3),
+    Rgb(0x3b, 0x5d, 0x9a),
+    Rgb(0x41, 0x3f, 0x80),
+];
+
+/// Returns the colour for `value` from 0 (light) to 1 (dark) on a perceptually uniform scale.
 #[must_use]
 pub fn scale(value: f64) -> Rgb {
-    const SCALE_STOPS: [Rgb; 8] = [
-        Rgb(0xde, 0xf5, 0xe5),
-        Rgb(0xa8, 0xe1, 0xbc),
-        Rgb(0x60, 0xce, 0xac),
-        Rgb(0x3e, 0xb4, 0xad),
-        Rgb(0x34, 0x98, 0xa9),
-        Rgb(0x35, 0x7b, 0xa3),
-        Rgb(0x3b, 0x5d, 0x9a),
-        Rgb(0x41, 0x3f, 0x80),
-    ];
     let at = value.clamp(0.0, 1.0) * (SCALE_STOPS.len() - 1) as f64;
     let below = (at as usize).min(SCALE_STOPS.len() - 2);
     SCALE_STOPS[below].mixed(SCALE_STOPS[below + 1], at - below as f64)
@@ -167,6 +187,14 @@ mod tests {
         assert!(all.windows(2).all(|w| w[1] < w[0]));
         assert_eq!(scale(-1.0), scale(0.0));
         assert_eq!(scale(2.0), Rgb(0x41, 0x3f, 0x80));
+    }
+
+    #[test]
+    fn only_colors_in_attributes_are_replaced() {
+        let svg = "<a fill=\"#0a0B0c\" href=\"#ground\"/><b x=\"#123\">#0a0b0c \u{e9}=\"#\u{e9}\u{e9}\u{e9}\"</b>";
+        let text = recolored(svg, |color| format!("[{color}]"));
+        assert_eq!(text, svg.replacen("#0a0B0c", "[#0a0b0c]", 1));
+        assert_eq!(recolored("", |color| color.to_string()), "");
     }
 
     #[test]

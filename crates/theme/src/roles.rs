@@ -1,6 +1,6 @@
 //! Colours by role: what they mean, for a light and a dark background.
 
-use super::Rgb;
+use super::{PATH_COLORS, PlannerPen, Rgb};
 
 /// A meaning that has a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,19 +87,28 @@ pub const ROLES: [Role; 23] = [
     Role { name: "unknown", light: UNKNOWN, dark: Rgb(0x6c, 0x4f, 0x7d) },
 ];
 
-/// Returns the name of the role that has this colour on a light background, and `#rrggbb` for any other colour.
+/// Returns the name of the role or planner that has this colour on a light background, which is also the name of a
+/// variable in style sheets. `None` for other colours.
 #[must_use]
-pub fn role_or_hex(color: Rgb) -> String {
-    let role = ROLES.iter().find(|role| role.light == color);
-    role.map_or_else(|| color.to_string(), |role| role.name.to_owned())
+pub fn variable(color: Rgb) -> Option<String> {
+    let role = ROLES.iter().find(|role| role.light == color).map(|role| role.name.to_owned());
+    role.or_else(|| PlannerPen::all().find(|pen| pen.light() == color).map(PlannerPen::name))
 }
 
-/// Returns the colour for a dark background that corresponds to a colour for a light one: the other colour of its role,
-/// or a colour of the same hue with the lightness reversed.
+/// Returns the name of the role or planner that has this colour on a light background, and `#rrggbb` for any other colour.
+#[must_use]
+pub fn role_or_hex(color: Rgb) -> String {
+    variable(color).unwrap_or_else(|| color.to_string())
+}
+
+/// Returns the colour for a dark background that corresponds to a colour for a light one: the other colour of its
+/// role, planner or path, or a colour of the same hue with the lightness reversed.
 #[must_use]
 pub fn on_dark(color: Rgb) -> Rgb {
-    let role = ROLES.iter().find(|role| role.light == color);
-    role.map_or_else(|| color.with_reversed_lightness(), |role| role.dark)
+    let role = ROLES.iter().find(|role| role.light == color).map(|role| role.dark);
+    let planner = || PlannerPen::all().find(|pen| pen.light() == color).map(PlannerPen::dark);
+    let path = || PATH_COLORS.iter().find(|(light, _)| *light == color).map(|(_, dark)| *dark);
+    role.or_else(planner).or_else(path).unwrap_or_else(|| color.with_reversed_lightness())
 }
 
 #[cfg(test)]
@@ -151,6 +160,8 @@ mod tests {
     fn colors_without_a_role_keep_their_hue_in_the_dark() {
         assert_eq!(on_dark(WHITE), ROLES[0].dark);
         assert_eq!(on_dark(Rgb(0x80, 0x10, 0x10)), Rgb(0xef, 0x7f, 0x7f));
+        let pen = PlannerPen::new(crate::PlannerFamily::Field, 1);
+        assert_eq!((on_dark(pen.light()), role_or_hex(pen.light())), (pen.dark(), "field-1".to_owned()));
         assert_eq!(role_or_hex(INK), "ink");
         assert_eq!(role_or_hex(Rgb(1, 2, 3)), "#010203");
     }

@@ -6,6 +6,7 @@ use super::shapes::union;
 use super::view::PayloadView;
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
+use cplan_geometry::Convex;
 use cplan_theme::{ACCENT, GRAY, INFEASIBLE, INK, PALE, Rgb, WHITE};
 
 /// Colours and line widths with which an arm is drawn.
@@ -15,20 +16,51 @@ pub struct ArmStyle {
     width: f64,
     opacity: f64,
     joints: bool,
+    /// True if no name may lie on the arm. Names may lie on it, but avoid its outline, if it covers too much otherwise.
+    blocks: bool,
+}
+
+impl ArmStyle {
+    /// Returns true if no name may lie on the arm.
+    pub fn blocks(&self) -> bool {
+        self.blocks
+    }
+}
+
+impl ArmStyle {
+    /// Returns this style for a small drawing, with thin lines and without joints.
+    #[must_use]
+    pub fn thin(&self) -> Self {
+        Self { width: 0.5 * self.width, joints: false, ..*self }
+    }
 }
 
 /// The arm at the start of the motion.
-pub const START_LOOK: ArmStyle = ArmStyle { fill: WHITE, line: INK, width: 1.4, opacity: 0.9, joints: true };
+pub const START_LOOK: ArmStyle =
+    ArmStyle { fill: WHITE, line: INK, width: 1.4, opacity: 0.9, joints: true, blocks: true };
 /// The arm at the goal.
-pub const GOAL_LOOK: ArmStyle = ArmStyle { fill: PALE, line: INK, width: 1.4, opacity: 0.9, joints: true };
+pub const GOAL_LOOK: ArmStyle =
+    ArmStyle { fill: PALE, line: INK, width: 1.4, opacity: 0.9, joints: true, blocks: true };
 /// The arm at a goal that it cannot reach.
 pub const UNREACHED_LOOK: ArmStyle =
-    ArmStyle { fill: WHITE, line: INFEASIBLE, width: 1.2, opacity: 0.6, joints: false };
+    ArmStyle { fill: WHITE, line: INFEASIBLE, width: 1.2, opacity: 0.6, joints: false, blocks: true };
 /// The arm at its current configuration.
-pub const CURRENT_LOOK: ArmStyle = ArmStyle { fill: WHITE, line: ACCENT, width: 2.0, opacity: 1.0, joints: true };
+pub const CURRENT_LOOK: ArmStyle =
+    ArmStyle { fill: WHITE, line: ACCENT, width: 2.0, opacity: 1.0, joints: true, blocks: true };
 /// The arm at a configuration along the path.
 pub const GHOST_LOOK: ArmStyle =
-    ArmStyle { fill: cplan_theme::GHOST, line: GRAY, width: 0.8, opacity: 0.7, joints: false };
+    ArmStyle { fill: cplan_theme::GHOST, line: GRAY, width: 0.8, opacity: 0.7, joints: false, blocks: false };
+
+/// Returns the shapes of the arm and of its payload at `q`.
+pub fn placed_shapes(arm: &Arm, payload: Option<&PayloadView>, q: Configuration) -> Vec<Convex> {
+    let links = arm.links.iter().zip(arm.poses(q));
+    let parts = links.flat_map(|(link, pose)| link.parts.iter().map(move |part| part.shape.at(&pose)));
+    let held = payload.into_iter().flat_map(|held| {
+        let pose = held.grip.pose(arm, q);
+        held.pieces.iter().map(move |piece| piece.0.at(&pose))
+    });
+    parts.chain(held).collect()
+}
 
 /// Draws the arm at `q`: first its outline, then the payload over it in the colour of the object.
 #[must_use]

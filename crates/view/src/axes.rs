@@ -13,6 +13,10 @@ pub enum Unit {
     Meters,
     /// Radians, written in degrees with the degree sign.
     Degrees,
+    /// Seconds.
+    Seconds,
+    /// Fractions, written in per cent.
+    Percent,
 }
 
 /// A rectangle of the page with values along its sides; `y` increases upwards.
@@ -176,14 +180,19 @@ fn ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> {
 
 fn sparse_ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> {
     let factor = match unit {
-        Unit::Meters => 1.0,
+        Unit::Meters | Unit::Seconds => 1.0,
         Unit::Degrees => 180.0 / std::f64::consts::PI,
+        Unit::Percent => 100.0,
     };
-    let sign = if unit == Unit::Degrees { "\u{b0}" } else { "" };
+    let sign = match unit {
+        Unit::Meters | Unit::Seconds => "",
+        Unit::Degrees => "\u{b0}",
+        Unit::Percent => " %",
+    };
     let (lower, upper) = (range.0 * factor, range.1 * factor);
     let least = (upper - lower) / at_most as f64;
     let step = match unit {
-        Unit::Meters => decimal_step(least),
+        Unit::Meters | Unit::Seconds | Unit::Percent => decimal_step(least),
         Unit::Degrees => degree_step(least),
     };
     // Half a per mille of a step, so that a limit gets its tick although rounding moved it slightly off a round number.

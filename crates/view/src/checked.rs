@@ -7,6 +7,7 @@ use super::figure::{Item, Pen, Style};
 use super::key::{Key, Sign};
 use super::view::WorldView;
 use cplan_core::model::Arm;
+use cplan_core::space::Configuration;
 use cplan_engine::findings::{ConfigurationFindings, PairFinding};
 use cplan_theme::{GRAY, INFEASIBLE, WHITE};
 use serde::Serialize;
@@ -26,6 +27,18 @@ pub struct CheckedView {
     /// The nearest free configuration. `None` if the configuration is free, or if the search found none.
     #[serde(skip_serializing_if = "Option::is_none")]
     nearest_free: Option<[f64; 2]>,
+}
+
+impl CheckedView {
+    /// Returns the configurations at which the arm is drawn.
+    pub fn drawn_arms(&self) -> impl Iterator<Item = Configuration> {
+        self.nearest_free.into_iter().chain(self.is_blocked.then_some(self.at)).map(Configuration::from)
+    }
+
+    /// Returns the places of contact in the plane.
+    pub fn contacts(&self) -> &[[f64; 2]] {
+        &self.contacts
+    }
 }
 
 impl From<&ConfigurationFindings> for CheckedView {

@@ -1,18 +1,19 @@
 //! A panel with a configuration space.
 
-use super::axes::Frame;
 use super::chart::{self, Chart};
-use super::figure::{Item, Pen, Rect, Step, Style, lines};
+use super::checked::{self, CheckedView};
+use super::figure::{Item, Pen, Rect, Step, Style, lines, lines_by_path};
+use super::labels::{NamedRegion, Placer};
 use super::shapes::ABSENT_DASH;
-use super::view::{ContourView, NameView, PanelView, View, WorldView};
-use super::{blocking, boxes, checked, labels, preferences, reach, tags, trace};
+use super::view::{ContourView, MAX_NAMED_OBSTACLES, PanelView, View, WorldView};
+use super::{blocking, boxes, preferences, reach, tags, trace};
 use cplan_theme::{ACCENT, INK, Rgb, WHITE};
 
 /// Pen for goals along a segment.
 const GOAL_SEGMENT_PEN: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
 
-/// Width of the markers of start and goals, in pixels.
-const MARKER_WIDTH: f64 = 16.0;
+/// Half the width of the markers of starts and goals, in pixels.
+const MARKER_HALF_WIDTH: f64 = 10.0;
 
 /// Draws the panel in this part of the page, with room for a scale of colours to the right of it.
 #[must_use]
@@ -41,23 +42,20 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     inside.extend(view.still.reach.iter().flat_map(|reach| reach::in_cspace(reach, chart)));
     inside.extend(preferences::in_cspace(&world.regions, chart));
     inside.extend(boxes::proof(&world.proof, frame));
-    let blocking = view.still.stuck.iter().filter_map(|blocking| Some(blocking.at?.0));
-    let marked = view.ends(panel).into_iter().map(|(q, ..)| q).chain([panel.start.into()]).chain(blocking);
-    let markers = marked.map(|q| labels::centered_rect(chart.place(q), [MARKER_WIDTH; 2])).collect();
-    inside.extend(names(world, frame, markers));
     inside.extend(lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOAL_SEGMENT_PEN))));
-    inside.extend(lines(paths.map(|path| (chart.outline(&path.points.0), path.pen()))));
+    let paths: Vec<_> = paths.map(|path| (chart.outline(&path.points.0), path.pen())).collect();
+    let names = names(view, panel, chart, &paths);
+    inside.extend(if view.still.lights_paths { lines_by_path(paths) } else { lines(paths) });
     inside.extend(world.trace.iter().flat_map(|trace| trace::items_above_path(trace, chart)));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));
     items.extend(world.scale.iter().flat_map(|scale| trace::color_bar(scale, &frame.rect)));
+    let size = marker_size(panel);
     // If there are paths, the marker of a goal that no path reached is hollow.
-    let mut numbers = Vec::new();
-    for (q, number, reached) in view.ends(panel) {
-        items.extend(goal_marker(chart.place(q), reached));
-        tags::add(&mut numbers, chart.place(q), number);
+    for (q, _, reached) in view.ends(panel) {
+        items.extend(goal_marker_of_size(chart.place(q), reached, size));
     }
-    items.extend(start_marker(chart.place(panel.start.into())));
+    items.extend(panel.starts.iter().flat_map(|&q| start_marker_of_size(chart.place(q.into()), size)));
     if let Some((q, world)) = view.still.now
         && panel.worlds.contains(&world)
     {
@@ -65,15 +63,14 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     }
     items.extend(view.still.stuck.iter().flat_map(|blocking| blocking::in_cspace(blocking, chart)));
     items.extend(view.still.checked.iter().filter_map(|checked| checked::in_cspace(checked, chart)));
-    if view.is_task() && numbers.len() > 1 {
-        items.extend(tags::items(&numbers, frame.rect, &[], &[]));
-    }
+    items.extend(names);
     items
 }
 
 /// Draws the C-obstacles. If link 2 may reach into an obstacle in one of the worlds, some part of its C-obstacle is
 /// free there. That part is dashed.
-fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
+#[must_use]
+pub fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     let (mut dashed, mut solid) = (Vec::new(), Vec::new());
     for (number, obstacle) in worlds[0].obstacles.iter().enumerate() {
         let open = |world: &&&WorldView| world.open.iter().any(|c| c.obstacle == number);
@@ -103,11 +100,45 @@ fn moving_obstacle_items(view: &View, world: &WorldView, chart: &Chart) -> Vec<I
     items
 }
 
-/// Draws the names of obstacles within their C-obstacles, or numbers if there are many obstacles.
-fn names(world: &WorldView, frame: &Frame, markers: Vec<Rect>) -> Vec<Item> {
-    let room = frame.rect.width * frame.rect.height;
-    let name = |name: &NameView| (world.called(name.obstacle), frame.at(name.at[0], name.at[1]), name.area * room);
-    labels::shape_labels(&frame.rect, markers, world.names.iter().map(name))
+/// Draws the numbers of steps beside the places where they end, and the names of obstacles on the visible parts of their
+/// C-obstacles, or numbers if there are many obstacles. `paths` are the outlines of the paths, which names dodge.
+fn names(view: &View, panel: &PanelView, chart: &Chart, paths: &[(Vec<Step>, Pen)]) -> Vec<Item> {
+    let (world, mut placer) = (&view.worlds[panel.worlds[0]], Placer::new(chart.frame.rect));
+    let (ends, mut tags) = (view.ends(panel), Vec::new());
+    let blocking = view.still.stuck.iter().filter_map(|blocking| Some(blocking.at?.0));
+    let starts = panel.starts.iter().map(|&q| q.into());
+    let current = view.still.now.filter(|(_, world)| panel.worlds.contains(world)).map(|(q, _)| q.into());
+    let checked = view.still.checked.iter().flat_map(CheckedView::drawn_arms);
+    let marked = ends.iter().map(|(q, ..)| *q).chain(starts).chain(blocking).chain(current).chain(checked);
+    let half_width = MARKER_HALF_WIDTH * marker_size(panel);
+    marked.for_each(|q| placer.block_spot(chart.place(q), half_width));
+    paths.iter().for_each(|(steps, _)| placer.block_line(steps));
+    view.goal_lines.iter().for_each(|goals| placer.block_line(&chart.outline(&goals.0)));
+    if view.is_task() {
+        ends.iter().for_each(|(q, number, _)| tags::add(&mut tags, chart.place(*q), *number));
+        if tags.len() > 1 {
+            placer.beside(&tags::names(&tags, half_width));
+        }
+    }
+    let visible = (0..world.obstacles.len()).filter_map(|number| {
+        let own = world.c_obstacles.iter().filter(|c| c.obstacle == number);
+        let Item::Outline(outline, _) = chart.c_obstacle(own, Style::fill(WHITE)) else { return None };
+        (!outline.is_empty()).then_some((number, outline))
+    });
+    let visible: Vec<_> = visible.collect();
+    let is_crowded = visible.len() > MAX_NAMED_OBSTACLES;
+    let regions = visible.into_iter().filter_map(|(number, outline)| {
+        // Numbers would look like those of the steps.
+        let text = if is_crowded { world.called(number) } else { world.obstacles[number].name.clone() };
+        (!is_crowded || !view.is_task()).then_some(NamedRegion { text, outline })
+    });
+    let moving = world.movers.iter().enumerate().filter_map(|(number, mover)| {
+        let own = world.moment(view.still.time)?.c_obstacles.iter().filter(|c| c.obstacle == number);
+        let Item::Outline(outline, _) = chart.c_obstacle(own, Style::fill(WHITE)) else { return None };
+        (!outline.is_empty()).then(|| NamedRegion { text: mover.obstacle.name.clone(), outline })
+    });
+    placer.on_regions(&regions.chain(moving).collect::<Vec<_>>());
+    placer.into_items()
 }
 
 /// Returns the style of a C-obstacle.
@@ -122,15 +153,33 @@ fn passable(color: Rgb) -> Style {
     Style { pen_below: true, ..style }
 }
 
+/// Returns the size of the markers in a panel. In a panel with many paths, they are smaller.
+fn marker_size(panel: &PanelView) -> f64 {
+    match panel.paths.len() {
+        0..=3 => 1.0,
+        4..=8 => 0.8,
+        _ => 0.62,
+    }
+}
+
 /// Draws the start of a motion: a ring, which leaves room for the arm's current configuration.
 #[must_use]
 pub fn start_marker(at: [f64; 2]) -> Vec<Item> {
-    vec![Item::Disc(at, 9.5, Style::fill(WHITE).faded(0.85)), Item::Disc(at, 7.0, Style::line(INK, 2.2).filled(WHITE))]
+    start_marker_of_size(at, 1.0)
+}
+
+fn start_marker_of_size(at: [f64; 2], size: f64) -> Vec<Item> {
+    let ring = Style::line(INK, 2.2 * size.sqrt()).filled(WHITE);
+    vec![Item::Disc(at, 9.5 * size, Style::fill(WHITE).faded(0.85)), Item::Disc(at, 7.0 * size, ring)]
 }
 
 /// Draws the goal of a motion: a diamond, hollow if no path ended there.
 #[must_use]
-pub fn goal_marker([x, y]: [f64; 2], reached: bool) -> Vec<Item> {
+pub fn goal_marker(at: [f64; 2], reached: bool) -> Vec<Item> {
+    goal_marker_of_size(at, reached, 1.0)
+}
+
+fn goal_marker_of_size([x, y]: [f64; 2], reached: bool, size: f64) -> Vec<Item> {
     let diamond = |r: f64| {
         vec![
             Step::Move([x, y - r]),
@@ -142,7 +191,7 @@ pub fn goal_marker([x, y]: [f64; 2], reached: bool) -> Vec<Item> {
     };
     let inside = if reached { INK } else { WHITE };
     vec![
-        Item::Outline(diamond(10.5), Style::fill(WHITE).faded(0.85)),
-        Item::Outline(diamond(7.0), Style::line(INK, 1.6).filled(inside)),
+        Item::Outline(diamond(10.5 * size), Style::fill(WHITE).faded(0.85)),
+        Item::Outline(diamond(7.0 * size), Style::line(INK, 1.6).filled(inside)),
     ]
 }

@@ -130,6 +130,18 @@ pub struct Label {
     pub upwards: bool,
     /// Colour of the letters.
     pub color: Rgb,
+    /// True if a pale line around the letters makes them legible on any ground.
+    pub has_halo: bool,
+    /// True for bold letters.
+    pub is_bold: bool,
+}
+
+impl Label {
+    /// Returns the width of the text in the built-in font, in pixels.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        if self.is_bold { bold_text_width(&self.text, self.size) } else { text_width(&self.text, self.size) }
+    }
 }
 
 /// An item of a figure.
@@ -145,6 +157,8 @@ pub enum Item {
     Clip(Rect, Vec<Item>),
     /// A rectangle of coloured cells.
     Raster(Raster),
+    /// Items that belong to the path with this index, which a page can light up.
+    OfPath(usize, Vec<Item>),
 }
 
 /// Cells in columns from left to right, each from the bottom up.
@@ -223,16 +237,46 @@ pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> 
     halos
 }
 
+/// Draws the same as [`lines`], in groups by path. Each path also has a broad invisible line, which is easy to point at.
+#[must_use]
+pub fn lines_by_path(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
+    const POINTER_WIDTH: f64 = 14.0;
+    let (mut halos, mut drawn) = (Vec::new(), Vec::new());
+    for (index, (steps, pen)) in outlines.into_iter().enumerate() {
+        let pointed = Item::Outline(steps.clone(), Style::line(pen.color, POINTER_WIDTH).faded(0.0));
+        let mut both = lines([(steps, pen)]).into_iter();
+        halos.extend(both.next().map(|halo| Item::OfPath(index, vec![halo])));
+        drawn.push(Item::OfPath(index, both.chain([pointed]).collect()));
+    }
+    halos.extend(drawn);
+    halos
+}
+
 /// Returns a text that reads to the right.
 #[must_use]
 pub fn label(at: [f64; 2], text: impl Into<String>, size: f64, anchor: Anchor, color: Rgb) -> Item {
-    Item::Text(Label { at, text: text.into(), size, anchor, upwards: false, color })
+    Item::Text(Label { at, text: text.into(), size, anchor, upwards: false, color, has_halo: false, is_bold: false })
+}
+
+/// Returns a bold text that reads to the right.
+#[must_use]
+pub fn bold(at: [f64; 2], text: impl Into<String>, size: f64, anchor: Anchor, color: Rgb) -> Item {
+    Item::Text(Label { at, text: text.into(), size, anchor, upwards: false, color, has_halo: false, is_bold: true })
 }
 
 /// Creates a text that reads upwards, centred at its place.
 #[must_use]
 pub fn upwards(at: [f64; 2], text: impl Into<String>, size: f64, color: Rgb) -> Item {
-    Item::Text(Label { at, text: text.into(), size, anchor: Anchor::Middle, upwards: true, color })
+    Item::Text(Label {
+        at,
+        text: text.into(),
+        size,
+        anchor: Anchor::Middle,
+        upwards: true,
+        color,
+        has_halo: false,
+        is_bold: false,
+    })
 }
 
 /// Returns the outline of a rectangle.
@@ -251,11 +295,21 @@ pub fn rectangle(rect: Rect) -> Vec<Step> {
 /// that are not Latin is an estimate.
 #[must_use]
 pub fn text_width(text: &str, size: f64) -> f64 {
-    let advance = |c: char| match (letter_width(c), c) {
+    width(text, size, false)
+}
+
+/// Does the same as [`text_width`] for bold letters.
+#[must_use]
+pub fn bold_text_width(text: &str, size: f64) -> f64 {
+    width(text, size, true)
+}
+
+fn width(text: &str, size: f64, is_bold: bool) -> f64 {
+    let advance = |c: char| match (letter_width(c, is_bold), c) {
         (Some(width), _) => width,
         // East Asian characters fill a square.
         (None, '\u{2e80}'..) => 1.0,
-        (None, _) => 0.56,
+        (None, _) => 0.6,
     };
     text.chars().map(advance).sum::<f64>() * size
 }

@@ -2,13 +2,13 @@
 
 use super::chart::{self, Chart};
 use super::cspace;
-use super::figure::{Anchor, Item, Rect, label, shortened};
+use super::figure::{Anchor, Item, Rect, bold, label, shortened};
 use super::view::{PanelView, View};
 use cplan_core::model::Arm;
 use cplan_theme::{GRAY, INK};
 
 /// Gaps between columns (for the values at the ends of the axes) and between rows (for titles), in pixels.
-const PANEL_GAPS: [f64; 2] = [40.0, 36.0];
+const PANEL_GAPS: [f64; 2] = [40.0, 64.0];
 /// Greatest height of two panels one below the other, in pixels.
 const MAX_STACKED_HEIGHT: f64 = 640.0;
 /// Ratio of height to width of a panel whose axes have different scales.
@@ -66,7 +66,7 @@ impl Grid {
         let charts: Vec<Chart> = (0..panels.len()).map(|index| Chart::new(arm, self.area(index, corner))).collect();
         for (index, (panel, chart)) in panels.iter().zip(&charts).enumerate() {
             items.extend(cspace::items(view, panel, chart));
-            items.push(title(&panel.title, chart.frame.rect));
+            items.extend(title(panel, chart.frame.rect));
             let values = [index + self.columns >= panels.len(), index % self.columns == 0];
             items.extend(chart.frame.tick_marks(chart.units, values));
         }
@@ -85,10 +85,14 @@ impl Grid {
     }
 }
 
-/// Draws the title above a frame.
-fn title(text: &str, frame: Rect) -> Item {
-    const TITLE_SIZE: f64 = 14.0;
-    // A title may be somewhat wider than its frame, on each side by less than half of the gap between neighbours.
-    let text = shortened(text, TITLE_SIZE, frame.width + 24.0);
-    label([frame.x + frame.width / 2.0, frame.y - 9.0], text, TITLE_SIZE, Anchor::Middle, INK)
+/// Draws the title above a frame, and a second line below it.
+fn title(panel: &PanelView, frame: Rect) -> [Item; 2] {
+    const TITLE_SIZE: f64 = 15.0;
+    const SUBTITLE_SIZE: f64 = 13.0;
+    let middle = frame.x + frame.width / 2.0;
+    let text = |text: &str, size: f64| shortened(text, size * 1.05, frame.width);
+    [
+        bold([middle, frame.y - 26.0], text(&panel.title, TITLE_SIZE), TITLE_SIZE, Anchor::Middle, INK),
+        label([middle, frame.y - 9.0], text(&panel.subtitle, SUBTITLE_SIZE), SUBTITLE_SIZE, Anchor::Middle, GRAY),
+    ]
 }

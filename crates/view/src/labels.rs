@@ -1,12 +1,16 @@
-//! Names on their shapes, or beside shapes that are too small. No name covers another.
+//! The placer of names in a panel. A name lies neither on the arm, nor on a marker, nor on another name. It avoids paths
+//! as far as possible, is joined to a distant shape by a line, and is left out if there is no place for it.
+//!
+//! Pages have the same rule in `view/assets/labels.js`: the same places in the same order, with the same costs. A change
+//! here needs the same change there.
 
 use super::axes::Frame;
-use super::figure::{Anchor, Item, Rect, Style, label, rectangle, shortened, text_width};
-use super::tags::overlap;
+use super::figure::{Anchor, Item, Label, Rect, Step, Style, bold_text_width, shortened};
+use super::regions::RegionRaster;
 use super::view::bounding_box;
 use cplan_core::model::Shape;
-use cplan_geometry::Convex;
-use cplan_theme::{INK, WHITE};
+use cplan_geometry::{Convex, Point, separation};
+use cplan_theme::{GRAY, INK, WHITE};
 
 const NAME_SIZE: f64 = 12.0;
 /// Greatest width of a name, in pixels.
@@ -14,69 +18,255 @@ const MAX_NAME_WIDTH: f64 = 160.0;
 /// Height of a name's box, in pixels.
 const NAME_HEIGHT: f64 = 15.0;
 /// Distance between a name's box and the shape beside it, in pixels.
-const NAME_GAP: f64 = 4.0;
+const NAME_GAP: f64 = 3.0;
+/// Distances from the shape at which a name needs a line to it, in pixels.
+const LEADER_GAPS: [f64; 3] = [18.0, 36.0, 58.0];
 /// Side of the square in the middle of a wall that the wall's name refers to, in pixels.
 const WALL_SPOT_SIDE: f64 = 10.0;
-/// Largest fraction of a named area that its name may cover.
-const MAX_COVERED_SHARE: f64 = 0.5;
+/// Side of the square in a small region that the region's name refers to, in pixels.
+const REGION_SPOT_SIDE: f64 = 8.0;
+/// Distance between the points that stand for a line, in pixels.
+const LINE_STEP: f64 = 4.0;
+/// Distance that a name keeps from the points of a line, in pixels, unless it must cross it.
+const LINE_GAP: f64 = 2.0;
 
 /// Places for a name relative to its object, in the order of preference: on it, above, below, beside it, at its
 /// corners.
 const NAME_PLACES: [[f64; 2]; 9] =
     [[0.0, 0.0], [0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+/// Cost of each place compared with the one before it.
+const PLACE_COST: f64 = 0.01;
+/// Cost of crossing a path.
+const CROSSING_COST: f64 = 3.0;
+/// Cost of a line to the shape.
+const LEADER_COST: f64 = 0.6;
 
 /// A name, and the box of the shape that it names.
 pub type Named = (String, Rect);
 
-/// Draws the names within `page` for which there is room. Earlier names choose their places first.
-#[must_use]
-pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
-    let mut taken: Vec<Rect> = Vec::new();
-    let mut items = Vec::new();
-    for (name, of) in names {
-        let name = shortened(name, NAME_SIZE, MAX_NAME_WIDTH);
-        let size = size(&name);
-        let middle = [of.x + of.width / 2.0, of.y + of.height / 2.0];
-        let fits = size[0] <= of.width && size[1] <= of.height;
-        let boxes = NAME_PLACES.into_iter().skip(usize::from(!fits)).map(|side: [f64; 2]| {
-            let away = [0, 1].map(|k| side[k] * (size[k] / 2.0 + NAME_GAP + [of.width, of.height][k] / 2.0));
-            centered_rect([middle[0] + away[0], middle[1] + away[1]], size)
-        });
-        let is_free = |b: &Rect| is_free(b, &taken, page);
-        // It is better to hide a part of a large shape than the whole of a small one.
-        let share =
-            |b: &Rect, other: &Rect| overlap(b, other) / (other.width * other.height).max(NAME_HEIGHT * NAME_HEIGHT);
-        let hidden = |b: &Rect| {
-            let others = names.iter().map(|(_, place)| place).filter(|place| *place != of);
-            others.map(|place| share(b, place)).sum::<f64>()
-        };
-        let Some(best) = boxes.filter(is_free).min_by(|a, b| hidden(a).total_cmp(&hidden(b))) else { continue };
-        items.extend(text(name, best));
-        taken.push(best);
-    }
-    items
+/// A name and the surface of any shape that it names: an outline that is filled by the non-zero rule.
+pub struct NamedRegion {
+    /// The name.
+    pub text: String,
+    /// The outline, of straight lines.
+    pub outline: Vec<Step>,
 }
 
-/// Draws names centred at places, each with the area of the named shape in square pixels. Leaves out a name that would
-/// cover its own shape, another name, or one of the `markers`.
-#[must_use]
-pub fn shape_labels(
-    page: &Rect,
-    markers: Vec<Rect>,
-    names: impl IntoIterator<Item = (String, [f64; 2], f64)>,
-) -> Vec<Item> {
-    let mut taken = markers;
-    let mut items = Vec::new();
-    for (name, at, area) in names {
-        let name = shortened(&name, NAME_SIZE, MAX_NAME_WIDTH);
-        let size = size(&name);
-        let place = moved_into_page(centered_rect(at, size), page);
-        if size[0] * size[1] <= MAX_COVERED_SHARE * area && is_free(&place, &taken, page) {
-            items.extend(text(name, place));
-            taken.push(place);
+/// Places the names of a panel one after the other. Earlier names choose their places first.
+pub struct Placer {
+    page: Rect,
+    /// Boxes of names and markers.
+    boxes: Vec<Rect>,
+    /// Boxes of names.
+    names: Vec<Rect>,
+    /// Shapes of arms in pixels that count upwards, so that corners stay counter-clockwise.
+    shapes: Vec<Convex>,
+    /// Points on lines.
+    points: Vec<[f64; 2]>,
+    items: Vec<Item>,
+}
+
+impl Placer {
+    /// Creates the placer of a panel that fills `page`.
+    #[must_use]
+    pub fn new(page: Rect) -> Self {
+        Self { page, boxes: Vec::new(), names: Vec::new(), shapes: Vec::new(), points: Vec::new(), items: Vec::new() }
+    }
+
+    /// Lets names avoid a convex shape of the panel's plane, such as a part of the arm.
+    pub fn block_shape(&mut self, frame: &Frame, shape: &Convex) {
+        let corner = |p: Point| {
+            let [x, y] = frame.at(p.x, p.y);
+            Point::new(x, -y)
+        };
+        self.shapes.push(shape.mapped(corner, shape.radius() * frame.scale()));
+    }
+
+    /// Lets names avoid a marker.
+    pub fn block_spot(&mut self, spot: [f64; 2], half: f64) {
+        self.boxes.push(centered_rect(spot, [2.0 * half; 2]));
+    }
+
+    /// Lets names avoid a box.
+    pub fn block_box(&mut self, place: Rect) {
+        self.boxes.push(place);
+    }
+
+    /// Lets names dodge a line.
+    pub fn block_line(&mut self, outline: &[Step]) {
+        let (mut before, mut begin): (Option<[f64; 2]>, Option<[f64; 2]>) = (None, None);
+        for step in outline {
+            let (from, spot) = match *step {
+                Step::Move(spot) => {
+                    begin = Some(spot);
+                    (None, spot)
+                }
+                Step::Line(spot) | Step::Arc(_, spot) => (before, spot),
+                Step::Close => match begin {
+                    Some(spot) => (before, spot),
+                    None => continue,
+                },
+            };
+            if let Some([x, y]) = from {
+                let length = (spot[0] - x).hypot(spot[1] - y);
+                let count = (length / LINE_STEP).ceil().clamp(1.0, 1e4) as usize;
+                let part = |k: usize| k as f64 / count as f64;
+                let between = (1..count).map(|k| [x + (spot[0] - x) * part(k), y + (spot[1] - y) * part(k)]);
+                self.points.extend(between);
+            }
+            self.points.push(spot);
+            before = Some(spot);
         }
     }
-    items
+
+    /// Places names, each with the box of its shape: on the shape or, if that is smaller, beside it, where the name
+    /// covers least of the others.
+    pub fn beside(&mut self, names: &[Named]) {
+        for (index, (name, of)) in names.iter().enumerate() {
+            let others = names.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, (_, place))| place);
+            let covered = |b: &Rect| others.clone().map(|other| covered_share(b, other)).sum::<f64>();
+            self.put(name, of, covered);
+        }
+    }
+
+    /// Does the same as [`Placer::beside`] among regions, of which a name covers as little as possible.
+    pub fn beside_among(&mut self, names: &[Named], regions: &[NamedRegion]) {
+        let raster = RegionRaster::new(self.page, regions.iter().map(|region| &region.outline[..]));
+        names.iter().for_each(|(name, of)| self.put(name, of, |place| raster.covered_share(place)));
+    }
+
+    /// Places names on regions of any shape: within the part of a region that is visible, as far as possible from its
+    /// outline, or beside a smaller part with a line to it. Later regions cover earlier ones.
+    pub fn on_regions(&mut self, regions: &[NamedRegion]) {
+        if regions.is_empty() {
+            return;
+        }
+        let mut raster = RegionRaster::new(self.page, regions.iter().map(|region| &region.outline[..]));
+        self.boxes.iter().for_each(|place| raster.block(place));
+        self.points.iter().for_each(|&spot| raster.block(&centered_rect(spot, [2.0 * LINE_GAP; 2])));
+        let mut rest = Vec::new();
+        for (index, region) in regions.iter().enumerate() {
+            let name = shortened(&region.text, NAME_SIZE, MAX_NAME_WIDTH);
+            let size = size(&name);
+            let place = raster.roomiest(index, size);
+            if let Some((at, true)) = place {
+                let place = moved_into_page(centered_rect(at, size), &self.page);
+                // A name that sticks out of its region may meet another one that does.
+                if self.is_blocked(&place) {
+                    rest.push((name, centered_rect(at, [REGION_SPOT_SIDE; 2])));
+                } else {
+                    self.write(name, place);
+                }
+            } else if let Some(at) = place.map(|(at, _)| at).or_else(|| raster.any_part(index)) {
+                // The path may cover all of a small region.
+                rest.push((name, centered_rect(at, [REGION_SPOT_SIDE; 2])));
+            }
+        }
+        for (name, of) in rest {
+            self.put(&name, &of, |place| raster.covered_share(place));
+        }
+    }
+
+    /// Returns the names as items: first the lines to distant shapes, then the names.
+    #[must_use]
+    pub fn into_items(self) -> Vec<Item> {
+        let (lines, texts): (Vec<Item>, Vec<Item>) =
+            self.items.into_iter().partition(|item| !matches!(item, Item::Text(_)));
+        lines.into_iter().chain(texts).collect()
+    }
+
+    /// Returns true if a name in this box would lie on something.
+    fn is_blocked(&self, place: &Rect) -> bool {
+        if !is_within(place, &self.page) || self.boxes.iter().any(|other| overlap(place, other) > 0.0) {
+            return true;
+        }
+        let [left, right, top, bottom] = [place.x, place.right(), -place.y, -place.bottom()];
+        let corners = [[left, bottom], [right, bottom], [right, top], [left, top]].map(|[x, y]| Point::new(x, y));
+        let own = Convex::trusted(corners.to_vec(), 1.0);
+        self.shapes.iter().any(|shape| separation(&own, shape).distance <= 0.0)
+    }
+
+    /// Returns true if the line from a name to its shape would cross another name.
+    fn crosses_name(&self, place: &Rect, of: &Rect) -> bool {
+        let [Step::Move(begin), Step::Line(end)] = leader(place, of)[..] else { return false };
+        let count = ((end[0] - begin[0]).hypot(end[1] - begin[1]) / LINE_STEP).ceil();
+        let spot = |k: usize| [0, 1].map(|c| begin[c] + (end[c] - begin[c]) * k as f64 / count.max(1.0));
+        let holds = |name: &Rect, [x, y]: [f64; 2]| {
+            (name.x..=name.right()).contains(&x) && (name.y..=name.bottom()).contains(&y)
+        };
+        (0..=count as usize).map(spot).any(|spot| self.names.iter().any(|name| holds(name, spot)))
+    }
+
+    fn crosses_line(&self, place: &Rect) -> bool {
+        let [x, y] = [place.x - LINE_GAP..=place.right() + LINE_GAP, place.y - LINE_GAP..=place.bottom() + LINE_GAP];
+        self.points.iter().any(|point| x.contains(&point[0]) && y.contains(&point[1]))
+    }
+
+    /// Places a name at the best of its free places, or leaves it out. `cost` adds to the cost of a box.
+    fn put(&mut self, name: &str, of: &Rect, cost: impl Fn(&Rect) -> f64) {
+        let name = shortened(name, NAME_SIZE, MAX_NAME_WIDTH);
+        let (mut best, mut least) = (None, f64::INFINITY);
+        for (index, (place, is_far)) in places(size(&name), of).into_iter().enumerate() {
+            let known = PLACE_COST * index as f64 + if is_far { LEADER_COST } else { 0.0 };
+            if known >= least || self.is_blocked(&place) || is_far && self.crosses_name(&place, of) {
+                continue;
+            }
+            let whole = known + if self.crosses_line(&place) { CROSSING_COST } else { 0.0 } + cost(&place);
+            if whole < least {
+                (best, least) = (Some((place, is_far)), whole);
+            }
+        }
+        let Some((place, is_far)) = best else { return };
+        if is_far {
+            let steps = leader(&place, of);
+            self.block_line(&steps);
+            let pens = [(WHITE, 3.0), (GRAY, 1.0)];
+            self.items.extend(pens.map(|(color, width)| Item::Outline(steps.clone(), Style::line(color, width))));
+        }
+        self.write(name, place);
+    }
+
+    fn write(&mut self, text: String, place: Rect) {
+        let at = [place.x + place.width / 2.0, place.bottom() - 3.5];
+        self.items.push(Item::Text(Label {
+            at,
+            text,
+            size: NAME_SIZE,
+            anchor: Anchor::Middle,
+            upwards: false,
+            color: INK,
+            has_halo: true,
+            is_bold: true,
+        }));
+        self.boxes.push(place);
+        self.names.push(place);
+    }
+}
+
+/// Returns the possible places of a name, nearest first, and whether each needs a line to the shape.
+fn places(size: [f64; 2], of: &Rect) -> Vec<(Rect, bool)> {
+    let fits = size[0] <= of.width && size[1] <= of.height;
+    let middle = [of.x + of.width / 2.0, of.y + of.height / 2.0];
+    let at = |side: [f64; 2], gap: f64| {
+        let away = [0, 1].map(|k| side[k] * (size[k] / 2.0 + gap + [of.width, of.height][k] / 2.0));
+        centered_rect([middle[0] + away[0], middle[1] + away[1]], size)
+    };
+    let near = NAME_PLACES.into_iter().skip(usize::from(!fits)).map(|side| (at(side, NAME_GAP), false));
+    let far = LEADER_GAPS.into_iter().flat_map(|gap| NAME_PLACES[1..].iter().map(move |&side| (side, gap)));
+    near.chain(far.map(|(side, gap)| (at(side, gap), true))).collect()
+}
+
+/// Returns the line from a name to the shape that it names.
+fn leader(place: &Rect, of: &Rect) -> Vec<Step> {
+    let into = |r: &Rect, [x, y]: [f64; 2]| [x.clamp(r.x, r.right()), y.clamp(r.y, r.bottom())];
+    let end = into(of, [place.x + place.width / 2.0, place.y + place.height / 2.0]);
+    vec![Step::Move(into(place, end)), Step::Line(end)]
+}
+
+/// Returns the share of a shape's box that a name would cover. It is better to hide a part of a large shape than the
+/// whole of a small one.
+fn covered_share(place: &Rect, other: &Rect) -> f64 {
+    overlap(place, other) / (other.width * other.height).max(NAME_HEIGHT * NAME_HEIGHT)
 }
 
 /// Returns the box to which the name of a shape refers. It is the box around the whole shape, or for a wall a square in
@@ -106,6 +296,13 @@ pub fn label_box_beyond(name: &str, tip: [f64; 2], from: [f64; 2]) -> Rect {
     centered_rect([0, 1].map(|k| tip[k] + away[k] / length * (size[k] / 2.0 + 2.0 * NAME_GAP)), size)
 }
 
+/// Returns the common area in square pixels.
+pub fn overlap(a: &Rect, b: &Rect) -> f64 {
+    let width = a.right().min(b.right()) - a.x.max(b.x);
+    let height = a.bottom().min(b.bottom()) - a.y.max(b.y);
+    width.max(0.0) * height.max(0.0)
+}
+
 /// Moves a box by the least distance that brings it into the page.
 fn moved_into_page(place: Rect, page: &Rect) -> Rect {
     let x = place.x.min(page.right() - place.width).max(page.x);
@@ -113,42 +310,30 @@ fn moved_into_page(place: Rect, page: &Rect) -> Rect {
     Rect { x, y, ..place }
 }
 
+fn is_within(place: &Rect, page: &Rect) -> bool {
+    place.x >= page.x && place.y >= page.y && place.right() <= page.right() && place.bottom() <= page.bottom()
+}
+
 fn size(name: &str) -> [f64; 2] {
-    [text_width(name, NAME_SIZE) + 6.0, NAME_HEIGHT]
-}
-
-fn is_free(place: &Rect, taken: &[Rect], page: &Rect) -> bool {
-    taken.iter().all(|other| overlap(place, other) == 0.0) && overlap(place, page) > 0.999 * place.width * place.height
-}
-
-fn text(name: String, place: Rect) -> [Item; 2] {
-    let at = [place.x + place.width / 2.0, place.bottom() - 3.5];
-    let paper = Item::Outline(rectangle(place), Style::fill(WHITE).faded(0.7));
-    [paper, label(at, name, NAME_SIZE, Anchor::Middle, INK)]
+    [bold_text_width(name, NAME_SIZE) + 6.0, NAME_HEIGHT]
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::figure::rectangle;
     use super::*;
 
     const PAGE: Rect = Rect { x: 0.0, y: 0.0, width: 300.0, height: 300.0 };
 
-    fn texts(items: &[Item]) -> Vec<String> {
-        let text = |item: &'_ Item| if let Item::Text(label) = item { Some(label.text.clone()) } else { None };
-        items.iter().filter_map(text).collect()
+    /// Returns the names with the middles of their boxes.
+    fn placed(placer: Placer) -> Vec<(String, [f64; 2])> {
+        let text = |item: Item| if let Item::Text(label) = item { Some((label.text, label.at)) } else { None };
+        let middle = |(text, [x, bottom]): (String, [f64; 2])| (text, [x, bottom + 3.5 - NAME_HEIGHT / 2.0]);
+        placer.into_items().into_iter().filter_map(text).map(middle).collect()
     }
 
-    #[test]
-    fn names_that_cover_what_they_name_or_each_other_are_left_out() {
-        let names = [
-            ("wide".to_owned(), [100.0, 100.0], 5000.0),
-            ("over it".to_owned(), [110.0, 104.0], 5000.0),
-            ("small".to_owned(), [200.0, 200.0], 300.0),
-            ("pushed".to_owned(), [299.0, 20.0], 5000.0),
-            ("marked".to_owned(), [50.0, 250.0], 5000.0),
-        ];
-        let marker = centered_rect([60.0, 252.0], [14.0; 2]);
-        assert_eq!(texts(&shape_labels(&PAGE, vec![marker], names)), ["wide", "pushed"]);
+    fn named(name: &str, place: Rect) -> Named {
+        (name.to_owned(), place)
     }
 
     #[test]
@@ -163,10 +348,80 @@ mod tests {
 
     #[test]
     fn names_are_placed_beside_smaller_shapes() {
-        let place = centered_rect([150.0, 150.0], [10.0, 10.0]);
-        let items = items(&PAGE, &[("bottle".to_owned(), place)]);
-        let Some(Item::Outline(steps, _)) = items.first() else { panic!("no paper") };
-        let paper = centered_rect([150.0, 150.0 - 5.0 - NAME_GAP - NAME_HEIGHT / 2.0], size("bottle"));
-        assert_eq!(*steps, rectangle(paper));
+        let mut placer = Placer::new(PAGE);
+        placer.beside(&[named("bottle", centered_rect([150.0, 150.0], [10.0, 10.0]))]);
+        assert_eq!(placed(placer), [("bottle".to_owned(), [150.0, 150.0 - 5.0 - NAME_GAP - NAME_HEIGHT / 2.0])]);
+    }
+
+    #[test]
+    fn names_avoid_arms_markers_and_lines() {
+        let of = centered_rect([150.0, 150.0], [10.0, 10.0]);
+        let frame = Frame::filling(PAGE, (0.0, 300.0), (0.0, 300.0));
+        let arm = Convex::trusted(
+            [[120.0, 160.0], [180.0, 160.0], [180.0, 185.0]].map(|[x, y]| Point::new(x, y)).to_vec(),
+            1.0,
+        );
+        let mut placer = Placer::new(PAGE);
+        // The place above the shape is taken by an arm, the one below by a marker, the one to the right by a line.
+        placer.block_shape(&frame, &arm);
+        placer.block_spot([150.0, 166.0], 4.0);
+        placer.block_line(&[Step::Move([175.0, 140.0]), Step::Line([175.0, 160.0])]);
+        placer.beside(&[named("bottle", of)]);
+        let [(_, [x, y])] = &placed(placer)[..] else { panic!("one name") };
+        assert!(*x < 140.0 && (*y - 150.0).abs() < 1e-9, "{x}, {y}");
+    }
+
+    #[test]
+    fn names_without_a_place_are_left_out() {
+        let mut placer = Placer::new(PAGE);
+        placer.block_spot([150.0, 150.0], 150.0);
+        placer.beside(&[named("bottle", centered_rect([150.0, 150.0], [10.0, 10.0]))]);
+        placer.on_regions(&[NamedRegion { text: "shelf".to_owned(), outline: rectangle(PAGE) }]);
+        assert!(placed(placer).is_empty());
+    }
+
+    #[test]
+    fn distant_names_have_lines() {
+        let of = centered_rect([150.0, 150.0], [10.0, 10.0]);
+        let mut placer = Placer::new(PAGE);
+        placer.block_spot([150.0, 150.0], 24.0);
+        placer.beside(&[named("bottle", of)]);
+        let items = placer.into_items();
+        let [Item::Outline(..), Item::Outline(steps, _), Item::Text(label)] = &items[..] else { panic!("{items:?}") };
+        assert_eq!(steps[1], Step::Line([150.0, 145.0]));
+        assert!(label.at[1] < 126.0);
+    }
+
+    /// Crowded names lie on the page and apart from each other.
+    #[test]
+    fn names_keep_apart() {
+        let mut placer = Placer::new(PAGE);
+        let names: Vec<Named> = (0..30)
+            .map(|k| {
+                named(
+                    &format!("part {k}"),
+                    centered_rect([20.0 + 30.0 * f64::from(k % 6), 20.0 + 17.0 * f64::from(k / 6)], [8.0; 2]),
+                )
+            })
+            .collect();
+        placer.beside(&names);
+        let boxes: Vec<Rect> = placer.boxes.clone();
+        assert!(boxes.len() > 8);
+        for (i, a) in boxes.iter().enumerate() {
+            assert!(is_within(a, &PAGE) && boxes[i + 1..].iter().all(|b| overlap(a, b) == 0.0), "{a:?}");
+        }
+    }
+
+    /// A name lies in the part of a region that a later one does not cover.
+    #[test]
+    fn names_of_regions_lie_in_their_visible_parts() {
+        let region = |text: &str, x: f64, width: f64| NamedRegion {
+            text: text.to_owned(),
+            outline: rectangle(Rect { x, y: 60.0, width, height: 120.0 }),
+        };
+        let mut placer = Placer::new(PAGE);
+        placer.on_regions(&[region("wide", 20.0, 260.0), region("upper", 20.0, 160.0)]);
+        let [(_, [wide, _]), (_, [upper, _])] = placed(placer)[..] else { panic!("two names") };
+        assert!((wide - 230.0).abs() < 5.0 && (upper - 100.0).abs() < 5.0, "{wide}, {upper}");
     }
 }

@@ -51,9 +51,14 @@ fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
     let world = view.first_world();
     let goal = if view.is_task() { "end of a step" } else { "goal" };
     let always = |key: Key| -> Layered { (key, &[]) };
-    let start = if view.moves() { "start" } else { "configuration" };
-    let mut keys = vec![always((Sign::Start, start.to_owned()))];
-    if view.moves() {
+    let start = match (view.still.reach.is_some(), view.moves()) {
+        (true, _) => Some("home"),
+        (false, true) => Some("start"),
+        // The view of an arm alone has no configuration of interest.
+        (false, false) => view.frames.is_empty().then_some("configuration"),
+    };
+    let mut keys: Vec<Layered> = start.map(|start| always((Sign::Start, start.to_owned()))).into_iter().collect();
+    if view.moves() && view.still.reach.is_none() {
         keys.push(always((Sign::Goal, goal.to_owned())));
     }
     keys.extend(paths(view).into_iter().map(|key| -> Layered { (key, &["path", "trace"]) }));

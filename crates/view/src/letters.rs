@@ -1,20 +1,33 @@
-//! Texts as outlines, in the font Ubuntu Light. The font is part of the program, so that pictures look alike on all
-//! machines.
+//! Texts as outlines, in the font Inter, which is part of the program, so that pictures look alike on all machines.
 
 use super::figure::Anchor;
 use tiny_skia::{Path, PathBuilder};
 use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// The font, ready for use.
+/// The font in both weights, ready for use.
+pub struct Fonts {
+    regular: Font,
+    bold: Font,
+}
+
+impl Fonts {
+    /// Returns the fonts that are part of the program.
+    pub fn built_in() -> Self {
+        let font = |bytes| Font(Face::parse(bytes, 0).expect("the built-in font can be read"));
+        Self { regular: font(cplan_theme::PICTURE_FONT), bold: font(cplan_theme::BOLD_PICTURE_FONT) }
+    }
+
+    /// Returns the font of a weight.
+    pub fn of(&self, is_bold: bool) -> &Font {
+        if is_bold { &self.bold } else { &self.regular }
+    }
+}
+
+/// The font in one weight.
 pub struct Font(Face<'static>);
 
 impl Font {
-    /// Returns the font that is part of the program.
-    pub fn built_in() -> Self {
-        Self(Face::parse(epaint_default_fonts::UBUNTU_LIGHT, 0).expect("the built-in font can be read"))
-    }
-
     /// Returns the outline of a line of text of this size. Its anchor is at the place `[left, bottom]` of the page.
     /// `None` if no letter has an outline.
     pub fn outline(&self, text: &str, size: f32, anchor: Anchor, [left, bottom]: [f32; 2]) -> Option<Path> {
@@ -128,7 +141,7 @@ mod tests {
     use super::*;
 
     fn sides(text: &str, anchor: Anchor) -> [f32; 2] {
-        let bounds = Font::built_in().outline(text, 100.0, anchor, [500.0, 300.0]).unwrap().bounds();
+        let bounds = Fonts::built_in().regular.outline(text, 100.0, anchor, [500.0, 300.0]).unwrap().bounds();
         [bounds.left(), bounds.right()]
     }
 
@@ -142,7 +155,7 @@ mod tests {
     /// Compares the position with that of HarfBuzz for this font: the second of the letters "AV" overlaps the first.
     #[test]
     fn pairs_of_letters_are_kerned() {
-        let font = Font::built_in();
+        let Fonts { regular: font, .. } = Fonts::built_in();
         let width = |text: &str| *font.places(&font.glyphs(text)).last().unwrap();
         assert!(width("AV") < width("A") + width("V") - 20.0);
         assert_eq!(width("HH"), 2.0 * width("H"));
@@ -150,7 +163,7 @@ mod tests {
 
     #[test]
     fn letters_that_the_font_lacks_are_boxes() {
-        let font = Font::built_in();
+        let Fonts { regular: font, .. } = Fonts::built_in();
         assert!(font.outline("\u{4e00}", 10.0, Anchor::Start, [0.0; 2]).is_some());
         assert!(font.outline(" ", 10.0, Anchor::Start, [0.0; 2]).is_none());
         assert!(font.outline("", 10.0, Anchor::Start, [0.0; 2]).is_none());

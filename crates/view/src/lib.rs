@@ -21,6 +21,7 @@ mod axes;
 mod boxes;
 mod channel;
 mod chart;
+mod compared;
 mod checked;
 mod copies;
 mod cspace;
@@ -44,8 +45,10 @@ mod page;
 mod png_writer;
 mod preferences;
 mod reach;
+mod regions;
 mod shapes;
 mod steps;
+mod strip;
 mod blocking;
 #[cfg(feature = "png")]
 mod svg_painter;
@@ -58,11 +61,12 @@ mod workspace;
 
 pub use blocking::BlockingView;
 pub use checked::CheckedView;
+pub use compared::{ComparedPaths, SmallPicture, compared};
 pub use explanation::ExplanationView;
 pub use exploration::exploration_page;
 pub use flow::FieldLines;
 pub use obstacles::{extent, obstacles, still_page};
-pub use view::{AxesFrame, KeyFigures, Moments, Picture, TaskPicture, View, drawing, page, shell};
+pub use view::{AxesFrame, KeyFigures, Moments, Picture, TaskPicture, View, drawing, inspection_page, page, shell};
 
 /// The reason why there is no picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -2,10 +2,11 @@
 
 use super::axes::{Frame, Range, Unit};
 
-use super::figure::Item;
+use super::figure::{Figure, Item};
 use super::key::{Key, Sign};
+use super::labels::{self, Placer};
 use super::view::{ObstacleView, RoundingSteps, bounding_box};
-use super::{labels, page, shapes, svg_writer};
+use super::{page, shapes, svg_writer};
 use cplan_core::model::Obstacle;
 use cplan_text::markup;
 
@@ -13,9 +14,10 @@ use cplan_text::markup;
 const MARGIN_SHARE: f64 = 0.04;
 
 /// Draws obstacles as an SVG document, the largest first. Each has its name if there is room. Obstacles of the same
-/// group have the same colour; `groups` has the group of each. The first line of `title` is the title.
+/// group have the same colour; `groups` has the group of each. The first line of `title` is the title. The background is
+/// dark if `is_dark`.
 #[must_use]
-pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> String {
+pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str], is_dark: bool) -> String {
     let mut known: Vec<&str> = Vec::new();
     let mut colors = Vec::with_capacity(obstacles.len());
     for group in groups {
@@ -34,7 +36,7 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> S
     order.sort_by(|&i, &j| areas[j].total_cmp(&areas[i]));
     let keys = known.iter().enumerate().map(|(i, name)| (Sign::Swatch(cplan_theme::obstacle(i)), (*name).to_owned()));
     let keys: Vec<Key> = keys.take(MAX_KEYS).collect();
-    svg_writer::write(&page::single_panel_page(title, keys, (y.1 - y.0) / (x.1 - x.0), |area| {
+    let figure = page::single_panel_page(title, keys, (y.1 - y.0) / (x.1 - x.0), |area| {
         let frame = Frame::filling(area, x, y);
         let view = |&i: &usize| ObstacleView::new(&obstacles[i], colors[i], RoundingSteps::within(size));
         let mut items = frame.grid([Unit::Meters; 2]);
@@ -43,7 +45,8 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> S
         let mut items = vec![Item::Clip(frame.rect, items)];
         items.extend(frame.border([Unit::Meters; 2], ["x (m)", "y (m)"].map(str::to_owned), [false; 2]));
         items
-    }))
+    });
+    svg_writer::write(&Figure { is_dark, ..figure })
 }
 
 /// Largest number of colours for which there is a legend.
@@ -56,7 +59,9 @@ fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {
         return Vec::new();
     }
     let named = |o: &Obstacle| (o.name.clone(), labels::place(frame, &o.shape, &o.pieces));
-    labels::items(&frame.rect, &obstacles.iter().map(named).collect::<Vec<_>>())
+    let mut placer = Placer::new(frame.rect);
+    placer.beside(&obstacles.iter().map(named).collect::<Vec<_>>());
+    placer.into_items()
 }
 
 /// Returns least and greatest coordinates of obstacles.

@@ -1,12 +1,13 @@
 //! The page: titles, the workspace, configuration spaces, the steps of a task, legend.
 
-use super::figure::{Anchor, Figure, Item, Rect, label, shortened, text_width};
+use super::figure::{Anchor, Figure, Item, Rect, bold, bold_text_width, label, shortened};
 use super::grid::Grid;
 use super::key::Key;
 use super::legend;
 use super::view::{PanelView, View};
-use super::{cspace, steps, workspace};
-use cplan_theme::{GRAY, INK};
+use super::{chart, cspace, steps, strip, workspace};
+use cplan_core::model::Status;
+use cplan_theme::{FOUND, GRAY, INFEASIBLE, INK, Rgb};
 
 /// Width of every picture, in pixels.
 const PAGE_WIDTH: f64 = 1400.0;
@@ -16,6 +17,9 @@ const MIN_PAGE_HEIGHT: f64 = 720.0;
 const PAGE_MARGIN: f64 = 28.0;
 /// Space below panels, in pixels: values and titles of their axes, and the distance to the next item.
 const AXES_HEIGHT: f64 = 58.0;
+
+/// Least width of two panels of the same size, in pixels.
+const MIN_PAIR_WIDTH: f64 = 420.0;
 
 /// Place of the left column. Its height depends on the available room.
 const LEFT_COLUMN: Rect = Rect { x: 84.0, y: 0.0, width: 570.0, height: 0.0 };
@@ -29,6 +33,9 @@ const WORKSPACE_HEIGHTS: [f64; 2] = [520.0, 640.0];
 /// page would be too long to read.
 const MAX_PAYLOAD_STATES: usize = 24;
 
+/// Upper bound on the ratio of the widths of a bold text and a normal one.
+const BOLD_SHARE: f64 = 1.1;
+
 /// Composes the whole page of a view.
 #[must_use]
 pub fn compose(view: &View) -> Figure {
@@ -39,7 +46,7 @@ pub fn compose(view: &View) -> Figure {
 /// when the content changes.
 #[must_use]
 pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
-    let mut items = titles(&view.title, &view.status, PAGE_WIDTH);
+    let mut items = titles(&view.title, verdict(view), PAGE_WIDTH);
     let lines = 18.0 * view.title.len().max(1) as f64;
     let keys = legend::layout(keys, PAGE_WIDTH - 2.0 * PAGE_MARGIN);
     let height = match &view.still.panels[..] {
@@ -55,21 +62,41 @@ pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
         }
         [panel] if !view.is_task() => {
             let top = 62.0 + lines;
-            let height = MIN_PAGE_HEIGHT - 14.0 - legend::ROW_HEIGHT * keys.len() as f64 - AXES_HEIGHT - top;
-            items.extend(workspace::panel(view, Rect { y: top, height, ..LEFT_COLUMN }));
-            items.extend(cspace::panel(view, panel, Rect { y: top, height, ..SCALED_COLUMN }));
-            items.push(heading(LEFT_COLUMN, top - 12.0, "Workspace"));
-            items.push(heading(SCALED_COLUMN, top - 12.0, &panel.title));
-            items.extend(legend::items(
-                &keys,
-                PAGE_WIDTH / 2.0,
-                MIN_PAGE_HEIGHT - 14.0 - legend::ROW_HEIGHT * keys.len() as f64,
-            ));
-            MIN_PAGE_HEIGHT
+            let legend = 14.0 + legend::ROW_HEIGHT * keys.len() as f64;
+            let height = MIN_PAGE_HEIGHT - legend - AXES_HEIGHT - top;
+            let [left, right] = pair(view, top, height);
+            items.extend(workspace::panel(view, left));
+            items.extend(cspace::panel(view, panel, right));
+            let below = top + height + AXES_HEIGHT;
+            let page_height = MIN_PAGE_HEIGHT + strip(view, below, &mut items);
+            items.push(heading(left, top - 12.0, "Workspace"));
+            items.push(heading(right, top - 12.0, &panel.title));
+            items.extend(legend::items(&keys, PAGE_WIDTH / 2.0, page_height - legend));
+            page_height
         }
-        panels => task(view, panels, &keys, 84.0 + lines, &mut items),
+        panels => task(view, panels, &keys, 112.0 + lines, &mut items),
     };
     Figure { width: PAGE_WIDTH, height, items, is_dark: view.still.is_dark }
+}
+
+/// Returns the places of the workspace and of a single configuration space. If both axes of the configuration space have
+/// the same scale, both panels have the same size.
+fn pair(view: &View, top: f64, height: f64) -> [Rect; 2] {
+    let has_scale = view.first_world().scale.is_some();
+    let column = if has_scale { SCALED_COLUMN } else { RIGHT_COLUMN };
+    let natural = chart::one_scale(&view.arm).map(|proportion| height / proportion);
+    let width = natural.filter(|width| *width <= column.width && *width >= MIN_PAIR_WIDTH).unwrap_or(LEFT_COLUMN.width);
+    let right = width.min(column.width);
+    let x = if has_scale { column.x + (column.width - right) / 2.0 } else { column.right() - right };
+    [Rect { y: top, width, height, ..LEFT_COLUMN }, Rect { x, y: top, width: right, height }]
+}
+
+/// Draws the strip of a motion among moving obstacles from `top` downwards; returns its height, or 0 without one.
+fn strip(view: &View, top: f64, items: &mut Vec<Item>) -> f64 {
+    let Some(strip) = &view.strip else { return 0.0 };
+    let area = Rect { y: top, width: RIGHT_COLUMN.right() - LEFT_COLUMN.x, ..LEFT_COLUMN };
+    items.extend(strip::items(strip, view, area));
+    strip::HEIGHT
 }
 
 /// Composes a page with a single panel and a legend below it. The panel's height is `aspect` times its width, unless
@@ -87,7 +114,7 @@ pub fn single_panel_page(
     let height = (widest * aspect).clamp(PAGE_HEIGHTS[0], PAGE_HEIGHTS[1]);
     let room = Rect { width: (height / aspect).clamp(MIN_PANEL_WIDTH, widest), height, ..LEFT_COLUMN };
     let width = room.right() + PAGE_MARGIN;
-    let mut items = titles(title, "", width);
+    let mut items = titles(title, (String::new(), INK), width);
     let room = Rect { y: 44.0 + 18.0 * title.len().max(1) as f64, ..room };
     let keys = legend::layout(keys, width - 2.0 * PAGE_MARGIN);
     items.extend(panel(room));
@@ -106,58 +133,74 @@ fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &
     let grid = Grid::new(shown.len(), &view.arm, RIGHT_COLUMN.width);
     let notes = if left_out > 0 { 22.0 } else { 0.0 };
     let legend = 14.0 + legend::ROW_HEIGHT * keys.len() as f64;
-    let list = steps::ROW_HEIGHT * view.still.steps.len() as f64;
-    let Layout { workspace, list, height } = layout(top, grid.height() + notes, list, legend);
+    let Some((head, rows)) = view.still.steps.split_first() else { return MIN_PAGE_HEIGHT };
+    let Layout { workspace, lists, height } = layout(top, grid.height() + notes, rows.len());
     items.extend(workspace::panel(view, workspace));
     items.extend(grid.items(view, &shown, left_out, [RIGHT_COLUMN.x, top]));
-    items.extend(steps::items(&view.still.steps, list));
-    items.push(heading(LEFT_COLUMN, top - 32.0, "Workspace"));
+    let (left, right) = rows.split_at(lists[0].1);
+    for (list, rows) in lists.iter().zip([left, right]).filter(|(_, rows)| !rows.is_empty()) {
+        items.extend(steps::items(head, rows, list.0));
+    }
+    items.push(heading(LEFT_COLUMN, top - 26.0, "Workspace"));
     let note = "objects at their initial positions, and dashed where they are placed";
-    items.push(label([LEFT_COLUMN.x + LEFT_COLUMN.width / 2.0, top - 9.0], note, 14.0, Anchor::Middle, GRAY));
-    items.push(heading(RIGHT_COLUMN, top - 32.0, "Configuration space of each payload state"));
-    items.extend(legend::items(keys, PAGE_WIDTH / 2.0, height - legend));
-    height
+    items.push(label([LEFT_COLUMN.x + LEFT_COLUMN.width / 2.0, top - 9.0], note, 13.0, Anchor::Middle, GRAY));
+    items.push(heading(RIGHT_COLUMN, top - 56.0, "Configuration space for each payload"));
+    let height = height + strip(view, height, items);
+    items.extend(legend::items(keys, PAGE_WIDTH / 2.0, height));
+    height + legend
 }
 
 /// Places of the parts of a page, in pixels.
 struct Layout {
     workspace: Rect,
-    /// Place of the list of steps; its height depends on the list.
-    list: Rect,
-    /// Height of the page.
+    /// Places of the lists of steps below the workspace and below the configuration spaces, with their numbers of rows.
+    /// The height of a list depends on its rows.
+    lists: [(Rect, usize); 2],
+    /// Distance from the top of the page to the end of all parts.
     height: f64,
 }
 
-/// Places the list of steps below the workspace or below the configuration spaces, which are `grid` pixels high.
-/// Chooses the place for which the page is lower.
-fn layout(top: f64, grid: f64, list: f64, legend: f64) -> Layout {
-    let list = AXES_HEIGHT + list;
-    let [below_workspace, below_grid] = [grid.max(WORKSPACE_HEIGHTS[0] + list), WORKSPACE_HEIGHTS[0].max(grid + list)];
-    let left = below_workspace <= below_grid;
-    let height = (top + below_workspace.min(below_grid) + AXES_HEIGHT + legend).max(MIN_PAGE_HEIGHT);
-    let room = height - top - AXES_HEIGHT - legend - if left { list } else { 0.0 };
+/// Places the list of steps below the workspace, below the configuration spaces, which are `grid` pixels high, or first
+/// below the one and then below the other. Chooses the place for which the page is lower. A short list is not divided.
+fn layout(top: f64, grid: f64, rows: usize) -> Layout {
+    const MIN_DIVIDED_ROWS: usize = 9;
+    let list = |rows: usize| if rows == 0 { 0.0 } else { AXES_HEIGHT + steps::ROW_HEIGHT * (rows + 1) as f64 };
+    let needed = |left: usize| (WORKSPACE_HEIGHTS[0] + list(left)).max(grid + list(rows - left));
+    let divided = (1..rows).filter(|_| rows >= MIN_DIVIDED_ROWS);
+    let left = [rows, 0].into_iter().chain(divided).min_by(|a, b| needed(*a).total_cmp(&needed(*b))).unwrap_or(rows);
+    let height = needed(left).max(MIN_PAGE_HEIGHT - top - 2.0 * AXES_HEIGHT);
+    let room = height - list(left);
     let workspace = Rect { y: top, height: room.min(WORKSPACE_HEIGHTS[1]), ..LEFT_COLUMN };
-    let list = if left {
-        Rect { y: workspace.bottom() + AXES_HEIGHT, ..LEFT_COLUMN }
-    } else {
-        Rect { y: top + grid + AXES_HEIGHT, ..RIGHT_COLUMN }
-    };
-    Layout { workspace, list, height }
+    let below = |column: Rect, y: f64| Rect { y: y + AXES_HEIGHT, ..column };
+    let lists = [(below(LEFT_COLUMN, workspace.bottom()), left), (below(RIGHT_COLUMN, top + grid), rows - left)];
+    Layout { workspace, lists, height: top + height + AXES_HEIGHT }
 }
 
 fn heading(column: Rect, y: f64, text: &str) -> Item {
-    label([column.x + column.width / 2.0, y], text, 16.0, Anchor::Middle, INK)
+    bold([column.x + column.width / 2.0, y], text, 16.0, Anchor::Middle, INK)
+}
+
+/// Returns the status with the sign and the colour of the outcome: green with a tick, or red with a cross.
+fn verdict(view: &View) -> (String, Rgb) {
+    let (sign, color) = match view.ending {
+        Some(Status::Found) => ("\u{2713} ", FOUND),
+        Some(Status::Infeasible) => ("\u{2717} ", INFEASIBLE),
+        Some(Status::Unknown) | None => ("", INK),
+    };
+    (format!("{sign}{}", view.status), color)
 }
 
 /// Draws the title and the lines below it on the left, and the status on the right.
-fn titles(lines: &[String], status: &str, width: f64) -> Vec<Item> {
+fn titles(lines: &[String], (status, color): (String, Rgb), width: f64) -> Vec<Item> {
     let mut items = Vec::new();
-    let status_width = text_width(status, 18.0);
-    items.push(label([width - PAGE_MARGIN, 36.0], status, 18.0, Anchor::End, INK));
+    let status_width = bold_text_width(&status, 18.0);
+    items.push(bold([width - PAGE_MARGIN, 36.0], status, 18.0, Anchor::End, color));
     for (i, line) in lines.iter().enumerate() {
         let (size, color, y) = if i == 0 { (22.0, INK, 36.0) } else { (14.0, GRAY, 40.0 + 18.0 * i as f64) };
         let room = width - 2.0 * PAGE_MARGIN - if i == 0 { status_width + 30.0 } else { 0.0 };
-        items.push(label([PAGE_MARGIN, y], shortened(line, size, room), size, Anchor::Start, color));
+        let write = if i == 0 { bold } else { label };
+        let text = shortened(line, if i == 0 { size * BOLD_SHARE } else { size }, room);
+        items.push(write([PAGE_MARGIN, y], text, size, Anchor::Start, color));
     }
     items
 }

@@ -1,7 +1,7 @@
 //! SVG documents as pixels, and as PNG.
 
 use super::DrawError;
-use super::letters::Font;
+use super::letters::Fonts;
 use super::svg_painter::paint;
 use tiny_skia::{Pixmap, Transform};
 
@@ -9,12 +9,12 @@ use tiny_skia::{Pixmap, Transform};
 const MAX_SIDE: f64 = 16_384.0;
 
 /// A renderer of SVG documents to pixels. It uses the font that is part of the program.
-pub struct Rasterizer(Font);
+pub struct Rasterizer(Fonts);
 
 impl Rasterizer {
     /// Creates a rasteriser with its font.
     pub fn new() -> Self {
-        Self(Font::built_in())
+        Self(Fonts::built_in())
     }
 
     /// Returns the pixels of a document, `scale` pixels per unit.

@@ -5,7 +5,7 @@ use super::chart::Chart;
 use super::figure::{Item, Raster, Rect, Style};
 use super::key::{Key, Sign};
 use super::view::{Chain, RoundingSteps};
-use cplan_explain::{Access, Reach, Solution};
+use cplan_explain::{Access, Origin, Reach, Solution};
 use cplan_theme::{OCCUPIED, REACHED, REACHED_TWICE, Rgb, UNKNOWN, UNREACHABLE, role_or_hex};
 use serde::Serialize;
 
@@ -66,38 +66,48 @@ pub struct ReachView {
     cell: f64,
     /// Number of cells along x and along y.
     size: [usize; 2],
-    /// Colour and free IK solutions of each kind of cell.
-    kinds: Vec<KindView>,
+    /// Names of the colours of the kinds of cells.
+    colors: [String; 5],
     /// The kind of each cell as a character, row by row from the lowest row. A dot stands for a cell out of reach.
     cells: String,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct KindView {
-    /// Name of the colour's role.
-    color: String,
+    /// Number of IK solutions of each cell, as a character.
+    counts: String,
+    /// All IK solutions, cell by cell.
     solutions: Chain,
+    /// The kind of each solution as a character, as for cells: `1` for a solution that a motion reaches.
+    access: String,
+    /// Where the straight motion to each solution begins: the index of another solution, `-2 - r` for the end of route
+    /// `r`, or -1 if there is no certified motion.
+    origins: Vec<i64>,
+    /// Planned routes. Each begins at home.
+    routes: Vec<Chain>,
 }
 
 impl ReachView {
     pub fn new(reach: &Reach, grain: RoundingSteps) -> Self {
-        let mut cells = vec![b'.'; reach.places.len()];
+        let letter = |access, count| char::from(b'0' + style_index(access, count) as u8);
+        let mut cells = vec!['.'; reach.places.len()];
         for (place, access, count) in reach.best() {
-            cells[place] = b'0' + style_index(access, count) as u8;
+            cells[place] = letter(access, count);
         }
-        let kind = |(number, &(color, _)): (usize, &(Rgb, &str))| {
-            let solutions = free(reach).filter(|solution| style_index(solution.access, 2) == number);
-            KindView {
-                color: role_or_hex(color),
-                solutions: grain.configurations(solutions.map(|solution| &solution.joints)),
-            }
+        // A solution with a free joint is one of infinitely many; there are never more than a few per cell.
+        let count = |solutions: &Vec<Solution>| char::from(b'0' + solutions.len().min(9) as u8);
+        let origin = |origin: &Option<Origin>| match *origin {
+            None => -1,
+            Some(Origin::Route(route)) => -2 - route as i64,
+            Some(Origin::Solution(number)) => number as i64,
         };
         Self {
             corner: reach.corner,
             cell: reach.cell,
             size: reach.size,
-            kinds: CELL_KINDS.iter().enumerate().map(kind).collect(),
-            cells: cells.into_iter().map(char::from).collect(),
+            colors: CELL_KINDS.map(|(color, _)| role_or_hex(color)),
+            cells: cells.into_iter().collect(),
+            counts: reach.places.iter().map(count).collect(),
+            solutions: grain.configurations(reach.solutions().map(|solution| &solution.joints)),
+            access: reach.solutions().map(|solution| letter(solution.access, 2)).collect(),
+            origins: reach.motions.origins.iter().map(origin).collect(),
+            routes: reach.motions.routes.iter().map(|route| grain.configurations(route)).collect(),
         }
     }
 }

@@ -1,22 +1,32 @@
 //! The list of the steps of a task.
 
-use super::figure::{Anchor, Item, Rect, label, shortened, text_width};
+use super::figure::{Anchor, Item, Rect, Step, Style, bold, label, shortened, text_width};
 use super::view::Row;
+use cplan_theme::FAINT;
 
 /// Height of a row, in pixels.
-pub const ROW_HEIGHT: f64 = 19.0;
-const TEXT_SIZE: f64 = 13.0;
+pub const ROW_HEIGHT: f64 = 22.0;
+const TEXT_SIZE: f64 = 14.0;
+/// Room for the numbers at the left, in pixels.
+const NUMBER_WIDTH: f64 = 26.0;
 
-/// Draws the list in the upper part of `area`.
+/// Draws a list of steps in the upper part of `area`: first the names of the columns, then a row for each step, with a
+/// line below each.
 #[must_use]
-pub fn items(rows: &[Row], area: Rect) -> Vec<Item> {
+pub fn items(head: &Row, rows: &[Row], area: Rect) -> Vec<Item> {
     let mut items = Vec::new();
-    for (i, Row { number, text, time, color }) in rows.iter().enumerate() {
-        let y = area.y + ROW_HEIGHT * (i as f64 + 0.75);
-        let room = area.width - 34.0 - text_width(time, TEXT_SIZE) - 16.0;
-        items.push(label([area.x + 24.0, y], number, TEXT_SIZE, Anchor::End, *color));
-        items.push(label([area.x + 34.0, y], shortened(text, TEXT_SIZE, room), TEXT_SIZE, Anchor::Start, *color));
-        items.push(label([area.right(), y], time, TEXT_SIZE, Anchor::End, *color));
+    for (i, row) in std::iter::once(head).chain(rows).enumerate() {
+        let Row { number, text, time, color } = row;
+        let (top, y) = (area.y + ROW_HEIGHT * i as f64, area.y + ROW_HEIGHT * (i as f64 + 0.68));
+        let room = area.width - NUMBER_WIDTH - 10.0 - text_width(time, TEXT_SIZE) - 16.0;
+        let text = shortened(text, TEXT_SIZE, room);
+        let write = if i == 0 { bold } else { label };
+        items.push(write([area.x + NUMBER_WIDTH, y], number.clone(), TEXT_SIZE, Anchor::End, *color));
+        items.push(write([area.x + NUMBER_WIDTH + 10.0, y], text, TEXT_SIZE, Anchor::Start, *color));
+        items.push(write([area.right(), y], time.clone(), TEXT_SIZE, Anchor::End, *color));
+        let bottom = top + ROW_HEIGHT;
+        let steps = vec![Step::Move([area.x, bottom]), Step::Line([area.right(), bottom])];
+        items.push(Item::Outline(steps, Style::line(FAINT, 1.0)));
     }
     items
 }

@@ -3,7 +3,8 @@
 
 use super::DrawError;
 use super::figure::Anchor;
-use super::letters::Font;
+use super::letters::Fonts;
+use super::svg_writer::BOLD_WEIGHT;
 use roxmltree::Node;
 use std::str::FromStr;
 use svgtypes::{SimplePathSegment, SimplifyingPathParser};
@@ -13,17 +14,17 @@ use tiny_skia::{
 };
 
 /// Paints an element and those within it.
-pub fn paint(font: &Font, element: Node, transform: Transform, pixels: &mut Pixmap) -> Result<(), DrawError> {
+pub fn paint(fonts: &Fonts, element: Node, transform: Transform, pixels: &mut Pixmap) -> Result<(), DrawError> {
     let own: svgtypes::Transform = optional(element, "transform")?.unwrap_or_default();
     let [a, b, c, d, e, f] = [own.a, own.b, own.c, own.d, own.e, own.f].map(|value| value as f32);
     let transform = transform.pre_concat(Transform::from_row(a, b, c, d, e, f));
     let path = match element.tag_name().name() {
-        "svg" | "g" => return group(font, element, transform, pixels),
+        "svg" | "g" => return group(fonts, element, transform, pixels),
         "defs" | "title" => return Ok(()),
         "path" => outline(element)?,
         "circle" => PathBuilder::from_circle(number(element, "cx")?, number(element, "cy")?, number(element, "r")?),
         "rect" => rectangle(element)?.map(PathBuilder::from_rect),
-        "text" => text(font, element)?,
+        "text" => text(fonts, element)?,
         other => return Err(DrawError::Svg(format!("cplan draws no pictures with an element <{other}>"))),
     };
     // A path without length has no outline, so nothing is drawn.
@@ -33,9 +34,9 @@ pub fn paint(font: &Font, element: Node, transform: Transform, pixels: &mut Pixm
     Ok(())
 }
 
-fn group(font: &Font, element: Node, transform: Transform, pixels: &mut Pixmap) -> Result<(), DrawError> {
+fn group(fonts: &Fonts, element: Node, transform: Transform, pixels: &mut Pixmap) -> Result<(), DrawError> {
     let children = |transform, pixels: &mut Pixmap| {
-        element.children().filter(Node::is_element).try_for_each(|child| paint(font, child, transform, pixels))
+        element.children().filter(Node::is_element).try_for_each(|child| paint(fonts, child, transform, pixels))
     };
     let Some(clip) = clip(element)? else { return children(transform, pixels) };
     let mut painted = Ok(());
@@ -175,7 +176,7 @@ fn rectangle(element: Node) -> Result<Option<Rect>, DrawError> {
     Ok(Rect::from_xywh(x?, y?, number(element, "width")?, number(element, "height")?))
 }
 
-fn text(font: &Font, element: Node) -> Result<Option<Path>, DrawError> {
+fn text(fonts: &Fonts, element: Node) -> Result<Option<Path>, DrawError> {
     let anchor = match inherited_property(element, "text-anchor") {
         Some("middle") => Anchor::Middle,
         Some("end") => Anchor::End,
@@ -186,7 +187,8 @@ fn text(font: &Font, element: Node) -> Result<Option<Path>, DrawError> {
     // SVG does not show spaces at the ends, and shows several spaces in a row as one.
     let words: Vec<&str> =
         element.text().unwrap_or_default().split([' ', '\n']).filter(|word| !word.is_empty()).collect();
-    Ok(font.outline(&words.join(" "), size, anchor, [number(element, "x")?, number(element, "y")?]))
+    let is_bold = inherited_property(element, "font-weight") == Some(BOLD_WEIGHT);
+    Ok(fonts.of(is_bold).outline(&words.join(" "), size, anchor, [number(element, "x")?, number(element, "y")?]))
 }
 
 /// Returns a property of an element or of the nearest group around it that has it.
@@ -228,7 +230,7 @@ mod tests {
             format!("<svg xmlns=\"http://www.w3.org/2000/svg\" fill=\"#ff0000\" font-size=\"10\">{content}</svg>");
         let document = roxmltree::Document::parse(&svg).unwrap();
         let mut pixels = Pixmap::new(20, 20).unwrap();
-        paint(&Font::built_in(), document.root_element(), Transform::identity(), &mut pixels).map(|()| pixels)
+        paint(&Fonts::built_in(), document.root_element(), Transform::identity(), &mut pixels).map(|()| pixels)
     }
 
     /// Returns red, green, blue and alpha of a pixel.

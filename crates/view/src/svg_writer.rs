@@ -1,18 +1,21 @@
 //! Figures as SVG.
 
-use super::figure::{Anchor, Figure, Item, Label, Raster, Rect, Step, Style, text_width};
+use super::figure::{Anchor, Figure, Item, Label, Raster, Rect, Step, Style};
 use super::letter_widths::letter_width;
 use ::svg::Document;
 use ::svg::node::element::{Circle, ClipPath, Definitions, Group, Path, Rectangle, Text};
-use cplan_theme::WHITE;
+use cplan_theme::{PICTURE_FONTS, Rgb, WHITE};
 use std::fmt::Write;
 
-/// Fonts of texts. The writer of PNG files has the first one. A viewer uses the first one that is installed.
-const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
+/// Weight of bold texts.
+pub const BOLD_WEIGHT: &str = "600";
 
 /// Greatest absolute value of coordinates, in pixels. Places beyond it are invisible. Up to here, viewers that compute
 /// in single precision are exact to a tenth of a pixel.
 const MAX_COORDINATE: f64 = 1e6;
+
+/// Width of the pale line around letters, in pixels. Half of it shows.
+const HALO_WIDTH: f64 = 3.5;
 
 /// Writes the figure as an SVG document without a size of its own: it fills the width that its reader gives it. Texts have
 /// the widths of the built-in font in any other font, too. The result is deterministic to the byte; coordinates have two decimals.
@@ -20,6 +23,49 @@ const MAX_COORDINATE: f64 = 1e6;
 pub fn write(figure: &Figure) -> String {
     let ground = Rectangle::new().set("width", number(figure.width)).set("height", number(figure.height));
     document(figure, Group::new().add(ground.set("fill", figure.shown(WHITE).to_string())))
+}
+
+/// A drawing within a page, and its colours that have no name in the page's style sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PageDrawing {
+    /// The drawing as an SVG element.
+    pub svg: String,
+    /// Colours on a light background. The variable of `#rrggbb` is `--xrrggbb`.
+    pub colors: Vec<Rgb>,
+}
+
+/// Writes the figure without a background, as an element of a page. Its colours are variables of the page's style sheet,
+/// so that it is light or dark as the page is. `id` distinguishes its names from those of other drawings in the page.
+#[must_use]
+pub fn write_for_page(figure: &Figure, id: &str) -> PageDrawing {
+    let svg = document(figure, Group::new());
+    let svg = svg.replace("<clipPath id=\"", &format!("<clipPath id=\"{id}-"));
+    let svg = svg.replace("clip-path=\"url(#", &format!("clip-path=\"url(#{id}-"));
+    with_variables(&svg)
+}
+
+/// Writes items without a document around them. They must not be clipped.
+#[must_use]
+pub fn elements(items: &[Item]) -> String {
+    let figure = Figure { width: 0.0, height: 0.0, items: Vec::new(), is_dark: false };
+    let group = items.iter().fold(Group::new(), |group, item| add(group, item, &figure, &mut Vec::new()));
+    group.set("stroke-linejoin", "round").to_string()
+}
+
+/// Replaces the colours in attributes by variables of the page's style sheet.
+#[must_use]
+pub fn with_variables(svg: &str) -> PageDrawing {
+    let mut colors = Vec::new();
+    let svg = cplan_theme::recolored(svg, |color| {
+        let name = cplan_theme::variable(color).unwrap_or_else(|| {
+            if !colors.contains(&color) {
+                colors.push(color);
+            }
+            format!("x{}", &color.to_string()[1..])
+        });
+        format!("var(--{name})")
+    });
+    PageDrawing { svg, colors }
 }
 
 /// Writes the figure without a background.
@@ -31,7 +77,7 @@ pub fn layer(figure: &Figure) -> String {
 
 fn document(figure: &Figure, ground: Group) -> String {
     let mut clips = Vec::new();
-    let mut page = ground.set("font-family", FONTS).set("stroke-linejoin", "round");
+    let mut page = ground.set("font-family", PICTURE_FONTS).set("stroke-linejoin", "round");
     for item in &figure.items {
         page = add(page, item, figure, &mut clips);
     }
@@ -66,6 +112,10 @@ fn add(group: Group, item: &Item, figure: &Figure, clips: &mut Vec<Rect>) -> Gro
             group.add(items.iter().fold(inner, |g, item| add(g, item, figure, clips)))
         }
         Item::Raster(raster) => group.add(cells(raster, figure)),
+        Item::OfPath(index, items) => {
+            let inner = Group::new().set("data-path", index.to_string());
+            group.add(items.iter().fold(inner, |g, item| add(g, item, figure, clips)))
+        }
     }
 }
 
@@ -89,7 +139,9 @@ fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-fn commands(steps: &[Step]) -> String {
+/// Returns the data of a path.
+#[must_use]
+pub fn commands(steps: &[Step]) -> String {
     let mut d = String::new();
     for step in steps {
         match step {
@@ -136,10 +188,17 @@ fn text(label: &Label, figure: &Figure) -> Text {
                 Anchor::End => "end",
             },
         );
-    // A reader without this font fits its own letters into the same width.
-    if label.text.chars().all(|letter| letter_width(letter).is_some()) && !label.text.is_empty() {
-        text =
-            text.set("textLength", number(text_width(&label.text, label.size))).set("lengthAdjust", "spacingAndGlyphs");
+    if label.is_bold {
+        text = text.set("font-weight", BOLD_WEIGHT);
+    }
+    // The font is not part of the document, which would be much larger: a reader without it fits its own letters into the
+    // same width.
+    if label.text.chars().all(|letter| letter_width(letter, label.is_bold).is_some()) && !label.text.is_empty() {
+        text = text.set("textLength", number(label.width())).set("lengthAdjust", "spacingAndGlyphs");
+    }
+    if label.has_halo {
+        let halo = text.set("stroke", figure.shown(WHITE).to_string()).set("stroke-width", number(HALO_WIDTH));
+        text = halo.set("paint-order", "stroke");
     }
     if label.upwards {
         text = text.set("transform", format!("rotate(-90 {x} {y})"));
@@ -195,7 +254,6 @@ fn cells(raster: &Raster, figure: &Figure) -> Group {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_theme::Rgb;
 
     #[test]
     fn numbers_are_short() {
@@ -215,6 +273,8 @@ mod tests {
             anchor: Anchor::Start,
             upwards: true,
             color: Rgb(0, 0, 0),
+            has_halo: false,
+            is_bold: false,
         };
         let figure = Figure { width: 10.0, height: 10.0, items: vec![Item::Text(label)], is_dark: false };
         let xml = write(&figure);
@@ -232,6 +292,21 @@ mod tests {
             let role = cplan_theme::ROLES.iter().find(|other| other.name == name && other.light == role).unwrap();
             assert!(light.contains(&role.light.to_string()) && dark.contains(&role.dark.to_string()), "{name}");
         }
+    }
+
+    #[test]
+    fn drawings_within_pages_have_the_colors_of_the_page() {
+        let rect = Rect { x: 0.0, y: 0.0, width: 5.0, height: 5.0 };
+        let disc = |color| Item::Disc([5.0, 5.0], 2.0, Style::fill(color));
+        let items = vec![Item::Clip(rect, vec![disc(cplan_theme::INK), Item::OfPath(3, vec![disc(Rgb(1, 2, 3)); 2])])];
+        let drawing = write_for_page(&Figure { width: 10.0, height: 10.0, items, is_dark: false }, "a");
+        assert_eq!(drawing.colors, [Rgb(1, 2, 3)]);
+        for part in
+            ["fill=\"var(--ink)\"", "fill=\"var(--x010203)\"", "id=\"a-clip0\"", "url(#a-clip0)", "data-path=\"3\""]
+        {
+            assert!(drawing.svg.contains(part), "no {part} in {}", drawing.svg);
+        }
+        assert!(!drawing.svg.contains("\"#"), "{}", drawing.svg);
     }
 
     /// Paints the rectangles and compares the result with the cells.

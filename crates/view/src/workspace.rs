@@ -1,14 +1,20 @@
 //! The workspace, with the arm and everything in it.
 
-use super::arm::{self, CURRENT_LOOK, GHOST_LOOK, GOAL_LOOK, START_LOOK, UNREACHED_LOOK};
+use super::arm::{self, ArmStyle, CURRENT_LOOK, GHOST_LOOK, GOAL_LOOK, START_LOOK, UNREACHED_LOOK};
 use super::axes::{Frame, Unit};
-use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines};
-use super::labels::{self, Named};
+use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines, lines_by_path, text_width};
+use super::labels::{self, Named, Placer};
+use super::tags::{self, Tag};
 use super::view::{ObstacleView, PathView, View, bounding_box, reach_shape, titles};
-use super::{blocking, checked, frames, preferences, reach, shapes, tags};
-use cplan_core::model::Arm;
+use super::{blocking, checked, frames, preferences, reach, shapes};
+use cplan_core::model::{Arm, Shape};
 use cplan_core::space::Configuration;
 use cplan_theme::{GRAY, INFEASIBLE, INK, PALE, WHITE};
+
+/// Radius of the dot at the end of a step, in pixels.
+const STEP_END_RADIUS: f64 = 3.6;
+/// Half the width of the marks of contacts and narrow places, in pixels.
+const MARKER_HALF_WIDTH: f64 = 8.0;
 
 /// Draws the panel, which fills this part of the page.
 #[must_use]
@@ -23,38 +29,70 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     inside.extend(movers(view, &frame));
     inside.extend(still.placed.iter().map(|object| shapes::dashed(&frame, object)));
     inside.extend(preferences::in_workspace(&first.regions, &frame));
-    let mut pose = |world: usize, q, look| {
-        inside.extend(arm::items(&frame, arm, view.worlds[world].payload.as_ref(), q, look));
-    };
+    let mut placer = Placer::new(frame.rect);
     if let ([path], false) = (&view.paths[..], view.is_task()) {
-        path.ghosts.0.iter().for_each(|&q| pose(0, q, &GHOST_LOOK));
+        inside.extend(path.ghosts.0.iter().flat_map(|&q| pose(view, &frame, &mut placer, 0, q, &GHOST_LOOK)));
     }
-    view.unreached().for_each(|(world, q)| pose(world, q, &UNREACHED_LOOK));
-    pose(0, view.start.into(), &START_LOOK);
-    still.end.into_iter().for_each(|(q, world)| pose(world, q.into(), &GOAL_LOOK));
+    inside.extend(view.unreached().flat_map(|(world, q)| pose(view, &frame, &mut placer, world, q, &UNREACHED_LOOK)));
+    inside.extend(pose(view, &frame, &mut placer, 0, view.start.into(), &START_LOOK));
+    if let Some((q, world)) = still.end {
+        inside.extend(pose(view, &frame, &mut placer, world, q.into(), &GOAL_LOOK));
+    }
     let paths = still.panels.iter().flat_map(|panel| &panel.paths).map(|&index| &view.paths[index]);
     let traces: Vec<_> = paths.map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
-    let spots: Vec<[f64; 2]> = traces.iter().flat_map(|(steps, _)| steps.iter().filter_map(end)).collect();
-    inside.extend(lines(traces));
-    let named = if view.is_task() || view.still.panels.is_empty() { Vec::new() } else { names(view, &frame) };
-    inside.extend(labels::items(&frame.rect, &named));
-    if view.is_task() {
-        let boxes: Vec<Rect> = lying().map(|obstacle| on_page(&frame, obstacle)).collect();
-        inside.extend(numbers(view, &frame, &boxes, &spots));
-    }
+    traces.iter().for_each(|(steps, _)| placer.block_line(steps));
+    inside.extend(if still.lights_paths { lines_by_path(traces) } else { lines(traces) });
+    let tags = if view.is_task() { step_ends(view, &frame, &mut inside) } else { Vec::new() };
     if let Some((q, world)) = still.now {
-        inside.extend(arm::items(&frame, arm, view.worlds[world].payload.as_ref(), q.into(), &CURRENT_LOOK));
+        inside.extend(pose(view, &frame, &mut placer, world, q.into(), &CURRENT_LOOK));
     }
-    inside.extend(
-        still.stuck.iter().flat_map(|blocking| blocking::in_workspace(blocking, arm, view.first_world(), &frame)),
-    );
-    inside.extend(
-        still.checked.iter().flat_map(|checked| checked::in_workspace(checked, arm, view.first_world(), &frame)),
-    );
-    inside.extend(hidden_note(&frame, lying()));
+    inside.extend(marks(view, &frame, &mut placer));
+    inside.extend(hidden_note(&frame, lying(), &mut placer));
+    tags.iter().for_each(|tag| placer.block_spot(tag.at, STEP_END_RADIUS + 1.0));
+    placer.beside(&tags::names(&tags, STEP_END_RADIUS + 1.0));
+    if !view.is_task() && !view.still.panels.is_empty() {
+        walls(view, &frame).for_each(|wall| placer.block_line(&wall));
+        placer.beside(&names(view, &frame));
+    }
+    inside.extend(placer.into_items());
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.border([Unit::Meters; 2], titles(&arm.plane), [false; 2]));
     items.extend(frames::items(&frame, &view.frames));
+    items
+}
+
+/// Draws the arm at a configuration, which names avoid.
+fn pose(view: &View, frame: &Frame, placer: &mut Placer, world: usize, q: Configuration, look: &ArmStyle) -> Vec<Item> {
+    let payload = view.worlds[world].payload.as_ref();
+    for shape in arm::placed_shapes(&view.arm, payload, q) {
+        if look.blocks() {
+            placer.block_shape(frame, &shape);
+        } else {
+            placer.block_line(&shapes::outline(frame, &shape));
+        }
+    }
+    arm::items(frame, &view.arm, payload, q, look)
+}
+
+/// Draws the obstacles that block a motion, and the findings about a checked configuration. Names avoid both.
+fn marks(view: &View, frame: &Frame, placer: &mut Placer) -> Vec<Item> {
+    let (first, mut items) = (view.first_world(), Vec::new());
+    let block_arm = |placer: &mut Placer, q: Configuration| {
+        let shapes = arm::placed_shapes(&view.arm, first.payload.as_ref(), q);
+        shapes.iter().for_each(|shape| placer.block_shape(frame, shape));
+    };
+    if let Some(blocking) = &view.still.stuck {
+        items.extend(blocking::in_workspace(blocking, &view.arm, first, frame));
+        if let Some((q, point)) = blocking.at {
+            block_arm(placer, q);
+            placer.block_spot(frame.at(point.x, point.y), MARKER_HALF_WIDTH);
+        }
+    }
+    if let Some(checked) = &view.still.checked {
+        items.extend(checked::in_workspace(checked, &view.arm, first, frame));
+        checked.drawn_arms().for_each(|q| block_arm(placer, q));
+        checked.contacts().iter().for_each(|&[x, y]| placer.block_spot(frame.at(x, y), MARKER_HALF_WIDTH));
+    }
     items
 }
 
@@ -92,37 +130,36 @@ fn names(view: &View, frame: &Frame) -> Vec<Named> {
     arms.chain(obstacles).chain(movers).collect()
 }
 
-/// Draws a dot with the step's number at the place where each step ends, or should end if it fails.
-fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[[f64; 2]]) -> Vec<Item> {
-    let (mut items, mut tags) = (Vec::new(), Vec::new());
+/// Returns the outlines of the walls, which names avoid.
+fn walls<'a>(view: &'a View, frame: &'a Frame) -> impl Iterator<Item = Vec<Step>> + 'a {
+    let lying = view.first_world().obstacles.iter().filter(|obstacle| obstacle.lies());
+    lying.filter_map(|obstacle| match &obstacle.outline {
+        Shape::Polyline(points) => Some(chain(points.iter().map(|p| frame.at(p.x, p.y)), false)),
+        _ => None,
+    })
+}
+
+/// Draws a dot at each place where a step ends, or should end if it fails, and returns the places with the numbers of
+/// the steps.
+fn step_ends(view: &View, frame: &Frame, items: &mut Vec<Item>) -> Vec<Tag> {
+    let mut tags = Vec::new();
     for (q, number, reached) in view.still.panels.iter().flat_map(|panel| view.ends(panel)) {
         let tip = view.arm.tip_at(q);
         let spot = frame.at(tip.x, tip.y);
         let (line, fill) = if reached { (Style::line(WHITE, 1.2), INK) } else { (Style::line(INFEASIBLE, 1.4), WHITE) };
-        items.push(Item::Disc(spot, 3.6, line.filled(fill)));
+        items.push(Item::Disc(spot, STEP_END_RADIUS, line.filled(fill)));
         tags::add(&mut tags, spot, number);
     }
-    items.extend(tags::items(&tags, frame.rect, boxes, spots));
-    items
-}
-
-/// Returns the place where a step of an outline ends. `None` for a step that closes the outline.
-fn end(step: &Step) -> Option<[f64; 2]> {
-    match *step {
-        Step::Move(spot) | Step::Line(spot) | Step::Arc(_, spot) => Some(spot),
-        Step::Close => None,
-    }
-}
-
-/// Returns the box on the page around an obstacle that has a place.
-fn on_page(frame: &Frame, obstacle: &ObstacleView) -> Rect {
-    let [x, y] = bounding_box(obstacle.own());
-    let ([left, bottom], [right, top]) = (frame.at(x.0, y.0), frame.at(x.1, y.1));
-    Rect { x: left, y: top, width: right - left, height: bottom - top }
+    tags.sort_by_key(|tag| tag.numbers.first().copied());
+    tags
 }
 
 /// Returns a note if obstacles lie outside the panel.
-fn hidden_note<'a>(frame: &Frame, obstacles: impl Iterator<Item = &'a ObstacleView>) -> Option<Item> {
+fn hidden_note<'a>(
+    frame: &Frame,
+    obstacles: impl Iterator<Item = &'a ObstacleView>,
+    placer: &mut Placer,
+) -> Option<Item> {
     let outside = |o: &&ObstacleView| {
         let [x, y] = bounding_box(o.own());
         x.1 < frame.x.0 || x.0 > frame.x.1 || y.1 < frame.y.0 || y.0 > frame.y.1
@@ -133,6 +170,7 @@ fn hidden_note<'a>(frame: &Frame, obstacles: impl Iterator<Item = &'a ObstacleVi
         n => format!("{n} obstacles lie outside this picture"),
     };
     let at = [frame.rect.x + 10.0, frame.rect.bottom() - 10.0];
+    placer.block_box(Rect { x: at[0], y: at[1] - 13.0, width: text_width(&text, 13.0), height: 18.0 });
     Some(label(at, text, 13.0, Anchor::Start, GRAY))
 }
 
@@ -145,7 +183,8 @@ fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
 }
 
 /// Returns the path of the tip. Straight motions in joint space are curves here, so they are drawn in small steps.
-fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
+#[must_use]
+pub fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
     /// Step in radians. With it, a chord deviates from its arc by at most 2e-5 of the reach, which is a hundredth of a
     /// pixel.
     const ARC_STEP: f64 = 0.0125;

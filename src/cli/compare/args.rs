@@ -3,6 +3,7 @@
 use crate::cli::files::XacroArgs;
 use crate::cli::headings::{COMPARISON, OUTPUT};
 use crate::cli::query_args::QueryArgs;
+use crate::cli::theme::ThemeArgs;
 use crate::cli::variant::Variant;
 use crate::engine::Method;
 use crate::grammar::{EffortArgs, MotionArgs, word};
@@ -103,6 +104,8 @@ pub struct CompareArgs {
     /// Draw all paths in one picture: .svg or .png. Only for one problem. Can be repeated.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["suite", "queries"], help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
+    #[command(flatten)]
+    pub theme: ThemeArgs,
     /// Print no progress.
     #[arg(long, help_heading = OUTPUT)]
     pub quiet: bool,

@@ -5,11 +5,12 @@ use super::runner::ComparisonResults;
 use crate::check::CheckedProof;
 use crate::cli::failure::Failure;
 use crate::cli::sinks;
+use crate::cli::theme::ThemeArgs;
 use crate::draw::{self, Picture, View};
 use crate::engine::{Options, Problem, plan};
 use crate::model::{MotionProblem, Scene, Status};
 use crate::output::{self, PictureFormat};
-use crate::report::{self, Comparison, Overlay, Study, labels};
+use crate::report::{Comparison, Overlay, PathPictures, SmallPicture, Study, labels};
 use crate::space::Path;
 
 /// Largest number of random queries for which a page has pictures. Each query has its own.
@@ -32,15 +33,15 @@ pub fn save(
     case: &Case,
     comparison: &Comparison,
     paths: &[Option<Path>],
-    format: PictureFormat,
-    file: &std::path::Path,
+    theme: &ThemeArgs,
+    (format, file): (PictureFormat, &std::path::Path),
 ) -> Result<(), Failure> {
-    sinks::save_picture(format, file, &view(case, comparison, paths))
+    sinks::save_picture(format, file, &theme.apply(view(case, comparison, paths)))
 }
 
-/// Returns the page's pictures with workspace and configuration space, one per problem. Among random queries, it
-/// chooses those for which the planners' path lengths differ most.
-pub fn pictures(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<report::Picture> {
+/// Returns the page's drawings of workspace and configuration space, one per problem. Among random queries, it chooses
+/// those for which the planners' path lengths differ most.
+pub fn pictures(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<PathPictures> {
     let mut chosen: Vec<usize> = (0..study.comparisons.len()).collect();
     if cases.sampling.is_some() {
         let longest = |i: &usize| {
@@ -50,10 +51,16 @@ pub fn pictures(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<r
         chosen.sort_by(|a, b| longest(b).total_cmp(&longest(a)));
         chosen.truncate(MAX_DRAWN_QUERIES);
     }
-    let drawn = chosen.into_iter().take(MAX_DRAWN_WORLDS).map(|i| {
-        let (case, comparison) = (&cases.cases[i], &study.comparisons[i]);
-        let svg = draw::svg(&view(case, comparison, &done.paths[i]));
-        report::Picture { title: format!("{}: {}", case.name, comparison.outcome()), svg }
+    let drawn = chosen.into_iter().take(MAX_DRAWN_WORLDS).filter_map(|problem| {
+        let view = view(&cases.cases[problem], &study.comparisons[problem], &done.paths[problem]);
+        let draw::ComparedPaths { large, small, colors } = draw::compared(&view, &format!("problem{problem}"))?;
+        let small = small.map(|draw::SmallPicture { size, ground, paths, markers }| SmallPicture {
+            size,
+            ground,
+            paths,
+            markers,
+        });
+        Some(PathPictures { problem, large, small, colors })
     });
     drawn.collect()
 }
@@ -83,6 +90,7 @@ fn overlay(first: &Case, study: &Study, paths: &[Vec<Option<Path>>]) -> Overlay 
         circles: axes.map(|axis| axis.is_circle()),
         blocked: blocked(scene),
         planners: study.planners().into_iter().enumerate().map(|(i, name)| (name.to_owned(), of(i))).collect(),
+        pens: study.comparisons.first().map_or_else(Vec::new, Comparison::pens),
         note: (shown.len() < paths.len()).then(|| format!("The first {} of {} queries.", shown.len(), paths.len())),
     }
 }
@@ -97,12 +105,15 @@ fn view(case: &Case, comparison: &Comparison, paths: &[Option<Path>]) -> View {
     let problem = case.problem();
     let planners: Vec<&str> = comparison.rows.iter().map(|row| row.planner.as_str()).collect();
     let named = labels(&planners).into_iter().zip(paths).filter_map(|(name, path)| Some((name, path.as_ref()?)));
+    let pens = comparison.pens().into_iter().zip(paths).filter_map(|(pen, path)| path.as_ref().map(|_| pen));
+    let pens: Vec<_> = pens.collect();
     let proof = proof(&problem, comparison);
     View::of_picture(&Picture {
         title: vec![output::title_of(problem.scene()), format!("lengths in {}", comparison.length_unit)],
         status: comparison.outcome(),
         goals: problem.goals().pieces(),
         paths: named.map(|(name, path)| (format!("{name}: {:.3}", path.length()), path)).collect(),
+        pens: &pens,
         proof: proof.as_ref(),
         c_obstacles: &output::contours(problem.scene()),
         ..Picture::new(problem.scene(), problem.start())

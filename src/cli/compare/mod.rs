@@ -22,12 +22,13 @@ use super::memory::MemoryMeter;
 use super::program::Program;
 use super::progress::Progress;
 use super::sinks::{self, Sink};
+use super::terminal::BEST_VALUE;
 use super::variant::Variant;
 use super::words::message;
 use crate::engine::{Method, Options, Planner};
 use crate::input::LoadedScene;
 use crate::motion::write_whole_set;
-use crate::report::{Comparison, Page, Refusal, Study};
+use crate::report::{Comparison, Emphasis, Page, Refusal, Study};
 use cases::{Case, Cases};
 use clap::Parser;
 use runner::{ComparisonResults, Entry, Runner};
@@ -57,7 +58,7 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
     let (study, done) = run_planners(args, &cases, program.meter)?;
     for sink in &pictures {
         if let (Sink::Picture(format, path), [comparison]) = (sink, &study.comparisons[..]) {
-            drawings::save(&cases.cases[0], comparison, &done.paths[0], *format, path)?;
+            drawings::save(&cases.cases[0], comparison, &done.paths[0], &args.theme, (*format, path))?;
         }
     }
     let results = Results { args, cases: &cases, study: &study, done: &done, started };
@@ -68,10 +69,7 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
         (true, ..) => sinks::print_json(&results.content(ReportFormat::Json)?)?,
         (_, true, _) => sinks::print(&results.content(ReportFormat::Csv)?)?,
         (.., true) => sinks::report(&results.content(ReportFormat::Markdown)?)?,
-        _ if args.wide => {
-            sinks::report(&results.single().map_or_else(|| study.to_wide_text(), Comparison::to_wide_text))?
-        }
-        _ => sinks::report(&results.single().map_or_else(|| study.to_text(), Comparison::to_text))?,
+        _ => sinks::print_styled(&results.text(BEST_VALUE))?,
     }
     let alarms = study.alarms();
     alarms.iter().for_each(|alarm| sinks::print_status(&format!("error: {alarm}")));
@@ -193,6 +191,16 @@ impl Results<'_> {
     /// Returns the comparison if there is only one problem, and `None` otherwise.
     fn single(&self) -> Option<&Comparison> {
         self.study.comparisons.first().filter(|_| self.args.is_single())
+    }
+
+    /// Returns the tables for a terminal, with an emphasis on the best value of each column.
+    fn text(&self, emphasis: Emphasis) -> String {
+        match (self.single(), self.args.wide) {
+            (Some(single), true) => single.to_wide_text_with(emphasis),
+            (Some(single), false) => single.to_text_with(emphasis),
+            (None, true) => self.study.to_wide_text_with(emphasis),
+            (None, false) => self.study.to_text_with(emphasis),
+        }
     }
 
     /// Returns the content of a file.

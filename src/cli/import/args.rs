@@ -4,6 +4,7 @@ use super::layers::LayerHeight;
 use crate::cli::headings::OUTPUT;
 use crate::cli::print_args::PrintArgs;
 use crate::cli::query_args::QueryArgs;
+use crate::cli::theme::ThemeArgs;
 use crate::grammar::{finite, number_in, positive};
 use clap::{Args, ValueHint};
 use cplan_drawing::{MIN_TOLERANCE, Settings, Unit};
@@ -68,6 +69,8 @@ pub struct ImportArgs {
     pub shift: Option<[f64; 2]>,
     #[command(flatten)]
     pub query: QueryArgs,
+    #[command(flatten)]
+    pub theme: ThemeArgs,
     #[command(flatten)]
     pub print: PrintArgs,
 }

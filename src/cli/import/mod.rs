@@ -110,8 +110,9 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     for sink in &pictures {
         let Sink::Picture(format, path) = sink else { continue };
-        let svg = || picture(args, &world, &taken);
-        files.push((path.clone(), format.bytes_of(svg, || draw::still_page(&args.title(), &svg()))?));
+        let svg = |is_dark| picture(args, &world, &taken, is_dark);
+        let page = || draw::still_page(&args.title(), &svg(false));
+        files.push((path.clone(), format.bytes_of(|| svg(args.theme.is_dark()), page)?));
     }
     files.extend(args.output.iter().map(|path| (path.clone(), text.clone().into_bytes())));
     write_whole_set(&files)?;
@@ -137,11 +138,11 @@ fn refused(args: &ImportArgs, diagnostic: Diagnostic) -> Failure {
     Failure::Input(Diagnostic { origin: args.drawing.display().to_string(), ..diagnostic }.into())
 }
 
-fn picture(args: &ImportArgs, world: &World, taken: &[ImportedObstacle]) -> String {
+fn picture(args: &ImportArgs, world: &World, taken: &[ImportedObstacle], is_dark: bool) -> String {
     let obstacles = &world.workspace.fixed.obstacles;
     let below = format!("{}: {}", args.drawing.display(), counted(obstacles.len(), "obstacle"));
     let layers: Vec<&str> = taken.iter().map(|taken| taken.shape.layer.as_deref().unwrap_or(&taken.name)).collect();
-    draw::obstacles(&[args.title(), below], obstacles, &layers)
+    draw::obstacles(&[args.title(), below], obstacles, &layers, is_dark)
 }
 
 /// Prints the result on stdout. If the world goes to stdout, prints the result on stderr.

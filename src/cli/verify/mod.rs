@@ -9,13 +9,14 @@ use super::files::Files;
 use super::headings::OUTPUT;
 use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
+use super::theme::ThemeArgs;
 use crate::draw::{Picture, View};
 use crate::engine::certificate_of_recording;
 use crate::engine::findings::{Judgement, MotionFindings, verify};
 use crate::input::{self, Digests, JointValues, Overrides, TipPoint};
 use crate::model::TimedScene;
 use crate::motion::write_whole;
-use crate::output::{PictureFormat, contours, title_of};
+use crate::output::{contours, title_of};
 use crate::space::Recording;
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
@@ -88,6 +89,8 @@ pub struct VerifyArgs {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub certificate: Option<PathBuf>,
     #[command(flatten)]
+    pub theme: ThemeArgs,
+    #[command(flatten)]
     pub print: PrintArgs,
 }
 
@@ -125,7 +128,10 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let recording = &recorded.recording;
     for sink in &sinks {
         match sink {
-            Sink::Picture(format, path) => draw(loaded.timed(), recording, &findings, *format, path)?,
+            Sink::Picture(format, path) => {
+                let view = args.theme.apply(view(loaded.timed(), recording, &findings));
+                sinks::save_picture(*format, path, &view)?;
+            }
             Sink::Certificate(path) if !recorded.held.is_empty() => {
                 let joint = &recorded.held[0].joint.name;
                 let why = format!("joint \"{joint}\" moves, but certificates cover only the arm's two joints");
@@ -160,23 +166,17 @@ fn overrides(args: &VerifyArgs) -> Overrides {
     Overrides { start: args.start, goal: args.goal, goal_tip: args.goal_tip, clearance: args.clearance }
 }
 
-fn draw(
-    timed: TimedScene,
-    recording: &Recording,
-    findings: &MotionFindings,
-    format: PictureFormat,
-    file: &std::path::Path,
-) -> Result<(), Failure> {
+/// Returns the view of a recorded motion.
+fn view(timed: TimedScene, recording: &Recording, findings: &MotionFindings) -> View {
     let (scene, path) = (timed.scene, recording.outline());
     // The picture shows the arm at its collision.
     let shown = findings.collisions.first_contact.as_ref().map(|c| c.moment.configuration.into());
-    let view = View::of_picture(&Picture {
+    View::of_picture(&Picture {
         title: vec![title_of(scene), format!("{} samples", findings.samples)],
         status: findings.verdict.word().into(),
         goals: &[shown.unwrap_or(path.goal()).into()],
         paths: vec![("motion".into(), &path)],
         c_obstacles: &contours(scene),
         ..Picture::new(timed, path.start())
-    });
-    sinks::save_picture(format, file, &view)
+    })
 }

@@ -21,7 +21,9 @@ fn the_arm_waits_until_the_cart_has_gone() {
         "--verbose --output m.json --output m.csv --output m.yaml --picture m.html --picture m.svg",
     );
     assert_eq!(done.code, 0, "{}", done.stderr);
-    for part in ["moving     1 obstacle", "waits      from ", "1 obstacle, 1 moving"] {
+    for part in
+        ["moving     1 obstacle", "waits      1.46 s for cart: from 0.000 to 1.460 s at ", "1 obstacle, 1 moving"]
+    {
         assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
     }
     let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();

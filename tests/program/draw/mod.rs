@@ -2,6 +2,7 @@
 //!
 //! Set `CPLAN_PICTURES` to a folder to write the pictures there.
 
+mod labels;
 pub mod moving;
 mod pages;
 mod scenes;

@@ -5,19 +5,22 @@ use super::{Convergence, FactorScan, Point, RelaxationRun, StrengthScan, WeightS
 use crate::page::number;
 use cplan_fields::{Factor, Order, Sample, Scheme};
 use cplan_text::markup;
+use cplan_theme::{INK, PICTURE_FONTS, WHITE, on_dark, recolored};
 
 /// Number of charts side by side.
 const CHARTS_PER_ROW: usize = 2;
 /// Height of the title above the charts, in pixels.
 const TITLE_HEIGHT: f64 = 44.0;
 
-/// Fonts of the charts. The writer of PNG files has the first one. A viewer uses the first one that is installed.
-const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
-
 impl Convergence {
-    /// Draws all charts as one SVG document. The same data give the same bytes.
+    /// Draws all charts as one SVG document, on a dark background if `is_dark`. The same data give the same bytes.
     #[must_use]
-    pub fn to_svg(&self) -> String {
+    pub fn to_svg(&self, is_dark: bool) -> String {
+        let light = self.light_svg();
+        if is_dark { recolored(&light, |color| on_dark(color).to_string()) } else { light }
+    }
+
+    fn light_svg(&self) -> String {
         let charts = self.charts();
         let [width, height] = [
             CHART_SIZE[0] * CHARTS_PER_ROW as f64,
@@ -25,8 +28,8 @@ impl Convergence {
         ];
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\">\n\
-             <rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n\
-             <g font-family=\"{FONTS}\" font-size=\"12\" fill=\"#22262b\">\n",
+             <rect width=\"{0}\" height=\"{1}\" fill=\"{WHITE}\"/>\n\
+             <g font-family=\"{PICTURE_FONTS}\" font-size=\"12\" fill=\"{INK}\">\n",
             number(width),
             number(height)
         );

@@ -2,6 +2,7 @@
 
 use crate::page::{Axis, number};
 use cplan_text::markup;
+use cplan_theme::{FAINT, GRAY, PATH_COLORS, Rgb};
 
 /// Width and height of the plot, in pixels.
 const PLOT_SIZE: [f64; 2] = [400.0, 250.0];
@@ -19,15 +20,13 @@ const NAME_SPACING: f64 = 19.0;
 /// Width and height of a chart with its margins, in pixels.
 pub const CHART_SIZE: [f64; 2] = [LEFT_MARGIN + PLOT_SIZE[0] + RIGHT_MARGIN, TOP_MARGIN + PLOT_SIZE[1] + BOTTOM_MARGIN];
 
-/// Colours of lines: Okabe and Ito's, as on the pages.
-const COLORS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#b04f88", "#a87400", "#2b90c9"];
 /// Dashes of lines, in pixels. They distinguish lines of one colour.
 const DASHES: [&str; 4] = ["", "7 3", "2 3", "7 3 2 3"];
 
 /// Returns indices of the colour and of the dashes of a line, given the line's index. After all colours have been used,
 /// the next dashes follow.
 pub fn pen(line: usize) -> [usize; 2] {
-    [line % COLORS.len(), line / COLORS.len()]
+    [line % PATH_COLORS.len(), line / PATH_COLORS.len()]
 }
 
 /// Lines over a horizontal axis.
@@ -43,7 +42,7 @@ pub struct LineChart {
 /// A line with its name.
 pub struct Line {
     pub name: String,
-    /// Indices into `COLORS` and `DASHES`.
+    /// Indices into `PATH_COLORS` and `DASHES`.
     pub pen: [usize; 2],
     pub points: Vec<[f64; 2]>,
     /// True to draw a dot at each point.
@@ -70,17 +69,17 @@ impl LineChart {
         let [right, bottom] = [LEFT_MARGIN + width, TOP_MARGIN + height];
         for (value, written) in x.ticks() {
             let at = place(&[value, 0.0])[0];
-            svg += &rule(&format!("M{} {}V{}", number(at), number(TOP_MARGIN), number(bottom)), "#e2e5e8");
-            svg += &text([at, bottom + 17.0], "middle", TICK_STYLE, &written);
+            svg += &rule(&format!("M{} {}V{}", number(at), number(TOP_MARGIN), number(bottom)), FAINT);
+            svg += &text([at, bottom + 17.0], "middle", &tick_style(), &written);
         }
         for (value, written) in y.ticks() {
             let at = TOP_MARGIN + height * (1.0 - y.place(value));
-            svg += &rule(&format!("M{} {}H{}", number(LEFT_MARGIN), number(at), number(right)), "#e2e5e8");
-            svg += &text([LEFT_MARGIN - 7.0, at + 4.0], "end", TICK_STYLE, &written);
+            svg += &rule(&format!("M{} {}H{}", number(LEFT_MARGIN), number(at), number(right)), FAINT);
+            svg += &text([LEFT_MARGIN - 7.0, at + 4.0], "end", &tick_style(), &written);
         }
         svg += &rule(
             &format!("M{} {}V{}H{}", number(LEFT_MARGIN), number(TOP_MARGIN), number(bottom), number(right)),
-            "#5f666e",
+            GRAY,
         );
         svg += &text([LEFT_MARGIN + width / 2.0, bottom + 38.0], "middle", "", self.axes[0]);
         let middle = number(TOP_MARGIN + height / 2.0);
@@ -91,8 +90,8 @@ impl LineChart {
         for (value, name) in &self.marks {
             let at = place(&[*value, 0.0])[0];
             let path = format!("M{} {}V{}", number(at), number(TOP_MARGIN), number(bottom));
-            svg += &format!("<path d=\"{path}\" stroke=\"#5f666e\" stroke-dasharray=\"3 3\"/>\n");
-            svg += &text([at - 3.0, TOP_MARGIN + 11.0], "end", TICK_STYLE, name);
+            svg += &format!("<path d=\"{path}\" stroke=\"{GRAY}\" stroke-dasharray=\"3 3\"/>\n");
+            svg += &text([at - 3.0, TOP_MARGIN + 11.0], "end", &tick_style(), name);
         }
         for (k, line) in self.lines.iter().enumerate() {
             let shown = line.points.iter().filter(|point| point[1] > 0.0 || !y.is_logarithmic);
@@ -103,10 +102,12 @@ impl LineChart {
     }
 }
 
-/// Style of ticks.
-const TICK_STYLE: &str = " fill=\"#5f666e\" font-size=\"11\"";
+/// Returns the style of ticks.
+fn tick_style() -> String {
+    format!(" fill=\"{GRAY}\" font-size=\"11\"")
+}
 
-fn rule(path: &str, color: &str) -> String {
+fn rule(path: &str, color: Rgb) -> String {
     format!("<path fill=\"none\" d=\"{path}\" stroke=\"{color}\"/>\n")
 }
 
@@ -145,8 +146,8 @@ impl Line {
         piece + &text([x + 28.0, y], "start", "", &self.name)
     }
 
-    fn color(&self) -> &'static str {
-        COLORS[self.pen[0] % COLORS.len()]
+    fn color(&self) -> Rgb {
+        PATH_COLORS[self.pen[0] % PATH_COLORS.len()].0
     }
 
     fn stroke(&self) -> String {

@@ -1,8 +1,8 @@
 //! Box plots, one line per planner.
 
 use super::axis::Axis;
-use super::markup::{COLOR_COUNT, margin, name_before, number};
-use crate::{Measure, Spread, Study, labels};
+use super::markup::{margin, name_before, number};
+use crate::{Comparison, Measure, Spread, Study, labels};
 use cplan_text::{counted, markup};
 
 /// Width of a chart in pixels. It is about the width of a phone's screen, so that phones show charts unscaled.
@@ -46,12 +46,14 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
         svg += &format!("<path class=\"grid\" d=\"M{at} {}V{}\"/>", number(TOP_MARGIN), number(floor));
         svg += &format!("<text class=\"tick\" x=\"{at}\" y=\"{}\">{text}</text>\n", number(floor + 17.0));
     }
+    let pens = study.comparisons.first().map_or_else(Vec::new, Comparison::pens);
     for (i, (name, values)) in study.planners().into_iter().zip(&values).enumerate() {
         let middle = TOP_MARGIN + ROW_HEIGHT * (i as f64 + 0.5);
         svg += &name_before(&names[i], left - 10.0, middle + 4.0);
         if let Some(spread) = Spread::of(values.iter().copied()) {
+            let pen = pens[i].name();
             svg +=
-                &format!("<g class=\"p{}\"><title>{}</title>", i % COLOR_COUNT, markup(&describe_chart(name, &spread)));
+                &format!("<g style=\"color: var(--{pen})\"><title>{}</title>", markup(&describe_chart(name, &spread)));
             svg += &drawn(&spread, values, middle, &x);
             svg += "</g>\n";
         }
@@ -59,11 +61,17 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     Some(svg + "</svg>\n")
 }
 
+/// Least number of runs for a box. Fewer runs are drawn as dots, because quartiles of so few mean nothing.
+pub const MIN_RUNS: usize = 5;
+
 /// Draws one line: whiskers from the least to the greatest value, a box between the quartiles, the median across it,
-/// and a dot for each run. A single run is drawn as one dot.
+/// and a dot for each run. Fewer than [`MIN_RUNS`] runs are drawn as dots alone.
 fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) -> String {
-    if let [only] = values {
-        return format!("<circle class=\"only\" cx=\"{}\" cy=\"{}\" r=\"4.5\"/>", number(x(*only)), number(middle));
+    if values.len() < MIN_RUNS {
+        let dot = |value: &f64| {
+            format!("<circle class=\"only\" cx=\"{}\" cy=\"{}\" r=\"4.5\"/>", number(x(*value)), number(middle))
+        };
+        return values.iter().map(dot).collect();
     }
     let [min, low, median, high, max, _] = spread.numbers().map(x);
     let [y, top, bottom] = [middle, middle - 4.0, middle + 4.0].map(number);
@@ -92,7 +100,7 @@ fn describe_chart(name: &str, spread: &Spread) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Comparison, Family, Row};
+    use crate::{Family, Row};
     use cplan_core::model::Status;
 
     /// Returns a study of one planner with these durations.
@@ -133,9 +141,11 @@ mod tests {
     }
 
     #[test]
-    fn single_runs_are_dots_and_no_runs_no_chart() {
+    fn few_runs_are_dots_and_no_runs_no_chart() {
         let svg = chart(&study(&[2.0]), Measure::Duration).unwrap();
         assert!(svg.contains("class=\"only\"") && !svg.contains("class=\"box\""));
+        let four = chart(&study(&[1.0, 2.0, 3.0, 4.0]), Measure::Duration).unwrap();
+        assert_eq!((four.matches("class=\"only\"").count(), four.matches("class=\"box\"").count()), (4, 0));
         assert_eq!(chart(&study(&[2.0]), Measure::Clearance), None);
         assert_eq!(chart(&study(&[]), Measure::Duration), None);
         assert_eq!(chart(&study(&[2.0]), Measure::OverOptimum), None);

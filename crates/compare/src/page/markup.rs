@@ -3,10 +3,6 @@
 use crate::{Align, Table};
 use cplan_text::{markup, wrapped};
 
-/// Number of colours of planners. With more planners, colours repeat. They are Okabe and Ito's colours, as for paths in
-/// pictures.
-pub const COLOR_COUNT: usize = cplan_theme::PATH_COLORS.len();
-
 /// Largest number of characters in one line of a planner's name before a chart.
 const MAX_NAME_CHARACTERS: usize = 24;
 

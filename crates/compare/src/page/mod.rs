@@ -1,25 +1,35 @@
-//! A study as one page of HTML: charts, paths, tables and the summary in words. The file needs no other file, no
-//! network and no scripts. It is light or dark, as the reader's system is.
+//! A study as one page of HTML: the conclusion, the recommended planners, pictures and a sortable table, then charts and
+//! all figures. The file needs no other file and no network. Without scripts it shows the same, but nothing lights up. It
+//! is light or dark, as the reader's system is.
 
 mod axis;
 mod boxes;
+mod cards;
 mod convergence;
 mod frame;
 mod markup;
 mod outcomes;
 mod overlay;
+mod paths;
+mod planners;
+mod quantities;
+mod ranking;
 
 pub use axis::Axis;
 pub use frame::{Frame, frame};
 pub use markup::{image_source, number, table};
 pub use overlay::Overlay;
+pub use paths::{PathPictures, SmallPicture};
 
+use super::comparison::Comparison;
 use super::measure::Measure;
 use super::study::Study;
+use super::table::Table;
 use super::words::words;
+use cplan_core::model::Status;
 use cplan_text::{counted, markup};
 
-/// A picture that the page includes.
+/// A picture that a page includes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
     /// Title of the picture.
@@ -35,8 +45,8 @@ pub struct Page<'a> {
     pub study: &'a Study,
     /// All paths in a configuration space, by planner and world.
     pub overlays: &'a [Overlay],
-    /// Workspace and configuration space of each problem.
-    pub pictures: &'a [Picture],
+    /// Drawings of some problems, in the order of the page.
+    pub pictures: &'a [PathPictures],
 }
 
 impl Page<'_> {
@@ -44,48 +54,53 @@ impl Page<'_> {
     #[must_use]
     pub fn html(&self) -> String {
         let study = self.study;
-        let mut html = head(&study.title, &self.subtitle());
+        let additions =
+            Additions { style: &format!("{COMPARISON_STYLE}{}", paths::colors(self.pictures)), has_script: true };
+        let mut html = head_with(&study.title, &self.subtitle(), &additions);
         for alarm in study.alarms() {
             html +=
                 &format!("<p class=\"alarm\" role=\"alert\"><strong>Contradiction.</strong> {}</p>\n", markup(&alarm));
         }
-        if let [only] = &study.comparisons[..] {
-            html += &format!("<p class=\"verdict\">{}</p>\n", markup(&only.outcome()));
-        }
-        html += &section("Outcomes", &self.outcomes());
-        html += &self.charts();
-        html += &self.overlay_section();
-        let sentences: String = words(study).iter().map(|w| paragraph(w)).collect();
-        html += &section("In words", &sentences);
-        html += &self.tables();
-        html + &foot(METHOD_NOTE)
+        html += &format!("<p class=\"conclusion\">{}{}</p>\n", self.verdict_sign(), with_names(&study.conclusion()));
+        html += &cards::cards(study, self.pictures);
+        html += &match &study.comparisons[..] {
+            [only] => section("Paths and planners", &planners::of_problem(only, self.pictures.first())),
+            _ => section("Planners", &planners::of_study(study)) + &self.charts() + &self.problems(),
+        };
+        html += &self.details();
+        html += &foot(METHOD_NOTE).replacen("</main>", &format!("</main>\n<script>\n{SCRIPT}</script>"), 1);
+        html
     }
 
     fn subtitle(&self) -> String {
-        let planners = self.study.planners();
-        let problems = counted(self.study.comparisons.len(), "problem");
         let refused = match self.study.refused.len() {
             0 => String::new(),
             n => format!(" ({n} more not run)"),
         };
-        format!("{problems}{refused}, {} planners: {}", planners.len(), planners.join(", "))
+        if let [only] = &self.study.comparisons[..] {
+            return format!("{}{refused}", only.outcome());
+        }
+        let planners = counted(self.study.planners().len(), "planner");
+        let problems = counted(self.study.comparisons.len(), "problem");
+        format!("{problems}{refused}, {planners}. {}", words(self.study).first().map_or("", String::as_str))
     }
 
-    fn outcomes(&self) -> String {
-        let mut html = outcomes::key();
-        if self.study.comparisons.len() > 1 {
-            html += &format!("<div class=\"card narrow\">{}</div>\n", outcomes::bars(self.study));
-        }
-        let matrix = outcomes::matrix(self.study);
-        if self.study.comparisons.len() > MAX_UNFOLDED_PROBLEMS {
-            html += &collapsible_section("Problem by problem", &matrix);
-        } else {
-            html += &matrix;
-        }
-        html
+    /// Returns the sign of the best outcome of a single problem.
+    fn verdict_sign(&self) -> String {
+        let best = |only: &Comparison| {
+            Status::ALL.into_iter().find(|status| only.rows.iter().any(|row| row.outcome == *status))
+        };
+        let outcome = if let [only] = &self.study.comparisons[..] { best(only) } else { None };
+        outcome.map_or_else(String::new, |outcome| {
+            format!("<span class=\"o-{outcome} sign\">{}</span> ", outcomes::sign(outcome))
+        })
     }
 
+    /// Draws box plots if there are enough runs of each planner.
     fn charts(&self) -> String {
+        if self.study.comparisons.len() < boxes::MIN_RUNS {
+            return String::new();
+        }
         let chart = |measure: Measure| {
             let chart = boxes::chart(self.study, measure)?;
             Some(format!(
@@ -102,63 +117,86 @@ impl Page<'_> {
         section("Distributions", &format!("<div class=\"charts\">\n{charts}</div>\n<p class=\"sub\">{note}</p>\n"))
     }
 
-    fn overlay_section(&self) -> String {
-        let overlay = |(id, overlay): (usize, &Overlay)| {
+    /// Shows many problems: their outcomes, all paths of each planner in a world, and one part for each drawn problem.
+    fn problems(&self) -> String {
+        let matrix = outcomes::key() + &outcomes::matrix(self.study);
+        let many = self.study.comparisons.len() > MAX_UNFOLDED_PROBLEMS;
+        let mut html = if many { collapsible_section("Problem by problem", &matrix) } else { matrix };
+        for (id, overlay) in self.overlays.iter().enumerate() {
             let note =
                 overlay.note.as_deref().map_or_else(String::new, |n| format!("<p class=\"sub\">{}</p>\n", markup(n)));
-            format!("<h3>{}</h3>\n{note}{}", markup(&overlay.title), overlay::panels(overlay, id))
-        };
-        let overlays: String = self.overlays.iter().enumerate().map(overlay).collect();
-        let picture = |picture: &Picture| {
-            let title = markup(&picture.title);
-            format!(
-                "<figure class=\"picture\" tabindex=\"0\"><img alt=\"{title}: workspace and configuration space\" src=\"{}\"/></figure>\n",
-                image_source(&picture.svg)
-            )
-        };
-        let pictures = self.pictures.iter().enumerate().map(|(i, p)| {
-            // The first picture is unfolded: a page of folded parts looks empty.
-            if i == 0 {
-                format!("<h3>{}</h3>\n{}", markup(&p.title), picture(p))
-            } else {
-                collapsible_section(&p.title, &picture(p))
-            }
-        });
-        let pictures: String = pictures.collect();
-        let all = overlays + &pictures;
-        if all.is_empty() { all } else { section("Paths and proofs", &all) }
+            html += &format!("<h3>{}</h3>\n{note}{}", markup(&overlay.title), overlay::panels(overlay, id));
+        }
+        for (index, picture) in self.pictures.iter().enumerate() {
+            let Some(comparison) = self.study.comparisons.get(picture.problem) else { continue };
+            let heading = format!("{}: {}", comparison.problem, comparison.outcome());
+            let conclusion = format!("<p>{}</p>\n", with_names(&comparison.conclusion()));
+            let part = collapsible_section(&heading, &(conclusion + &planners::of_problem(comparison, Some(picture))));
+            // Without other pictures, the first part is unfolded: a page of folded parts looks empty.
+            let is_unfolded = self.overlays.is_empty() && index == 0;
+            html += &if is_unfolded { part.replacen("<details", "<details open=\"\"", 1) } else { part };
+        }
+        section("Problems", &html)
     }
 
-    fn tables(&self) -> String {
-        // A single problem has no distributions.
-        let mut html = match &self.study.comparisons[..] {
-            [only] => table(&only.table()),
-            _ => self
-                .study
-                .tables()
-                .into_iter()
-                .map(|(heading, rows)| collapsible_section(&heading, &table(&rows)))
-                .collect(),
+    /// Returns the summary in words, all tables and the notes, folded.
+    fn details(&self) -> String {
+        let sentences: String = words(self.study).iter().map(|w| paragraph(w)).collect();
+        let mut html = collapsible_section("In words", &sentences);
+        html += &match &self.study.comparisons[..] {
+            // A single problem has no distributions.
+            [only] => collapsible_section("All figures", &table(&only.table())),
+            _ => {
+                let part =
+                    |(heading, rows): (String, Table)| format!("<h3>{}</h3>\n{}", markup(&heading), table(&rows));
+                collapsible_section("All figures", &self.study.tables().into_iter().map(part).collect::<String>())
+            }
         };
         let notes: String = self.study.footnotes().map(|note| format!("<li>{}</li>\n", markup(&note))).collect();
         if !notes.is_empty() {
             html += &format!("<h3>Notes</h3>\n<ul class=\"notes\">\n{notes}</ul>\n");
         }
-        section("Tables", &html)
+        section("Details", &html)
     }
 }
 
-/// Returns the head of a page.
+/// Formats a sentence in which names are between backticks. Names are emphasised.
+fn with_names(text: &str) -> String {
+    let part = |(index, part): (usize, &str)| {
+        if index % 2 == 1 { format!("<strong class=\"planner\">{}</strong>", markup(part)) } else { markup(part) }
+    };
+    text.split('`').enumerate().map(part).collect()
+}
+
+/// Parts of a page in addition to the usual style sheet.
+#[derive(Debug, Clone, Copy)]
+pub struct Additions<'a> {
+    /// Further styles.
+    pub style: &'a str,
+    /// True if the page has a script of its own.
+    pub has_script: bool,
+}
+
+/// Returns the head of a page without scripts.
 pub fn head(title: &str, subtitle: &str) -> String {
+    head_with(title, subtitle, &Additions { style: "", has_script: false })
+}
+
+/// Returns the head of a page with further styles, and with a script if it is allowed.
+#[must_use]
+pub fn head_with(title: &str, subtitle: &str, additions: &Additions) -> String {
+    let scripts = if additions.has_script { "; script-src 'unsafe-inline'" } else { "" };
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <meta name=\"color-scheme\" content=\"light dark\"/>\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\"/>\n\
-         <title>{0}</title>\n<style>\n{2}{STYLE}</style>\n</head>\n<body>\n<main>\n<header><h1>{0}</h1>\n<p class=\"sub\">{1}</p></header>\n",
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; font-src data:; style-src 'unsafe-inline'{3}\"/>\n\
+         <title>{0}</title>\n<style>\n{2}{STYLE}{4}</style>\n</head>\n<body>\n<main>\n<header><h1>{0}</h1>\n<p class=\"sub\">{1}</p></header>\n",
         markup(title),
         markup(subtitle),
-        cplan_theme::css()
+        cplan_theme::css(),
+        scripts,
+        additions.style
     )
 }
 
@@ -170,8 +208,14 @@ pub fn foot(how: &str) -> String {
 /// Number of problems above which their list is folded.
 const MAX_UNFOLDED_PROBLEMS: usize = 40;
 
-/// The page's own style sheet, after the one of all pages.
+/// The style sheet of reports, after the one of all pages.
 const STYLE: &str = include_str!("style.css");
+
+/// The style sheet of comparisons.
+const COMPARISON_STYLE: &str = include_str!("compare.css");
+
+/// The code that sorts tables and lights paths up.
+const SCRIPT: &str = include_str!("compare.js");
 
 const METHOD_NOTE: &str = "Every run covers the whole work from the problem to a certificate or a proof. \
                            <em>Found</em>: the whole continuous motion is certified free of collision. \

@@ -1,55 +1,8 @@
-//! Outcomes of each problem, as bars and as a matrix.
+//! Outcomes of each problem, as a matrix.
 
-use super::markup::{margin, name_before, number};
-use crate::{Comparison, Measure, Row, Study, labels};
+use crate::{Comparison, Measure, Row, Study};
 use cplan_core::model::Status;
 use cplan_text::markup;
-
-/// Width of the bars, in pixels.
-const BAR_WIDTH: f64 = 460.0;
-/// Height of a planner's line, in pixels.
-const ROW_HEIGHT: f64 = 28.0;
-/// Width in pixels that a number and a sign take.
-const NUMBER_WIDTH: f64 = 44.0;
-
-/// Draws one bar per planner, with three pieces: the problems that it solved, those that it proved infeasible, and
-/// those that it left open. Each piece shows its sign, and its number if there is room.
-pub fn bars(study: &Study) -> String {
-    let planners = study.planners();
-    let height = ROW_HEIGHT * planners.len() as f64 + 4.0;
-    let mut svg = format!(
-        "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Outcomes of each planner\">\n",
-        number(BAR_WIDTH),
-        number(height)
-    );
-    let names = labels(&planners);
-    let from = margin(&names.iter().map(String::as_str).collect::<Vec<_>>());
-    let all = study.comparisons.len().max(1) as f64;
-    for (i, name) in planners.iter().enumerate() {
-        let top = ROW_HEIGHT * i as f64 + 4.0;
-        svg += &name_before(&names[i], from - 10.0, top + 15.0);
-        let mut left = from;
-        for (outcome, count) in Status::ALL.into_iter().zip(study.tally(i)).filter(|(_, count)| *count > 0) {
-            let width = (BAR_WIDTH - from) * count as f64 / all;
-            svg += &format!("<g class=\"o-{outcome}\"><title>{}: {count} {outcome}</title>", markup(name));
-            svg += &format!(
-                "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"20\"/>",
-                number(left),
-                number(top),
-                number((width - 1.0).max(0.5))
-            );
-            let sign = sign(outcome);
-            let text = if width > NUMBER_WIDTH { format!("{sign} {count}") } else { sign.to_string() };
-            if width > NUMBER_WIDTH / 4.0 {
-                let middle = number(left + width / 2.0);
-                svg += &format!("<text class=\"count\" x=\"{middle}\" y=\"{}\">{text}</text>", number(top + 14.5));
-            }
-            svg += "</g>\n";
-            left += width;
-        }
-    }
-    svg + "</svg>\n"
-}
 
 /// Returns the legend of the signs.
 pub fn key() -> String {
@@ -63,10 +16,11 @@ pub fn key() -> String {
     format!("<ul class=\"key\">{}</ul>\n", Status::ALL.map(entry).concat())
 }
 
-fn sign(outcome: Status) -> char {
+/// Returns the sign of an outcome.
+pub fn sign(outcome: Status) -> char {
     match outcome {
         Status::Found => '\u{2713}',
-        Status::Infeasible => '\u{2205}',
+        Status::Infeasible => '\u{2715}',
         Status::Unknown => '?',
     }
 }

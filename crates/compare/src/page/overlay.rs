@@ -1,7 +1,8 @@
 //! All paths of a planner on one configuration space.
 
-use super::markup::{COLOR_COUNT, number};
+use super::markup::number;
 use cplan_text::{counted, markup};
+use cplan_theme::PlannerPen;
 
 /// A configuration space, and the paths that each planner found in it.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +19,8 @@ pub struct Overlay {
     pub blocked: Vec<Vec<[f64; 2]>>,
     /// Paths of each planner, in unwrapped values.
     pub planners: Vec<(String, Vec<Vec<[f64; 2]>>)>,
+    /// Colour of each planner.
+    pub pens: Vec<PlannerPen>,
     /// Which paths are shown, in words, if not all are. `None` if all are shown.
     pub note: Option<String>,
 }
@@ -51,7 +54,9 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
         } else {
             html += &format!("<use class=\"blocked\" href=\"#blocked{id}\"/>\n");
         }
-        html += &format!("<path class=\"way p{}\" d=\"{}\"/>\n</svg>\n", i % COLOR_COUNT, lines(overlay, paths, false));
+        let color = overlay.pens.get(i).map_or_else(|| "ink".to_owned(), |pen| pen.name());
+        let data = lines(overlay, paths, false);
+        html += &format!("<path class=\"way\" style=\"color: var(--{color})\" d=\"{data}\"/>\n</svg>\n");
         let middle = number(NAME_MARGIN + PANEL_SIZE / 2.0);
         html += &format!(
             "<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>",
@@ -130,6 +135,7 @@ mod tests {
             circles,
             blocked: Vec::new(),
             planners: Vec::new(),
+            pens: Vec::new(),
             note: None,
         }
     }

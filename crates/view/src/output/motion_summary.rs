@@ -1,14 +1,16 @@
 //! The summary of a single motion for people.
 
 use super::summary::{Line, SummaryLines, configuration, field, goal_lines, non_empty, torque};
+use crate::view::plane_of_motion;
 use cplan_core::model::{Arm, MotionProblem, Outcome, Scene};
 use cplan_core::planner::Proposal;
 use cplan_core::space::{Configuration, Metric};
 use cplan_engine::{Motion, Plan};
 use cplan_explain::{BlockingSet, MotionQuestion, blocking_set};
+use cplan_handling::TimedScene;
 use cplan_motion::CertifiedCurve;
 use cplan_motion::{DurationOptimality, TimedMotion};
-use cplan_movers::{Timing, Wait};
+use cplan_movers::{PlaceTime, Timing, Wait};
 use cplan_solver::{Answer, Bound, GridSpace, Space};
 use cplan_text::{counted, length_down, percent, round_down};
 
@@ -30,7 +32,7 @@ pub(super) fn summary_lines(plan: &Plan, problem: &MotionProblem, answer: &Answe
 
 fn found_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Vec<Line> {
     let mut lines = match &answer.outcome {
-        Outcome::Found(motion) => motion_lines(problem, answer, motion),
+        Outcome::Found(motion) => motion_lines(plan, problem, answer, motion),
         Outcome::Infeasible(proof) => vec![("result", format!("infeasible: there is no path; {}", proof.describe()))],
         Outcome::Unknown(unknown) => vec![("result", format!("unknown: {}", unknown.reason))],
     };
@@ -48,8 +50,9 @@ fn found_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) ->
 }
 
 /// Returns the lines about a motion that was found, with the properties that are proven.
-fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motion) -> Vec<Line> {
+fn motion_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motion) -> Vec<Line> {
     let (scene, arm, path) = (problem.scene(), problem.scene().arm(), motion.path.path());
+    let timed = TimedScene { scene, ..plan.problem().timed() };
     let TimedMotion { curve, trajectory } = &motion.timed;
     let kind = if answer.method.has_own_path() { format!(", {} path", answer.path_kind) } else { String::new() };
     let pieces = counted(path.segments().count(), "straight piece");
@@ -64,7 +67,8 @@ fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motio
     lines.extend(torque(arm, trajectory));
     lines.extend(motion.fastest.as_ref().map(|fastest| ("fastest", least_time(fastest))));
     lines.push(("clearance", clearance(scene, curve)));
-    lines.extend(motion.timing.iter().flat_map(|timing| among_movers(arm, timing)));
+    let plane = motion.timing.as_ref().and_then(|_| plane_of_motion(timed, trajectory));
+    lines.extend(motion.timing.iter().flat_map(|timing| among_movers(arm, timing, plane.as_ref())));
     lines
 }
 
@@ -125,8 +129,8 @@ fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
     }
 }
 
-/// Describes how the motion avoids moving obstacles.
-pub(super) fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
+/// Describes how the motion avoids moving obstacles. `plane` has the reasons of its waits.
+pub(super) fn among_movers(arm: &Arm, timing: &Timing, plane: Option<&PlaceTime>) -> Vec<Line> {
     let Timing { obstacles, ways, waits, clearance, free_until } = timing;
     let kept =
         clearance.map_or_else(|| "all of them out of reach".into(), |kept| format!("{} proven", length_down(kept)));
@@ -136,8 +140,10 @@ pub(super) fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
         "moving",
         format!("{}, {kept}; {tried} tried; at the goal the arm may stay {stays}", counted(*obstacles, "obstacle")),
     )];
-    lines.extend(waits.iter().map(|Wait { from, to, at }| {
-        ("waits", format!("from {from:.3} to {to:.3} s at {}", configuration(arm, Configuration::from(*at))))
+    lines.extend(plane.into_iter().flat_map(|plane| plane.reasons(waits)).map(|reason| {
+        let Wait { from, to, at } = reason.wait;
+        let place = configuration(arm, Configuration::from(at));
+        ("waits", format!("{}: from {from:.3} to {to:.3} s at {place}", reason.words()))
     }));
     lines
 }

@@ -196,6 +196,7 @@ fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, co
         goals: problem.goals().pieces(),
         paths: outline.iter().map(|path| (method.to_string(), path)).collect(),
         trajectory: plan.trajectory(),
+        waits: plan.timing().map_or(&[][..], |timing| &timing.waits),
         trace: Some(&answer.drawn()),
         proof: answer.outcome.infeasible(),
         c_obstacles: contours,

@@ -50,6 +50,9 @@ pub fn range(joint: &Joint) -> String {
 /// Keys of the lines about the planner's work.
 const DETAIL_KEYS: [&str; 4] = ["planner", "cells", "exact", "field"];
 
+/// Largest number of waits that the short summary lists.
+const MAX_WAITS: usize = 3;
+
 /// Returns the result in a few lines for people, the verdict first. It includes the written files, and notes about
 /// assumed values. If `is_verbose`, it also describes the planner's work, the times of all stages (those `after` planning
 /// included) in milliseconds, the problem, the arm, and how the robot was read.
@@ -60,6 +63,9 @@ pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Durat
         lines.insert(1, blocked);
     }
     lines.retain(|(key, _)| is_verbose || !DETAIL_KEYS.contains(key));
+    if !is_verbose {
+        shorten_waits(&mut lines);
+    }
     lines.extend(files.iter().map(|file| ("file", file.clone())));
     let robot = plan.problem().robot();
     let notes = robot.notes.iter().chain(plan.problem().notes()).map(|note| ("note", note.clone()));
@@ -75,6 +81,28 @@ pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Durat
     lines.extend(robot.geometry.iter().map(|fact| ("robot", fact.clone())));
     lines.extend(notes);
     format_columns(&lines)
+}
+
+/// Leaves out waits after the first few, and states their number.
+fn shorten_waits(lines: &mut Vec<Line>) {
+    let is_wait = |line: &Line| line.0 == "waits";
+    let count = lines.iter().filter(|line| is_wait(line)).count();
+    if count <= MAX_WAITS {
+        return;
+    }
+    let mut seen = 0;
+    let first_left_out = lines.iter().position(|line| {
+        seen += usize::from(is_wait(line));
+        seen > MAX_WAITS
+    });
+    if let Some(at) = first_left_out {
+        lines[at].1 = format!("and {} more times (--verbose lists them)", count - MAX_WAITS);
+        let mut index = 0;
+        lines.retain(|line| {
+            index += 1;
+            index <= at + 1 || !is_wait(line)
+        });
+    }
 }
 
 /// Returns the verdict in words, the first line of the summary.

@@ -3,7 +3,8 @@
 use super::motion_summary::among_movers;
 use super::step_lines::{StepLine, step_lines};
 use super::summary::{Line, SummaryLines, configuration, field, non_empty, torque};
-use cplan_core::model::{Arm, Outcome};
+use crate::view::plane_of_task;
+use cplan_core::model::Outcome;
 use cplan_engine::Plan;
 use cplan_handling::Task;
 use cplan_tasks::{FailedStep, Leg, TaskAnswer, TaskMotion};
@@ -24,7 +25,7 @@ pub(super) fn summary_lines(plan: &Plan, task: &Task, answer: &TaskAnswer) -> Su
     ];
     asked.extend(steps(task, answer).into_iter().map(|step| ("step", step)));
     let mut found = match &answer.outcome {
-        Outcome::Found(motion) => motion_lines(&task.arm, answer, motion),
+        Outcome::Found(motion) => motion_lines(task, answer, motion),
         Outcome::Infeasible(failed) | Outcome::Unknown(failed) => failure_lines(plan, answer, failed),
     };
     found.push(("planner", format!("{}: {motions} planned, {states} examined", plan.options().planner.method())));
@@ -64,7 +65,8 @@ fn failure_lines(plan: &Plan, answer: &TaskAnswer, failed: &FailedStep) -> Vec<L
 }
 
 /// Returns the lines about the whole motion, with its proven duration and clearance.
-fn motion_lines(arm: &Arm, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Line> {
+fn motion_lines(task: &Task, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Line> {
+    let arm = &task.arm;
     let count = counted(answer.legs.len(), "step");
     let trajectory = &motion.sequence.trajectory;
     let samples = trajectory.time.len();
@@ -90,7 +92,8 @@ fn motion_lines(arm: &Arm, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Line
     lines.extend(torque(arm, trajectory));
     lines.extend([("optimum", proven), ("optimum", choice.into())]);
     lines.extend(clearance(answer));
-    lines.extend(motion.timing.iter().flat_map(|timing| among_movers(arm, timing)));
+    let plane = motion.timing.as_ref().and_then(|_| plane_of_task(task, &answer.legs));
+    lines.extend(motion.timing.iter().flat_map(|timing| among_movers(arm, timing, plane.as_ref())));
     lines
 }
 

@@ -5,6 +5,7 @@ use super::motion::{Clock, MotionView, PathView};
 use super::numbers::Chain;
 use super::phase::{MotionReplayView, PhaseView};
 use super::steps::Row;
+use super::strip::StripView;
 use super::trace::TraceView;
 use super::world::{ObstacleView, WorldView};
 use crate::blocking::BlockingView;
@@ -78,6 +79,9 @@ pub struct View {
     pub(super) motions: Vec<MotionView>,
     pub(super) clock: Option<Clock>,
     pub(crate) frames: Vec<FrameView>,
+    /// The strip of progress against time. `None` unless obstacles move.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) strip: Option<StripView>,
     /// The phases of the planner's search, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) replay: Vec<PhaseView>,
@@ -120,6 +124,8 @@ pub(crate) struct StillContent {
     pub checked: Option<CheckedView>,
     /// True for pictures with a dark background.
     pub is_dark: bool,
+    /// True if a page can light up each path.
+    pub lights_paths: bool,
     /// The arm's final configuration, and the index of the world at the end.
     pub end: Option<([f64; 2], usize)>,
     /// The steps of a task, below the names of the columns; empty for single motions.
@@ -131,12 +137,14 @@ pub(crate) struct StillContent {
 pub(crate) struct PanelView {
     /// The text above the panel.
     pub title: String,
+    /// A second line above the panel; empty if there is none.
+    pub subtitle: String,
     /// Indices of the worlds of this space. They differ only in the obstacles that link 2 may reach into.
     pub worlds: Vec<usize>,
     /// Indices of the paths to draw. If a path is repeated, only one is listed.
     pub paths: Vec<usize>,
-    /// The arm's initial configuration.
-    pub start: [f64; 2],
+    /// The arm's configurations at the beginnings of its motions that do not begin where another one ends.
+    pub starts: Vec<[f64; 2]>,
     /// The number of the failed step, if it is in this space.
     pub fails: Option<usize>,
 }

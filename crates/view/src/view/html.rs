@@ -5,13 +5,10 @@ use cplan_text::markup;
 
 const STYLE: &str = include_str!("assets/view.css");
 
-/// Code that draws icons.
-pub(crate) const ICONS: &str = include_str!("assets/icons.js");
-
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 24] = [
+const SCRIPTS: [&str; 35] = [
     include_str!("assets/element.js"),
-    ICONS,
+    include_str!("assets/icons.js"),
     include_str!("assets/settings.js"),
     include_str!("assets/numbers.js"),
     include_str!("assets/geometry.js"),
@@ -25,7 +22,18 @@ const SCRIPTS: [&str; 24] = [
     include_str!("assets/workspace.js"),
     include_str!("assets/cspace.js"),
     include_str!("assets/plots.js"),
+    include_str!("assets/strip.js"),
     include_str!("assets/contact.js"),
+    include_str!("assets/lessons/question.js"),
+    include_str!("assets/lessons/slice.js"),
+    include_str!("assets/lessons/polygons.js"),
+    include_str!("assets/lessons/c_obstacles.js"),
+    include_str!("assets/lessons/roadmaps.js"),
+    include_str!("assets/lessons/cells.js"),
+    include_str!("assets/lessons/waves.js"),
+    include_str!("assets/lessons/fields.js"),
+    include_str!("assets/lessons/proofs.js"),
+    include_str!("assets/lessons/tasks.js"),
     include_str!("assets/learn.js"),
     include_str!("assets/steps.js"),
     include_str!("assets/tour.js"),
@@ -36,6 +44,9 @@ const SCRIPTS: [&str; 24] = [
     include_str!("assets/view.js"),
 ];
 
+/// Code of the map of the tip's reach, for the pages that have one.
+const REACH_SCRIPT: &str = include_str!("assets/reach.js");
+
 /// Code that shows the view in the page.
 const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
 
@@ -43,21 +54,40 @@ const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
 #[must_use]
 pub fn page(view: &View) -> String {
     let title = view.title.first().map_or("cplan", String::as_str);
-    sealed(title, "", "view", &view.json(), &(drawing() + PLAN_SCRIPT))
+    let reach = if view.still.reach.is_some() { REACH_SCRIPT } else { "" };
+    sealed(title, "", "view", &view.json(), &(drawing() + reach + PLAN_SCRIPT))
+}
+
+/// Code of the page of an inspection.
+const INSPECTION_SCRIPT: &str = include_str!("assets/inspection.js");
+
+/// Returns the page of a robot's inspection. `report` is a JSON object. `view` shows the arm; `None` if the robot has
+/// none.
+#[must_use]
+pub fn inspection_page(title: &str, view: Option<&View>, report: &str) -> String {
+    let view = view.map_or_else(|| "null".into(), View::json);
+    let data = format!("{{\"view\":{view},\"report\":{report}}}");
+    sealed(title, "", "view", &data, &(drawing() + INSPECTION_SCRIPT))
 }
 
 /// Returns the scripts that draw a view, for pages that add their own code after them.
 #[must_use]
 pub fn drawing() -> String {
-    let roles: Vec<&str> = cplan_theme::ROLES.iter().map(|role| role.name).collect();
-    format!("/** Names of the colours in the style sheet. */\nconst ROLES = {roles:?};\n{}", SCRIPTS.concat())
+    let roles: Vec<String> = cplan_theme::names().collect();
+    let stops = cplan_theme::SCALE_STOPS.map(|color| color.to_string());
+    format!(
+        "/** Names of the colours in the style sheet. */\nconst ROLES = {roles:?};\n\
+         /** Colours of the scale of values, from light to dark. */\nconst SCALE_STOPS = {stops:?};\n{}",
+        SCRIPTS.concat()
+    )
 }
 
 /// Returns a self-contained page. It loads nothing, and the browser does not allow it to load anything. The element
 /// `id` contains `json`, which `code` reads.
 #[must_use]
 pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> String {
-    let policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
+    let policy =
+        "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; font-src data:";
     let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n");
     // Only a less-than sign could end the script.
     let data = json.replace('<', "\\u003c");

@@ -4,8 +4,8 @@ use super::numbers::{Chain, RoundingSteps};
 use crate::figure::Pen;
 use cplan_core::space::{Configuration, Path};
 use cplan_motion::Trajectory;
-use cplan_theme::{GRAY, INK, Rgb};
-use serde::Serialize;
+use cplan_theme::{GRAY, INK, PlannerPen, Rgb, role_or_hex};
+use serde::{Serialize, Serializer};
 
 /// Number of poses of the arm that are shown between the ends of a path.
 const GHOST_POSES: usize = 5;
@@ -20,7 +20,7 @@ pub struct PathView {
     pub name: String,
     pub world: usize,
     /// Colour of the line. `None` for [`color::INK`](crate::color::INK).
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "color_name")]
     color: Option<Rgb>,
     /// Width of the line, in pixels.
     width: f64,
@@ -36,6 +36,11 @@ pub struct PathView {
     /// True if an animation is drawing the path and has not reached its goal.
     #[serde(skip)]
     pub grows: bool,
+}
+
+/// Serialises the colour by its name, if it has one, because it is another colour on a dark background.
+fn color_name<S: Serializer>(color: &Option<Rgb>, serializer: S) -> Result<S::Ok, S::Error> {
+    color.map(role_or_hex).serialize(serializer)
 }
 
 fn is_none(step: &usize) -> bool {
@@ -58,6 +63,11 @@ impl PathView {
             step: 0,
             grows: false,
         }
+    }
+
+    /// Returns this path in the colour and with the dashes of a planner.
+    pub fn of_planner(self, pen: PlannerPen) -> Self {
+        Self { color: Some(pen.light()), dash: pen.dash, ..self }
     }
 
     /// Creates the path of a step, in the colour of the payload.

@@ -5,6 +5,7 @@ use super::content::{FrameView, KeyFigures, PanelView, StillContent, View};
 use super::extent;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::{RoundingSteps, number};
+use super::strip::{StripView, plane_of_motion};
 use super::trace::TraceView;
 use super::world::WorldView;
 use cplan_core::check::CheckedProof;
@@ -15,6 +16,8 @@ use cplan_core::space::{Configuration, Measure, Metric, Path, Segment};
 use cplan_geometry::Point;
 use cplan_handling::TimedScene;
 use cplan_motion::Trajectory;
+use cplan_movers::Wait;
+use cplan_theme::PlannerPen;
 use nalgebra::Vector3;
 
 /// The content of a picture of a scene. With one path, a picture shows the arm's poses along it. With several paths, it
@@ -38,8 +41,12 @@ pub struct Picture<'a> {
     pub goals: &'a [Segment],
     /// Paths with their names, in unwrapped values.
     pub paths: Vec<(String, &'a Path)>,
+    /// Colours and dashes of the paths, if planners are compared; otherwise empty.
+    pub pens: &'a [PlannerPen],
     /// The motion along the only path.
     pub trajectory: Option<&'a Trajectory>,
+    /// Waits of that motion for moving obstacles.
+    pub waits: &'a [Wait],
     /// The planner's trace.
     pub trace: Option<&'a Trace>,
     /// Proof of infeasibility, if that is the answer.
@@ -75,12 +82,20 @@ impl<'a> Picture<'a> {
             start,
             goals: &[],
             paths: Vec::new(),
+            pens: &[],
             trajectory: None,
+            waits: &[],
             trace: None,
             proof: None,
             c_obstacles: &[],
             moments: &[],
         }
+    }
+
+    /// Returns the strip of progress against time. `None` unless obstacles move.
+    fn strip(&self, world: &WorldView) -> Option<StripView> {
+        let plane = plane_of_motion(self.scene, self.trajectory?)?;
+        Some(StripView::new(&plane, self.trajectory?.duration(), self.waits, std::slice::from_ref(world)))
     }
 
     /// Returns the goals that are single configurations. If there is no path, also returns the place nearest to the
@@ -103,8 +118,12 @@ impl View {
         let world = world.proven(picture.proof, grain).traced(trace).timed(picture.moments, grain);
         let count = picture.paths.len();
         let named = picture.paths.iter().enumerate();
+        let path_view = |path: PathView, i: usize| match picture.pens.get(i) {
+            Some(&pen) => path.of_planner(pen),
+            None => path,
+        };
         let paths: Vec<PathView> =
-            named.map(|(i, (name, path))| PathView::of_several(name, path, [i, count], grain)).collect();
+            named.map(|(i, (name, path))| path_view(PathView::of_several(name, path, [i, count], grain), i)).collect();
         let goals = picture.single_goals();
         let ends = picture.paths.iter().map(|(_, path)| path.goal());
         let shown: Vec<Configuration> = [start].into_iter().chain(goals.iter().copied()).chain(ends).collect();
@@ -125,14 +144,16 @@ impl View {
             motions: picture.trajectory.map(|t| MotionView::only(t.duration())).into_iter().collect(),
             clock: picture.trajectory.map(|trajectory| Clock::new(trajectory, grain)),
             frames: Vec::new(),
+            strip: picture.strip(&world),
             replay: Vec::new(),
             replays: Vec::new(),
             still: StillContent {
                 panels: vec![PanelView {
                     title: "Configuration space".to_owned(),
+                    subtitle: String::new(),
                     worlds: vec![0],
                     paths: (0..count).collect(),
-                    start: grain.configuration(start),
+                    starts: vec![grain.configuration(start)],
                     fails: None,
                 }],
                 end: end.map(|q| (q, 0)),

@@ -5,12 +5,14 @@ use super::content::{KeyFigures, PanelView, StillContent, View};
 use super::extent;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::RoundingSteps;
-use super::states::{PayloadState, describe, payload_states};
+use super::states::{PayloadGroup, PayloadState, describe, grouped, hand, payload_states};
 use super::steps::{Order, rounds, rows, words};
+use super::strip::{StripView, plane_of_task};
 use super::task_picture::TaskPicture;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use crate::FieldLines;
-use cplan_core::model::{Additions, Obstacle, Scene};
+use cplan_core::model::{Additions, Obstacle, Outcome, Scene};
+use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
 use cplan_handling::{Object, ObstacleTrajectory, Task, TimedScene};
 use cplan_tasks::{Event, FailedStep, Leg, Sequence};
@@ -74,8 +76,9 @@ impl View {
             explanation: None,
             checked: None,
             is_dark: false,
+            lights_paths: false,
             field_lines: FieldLines::default(),
-            panels: panels(picture, &order, &paths, world, grain),
+            panels: panels(picture, &order, (&paths, &worlds.views), world, grain),
             placed: placed.collect(),
             // An object that the last motion releases lies at its place in the final picture.
             end: last
@@ -84,6 +87,7 @@ impl View {
             steps: rows(picture),
         };
         let (title, status) = words(picture);
+        let strip = strip(picture, &worlds.views);
         Self {
             title,
             status,
@@ -100,6 +104,7 @@ impl View {
             motions,
             clock: (!legs.is_empty()).then(|| Clock::new(&Sequence::of(legs).trajectory, grain)),
             frames: Vec::new(),
+            strip,
             replay: Vec::new(),
             replays: Vec::new(),
             still,
@@ -107,38 +112,107 @@ impl View {
     }
 }
 
-/// Returns a configuration space for each payload state, then one for the failed step, whose world is `last`.
+/// Returns the strip of progress against time. `None` unless obstacles move.
+fn strip(picture: &TaskPicture, worlds: &[WorldView]) -> Option<StripView> {
+    let (task, legs) = (picture.task, &picture.answer.legs);
+    let plane = plane_of_task(task, legs)?;
+    let waits = match &picture.answer.outcome {
+        Outcome::Found(motion) => motion.timing.as_ref().map_or(&[][..], |timing| &timing.waits),
+        _ => &[],
+    };
+    Some(StripView::new(&plane, picture.answer.duration(), waits, worlds))
+}
+
+/// Returns a configuration space for each payload state with its C-obstacles, then one for the failed step, whose world is
+/// `last`.
 fn panels(
     picture: &TaskPicture,
     order: &Order,
-    paths: &[PathView],
+    (paths, worlds): (&[PathView], &[WorldView]),
     last: usize,
     grain: RoundingSteps,
 ) -> Vec<PanelView> {
     let (task, legs) = (picture.task, &picture.answer.legs);
-    let states = payload_states(legs, &task.arm.topology());
     let rounds = rounds(legs);
-    let panel = |state: &PayloadState| {
-        let numbers: Vec<usize> = state.motions.iter().map(|(index, _)| *index).collect();
-        let worlds = numbers.iter().map(|&index| paths[index].world).collect();
-        let start = paths[numbers[0]].start().into();
-        PanelView { title: state.title(rounds, order), worlds, paths: numbers, start, fails: None }
+    let worlds_of =
+        |state: &PayloadState| state.motions.iter().map(|&(index, _)| paths[index].world).collect::<Vec<usize>>();
+    let effect = |state: &PayloadState| Effect::of(worlds, &worlds_of(state));
+    let is_alike = |a: &PayloadState, b: &PayloadState| effect(a).is_same_as(&effect(b));
+    let groups = grouped(payload_states(legs, &task.arm.topology()), is_alike);
+    let panel = |group: &PayloadGroup| {
+        let numbers: Vec<usize> = group.motions().map(|(index, _)| index).collect();
+        let starts = free_starts(numbers.iter().map(|&index| &paths[index]));
+        let worlds = group.states.iter().flat_map(worlds_of).collect();
+        let [title, subtitle] = group.titles(rounds, order);
+        PanelView { title, subtitle, worlds, paths: numbers, starts, fails: None }
     };
-    let mut panels: Vec<PanelView> = states.iter().map(panel).collect();
+    let mut panels: Vec<PanelView> = groups.iter().map(panel).collect();
     let fails = picture.answer.failed();
     if let Some(fails) = fails {
-        let payload = describe(fails.scene.attachment().map(|payload| payload.name.as_str()));
+        let payload = fails.scene.attachment().map(|payload| payload.name.as_str());
         let (number, cycle) = (order.number(&fails.step), fails.step.cycle);
         let round = if cycle > 1 { format!(", round {cycle}") } else { String::new() };
-        let title = format!("{number} fails: {payload}{round}");
-        let start = grain.configuration(fails.from);
-        panels.push(PanelView { title, worlds: vec![last], paths: Vec::new(), start, fails: Some(number) });
+        let (title, subtitle) = (hand(payload.as_slice()), format!("step {number} fails{round}"));
+        let starts = vec![grain.configuration(fails.from)];
+        panels.push(PanelView { title, subtitle, worlds: vec![last], paths: Vec::new(), starts, fails: Some(number) });
     }
     if panels.is_empty() {
-        let start = grain.configuration(task.start);
-        panels.push(PanelView { title: describe(None), worlds: vec![last], paths: Vec::new(), start, fails: None });
+        let starts = vec![grain.configuration(task.start)];
+        panels.push(PanelView {
+            title: hand(&[]),
+            subtitle: String::new(),
+            worlds: vec![last],
+            paths: Vec::new(),
+            starts,
+            fails: None,
+        });
     }
     panels
+}
+
+/// Returns the starts of paths at which no other path ends, each once.
+fn free_starts<'a>(paths: impl Iterator<Item = &'a PathView> + Clone) -> Vec<[f64; 2]> {
+    let mut starts: Vec<[f64; 2]> = Vec::new();
+    for start in paths.clone().map(PathView::start) {
+        let is_at_start = |q: Configuration| (q - start).norm() <= EQUALITY_TOLERANCE;
+        let is_known = starts.iter().any(|&known| is_at_start(known.into()));
+        if !is_known && !paths.clone().any(|path| is_at_start(path.goal())) {
+            starts.push(start.into());
+        }
+    }
+    // In a cycle, each path begins where another one ends.
+    if starts.is_empty() { paths.take(1).map(|path| path.start().into()).collect() } else { starts }
+}
+
+/// The content of a configuration space that follows from payload and obstacles.
+#[derive(PartialEq)]
+struct Effect<'a> {
+    carries: bool,
+    is_static: bool,
+    /// C-obstacles of each obstacle, and those that it would have if link 2 must not reach into it.
+    obstacles: Vec<[Vec<&'a ContourView>; 2]>,
+}
+
+impl<'a> Effect<'a> {
+    /// Returns the effect in worlds that differ only in the obstacles that link 2 may reach into.
+    fn of(worlds: &'a [WorldView], indices: &[usize]) -> Self {
+        let first = &worlds[indices[0]];
+        let of = |number: usize| {
+            let is_open = |world: &&WorldView| world.open.iter().any(|c| c.obstacle == number);
+            let world = indices.iter().map(|&index| &worlds[index]).find(is_open).unwrap_or(first);
+            [&world.c_obstacles, &world.open].map(|all| all.iter().filter(|c| c.obstacle == number).collect())
+        };
+        Self {
+            carries: first.payload.is_some(),
+            is_static: first.movers.is_empty(),
+            obstacles: (0..first.obstacles.len()).map(of).collect(),
+        }
+    }
+
+    /// Returns true if both look the same. Configuration spaces with moving obstacles never do.
+    fn is_same_as(&self, other: &Self) -> bool {
+        self.is_static && self == other
+    }
 }
 
 /// The worlds of a task, each once.

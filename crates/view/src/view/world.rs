@@ -1,6 +1,5 @@
 //! A world that the arm moves in: obstacles, payload, pairs of shapes that can meet, and the C-obstacles.
 
-use super::names::{self, NameView};
 use super::numbers::{Chain, RoundingSteps, ShapeView, number, outline};
 use super::trace::{ScaleView, TraceView};
 use cplan_core::check::CheckedProof;
@@ -184,8 +183,6 @@ pub struct WorldView {
     /// C-obstacles of moving obstacles at some times.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub moments: Vec<MomentView>,
-    /// Places for the names of C-obstacles.
-    pub names: Vec<NameView>,
     /// C-obstacles that obstacles would have if link 2 must not reach into them. Pages do not need these, because they
     /// show one world at a time.
     #[serde(skip)]
@@ -219,7 +216,6 @@ impl WorldView {
             movers: movers(timed, grain),
             payload: payload(scene, grain),
             pairs: ranges(scene),
-            names: names::places(scene.arm(), obstacles.len(), &contours, grain),
             obstacles,
             c_obstacles: contours,
             moments: Vec::new(),

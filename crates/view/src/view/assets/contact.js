@@ -9,7 +9,9 @@ const Contact = (() => {
   const ROUNDING = 1e-9;
 
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1];
+  /** @type {(a: Point, b: Point) => Point} */
   const minus = (a, b) => [a[0] - b[0], a[1] - b[1]];
+  /** @type {(a: Point, b: Point) => Point} */
   const plus = (a, b) => [a[0] + b[0], a[1] + b[1]];
   const angle = ([x, y]) => Math.atan2(y, x);
   /** Cross product; positive if `b` is counter-clockwise of `a`. */

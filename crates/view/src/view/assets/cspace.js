@@ -6,8 +6,12 @@ const CSpace = (() => {
 
   /** With more obstacles than this, the crowd is drawn in a simpler style. */
   const CROWD = 100;
+  /** Cells of a reach smaller than this are drawn as rectangles, in pixels. */
+  const SMALL = 5;
   /** Cells narrower than this have finer sides, in pixels. */
   const NARROW = 5;
+  /** Opacity that is indistinguishable from 1, for drawings on a layer of their own. */
+  const ALMOST_OPAQUE = 0.999;
 
   function bounds(flat) {
     let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
@@ -362,15 +366,35 @@ const CSpace = (() => {
     return groups;
   }
 
-  /** Draws IK solutions with the tip at the centres of cells, by whether a motion leads there. */
-  function solutions(context, panel, view, { kinds }) {
-    for (const { color, solutions: flat } of kinds) {
-      context.fillStyle = panel.theme.tint(color);
-      for (let i = 0; i < flat.length; i += 2) {
-        const [x, y] = place(view, panel, flat.slice(i, i + 2));
-        context.fillRect(x - 1, y - 1, 2, 2);
-      }
+  /** Draws free IK solutions with the tip at the centres of cells, each as the configurations of its cell. */
+  function solutions(context, panel, view, reach) {
+    const { access, colors } = reach;
+    reach.shapes ??= ReachMap.shapes(view.model.arm, reach);
+    // Those of rare kinds lie above the reached ones.
+    for (const kind of ['1', '4', '2']) {
+      context.fillStyle = panel.theme.tint(kind === '1' ? colors[0] : colors[Number(kind)]);
+      for (let i = 0; i < access.length; i += 1) if (access[i] === kind) solution(context, panel, reach, i);
     }
+  }
+
+  /** Draws the configurations of the cell of a solution: a parallelogram, or a rectangle if it is small. */
+  function solution(context, panel, { solutions: flat, shapes }, i) {
+    const corners = [0, 2, 4, 6].map((k) => panel.at([flat[2 * i] + shapes[8 * i + k], flat[2 * i + 1] + shapes[8 * i + k + 1]]));
+    const [xs, ys] = [0, 1].map((k) => corners.map((corner) => corner[k]));
+    const [left, top] = [Math.min(...xs), Math.min(...ys)];
+    const [width, height] = [Math.max(...xs) - left, Math.max(...ys) - top];
+    if (Math.max(width, height) < SMALL) {
+      context.fillRect(left - 0.5, top - 0.5, width + 1, height + 1);
+      return;
+    }
+    context.beginPath();
+    for (const [x, y] of corners) context.lineTo(x, y);
+    context.closePath();
+    context.fill();
+    // Without the outline, neighbouring shapes would have seams.
+    context.lineWidth = 1;
+    context.strokeStyle = context.fillStyle;
+    context.stroke();
   }
 
   /** Draws everything that stays while the arm moves. */
@@ -378,36 +402,66 @@ const CSpace = (() => {
     const { world } = view;
     const seen = Think.seen(view, view.trace);
     if (seen) below(context, panel, view, seen);
+    if (view.model.reach && view.shows('access')) solutions(context, panel, view, view.model.reach);
     if (view.shows('c-obstacles')) cObstacles(context, panel, view, world);
     if (seen) above(context, panel, view, seen);
-    if (view.model.reach && view.shows('access')) solutions(context, panel, view, view.model.reach);
     if (view.shows('regions')) regions(context, panel, view, world);
     if (view.shows('proof') && world.proof.length) proof(context, panel, Think.firstItems(world.proof, 4, Think.part(view, 'proof')));
     if (view.shows('path')) {
-      for (const path of Think.paths(view, view.pathsHere())) {
-        pathLine(context, panel.theme, path, () => {
-          context.beginPath();
-          shifted(context, panel, path.points, circles(view), false);
-          context.stroke();
-        });
-        for (const by of shifts(panel, path.points, circles(view))) {
-          Labels.blockLine(panel, [...Geometry.pointsOf(path.points)].map((q) => panel.at([q[0] + by[0], q[1] + by[1]])));
-        }
-      }
+      for (const path of Think.paths(view, view.pathsHere())) pathOf(context, panel, view, path);
     }
     if (seen?.kind === 'channel' && view.shows('channel')) channelPoints(context, panel, view, seen);
-    goalLines(context, panel, view);
     if (view.model.checked?.nearest_free) ring(context, panel, place(view, panel, view.model.checked.nearest_free), 5, panel.theme.grey);
     if (view.model.stuck?.at) cross(context, panel.theme, place(view, panel, view.model.stuck.at[0]));
-    view.goals().forEach(([q, reached]) => diamond(context, panel, place(view, panel, q), reached));
-    ring(context, panel, place(view, panel, view.beginning()), 7);
-    for (const spot of markers(panel, view)) Labels.blockSpot(panel, spot, 10);
+    ends(context, panel, view);
     if (view.isTask) {
       const ends = view.pathsHere().map((path) => [`step ${path.step}`, Labels.about(place(view, panel, path.points.slice(-2)), 7)]);
       Labels.beside(context, panel, ends);
     }
-    const isNamed = view.shows('names') && view.shows('c-obstacles') && !view.isCrowded;
-    if (isNamed) names(context, panel, view, (obstacle) => view.called(obstacle), byObstacle(view, world.c_obstacles, world.obstacles));
+    obstacleNames(context, panel, view, world);
+  }
+
+  /** Draws the start and the goals. Names avoid them. */
+  function ends(context, panel, view) {
+    goalLines(context, panel, view);
+    view.goals().forEach(([q, reached]) => diamond(context, panel, place(view, panel, q), reached));
+    ring(context, panel, place(view, panel, view.beginning()), 7);
+    for (const spot of markers(panel, view)) Labels.blockSpot(panel, spot, 10);
+  }
+
+  /** Draws only the outlines of the C-obstacles. */
+  function outlines(context, panel, view, world) {
+    for (const [obstacle, contours] of byObstacle(view, world.c_obstacles, world.obstacles)) {
+      // On a layer of its own, because lines within a C-obstacle of several pieces are removed.
+      panel.faded(context, ALMOST_OPAQUE, (layer) => {
+        layer.beginPath();
+        for (const contour of contours) shifted(layer, panel, contour, turning(view), true);
+        layer.lineWidth = 3;
+        layer.strokeStyle = panel.theme.obstacle(world.obstacles[obstacle].color).line;
+        layer.stroke();
+        layer.globalCompositeOperation = 'destination-out';
+        layer.fill();
+        layer.globalCompositeOperation = 'source-over';
+      });
+    }
+  }
+
+  /** Draws the names of the C-obstacles. */
+  function obstacleNames(context, panel, view, world) {
+    if (!view.shows('names') || !view.shows('c-obstacles') || view.isCrowded) return;
+    names(context, panel, view, (obstacle) => view.called(obstacle), byObstacle(view, world.c_obstacles, world.obstacles));
+  }
+
+  /** Draws a path, on circles also its parts beyond a turn. Names dodge it. */
+  function pathOf(context, panel, view, path) {
+    pathLine(context, panel.theme, path, () => {
+      context.beginPath();
+      shifted(context, panel, path.points, circles(view), false);
+      context.stroke();
+    });
+    for (const by of shifts(panel, path.points, circles(view))) {
+      Labels.blockLine(panel, [...Geometry.pointsOf(path.points)].map((q) => panel.at([q[0] + by[0], q[1] + by[1]])));
+    }
   }
 
   /** Draws goals with a free joint: dots along a line. */
@@ -452,8 +506,12 @@ const CSpace = (() => {
   /** Draws everything that moves: the arm's configuration, and the one that the user examines. */
   function moving(context, panel, view) {
     const { theme } = panel;
+    const stamps = () => view.world.moments && stamp(context, panel, Numbers.seconds(view.now));
+    // Names avoid the stamp, which lies over the C-obstacles.
+    stamps();
     inTime(context, panel, view, view.world);
-    if (view.world.moments) stamp(context, panel, Numbers.seconds(view.now));
+    view.reachMap?.inCSpace(context, panel);
+    stamps();
     const [x, y] = place(view, panel, view.q);
     context.beginPath();
     context.arc(x, y, 4.8, 0, 2 * Math.PI);
@@ -523,5 +581,5 @@ const CSpace = (() => {
     context.restore();
   }
 
-  return { still, moving, beside, place };
+  return { still, moving, beside, place, path: pathOf, outlines, obstacleNames, ends };
 })();

@@ -75,7 +75,7 @@ class Keys {
   nudgeTip(event) {
     const { view } = this;
     const direction = DIRECTIONS[event.key];
-    if (view.mode === 'learn' || !(direction ? view.probe : event.key === 'Enter')) return false;
+    if (view.drawn === 'slice' || !(direction ? view.probe : event.key === 'Enter')) return false;
     const { arm } = view.model;
     if (!direction) view.place(view.q);
     else {
@@ -98,8 +98,7 @@ function help(view) {
     ['Space or k', 'play, pause'],
     ['arrow keys elsewhere', 'back and forth in time (with Shift further)'],
     ['Home, End', 'to the start, to the end'],
-    ['t', 'the motion, or how it was found'],
-    ['l', 'lessons: contact angles, the two tests of penetration, Minkowski differences'],
+    ...(view.hasModes ? [['t', 'the motion, or how it was found'], ['l', 'the course: short lessons, each with a question']] : []),
     ['+, \u2212', 'faster, slower; in a panel that was clicked: zoom'],
     ['wheel, two fingers, then drag', 'zoom at the pointer, and move the visible part'],
     ['Shift and arrow keys in a magnified workspace', 'move the visible part'],

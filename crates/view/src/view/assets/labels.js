@@ -1,5 +1,7 @@
 // The placer of names in a panel. A name lies neither on the arm, nor on a marker, nor on another name. It avoids paths
 // as far as possible, is joined to a distant shape by a line, and is left out if there is no place for it.
+// Pictures have the same rule in `labels.rs` and `regions.rs`: the same places in the same order, with the same costs. A
+// change here needs the same change there.
 'use strict';
 
 const Labels = (() => {
@@ -38,9 +40,9 @@ const Labels = (() => {
 
   // What names must avoid.
 
-  /** Returns an empty collection: boxes of names and markers, shapes of arms, and points on paths, all in pixels. */
-  const nothing = () => ({ boxes: [], shapes: [], points: [] });
-  const copy = ({ boxes, shapes, points }) => ({ boxes: [...boxes], shapes: [...shapes], points });
+  /** Returns an empty collection: boxes of names and markers, boxes of names alone, shapes of arms, and points on paths, all in pixels. */
+  const nothing = () => ({ boxes: [], names: [], shapes: [], points: [] });
+  const copy = ({ boxes, names, shapes, points }) => ({ boxes: [...boxes], names: [...names], shapes: [...shapes], points: [...points] });
 
   /** Returns a shape in pixels that count upwards, so that corners stay counter-clockwise. */
   function inPixels(panel, { core, radius }) {
@@ -55,6 +57,12 @@ const Labels = (() => {
   /** Lets names avoid a convex shape of the panel's plane, such as a part of the arm. */
   const blockShape = (panel, shape) => panel.blocked.shapes.push(inPixels(panel, shape));
   const blockSpot = (panel, spot, half = MARKER) => panel.blocked.boxes.push(about(spot, half));
+
+  /** Lets later names and their lines avoid the box of a name. */
+  function take(panel, box) {
+    panel.blocked.boxes.push(box);
+    panel.blocked.names.push(box);
+  }
 
   /** Lets names dodge a line through spots. */
   function blockLine(panel, spots) {
@@ -93,11 +101,29 @@ const Labels = (() => {
     return [...near, ...far];
   }
 
-  /** Draws a line from a name to the shape that it names. */
-  function leader(context, panel, box, of) {
+  /** Returns the ends of the line from a name to the shape that it names. */
+  function leaderEnds(box, of) {
     const [x, y] = middle(box);
     const end = [Math.max(of.x, Math.min(of.x + of.width, x)), Math.max(of.y, Math.min(of.y + of.height, y))];
-    const begin = [Math.max(box.x, Math.min(box.x + box.width, end[0])), Math.max(box.y, Math.min(box.y + box.height, end[1]))];
+    return [[Math.max(box.x, Math.min(box.x + box.width, end[0])), Math.max(box.y, Math.min(box.y + box.height, end[1]))], end];
+  }
+
+  /** Returns true if the line from a name to its shape would cross another name. */
+  function crossesName(panel, box, of) {
+    const [begin, end] = leaderEnds(box, of);
+    const count = Math.ceil(Math.hypot(end[0] - begin[0], end[1] - begin[1]) / CELL);
+    for (let k = 0; k <= count; k += 1) {
+      const share = k / Math.max(1, count);
+      const [x, y] = [begin[0] + (end[0] - begin[0]) * share, begin[1] + (end[1] - begin[1]) * share];
+      if (panel.blocked.names.some((name) => holds(name, [x, y]))) return true;
+    }
+    return false;
+  }
+
+  /** Draws a line from a name to the shape that it names. Later names dodge it. */
+  function leader(context, panel, box, of) {
+    const [begin, end] = leaderEnds(box, of);
+    blockLine(panel, [begin, end]);
     for (const [width, color] of [[3, panel.theme.paper], [1, panel.theme.grey]]) {
       [context.lineWidth, context.strokeStyle] = [width, color];
       line(context, [begin, end]);
@@ -110,7 +136,7 @@ const Labels = (() => {
     let [best, least] = [null, Infinity];
     places(panel, size(context, panel, text), of).forEach(({ box, isFar }, index) => {
       const known = 0.01 * index + (isFar ? LEADER : 0) + (before === index ? STAYING : 0);
-      if (known >= least || isBlocked(panel, box)) return;
+      if (known >= least || isBlocked(panel, box) || (isFar && crossesName(panel, box, of))) return;
       const whole = known + (crosses(panel, box) ? CROSSING : 0) + cost(box);
       if (whole < least) [best, least] = [{ box, isFar, index }, whole];
     });
@@ -119,7 +145,7 @@ const Labels = (() => {
       return false;
     }
     panel.placed.set(text, best.index);
-    panel.blocked.boxes.push(best.box);
+    take(panel, best.box);
     if (best.isFar) leader(context, panel, best.box, of);
     write(context, panel.theme, text, ...middle(best.box));
     return true;
@@ -136,6 +162,11 @@ const Labels = (() => {
     for (const [text, of] of names) {
       put(context, panel, text, of, (box) => names.reduce((sum, [, other]) => sum + (other === of ? 0 : share(box, other)), 0));
     }
+  }
+
+  /** Does the same among regions. `covered` returns the share of a box that lies on regions. */
+  function besideAmong(context, panel, names, covered) {
+    for (const [text, of] of names) put(context, panel, text, of, covered);
   }
 
   /**
@@ -177,10 +208,12 @@ const Labels = (() => {
     regions.forEach(({ text }, index) => {
       const [width, height] = size(context, panel, text);
       const spot = roomiest(cells, [columns, rows], index + 1, [width, height].map((side) => Math.ceil(side / CELL)));
-      if (spot?.fits) {
-        const [x, y] = [0, 1].map((k) => [rect.x, rect.y][k] + spot.at[k] * CELL);
-        blocked.boxes.push({ x: x - width / 2, y: y - height / 2, width, height });
-        write(context, panel.theme, text, x, y);
+      const [x, y] = spot ? [0, 1].map((k) => [rect.x, rect.y][k] + spot.at[k] * CELL) : [0, 0];
+      const box = pushed({ x: x - width / 2, y: y - height / 2, width, height }, rect);
+      // A name that sticks out of its region may meet another one that does.
+      if (spot?.fits && !isBlocked(panel, box)) {
+        take(panel, box);
+        write(context, panel.theme, text, ...middle(box));
       } else {
         // The path may cover all of a small region.
         const place = spot ?? roomiest(full, [columns, rows], index + 1, [1, 1]);
@@ -295,5 +328,5 @@ const Labels = (() => {
     context.fillText(text, x, y);
   }
 
-  return { about, beside, beyond, inside, onRegions, write, nothing, copy, blockShape, blockSpot, blockLine };
+  return { about, beside, besideAmong, beyond, inside, onRegions, write, nothing, copy, blockShape, blockSpot, blockLine };
 })();

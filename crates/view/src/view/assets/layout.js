@@ -48,6 +48,7 @@ function buildPage(view) {
   view.parts = parts;
   view.tabs = buildTabs(view);
   view.tour = new Tour(view);
+  view.strip = Strip.mount(view);
   view.root.append(
     element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
     parts.cards,
@@ -55,7 +56,7 @@ function buildPage(view) {
     element(
       'div',
       { class: 'stage' },
-      element('div', { class: 'pictures' }, parts.panels, view.learn.parts.panels, parts.description, parts.measure, parts.transport, view.learn.parts.choice, view.learn.parts.text),
+      element('div', { class: 'pictures' }, view.learn.head, parts.panels, view.learn.pair.root, parts.description, parts.measure, parts.transport, view.strip.root, view.learn.foot, view.learn.steps, view.learn.details),
       element('div', { class: 'below' }, view.tabs.root, ...view.tabs.entries.filter(({ isAside }) => !isAside).map(({ panel }) => panel)),
       element('aside', { class: 'side', 'aria-label': 'Steps and layers' }, view.steps.root, view.layers.root),
     ),
@@ -66,19 +67,19 @@ function buildPage(view) {
     workspace: new Panel(left, {
       x: [0, 1], y: [0, 1], scale: 'fill',
       still: (context, panel) => Workspace.still(context, panel, view),
-      moving: (context, panel) => (view.mode === 'learn' ? view.learn.drawArm(context, panel) : Workspace.moving(context, panel, view)),
+      moving: (context, panel) => (view.drawn === 'slice' ? view.learn.slices.drawArm(context, panel) : Workspace.moving(context, panel, view)),
     }),
     cspace: new Panel(right, {
       x: [0, 1], y: [0, 1], scale: 'fit',
       still: (context, panel) => CSpace.still(context, panel, view),
-      moving: (context, panel) => (view.mode === 'learn' ? view.learn.drawSlice(context, panel) : CSpace.moving(context, panel, view)),
+      moving: (context, panel) => (view.drawn === 'slice' ? view.learn.slices.drawSlice(context, panel) : CSpace.moving(context, panel, view)),
       beside: (context, panel) => CSpace.beside(context, panel, view),
     }),
   };
   view.explain.watch(view.panels);
   // Texts on canvases follow the text size of the page.
   new ResizeObserver(() => view.model && view.recolor()).observe(parts.measure);
-  view.plots = Plots.mount(parts.plots, view);
+  view.plots = [...Plots.mount(parts.plots, view), view.strip];
 }
 
 /** Creates the tabs. Steps and layers stand beside the pictures if there is room. */

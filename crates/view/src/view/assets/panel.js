@@ -38,10 +38,9 @@ class Theme {
 
   /** Returns a colour of the scale from 0 to 1, which is read by its lightness. */
   scale(part) {
-    const stops = ['#def5e5', '#a8e1bc', '#60ceac', '#3eb4ad', '#3498a9', '#357ba3', '#3b5d9a', '#413f80'];
-    const at = Math.min(1, Math.max(0, this.dark ? 1 - part : part)) * (stops.length - 1);
-    const below = Math.min(Math.floor(at), stops.length - 2);
-    return Theme.mixed(stops[below], stops[below + 1], at - below);
+    const at = Math.min(1, Math.max(0, this.dark ? 1 - part : part)) * (SCALE_STOPS.length - 1);
+    const below = Math.min(Math.floor(at), SCALE_STOPS.length - 2);
+    return Theme.mixed(SCALE_STOPS[below], SCALE_STOPS[below + 1], at - below);
   }
 }
 
@@ -73,15 +72,16 @@ class Panel {
 
   /**
    * @param {HTMLCanvasElement} canvas the canvas to draw on
-   * @param {{ x: Point, y: Point, degrees?: (boolean | string)[], titles?: string[], scale?: string, still?: Drawing, moving?: Drawing, beside?: Drawing, shape?: ?number, margins?: number[] }} options `x`, `y`: ranges; `degrees`: for both axes; `titles`; `scale`: 'fill' (one scale, may show more than
+   * @param {{ x: Point, y: Point, degrees?: (boolean | string)[], percent?: boolean[], titles?: string[], scale?: string, still?: Drawing, moving?: Drawing, beside?: Drawing, shape?: ?number, margins?: number[] }} options `x`, `y`: ranges; `degrees`, `percent`: for both axes; `titles`; `scale`: 'fill' (one scale, may show more than
    * the ranges), 'fit' (one scale, exactly the ranges) or 'free'; `still` and `moving`: functions that draw the fixed
    * and the moving content; `shape`: ratio of width to height, or `null` for all the room; `beside`: one that draws fixed content outside the sides; `margins`
    */
-  constructor(canvas, { x, y, degrees = [false, false], titles = ['', ''], scale = 'free', still = null, moving = null, beside = null, shape = null, margins = undefined }) {
+  constructor(canvas, { x, y, degrees = [false, false], percent = [false, false], titles = ['', ''], scale = 'free', still = null, moving = null, beside = null, shape = null, margins = undefined }) {
     this.canvas = canvas;
     this.x = x;
     this.y = y;
     this.degrees = degrees;
+    this.percent = percent;
     /** True for each axis whose ends are the same position of the joint. */
     this.seams = [false, false];
     this.titles = titles;
@@ -105,6 +105,8 @@ class Panel {
     /** Last place of each name, by its number among the possible places. */
     this.placed = new Map();
     new ResizeObserver(() => this.resize()).observe(canvas);
+    // The first picture may be drawn before the page's font is ready.
+    document.fonts.addEventListener('loadingdone', () => this.resize());
     this.resize();
   }
 
@@ -329,7 +331,7 @@ class Panel {
     for (const { value, text } of up) {
       const [, y] = this.at([shown[0][0], value]);
       line(context, [[rect.x, y], [rect.x + rect.width, y]]);
-      context.fillText(text, rect.x - 6 * zoom, y);
+      context.fillText(this.percent[1] ? `${Math.round(100 * value)} %` : text, rect.x - 6 * zoom, y);
     }
     context.fillStyle = theme.ink;
     context.textAlign = 'center';

@@ -1,10 +1,17 @@
-// A page by itself, which contains its view. The address can choose the initial mode: #think, #learn/sweep.
+// A page by itself, which contains its view. The address can choose the initial mode, chapter and lesson: #think,
+// #learn=c_obstacles, #learn=c_obstacles/sweep, #learn/sweep.
 'use strict';
 
 window.cplan = new View(document.querySelector('main'), JSON.parse(document.getElementById('view').textContent));
+if (cplan.model.reach) new ReachMap(cplan);
 {
-  const [mode, lesson] = location.hash.slice(1).split('/');
-  if (['move', 'think', 'learn'].includes(mode)) cplan.switchTo(mode);
-  if (!mode) cplan.tour.offer();
-  if (cplan.mode === 'learn' && cplan.learn.lessons.some(([name]) => name === lesson)) cplan.learn.start(lesson);
+  /** Shows what the address asks for. */
+  const follow = () => {
+    const [mode, ...place] = location.hash.slice(1).split(/[=/]/u);
+    if (['move', 'think', 'learn'].includes(mode)) cplan.switchTo(mode);
+    if (cplan.mode === 'learn' && place.length) cplan.learn.open(place[0], place[1]);
+    return mode;
+  };
+  if (!follow() && cplan.isMotion) cplan.tour.offer();
+  addEventListener('hashchange', follow);
 }

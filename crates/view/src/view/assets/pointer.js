@@ -65,7 +65,7 @@ class Pointer {
       event.preventDefault();
     } else if (event.button === 0) {
       const spot = panel.spot(event);
-      const holds = view.mode !== 'learn' && this.isAtArm(event);
+      const holds = view.drawn !== 'slice' && this.isAtArm(event);
       this.press = { from: spot, last: spot, holds, drags: false };
       if (!this.isCSpace && holds) {
         view.pause();

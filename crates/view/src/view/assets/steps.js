@@ -74,10 +74,10 @@ class Steps {
   /** Marks the current step, and scrolls to it within the list. */
   follow(current) {
     const { view, buttons, blocks } = this;
-    this.timeline.hidden = !buttons.length || view.mode !== 'move';
+    this.timeline.hidden = !buttons.length || view.drawn !== 'move';
     buttons.forEach((button, k) => {
       button.setAttribute('aria-current', k === current ? 'step' : 'false');
-      button.disabled = view.mode === 'think' && !view.hasReplay(view.model.motions[k]);
+      button.disabled = view.drawn === 'think' && !view.hasReplay(view.model.motions[k]);
     });
     if (current === this.current) return;
     this.current = current;

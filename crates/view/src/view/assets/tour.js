@@ -19,11 +19,11 @@ class Tour {
 
   /** Steps: title, text, and the element that the step is about. */
   get steps() {
-    const { parts, layers, panels } = this.view;
-    return [
+    const { parts, layers, panels, tourSteps } = this.view;
+    return tourSteps ?? [
       ['One motion, seen twice', 'On the left, the arm among its obstacles. On the right, the same arm as one point: a coordinate for each joint. Coloured regions on the right are collisions.', parts.panels],
       ['Take the arm', 'Drag the tip of the arm, or its dot on the right. Contacts are marked in red. Escape puts the arm back.', panels.workspace.canvas.parentElement],
-      ['Play it', 'Space plays the motion. \u201cHow it was found\u201d replays the search of the planner, and \u201cLearn\u201d has lessons in geometry.', parts.transport],
+      ['Play it', 'Space plays the motion. \u201cHow it was found\u201d replays the search of the planner, and \u201cLearn\u201d is a course of short lessons with questions.', parts.transport],
       ['Choose what is drawn', 'Each layer has its sign and a checkbox. More about the result is in the tabs below the pictures.', layers.root],
     ];
   }

@@ -13,6 +13,8 @@ interface PointerPlace { clientX: number; clientY: number; pointerType: string }
 
 /** The colours of the page's style sheet. Rust writes this constant before the scripts. */
 declare const ROLES: string[];
+/** The colours of the scale of values, from light to dark. Rust writes this constant, too. */
+declare const SCALE_STOPS: string[];
 
 interface Theme {
   [role: string]: any;
@@ -63,7 +65,6 @@ interface WorldModel {
   pairs: number[][];
   c_obstacles: { obstacle: number; link: number; contour: Chain }[];
   moments?: any[];
-  names: any[];
   regions: any[];
   trace?: any;
   scale?: any;
@@ -82,6 +83,17 @@ interface ClockModel { time: number[]; position: Chain; velocity: Chain; acceler
 
 /** A phase of the planner's replay. */
 interface PhaseModel { seconds: number; caption: string; [name: string]: any }
+
+/** A wait of the motion for a moving obstacle. `at` is the progress. */
+interface WaitModel { from: number; to: number; at: number; text: string }
+
+/** Progress along a motion against time, with the regions that moving obstacles block. */
+interface StripModel {
+  duration: number;
+  obstacles: { name: string; color: string; regions: Chain[] }[];
+  motion: Chain;
+  waits: WaitModel[];
+}
 
 /** Key figures of a result. */
 interface FiguresModel { duration?: number; gap?: number; fastest?: boolean; clearance?: number }
@@ -128,6 +140,7 @@ interface Model {
   motions: MotionModel[];
   clock: ClockModel | null;
   frames: any[];
+  strip?: StripModel;
   replay?: PhaseModel[];
   replays?: { phases: PhaseModel[]; trace?: any; scale?: any }[];
   legend: any[];
@@ -135,6 +148,9 @@ interface Model {
   explanation?: ExplanationModel;
   checked?: any;
   reach?: any;
+  /** The data of an exploration, and the knowledge over time. */
+  exploration?: any;
+  survey?: any;
 }
 
 /** The pair of an arm's part and an obstacle that is in contact or nearest. */
@@ -151,5 +167,5 @@ interface Tool {
   grasps(panel: Panel, value: Point, event: PointerPlace): boolean;
 }
 
-interface Window { cplan: any }
+interface Window { cplan: any; inspection: any }
 declare const cplan: any;

@@ -33,6 +33,8 @@ class View {
     this.tabs = null;
     /** @type {Tour} */
     this.tour = null;
+    /** Progress against time. @type {ReturnType<typeof Strip.mount>} */
+    this.strip = null;
     /** True if obstacles are written with their names; otherwise with numbers. */
     this.named = true;
     /** True if names appear only under the pointer. */
@@ -65,6 +67,8 @@ class View {
     this.tool = null;
     /** True if another script reports the outcome: see `say`. */
     this.judged = false;
+    /** Map of the tip's reach; see `ReachMap`. */
+    this.reachMap = null;
     /** True to leave out everything that is slow to draw, while something moves. */
     this.light = false;
     buildPage(this);
@@ -106,7 +110,7 @@ class View {
     for (const plot of this.plots) plot.fit();
     this.learn.update(model);
     if (!this.hasReplay(model.motions[this.replayed])) this.replayed = 0;
-    const [moves, thinks, learns] = [Boolean(model.clock), this.thinks, this.learn.lessons.length > 0];
+    const [moves, thinks, learns] = [Boolean(model.clock), this.thinks, this.learn.isOffered];
     const there = { move: moves || !thinks, think: thinks, learn: learns };
     for (const button of this.parts.modes.children) button.hidden = !(there[button.dataset.mode] || (button.dataset.mode === 'think' && this.recall));
     this.parts.modes.firstChild.textContent = moves ? 'Motion' : 'Picture';
@@ -136,7 +140,7 @@ class View {
     }
     this.enter(mode);
     if (mode === 'learn') this.examine(null);
-    if (mode === 'learn' && !this.time) this.learn.start(this.learn.lesson);
+    if (mode === 'learn') this.learn.resume();
     else this.ready();
   }
 
@@ -162,10 +166,10 @@ class View {
   /** Updates the controls of the current mode. */
   ready() {
     const { parts } = this;
-    const learns = this.mode === 'learn';
     parts.plots.hidden = this.mode !== 'move' || !this.model.clock;
     this.learn.show();
-    parts.panels.hidden = learns && !this.learn.isSlice;
+    this.strip.show();
+    parts.panels.hidden = this.drawn === 'pair';
     // Room for a scale of colours beside the panel.
     const { scale } = this;
     const margins = scale && this.showsSearch ? [48, 56, 8, 40] : undefined;
@@ -184,20 +188,30 @@ class View {
     this.refresh();
   }
 
+  /** True if the page has the modes 'think' and 'learn'. */
+  get hasModes() {
+    return true;
+  }
+
+  /** Returns what the pictures show: 'move', 'think', 'slice', or 'pair' for the two polygons of a lesson. */
+  get drawn() {
+    return this.mode === 'learn' ? this.learn.figure : this.mode;
+  }
+
   get duration() {
     if (this.mode === 'learn') return this.learn.duration;
-    if (this.mode === 'think') return Think.duration(this.replay);
+    if (this.drawn === 'think') return Think.duration(this.replay);
     return this.model.clock ? this.model.clock.time[this.model.clock.time.length - 1] : 0;
   }
 
   /** Returns the phase of the replay, and the part of it that has been shown; `null` in other modes. */
   get moment() {
-    return this.mode === 'think' && this.replay ? Think.moment(this.replay, this.time) : null;
+    return this.drawn === 'think' && this.replay ? Think.moment(this.replay, this.time) : null;
   }
 
   /** Returns the replay of a task's motion: its phases, and the planner's trace. */
   get account() {
-    return this.mode === 'think' ? this.model.replays?.[this.model.motions[this.replayed].replay] : undefined;
+    return this.drawn === 'think' ? this.model.replays?.[this.model.motions[this.replayed].replay] : undefined;
   }
 
   /** Returns the phases of the current replay. */
@@ -217,7 +231,7 @@ class View {
 
   /** Returns the time that determines the poses of moving obstacles: that of the motion; in other modes 0. */
   get now() {
-    return this.mode === 'move' ? this.time : 0;
+    return this.drawn === 'move' ? this.time : 0;
   }
 
   /** Returns the duration of the motion. */
@@ -228,8 +242,8 @@ class View {
   /** Returns the current motion. */
   get motion() {
     const { motions } = this.model;
-    if (this.mode === 'think') return motions[this.replayed];
-    const time = this.mode === 'move' ? this.time : this.times.move;
+    if (this.drawn === 'think') return motions[this.replayed];
+    const time = this.drawn === 'move' ? this.time : this.times.move;
     let found = 0;
     for (let i = 1; i < motions.length && motions[i].from <= time + 1e-6; i += 1) found = i;
     return motions[found];
@@ -241,7 +255,8 @@ class View {
 
   /** Returns the configuration of the arm. */
   get q() {
-    if (this.mode === 'learn' && this.learn.isSlice) return this.learn.q;
+    if (this.drawn === 'slice') return this.learn.slices.q;
+    if (this.reachMap?.q) return this.reachMap.q;
     if (this.explain.q) return this.explain.q;
     if (this.moment) return Think.focus(this) ?? this.beginning();
     return this.model.clock ? Geometry.moving(this.model.clock, this.time).position : this.beginning();
@@ -249,12 +264,12 @@ class View {
 
   /** Returns true if the search of the planner is drawn: not over the motion, unless there is no replay. */
   get showsSearch() {
-    return this.mode === 'think' || this.chosen === 'think' || (!this.thinks && !this.recall);
+    return this.drawn === 'think' || this.chosen === 'think' || (!this.thinks && !this.recall);
   }
 
   /** Returns true if the current mode draws a layer, unless the reader hides it. */
   draws(layer) {
-    if (this.mode === 'learn') return Learn.LAYERS.has(layer);
+    if (this.drawn === 'slice') return SliceFigure.LAYERS.has(layer);
     return !PLANNER_LAYERS.has(layer) || this.showsSearch;
   }
 
@@ -348,9 +363,22 @@ class View {
     if (!this.judged) this.say(ending, status);
     parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), readable(text, 'dd')]));
     // The live page shows its own figures.
-    const cards = this.recall ? [] : View.cards(this.model);
+    this.showCards(this.recall ? [] : this.cards());
+  }
+
+  /** Shows key figures: name, value and meaning of each. */
+  showCards(cards) {
+    const { parts } = this;
     parts.cards.hidden = !cards.length;
     parts.cards.replaceChildren(...cards.map(([name, value, note]) => element('div', { class: 'card' }, element('dt', {}, name), element('dd', {}, value, element('small', {}, note)))));
+  }
+
+  /**
+   * Returns the key figures of the page: name, value and meaning.
+   * @returns {any[][]}
+   */
+  cards() {
+    return View.cards(this.model);
   }
 
   /**
@@ -377,7 +405,7 @@ class View {
 
   /** Goes to a step: to its time, or to its replay. */
   go(motion) {
-    if (this.mode !== 'think') this.seek(motion.from);
+    if (this.drawn !== 'think') this.seek(motion.from);
     else if (this.hasReplay(motion)) {
       this.replayed = this.model.motions.indexOf(motion);
       this.time = 0;
@@ -388,7 +416,7 @@ class View {
   /** Sets marks on the scrubber at the beginnings of steps or phases. */
   tick() {
     let begin = 0;
-    const phases = this.mode === 'think' ? this.replay.map(({ seconds }) => (begin += seconds) - seconds) : this.model.motions.map(({ from }) => from);
+    const phases = this.drawn === 'think' ? this.replay.map(({ seconds }) => (begin += seconds) - seconds) : this.model.motions.map(({ from }) => from);
     const marks = phases.filter((at) => at > 0 && at < this.duration);
     this.parts.ticks.replaceChildren(...marks.map((at) => {
       const mark = element('i');
@@ -414,7 +442,7 @@ class View {
 
   recolor() {
     const theme = new Theme(document.documentElement);
-    for (const panel of [...this.allPanels(), ...Object.values(this.learn.panels)]) {
+    for (const panel of [...this.allPanels(), ...Object.values(this.learn.pair.panels)]) {
       panel.theme = theme;
       panel.layout();
     }
@@ -445,7 +473,7 @@ class View {
     const { parts, motion } = this;
     if (Number(parts.scrubber.value) !== this.time) parts.scrubber.value = this.time;
     const { moment } = this;
-    if (this.mode === 'learn') {
+    if (this.mode === 'learn' && this.learn.own) {
       parts.clock.textContent = this.learn.clock;
       parts.scrubber.setAttribute('aria-valuetext', this.learn.clock);
       this.learn.changed();
@@ -464,8 +492,9 @@ class View {
     if (motion !== before) {
       if (this.probe) this.examine(this.probe.q);
     }
-    const now = this.mode === 'learn' ? -1 : this.model.motions.indexOf(motion);
+    const now = this.model.motions.indexOf(motion);
     this.steps.follow(now);
+    this.strip.follow();
     this.describe();
     for (const panel of this.allPanels()) panel.draw();
   }
@@ -504,7 +533,7 @@ class View {
    * the end of each phase at once.
    */
   shownTime(time) {
-    if (this.mode !== 'think' || !Settings.reducesMotion) return time;
+    if (this.drawn !== 'think' || !Settings.reducesMotion) return time;
     let end = 0;
     for (const { seconds } of this.replay) {
       end += seconds;
@@ -549,7 +578,7 @@ class View {
    * @param {{ pointerType: string }} event
    */
   isAtTip([x, y], { pointerType }) {
-    if (this.mode === 'learn') return false;
+    if (this.drawn === 'slice') return false;
     const [u, v] = this.tipSpot;
     return Math.hypot(u - x, v - y) < (pointerType === 'mouse' ? NEAR_MOUSE : NEAR);
   }
@@ -581,9 +610,9 @@ class View {
 
   /** Places a second arm at q, and shows what it touches; without q, removes it. */
   examine(q) {
-    if (this.mode === 'learn' && q) {
+    if (this.drawn === 'slice' && q) {
       // A slice is chosen by a click, not by every move of the mouse.
-      if (this.pinned && this.learn.isSlice) this.learn.goTo(q);
+      if (this.pinned) this.learn.slices.goTo(q);
       this.pinned = false;
       return;
     }
@@ -596,7 +625,7 @@ class View {
 
   /** Returns the arm whose contacts are shown: the examined one or, on a page without a motion, the only one. */
   get examined() {
-    if (this.probe || this.isMotion || this.mode === 'learn') return this.probe;
+    if (this.probe || this.isMotion || this.reachMap || this.drawn === 'slice') return this.probe;
     const { q } = this;
     const contacts = Geometry.contacts(this.model.arm, this.world, q);
     return contacts.length ? { q, contacts } : null;
@@ -614,6 +643,8 @@ class View {
   /** On a small screen, moves the description above the finger, as far as there is room. */
   follow(q) {
     const { canvas } = this.panels.cspace;
+    // The page of an inspection has no configuration space.
+    if (!canvas.offsetParent) return;
     const frame = /** @type {HTMLElement} */ (canvas.offsetParent);
     const [x, y] = this.panels.cspace.at(q);
     const { style } = this.parts.probe;

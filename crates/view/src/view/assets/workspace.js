@@ -24,6 +24,16 @@ const Workspace = (() => {
     solids(context, panel, view, world.obstacles);
   }
 
+  /** Draws only the outlines of the obstacles. */
+  function outlines(context, panel, view, world) {
+    for (const obstacle of world.obstacles.filter(({ name }) => !view.hidden.has(name))) {
+      outline(context, panel, obstacle);
+      context.lineWidth = obstacle.outline.polyline ? 3 : 1.6;
+      context.strokeStyle = panel.theme.obstacle(obstacle.color).line;
+      context.stroke();
+    }
+  }
+
   /** Draws moving obstacles at their current poses. */
   function movers(context, panel, view, world) {
     solids(context, panel, view, (world.movers ?? []).map((mover) => Geometry.moved(mover, view.now)));
@@ -245,9 +255,9 @@ const Workspace = (() => {
   }
 
   /** Draws the reachable cells, coloured by their kind. */
-  function cells(context, panel, { corner, cell, size: [columns], kinds, cells: all }) {
+  function cells(context, panel, { corner, cell, size: [columns], colors: names, cells: all }) {
     const { theme } = panel;
-    const colors = kinds.map(({ color }) => theme.tint(color));
+    const colors = names.map((color) => theme.tint(color));
     for (const [place, kind] of [...all].entries()) {
       if (kind === '.') continue;
       const low = [corner[0] + cell * (place % columns), corner[1] + cell * Math.floor(place / columns)];
@@ -313,11 +323,13 @@ const Workspace = (() => {
   function moving(context, panel, view) {
     const { theme } = panel;
     movers(context, panel, view, view.world);
+    view.reachMap?.inWorkspace(context, panel);
     const { examined } = view;
     // While another arm is examined, this one steps back.
     const alpha = view.probe ? 0.45 : 1;
     arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, alpha, joints: true, blocks: true });
     if (examined) tried(context, panel, view, examined);
+    view.reachMap?.aboveArm(context, panel);
     if (view.shows('names')) names(context, panel, view, view.world);
     if (view.hovered) Labels.write(context, theme, ...view.hovered);
   }
@@ -385,13 +397,13 @@ const Workspace = (() => {
     return [x + width / 2, y + height / 2];
   }
 
-  return { still, moving, found, arm, struck, outline, middle };
+  return { still, moving, found, arm, struck, outline, tipTrace, outlines, middle };
 })();
 
 /** Draws a path or trace in its colour, over a broad pale line that makes it visible on any ground. */
 function pathLine(context, theme, path, stroke) {
   context.lineCap = 'round';
-  for (const [color, width, dash] of [[theme.paper, path.width + 2.6, []], [path.color ?? theme.ink, path.width, path.dash]]) {
+  for (const [color, width, dash] of [[theme.paper, path.width + 2.6, []], [theme.tint(path.color ?? 'ink'), path.width, path.dash]]) {
     context.strokeStyle = color;
     context.lineWidth = width;
     context.setLineDash(dash);

@@ -1,0 +1,162 @@
+//! The answer of a study, at the top of its page: the best layout in words, how much better it is than others, its
+//! picture, and the command that writes it.
+
+use super::Study;
+use super::measure::Objective;
+use super::parameter::Parameter;
+use super::row::{Ending, Row};
+use super::summary::{Summary, format_value};
+use cplan_compare::Picture;
+use cplan_compare::page::image_source;
+use cplan_text::{length, markup};
+
+/// Formats a value with its unit for readers: millimetres below a metre, degrees instead of radians, at most five
+/// significant digits.
+pub fn with_unit(value: f64, unit: Option<&str>) -> String {
+    let minus = |text: String| text.replace('-', "\u{2212}");
+    let without_zeros = |text: &str| match text.contains('.') && !text.contains('e') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text.to_owned(),
+    };
+    let short = || without_zeros(&format_value(value));
+    minus(match unit {
+        Some("m") => {
+            let text = length(value);
+            text.split_once(' ').map_or(text.clone(), |(number, unit)| format!("{} {unit}", without_zeros(number)))
+        }
+        Some("s") => format!("{value:.2} s"),
+        Some("rad") => format!("{:.1}\u{b0}", value.to_degrees()),
+        Some(unit) => format!("{} {unit}", short()),
+        None => short(),
+    })
+}
+
+/// Returns the section with the answer. `picture` shows the best layout.
+pub fn section(study: &Study, summary: &Summary, rows: &[Row], picture: Option<&Picture>) -> String {
+    let mut text = format!("<h2 class=\"headline\">{}</h2>\n", markup(&headline(study, summary)));
+    if let (Some(best), Some(objective)) = (summary.best(), study.objective) {
+        text += &format!("<p class=\"figure\">{}</p>\n", advantage(study, objective, best, rows));
+    }
+    text += &counts(summary);
+    for edge in summary.edges() {
+        text += &format!("<p class=\"sub\">{}</p>\n", markup(&edge));
+    }
+    if let Some(best) = summary.best() {
+        let command = markup(&command(study, best.layout));
+        text +=
+            &format!("<p>This command writes the layout:</p>\n<pre class=\"command\" tabindex=\"0\">{command}</pre>\n");
+    }
+    let shown = picture.map_or_else(String::new, |Picture { title, svg }| {
+        let (title, source) = (markup(title), image_source(svg));
+        format!(
+            "<figure class=\"picture\" tabindex=\"0\"><img alt=\"{title}: workspace and configuration space\" src=\"{source}\"/></figure>\n"
+        )
+    });
+    format!("<section class=\"answer card\" aria-label=\"Answer\">\n{text}{shown}</section>\n")
+}
+
+/// Returns the answer in one sentence.
+fn headline(study: &Study, summary: &Summary) -> String {
+    let Some(best) = summary.best() else {
+        return match summary.tally() {
+            [0, ..] => "No layout has a motion".into(),
+            _ if study.objective.is_none() => "Layouts with a motion, without an objective that ranks them".into(),
+            _ => "No layout meets the conditions".into(),
+        };
+    };
+    let values = best.values.iter().zip(&study.parameters);
+    let value = |(value, parameter): (&f64, &Parameter)| with_unit(*value, parameter.unit.as_deref());
+    if let Some((subject, axes)) = common_subject(&study.parameters) {
+        let places: Vec<String> = values.zip(axes).map(|(pair, axis)| format!("{axis} = {}", value(pair))).collect();
+        return format!("Put the {subject} at {}", places.join(", "));
+    }
+    let choices: Vec<String> = values.map(|pair| format!("{} = {}", pair.1.name, value(pair))).collect();
+    format!("Choose {}", choices.join(", "))
+}
+
+/// Returns the subject of parameters that are coordinates of one thing, such as `base` of `base x` and `base y`, and the
+/// names of the coordinates. `None` for other parameters.
+fn common_subject(parameters: &[Parameter]) -> Option<(&str, Vec<&str>)> {
+    let split: Option<Vec<(&str, &str)>> = parameters.iter().map(|p| p.name.rsplit_once(' ')).collect();
+    let split = split?;
+    let (subject, _) = *split.first()?;
+    let is_place = split.iter().all(|(of, axis)| *of == subject && ["x", "y"].contains(axis));
+    is_place.then(|| (subject, split.into_iter().map(|(_, axis)| axis).collect()))
+}
+
+/// Describes the best value, and how much better it is than the median of the layouts that fit.
+fn advantage(study: &Study, objective: Objective, best: &Row, rows: &[Row]) -> String {
+    let unit = objective.measure.unit();
+    let mut costs: Vec<f64> = rows.iter().map(|row| study.cost(row)).filter(|cost| cost.is_finite()).collect();
+    costs.sort_by(f64::total_cmp);
+    let value = objective.cost(study.cost(best));
+    let name = markup(objective.measure.name());
+    let shown = format!("<strong>{} {name}</strong>", markup(&with_unit(value, unit)));
+    let median = objective.cost(costs[costs.len() / 2]);
+    let better = (median - value).abs() / median.abs();
+    if costs.len() < 2 || !better.is_finite() {
+        return shown;
+    }
+    let percent = if better < 0.01 { format!("{:.1} %", 100.0 * better) } else { format!("{:.0} %", 100.0 * better) };
+    let median = markup(&with_unit(median, unit));
+    format!("{shown}: {percent} better than the median of the {} layouts that fit ({median})", costs.len())
+}
+
+/// Returns the numbers of layouts by their ending.
+fn counts(summary: &Summary) -> String {
+    let sign = |ending: Ending| match ending {
+        Ending::Found => ("o-found", "\u{2713}"),
+        Ending::Infeasible => ("o-infeasible", "\u{2715}"),
+        Ending::Unknown => ("o-unknown", "?"),
+        Ending::Refused => ("o-unknown", "\u{2013}"),
+    };
+    let count = |(ending, count): (Ending, usize)| {
+        let (class, sign) = sign(ending);
+        format!(
+            "<li class=\"{class}\"><span class=\"sign\" aria-hidden=\"true\">{sign}</span> <strong>{count}</strong> {}</li>\n",
+            ending.name()
+        )
+    };
+    let all: String = Ending::ALL.into_iter().zip(summary.tally()).map(count).collect();
+    format!("<ul class=\"counts\" aria-label=\"Outcomes\">\n{all}</ul>\n")
+}
+
+/// Returns the command that writes a layout.
+pub fn command(study: &Study, layout: usize) -> String {
+    let file = for_a_shell(&study.source.name());
+    match layout < study.count() {
+        true => format!("cplan study {file} --layout {layout} --output layout_{layout}.toml"),
+        // Layouts of the search have no numbers that the program can look up.
+        false => format!("cplan study {file} --output best.toml"),
+    }
+}
+
+/// Quotes a word for a shell if it has characters with a meaning there.
+fn for_a_shell(word: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "/._-+=:,@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_have_units_that_readers_know() {
+        assert_eq!(with_unit(-0.2, Some("m")), "\u{2212}200 mm");
+        assert_eq!(with_unit(1.8518, Some("s")), "1.85 s");
+        assert_eq!(with_unit(std::f64::consts::PI, Some("rad")), "180.0\u{b0}");
+        assert_eq!(with_unit(1.5, None), "1.5");
+        assert_eq!(with_unit(12.0, Some("kg")), "12 kg");
+    }
+
+    #[test]
+    fn shell_words_are_quoted() {
+        assert_eq!(for_a_shell("studies/base.toml"), "studies/base.toml");
+        assert_eq!(for_a_shell("my study.toml"), "'my study.toml'");
+    }
+}

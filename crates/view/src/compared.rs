@@ -1,0 +1,126 @@
+//! Drawings of a comparison for pages: large ones with all paths, in which a page can light up each path, and the parts
+//! of small ones.
+
+use super::arm::{self, GOAL_LOOK, START_LOOK};
+use super::axes::Frame;
+use super::chart::Chart;
+use super::figure::{Figure, Item, Rect, Step, Style};
+use super::view::{View, WorldView};
+use super::{cspace, shapes, svg_writer, workspace};
+use cplan_theme::{INK, Rgb, WHITE};
+
+/// Width and height of a large drawing, in pixels. A page shows two side by side, or one below the other.
+const LARGE_SIZE: [f64; 2] = [520.0, 380.0];
+/// Room left of a large drawing's panel, above it, right of it and below it, for the values and titles of its axes.
+const LARGE_MARGINS: [f64; 4] = [64.0, 6.0, 14.0, 48.0];
+/// Width and height of a small drawing, in pixels.
+const SMALL_SIZE: [f64; 2] = [120.0, 100.0];
+/// Margin of a small drawing, in pixels.
+const SMALL_MARGIN: f64 = 1.0;
+
+/// Drawings of the paths of a comparison. Their colours are variables of the page's style sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComparedPaths {
+    /// Workspace and configuration space. Elements with the attribute `data-path` belong to the path with this index.
+    pub large: [String; 2],
+    /// Workspace and configuration space in small.
+    pub small: [SmallPicture; 2],
+    /// Colours on a light background that have no name in the style sheet. The variable of `#rrggbb` is `--xrrggbb`.
+    pub colors: Vec<Rgb>,
+}
+
+/// The parts of a small drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmallPicture {
+    /// Width and height, in pixels.
+    pub size: [f64; 2],
+    /// Everything below the paths, as SVG elements.
+    pub ground: String,
+    /// Data of each path, for an SVG element `path`.
+    pub paths: Vec<String>,
+    /// Everything above the paths, as SVG elements.
+    pub markers: String,
+}
+
+/// Draws a comparison. `id` distinguishes the names within its drawings from those of other drawings in the page. `None`
+/// if the view has no configuration space.
+#[must_use]
+pub fn compared(view: &View, id: &str) -> Option<ComparedPaths> {
+    let mut view = view.clone();
+    view.still.lights_paths = true;
+    let panel = view.still.panels.first()?;
+    let [left, top, right, bottom] = LARGE_MARGINS;
+    let [width, height] = [LARGE_SIZE[0] - left - right, LARGE_SIZE[1] - top - bottom];
+    let area = Rect { x: left, y: top, width, height };
+    let large = [workspace::panel(&view, area), cspace::panel(&view, panel, area)];
+    let mut colors = Vec::new();
+    let mut with_colors = |drawing: svg_writer::PageDrawing| {
+        drawing.colors.into_iter().for_each(|color| {
+            if !colors.contains(&color) {
+                colors.push(color);
+            }
+        });
+        drawing.svg
+    };
+    let mut numbers = 0..;
+    let large = large.map(|items| {
+        let figure = Figure { width: LARGE_SIZE[0], height: LARGE_SIZE[1], items, is_dark: false };
+        with_colors(svg_writer::write_for_page(&figure, &format!("{id}-{}", numbers.next().unwrap_or_default())))
+    });
+    let small = [small_workspace(&view), small_cspace(&view)].map(|drawing| {
+        let mut text = |items: &[Item]| with_colors(svg_writer::with_variables(&svg_writer::elements(items)));
+        SmallPicture {
+            size: drawing.size,
+            ground: text(&drawing.ground),
+            paths: drawing.paths.iter().map(|steps| svg_writer::commands(steps)).collect(),
+            markers: text(&drawing.markers),
+        }
+    });
+    Some(ComparedPaths { large, small, colors })
+}
+
+/// The parts of a small drawing, not yet as text.
+struct SmallDrawing {
+    size: [f64; 2],
+    ground: Vec<Item>,
+    paths: Vec<Vec<Step>>,
+    markers: Vec<Item>,
+}
+
+/// Returns the part of a small drawing that its contents fill.
+fn small_area() -> Rect {
+    let [width, height] = SMALL_SIZE.map(|side| side - 2.0 * SMALL_MARGIN);
+    Rect { x: SMALL_MARGIN, y: SMALL_MARGIN, width, height }
+}
+
+fn small_workspace(view: &View) -> SmallDrawing {
+    let [x, y] = view.frame;
+    let frame = Frame::filling(small_area(), x.into(), y.into());
+    let world = view.first_world();
+    let mut ground: Vec<Item> = world
+        .obstacles
+        .iter()
+        .filter(|obstacle| obstacle.lies())
+        .map(|obstacle| shapes::solid(&frame, obstacle))
+        .collect();
+    let goal = view.still.end.map(|(q, _)| (q, &GOAL_LOOK));
+    for (q, look) in [(view.start, &START_LOOK)].into_iter().chain(goal) {
+        ground.extend(arm::items(&frame, &view.arm, None, q.into(), &look.thin()));
+    }
+    let paths = view.paths.iter().map(|path| workspace::tip_trace(&frame, &view.arm, path)).collect();
+    SmallDrawing { size: SMALL_SIZE, ground, paths, markers: Vec::new() }
+}
+
+fn small_cspace(view: &View) -> SmallDrawing {
+    // The picture is as wide as the joint space, without room beside it.
+    let Rect { width, height, .. } = Chart::new(&view.arm, small_area()).frame.rect;
+    let chart = Chart::new(&view.arm, Rect { width, height, ..small_area() });
+    let worlds: [&WorldView; 1] = [view.first_world()];
+    let mut ground = cspace::c_obstacles(&worlds, &chart);
+    ground.extend(chart.frame.sides([false; 2]));
+    let ring = Item::Disc(chart.place(view.start.into()), 3.6, Style::line(INK, 1.6).filled(WHITE));
+    let goals = view.goals.iter().map(|&q| Item::Disc(chart.place(q.into()), 3.6, Style::line(WHITE, 1.0).filled(INK)));
+    let markers = goals.chain([ring]).collect();
+    let paths = view.paths.iter().map(|path| chart.outline(&path.points.0)).collect();
+    SmallDrawing { size: [width, height].map(|side| side + 2.0 * SMALL_MARGIN), ground, paths, markers }
+}
