@@ -126,7 +126,10 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     }
     for sink in &pictures {
         if let Sink::Picture(format, path) = sink {
-            written.push((path.clone(), format.bytes_of(|| measured.to_svg(args.theme.is_dark()), || measured.to_html())?));
+            written.push((
+                path.clone(),
+                format.bytes_of(|| measured.to_svg(args.theme.is_dark()), || measured.to_html())?,
+            ));
         }
     }
     write_whole_set(&written)?;

@@ -2,8 +2,6 @@
 dark, on a desktop or a phone.
 """
 
-import json
-
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from conftest import ROOT
@@ -42,7 +40,7 @@ def pages(program):
     for name, words, code in [
         ("report", ["compare", robot, shelf, "--quiet"], 0),
         ("infeasible", ["compare", robot, closed, "--planner", "shortest", "--planner", "first", "--quiet"], 3),
-        ("queries", ["compare", robot, shelf, "--queries", "4", "--planner", "shortest", "--planner", "wavefront", "--quiet"], 0),
+        ("queries", ["compare", robot, shelf, "--queries", "5", "--planner", "shortest", "--planner", "wavefront", "--quiet"], 0),
         ("study", ["study", ROOT / "workspaces/studies/base.toml", "--quiet"], 0),
     ]:
         made[name] = program.folder / f"axe_{name}.html"
@@ -55,16 +53,20 @@ def pages(program):
     program.run("inspect", program.folder / "two.urdf", "--picture", made["defects"], code=1)
     made["exploration"] = program.folder / "axe_exploration.html"
     program.run("explore", robot, shelf, "--quiet", "--timings", "--picture", made["exploration"])
+    for name, words, code in [("explained", [robot, closed], 3), ("explained_limits", [robot, ROOT / "workspaces/limits_closed.toml"], 3)]:
+        made[name] = program.folder / f"axe_{name}.html"
+        program.run("explain", *words, "--quiet", "--picture", made[name], code=code)
     made["convergence"] = program.folder / "axe_convergence.html"
     program.run("converge", robot, shelf, "--cells", "24", "--quiet", "--picture", made["convergence"])
     return made
 
 
-@pytest.mark.parametrize("name", ["plan", "proof", "task", "moving", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects", "exploration"])
+@pytest.mark.parametrize("name", ["plan", "proof", "task", "moving", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects", "exploration", "explained", "explained_limits"])
 def test_nothing_is_found_on_pages(pages, show_file, name):
     for scheme, width, height in LOOKS:
         seen = show_file(pages[name], width=width, height=height, color_scheme=scheme)
         seen.do("document.querySelectorAll('details').forEach((folded) => { folded.open = true; })")
+        seen.do("document.querySelector('tr[data-path] button')?.focus()")
         assert faults(seen) == [], f"{name}, {scheme}, {width} pixels wide"
         assert is_in_place(seen), f"{name}, {width} pixels wide"
         seen.shoot(f"axe_{name}_{scheme}_{width}")
@@ -105,11 +107,13 @@ def test_nothing_is_found_on_the_live_page_with_a_notice_and_a_selection(serve, 
     assert is_in_place(seen)
 
 
-def test_an_infeasible_world_says_so_and_shows_the_proof(pages, show_file):
-    seen = show_file(pages["infeasible"])
-    said = seen.page.locator(".verdict").inner_text()
-    assert said == "2 of 2 proved infeasibility"
-    picture = seen.page.locator(".picture img").get_attribute("src")
-    assert "proof" in picture and json.dumps(said)[1:-1] in picture.replace("%20", " ")
-    headings = seen.page.locator("h2").all_inner_texts()
-    assert headings.index("Outcomes") < headings.index("Paths and proofs") < headings.index("In words")
+@pytest.mark.parametrize(("scheme", "width", "height"), LOOKS)
+def test_nothing_is_found_on_explanations(pages, show_file, serve, scheme, width, height):
+    seen = show_file(pages["explained"], width=width, height=height, color_scheme=scheme)
+    seen.page.locator(".change").first.click()
+    seen.do("document.documentElement.style.fontSize = '200%'")
+    assert faults(seen) == [] and is_in_place(seen)
+    live = serve(ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/no_path.toml", width=width, height=height, color_scheme=scheme)
+    live.page.get_by_role("button", name="Why?").click()
+    live.until("!cplan.view.explain.root.hidden")
+    assert faults(live) == [] and is_in_place(live)

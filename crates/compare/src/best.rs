@@ -23,7 +23,8 @@ impl Better {
     /// if all of them look alike, because then none stands out. `shown` has the texts of the values.
     #[must_use]
     pub fn that_stand_out(self, values: &[Option<f64>], shown: &[Option<String>]) -> Vec<usize> {
-        let known: Vec<usize> = (0..values.len().min(shown.len())).filter(|&i| values[i].is_some() && shown[i].is_some()).collect();
+        let known: Vec<usize> =
+            (0..values.len().min(shown.len())).filter(|&i| values[i].is_some() && shown[i].is_some()).collect();
         let of_known = |i: usize| known.contains(&i).then(|| values[i]).flatten();
         let Some(first) = self.first_best((0..values.len()).map(of_known)) else { return Vec::new() };
         let best: Vec<usize> = known.iter().copied().filter(|&i| shown[i] == shown[first]).collect();

@@ -112,7 +112,8 @@ impl Comparison {
     /// Returns the same text as [`Comparison::to_wide_text`] for a terminal, as [`Comparison::to_text_with`] does.
     #[must_use]
     pub fn to_wide_text_with(&self, emphasis: Emphasis) -> String {
-        self.table().to_text_with(emphasis) + &self.remarks().map(|line| plain(&line).into_owned() + "\n").collect::<String>()
+        self.table().to_text_with(emphasis)
+            + &self.remarks().map(|line| plain(&line).into_owned() + "\n").collect::<String>()
     }
 
     fn remarks(&self) -> impl Iterator<Item = String> {

@@ -96,9 +96,14 @@ impl Comparison {
             return format!("{who}, which{near} {}.", clearance(shortest));
         }
         if std::ptr::eq(shortest, safest) {
-            return format!("{who}: `{}` has both the shortest and the safest, which {}.", shortest.planner, clearance(safest));
+            return format!(
+                "{who}: `{}` has both the shortest and the safest, which {}.",
+                shortest.planner,
+                clearance(safest)
+            );
         }
-        let longer = self.ratio(safest).map_or_else(String::new, |ratio| format!(" for {} more length", percent(ratio - 1.0)));
+        let longer =
+            self.ratio(safest).map_or_else(String::new, |ratio| format!(" for {} more length", percent(ratio - 1.0)));
         format!("{who}: {near}, and `{}` {}{longer}.", safest.planner, clearance(safest))
     }
 }
@@ -126,7 +131,7 @@ mod tests {
 
     #[test]
     fn one_problem_has_the_shortest_and_the_safest() {
-        let all = comparison(&[("a", Some(1.25), 0.001), ("b", Some(2.5), 0.1204), ("c", Some(1.5), 0.05)]);
+        let all = comparison(&[("a", Some(1.25), 0.001), ("b", Some(2.5), 0.12045), ("c", Some(1.5), 0.05)]);
         assert_eq!(
             all.conclusion(),
             "All 3 planners found a path: `a` comes within 25.00 % of the optimum, and `b` keeps 120.4 mm from obstacles for \
@@ -155,11 +160,12 @@ mod tests {
     #[test]
     fn many_problems_count_wins() {
         let comparisons = vec![
-            comparison(&[("a", Some(1.25), 0.001), ("b", Some(2.5), 0.1204)]),
+            comparison(&[("a", Some(1.25), 0.001), ("b", Some(2.5), 0.12045)]),
             comparison(&[("a", Some(1.25), 0.001), ("b", Some(1.25), 0.1)]),
             comparison(&[("a", None, 0.0), ("b", None, 0.0)]),
         ];
-        let study = Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new(), refused: Vec::new() };
+        let study =
+            Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new(), refused: Vec::new() };
         assert_eq!([0, 1].map(|planner| study.wins(planner, Purpose::Shortest)), [2, 1]);
         assert_eq!(
             study.conclusion(),

@@ -236,7 +236,7 @@ mod tests {
         let mut table = table(&["planner", "total"]);
         table.columns[1] = table.columns[1].clone().with_best(vec![1]);
         let [plain, marked] = [PLAIN, ["<", ">"]].map(|emphasis| table.to_text_within_with(30, emphasis));
-        assert!(marked.ends_with("second   <1.25>\n") && marked.contains("a         1.25\n"), "{marked}");
+        assert!(marked.ends_with("second    <1.25>\n") && marked.contains("a         1.25\n"), "{marked}");
         assert_eq!(marked.replace(['<', '>'], ""), plain);
         assert!(table.to_markdown().ends_with("| second  | **1.25** |\n"), "{}", table.to_markdown());
     }

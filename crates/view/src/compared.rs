@@ -97,8 +97,12 @@ fn small_workspace(view: &View) -> SmallDrawing {
     let [x, y] = view.frame;
     let frame = Frame::filling(small_area(), x.into(), y.into());
     let world = view.first_world();
-    let mut ground: Vec<Item> =
-        world.obstacles.iter().filter(|obstacle| obstacle.lies()).map(|obstacle| shapes::solid(&frame, obstacle)).collect();
+    let mut ground: Vec<Item> = world
+        .obstacles
+        .iter()
+        .filter(|obstacle| obstacle.lies())
+        .map(|obstacle| shapes::solid(&frame, obstacle))
+        .collect();
     let goal = view.still.end.map(|(q, _)| (q, &GOAL_LOOK));
     for (q, look) in [(view.start, &START_LOOK)].into_iter().chain(goal) {
         ground.extend(arm::items(&frame, &view.arm, None, q.into(), &look.thin()));

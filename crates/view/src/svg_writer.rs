@@ -301,7 +301,9 @@ mod tests {
         let items = vec![Item::Clip(rect, vec![disc(cplan_theme::INK), Item::OfPath(3, vec![disc(Rgb(1, 2, 3)); 2])])];
         let drawing = write_for_page(&Figure { width: 10.0, height: 10.0, items, is_dark: false }, "a");
         assert_eq!(drawing.colors, [Rgb(1, 2, 3)]);
-        for part in ["fill=\"var(--ink)\"", "fill=\"var(--x010203)\"", "id=\"a-clip0\"", "url(#a-clip0)", "data-path=\"3\""] {
+        for part in
+            ["fill=\"var(--ink)\"", "fill=\"var(--x010203)\"", "id=\"a-clip0\"", "url(#a-clip0)", "data-path=\"3\""]
+        {
             assert!(drawing.svg.contains(part), "no {part} in {}", drawing.svg);
         }
         assert!(!drawing.svg.contains("\"#"), "{}", drawing.svg);

@@ -54,7 +54,12 @@ pub fn pictures(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<P
     let drawn = chosen.into_iter().take(MAX_DRAWN_WORLDS).filter_map(|problem| {
         let view = view(&cases.cases[problem], &study.comparisons[problem], &done.paths[problem]);
         let draw::ComparedPaths { large, small, colors } = draw::compared(&view, &format!("problem{problem}"))?;
-        let small = small.map(|draw::SmallPicture { size, ground, paths, markers }| SmallPicture { size, ground, paths, markers });
+        let small = small.map(|draw::SmallPicture { size, ground, paths, markers }| SmallPicture {
+            size,
+            ground,
+            paths,
+            markers,
+        });
         Some(PathPictures { problem, large, small, colors })
     });
     drawn.collect()

@@ -150,14 +150,49 @@ fn dark_pictures_differ_in_their_colors_alone() {
     let place = Place::new();
     let [light, dark] = ["", "--theme dark"].map(|theme| drawn(&place, &shelf(), theme));
     assert_eq!(light, drawn(&place, &shelf(), "--theme light"));
+    differ_in_their_colors_alone("plan", &light, &dark);
+}
+
+/// Checks one picture of each command that draws.
+#[test]
+fn every_command_draws_dark_pictures() {
+    let place = Place::new();
+    let [robot, world] = shelf();
+    assert_eq!(place.run(&shelf(), "--output plan.csv --quiet").code, 0);
+    let of = |words: &str| -> Vec<String> {
+        words.split(' ').map(|word| word.replace("ROBOT", &robot).replace("WORLD", &world)).collect()
+    };
+    let (closed, drawing) = (shipped("workspaces/no_path.toml"), shipped("workspaces/drawings/cell.dxf"));
+    for (words, options) in [
+        (of("check ROBOT WORLD"), "--at 0,0"),
+        (of("inspect ROBOT WORLD"), ""),
+        (of("reach ROBOT WORLD"), ""),
+        (vec!["explain".to_owned(), robot.clone(), closed], ""),
+        (of("verify ROBOT WORLD plan.csv"), ""),
+        (of("compare ROBOT WORLD"), "--planner shortest --planner visibility"),
+        (of("converge ROBOT WORLD"), "--cells 12"),
+        (of("explore ROBOT WORLD"), ""),
+        (vec!["import".to_owned(), drawing], "--output cell.toml"),
+    ] {
+        let [light, dark] = ["light", "dark"].map(|theme| {
+            let done = place.run(&words, &format!("{options} --quiet --picture {theme}.svg --theme {theme}"));
+            assert!([0, 3].contains(&done.code), "{words:?}: {}", done.stderr);
+            place.read(&format!("{theme}.svg"))
+        });
+        differ_in_their_colors_alone(&words[0], &light, &dark);
+    }
+}
+
+/// Checks that both pictures have the same items, and that nothing of the dark one is left white.
+fn differ_in_their_colors_alone(command: &str, light: &str, dark: &str) {
     let colors = |picture: &str| -> Vec<String> {
-        picture.split('#').skip(1).filter_map(|rest| Some(rest.get(..6)?.to_owned())).collect()
+        picture.split("\"#").skip(1).filter_map(|rest| Some(rest.get(..6)?.to_owned())).collect()
     };
     let without_colors = |picture: &str| {
-        colors(picture).iter().fold(picture.to_owned(), |text, color| text.replace(&format!("#{color}"), "#"))
+        colors(picture).iter().fold(picture.to_owned(), |text, color| text.replace(&format!("\"#{color}"), "\"#"))
     };
-    assert_eq!(without_colors(&light), without_colors(&dark));
+    assert_eq!(without_colors(light), without_colors(dark), "{command}");
     // The background is the first colour.
-    assert_eq!([&colors(&light)[0], &colors(&dark)[0]], ["ffffff", "16191d"]);
-    assert!(!colors(&dark).contains(&"ffffff".to_owned()), "nothing is left white");
+    assert_eq!([&colors(light)[0], &colors(dark)[0]], ["ffffff", "16191d"], "{command}");
+    assert!(!colors(dark).contains(&"ffffff".to_owned()), "{command}: nothing is left white");
 }

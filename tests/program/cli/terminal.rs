@@ -116,6 +116,32 @@ fn colours_are_for_terminals_that_want_them() {
     assert_eq!(forced.lines().count(), plain.lines().count());
 }
 
+/// Checks that the best values of a comparison are bold in colours, and that other outputs stay as they were.
+#[test]
+fn the_best_values_of_a_comparison_stand_out() {
+    let place = Place::new();
+    let table = |files: &[String], words: &str, variables: &[(&str, &str)]| {
+        let mut command = place.command();
+        command.arg("compare").args(files).args(words.split_whitespace()).envs(variables.iter().copied());
+        String::from_utf8(command.output().unwrap().stdout).unwrap()
+    };
+    let planners = "--planner shortest --planner wavefront --quiet";
+    for words in [planners.to_owned(), format!("{planners} --wide"), format!("{planners} --queries 2")] {
+        let plain = table(&shelf(), &words, &[]);
+        assert!(!plain.contains('\u{1b}'), "{plain:?}");
+        let bold = table(&shelf(), &words, &[("CLICOLOR_FORCE", "1")]);
+        assert!(bold.contains("\u{1b}[1m1.000"), "{bold:?}");
+        assert_eq!(
+            table(&shelf(), &words, &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")]).lines().count(),
+            plain.lines().count()
+        );
+    }
+    let markdown = table(&shelf(), &format!("{planners} --markdown"), &[("CLICOLOR_FORCE", "1")]);
+    assert!(markdown.contains("**1.0001**") && !markdown.contains('\u{1b}'), "{markdown}");
+    let csv = table(&shelf(), &format!("{planners} --csv"), &[("CLICOLOR_FORCE", "1")]);
+    assert!(!csv.contains('*') && !csv.contains('\u{1b}'), "{csv}");
+}
+
 /// Checks lines on a terminal of their own, on which `script` runs the program.
 #[cfg(target_os = "linux")]
 #[test]

@@ -52,7 +52,8 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
         svg += &name_before(&names[i], left - 10.0, middle + 4.0);
         if let Some(spread) = Spread::of(values.iter().copied()) {
             let pen = pens[i].name();
-            svg += &format!("<g style=\"color: var(--{pen})\"><title>{}</title>", markup(&describe_chart(name, &spread)));
+            svg +=
+                &format!("<g style=\"color: var(--{pen})\"><title>{}</title>", markup(&describe_chart(name, &spread)));
             svg += &drawn(&spread, values, middle, &x);
             svg += "</g>\n";
         }

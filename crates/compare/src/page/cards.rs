@@ -32,7 +32,10 @@ struct Card {
 impl Card {
     fn html(&self) -> String {
         let path = self.path.map_or_else(String::new, |path| format!(" data-path=\"{path}\""));
-        let exact = self.exact.filter(|value| value.is_finite()).map_or_else(String::new, |value| format!(" data-value=\"{value}\""));
+        let exact = self
+            .exact
+            .filter(|value| value.is_finite())
+            .map_or_else(String::new, |value| format!(" data-value=\"{value}\""));
         format!(
             "<article class=\"card pick\" data-purpose=\"{}\" data-planner=\"{}\"{path} style=\"--pen: var(--{})\">\n<h2>{}</h2>\n\
              <p class=\"planner\">{} {}</p>\n<p class=\"value\"{exact}>{}</p>\n<p class=\"meaning\">{}</p>\n<p class=\"sub\">{}</p>\n{}\
@@ -88,9 +91,12 @@ fn of_problem(comparison: &Comparison, purpose: Purpose, picture: Option<&PathPi
     let names = short_names(comparison);
     let (label, pen) = (names[index].clone(), comparison.pens()[index]);
     let path = comparison.path_index(index);
-    let small = |panel| picture.zip(path).map(|(picture, path)| picture.small(panel, path, pen, &label)).unwrap_or_default();
+    let small =
+        |panel| picture.zip(path).map(|(picture, path)| picture.small(panel, path, pen, &label)).unwrap_or_default();
     let meaning = match purpose {
-        Purpose::Shortest => comparison.over_optimum(row).map(|ratio| format!("at most {} over the optimum", excess(ratio))),
+        Purpose::Shortest => {
+            comparison.over_optimum(row).map(|ratio| format!("at most {} over the optimum", excess(ratio)))
+        }
         Purpose::Safest => Some("from all obstacles, along the whole motion".to_owned()),
         Purpose::Quickest | Purpose::FastestMotion => Some("from the problem to the certified path".to_owned()),
     };

@@ -87,8 +87,26 @@ class Compared {
     button.textContent = name.textContent;
     button.setAttribute('aria-pressed', 'false');
     name.replaceWith(button);
-    button.addEventListener('focus', () => this.light(row.getAttribute('data-path')));
+    button.addEventListener('focus', () => {
+      this.light(row.getAttribute('data-path'));
+      this.reveal(row);
+    });
     button.addEventListener('blur', () => this.light(this.pinned));
+  }
+
+  /**
+   * Scrolls until a row is not below the pictures, which stay in place on large screens.
+   * @param {Element} row
+   * @returns {void}
+   */
+  reveal(row) {
+    const pictures = this.root.querySelector('.pictures');
+    if (!pictures || getComputedStyle(pictures).position !== 'sticky') return;
+    // The first scroll may move the pictures as well.
+    for (let turn = 0; turn < 2; turn += 1) {
+      const hidden = pictures.getBoundingClientRect().bottom - row.getBoundingClientRect().top;
+      if (hidden > 0) window.scrollBy(0, -hidden);
+    }
   }
 
   /**
@@ -98,8 +116,10 @@ class Compared {
    */
   listen(element) {
     const path = element.getAttribute('data-path');
-    element.addEventListener('pointerenter', (event) => event.pointerType !== 'touch' && this.light(path));
-    element.addEventListener('pointerleave', (event) => event.pointerType !== 'touch' && this.light(this.pinned));
+    // A tap sends a click as well, which pins.
+    const point = (/** @type {PointerEvent} */ event, /** @type {string | null} */ lit) => event.pointerType !== 'touch' && this.light(lit);
+    element.addEventListener('pointerenter', (/** @type {PointerEvent} */ event) => point(event, path));
+    element.addEventListener('pointerleave', (/** @type {PointerEvent} */ event) => point(event, this.pinned));
     element.addEventListener('click', () => this.pin(this.pinned === path ? null : path));
   }
 
@@ -134,7 +154,7 @@ class Compared {
   }
 }
 
-for (const table of document.querySelectorAll('table.ranking')) makeSortable(table);
+for (const table of document.querySelectorAll('table')) if (table.matches('.ranking')) makeSortable(table);
 const compared = [...document.querySelectorAll('.compared')].map((root, index) => {
   // Only the page of a single problem has cards with a path.
   const cards = index === 0 ? [...document.querySelectorAll('.pick[data-path]')] : [];

@@ -54,7 +54,8 @@ impl Page<'_> {
     #[must_use]
     pub fn html(&self) -> String {
         let study = self.study;
-        let additions = Additions { style: &format!("{COMPARISON_STYLE}{}", paths::colors(self.pictures)), has_script: true };
+        let additions =
+            Additions { style: &format!("{COMPARISON_STYLE}{}", paths::colors(self.pictures)), has_script: true };
         let mut html = head_with(&study.title, &self.subtitle(), &additions);
         for alarm in study.alarms() {
             html +=
@@ -72,21 +73,23 @@ impl Page<'_> {
     }
 
     fn subtitle(&self) -> String {
-        if let [only] = &self.study.comparisons[..] {
-            return only.outcome();
-        }
-        let planners = counted(self.study.planners().len(), "planner");
-        let problems = counted(self.study.comparisons.len(), "problem");
         let refused = match self.study.refused.len() {
             0 => String::new(),
             n => format!(" ({n} more not run)"),
         };
+        if let [only] = &self.study.comparisons[..] {
+            return format!("{}{refused}", only.outcome());
+        }
+        let planners = counted(self.study.planners().len(), "planner");
+        let problems = counted(self.study.comparisons.len(), "problem");
         format!("{problems}{refused}, {planners}. {}", words(self.study).first().map_or("", String::as_str))
     }
 
     /// Returns the sign of the best outcome of a single problem.
     fn verdict_sign(&self) -> String {
-        let best = |only: &Comparison| Status::ALL.into_iter().find(|status| only.rows.iter().any(|row| row.outcome == *status));
+        let best = |only: &Comparison| {
+            Status::ALL.into_iter().find(|status| only.rows.iter().any(|row| row.outcome == *status))
+        };
         let outcome = if let [only] = &self.study.comparisons[..] { best(only) } else { None };
         outcome.map_or_else(String::new, |outcome| {
             format!("<span class=\"o-{outcome} sign\">{}</span> ", outcomes::sign(outcome))
@@ -144,7 +147,8 @@ impl Page<'_> {
             // A single problem has no distributions.
             [only] => collapsible_section("All figures", &table(&only.table())),
             _ => {
-                let part = |(heading, rows): (String, Table)| format!("<h3>{}</h3>\n{}", markup(&heading), table(&rows));
+                let part =
+                    |(heading, rows): (String, Table)| format!("<h3>{}</h3>\n{}", markup(&heading), table(&rows));
                 collapsible_section("All figures", &self.study.tables().into_iter().map(part).collect::<String>())
             }
         };
@@ -164,11 +168,13 @@ fn with_names(text: &str) -> String {
     text.split('`').enumerate().map(part).collect()
 }
 
-/// What a page has in addition to the usual style sheet.
-struct Additions<'a> {
-    style: &'a str,
+/// Parts of a page in addition to the usual style sheet.
+#[derive(Debug, Clone, Copy)]
+pub struct Additions<'a> {
+    /// Further styles.
+    pub style: &'a str,
     /// True if the page has a script of its own.
-    has_script: bool,
+    pub has_script: bool,
 }
 
 /// Returns the head of a page without scripts.
@@ -176,7 +182,9 @@ pub fn head(title: &str, subtitle: &str) -> String {
     head_with(title, subtitle, &Additions { style: "", has_script: false })
 }
 
-fn head_with(title: &str, subtitle: &str, additions: &Additions) -> String {
+/// Returns the head of a page with further styles, and with a script if it is allowed.
+#[must_use]
+pub fn head_with(title: &str, subtitle: &str, additions: &Additions) -> String {
     let scripts = if additions.has_script { "; script-src 'unsafe-inline'" } else { "" };
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\

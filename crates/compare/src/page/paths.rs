@@ -73,10 +73,17 @@ impl PathPictures {
     pub fn large(&self, title: &str) -> String {
         let figure = |(svg, name): (&String, &str)| {
             let label = format!("{title}: all paths in the {name}");
-            let svg = svg.replacen("<svg ", &format!("<svg class=\"large\" role=\"img\" aria-label=\"{}\" ", markup(&label)), 1);
+            let svg = svg.replacen(
+                "<svg ",
+                &format!("<svg class=\"large\" role=\"img\" aria-label=\"{}\" ", markup(&label)),
+                1,
+            );
             format!("<figure class=\"space\"><figcaption>{}</figcaption>\n{svg}</figure>\n", capitalized(name))
         };
-        format!("<div class=\"spaces\">\n{}</div>\n", self.large.iter().zip(PANEL_NAMES).map(figure).collect::<String>())
+        format!(
+            "<div class=\"spaces\">\n{}</div>\n",
+            self.large.iter().zip(PANEL_NAMES).map(figure).collect::<String>()
+        )
     }
 }
 

@@ -13,7 +13,12 @@ use cplan_text::markup;
 /// Writes the pictures and the table of one problem, which light each other up.
 pub fn of_problem(comparison: &Comparison, picture: Option<&PathPictures>) -> String {
     let pictures = picture.map_or_else(String::new, |picture| {
-        format!("{}<div class=\"pictures\">\n{}{}</div>\n", picture.shared_parts(), picture.large(&comparison.problem), hint(comparison))
+        format!(
+            "{}<div class=\"pictures\">\n{}{}</div>\n",
+            picture.shared_parts(),
+            picture.large(&comparison.problem),
+            hint(comparison)
+        )
     });
     let columns = columns(comparison);
     let rows = rows(comparison, picture);
@@ -37,7 +42,11 @@ fn families(comparison: &Comparison) -> String {
     let of = |family: Family| {
         let count = comparison.rows.iter().filter(|row| row.family == family).count();
         (count > 0).then(|| {
-            format!("<li><span class=\"hue\" style=\"background: var(--{}-0)\"></span>{}</li>", hue(family).name(), family.name())
+            format!(
+                "<li><span class=\"hue\" style=\"background: var(--{}-0)\"></span>{}</li>",
+                hue(family).name(),
+                family.name()
+            )
         })
     };
     let all: Vec<String> = Family::ALL.into_iter().filter_map(of).collect();
@@ -59,7 +68,11 @@ fn rows(comparison: &Comparison, picture: Option<&PathPictures>) -> Vec<RankedRo
             picture: small.unwrap_or_default(),
             outcome: (
                 order as f64,
-                format!("<span class=\"o-{0}\"{title}><span class=\"sign\">{1}</span> {0}</span>", row.outcome, sign(row.outcome)),
+                format!(
+                    "<span class=\"o-{0}\"{title}><span class=\"sign\">{1}</span> {0}</span>",
+                    row.outcome,
+                    sign(row.outcome)
+                ),
             ),
             description: description(comparison, row, &names[index]),
             is_ranked: row.outcome != Status::Unknown,
@@ -85,9 +98,17 @@ fn columns(comparison: &Comparison) -> Vec<RankedColumn> {
     let over = comparison.rows.iter().map(|row| comparison.over_optimum(row)).collect();
     let length = if unit.contains(',') { format!("length [{unit}]") } else { "length".to_owned() };
     let all = vec![
-        RankedColumn::new(&length, "Euclidean length in joint space", Better::Less, of(|row| row.length), |v| path_length(v, unit)),
-        RankedColumn::new("over optimum", "Greatest possible excess over the shortest path of all, proven", Better::Less, over, excess)
-            .from_origin(1.0),
+        RankedColumn::new(&length, "Euclidean length in joint space", Better::Less, of(|row| row.length), |v| {
+            path_length(v, unit)
+        }),
+        RankedColumn::new(
+            "over optimum",
+            "Greatest possible excess over the shortest path of all, proven",
+            Better::Less,
+            over,
+            excess,
+        )
+        .from_origin(1.0),
         RankedColumn::new(
             "clearance",
             "Proven distance from all obstacles along the motion",
@@ -96,7 +117,13 @@ fn columns(comparison: &Comparison) -> Vec<RankedColumn> {
             clearance,
         ),
         RankedColumn::new("motion", "Duration of the motion", Better::Less, of(|row| row.duration), duration),
-        RankedColumn::new("computed in", "Computing time from the problem to the answer", Better::Less, of(|row| row.total), computing_time),
+        RankedColumn::new(
+            "computed in",
+            "Computing time from the problem to the answer",
+            Better::Less,
+            of(|row| row.total),
+            computing_time,
+        ),
         RankedColumn::new(
             "memory",
             "Greatest amount of memory at a time",
@@ -122,8 +149,11 @@ pub fn of_study(study: &Study) -> String {
         let piece = |status: Status, count: usize| {
             (count > 0).then(|| format!("<i class=\"o-{status}\" style=\"width: {}%\"></i>", share(count)))
         };
-        let pieces: String =
-            Status::ALL.into_iter().zip([found, infeasible, unknown]).filter_map(|(status, count)| piece(status, count)).collect();
+        let pieces: String = Status::ALL
+            .into_iter()
+            .zip([found, infeasible, unknown])
+            .filter_map(|(status, count)| piece(status, count))
+            .collect();
         let open = if unknown > 0 { format!(", <span class=\"o-unknown\">{unknown} ?</span>") } else { String::new() };
         RankedRow {
             name: first.rows[index].planner.clone(),
@@ -151,14 +181,16 @@ pub fn of_study(study: &Study) -> String {
         RankedColumn::new(heading, hint, Better::More, values, |wins| format!("{wins}"))
     };
     let median = |heading, hint, measure: Measure, show: fn(f64) -> String| {
-        let values = planners.clone().map(|planner| study.spread(planner, measure).map(|spread| spread.median)).collect();
+        let values =
+            planners.clone().map(|planner| study.spread(planner, measure).map(|spread| spread.median)).collect();
         RankedColumn::new(heading, hint, measure.better(), values, show)
     };
     let columns = vec![
         wins("shortest", "Number of problems with no shorter path", Purpose::Shortest),
         wins("safest", "Number of problems with no greater clearance", Purpose::Safest),
         wins("quickest", "Number of problems with no quicker path", Purpose::Quickest),
-        median("over optimum", "Median of the proven excess over the optimum", Measure::OverOptimum, excess).from_origin(1.0),
+        median("over optimum", "Median of the proven excess over the optimum", Measure::OverOptimum, excess)
+            .from_origin(1.0),
         median("clearance", "Median of the proven clearance", Measure::Clearance, clearance),
         median("motion", "Median of the motions' durations", Measure::Duration, duration),
         median("computed in", "Median of the computing times", Measure::Total, computing_time),

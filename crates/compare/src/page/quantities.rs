@@ -32,13 +32,21 @@ pub fn duration(seconds: f64) -> String {
 
 /// Formats a computing time.
 pub fn computing_time(seconds: f64) -> String {
-    if seconds < 1.0 { format!("{} ms", significant(seconds * 1e3, 3)) } else { format!("{} s", significant(seconds, 3)) }
+    if seconds < 1.0 {
+        format!("{} ms", significant(seconds * 1e3, 3))
+    } else {
+        format!("{} s", significant(seconds, 3))
+    }
 }
 
 /// Formats an amount of memory.
 pub fn memory(bytes: f64) -> String {
     let kibibytes = bytes / 1024.0;
-    if kibibytes < 1024.0 { format!("{} KiB", significant(kibibytes, 3)) } else { format!("{} MiB", significant(kibibytes / 1024.0, 3)) }
+    if kibibytes < 1024.0 {
+        format!("{} KiB", significant(kibibytes, 3))
+    } else {
+        format!("{} MiB", significant(kibibytes / 1024.0, 3))
+    }
 }
 
 #[cfg(test)]
@@ -49,9 +57,12 @@ mod tests {
     fn quantities_have_few_digits_and_a_unit() {
         assert_eq!([path_length(4.49196, "rad"), path_length(12.5, "rad, m")], ["4.492 rad", "12.50"]);
         assert_eq!([excess(1.25), excess(1.0)], ["25.00 %", "0.00 %"]);
-        assert_eq!([clearance(0.1309), clearance(f64::INFINITY)], ["130.9 mm", "none in reach"]);
+        assert_eq!([clearance(0.13095), clearance(f64::INFINITY)], ["130.9 mm", "none in reach"]);
         assert_eq!(duration(2.0634), "2.063 s");
-        assert_eq!([computing_time(0.000_095_1), computing_time(0.017_76), computing_time(2.5)], ["0.0951 ms", "17.8 ms", "2.50 s"]);
+        assert_eq!(
+            [computing_time(0.000_095_1), computing_time(0.017_76), computing_time(2.5)],
+            ["0.0951 ms", "17.8 ms", "2.50 s"]
+        );
         assert_eq!([memory(2048.0), memory(5.5 * 1048576.0)], ["2.00 KiB", "5.50 MiB"]);
     }
 }

@@ -24,7 +24,13 @@ pub struct RankedColumn {
 
 impl RankedColumn {
     /// Creates a column whose bars begin at zero.
-    pub fn new(heading: &str, hint: &'static str, better: Better, values: Vec<Option<f64>>, show: impl Fn(f64) -> String) -> Self {
+    pub fn new(
+        heading: &str,
+        hint: &'static str,
+        better: Better,
+        values: Vec<Option<f64>>,
+        show: impl Fn(f64) -> String,
+    ) -> Self {
         let shown = values.iter().map(|value| value.map(&show)).collect();
         Self { heading: heading.to_owned(), hint, better, origin: 0.0, values, shown }
     }
@@ -169,13 +175,16 @@ mod tests {
         let best: Vec<_> = document.descendants().filter(|node| node.attribute("class") == Some("r best")).collect();
         assert_eq!(best.len(), 1);
         assert_eq!(best[0].attribute("data-value"), Some("2"), "a row that is not ranked cannot be the best");
-        let bars: Vec<_> = document.descendants().filter_map(|node| node.attribute("style")?.strip_prefix("width: ")).collect();
+        let bars: Vec<_> =
+            document.descendants().filter_map(|node| node.attribute("style")?.strip_prefix("width: ")).collect();
         assert_eq!(bars, ["100%", "50%", "25%"]);
     }
 
     #[test]
     fn bars_may_begin_at_another_value() {
-        let column = RankedColumn::new("x", "", Better::Less, vec![Some(1.0), Some(1.5), Some(f64::INFINITY)], |v| v.to_string());
+        let column = RankedColumn::new("x", "", Better::Less, vec![Some(1.0), Some(1.5), Some(f64::INFINITY)], |v| {
+            v.to_string()
+        });
         let column = column.from_origin(1.0);
         assert_eq!([1.0, 1.25, 1.5, f64::INFINITY].map(|value| column.share(value)), [0.0, 0.5, 1.0, 1.0]);
     }

@@ -6,7 +6,7 @@ use cplan_text::markup;
 const STYLE: &str = include_str!("assets/view.css");
 
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 36] = [
+const SCRIPTS: [&str; 35] = [
     include_str!("assets/element.js"),
     include_str!("assets/icons.js"),
     include_str!("assets/settings.js"),
@@ -41,9 +41,11 @@ const SCRIPTS: [&str; 36] = [
     include_str!("assets/pointer.js"),
     include_str!("assets/keys.js"),
     include_str!("assets/layout.js"),
-    include_str!("assets/reach.js"),
     include_str!("assets/view.js"),
 ];
+
+/// Code of the map of the tip's reach, for the pages that have one.
+const REACH_SCRIPT: &str = include_str!("assets/reach.js");
 
 /// Code that shows the view in the page.
 const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
@@ -52,7 +54,8 @@ const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
 #[must_use]
 pub fn page(view: &View) -> String {
     let title = view.title.first().map_or("cplan", String::as_str);
-    sealed(title, "", "view", &view.json(), &(drawing() + PLAN_SCRIPT))
+    let reach = if view.still.reach.is_some() { REACH_SCRIPT } else { "" };
+    sealed(title, "", "view", &view.json(), &(drawing() + reach + PLAN_SCRIPT))
 }
 
 /// Code of the page of an inspection.
