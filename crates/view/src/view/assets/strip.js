@@ -116,7 +116,7 @@ const Strip = (() => {
    * @returns {{ root: HTMLElement, panel: Panel, fit: () => void, show: () => void, follow: () => void }}
    */
   function mount(view) {
-    const canvas = element('canvas', { role: 'img' });
+    const canvas = element('canvas', { role: 'img', 'aria-label': 'Progress of the motion against time' });
     const waits = element('ul', { class: 'waits', 'aria-label': 'Waits' });
     const root = element('figure', { class: 'strip', hidden: true }, element('figcaption', {}, 'Times at which moving obstacles block the motion'), canvas, waits);
     const panel = new Panel(canvas, {
