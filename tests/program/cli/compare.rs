@@ -265,7 +265,10 @@ fn check_knots(html: &str) -> usize {
     let body = html.strip_prefix("<!DOCTYPE html>\n").expect("a page");
     let document = roxmltree::Document::parse(body).unwrap_or_else(|e| panic!("{e}: {html}"));
     for node in document.descendants() {
-        assert!(node.tag_name().name() != "script" || node.attributes().len() == 0, "the only script is within the page");
+        assert!(
+            node.tag_name().name() != "script" || node.attributes().len() == 0,
+            "the only script is within the page"
+        );
         for attribute in node.attributes() {
             // Pictures are data URIs, in which a name space is only a name.
             let is_data = attribute.value().starts_with("data:image/svg+xml,");
