@@ -9,6 +9,6 @@ for (const image of document.querySelectorAll('main img')) {
   const frame = document.createElement('iframe');
   frame.src = `live/${live.data.slice(' live: '.length).trim()}`;
   frame.title = image.alt;
-  frame.style.cssText = 'width: 100%; height: 52rem; border: 0;';
+  frame.style.cssText = 'width: 100%; height: 60rem; border: 0;';
   image.replaceWith(frame);
 }

@@ -12,7 +12,7 @@ use crate::grammar::number_in;
 use crate::input::{self, JointValues, LoadedScene, RobotReport};
 use crate::output::{configuration, contours, range};
 use crate::space::{Configuration, JointRange};
-use crate::text::{Columns, fixed, format_distinct, length, length_down};
+use crate::text::{Columns, chosen_length, fixed, length, length_down, length_unlike};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
@@ -133,8 +133,9 @@ fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindin
             (true, true) => format!("penetrates by {}", length(*depth)),
             (true, false) => "touches".into(),
             (false, _) => {
-                let [distance, _] = format_distinct([-depth, findings.required], 6);
-                format!("is {distance} m away, less than the clearance of {} m", findings.required)
+                let [distance, clearance] =
+                    [length_unlike(-depth, findings.required), chosen_length(findings.required)];
+                format!("is {distance} away, less than the clearance of {clearance}")
             }
         };
         line("contact", format!("link {link}, obstacle \"{obstacle}\": {how}"));

@@ -53,12 +53,15 @@ def pages(program):
     program.run("inspect", program.folder / "two.urdf", "--picture", made["defects"], code=1)
     made["exploration"] = program.folder / "axe_exploration.html"
     program.run("explore", robot, shelf, "--quiet", "--timings", "--picture", made["exploration"])
+    for name, words, code in [("explained", [robot, closed], 3), ("explained_limits", [robot, ROOT / "workspaces/limits_closed.toml"], 3)]:
+        made[name] = program.folder / f"axe_{name}.html"
+        program.run("explain", *words, "--quiet", "--picture", made[name], code=code)
     made["convergence"] = program.folder / "axe_convergence.html"
     program.run("converge", robot, shelf, "--cells", "24", "--quiet", "--picture", made["convergence"])
     return made
 
 
-@pytest.mark.parametrize("name", ["plan", "proof", "task", "moving", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects", "exploration"])
+@pytest.mark.parametrize("name", ["plan", "proof", "task", "moving", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects", "exploration", "explained", "explained_limits"])
 def test_nothing_is_found_on_pages(pages, show_file, name):
     for scheme, width, height in LOOKS:
         seen = show_file(pages[name], width=width, height=height, color_scheme=scheme)
@@ -102,3 +105,15 @@ def test_nothing_is_found_on_the_live_page_with_a_notice_and_a_selection(serve, 
     assert seen.page.locator(".notice.picture").is_visible()
     assert faults(seen) == []
     assert is_in_place(seen)
+
+
+@pytest.mark.parametrize(("scheme", "width", "height"), LOOKS)
+def test_nothing_is_found_on_explanations(pages, show_file, serve, scheme, width, height):
+    seen = show_file(pages["explained"], width=width, height=height, color_scheme=scheme)
+    seen.page.locator(".change").first.click()
+    seen.do("document.documentElement.style.fontSize = '200%'")
+    assert faults(seen) == [] and is_in_place(seen)
+    live = serve(ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/no_path.toml", width=width, height=height, color_scheme=scheme)
+    live.page.get_by_role("button", name="Why?").click()
+    live.until("!cplan.view.explain.root.hidden")
+    assert faults(live) == [] and is_in_place(live)

@@ -206,7 +206,7 @@ def test_the_difference_is_swept_to_the_c_obstacle(program, block, corners):
     for step in range(len(steps)):
         seen.do("([k, n]) => cplan.seek((k + 0.5) / n * cplan.duration)", [step, len(steps)])
         i, k = steps[step]["i"] + 1, steps[step]["k"] + 1
-        assert seen.page.locator(".step").inner_text().startswith(f"{step + 1} of {len(steps)}: corner b{k} − a{i}; next by its angle: ")
+        assert seen.page.locator(".step").inner_text().startswith(f"Step {step + 1}: corner b{k} − a{i}; next by its angle: ")
         shown.append(seen.do("cplan.learn.pair.panels.right.canvas.toDataURL()"))
     assert len(set(shown)) == len(steps)
     seen.shoot("learn_sweep")

@@ -26,7 +26,7 @@ def test_both_spaces_show_it_in_time(program, show_file):
         assert seen.do("cplan.q") == [-0.9, 0.3]
     for before, after in zip(*shown):
         assert before != after
-    seen.page.get_by_label("cart").uncheck()
+    seen.page.get_by_role("checkbox", name="cart").uncheck()
     hidden = [pixels(seen, panel) for panel in ("workspace", "cspace")]
     assert all(a != b for a, b in zip(hidden, shown[1]))
 

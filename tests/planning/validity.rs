@@ -233,7 +233,7 @@ fn problems_without_a_true_answer_are_refused() {
     // A configuration nearer than the clearance is not free either.
     let near = scene().with_clearance(0.7).expect("a clearance");
     let touched = MotionProblem::new(near, q(0.0, 0.5), free).expect_err("it is too near").to_string();
-    assert!(touched.contains("nearer than the clearance of 0.7 m"), "{touched}");
+    assert!(touched.contains("nearer than the clearance of 700 mm"), "{touched}");
 }
 
 /// Checks corners that are in convex position by construction: on an ellipse, in the order of their angles. Also checks

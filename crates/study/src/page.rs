@@ -9,7 +9,9 @@ use super::measure::{Measure, Objective};
 use super::parameter::{Parameter, Values};
 use super::row::{Ending, Row};
 use super::summary::{Summary, format_value};
-use cplan_compare::page::{Axis, Frame, collapsible_section, foot, frame, head, image_source, number, section, table};
+use cplan_compare::page::{
+    Additions, Axis, Frame, collapsible_section, foot, frame, head_with, image_source, number, section, table,
+};
 use cplan_compare::{Align, Column, Picture, Table};
 use cplan_text::{counted, markup};
 use serde_json::{Value, json};
@@ -33,10 +35,7 @@ impl Study {
         let names: Vec<String> = self.parameters.iter().map(Parameter::titled).collect();
         let subtitle = format!("{} over {}", counted(rows.len(), "layout"), names.join("; "));
         let mut linked = BTreeSet::new();
-        // The head of pages without scripts, with a script and its styles allowed.
-        let mut html = head(&self.name, &subtitle)
-            .replacen("style-src 'unsafe-inline'", "style-src 'unsafe-inline'; script-src 'unsafe-inline'", 1)
-            .replacen("</style>", &format!("{STYLE}</style>"), 1);
+        let mut html = head_with(&self.name, &subtitle, &Additions { style: STYLE, has_script: true });
         let is_best = |picture: &&Picture| picture.title.starts_with("best: ") && summary.best().is_some();
         let best = pictures.first().filter(is_best);
         html += &answer::section(self, &summary, rows, best);

@@ -14,7 +14,7 @@ pub use columns::{Columns, SECOND_COLUMN};
 pub use markup::markup;
 pub use plain::plain_json;
 pub use plain::{plain, plain_line};
-pub use rounded::{chosen_length, headline_length, headline_number, length_down, length_up};
+pub use rounded::{chosen_length, headline_length, headline_number, length_down, length_unlike, length_up};
 pub use rounded::{fixed, format_distinct, length, nonzero, percent, round_down, round_up, short};
 pub use wrapped::wrapped;
 

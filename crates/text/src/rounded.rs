@@ -76,6 +76,16 @@ pub fn length_up(metres: f64) -> String {
     format!("{} {unit}", round_until(value, decimals, |shown| shown / metres_per_unit >= metres, 1.0))
 }
 
+/// Formats a length in metres as [`length`] does, with as many more decimals as needed to look different from another
+/// length that is not equal.
+#[must_use]
+pub fn length_unlike(metres: f64, other: f64) -> String {
+    let (value, decimals, unit) = in_unit(metres);
+    let units_per_metre = if unit == "mm" { 1e3 } else { 1.0 };
+    let [text, _] = format_distinct([value, units_per_metre * other], decimals);
+    format!("{text} {unit}")
+}
+
 /// Formats a length in metres that somebody chose, such as a clearance, without zeros at its end: `200 mm`, `1.5 m`.
 #[must_use]
 pub fn chosen_length(metres: f64) -> String {
@@ -194,6 +204,7 @@ mod tests {
         assert_eq!(up, ["614 mm", "40 mm", "4.21 mm", "1.24 m", "950 mm", "0 mm"]);
         assert_eq!([0.0137, 0.2].map(|metres| headline_length(metres, false)), ["13.7 mm", "200 mm"]);
         assert_eq!([0.2, 0.003, 1.5, 0.0].map(chosen_length), ["200 mm", "3 mm", "1.5 m", "0 mm"]);
+        assert_eq!([length_unlike(0.076_569, 0.08), length_unlike(0.079_999_9, 0.08)], ["76.57 mm", "79.9999 mm"]);
         assert_eq!([length_up(0.613_62), length_up(0.04), length_up(1.2341)], ["613.7 mm", "40.00 mm", "1.235 m"]);
     }
 

@@ -5,7 +5,7 @@ use super::grid::Grid;
 use super::key::Key;
 use super::legend;
 use super::view::{PanelView, View};
-use super::{cspace, steps, strip, workspace};
+use super::{chart, cspace, steps, strip, workspace};
 use cplan_core::model::Status;
 use cplan_theme::{FOUND, GRAY, INFEASIBLE, INK, Rgb};
 
@@ -17,6 +17,9 @@ const MIN_PAGE_HEIGHT: f64 = 720.0;
 const PAGE_MARGIN: f64 = 28.0;
 /// Space below panels, in pixels: values and titles of their axes, and the distance to the next item.
 const AXES_HEIGHT: f64 = 58.0;
+
+/// Least width of two panels of the same size, in pixels.
+const MIN_PAIR_WIDTH: f64 = 420.0;
 
 /// Place of the left column. Its height depends on the available room.
 const LEFT_COLUMN: Rect = Rect { x: 84.0, y: 0.0, width: 570.0, height: 0.0 };
@@ -61,18 +64,31 @@ pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
             let top = 62.0 + lines;
             let legend = 14.0 + legend::ROW_HEIGHT * keys.len() as f64;
             let height = MIN_PAGE_HEIGHT - legend - AXES_HEIGHT - top;
-            items.extend(workspace::panel(view, Rect { y: top, height, ..LEFT_COLUMN }));
-            items.extend(cspace::panel(view, panel, Rect { y: top, height, ..SCALED_COLUMN }));
+            let [left, right] = pair(view, top, height);
+            items.extend(workspace::panel(view, left));
+            items.extend(cspace::panel(view, panel, right));
             let below = top + height + AXES_HEIGHT;
             let page_height = MIN_PAGE_HEIGHT + strip(view, below, &mut items);
-            items.push(heading(LEFT_COLUMN, top - 12.0, "Workspace"));
-            items.push(heading(SCALED_COLUMN, top - 12.0, &panel.title));
+            items.push(heading(left, top - 12.0, "Workspace"));
+            items.push(heading(right, top - 12.0, &panel.title));
             items.extend(legend::items(&keys, PAGE_WIDTH / 2.0, page_height - legend));
             page_height
         }
         panels => task(view, panels, &keys, 112.0 + lines, &mut items),
     };
     Figure { width: PAGE_WIDTH, height, items, is_dark: view.still.is_dark }
+}
+
+/// Returns the places of the workspace and of a single configuration space. If both axes of the configuration space have
+/// the same scale, both panels have the same size.
+fn pair(view: &View, top: f64, height: f64) -> [Rect; 2] {
+    let has_scale = view.first_world().scale.is_some();
+    let column = if has_scale { SCALED_COLUMN } else { RIGHT_COLUMN };
+    let natural = chart::one_scale(&view.arm).map(|proportion| height / proportion);
+    let width = natural.filter(|width| *width <= column.width && *width >= MIN_PAIR_WIDTH).unwrap_or(LEFT_COLUMN.width);
+    let right = width.min(column.width);
+    let x = if has_scale { column.x + (column.width - right) / 2.0 } else { column.right() - right };
+    [Rect { y: top, width, height, ..LEFT_COLUMN }, Rect { x, y: top, width: right, height }]
 }
 
 /// Draws the strip of a motion among moving obstacles from `top` downwards; returns its height, or 0 without one.

@@ -7,7 +7,7 @@ use crate::engine::findings::{
 use crate::model::Arm;
 use crate::output::{Line, StepLine, configuration, format_columns, step_lines};
 use crate::space::Recording;
-use crate::text::{counted, format_distinct, length, length_down};
+use crate::text::{chosen_length, counted, format_distinct, length, length_down};
 
 /// Depth of a contact, in metres, below which it counts as rounding.
 const TOUCHING_DEPTH: f64 = 1e-9;
@@ -142,7 +142,7 @@ fn rows(steps: &[StepFinding]) -> Vec<String> {
 
 fn result(findings: &MotionFindings) -> String {
     let required = findings.required;
-    let kept = if required > 0.0 { format!(" by {required} m") } else { String::new() };
+    let kept = if required > 0.0 { format!(" by {}", chosen_length(required)) } else { String::new() };
     let whole = match &findings.steps {
         Some(steps) => format!("the whole task, {}, ", counted(steps.len(), "step")),
         None => "the whole motion, ".into(),

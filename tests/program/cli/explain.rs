@@ -17,9 +17,13 @@ fn json(done: &Done) -> Value {
 fn walls_in_the_way_are_named_verdict_first() {
     let done = explain(&Place::new(), "planar_2r_continuous", "no_path", "");
     assert_eq!(done.code, 3, "{}", done.stderr);
-    let second = done.stdout.lines().nth(1).unwrap_or_default();
-    assert!(second.starts_with("result     infeasible: proven; blocked by obstacle"), "{}", done.stdout);
-    for words in ["\"front wall\"", "\"back wall\"", "opens a path (certified)", "does not (proven)"] {
+    let mut lines = done.stdout.lines();
+    assert_eq!(lines.next(), Some("The front wall and the back wall are in the way."));
+    let third = lines.nth(1).unwrap_or_default();
+    assert!(third.starts_with("result     infeasible: proven; blocked by obstacle"), "{}", done.stdout);
+    for words in
+        ["\"back wall\"", "Move the front wall 602 mm right: 601.6 mm opens a path, certified;", "mm does not, proven"]
+    {
         assert!(done.stdout.contains(words), "{words}: {}", done.stdout);
     }
 }
@@ -85,7 +89,27 @@ fn pictures_show_where_it_gets_stuck() {
     let done = explain(&place, "planar_2r_continuous", "no_path", "--picture why.svg --picture why.html --quiet");
     assert_eq!((done.code, done.stdout.as_str()), (3, ""), "{}", done.stderr);
     assert!(place.read("why.svg").contains("the narrowest place"));
-    assert!(place.read("why.html").contains("opens a path (certified)"));
+    assert!(place.read("why.html").contains("opens a path, certified"));
+}
+
+/// Checks that the first line is the reason in a sentence, and that proven values are rounded to the safe side.
+#[test]
+fn the_first_line_says_what_is_wrong() {
+    let place = Place::new();
+    let first = |robot: &str, world: &str, options: &str| {
+        explain(&place, robot, world, options).stdout.lines().next().unwrap_or_default().to_owned()
+    };
+    assert_eq!(first("planar_2r", "no_path", ""), "The front wall is in the way.");
+    assert_eq!(
+        first("planar_2r", "limits_closed", ""),
+        "The pole is in the way, and the elbow cannot turn far enough."
+    );
+    assert_eq!(first("planar_2r", "shelf", "--goal 0.14,0"), "At the goal, the forearm hits the shelf.");
+    assert_eq!(first("planar_2r", "shelf", "--goal-tip 5,0"), "The goal is out of reach.");
+    assert_eq!(first("planar_2r", "shelf", ""), "The shelf makes the path longer.");
+    let limits = explain(&place, "planar_2r", "limits_closed", "").stdout;
+    let line = "Widen the upper limit of the elbow to 87.2 deg: 87.15 deg opens a path, certified; 87.11 deg does not";
+    assert!(limits.contains(line), "{limits}");
 }
 
 #[test]

@@ -49,7 +49,7 @@ fn harmless_oddities_are_read() {
 fn starts_and_goals_that_collide_name_link_obstacle_and_depth() {
     let place = Place::new();
     let world = format!("{FREE}[[obstacle]]\nname = \"post\"\ncircle = {{ center = [0.5, -0.6], radius = 0.1 }}\n");
-    place.plan(&world, "").refused(1, &["world.toml: line 2", "link \"upper_arm\" hits obstacle \"post\"", " m deep"]);
+    place.plan(&world, "").refused(1, &["world.toml: line 2", "link \"upper_arm\" hits obstacle \"post\"", " mm deep"]);
     place.plan(FREE, "--start 9,0").refused(1, &["--start", "exceeds its limits", "hint"]);
     place.plan(FREE, "--goal-tip 9,9").refused(1, &["--goal-tip", "out of reach", "hint"]);
     let far = format!("{FREE}[[obstacle]]\nname = \"far\"\ncircle = {{ center = [3, 0], radius = 0.1 }}\n");

@@ -172,11 +172,13 @@ fn script() -> String {
     format!("<script>\n//<![CDATA[\n{SCRIPT}//]]>\n</script>")
 }
 
-/// What a page has in addition to the usual style sheet.
-struct Additions<'a> {
-    style: &'a str,
+/// Parts of a page in addition to the usual style sheet.
+#[derive(Debug, Clone, Copy)]
+pub struct Additions<'a> {
+    /// Further styles.
+    pub style: &'a str,
     /// True if the page has a script of its own.
-    has_script: bool,
+    pub has_script: bool,
 }
 
 /// Returns the head of a page without scripts.
@@ -184,7 +186,9 @@ pub fn head(title: &str, subtitle: &str) -> String {
     head_with(title, subtitle, &Additions { style: "", has_script: false })
 }
 
-fn head_with(title: &str, subtitle: &str, additions: &Additions) -> String {
+/// Returns the head of a page with further styles, and with a script if it is allowed.
+#[must_use]
+pub fn head_with(title: &str, subtitle: &str, additions: &Additions) -> String {
     let scripts = if additions.has_script { "; script-src 'unsafe-inline'" } else { "" };
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\

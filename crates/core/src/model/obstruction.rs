@@ -3,7 +3,7 @@
 use super::{Contact, Pair, Scene};
 use crate::space::Configuration;
 use cplan_geometry::{Convex, Pose, separation, shapes_meet};
-use cplan_text::format_distinct;
+use cplan_text::{chosen_length, length, length_unlike};
 use std::borrow::Cow;
 
 /// A collision, or a distance below the clearance: a reason why a configuration is not free.
@@ -17,9 +17,6 @@ pub struct Obstruction {
 
 /// Depths below this, metres, are printed as "just touching".
 const TOUCHING_DEPTH: f64 = 1e-9;
-
-/// Depths of at least this, metres, are printed with four decimals. Smaller depths are printed in scientific notation.
-const FOUR_DECIMALS_DEPTH: f64 = 1e-3;
 
 impl Scene {
     /// Returns the collisions of `q` with static obstacles and the distances below the clearance. Each link, and the
@@ -65,7 +62,7 @@ impl Scene {
         worst
     }
 
-    /// Describes an obstruction in words: `link "forearm" hits obstacle "shelf", 0.0120 m deep`.
+    /// Describes an obstruction in words: `link "forearm" hits obstacle "shelf", 12.00 mm deep`.
     #[must_use]
     pub fn explain(&self, obstruction: &Obstruction) -> String {
         let Contact { pair, separation } = obstruction.contact;
@@ -75,14 +72,13 @@ impl Scene {
         let distance = separation.distance;
         if !obstruction.touches {
             let clearance = self.workspace().clearance;
-            let [distance, _] = format_distinct([distance, clearance], 6);
-            return format!("{part} is {distance} m from {obstacle}, nearer than the clearance of {clearance} m");
+            let [distance, clearance] = [length_unlike(distance, clearance), chosen_length(clearance)];
+            return format!("{part} is {distance} from {obstacle}, nearer than the clearance of {clearance}");
         }
         let depth = (-distance).max(0.0);
         let how = match depth {
             _ if depth < TOUCHING_DEPTH => "just touching".to_owned(),
-            _ if depth >= FOUR_DECIMALS_DEPTH => format!("{depth:.4} m deep"),
-            _ => format!("{depth:.2e} m deep"),
+            _ => format!("{} deep", length(depth)),
         };
         format!("{part} hits {obstacle}, {how}")
     }

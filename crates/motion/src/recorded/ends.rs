@@ -3,6 +3,7 @@
 use cplan_core::model::{Arm, Goal};
 use cplan_core::space::Configuration;
 use cplan_handling::Recording;
+use cplan_text::length;
 use thiserror::Error;
 
 /// Largest distance of a motion's ends from the required start and goal, radians or metres. If joint values are printed
@@ -30,13 +31,13 @@ pub enum EndpointError {
         goal: Configuration,
     },
     /// The tip is not at its required start.
-    #[error("the motion begins with the tip {off:.6} m from the start")]
+    #[error("the motion begins with the tip {} from the start", length(*off))]
     TipAtStart {
         /// Distance of the tip from its required place, metres.
         off: f64,
     },
     /// The tip does not end at its required place.
-    #[error("the motion ends with the tip {off:.6} m from the goal")]
+    #[error("the motion ends with the tip {} from the goal", length(*off))]
     Tip {
         /// Distance of the tip from its required place, metres.
         off: f64,

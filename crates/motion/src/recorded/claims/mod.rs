@@ -12,6 +12,7 @@ use cplan_core::check::{Rejection, certify};
 use cplan_core::model::{Arm, Scene};
 use cplan_core::space::{Configuration, Path};
 use cplan_handling::{BlendsClaim, Claims, OptimumClaim, Recording, TimedScene};
+use cplan_text::length_unlike;
 use follow::follows;
 use std::fmt::Display;
 use thiserror::Error;
@@ -118,7 +119,8 @@ impl Ledger {
             Err(Rejection::TooClose(nearest)) => {
                 let (pair, at) = (scene.describe(nearest.contact.pair), nearest.at);
                 let distance = nearest.contact.separation.distance;
-                let why = format!("it is not free: {pair}, {distance:.6} m apart at ({}, {})", at[0], at[1]);
+                let why =
+                    format!("it is not free: {pair}, {} apart at ({}, {})", cplan_text::length(distance), at[0], at[1]);
                 self.note("path", why);
             }
             Err(Rejection::OutOfLimits { waypoint, joint }) => {
@@ -161,7 +163,14 @@ impl Ledger {
         };
         if let Some((distance, pair)) = nearer(timed, recording, stated, nearest.separation.distance, nearest.pair) {
             let pair = scene.describe(pair);
-            self.note("clearance", format!("stated as {stated} m, but {pair} come as near as {distance} m"));
+            self.note(
+                "clearance",
+                format!(
+                    "stated as {}, but {pair} come as near as {}",
+                    length_unlike(stated, distance),
+                    length_unlike(distance, stated)
+                ),
+            );
         }
     }
 }
@@ -256,7 +265,11 @@ impl Ledger {
             let (pair, distance) = (scene.describe(nearest.contact.pair), nearest.contact.separation.distance);
             self.note(
                 "clearance",
-                format!("stated as {stated} m, but on the path {pair} come as near as {distance} m"),
+                format!(
+                    "stated as {}, but on the path {pair} come as near as {}",
+                    length_unlike(stated, distance),
+                    length_unlike(distance, stated)
+                ),
             );
         }
     }

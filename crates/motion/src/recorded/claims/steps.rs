@@ -7,6 +7,7 @@ use crate::recorded::{GripperEvent, ReplayedStep};
 use cplan_core::space::Configuration;
 use cplan_geometry::Point;
 use cplan_handling::{Action, Claims, EventClaim, RecordedStep, Recording, Task, TimedScene};
+use cplan_text::length_unlike;
 
 /// Returns the false claims of a result about the step with this `index`, given its replay.
 #[must_use]
@@ -106,7 +107,9 @@ impl Ledger {
         match stated {
             Some(stated) if stated > most => {
                 let why = format!(
-                    "stated as {stated} m, but during the turn of the wrist the object comes as near as {most} m"
+                    "stated as {}, but during the turn of the wrist the object comes as near as {}",
+                    length_unlike(stated, most),
+                    length_unlike(most, stated)
                 );
                 self.note(claim, why);
             }

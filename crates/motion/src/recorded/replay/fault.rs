@@ -1,6 +1,7 @@
 //! Differences between a recorded task and the requested one.
 
 use cplan_core::space::Configuration;
+use cplan_text::length;
 use thiserror::Error;
 
 /// A difference between a recorded step and the required one.
@@ -18,7 +19,7 @@ pub enum Fault {
         target: Configuration,
     },
     /// The tip is not at its required place.
-    #[error("the tip ends {off:.6} m from its target")]
+    #[error("the tip ends {} from its target", length(*off))]
     Tip {
         /// Distance of the tip from there, metres.
         off: f64,
@@ -30,7 +31,7 @@ pub enum Fault {
         time: f64,
     },
     /// The placed object is not at its required place.
-    #[error("the object's origin ends {off:.6} m from its target")]
+    #[error("the object's origin ends {} from its target", length(*off))]
     Origin {
         /// Distance of the placed object from its required place, metres.
         off: f64,

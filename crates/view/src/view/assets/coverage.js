@@ -21,7 +21,7 @@ class Coverage {
   /**
    * @param {CoveragePoint[]} points the readings in order
    * @param {{ title: string, degrees: boolean, describe: (index: number) => string, seek: (index: number) => void }} options
-   * title of the length axis, whether lengths are angles, the description of a reading, and what a choice of the reader does
+   * title of the length axis, whether lengths are angles, and functions that describe a reading and show it
    */
   constructor(points, { title, degrees, describe, seek }) {
     this.points = points;

@@ -206,8 +206,8 @@ class Explain {
     };
     const opened = { ...path, world: 0, color: theme.found };
     const before = base.paths.map((one) => ({ ...one, color: theme.grey, width: 1.6, dash: [5, 4] }));
-    const joints = base.arm.joints.map((joint, k) => ({ ...joint, domain: domains?.[k] ?? joint.domain }));
-    return { ...base, arm: { ...base.arm, joints }, worlds: [world, ...base.worlds.slice(1)], paths: [opened, ...before], stuck: null };
+    const joint = (k) => ({ ...base.arm.joints[k], domain: domains?.[k] ?? base.arm.joints[k].domain });
+    return { ...base, arm: { ...base.arm, joints: [joint(0), joint(1)] }, worlds: [world, ...base.worlds.slice(1)], paths: [opened, ...before], stuck: null };
   }
 
   /**
@@ -283,7 +283,7 @@ class Explain {
     context.lineWidth = 2.4;
     context.strokeStyle = theme.found;
     context.stroke();
-    this.arrow(context, theme, ...[obstacles[shown.obstacle], shown.changed].map((one) => Workspace.middle(panel, one)));
+    this.arrow(context, theme, Workspace.middle(panel, obstacles[shown.obstacle]), Workspace.middle(panel, shown.changed));
   }
 
   /**

@@ -1,4 +1,4 @@
-// The page of an exploration: the map as far as it is known, and the configurations that are known to be free. It opens
+// The page of an exploration: the known part of the map, and the configurations that are known to be free. It opens
 // at the end, with everything that was seen.
 'use strict';
 
@@ -331,7 +331,7 @@ class ExplorationView extends View {
         }
         context.stroke();
       });
-      // Single places, because lines between them may go round.
+      // Single places, because a joint may pass its seam between them.
       for (const { q } of frames.slice(0, reading + 1)) Labels.blockLine(panel, [CSpace.place(this, panel, q)]);
     }
     CSpace.ends(context, panel, this);

@@ -279,7 +279,7 @@ class Inspection {
   show(link) {
     if (this.lit === link || !this.view) return;
     this.lit = link;
-    for (const row of this.view.root.querySelectorAll('tr[data-link]')) row.classList.toggle('lit', row.dataset.link === link);
+    for (const row of this.view.root.querySelectorAll('tr[data-link]')) row.classList.toggle('lit', row.getAttribute('data-link') === link);
     this.view.panels.workspace.draw();
   }
 

@@ -8,7 +8,7 @@
  * @property {string} name
  * @property {string} figure 'move', 'think', 'slice' or 'pair': the motion, the planner's replay, a slice, or two polygons
  * @property {(model: Model) => string} title
- * @property {(model: Model) => boolean} isOffered whether the model has what the lesson is about
+ * @property {(model: Model) => boolean} isOffered whether the model has the subject of the lesson
  * @property {(view: View) => string} text at most about sixty words
  * @property {(view: View) => QuestionModel} question
  */

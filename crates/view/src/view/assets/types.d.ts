@@ -167,5 +167,5 @@ interface Tool {
   grasps(panel: Panel, value: Point, event: PointerPlace): boolean;
 }
 
-interface Window { cplan: any }
+interface Window { cplan: any; inspection: any }
 declare const cplan: any;

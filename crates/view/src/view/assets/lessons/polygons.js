@@ -208,7 +208,7 @@ class PolygonFigure {
 
   /** Returns the text beside the scrubber. */
   get clock() {
-    return this.lesson === 'stack' ? Numbers.angle(2 * Math.PI * this.part) : `${this.step + 1} of ${this.steps.length}`;
+    return this.lesson === 'stack' ? Numbers.angle(2 * Math.PI * this.part) : `step ${this.step + 1}`;
   }
 
   get caption() {
@@ -218,7 +218,8 @@ class PolygonFigure {
     const { i, k, of } = steps[this.step];
     const [mine, other] = [PolygonFigure.side('a', i, this.pieces.a.length), PolygonFigure.side('b', k, this.pieces.b.length)];
     const next = { a: `${mine}, turned round`, b: other, both: `${other} and ${mine}, which are parallel, as one` }[of];
-    return `${this.step + 1} of ${steps.length}: corner b${k + 1} \u2212 a${i + 1}; next by its angle: ${next}`;
+    // Without the number of steps, which is the answer to the question.
+    return `Step ${this.step + 1}: corner b${k + 1} \u2212 a${i + 1}; next by its angle: ${next}`;
   }
 
   get step() {

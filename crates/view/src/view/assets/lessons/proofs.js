@@ -1,4 +1,4 @@
-// The chapter on certificates and proofs: why a motion is free, or why there is none.
+// The chapter on certificates and proofs: why a motion is free, or why no motion exists.
 'use strict';
 
 const PROOFS = (() => {

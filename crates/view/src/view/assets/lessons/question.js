@@ -1,4 +1,4 @@
-// Questions of lessons, which the page checks. An answer never blocks the way to the next lesson.
+// Questions of lessons, which the page checks. The next lesson is open without an answer.
 'use strict';
 
 /**
