@@ -175,7 +175,7 @@ fn every_command_draws_dark_pictures() {
         (vec!["import".to_owned(), drawing], "--output cell.toml"),
     ] {
         let [light, dark] = ["light", "dark"].map(|theme| {
-            let done = place.run(&words, &format!("{options} --quiet --picture {theme}.svg --theme {theme}"));
+            let done = place.run(&words, &format!("{options} --picture {theme}.svg --theme {theme}"));
             assert!([0, 3].contains(&done.code), "{words:?}: {}", done.stderr);
             place.read(&format!("{theme}.svg"))
         });

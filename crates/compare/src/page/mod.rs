@@ -68,8 +68,7 @@ impl Page<'_> {
             _ => section("Planners", &planners::of_study(study)) + &self.charts() + &self.problems(),
         };
         html += &self.details();
-        html += &foot(METHOD_NOTE).replacen("</main>", &format!("</main>\n<script>\n{SCRIPT}</script>"), 1);
-        html
+        html + &foot(METHOD_NOTE).replacen("</main>", &format!("</main>\n{}", script()), 1)
     }
 
     fn subtitle(&self) -> String {
@@ -166,6 +165,11 @@ fn with_names(text: &str) -> String {
         if index % 2 == 1 { format!("<strong class=\"planner\">{}</strong>", markup(part)) } else { markup(part) }
     };
     text.split('`').enumerate().map(part).collect()
+}
+
+/// Returns the element with the page's script. As character data, the script is the same in HTML and in XML.
+fn script() -> String {
+    format!("<script>\n//<![CDATA[\n{SCRIPT}//]]>\n</script>")
 }
 
 /// Parts of a page in addition to the usual style sheet.
