@@ -130,7 +130,7 @@ fn factors() -> Result<(), Box<dyn Error>> {
         }
         if k == 0 {
             std::fs::create_dir_all("target")?;
-            std::fs::write("target/figure_6_1.svg", measured.to_svg())?;
+            std::fs::write("target/figure_6_1.svg", measured.to_svg(false))?;
         }
     }
     Ok(())

@@ -246,7 +246,7 @@ impl Comparison {
             0 | 1 | SIZE_COLUMN => return Vec::new(),
             CLEARANCE_COLUMN => Better::More,
             // The last columns are length and clearance of each kind of path in turn.
-            k if k > MEMORY_COLUMN && (k - MEMORY_COLUMN) % 2 == 0 => Better::More,
+            k if k > MEMORY_COLUMN && (k - MEMORY_COLUMN).is_multiple_of(2) => Better::More,
             _ => Better::Less,
         };
         let value = |(row, text): (&Row, &Option<String>)| {

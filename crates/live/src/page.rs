@@ -27,7 +27,7 @@ const SCRIPTS: [&str; 14] = [
 /// Content security policy of a page with the program inside. The page may run the program in a worker, but must not
 /// load anything.
 const CONTENT_POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; \
-                      img-src blob: data:; font-src data:; font-src data:; base-uri 'none'; form-action 'none'";
+                      img-src blob: data:; font-src data:; base-uri 'none'; form-action 'none'";
 
 /// Returns the page with its scripts and styles as one document. In the browser, it connects to a server.
 #[must_use]

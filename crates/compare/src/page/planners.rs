@@ -108,7 +108,7 @@ fn columns(comparison: &Comparison) -> Vec<RankedColumn> {
             over,
             excess,
         )
-        .from_origin(1.0),
+        .measured_from(1.0),
         RankedColumn::new(
             "clearance",
             "Proven distance from all obstacles along the motion",
@@ -190,7 +190,7 @@ pub fn of_study(study: &Study) -> String {
         wins("safest", "Number of problems with no greater clearance", Purpose::Safest),
         wins("quickest", "Number of problems with no quicker path", Purpose::Quickest),
         median("over optimum", "Median of the proven excess over the optimum", Measure::OverOptimum, excess)
-            .from_origin(1.0),
+            .measured_from(1.0),
         median("clearance", "Median of the proven clearance", Measure::Clearance, clearance),
         median("motion", "Median of the motions' durations", Measure::Duration, duration),
         median("computed in", "Median of the computing times", Measure::Total, computing_time),

@@ -36,7 +36,7 @@ impl RankedColumn {
     }
 
     /// Returns this column with bars that begin at another value.
-    pub fn from_origin(self, origin: f64) -> Self {
+    pub fn measured_from(self, origin: f64) -> Self {
         Self { origin, ..self }
     }
 
@@ -185,7 +185,7 @@ mod tests {
         let column = RankedColumn::new("x", "", Better::Less, vec![Some(1.0), Some(1.5), Some(f64::INFINITY)], |v| {
             v.to_string()
         });
-        let column = column.from_origin(1.0);
+        let column = column.measured_from(1.0);
         assert_eq!([1.0, 1.25, 1.5, f64::INFINITY].map(|value| column.share(value)), [0.0, 0.5, 1.0, 1.0]);
     }
 }
