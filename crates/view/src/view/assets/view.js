@@ -107,6 +107,9 @@ class View {
     const [width, height] = [cspace.x, cspace.y].map(([low, high]) => high - low);
     const shape = width / height;
     workspace.shape = alike && shape > 0.6 && shape < 1.7 ? shape : null;
+    // No room stays empty below a wide configuration space.
+    if (alike && shape > 0) this.parts.panels.style.setProperty('--height-per-width', String(1 / shape));
+    else this.parts.panels.style.removeProperty('--height-per-width');
     for (const plot of this.plots) plot.fit();
     this.learn.update(model);
     if (!this.hasReplay(model.motions[this.replayed])) this.replayed = 0;
