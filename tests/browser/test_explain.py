@@ -58,7 +58,7 @@ def test_pointing_at_a_card_shows_the_change_and_the_path(program, show_file):
     cards(seen).first.hover()
     after = middle(seen, 0)
     assert [b - a for a, b in zip(before, after)] == pytest.approx([x * change["opens"] for x in change["direction"]], abs=2e-5)
-    # A path from the start to the goal, free in the changed world but not in the world as it is.
+    # A path from the start to the goal, free in the changed world but not in the original one.
     points = seen.do("[...Geometry.pointsOf(cplan.model.paths[0].points)]")
     assert points[0] == pytest.approx(seen.do("cplan.model.start"), abs=1e-4)
     assert points[-1] == pytest.approx(seen.do("cplan.model.goals[0]"), abs=1e-4)
@@ -78,7 +78,7 @@ def test_pointing_at_a_card_shows_the_change_and_the_path(program, show_file):
     # The arm moves along the path.
     assert seen.do("cplan.q") != points[-1]
     seen.until("Math.hypot(...cplan.q.map((x, k) => x - cplan.model.start[k])) > 0.2")
-    # Leaving the card shows the world as it is.
+    # Leaving the card shows the original world.
     seen.page.mouse.move(5, 5)
     assert middle(seen, 0) == pytest.approx(before)
     assert seen.do("cplan.model.paths.length") == 0 and seen.do("cplan.q") == pytest.approx(seen.do("cplan.model.start"))

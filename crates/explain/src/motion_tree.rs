@@ -39,7 +39,7 @@ impl MotionTree {
         origin
     }
 
-    /// Returns the certified motion from home to a solution, whose values are given by `joints`. `None` if there is no
+    /// Returns the certified motion from home to a solution with the values `joints`. `None` if there is no
     /// certified motion. Values of a circle continue beyond a turn, so that all motions between waypoints are straight.
     #[must_use]
     pub fn motion_to(

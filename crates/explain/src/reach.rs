@@ -107,8 +107,8 @@ impl Reach {
         self.places.iter().flatten()
     }
 
-    /// Returns the certified motion from home to the solution with this index among all solutions. `None` if there is
-    /// none.
+    /// Returns the certified motion from home to the solution with this index among all solutions. `None` if it
+    /// is not reached.
     #[must_use]
     pub fn motion_to(&self, number: usize, arm: &Arm) -> Option<Path> {
         let joints: Vec<Configuration> = self.solutions().map(|solution| solution.joints).collect();

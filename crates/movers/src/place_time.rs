@@ -1,4 +1,4 @@
-//! The plane of place on a motion and time, in which moving obstacles are forbidden regions: for people who want to see
+//! The plane of place on a motion and time, in which moving obstacles are forbidden regions. It shows
 //! between which obstacles a motion passes, and for which obstacle it waits.
 
 use super::blocked::MovingObstacles;
@@ -28,7 +28,7 @@ pub struct MotionPart<'a> {
     pub trajectory: &'a Trajectory,
     /// Time at which the part begins, in seconds since the beginning of the whole motion.
     pub begin: f64,
-    /// Name of the object for which the arm waits at the end of this part. `None` if there is none.
+    /// Name of the object for which the arm waits at the end of this part. `None` if it does not wait.
     pub awaited: Option<&'a str>,
 }
 

@@ -1,5 +1,5 @@
 //! The placer of names in a panel. A name lies neither on the arm, nor on a marker, nor on another name. It avoids paths
-//! as far as possible, is joined to a distant shape by a line, and is left out if there is no place for it.
+//! as far as possible, is joined to a distant shape by a line, and is omitted if it has no place.
 //!
 //! Pages have the same rule in `view/assets/labels.js`: the same places in the same order, with the same costs. A change
 //! here needs the same change there.
@@ -129,7 +129,7 @@ impl Placer {
         }
     }
 
-    /// Does the same as [`Placer::beside`] among regions, of which a name covers as little as possible.
+    /// Does the same as [`Placer::beside`] among regions. A name covers as little of them as possible.
     pub fn beside_among(&mut self, names: &[Named], regions: &[NamedRegion]) {
         let raster = RegionRaster::new(self.page, regions.iter().map(|region| &region.outline[..]));
         names.iter().for_each(|(name, of)| self.put(name, of, |place| raster.covered_share(place)));
@@ -362,7 +362,7 @@ mod tests {
             1.0,
         );
         let mut placer = Placer::new(PAGE);
-        // The place above the shape is taken by an arm, the one below by a marker, the one to the right by a line.
+        // An arm takes the place above the shape, a marker the one below, a line the one to the right.
         placer.block_shape(&frame, &arm);
         placer.block_spot([150.0, 166.0], 4.0);
         placer.block_line(&[Step::Move([175.0, 140.0]), Step::Line([175.0, 160.0])]);

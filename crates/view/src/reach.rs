@@ -76,7 +76,7 @@ pub struct ReachView {
     solutions: Chain,
     /// The kind of each solution as a character, as for cells: `1` for a solution that a motion reaches.
     access: String,
-    /// Where the straight motion to each solution begins: the index of another solution, `-2 - r` for the end of route
+    /// The beginning of the straight motion to each solution: the index of another solution, `-2 - r` for the end of route
     /// `r`, or -1 if there is no certified motion.
     origins: Vec<i64>,
     /// Planned routes. Each begins at home.

@@ -20,7 +20,7 @@ pub struct RegionRaster {
     rows: usize,
     /// Region of each cell, from 1, row by row; [`BLOCKED`] for cells that no name may cover.
     cells: Vec<i32>,
-    /// The same without blocked cells.
+    /// Region of each cell, without regard to blocked cells.
     full: Vec<i32>,
 }
 

@@ -11,7 +11,7 @@ fn live_figures_stand_behind_a_picture_and_are_written_by_their_chapter() {
             if let Some(live) = text.strip_prefix("<!-- live: ").and_then(|rest| rest.strip_suffix(" -->")) {
                 let place = format!("{}:{line}", page.name);
                 let (file, opened) =
-                    live.split_once('#').unwrap_or_else(|| panic!("{place}: what the page shows first"));
+                    live.split_once('#').unwrap_or_else(|| panic!("{place}: the page's first view is missing"));
                 assert!(picture, "{place}: no picture for who reads the file");
                 let chapter = file.strip_suffix(".html").expect("a page");
                 assert_eq!(opened, format!("learn={chapter}"), "{place}: the chapter of the page's course");

@@ -12,7 +12,7 @@ pub struct RankedColumn {
     pub heading: String,
     /// Explanation of the column.
     pub hint: &'static str,
-    /// Which value is the better one.
+    /// The direction in which values are better.
     pub better: Better,
     /// Value at which a bar has no length.
     pub origin: f64,
@@ -116,6 +116,9 @@ pub fn table(caption: &str, outcome_heading: &str, rows: &[RankedRow], columns: 
         html += "</tr>\n";
     }
     html + "</tbody>\n</table></div>\n"
+        + &format!(
+            "<p class=\"sub table-key\">{BEST_SIGN} and bold: best value; bars: share of the column\u{2019}s greatest.</p>\n"
+        )
 }
 
 fn cell(column: &RankedColumn, row: usize, is_best: bool) -> String {
@@ -134,6 +137,10 @@ fn cell(column: &RankedColumn, row: usize, is_best: bool) -> String {
 
 /// The sign beside the best value of a column.
 const BEST_MARK: &str = "<svg class=\"star\" viewBox=\"0 0 10 10\" role=\"img\" aria-label=\"best\"><path d=\"M5 .4 6.5 3.5 9.8 \
+                         3.9 7.4 6.2 8 9.6 5 8 2 9.6 2.6 6.2 .2 3.9 3.5 3.5Z\"/></svg>";
+
+/// The same sign in the explanation below the table.
+const BEST_SIGN: &str = "<svg class=\"star\" viewBox=\"0 0 10 10\" role=\"img\" aria-label=\"Star\"><path d=\"M5 .4 6.5 3.5 9.8 \
                          3.9 7.4 6.2 8 9.6 5 8 2 9.6 2.6 6.2 .2 3.9 3.5 3.5Z\"/></svg>";
 
 /// Draws a piece of a planner's line.

@@ -59,7 +59,7 @@ class StudyPage {
     this.show(this.kept);
   }
 
-  // What is shown.
+  // The shown layout.
 
   /**
    * Shows a layout beside the map, and marks it everywhere.

@@ -82,7 +82,7 @@ class ReachMap {
   }
 
   /**
-   * Returns the certified motion from home to a solution as a flat list of joint values, or `null` if there is none. Its
+   * Returns the certified motion from home to a solution as a flat list of joint values, or `null` if the solution is not reached. Its
    * pieces are the straight motions that the program certified; values of a circle continue beyond a turn.
    * @param {number} number
    * @returns {number[] | null}
@@ -130,7 +130,7 @@ class ReachMap {
   }
 
   /**
-   * Returns a cell that shows what the map can say: one with solutions of different kinds, and a motion that bends. Of
+   * Returns a cell that is a good example: one with solutions of different kinds, and a motion that bends. Of
    * several, it is the one whose solutions keep most distance from the limits of the joints.
    * @returns {number | null}
    */
