@@ -6,7 +6,7 @@ use super::table::{Align, Column, Emphasis, MAX_TABLE_WIDTH, PLAIN, Table, fixed
 use cplan_core::model::Status;
 use cplan_core::planner::{PathKind, Size};
 use cplan_core::space::Configuration;
-use cplan_text::{plain, wrapped};
+use cplan_text::{percent, plain, round_down, wrapped};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -208,14 +208,16 @@ impl Comparison {
             columns.push(Column::new(&format!("{kind} [mm]"), Align::Right));
         }
         let milliseconds = |v: Option<f64>| fixed(v.map(|v| v * 1e3), 3);
+        // A clearance is a proven lower bound, so it is rounded down.
+        let millimetres = |v: Option<f64>| v.filter(|v| v.is_finite()).map(|v| round_down(v * 1e3, 3));
         let cells = |row: &Row| {
             let mut cells = vec![
                 Some(row.planner.clone()),
                 Some(row.outcome.to_string()),
                 fixed(row.length, 4),
                 fixed(self.ratio(row), 3),
-                fixed(self.over_optimum(row), 4),
-                fixed(row.clearance.map(|v| v * 1e3), 3),
+                self.over_optimum(row).map(|ratio| percent(ratio - 1.0)),
+                millimetres(row.clearance),
                 fixed(row.duration, 3),
                 row.size.map(|size| size.to_string()),
                 milliseconds(row.build),
@@ -227,7 +229,7 @@ impl Comparison {
             for &kind in kinds {
                 let path = row.of_kind(kind);
                 cells.push(fixed(path.map(|path| path.0), 4));
-                cells.push(fixed(path.and_then(|path| path.1).map(|v| v * 1e3), 3));
+                cells.push(millimetres(path.and_then(|path| path.1)));
             }
             cells
         };
@@ -250,7 +252,7 @@ impl Comparison {
             _ => Better::Less,
         };
         let value = |(row, text): (&Row, &Option<String>)| {
-            text.as_deref().filter(|_| row.outcome != Status::Unknown)?.parse().ok()
+            text.as_deref().filter(|_| row.outcome != Status::Unknown)?.trim_end_matches(" %").parse().ok()
         };
         better.that_stand_out(&self.rows.iter().zip(shown).map(value).collect::<Vec<_>>(), shown)
     }
@@ -336,7 +338,7 @@ mod tests {
         let mut example = example();
         example.rows[2].total = Some(1e-9);
         let marked = example.to_text_with(["<", ">"]);
-        for best in ["<4.0000>", "<1.2500>", "<12.500>", "<3.250>"] {
+        for best in ["<4.0000>", "<25.00 %>", "<12.500>", "<3.250>"] {
             assert!(marked.contains(best), "no {best} in {marked}");
         }
         assert!(!marked.contains("<0.000>"), "an unknown outcome is never the best: {marked}");
@@ -347,7 +349,7 @@ mod tests {
     fn leading_columns_fit_a_terminal() {
         let text = example().to_text();
         assert!(text.lines().all(|line| line.chars().count() <= MAX_TABLE_WIDTH), "{text}");
-        assert!(text.contains("1.2500") && !text.contains("65536") && text.ends_with("or \"so\"\n"), "{text}");
+        assert!(text.contains("25.00 %") && !text.contains("65536") && text.ends_with("or \"so\"\n"), "{text}");
     }
 
     #[test]

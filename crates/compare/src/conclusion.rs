@@ -102,9 +102,11 @@ impl Comparison {
                 clearance(safest)
             );
         }
-        let longer =
-            self.ratio(safest).map_or_else(String::new, |ratio| format!(" for {} more length", percent(ratio - 1.0)));
-        format!("{who}: {near}, and `{}` {}{longer}.", safest.planner, clearance(safest))
+        // The same number as in the table, if there is a bound.
+        let longer = over(safest)
+            .map(|over| format!(", at most {over} over the optimum"))
+            .or_else(|| Some(format!(", {} longer than the shortest", percent(self.ratio(safest)? - 1.0))));
+        format!("{who}: {near}, and `{}` {}{}.", safest.planner, clearance(safest), longer.unwrap_or_default())
     }
 }
 
@@ -134,8 +136,8 @@ mod tests {
         let all = comparison(&[("a", Some(1.25), 0.001), ("b", Some(2.5), 0.12045), ("c", Some(1.5), 0.05)]);
         assert_eq!(
             all.conclusion(),
-            "All 3 planners found a path: `a` comes within 25.00 % of the optimum, and `b` keeps 120.4 mm from obstacles for \
-             100.00 % more length."
+            "All 3 planners found a path: `a` comes within 25.00 % of the optimum, and `b` keeps 120.4 mm from \
+             obstacles, at most 150.00 % over the optimum."
         );
         let some = comparison(&[("a", Some(1.25), 0.12), ("b", None, 0.0), ("c", Some(1.5), 0.05)]);
         assert_eq!(

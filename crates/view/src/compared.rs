@@ -42,12 +42,14 @@ pub struct SmallPicture {
     pub markers: String,
 }
 
-/// Draws a comparison. `id` distinguishes the names within its drawings from those of other drawings in the page. `None`
+/// Draws a comparison. `id` distinguishes the names within its drawings from those of other drawings in the page. The paths
+/// with the indices `top` lie above the others. `None`
 /// if the view has no configuration space.
 #[must_use]
-pub fn compared(view: &View, id: &str) -> Option<ComparedPaths> {
+pub fn compared(view: &View, id: &str, top: &[usize]) -> Option<ComparedPaths> {
     let mut view = view.clone();
     view.still.lights_paths = true;
+    view.still.top_paths = top.to_vec();
     let panel = view.still.panels.first()?;
     let [left, top, right, bottom] = LARGE_MARGINS;
     let [width, height] = [LARGE_SIZE[0] - left - right, LARGE_SIZE[1] - top - bottom];

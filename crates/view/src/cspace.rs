@@ -45,7 +45,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     inside.extend(lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOAL_SEGMENT_PEN))));
     let paths: Vec<_> = paths.map(|path| (chart.outline(&path.points.0), path.pen())).collect();
     let names = names(view, panel, chart, &paths);
-    inside.extend(if view.still.lights_paths { lines_by_path(paths) } else { lines(paths) });
+    inside.extend(if view.still.lights_paths { lines_by_path(paths, &view.still.top_paths) } else { lines(paths) });
     inside.extend(world.trace.iter().flat_map(|trace| trace::items_above_path(trace, chart)));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));

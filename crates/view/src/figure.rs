@@ -237,18 +237,20 @@ pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> 
     halos
 }
 
-/// Draws the same as [`lines`], in groups by path. Each path also has a broad invisible line, which is easy to point at.
+/// Draws the same as [`lines`], in groups by path. The paths with the indices `top` lie above the
+/// others, the first of them topmost. Each path also has a broad invisible line, which is easy to point at.
 #[must_use]
-pub fn lines_by_path(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
+pub fn lines_by_path(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>, top: &[usize]) -> Vec<Item> {
     const POINTER_WIDTH: f64 = 14.0;
     let (mut halos, mut drawn) = (Vec::new(), Vec::new());
     for (index, (steps, pen)) in outlines.into_iter().enumerate() {
         let pointed = Item::Outline(steps.clone(), Style::line(pen.color, POINTER_WIDTH).faded(0.0));
         let mut both = lines([(steps, pen)]).into_iter();
         halos.extend(both.next().map(|halo| Item::OfPath(index, vec![halo])));
-        drawn.push(Item::OfPath(index, both.chain([pointed]).collect()));
+        drawn.push((index, Item::OfPath(index, both.chain([pointed]).collect())));
     }
-    halos.extend(drawn);
+    drawn.sort_by_key(|(index, _)| top.iter().rev().position(|other| other == index).map_or(0, |place| place + 1));
+    halos.extend(drawn.into_iter().map(|(_, item)| item));
     halos
 }
 

@@ -41,7 +41,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     let paths = still.panels.iter().flat_map(|panel| &panel.paths).map(|&index| &view.paths[index]);
     let traces: Vec<_> = paths.map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
     traces.iter().for_each(|(steps, _)| placer.block_line(steps));
-    inside.extend(if still.lights_paths { lines_by_path(traces) } else { lines(traces) });
+    inside.extend(if still.lights_paths { lines_by_path(traces, &still.top_paths) } else { lines(traces) });
     let tags = if view.is_task() { step_ends(view, &frame, &mut inside) } else { Vec::new() };
     if let Some((q, world)) = still.now {
         inside.extend(pose(view, &frame, &mut placer, world, q.into(), &CURRENT_LOOK));

@@ -10,7 +10,7 @@ use crate::draw::{self, Picture, View};
 use crate::engine::{Options, Problem, plan};
 use crate::model::{MotionProblem, Scene, Status};
 use crate::output::{self, PictureFormat};
-use crate::report::{Comparison, Overlay, PathPictures, SmallPicture, Study, labels};
+use crate::report::{Comparison, Overlay, PathPictures, Purpose, SmallPicture, Study, labels};
 use crate::space::Path;
 
 /// Largest number of random queries for which a page has pictures. Each query has its own.
@@ -53,7 +53,12 @@ pub fn pictures(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<P
     }
     let drawn = chosen.into_iter().take(MAX_DRAWN_WORLDS).filter_map(|problem| {
         let view = view(&cases.cases[problem], &study.comparisons[problem], &done.paths[problem]);
-        let draw::ComparedPaths { large, small, colors } = draw::compared(&view, &format!("problem{problem}"))?;
+        let comparison = &study.comparisons[problem];
+        // The recommended paths lie above the others.
+        let top =
+            Purpose::ALL.into_iter().filter_map(|purpose| comparison.path_index(comparison.recommended(purpose)?));
+        let top: Vec<usize> = top.collect();
+        let draw::ComparedPaths { large, small, colors } = draw::compared(&view, &format!("problem{problem}"), &top)?;
         let small = small.map(|draw::SmallPicture { size, ground, paths, markers }| SmallPicture {
             size,
             ground,

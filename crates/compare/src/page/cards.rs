@@ -147,7 +147,7 @@ fn shown(purpose: Purpose, value: f64, comparison: &Comparison) -> String {
 
 /// Lists the other values of a recommended row.
 fn other_values(comparison: &Comparison, row: &Row, purpose: Purpose) -> String {
-    let longer = || Some(format!("{} over the optimum", excess(comparison.over_optimum(row)?)));
+    let longer = || Some(format!("at most {} over the optimum", excess(comparison.over_optimum(row)?)));
     let room = || row.clearance.map(|metres| format!("keeps {}", clearance(metres)));
     let motion = || row.duration.map(|seconds| format!("moves {}", duration(seconds)));
     let time = || row.total.map(|seconds| format!("computed in {}", computing_time(seconds)));

@@ -159,10 +159,10 @@ impl Page<'_> {
     }
 }
 
-/// Formats a sentence in which names are between backticks. Names are emphasised.
+/// Formats a sentence in which names are between backticks. Names are shown as code.
 fn with_names(text: &str) -> String {
     let part = |(index, part): (usize, &str)| {
-        if index % 2 == 1 { format!("<strong class=\"planner\">{}</strong>", markup(part)) } else { markup(part) }
+        if index % 2 == 1 { format!("<code class=\"planner\">{}</code>", markup(part)) } else { markup(part) }
     };
     text.split('`').enumerate().map(part).collect()
 }

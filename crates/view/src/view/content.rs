@@ -126,6 +126,8 @@ pub(crate) struct StillContent {
     pub is_dark: bool,
     /// True if a page can light up each path.
     pub lights_paths: bool,
+    /// Indices of paths that are drawn above the others, the topmost first.
+    pub top_paths: Vec<usize>,
     /// The arm's final configuration, and the index of the world at the end.
     pub end: Option<([f64; 2], usize)>,
     /// The steps of a task, below the names of the columns; empty for single motions.

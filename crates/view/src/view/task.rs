@@ -77,6 +77,7 @@ impl View {
             checked: None,
             is_dark: false,
             lights_paths: false,
+            top_paths: Vec::new(),
             field_lines: FieldLines::default(),
             panels: panels(picture, &order, (&paths, &worlds.views), world, grain),
             placed: placed.collect(),

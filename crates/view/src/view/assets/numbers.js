@@ -58,9 +58,14 @@ const Numbers = (() => {
   function percent(fraction, round = Math.round) {
     const value = 100 * fraction;
     const power = value === 0 ? 0 : Math.floor(Math.log10(Math.abs(value)));
+    // An upper bound has the digits that the terminal prints.
+    if (round === Math.ceil && value > 0) {
+      const places = value < 0.01 ? 3 : 2;
+      return `${(Math.ceil(value * 10 ** places - 1e-9) / 10 ** places).toFixed(places)} %`;
+    }
     const decimals = Math.min(4, Math.max(0, power < 0 ? 1 - power : 2 - power));
     const unit = 10 ** decimals;
-    const rounded = round(value * unit - (round === Math.ceil ? 1e-9 : 0)) / unit;
+    const rounded = round(value * unit) / unit;
     if (rounded === 0 && value > 0) return `below ${1 / unit} %`;
     return `${minus(String(Number(rounded.toFixed(decimals))))} %`;
   }
