@@ -249,7 +249,7 @@ fn check_states_the_reason() {
     assert_eq!(outside.code, 0);
     assert!(outside.stdout.contains("OUTSIDE") && outside.stdout.contains("not free"), "{}", outside.stdout);
     let near = place.run(&files, "--at 10deg,45deg --clearance 0.05");
-    assert!(near.stdout.contains("less than the clearance of 0.05 m"), "{}", near.stdout);
+    assert!(near.stdout.contains("less than the clearance of 50 mm"), "{}", near.stdout);
 }
 
 #[test]

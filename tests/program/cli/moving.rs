@@ -209,7 +209,7 @@ fn a_falsified_recording_of_a_task_is_found_out() {
     }
     let judged = judge("late.json", &late);
     assert_eq!(judged.code, 3, "{}", judged.stdout);
-    assert!(judged.stdout.contains("step 1 (cycle 1): the tip ends 0.035"), "{}", judged.stdout);
+    assert!(judged.stdout.contains("step 1 (cycle 1): the tip ends 35.00 mm"), "{}", judged.stdout);
     // All times are faster.
     let mut fast = result.clone();
     for time in fast["trajectory"]["time"].as_array_mut().unwrap() {

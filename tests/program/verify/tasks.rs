@@ -171,7 +171,7 @@ fn an_object_elsewhere_is_found() {
     let picked = steps.iter().position(|step| step["action"] == "pick" && step["object"] == "red").unwrap();
     let found = task.findings();
     assert_eq!(found["verdict"], "task", "{found:#}");
-    for (at, what) in [(picked, "the tip ends 0.05"), (picked + 1, "the object's origin ends 0.05")] {
+    for (at, what) in [(picked, "the tip ends 50.00 mm"), (picked + 1, "the object's origin ends 50.00 mm")] {
         let step = &found["steps"][at];
         assert_eq!(step["verdict"], "task");
         assert!(step["faults"][0].as_str().unwrap().starts_with(what), "{step:#}");
