@@ -10,7 +10,7 @@ use crate::draw::{CheckedView, Picture, View};
 use crate::engine::findings::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
 use crate::grammar::number_in;
 use crate::input::{self, JointValues, LoadedScene, RobotReport};
-use crate::output::{configuration, contours, range};
+use crate::output::{checked_words, configuration, contours, range};
 use crate::space::{Configuration, JointRange};
 use crate::text::{Columns, chosen_length, fixed, length, length_down, length_unlike};
 use clap::{Args, ValueHint};
@@ -73,7 +73,7 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let findings = check(scene, q);
     for sink in &sinks {
         if let Sink::Picture(format, path) = sink {
-            sinks::save_picture(*format, path, &args.theme.apply(view(&loaded, q, &findings)))?;
+            sinks::save_picture(*format, path, &args.theme.apply(view(args, &loaded, q, &findings)))?;
         }
     }
     if args.json {
@@ -86,17 +86,38 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-fn view(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings) -> View {
+fn view(args: &CheckArgs, loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings) -> View {
     let scene = &loaded.scene;
-    let facts = report(loaded, q, findings).into_iter().map(|(key, value)| [key.to_owned(), value]);
+    let named = |name: &str| name.rsplit(['/', '\\']).next().unwrap_or(name).trim_end_matches(".toml").to_owned();
+    let world = match scene.workspace().name.as_str() {
+        "" => args.files.world.file_name().map(|name| named(&name.to_string_lossy())),
+        name => Some(name.to_owned()),
+    };
+    let place: Vec<String> = std::iter::once(scene.arm().name.clone()).chain(world).collect();
     let view = View::of_picture(&Picture {
-        title: vec![scene.arm().name.clone(), configuration(scene.arm(), q)],
+        title: vec![
+            checked_words::title(scene, findings),
+            format!("{}: {}", place.join(", "), configuration(scene.arm(), q)),
+        ],
         status: outcome(findings).to_owned(),
-        facts: facts.collect(),
+        facts: page_facts(report(loaded, q, findings)),
         c_obstacles: &contours(scene),
         ..Picture::new(scene, q)
     });
-    view.with_findings(CheckedView::from(findings))
+    view.with_findings(CheckedView::new(scene, findings))
+}
+
+/// Returns the facts that the title and the key figures of a page do not say, those about the arm last.
+fn page_facts(report: Vec<(&'static str, String)>) -> Vec<[String; 2]> {
+    let mut facts: [Vec<[String; 2]>; 2] = Default::default();
+    let mut current = "";
+    for (key, value) in report {
+        current = if key.is_empty() { current } else { key };
+        if !matches!(current, "result" | "at" | "tip" | "distance") {
+            facts[usize::from(matches!(current, "arm" | "plane"))].push([key.to_owned(), value]);
+        }
+    }
+    facts.concat()
 }
 
 fn outcome(findings: &ConfigurationFindings) -> &'static str {
@@ -109,7 +130,11 @@ fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindin
     let arm = scene.arm();
     let mut lines = Vec::new();
     let mut line = |key: &'static str, value: String| lines.push((key, value));
-    line("result", outcome(findings).to_owned());
+    let apart = findings.clearance.filter(|apart| findings.free && *apart > 0.0);
+    let apart = apart
+        .zip(scene.closest(q))
+        .map(|(apart, near)| format!(", {} from {}", length_down(apart), scene.describe_obstacle(near.pair.obstacle)));
+    line("result", format!("{}{}", outcome(findings), apart.unwrap_or_default()));
     line("at", configuration(arm, q));
     let [x, y] = findings.tip.map(|c| fixed(c, 4));
     line("tip", format!("({x}, {y}) m"));

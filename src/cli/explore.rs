@@ -17,7 +17,7 @@ use crate::model::{Scene, Status};
 use crate::motion::{Format, JointMotion, Trajectory, check_writable, csv, ros_yaml, write_whole_set};
 use crate::output::{Line, contours, format_columns, title_of};
 use crate::space::{Configuration, Path as JointPath};
-use crate::text::{counted, short};
+use crate::text::{chosen_length, counted};
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 
@@ -250,7 +250,8 @@ fn view(world: &Explorable, done: &Exploration, trajectory: Option<&Trajectory>)
     };
     let verdict = match status {
         Status::Unknown => status.name().to_owned(),
-        _ => format!("{}: {}", status.name(), done.ending.name()),
+        Status::Found => done.ending.name().to_owned(),
+        Status::Infeasible => format!("{}: {}", status.name(), done.ending.name()),
     };
     View::of_picture(&Picture {
         title: vec![
@@ -261,7 +262,7 @@ fn view(world: &Explorable, done: &Exploration, trajectory: Option<&Trajectory>)
         ending: Some(status),
         facts: facts(done).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
         goals: world.goals.as_ref().filter(|_| done.strategy == Strategy::Goal).map_or(&[], |goals| goals.pieces()),
-        paths: vec![("way".to_owned(), &explored_path)],
+        paths: vec![("path".to_owned(), &explored_path)],
         trajectory,
         c_obstacles: &contours(scene),
         ..Picture::new(scene, world.start)
@@ -280,13 +281,13 @@ fn facts(done: &Exploration) -> Vec<Line> {
         (
             "map",
             format!(
-                "{width} x {height} cells of {} m: {free} free, {occupied} occupied, {unknown} unknown",
-                short(map.resolution)
+                "{width} \u{d7} {height} cells of {}: {free} free, {occupied} occupied, {unknown} unknown",
+                chosen_length(map.resolution)
             ),
         ),
         ("seen", format!("{seen:.1} % of the map")),
-        ("grid", format!("{rows} x {columns} configurations")),
-        ("way", format!("{:.4} (rad, m), {duration:.3} s, {}", done.length, counted(done.legs.len(), "leg"))),
+        ("grid", format!("{rows} \u{d7} {columns} configurations")),
+        ("path", format!("{:.4} (rad, m), {duration:.3} s, {}", done.length, counted(done.legs.len(), "leg"))),
         ("readings", format!("{}, {}", done.readings.len(), counted(done.decisions.len(), "decision"))),
     ];
     if let Some(known) = done.known_length.filter(|&known| known > 0.0) {

@@ -174,7 +174,8 @@ pub fn answer(
     let start = problem.motion().map(MotionProblem::start).or(problem.task().map(|task| task.start));
     let goal = problem.motion().filter(|_| stated_ends[1].is_some()).map(|motion| motion.goals().pieces()[0].ends()[0]);
     let asked = with_ends(asked, stated_ends, [start, goal]);
-    let written = written(&plan, &sinks, &files, (&asked, about.as_ref()), args)?;
+    let hint = if plan.status() == Status::Infeasible { explanation() } else { None };
+    let written = written(&plan, &sinks, &files, (&asked, about.as_ref()), hint.as_deref(), args)?;
     let after = [("write", begun.elapsed())];
     let code = match plan.status() {
         Status::Found => DONE,
@@ -182,7 +183,6 @@ pub fn answer(
         Status::Unknown => UNKNOWN,
     };
     let summary = || {
-        let hint = if code == INFEASIBLE { explanation() } else { None };
         let hint: Vec<Line> = hint.into_iter().map(|hint| ("hint", hint)).collect();
         summary_with(&plan, &written, &after, args.verbose) + &format_columns(&hint)
     };
@@ -237,6 +237,7 @@ fn written(
     sinks: &[Sink],
     files: &ResultFiles,
     (asked, about): (&Overrides, Option<&Digests>),
+    hint: Option<&str>,
     args: &PlanArgs,
 ) -> Result<Vec<String>, Failure> {
     let certificate = args.certificate.as_deref().and_then(|path| match plan.certificate(asked, about) {
@@ -250,7 +251,8 @@ fn written(
     let mut written = files.write(plan, member)?;
     let plays = sinks.iter().any(|sink| matches!(sink, Sink::Picture(format, _) if format.is_animated()));
     let seen = || {
-        let view = if plays { plan.view_with_replay() } else { plan.view() };
+        let mut view = if plays { plan.view_with_replay() } else { plan.view() };
+        view.facts.extend(hint.iter().map(|hint| ["hint".to_owned(), (*hint).to_owned()]));
         args.theme.apply(view).with_field_lines(args.field_lines.into())
     };
     let (mut view, mut spaces) = (None, None);

@@ -39,7 +39,7 @@ def test_the_headline_and_the_cards_say_what_the_result_says(program, show_file)
     assert seen.page.locator("h1").inner_text() == "The front wall is in the way."
     status = seen.page.locator("p.status")
     assert status.get_attribute("data-ending") == "infeasible" and "infeasible" in status.inner_text()
-    assert titles(seen) == ["Move it 614 mm right", "Shrink it by 40 mm on all sides", "Show the narrowest place"]
+    assert titles(seen) == ["Move it 614 mm right", "Remove it", "Show the narrowest place"]
     moved = result["sets"][0]["blockers"][0]["changes"][0]
     lines = seen.page.locator(".explain .change").first.locator(".line").all_inner_texts()
     opens, closed = (float(line.split()[0]) / 1000 for line in lines)
@@ -205,7 +205,7 @@ def test_the_live_page_explains_and_applies_a_change(serve):
 def test_the_live_page_deletes_an_obstacle_of_which_nothing_is_left(serve):
     seen = serve(*WALL)
     asked(seen)
-    seen.page.get_by_role("button", name="Apply: Shrink it by 40 mm on all sides").click()
+    seen.page.get_by_role("button", name="Apply: Remove it").click()
     assert settled(seen)["verdict"] == "found"
     assert seen.do("cplan.scene.obstacles.map(({ name }) => name)") == ["back wall"]
 

@@ -37,7 +37,7 @@ def test_the_page_opens_at_the_end_with_its_figures(rooms, show_file):
     assert texts["coverage"].split("\n")[1] == f"{known} of {known + result['map']['unknown']} cells of the map"
     assert texts["readings"].startswith(str(count))
     assert float(texts["path length"].split(" ")[0]) == pytest.approx(result["length"], rel=5e-3)
-    assert seen.page.locator(".status").inner_text() == "✓ found: explored"
+    assert seen.page.locator(".status").inner_text() == "✓ explored"
     # Everything that the program saw is on the page.
     assert seen.do("cplan.model.survey.known.at(-1)") == known
     seen.shoot("explore")

@@ -26,7 +26,7 @@ def row(seen, name):
 def test_each_joint_has_a_row_with_its_role_and_limits(scara, show_file):
     page, text = scara
     seen = show_file(page)
-    assert seen.page.locator(".defects h2").inner_text() == "Ready for planning"
+    assert seen.page.locator(".status").inner_text() == "✓ ready for planning" and not seen.page.locator(".defects").count()
     assert seen.page.locator(".status").get_attribute("data-ending") == "found"
     first, quill = row(seen, "axis_1").inner_text(), row(seen, "axis_3").inner_text()
     assert "first joint" in first and "−140° to 140°" in first and "415°/s" in first and "default" in first

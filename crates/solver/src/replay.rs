@@ -117,8 +117,9 @@ impl Replay {
             Outcome::Infeasible(proof) => phases.add(
                 proof.collision_boxes().len(),
                 format!(
-                    "{} of colliding configurations separate start and goal: there is no path",
-                    boxes(proof.collision_boxes().len())
+                    "{} of colliding configurations {} start and goal: there is no path",
+                    boxes(proof.collision_boxes().len()),
+                    if proof.collision_boxes().len() == 1 { "separates" } else { "separate" }
                 ),
                 Shows::Proof,
             ),
@@ -270,7 +271,9 @@ impl Phases {
         let own = (answer.path_kind == PathKind::Taut && answer.method.has_own_path())
             .then(|| own_path(problem, options, answer));
         let own = own.flatten().filter(|own| own.waypoints() != path.waypoints());
-        let caption = match (&own, found.bound, answer.path_kind) {
+        // The bound ignores moving obstacles, so that it says little about a path among them.
+        let bound = found.bound.filter(|_| problem.scene().loose_obstacles().is_empty());
+        let caption = match (&own, bound, answer.path_kind) {
             (Some(_), ..) => "The path, pulled taut and certified".to_owned(),
             (None, Some(bound), _) => {
                 format!("The path: certified, at most {} longer than the shortest", percent(bound.gap()))

@@ -3,13 +3,15 @@
 use super::arm::{self, GHOST_LOOK, UNREACHED_LOOK};
 use super::axes::Frame;
 use super::chart::Chart;
-use super::figure::{Item, Pen, Style};
+use super::figure::{Item, Pen, Step, Style};
 use super::key::{Key, Sign};
+use super::output::checked_words;
 use super::view::WorldView;
-use cplan_core::model::Arm;
+use cplan_core::model::{Arm, Contact, Scene};
 use cplan_core::space::Configuration;
 use cplan_engine::findings::{ConfigurationFindings, PairFinding};
-use cplan_theme::{GRAY, INFEASIBLE, WHITE};
+use cplan_geometry::Convex;
+use cplan_theme::{GRAY, INFEASIBLE, INK, WHITE};
 use serde::Serialize;
 
 /// Radius of the mark of a contact, in pixels.
@@ -27,6 +29,20 @@ pub struct CheckedView {
     /// The nearest free configuration. `None` if the configuration is free, or if the search found none.
     #[serde(skip_serializing_if = "Option::is_none")]
     nearest_free: Option<[f64; 2]>,
+    /// The shortest line to the obstacles. `None` if the arm touches one, or if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    nearest: Option<DistanceView>,
+    /// Key figures: name, value and meaning of each.
+    cards: Vec<[String; 3]>,
+}
+
+/// The shortest line from the arm to the obstacles.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct DistanceView {
+    /// A point of the arm, and one of an obstacle.
+    ends: [[f64; 2]; 2],
+    /// The distance in words.
+    text: String,
 }
 
 impl CheckedView {
@@ -52,15 +68,65 @@ impl From<&ConfigurationFindings> for CheckedView {
             is_blocked: !findings.free,
             contacts: findings.contacts.iter().flat_map(places).collect(),
             nearest_free: findings.nearest_free.as_ref().map(|nearest| nearest.configuration),
+            nearest: None,
+            cards: Vec::new(),
         }
     }
 }
 
 impl CheckedView {
+    /// Returns the view of these findings about a scene, with key figures and the shortest line to the obstacles.
+    #[must_use]
+    pub fn new(scene: &Scene, findings: &ConfigurationFindings) -> Self {
+        let q = findings.configuration.into();
+        // Shapes of a level attachment are not its own, but derived ones.
+        let nearest = scene.closest(q).filter(|near| near.separation.distance > 0.0 && !scene.is_attached(near.pair));
+        let nearest = nearest.map(|near| DistanceView {
+            ends: shortest_line(scene, q, &near),
+            text: checked_words::distance(near.separation.distance, findings.required),
+        });
+        Self { nearest, cards: checked_words::cards(scene, findings), ..Self::from(findings) }
+    }
+
     /// Returns true if the configuration is not free.
     pub(crate) fn is_blocked(&self) -> bool {
         self.is_blocked
     }
+}
+
+/// Returns the nearest points of two shapes that are apart: first that of the arm.
+fn shortest_line(scene: &Scene, q: Configuration, near: &Contact) -> [[f64; 2]; 2] {
+    let part = scene.part(near.pair).at(&scene.arm().pose(near.pair.link, q));
+    let piece = scene.piece(near.pair);
+    let corners = |shape: &Convex| shape.core().iter().map(|p| [p.x, p.y]).collect::<Vec<_>>();
+    let (mine, others) = (corners(&part), corners(piece));
+    let [from, to] = nearest_points(&mine, &others);
+    let along = near.separation.direction;
+    let moved = |p: [f64; 2], by: f64| [p[0] + by * along.x, p[1] + by * along.y];
+    [moved(from, part.radius()), moved(to, -piece.radius())]
+}
+
+/// Returns the nearest points of two convex polygons that are apart. One of the points is a corner.
+fn nearest_points(a: &[[f64; 2]], b: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    let sides = |of: &[[f64; 2]]| (0..of.len()).map(|i| [of[i], of[(i + 1) % of.len()]]).collect::<Vec<_>>();
+    let from_corners = |corners: &[[f64; 2]], of: &[[f64; 2]]| {
+        let sides = sides(of);
+        let pairs = corners.iter().flat_map(|&p| sides.iter().map(move |&side| [p, foot(p, side)]));
+        pairs.collect::<Vec<_>>()
+    };
+    let ours = from_corners(a, b);
+    let theirs = from_corners(b, a).into_iter().map(|[p, q]| [q, p]);
+    let length = |[p, q]: &[[f64; 2]; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+    ours.into_iter().chain(theirs).min_by(|p, q| length(p).total_cmp(&length(q))).unwrap_or_default()
+}
+
+/// Returns the point of a side that is nearest to another point.
+fn foot(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
+    let along = [b[0] - a[0], b[1] - a[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
+    let part = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / square;
+    let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 };
+    [a[0] + part * along[0], a[1] + part * along[1]]
 }
 
 /// Returns the point in which two sides cross, up to rounding. `None` for parallel sides.
@@ -82,6 +148,10 @@ pub fn in_workspace(checked: &CheckedView, of: &Arm, world: &WorldView, frame: &
     }
     if checked.is_blocked {
         items.extend(arm::items(frame, of, payload, checked.at.into(), &UNREACHED_LOOK));
+    }
+    if let Some(DistanceView { ends: [from, to], .. }) = &checked.nearest {
+        let steps = vec![Step::Move(frame.at(from[0], from[1])), Step::Line(frame.at(to[0], to[1]))];
+        items.push(Item::Outline(steps, Style::line(INK, 2.0)));
     }
     items.extend(checked.contacts.iter().map(|&[x, y]| contact_marker(frame.at(x, y))));
     items
@@ -112,6 +182,14 @@ pub fn keys(checked: &CheckedView) -> Vec<Key> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_nearest_points_of_polygons_are_on_their_sides() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let point = [[3.0, 0.25]];
+        assert_eq!(nearest_points(&square, &point), [[1.0, 0.25], [3.0, 0.25]]);
+        assert_eq!(nearest_points(&point, &square), [[3.0, 0.25], [1.0, 0.25]]);
+    }
 
     #[test]
     fn sides_cross_where_their_lines_meet() {

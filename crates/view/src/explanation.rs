@@ -66,6 +66,9 @@ pub(crate) struct CardView {
     /// The certified path in the world with the change.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<PathView>,
+    /// True if the card shows a place, and nothing that helps.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub is_place: bool,
     /// A configuration to look at.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<[f64; 2]>,

@@ -196,7 +196,7 @@ fn at_the_time_limit_partial_results_are_reported() {
     assert_eq!(done.code, 3, "{}", done.stderr);
     for words in [
         "infeasible: proven; blocked by",
-        "collision boxes prove it; not proven irreducible",
+        "collision boxes prove it without anything else; not proven irreducible",
         "stopped    after 0.000001 s, before the explanation was complete; --time 5 allows more time",
     ] {
         assert!(done.stdout.contains(words), "{words}: {}", done.stdout);

@@ -136,13 +136,13 @@ fn infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Vec<Line> {
         let boxes = set.proof.as_ref().map_or_else(
             || "the start or the goal collides".into(),
             |proof| match proof.collision_boxes().len() {
-                1 => "1 collision box proves it".into(),
-                n => format!("{n} collision boxes prove it"),
+                1 => "1 collision box proves it without anything else".into(),
+                n => format!("{n} collision boxes prove it without anything else"),
             },
         );
         let also = if number == 0 { "" } else { ", which also suffices alone" };
         let proven = if set.is_irreducible() { "" } else { "; not proven irreducible" };
-        lines.push(("blocked by", format!("{}{also}; {boxes}{proven}", set.describe(scene))));
+        lines.push(("blocked", format!("{}{also}; {boxes}{proven}", set.describe(scene))));
         for blocker in &set.blockers {
             let what = blocker.element.describe(scene);
             let known =

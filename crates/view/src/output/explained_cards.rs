@@ -80,13 +80,11 @@ impl CardMaker<'_> {
             ChangeContext::Set => set.others(self.scene()).into_iter().filter_map(Element::obstacle).collect(),
         };
         let view = obstacle.as_ref().zip(number);
-        let is_gone = obstacle.as_ref().is_some_and(|obstacle| obstacle.pieces.is_empty());
         let [opens, closed] = bounds(self.scene(), set, change);
         CardView {
             title: instruction(self.scene(), change, is_only),
             opens,
             closed,
-            note: if is_gone { "nothing is left of it then".into() } else { String::new() },
             obstacle: number,
             changed: view.map(|(obstacle, number)| ObstacleView::new(obstacle, number, self.grain)),
             removed,
@@ -196,6 +194,7 @@ impl CardMaker<'_> {
         CardView {
             title: "Show the narrowest place".into(),
             note: format!("too narrow by {lacking}{between}"),
+            is_place: true,
             at: Some(self.grain.configuration(bottleneck.at)),
             ..CardView::default()
         }
@@ -218,7 +217,7 @@ impl CardMaker<'_> {
     fn contours(&self, changed: &Scene, element: Element) -> Vec<ContourView> {
         let only = match element {
             Element::Obstacle { number } => Some(number),
-            // Shapes of revolute joints repeat after each turn, whatever the limits are.
+            // Shapes of revolute joints repeat after each turn, whatever the limits.
             Element::Limit { joint, .. } if !changed.arm().joints[joint].joint_type.is_revolute() => None,
             _ => return Vec::new(),
         };
@@ -240,7 +239,7 @@ impl CardMaker<'_> {
     }
 }
 
-/// Returns the visible part of the workspace, extended to include changed obstacles as far as they are not too far away.
+/// Returns the visible part of the workspace, extended to include changed obstacles, unless they are too far away.
 fn extended(frame: [[f64; 2]; 2], cards: &[CardView]) -> [[f64; 2]; 2] {
     let shapes = cards.iter().filter_map(|card| card.changed.as_ref()).flat_map(ObstacleView::own);
     let size = frame.map(|[lower, upper]| upper - lower).into_iter().fold(0.0, f64::max);

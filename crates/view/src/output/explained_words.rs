@@ -1,6 +1,6 @@
-//! The sentences of an explanation: who is in the way, and what would open a path.
+//! The sentences of an explanation: the obstacles in the way, and the changes that open a path.
 
-use cplan_core::model::{Arm, Joint, Obstruction, Outcome, Scene};
+use cplan_core::model::{Arm, Joint, Obstruction, Outcome, Pair, Scene};
 use cplan_explain::{
     BlockedEnd, BlockingSet, Change, ChangeContext, ChangeKind, Element, End, Explanation, FoundExplanation,
     InfeasibleExplanation, Saving, Side,
@@ -63,6 +63,11 @@ fn headline_of_infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Stri
 
 /// Says that the elements of a set are in the way, without the full stop.
 fn blame(scene: &Scene, set: &BlockingSet) -> String {
+    sentence(&blame_in_words(scene, set))
+}
+
+/// Says that the elements of a set are in the way, as a part of a sentence: `the front wall is in the way`.
+pub(super) fn blame_in_words(scene: &Scene, set: &BlockingSet) -> String {
     let elements = set.elements();
     let obstacles: Vec<String> = elements
         .iter()
@@ -83,11 +88,11 @@ fn blame(scene: &Scene, set: &BlockingSet) -> String {
     parts.extend(short_joints(scene.arm(), &joints));
     let text = parts.join(", and ");
     let clearance = chosen_length(scene.workspace().clearance);
-    sentence(&match (elements.contains(&Element::Clearance), text.is_empty()) {
+    match (elements.contains(&Element::Clearance), text.is_empty()) {
         (false, _) => text,
         (true, true) => format!("the clearance of {clearance} leaves no path"),
         (true, false) => format!("with a clearance of {clearance}, {text}"),
-    })
+    }
 }
 
 /// Says that these joints end too early.
@@ -103,7 +108,7 @@ fn short_joints(arm: &Arm, joints: &[usize]) -> Option<String> {
     (!names.is_empty()).then(|| format!("{} cannot {verb} far enough", joined(&names)))
 }
 
-/// Says what is wrong with the start and the first goal.
+/// Describes the defects of the start and of the first goal.
 fn headline_of_ends(scene: &Scene, ends: &[BlockedEnd]) -> String {
     let first = |end: End| ends.iter().find(move |one| one.end == end);
     let said = [first(End::Start), first(End::Goal)].into_iter().flatten().map(|end| describe_end(scene, end));
@@ -150,12 +155,12 @@ pub fn evidence(explanation: &Explanation) -> String {
             });
             let proven = format!("proven{}", boxes.unwrap_or_default());
             match (set.blockers.len(), set.is_irreducible()) {
-                (1, true) => format!("With it there is no path, {proven}. Without it there is one, certified."),
-                (_, true) => format!(
-                    "Together they leave no path, {proven}. Without any one of them there is a path, certified."
-                ),
-                (1, false) => format!("With it there is no path, {proven}."),
-                (_, false) => format!("Together they leave no path, {proven}; perhaps fewer would suffice."),
+                (1, true) => format!("With it alone there is no path, {proven}. Without it there is one, certified."),
+                (_, true) => {
+                    format!("They alone leave no path, {proven}. Without any one of them there is a path, certified.")
+                }
+                (1, false) => format!("With it alone there is no path, {proven}."),
+                (_, false) => format!("They alone leave no path, {proven}; perhaps fewer would suffice."),
             }
         }
     }
@@ -171,6 +176,7 @@ pub fn instruction(scene: &Scene, change: &Change, is_only: bool) -> String {
         _ => "it".to_owned(),
     };
     match change.cure {
+        _ if leaves_nothing(scene, change) => format!("Remove {}", what()),
         ChangeKind::Moved { direction } => {
             format!("Move {} {} {}", what(), headline_length(opens, true), direction_in_words(direction))
         }
@@ -196,7 +202,7 @@ pub fn instruction(scene: &Scene, change: &Change, is_only: bool) -> String {
     }
 }
 
-/// Returns the amount with which there is a path, and that with which there is none: `613.6 mm opens a path, certified`
+/// Returns the amount with which there is a path, and that without one: `613.6 mm opens a path, certified`
 /// and `613.0 mm does not, proven`. For a move or an erosion this is the distance, otherwise the value after the change.
 #[must_use]
 pub fn bounds(scene: &Scene, set: &BlockingSet, change: &Change) -> [String; 2] {
@@ -222,7 +228,22 @@ pub fn bounds(scene: &Scene, set: &BlockingSet, change: &Change) -> [String; 2] 
         }
         _ => [length_up(opens), positive_down(closed)],
     };
+    let open = if leaves_nothing(scene, change) { shrinking(change, &open) } else { open };
     [format!("{open} opens a path, certified"), format!("{shut} does not, proven{}", context(scene, set, change))]
+}
+
+/// Returns true if the change makes an obstacle so small that nothing is left of it.
+pub(super) fn leaves_nothing(scene: &Scene, change: &Change) -> bool {
+    let shrinks = matches!(change.cure, ChangeKind::Eroded | ChangeKind::Scaled { .. });
+    shrinks && change.changed_obstacle(scene).is_some_and(|obstacle| obstacle.pieces.is_empty())
+}
+
+/// Says that an obstacle is gone if it shrinks so much. `by` is the amount.
+fn shrinking(change: &Change, by: &str) -> String {
+    match change.cure {
+        ChangeKind::Scaled { .. } => format!("shrinking it to {by}"),
+        _ => format!("shrinking it by {by} on all sides, which leaves nothing,"),
+    }
 }
 
 /// Formats a length that is not negative, rounded down.
@@ -317,18 +338,22 @@ pub(super) fn subject(scene: &Scene, element: Element) -> String {
     }
 }
 
-fn obstacle_name(scene: &Scene, number: usize) -> String {
+pub(super) fn obstacle_name(scene: &Scene, number: usize) -> String {
     let kind = if scene.self_obstacles().contains(&number) { "link" } else { "obstacle" };
     noun(kind, &scene.obstacle(number).name)
 }
 
-fn joint_name(joint: &Joint) -> String {
+pub(super) fn joint_name(joint: &Joint) -> String {
     noun("joint", &joint.name)
 }
 
 /// Names the part of the arm in an obstruction.
 pub(super) fn part_name(scene: &Scene, hit: &Obstruction) -> String {
-    let pair = hit.contact.pair;
+    part_of_pair(scene, hit.contact.pair)
+}
+
+/// Names the part of the arm in a pair of shapes.
+pub(super) fn part_of_pair(scene: &Scene, pair: Pair) -> String {
     let link = scene.link(pair);
     if scene.is_attached(pair) { noun("payload", &link.parts[pair.part].body) } else { noun("link", &link.name) }
 }

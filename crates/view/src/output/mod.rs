@@ -4,6 +4,7 @@
 //! `summary` for a terminal; `cspaces` has the configuration space as data.
 
 mod cspace;
+pub mod checked_words;
 pub mod explained;
 mod explained_cards;
 mod explained_words;

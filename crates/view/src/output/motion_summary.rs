@@ -108,12 +108,18 @@ const MAX_PAIRS: usize = 1000;
 /// Returns the obstacles that block the motion, if there is no motion and they can be found within milliseconds. `cplan
 /// explain` reports more.
 pub(super) fn blocked_by(problem: &MotionProblem, answer: &Answer<Motion>) -> Option<Line> {
+    answer.outcome.infeasible()?;
+    let summary_lines = blocking(problem, answer).map(|set| set.describe(problem.scene()));
+    Some(("blocked", summary_lines.unwrap_or_else(|| "unknown so far; `cplan explain` takes more time".into())))
+}
+
+/// Returns the elements that block the motion, if there is no motion and they can be found within milliseconds.
+pub(super) fn blocking(problem: &MotionProblem, answer: &Answer<Motion>) -> Option<BlockingSet> {
     let (proof, scene) = (answer.outcome.infeasible()?, problem.scene());
     let is_small = scene.pairs().len() <= MAX_PAIRS;
     let set =
         is_small.then(|| blocking_set(&MotionQuestion::from(problem), Some(proof.clone()), [BOXES_PER_DECISION; 2]));
-    let summary_lines = set.filter(BlockingSet::is_irreducible).map(|set| set.describe(scene));
-    Some(("blocked by", summary_lines.unwrap_or_else(|| "unknown so far; `cplan explain` takes more time".into())))
+    set.filter(|set| set.is_irreducible() && !set.blockers.is_empty())
 }
 
 /// Describes the clearance of the motion, and the place nearest to an obstacle.
@@ -181,7 +187,7 @@ fn optimum(bound: &Bound, is_among_movers: bool) -> String {
     };
     let (lower, gap) = (round_down(lower, 4), percent(bound.gap()));
     if is_among_movers {
-        return format!("{measure}; fastest not proven: none below {lower} without the moving obstacles");
+        return format!("{measure}; not proven: without the moving obstacles, none is below {lower}");
     }
     format!("{measure}; proven: none below {lower}, so at most {gap} longer than the shortest")
 }

@@ -1,5 +1,7 @@
 //! Pictures and pages of a plan.
 
+use super::explained_words::blame_in_words;
+use super::motion_summary::blocking;
 use super::summary::facts;
 use crate::{DrawError, KeyFigures, Moments, Picture, TaskPicture, View};
 use cplan_core::cspace::{CObstacle, c_obstacles, exact_c_obstacles};
@@ -132,7 +134,13 @@ impl PictureFormat {
 /// Returns the content of its pictures and pages.
 #[must_use]
 pub fn view(plan: &Plan) -> View {
-    view_with(plan, contours_of(plan.options()))
+    let mut view = view_with(plan, contours_of(plan.options()));
+    if let Detail::Motion { problem, answer } = plan.detail()
+        && let Some(set) = blocking(problem, answer)
+    {
+        view.title.insert(0, format!("No path: {}", blame_in_words(problem.scene(), &set)));
+    }
+    view
 }
 
 /// Returns the view with a replay of the planner, for pictures and pages that play.

@@ -36,7 +36,11 @@ class Explain {
     this.evidence = element('p', { class: 'evidence' });
     this.title = element('h2');
     this.list = element('ul', { class: 'changes' });
-    this.root = element('section', { class: 'explain', 'aria-label': 'Explanation', hidden: true, onkeydown: (event) => this.key(event) }, this.headline, this.evidence, this.title, this.list);
+    /** The row with the narrowest place, which opens nothing. */
+    this.places = element('div', { class: 'places' });
+    /** The facts, which repeat in words what the cards show. `null` as long as they are open. @type {HTMLElement | null} */
+    this.more = null;
+    this.root = element('section', { class: 'explain', 'aria-label': 'Explanation', hidden: true, onkeydown: (event) => this.key(event) }, this.headline, this.evidence, this.title, this.list, this.places);
   }
 
   /**
@@ -67,13 +71,19 @@ class Explain {
     this.headline.textContent = model.title[0] === headline ? '' : headline;
     this.evidence.textContent = evidence;
     this.title.textContent = title;
-    this.title.hidden = !cards.length;
+    this.title.hidden = cards.every((card) => card.is_place);
     this.buttons = cards.map((card) => this.button(card));
-    this.list.replaceChildren(...cards.map((card, k) => element('li', {}, this.buttons[k], this.applyButton(card))));
+    const items = cards.flatMap((card, k) => (card.is_place ? [] : [element('li', {}, this.buttons[k], this.applyButton(card))]));
+    this.list.replaceChildren(...items);
+    this.list.hidden = !items.length;
+    const places = this.buttons.filter((_, k) => cards[k].is_place);
+    this.places.replaceChildren(...places);
+    this.places.hidden = !places.length;
+    this.fold();
   }
 
   /**
-   * Removes the cards, and shows the world as it is.
+   * Removes the cards, and shows the original world.
    * @returns {void}
    */
   clear() {
@@ -82,6 +92,18 @@ class Explain {
     this.render();
     [this.base.stuck, this.base.explanation, this.explanation] = [null, null, null];
     this.root.hidden = true;
+  }
+
+  /**
+   * Closes the facts below the pictures, because the cards say the same.
+   * @returns {void}
+   */
+  fold() {
+    const { facts } = this.view.parts;
+    if (this.more || !facts.parentElement) return;
+    this.more = element('details', { class: 'folded' }, element('summary', {}, 'Details'));
+    facts.replaceWith(this.more);
+    this.more.append(facts);
   }
 
   /**
@@ -95,7 +117,7 @@ class Explain {
     return element(
       'button',
       {
-        type: 'button', class: 'change', 'aria-pressed': 'false',
+        type: 'button', class: card.is_place ? 'change place' : 'change', 'aria-pressed': 'false',
         onpointerenter: ({ pointerType }) => pointerType === 'mouse' && this.hover(card),
         onpointerleave: ({ pointerType }) => pointerType === 'mouse' && this.hover(null),
         onfocus: (event) => event.target.matches(':focus-visible') && this.hover(card),
@@ -106,6 +128,7 @@ class Explain {
       line('found', card.opens),
       line('infeasible', card.closed),
       card.note ? element('span', { class: 'line' }, readable(card.note)) : null,
+      card.is_place ? null : element('span', { class: 'preview', 'aria-hidden': 'true' }, 'Preview \u203a'),
     );
   }
 
@@ -153,7 +176,7 @@ class Explain {
   }
 
   /**
-   * Shows the chosen card in the panels, or the world as it is.
+   * Shows the chosen card in the panels, or the original world.
    * @returns {void}
    */
   render() {
@@ -259,7 +282,7 @@ class Explain {
   }
 
   /**
-   * Draws the change in the workspace: what was there before, and where it goes.
+   * Draws the change in the workspace: the obstacle before it, and an arrow to its new place.
    * @param {CanvasRenderingContext2D} context
    * @param {Panel} panel
    * @returns {void}
@@ -296,7 +319,7 @@ class Explain {
    */
   arrow(context, theme, from, to) {
     const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-    // An obstacle of which nothing is left has no place.
+    // A removed obstacle has no place.
     if (!(Math.hypot(dx, dy) >= EXPLAIN_ARROW)) return;
     const angle = Math.atan2(dy, dx);
     const wing = (turn) => [to[0] + 10 * Math.cos(angle + turn), to[1] + 10 * Math.sin(angle + turn)];

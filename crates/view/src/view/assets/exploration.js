@@ -4,6 +4,8 @@
 
 /** Time between two readings during the replay, in seconds. */
 const SECONDS_PER_READING = 0.05;
+/** A name of more letters is long. With more than so many long names, obstacles have numbers. */
+const [LONG_NAME, MOST_LONG_NAMES] = [14, 3];
 /** Opacity of the view of the sensor. */
 const SENSOR_OPACITY = 0.16;
 
@@ -130,8 +132,22 @@ class ExplorationView extends View {
   /** Shows an exploration. The transport stays although there is no timed motion. */
   update(model) {
     super.update(model);
+    this.shorten(model);
     this.parts.transport.hidden = false;
     this.parts.modes.hidden = true;
+  }
+
+  /**
+   * Numbers the obstacles if several of their names are long: many paths pass between them, and names would lie above
+   * the paths. The legend has the names.
+   * @param {Model} model
+   */
+  shorten(model) {
+    const long = model.worlds[0].obstacles.filter(({ name }) => name.length > LONG_NAME).length;
+    if (!this.named || long <= MOST_LONG_NAMES) return;
+    this.named = false;
+    this.layers.update(model);
+    this.ready();
   }
 
   /** Returns no paths: the page draws the path up to the current reading itself. */

@@ -10,6 +10,26 @@
  *   jerk?: Rate | null }} JointReport
  */
 
+/** The arm at zero. It may touch obstacles there: a motion need not begin at zero. */
+class InspectionView extends View {
+  /** Obstacles keep their colours until the arm is moved. */
+  get marksContacts() {
+    return Boolean(this.probe);
+  }
+
+  /**
+   * Says which obstacles the arm touches.
+   * @param {ContactModel[]} contacts
+   */
+  touched(contacts) {
+    const hits = contacts.filter(({ distance }) => distance <= 0);
+    if (!hits.length || this.probe) return super.touched(contacts);
+    const called = (name) => (/^[a-z][a-z _-]+$/.test(name) ? `the ${name}` : `"${name}"`);
+    const names = hits.map(({ obstacle, distance }) => `${called(this.world.obstacles[obstacle].name)} (${Numbers.length(-distance)} deep)`);
+    return `the arm at zero touches ${[...new Set(names)].join(', ')}. This does not prevent planning.`;
+  }
+}
+
 class Inspection {
   /** Names of the sources of values. */
   static SOURCES = { urdf: 'URDF', soft: 'URDF, soft limits', world: 'world file', default: 'default', continuous: '', unset: '' };
@@ -26,7 +46,7 @@ class Inspection {
     root.classList.add('inspects');
     /** Cells with the current values of the arm's joints. */
     this.values = [];
-    this.view = model ? new View(root, model) : null;
+    this.view = model ? new InspectionView(root, model) : null;
     const sections = [this.joints(), this.links(), this.arm(), this.tree(), this.pairs(), this.notes(), this.text()];
     const body = element('div', { class: 'inspection' }, ...sections.filter(Boolean));
     const count = report.defects.length;
@@ -36,7 +56,8 @@ class Inspection {
       const status = element('p', { class: 'status', role: 'status', 'data-ending': 'infeasible' }, element('span', { 'aria-hidden': 'true' }, SYMBOLS.infeasible), ` ${words}`);
       root.replaceChildren(element('header', {}, element('div', {}, element('h1', {}, report.robot ?? 'Robot without a name'), this.lines()), status), body);
     }
-    root.querySelector('header').after(this.defects());
+    // The status in the header is enough for a robot without defects.
+    if (!report.plannable) root.querySelector('header').after(this.defects());
   }
 
   /**
@@ -64,11 +85,10 @@ class Inspection {
 
   // Defects.
 
-  /** Returns the list of defects, or the word that there are none. */
+  /** Returns the list of defects. */
   defects() {
     const { report } = this;
-    const sign = icon(report.plannable ? 'found' : 'infeasible');
-    if (report.plannable) return element('section', { class: 'defects ready' }, element('h2', {}, sign, 'Ready for planning'));
+    const sign = icon('infeasible');
     const count = report.defects.length;
     const items = report.defects.map(({ origin, line, column, message, cure }) => {
       const place = [origin, line, column].filter((part) => part !== null).join(':');
@@ -181,7 +201,8 @@ class Inspection {
     if (!isTurning) return Numbers.length(value);
     const degrees = (value * 180) / Math.PI;
     // Limits are often stated with four digits of a radian.
-    return `${(Math.round(10 * degrees) / 10 + 0).toString().replace('-', '\u2212')}\u00b0`;
+    const unit = Math.abs(degrees) < 1000 ? 10 : 1;
+    return `${(Math.round(unit * degrees) / unit + 0).toString().replace('-', '\u2212')}\u00b0`;
   }
 
   /**
@@ -201,20 +222,22 @@ class Inspection {
     const bodies = new Map(outlines.flatMap(({ source, bodies: all, link }) => all.map((body) => [body.link, { ...body, source, of: link }])));
     const whole = new Map(outlines.map((outline) => [outline.link, outline]));
     const masses = new Map((dynamics && chosen ? chosen : []).map((name, k) => [joints.find((joint) => joint.name === name).child, dynamics.masses[k]]));
-    const columns = ['link', 'shapes in the URDF', 'outline', 'heights', ...(masses.size ? ['mass'] : [])];
+    const columns = ['link', 'shapes in the URDF', 'outline', ...(masses.size ? ['mass'] : [])];
     const rows = links.map(({ name, above, collision, visual }) => {
       const [body, outline] = [bodies.get(name), whole.get(name)];
       const parts = body && `${body.parts} part${body.parts === 1 ? '' : 's'}, ${Numbers.digits(body.area * 1e4)} cm\u00b2`;
+      const heights = outline?.heights && `at heights ${outline.heights.map((height) => Numbers.length(height)).join(' to ')}`;
       const none = outline ? 'none: it cannot collide' : '\u2013';
       const from = body && `from ${body.source === 'bar' ? 'the bar of the world file' : `${body.source} geometry`}${body.of === name ? '' : `, part of ${body.of}`}`;
       return this.row(name, above ? `moved by ${above}` : 'root', name, [
         Inspection.cell(collision + visual ? [collision && `${collision} collision`, visual && `${visual} visual`].filter(Boolean).join(', ') : 'none'),
-        Inspection.cell(parts ?? none, from),
-        Inspection.cell(outline?.heights ? outline.heights.map((height) => Numbers.length(height)).join(' to ') : '\u2013'),
+        Inspection.cell(parts ?? none, [from, heights].filter(Boolean).join('; ')),
         ...(masses.size ? [Inspection.cell(masses.has(name) ? `${Numbers.digits(masses.get(name))} kg` : '\u2013', masses.has(name) ? 'with all that it carries' : '')] : []),
       ]);
     });
-    return Inspection.section('Links', Inspection.table('Table of links', columns, rows));
+    const table = Inspection.table('Table of links', columns, rows);
+    table.classList.add('wraps');
+    return Inspection.section('Links', table);
   }
 
   /** Returns the facts about the planar arm: plane, tip, reach, and links that it can hit. */

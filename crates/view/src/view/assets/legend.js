@@ -26,7 +26,8 @@ const Legend = (() => {
     map: () => '<path d="M2 2h7v12h-7z" fill="var(--paper)" stroke="var(--grey)"/><path d="M9 2h8v12h-8z" fill="var(--ink)" stroke="var(--grey)"/><path d="M17 2h7v12h-7z" fill="var(--pale)" stroke="var(--grey)"/>',
     sensor: () => '<path d="M3 14L23 8a20 20 0 0 0-8-7z" fill="var(--accent)" fill-opacity="0.3" stroke="var(--accent)"/>',
     known: () => `<path ${SQUARE} fill="var(--free)" stroke="var(--grey)"/>`,
-    access: () => `<path ${SQUARE} fill="var(--reached)" stroke="var(--grey)"/>`,
+    // The heading of the kinds of positions, which have signs.
+    access: () => '',
     poses: () => '<path d="M5 14l7-9l9-2" fill="none" stroke="var(--grey)" stroke-width="5" stroke-linejoin="round"/><path d="M5 14l7-9l9-2" fill="none" stroke="var(--ghost)" stroke-width="3.4" stroke-linejoin="round"/>',
     names: () => '<path d="M4 13L8.5 2.5L13 13M5.7 9.5h5.6M22 6v7M22 9.5a3 3.4 0 1 0-.01 .1" fill="none" stroke="var(--ink)" stroke-width="1.6"/>',
     frames: () => '<path d="M7 14V2M7 14h14" stroke="var(--ink)" stroke-width="1.8"/>',

@@ -2,7 +2,17 @@
 // #learn=c_obstacles, #learn=c_obstacles/sweep, #learn/sweep.
 'use strict';
 
-window.cplan = new View(document.querySelector('main'), JSON.parse(document.getElementById('view').textContent));
+/** The page of a checked configuration, which has key figures of its own. */
+class CheckedView extends View {
+  cards() {
+    return this.model.checked.cards;
+  }
+}
+
+{
+  const model = JSON.parse(document.getElementById('view').textContent);
+  window.cplan = new (model.checked ? CheckedView : View)(document.querySelector('main'), model);
+}
 if (cplan.model.reach) new ReachMap(cplan);
 {
   /** Shows what the address asks for. */

@@ -5,6 +5,8 @@
 const Strip = (() => {
   /** Points of a name's box, across and down, at which it is looked whether the box covers a region. */
   const SAMPLES = [5, 3];
+  /** Least height of a region, in pixels. */
+  const LEAST_HEIGHT = 10;
 
   /**
    * Returns the wait of the motion at a time, or `null`.
@@ -17,14 +19,27 @@ const Strip = (() => {
   }
 
   /**
-   * Returns the outline of the regions that an obstacle blocks, in pixels.
+   * Returns the outline of the regions that an obstacle blocks, in pixels. A region that is too low to be seen is drawn
+   * higher, on the side where the motion does not pass.
    * @param {Panel} panel
    * @param {{ regions: Chain[] }} obstacle
+   * @param {StripModel} strip
    * @returns {Path2D}
    */
-  function outline(panel, { regions }) {
+  function outline(panel, { regions }, strip) {
     const path = new Path2D();
-    for (const region of regions) trace(path, panel, region, true);
+    for (const region of regions) {
+      const spots = [...Geometry.pointsOf(region)].map((point) => panel.at(point));
+      const [low, high] = [Math.max(...spots.map(([, y]) => y)), Math.min(...spots.map(([, y]) => y))];
+      const missing = Math.max(0, LEAST_HEIGHT - (low - high));
+      const begin = Math.min(...[...Geometry.pointsOf(region)].map(([time]) => time));
+      // The motion only advances: if it is beyond the region when this begins, it is beyond all that lies below.
+      const isBelow = panel.at([begin, progress(strip, begin)])[1] < high;
+      const middle = (low + high) / 2;
+      const shifted = ([x, y]) => (isBelow ? [x, y > middle ? y + missing : y] : [x, y < middle ? y - missing : y]);
+      spots.map(shifted).forEach(([x, y], index) => (index ? path.lineTo(x, y) : path.moveTo(x, y)));
+      path.closePath();
+    }
     return path;
   }
 
@@ -53,9 +68,10 @@ const Strip = (() => {
    * @param {Panel} panel
    * @param {StripModel} strip
    */
-  function draw(context, panel, { obstacles, motion, waits }) {
+  function draw(context, panel, strip) {
+    const { obstacles, motion, waits } = strip;
     const { theme } = panel;
-    const outlines = obstacles.map((obstacle) => outline(panel, obstacle));
+    const outlines = obstacles.map((obstacle) => outline(panel, obstacle, strip));
     obstacles.forEach(({ color }, index) => {
       const { fill, line: edge } = theme.obstacle(color);
       [context.fillStyle, context.strokeStyle, context.lineWidth] = [fill, edge, 1.2];
@@ -67,15 +83,16 @@ const Strip = (() => {
       [context.lineWidth, context.strokeStyle] = [width, color];
       line(context, spots);
     }
-    const names = waits.map(({ from, to, at, text }) => {
+    // The buttons below the strip say for what.
+    const names = waits.map(({ from, to, at }) => {
       const [[left, y], [right]] = [panel.at([from, at]), panel.at([to, at])];
       [context.lineWidth, context.strokeStyle] = [4, theme.accent];
       line(context, [[left, y], [right, y]]);
-      return [text, { x: left, y: y - 2, width: right - left, height: 4 }];
+      return ['waits', { x: left, y: y - 2, width: right - left, height: 4 }];
     });
     Labels.blockLine(panel, spots);
     Labels.besideAmong(context, panel, names, covering(context, panel, outlines));
-    Labels.onRegions(context, panel, obstacles.map(({ name }, index) => ({ text: name, paint: (painter) => painter.fill(outlines[index]) })));
+    Labels.onRegions(context, panel, obstacles.map(({ name }, index) => ({ text: `${name} blocks`, paint: (painter) => painter.fill(outlines[index]) })));
   }
 
   /**

@@ -115,6 +115,8 @@ interface Card {
   c_obstacles?: WorldModel['c_obstacles'];
   domains?: [number, number][];
   path?: PathModel;
+  /** True if the card shows a place, and nothing that helps. */
+  is_place?: boolean;
   at?: Point;
   /** The change of the world file. */
   edit?: { obstacle?: { number: number; shape: any }; removal?: number; clearance?: number; limits?: { joint: number; range: Point } };

@@ -311,6 +311,24 @@ const Workspace = (() => {
     cross(context, theme, panel.at(at[1]));
   }
 
+  /** Draws the shortest line from the arm to the obstacles, with its length. */
+  function distance(context, panel, { ends, text }) {
+    const { theme } = panel;
+    const [from, to] = ends.map((point) => panel.at(point));
+    for (const [width, color] of [[5, theme.paper], [2, theme.ink]]) {
+      [context.lineWidth, context.strokeStyle, context.fillStyle] = [width, color, color];
+      line(context, [from, to]);
+      for (const [x, y] of [from, to]) {
+        context.beginPath();
+        context.arc(x, y, 1 + width / 2, 0, 2 * Math.PI);
+        context.fill();
+      }
+    }
+    Labels.blockLine(panel, [from, to]);
+    const [x, y] = [Math.min(from[0], to[0]), Math.min(from[1], to[1])];
+    Labels.beside(context, panel, [[text, { x, y, width: Math.abs(from[0] - to[0]), height: Math.abs(from[1] - to[1]) }]]);
+  }
+
   /** Draws the outline of an obstacle in contact. */
   function struck(context, panel, obstacle) {
     outline(context, panel, obstacle);
@@ -329,6 +347,7 @@ const Workspace = (() => {
     const alpha = view.probe ? 0.45 : 1;
     arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, alpha, joints: true, blocks: true });
     if (examined) tried(context, panel, view, examined);
+    if (view.model.checked?.nearest && !view.probe) distance(context, panel, view.model.checked.nearest);
     view.reachMap?.aboveArm(context, panel);
     if (view.shows('names')) names(context, panel, view, view.world);
     if (view.hovered) Labels.write(context, theme, ...view.hovered);
@@ -338,7 +357,7 @@ const Workspace = (() => {
   function tried(context, panel, view, { contacts, q }) {
     const { theme } = panel;
     const hits = contacts.filter((c) => c.distance <= 0);
-    for (const { obstacle } of hits) struck(context, panel, view.world.obstacles[obstacle]);
+    if (view.marksContacts !== false) for (const { obstacle } of hits) struck(context, panel, view.world.obstacles[obstacle]);
     const touching = new Set(hits.map((c) => (c.carried ? 'payload' : c.link)));
     arm(context, panel, view, view.world, q, {
       fill: theme.free,
