@@ -32,7 +32,7 @@ pub fn summary(text: &str, code: u8) -> String {
     let stdout = std::io::stdout();
     let width = width(stdout.is_terminal(), terminal_size_of(&stdout));
     let text = width.map_or_else(|| text.to_owned(), |width| wrap_summary(text, width));
-    if AutoStream::choice(&stdout) == ColorChoice::Never { text } else { color_verdict(&text, code) }
+    if AutoStream::choice(&stdout) == ColorChoice::Never { text } else { dim_notes(&color_verdict(&text, code)) }
 }
 
 /// Returns a message for stderr with a coloured label. On a terminal, its lines are wrapped.
@@ -99,6 +99,19 @@ fn color_verdict(text: &str, code: u8) -> String {
     before
 }
 
+/// Makes the notes of a summary dim, which are less important than the result.
+fn dim_notes(text: &str) -> String {
+    let style = Style::new().dimmed();
+    let mut is_note = false;
+    let line = |line: &str| {
+        // A line without a key continues the one before.
+        is_note = line.starts_with("note ") || (is_note && line.starts_with(' '));
+        let (bare, end) = line.strip_suffix('\n').map_or((line, ""), |bare| (bare, "\n"));
+        if is_note { format!("{style}{bare}{style:#}{end}") } else { line.to_owned() }
+    };
+    text.split_inclusive('\n').map(line).collect()
+}
+
 fn in_color(text: &str, color: AnsiColor) -> String {
     let style = Style::new().bold().fg_color(Some(color.into()));
     format!("{style}{text}{style:#}")
@@ -107,6 +120,13 @@ fn in_color(text: &str, color: AnsiColor) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn notes_are_dim_with_their_continuations() {
+        let text = "result     found\nnote       a: is\n           assumed\nfile       b\n";
+        let dim = "result     found\n\u{1b}[2mnote       a: is\u{1b}[0m\n\u{1b}[2m           assumed\u{1b}[0m\nfile       b\n";
+        assert_eq!(dim_notes(text), dim);
+    }
 
     #[test]
     fn lines_go_on_below_their_second_column() {

@@ -2,13 +2,13 @@
 //! picture, and the command that writes it.
 
 use super::Study;
-use super::measure::Objective;
+use super::measure::{Measure, Objective};
 use super::parameter::Parameter;
 use super::row::{Ending, Row};
 use super::summary::{Summary, format_value};
 use cplan_compare::Picture;
 use cplan_compare::page::image_source;
-use cplan_text::{length, markup};
+use cplan_text::{length, length_down, markup, percent};
 
 /// Formats a value with its unit for readers: millimetres below a metre, degrees instead of radians, at most five
 /// significant digits.
@@ -31,6 +31,60 @@ pub fn with_unit(value: f64, unit: Option<&str>) -> String {
     })
 }
 
+/// A quantity as an axis shows it: with a title that has the unit, and with values in that unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shown {
+    /// Name and unit.
+    pub title: String,
+    origin: f64,
+    factor: f64,
+}
+
+impl Shown {
+    /// Chooses the unit for values between these: millimetres if all are below a metre, degrees instead of radians.
+    pub fn new(name: &str, unit: Option<&str>, range: [f64; 2]) -> Self {
+        let greatest = range[0].abs().max(range[1].abs());
+        let (unit, factor) = match unit {
+            Some("m") if greatest < 1.0 => (Some("mm"), 1e3),
+            Some("rad") => (Some("\u{b0}"), 180.0 / std::f64::consts::PI),
+            other => (other, 1.0),
+        };
+        let title = unit.map_or_else(|| name.to_owned(), |unit| format!("{name} ({unit})"));
+        Self { title, origin: 0.0, factor }
+    }
+
+    /// Chooses the unit of a measure for values between these.
+    pub fn of(measure: Measure, range: [f64; 2]) -> Self {
+        match measure {
+            Measure::OverBound => Self { title: format!("{} (%)", label(measure)), origin: 1.0, factor: 100.0 },
+            _ => Self::new(label(measure), measure.unit(), range),
+        }
+    }
+
+    /// Returns a value in the unit of the title.
+    pub fn value(&self, value: f64) -> f64 {
+        (value - self.origin) * self.factor
+    }
+}
+
+/// Returns the name of a measure for readers.
+pub fn label(measure: Measure) -> &'static str {
+    match measure {
+        Measure::OverBound => "over the bound",
+        Measure::LowerBound => "lower bound",
+        _ => measure.name(),
+    }
+}
+
+/// Formats a value of a measure with its unit for readers. An excess is rounded up, a proven clearance down.
+pub fn measured(measure: Measure, value: f64) -> String {
+    match measure {
+        Measure::OverBound => percent(value - 1.0),
+        Measure::Clearance if value > 0.0 && value.is_finite() => length_down(value),
+        _ => with_unit(value, measure.unit()),
+    }
+}
+
 /// Returns the section with the answer. `picture` shows the best layout.
 pub fn section(study: &Study, summary: &Summary, rows: &[Row], picture: Option<&Picture>) -> String {
     let mut text = format!("<h2 class=\"headline\">{}</h2>\n", markup(&headline(study, summary)));
@@ -38,7 +92,9 @@ pub fn section(study: &Study, summary: &Summary, rows: &[Row], picture: Option<&
         text += &format!("<p class=\"figure\">{}</p>\n", advantage(study, objective, best, rows));
     }
     text += &counts(summary);
-    for edge in summary.edges() {
+    for (parameter, value, at) in summary.range_ends() {
+        let (name, value) = (&parameter.name, with_unit(value, parameter.unit.as_deref()));
+        let edge = format!("The best {name}, {value}, is {at} its range; a wider range may hold a better layout.");
         text += &format!("<p class=\"sub\">{}</p>\n", markup(&edge));
     }
     if let Some(best) = summary.best() {
@@ -49,7 +105,7 @@ pub fn section(study: &Study, summary: &Summary, rows: &[Row], picture: Option<&
     let shown = picture.map_or_else(String::new, |Picture { title, svg }| {
         let (title, source) = (markup(title), image_source(svg));
         format!(
-            "<figure class=\"picture\" tabindex=\"0\"><img alt=\"{title}: workspace and configuration space\" src=\"{source}\"/></figure>\n"
+            "<figure class=\"picture\" tabindex=\"0\"><img alt=\"{title}: workspace\" src=\"{source}\"/></figure>\n"
         )
     });
     format!("<section class=\"answer card\" aria-label=\"Answer\">\n{text}{shown}</section>\n")
@@ -86,19 +142,18 @@ fn common_subject(parameters: &[Parameter]) -> Option<(&str, Vec<&str>)> {
 
 /// Describes the best value, and how much better it is than the median of the layouts that fit.
 fn advantage(study: &Study, objective: Objective, best: &Row, rows: &[Row]) -> String {
-    let unit = objective.measure.unit();
     let mut costs: Vec<f64> = rows.iter().map(|row| study.cost(row)).filter(|cost| cost.is_finite()).collect();
     costs.sort_by(f64::total_cmp);
     let value = objective.cost(study.cost(best));
-    let name = markup(objective.measure.name());
-    let shown = format!("<strong>{} {name}</strong>", markup(&with_unit(value, unit)));
+    let name = markup(label(objective.measure));
+    let shown = format!("<strong>{} {name}</strong>", markup(&measured(objective.measure, value)));
     let median = objective.cost(costs[costs.len() / 2]);
     let better = (median - value).abs() / median.abs();
     if costs.len() < 2 || !better.is_finite() {
         return shown;
     }
     let percent = if better < 0.01 { format!("{:.1} %", 100.0 * better) } else { format!("{:.0} %", 100.0 * better) };
-    let median = markup(&with_unit(median, unit));
+    let median = markup(&measured(objective.measure, median));
     format!("{shown}: {percent} better than the median of the {} layouts that fit ({median})", costs.len())
 }
 
@@ -152,6 +207,22 @@ mod tests {
         assert_eq!(with_unit(std::f64::consts::PI, Some("rad")), "180.0\u{b0}");
         assert_eq!(with_unit(1.5, None), "1.5");
         assert_eq!(with_unit(12.0, Some("kg")), "12 kg");
+    }
+
+    #[test]
+    fn axes_have_the_units_of_the_text() {
+        let shown = |unit, range| {
+            let shown = Shown::new("x", unit, range);
+            (shown.title.clone(), shown.value(range[1]))
+        };
+        assert_eq!(shown(Some("m"), [-0.5, 0.25]), ("x (mm)".to_owned(), 250.0));
+        assert_eq!(shown(Some("m"), [-0.5, 2.0]), ("x (m)".to_owned(), 2.0));
+        assert_eq!(shown(Some("kg"), [0.0, 2.0]), ("x (kg)".to_owned(), 2.0));
+        assert_eq!(shown(None, [0.0, 2.0]), ("x".to_owned(), 2.0));
+        let over = Shown::of(Measure::OverBound, [1.0, 1.25]);
+        assert_eq!((over.title.as_str(), over.value(1.25)), ("over the bound (%)", 25.0));
+        assert_eq!(measured(Measure::OverBound, 1.25), "25.00 %");
+        assert_eq!(measured(Measure::Clearance, 0.000_736_9), "0.736 mm");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! and is marked everywhere.
 
 use super::Study;
-use super::answer::{self, with_unit};
+use super::answer::{self, Shown, label, measured, with_unit};
 use super::drawings::Drawings;
 use super::measure::{Measure, Objective};
 use super::parameter::{Parameter, Values};
@@ -32,8 +32,8 @@ impl Study {
     #[must_use]
     pub fn html(&self, rows: &[Row], pictures: &[Picture]) -> String {
         let summary = Summary::new(self, rows);
-        let names: Vec<String> = self.parameters.iter().map(Parameter::titled).collect();
-        let subtitle = format!("{} over {}", counted(rows.len(), "layout"), names.join("; "));
+        let names: Vec<&str> = self.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+        let subtitle = format!("{} over {}", counted(rows.len(), "layout"), names.join(", "));
         let mut linked = BTreeSet::new();
         let mut html = head_with(&self.name, &subtitle, &Additions { style: STYLE, has_script: true });
         let is_best = |picture: &&Picture| picture.title.starts_with("best: ") && summary.best().is_some();
@@ -59,8 +59,8 @@ impl Study {
             let values = self.parameters.iter().zip(&row.values);
             let mut facts: Vec<Value> =
                 values.map(|(p, value)| fact(&p.name, with_unit(*value, p.unit.as_deref()))).collect();
-            let measured = self.measures.iter().zip(&row.measured);
-            facts.extend(measured.filter_map(|(m, value)| Some(fact(m.name(), with_unit((*value)?, m.unit())))));
+            let results = self.measures.iter().zip(&row.measured);
+            facts.extend(results.filter_map(|(m, value)| Some(fact(label(*m), measured(*m, (*value)?)))));
             facts.extend(row.reason.iter().map(|reason| fact("why", reason.clone())));
             json!({
                 "ending": row.ending.name(),
@@ -130,8 +130,12 @@ impl Study {
         }
         let costs = || cells.iter().filter_map(|cell| cell.cost);
         let [least, greatest] = [costs().fold(f64::INFINITY, f64::min), costs().fold(f64::NEG_INFINITY, f64::max)];
-        let axes = [&bins[0], &bins[1]].map(|bins| Axis::between(bins.from, bins.to));
-        let titles = [a, b].map(|k| self.parameters[k].titled());
+        let shown = [(a, &bins[0]), (b, &bins[1])].map(|(k, bins)| {
+            let Parameter { name, unit, values } = &self.parameters[k];
+            (Shown::new(name, unit.as_deref(), values.range()), bins)
+        });
+        let axes = shown.each_ref().map(|(shown, bins)| Axis::between(shown.value(bins.from), shown.value(bins.to)));
+        let titles = shown.each_ref().map(|(shown, _)| shown.title.clone());
         let Frame { mut svg, place } = frame(axes, titles.each_ref().map(String::as_str), "Map");
         let corner = |i: f64, j: f64| place([i / bins[0].count as f64, j / bins[1].count as f64]);
         for (number_of, cell) in cells.iter().enumerate() {
@@ -150,14 +154,15 @@ impl Study {
             );
         }
         if let Some(best) = summary.best() {
-            let [x, y] = place([(a, axes[0]), (b, axes[1])].map(|(k, axis)| axis.place(best.values[k]))).map(number);
+            let share = |k: usize, of: usize| axes[k].place(shown[k].0.value(best.values[of]));
+            let [x, y] = place([share(0, a), share(1, b)]).map(number);
             let cross = format!("M{x} {y}m-6 -6l12 12m0 -12l-12 12");
             svg += &format!(
                 "<g class=\"best\"><title>best: layout {}</title><path class=\"halo\" d=\"{cross}\"/><path d=\"{cross}\"/></g>\n",
                 best.layout
             );
         }
-        let title = format!("{} by {}", titles[1], titles[0]);
+        let title = format!("{} by {}", self.parameters[b].name, self.parameters[a].name);
         let scale = self.objective.map_or_else(String::new, |objective| scale(objective, least, greatest));
         figure(&title, &(svg + "</svg>\n" + &scale))
     }
@@ -167,9 +172,6 @@ impl Study {
         let Some(objective) = self.objective else { return String::new() };
         let others = self.measures.iter().filter(|measure| **measure != objective.measure);
         let of = |row: &Row, measure: Measure| self.column(measure).and_then(|column| row.measured[column]);
-        let titled = |measure: Measure| {
-            measure.unit().map_or_else(|| measure.name().to_owned(), |unit| format!("{}, {unit}", measure.name()))
-        };
         let mut charts = String::new();
         // Dots of the charts so far. A chart with the same dots as an earlier one would show nothing new.
         let mut drawn: Vec<Vec<[f64; 2]>> = Vec::new();
@@ -179,15 +181,20 @@ impl Study {
             let fitting = rows.iter().filter(|row| row.fits);
             let (layouts, points): (Vec<usize>, Vec<[f64; 2]>) =
                 fitting.filter_map(|row| Some((row.layout, point(row)?))).unzip();
-            let axis = |k: usize| Axis::over(points.iter().map(|point| point[k]), None);
+            let ranges = [0, 1].map(|k| {
+                let values = points.iter().map(|point| point[k]).filter(|value| value.is_finite());
+                [values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max)]
+            });
+            let shown = [0, 1].map(|k| Shown::of(pair[k], ranges[k]));
+            let axis = |k: usize| Axis::over(points.iter().map(|point| shown[k].value(point[k])), None);
             let (Some(first), Some(second)) = (axis(0), axis(1)) else { continue };
             let axes = [first, second];
-            let places = |point: [f64; 2]| [axes[0].place(point[0]), axes[1].place(point[1])];
+            let places = |point: [f64; 2]| [0, 1].map(|k| axes[k].place(shown[k].value(point[k])));
             let dots: Vec<[f64; 2]> = points.iter().map(|point| places(*point)).collect();
             if drawn.iter().any(|earlier| are_alike(earlier, &dots)) {
                 continue;
             }
-            let titles = pair.map(titled);
+            let titles = shown.each_ref().map(|shown| shown.title.clone());
             let Frame { mut svg, place } = frame(axes, titles.each_ref().map(String::as_str), "Chart");
             let dot = |at: [f64; 2], radius: &str, layout: usize| {
                 let [x, y] = place(at).map(number);
@@ -199,10 +206,11 @@ impl Study {
             svg += "</g>\n<g class=\"p1 only\">";
             for (row, point) in summary.pareto(pair).into_iter().filter_map(|row| Some((row, point(row)?))) {
                 linked.insert(row.layout);
-                let text = format!("layout {}: {}", row.layout, point.map(format_value).join(", "));
+                let texts = [0, 1].map(|k| format!("{} {}", label(pair[k]), measured(pair[k], point[k])));
+                let text = format!("layout {}: {}", row.layout, texts.join(", "));
                 svg += &format!("<g><title>{}</title>{}</g>", markup(&text), dot(places(point), "4", row.layout));
             }
-            charts += &figure(&format!("{} against {}", titles[1], titles[0]), &(svg + "</g></svg>\n"));
+            charts += &figure(&format!("{} against {}", label(pair[1]), label(pair[0])), &(svg + "</g></svg>\n"));
             drawn.push(dots);
         }
         if charts.is_empty() {
@@ -248,7 +256,9 @@ fn scale(objective: Objective, least: f64, greatest: f64) -> String {
     let [left, width] = SCALE_EXTENT;
     let shade_width = width / SCALE_SHADES as f64;
     let values = [least, greatest].map(|cost| objective.cost(cost));
-    let axis = Axis::between(values[0].min(values[1]), values[0].max(values[1]));
+    let ends = [values[0].min(values[1]), values[0].max(values[1])];
+    let shown = Shown::of(objective.measure, ends);
+    let axis = Axis::between(shown.value(ends[0]), shown.value(ends[1]));
     let mut svg =
         String::from("<svg class=\"chart\" viewBox=\"0 0 460 52\" role=\"img\" aria-label=\"Scale of colours\">\n");
     for k in 0..SCALE_SHADES {
@@ -265,11 +275,10 @@ fn scale(objective: Objective, least: f64, greatest: f64) -> String {
         let share = if objective.most { 1.0 - axis.place(value) } else { axis.place(value) };
         svg += &format!("<text class=\"tick\" x=\"{}\" y=\"29\">{text}</text>\n", number(left + width * share));
     }
-    let unit = objective.measure.unit().map_or_else(String::new, |unit| format!(", {unit}"));
     svg + &format!(
-        "<text class=\"tick\" x=\"{}\" y=\"46\">{}{unit}</text>\n</svg>\n",
+        "<text class=\"tick\" x=\"{}\" y=\"46\">{}</text>\n</svg>\n",
         number(left + width / 2.0),
-        objective.measure.name()
+        markup(&shown.title)
     )
 }
 

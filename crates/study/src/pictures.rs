@@ -1,12 +1,13 @@
 //! Pictures of some layouts.
 
 use super::Study;
+use super::answer::with_unit;
 use super::row::{Ending, Row};
 use super::summary::Summary;
 use cplan_compare::Picture;
 use cplan_view::output::PlanOutput as _;
 
-/// Draws the best and the worst layout, the first infeasible one and the first unknown one, if they exist.
+/// Draws the workspace of the best layout, and then whole pictures of the best and the worst layout, the first infeasible one and the first unknown one, if they exist.
 #[must_use]
 pub fn pictures(study: &Study, rows: &[Row]) -> Vec<Picture> {
     let summary = Summary::new(study, rows);
@@ -19,10 +20,14 @@ pub fn pictures(study: &Study, rows: &[Row]) -> Vec<Picture> {
     ];
     let picture = |(word, row): (&str, &Row)| {
         let values = study.parameters.iter().zip(&row.values);
-        let unit = |unit: &Option<String>| unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
-        let values: Vec<String> = values.map(|(p, value)| format!("{} {value:.4}{}", p.name, unit(&p.unit))).collect();
+        let values: Vec<String> =
+            values.map(|(p, value)| format!("{} {}", p.name, with_unit(*value, p.unit.as_deref()))).collect();
         let title = format!("{word}: layout {} ({})", row.layout, values.join(", "));
-        Some(Picture { title, svg: study.plan(&row.values).ok()?.svg() })
+        let plan = study.plan(&row.values).ok()?;
+        let whole = Picture { title: title.clone(), svg: plan.svg() };
+        // The answer has only the workspace of the best layout, which is legible beside text and on a phone.
+        let small = (word == "best").then(|| Picture { title, svg: cplan_view::workspace_svg(&plan.view()) });
+        Some(small.into_iter().chain([whole]))
     };
-    shown.into_iter().filter_map(|(word, row)| picture((word, row?))).collect()
+    shown.into_iter().filter_map(|(word, row)| picture((word, row?))).flatten().collect()
 }

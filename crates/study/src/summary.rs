@@ -1,6 +1,7 @@
 //! Summary of a study: how many layouts have a motion, why others have none, and which are best.
 
 use super::Study;
+use super::answer::{label, measured, with_unit};
 use super::measure::Measure;
 use super::parameter::{Parameter, Values};
 use super::row::{Ending, Row};
@@ -116,24 +117,30 @@ impl<'a> Summary<'a> {
     /// lie beyond.
     #[must_use]
     pub fn edges(&self) -> Vec<String> {
+        let edge = |(parameter, value, _): (&Parameter, f64, _)| {
+            let [from, to] = parameter.values.range();
+            let which = if to - value <= value - from { format!("of at most {to}") } else { format!("of at least {from}") };
+            // The digits of tables, without trailing zeros.
+            let value = format_value(value).parse().unwrap_or(value);
+            format!("{} = {value} {which}: a wider range may give a better layout", parameter.name)
+        };
+        self.range_ends().into_iter().map(edge).collect()
+    }
+
+    /// Returns the parameters for which the best layout lies at an end of the range, its values, and in words whether
+    /// they are the end itself.
+    pub(super) fn range_ends(&self) -> Vec<(&'a Parameter, f64, &'static str)> {
         let Some(best) = self.best() else { return Vec::new() };
-        let edge = |(parameter, value): (&Parameter, &f64)| {
+        let end = |(parameter, &value): (&'a Parameter, &f64)| {
             let [from, to] = match parameter.values {
-                Values::Listed(_) => return None,
                 Values::Stepped { from, to, .. } | Values::Drawn { from, to, .. } if from < to => [from, to],
                 _ => return None,
             };
-            let near = RANGE_END_SHARE * (to - from);
-            let which = match *value {
-                value if to - value <= near => format!("of at most {to}"),
-                value if value - from <= near => format!("of at least {from}"),
-                _ => return None,
-            };
-            // The digits of tables, without trailing zeros.
-            let value = format_value(*value).parse().unwrap_or(*value);
-            Some(format!("{} = {value} {which}: a wider range may give a better layout", parameter.name))
+            let distance = (to - value).min(value - from);
+            let at = if distance == 0.0 { "at the end of" } else { "near the end of" };
+            (distance <= RANGE_END_SHARE * (to - from)).then_some((parameter, value, at))
         };
-        self.study.parameters.iter().zip(&best.values).filter_map(edge).collect()
+        self.study.parameters.iter().zip(&best.values).filter_map(end).collect()
     }
 
     /// Returns the summary for a terminal, 80 characters wide, or with full tables if `wide`. Ends in a newline.
@@ -229,16 +236,33 @@ impl<'a> Summary<'a> {
         self.ranked.iter().take(2 * LISTED_LAYOUTS).map(move |&i| &rows[i])
     }
 
-    /// Returns the table of the best layouts.
+    /// Returns the table of the best layouts for readers, with the names and units of the page.
     pub(super) fn best_table(&self) -> Table {
-        self.table(self.ranked.iter().take(2 * LISTED_LAYOUTS))
+        let study = self.study;
+        let order = self.measure_order();
+        let mut columns = vec![Column::new("layout", Align::Right)];
+        columns.extend(study.parameters.iter().map(|parameter| Column::new(&parameter.name, Align::Right)));
+        columns.extend(order.iter().map(|&k| Column::new(label(study.measures[k]), Align::Right)));
+        let cells = |row: &Row| {
+            let values = study.parameters.iter().zip(&row.values);
+            let values = values.map(|(parameter, value)| Some(with_unit(*value, parameter.unit.as_deref())));
+            let shown = order.iter().map(|&k| row.measured[k].map(|value| measured(study.measures[k], value)));
+            std::iter::once(Some(row.layout.to_string())).chain(values).chain(shown).collect()
+        };
+        Table { columns, rows: self.best_rows().map(cells).collect() }
+    }
+
+    /// Returns the indices of the measures, that of the objective first.
+    fn measure_order(&self) -> Vec<usize> {
+        let study = self.study;
+        let mut measures: Vec<usize> = (0..study.measures.len()).collect();
+        measures.sort_by_key(|&k| study.objective.is_none_or(|objective| objective.measure != study.measures[k]));
+        measures
     }
 
     fn table<'b>(&self, rows: impl Iterator<Item = &'b usize>) -> Table {
         let study = self.study;
-        // The measure of the objective comes first.
-        let mut measures: Vec<usize> = (0..study.measures.len()).collect();
-        measures.sort_by_key(|&k| study.objective.is_none_or(|objective| objective.measure != study.measures[k]));
+        let measures = self.measure_order();
         let mut columns = vec![Column::new("layout", Align::Right)];
         columns.extend(study.parameters.iter().map(|parameter| Column::new(&parameter.titled(), Align::Right)));
         let titled = |m: &Measure| m.unit().map_or_else(|| m.name().to_owned(), |unit| format!("{}, {unit}", m.name()));

@@ -91,6 +91,12 @@ pub fn svg(view: &View) -> String {
     svg_writer::write(&page::compose(view))
 }
 
+/// Returns the workspace alone as a small SVG document, whose texts are legible on a phone.
+#[must_use]
+pub fn workspace_svg(view: &View) -> String {
+    svg_writer::write(&page::workspace_figure(view))
+}
+
 /// Returns the animation of a view: SVG documents, each with the time for which it is shown, in hundredths of a second.
 /// If the view contains a replay, the animation first shows how the planner found its answer. Then it shows the motion
 /// of the arm. The last document is [`svg()`].

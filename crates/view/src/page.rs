@@ -18,6 +18,11 @@ const PAGE_MARGIN: f64 = 28.0;
 /// Space below panels, in pixels: values and titles of their axes, and the distance to the next item.
 const AXES_HEIGHT: f64 = 58.0;
 
+/// Room between two panels, in pixels: values and title of an axis.
+const PAIR_GAP: f64 = RIGHT_COLUMN.x - LEFT_COLUMN.x - LEFT_COLUMN.width;
+/// Width and height of the workspace alone, in pixels.
+const WORKSPACE_SIZE: [f64; 2] = [370.0, 350.0];
+
 /// Least width of two panels of the same size, in pixels.
 const MIN_PAIR_WIDTH: f64 = 420.0;
 
@@ -68,7 +73,7 @@ pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
             items.extend(workspace::panel(view, left));
             items.extend(cspace::panel(view, panel, right));
             let below = top + height + AXES_HEIGHT;
-            let page_height = MIN_PAGE_HEIGHT + strip(view, below, &mut items);
+            let page_height = MIN_PAGE_HEIGHT + strip(view, [left.x, right.right()], below, &mut items);
             items.push(heading(left, top - 12.0, "Workspace"));
             items.push(heading(right, top - 12.0, &panel.title));
             items.extend(legend::items(&keys, PAGE_WIDTH / 2.0, page_height - legend));
@@ -87,16 +92,27 @@ fn pair(view: &View, top: f64, height: f64) -> [Rect; 2] {
     let natural = chart::one_scale(&view.arm).map(|proportion| height / proportion);
     let width = natural.filter(|width| *width <= column.width && *width >= MIN_PAIR_WIDTH).unwrap_or(LEFT_COLUMN.width);
     let right = width.min(column.width);
-    let x = if has_scale { column.x + (column.width - right) / 2.0 } else { column.right() - right };
-    [Rect { y: top, width, height, ..LEFT_COLUMN }, Rect { x, y: top, width: right, height }]
+    // Both panels are in the middle of the page, with room between them only for the values of an axis.
+    let beside = if has_scale { PAGE_WIDTH - PAGE_MARGIN - SCALED_COLUMN.right() } else { 0.0 };
+    let total = width + PAIR_GAP + right + beside;
+    let x = (PAGE_WIDTH - total + LEFT_COLUMN.x - PAGE_MARGIN) / 2.0;
+    [Rect { x, y: top, width, height }, Rect { x: x + width + PAIR_GAP, y: top, width: right, height }]
 }
 
 /// Draws the strip of a motion among moving obstacles from `top` downwards; returns its height, or 0 without one.
-fn strip(view: &View, top: f64, items: &mut Vec<Item>) -> f64 {
+fn strip(view: &View, [left, right]: [f64; 2], top: f64, items: &mut Vec<Item>) -> f64 {
     let Some(strip) = &view.strip else { return 0.0 };
-    let area = Rect { y: top, width: RIGHT_COLUMN.right() - LEFT_COLUMN.x, ..LEFT_COLUMN };
+    let area = Rect { x: left, y: top, width: right - left, height: 0.0 };
     items.extend(strip::items(strip, view, area));
     strip::HEIGHT
+}
+
+/// Composes a picture of the workspace alone.
+#[must_use]
+pub fn workspace_figure(view: &View) -> Figure {
+    let [width, height] = WORKSPACE_SIZE;
+    let area = Rect { x: 56.0, y: 8.0, width: width - 66.0, height: height - 8.0 - 50.0 };
+    Figure { width, height, items: workspace::panel(view, area), is_dark: view.still.is_dark }
 }
 
 /// Composes a page with a single panel and a legend below it. The panel's height is `aspect` times its width, unless
@@ -145,7 +161,7 @@ fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &
     let note = "objects at their initial positions, and dashed where they are placed";
     items.push(label([LEFT_COLUMN.x + LEFT_COLUMN.width / 2.0, top - 9.0], note, 13.0, Anchor::Middle, GRAY));
     items.push(heading(RIGHT_COLUMN, top - 56.0, "Configuration space for each payload"));
-    let height = height + strip(view, height, items);
+    let height = height + strip(view, [LEFT_COLUMN.x, RIGHT_COLUMN.right()], height, items);
     items.extend(legend::items(keys, PAGE_WIDTH / 2.0, height));
     height + legend
 }

@@ -2,11 +2,17 @@
 
 use super::figure::{Anchor, Item, Rect, Step, Style, bold, label, shortened, text_width};
 use super::view::Row;
-use cplan_theme::FAINT;
+use cplan_theme::{FAINT, GRAY};
 
 /// Height of a row, in pixels.
 pub const ROW_HEIGHT: f64 = 22.0;
 const TEXT_SIZE: f64 = 14.0;
+/// Size of the numbers of steps in the file.
+const SMALL_SIZE: f64 = 12.0;
+/// Room for the numbers of steps in the file, to the left of the times, in pixels.
+const FILE_NUMBER_WIDTH: f64 = 64.0;
+/// Name of the column of these numbers.
+const FILE_NUMBER_HEAD: &str = "in the file";
 /// Room for the numbers at the left, in pixels.
 const NUMBER_WIDTH: f64 = 26.0;
 
@@ -15,15 +21,23 @@ const NUMBER_WIDTH: f64 = 26.0;
 #[must_use]
 pub fn items(head: &Row, rows: &[Row], area: Rect) -> Vec<Item> {
     let mut items = Vec::new();
+    let has_file_numbers = rows.iter().any(|row| row.file_number.is_some());
+    let times = rows.iter().chain([head]).map(|row| text_width(&row.time, TEXT_SIZE)).fold(0.0, f64::max) + 20.0;
     for (i, row) in std::iter::once(head).chain(rows).enumerate() {
-        let Row { number, text, time, color } = row;
+        let Row { number, text, time, color, file_number } = row;
         let (top, y) = (area.y + ROW_HEIGHT * i as f64, area.y + ROW_HEIGHT * (i as f64 + 0.68));
-        let room = area.width - NUMBER_WIDTH - 10.0 - text_width(time, TEXT_SIZE) - 16.0;
+        let file = if has_file_numbers { FILE_NUMBER_WIDTH } else { 0.0 };
+        let room = area.width - NUMBER_WIDTH - 10.0 - times - file;
         let text = shortened(text, TEXT_SIZE, room);
         let write = if i == 0 { bold } else { label };
         items.push(write([area.x + NUMBER_WIDTH, y], number.clone(), TEXT_SIZE, Anchor::End, *color));
         items.push(write([area.x + NUMBER_WIDTH + 10.0, y], text, TEXT_SIZE, Anchor::Start, *color));
         items.push(write([area.right(), y], time.clone(), TEXT_SIZE, Anchor::End, *color));
+        let in_file =
+            if i == 0 { FILE_NUMBER_HEAD.to_owned() } else { file_number.map_or_else(String::new, |n| n.to_string()) };
+        if has_file_numbers {
+            items.push(label([area.right() - times, y], in_file, SMALL_SIZE, Anchor::End, GRAY));
+        }
         let bottom = top + ROW_HEIGHT;
         let steps = vec![Step::Move([area.x, bottom]), Step::Line([area.right(), bottom])];
         items.push(Item::Outline(steps, Style::line(FAINT, 1.0)));

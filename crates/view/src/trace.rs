@@ -31,7 +31,9 @@ pub fn items_below_obstacles(trace: &TraceView, chart: &Chart) -> Vec<Item> {
 #[must_use]
 pub fn items_above_obstacles(trace: &TraceView, field_lines: FieldLines, chart: &Chart) -> Vec<Item> {
     match trace {
-        TraceView::Roadmap { edges: lines, .. } | TraceView::Slices { free: lines } => vec![edges(lines, chart)],
+        TraceView::Roadmap { edges: lines, .. } => vec![edges(lines, chart)],
+        // Many slices lie side by side, so each is faint.
+        TraceView::Slices { free } => vec![faint_edges(free, chart, 0.5, 0.3)],
         TraceView::Roads { edges: lines, expanded, .. } => {
             [edges(lines, chart)].into_iter().chain(places(expanded, chart)).collect()
         }
@@ -60,8 +62,13 @@ pub fn items_above_path(trace: &TraceView, chart: &Chart) -> Vec<Item> {
 }
 
 fn edges(lines: &Chain, chart: &Chart) -> Item {
+    faint_edges(lines, chart, 0.7, 0.6)
+}
+
+/// Draws lines of this width in pixels and this opacity.
+fn faint_edges(lines: &Chain, chart: &Chart, width: f64, opacity: f64) -> Item {
     let steps = lines.pairs().flat_map(|line| chart.outline(&line)).collect();
-    Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.6))
+    Item::Outline(steps, Style::line(EDGE, width).faded(opacity))
 }
 
 /// Draws the places that a search expanded. The earlier a place was expanded, the darker it is.

@@ -400,10 +400,10 @@ fn the_page_distinguishes_what_colours_mean() {
     };
     // Of two measures with equal plots against the objective, one is shown.
     let (html, _) = page("measure = [\"duration\", \"length\", \"lower_bound\"]");
-    assert!(html.contains("length against duration, s") && !html.contains("lower_bound against"));
+    assert!(html.contains("length against duration") && !html.contains("lower bound against"));
     for part in [
         "Scale of colours",
-        ">duration, s</text>",
+        ">duration (s)</text>",
         "<title>best: layout ",
         "fill=\"var(--undecided)\"",
         "<table class=\"words\">",

@@ -47,10 +47,10 @@ impl Axis {
     /// Returns round values within the axis, ascending, with their texts.
     pub fn ticks(&self) -> Vec<(f64, String)> {
         if self.is_logarithmic {
-            self.factors().into_iter().map(|v| (v, written(v, v))).collect()
+            self.factors().into_iter().map(|v| (v, with_minus(written(v, v)))).collect()
         } else {
             let step = self.step();
-            self.multiples(step).into_iter().map(|v| (v, written(v, step))).collect()
+            self.multiples(step).into_iter().map(|v| (v, with_minus(written(v, step)))).collect()
         }
     }
 
@@ -84,6 +84,11 @@ impl Axis {
         let multiples = (0..=2 * MAX_TICKS).map(|i| (first + i as f64) * step);
         multiples.take_while(|v| *v <= self.upper + 1e-9 * step).collect()
     }
+}
+
+/// Replaces hyphens by minus signs.
+fn with_minus(text: String) -> String {
+    text.replace('-', "\u{2212}")
 }
 
 /// Formats a round number. It has as many digits as needed to distinguish it from neighbours at the distance `apart`.

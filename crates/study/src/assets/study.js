@@ -39,6 +39,35 @@ function svg(tag, attributes = {}) {
   return made;
 }
 
+/**
+ * Copies the text of an element. Where the clipboard is closed to pages, selects the text and copies the selection.
+ * @param {Element} line
+ * @returns {Promise<boolean>} true if the text was copied
+ */
+async function copyText(line) {
+  try {
+    await navigator.clipboard.writeText(line.textContent);
+    return true;
+  } catch {
+    getSelection()?.selectAllChildren(line);
+    return document.execCommand('copy');
+  }
+}
+
+/**
+ * Puts a button beside a command, which copies it.
+ * @param {Element} line
+ * @returns {HTMLElement}
+ */
+function withCopy(line) {
+  const button = html('button', { type: 'button', class: 'copy' }, 'Copy');
+  button.addEventListener('click', async () => {
+    button.textContent = await copyText(line) ? 'Copied' : 'Selected';
+    setTimeout(() => { button.textContent = 'Copy'; }, 2000);
+  });
+  return html('div', { class: 'command-line' }, line, button);
+}
+
 class StudyPage {
   /**
    * @param {{ best: number | null, layouts: Object<string, Layout>, drawings: Drawings }} data
@@ -52,6 +81,11 @@ class StudyPage {
     this.panel = document.querySelector('.pointed');
     this.maps = [...document.querySelectorAll('.maps svg.chart')].filter((map) => map.querySelector('[data-cell]'));
     this.rows = new Map();
+    for (const line of document.querySelectorAll('.answer .command')) {
+      const place = document.createComment('');
+      line.replaceWith(place);
+      place.replaceWith(withCopy(line));
+    }
     this.findRows();
     for (const map of this.maps) this.listenToMap(map);
     for (const chart of document.querySelectorAll('svg.chart')) if (!this.maps.includes(chart)) this.listenToChart(chart);
@@ -109,7 +143,7 @@ class StudyPage {
     const verdict = html('p', { class: `ending ${style}` }, html('span', { 'aria-hidden': 'true' }, sign), ` ${words}`);
     const list = html('dl', {}, ...facts.flatMap(([name, text]) => [html('dt', {}, name), html('dd', {}, text)]));
     const title = `Layout ${layout}${layout === this.data.best ? ', the best' : ''}`;
-    const parts = [html('h3', {}, title), verdict, this.drawing(layout), list, html('pre', { class: 'command', tabindex: '0' }, command)];
+    const parts = [html('h3', {}, title), verdict, this.drawing(layout), list, withCopy(html('pre', { class: 'command', tabindex: '0' }, command))];
     const row = this.rows.get(layout);
     if (row) parts.push(html('p', { class: 'sub' }, html('a', { href: `#${row.id}` }, 'In the table of the best layouts')));
     return parts;

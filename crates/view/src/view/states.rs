@@ -121,7 +121,7 @@ pub fn hand(payloads: &[&str]) -> String {
         [] => "Empty hand".to_owned(),
         [one] => format!("Carrying {one}"),
         [one, other] => format!("Carrying {one} or {other}"),
-        [one, others @ ..] => format!("Carrying {one} or {} others", others.len()),
+        [one, ..] => format!("Carrying {one} or others"),
     }
 }
 

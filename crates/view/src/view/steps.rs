@@ -18,11 +18,19 @@ pub struct Row {
     pub text: String,
     pub time: String,
     pub color: Rgb,
+    /// Number of the step in the file, if it is another one.
+    pub file_number: Option<usize>,
 }
 
 impl Row {
     fn new(number: impl ToString, text: impl Into<String>, time: impl Into<String>, color: Rgb) -> Self {
-        Self { number: number.to_string(), text: text.into(), time: time.into(), color }
+        Self { number: number.to_string(), text: text.into(), time: time.into(), color, file_number: None }
+    }
+
+    fn of(step: &Step, order: &Order, objects: &[Object], time: impl Into<String>, color: Rgb) -> Self {
+        let number = order.number(step);
+        let file_number = (number != step.number).then_some(step.number);
+        Self { file_number, ..Self::new(number, step.action.describe(objects), time, color) }
     }
 }
 
@@ -69,12 +77,11 @@ pub fn rounds(legs: &[Leg]) -> usize {
 pub fn rows(picture: &TaskPicture) -> Vec<Row> {
     let objects = &picture.task.objects;
     let (order, rounds) = (Order::of(picture.answer), rounds(&picture.answer.legs));
-    let which = if rounds > 1 { format!("end, first of {rounds} rounds") } else { "end".to_owned() };
+    let which = if rounds > 1 { format!("ends at, first of {rounds} rounds") } else { "ends at".to_owned() };
     let mut seen = std::collections::BTreeSet::new();
     let mut rows = vec![Row::new("", "step", which, GRAY)];
     for leg in picture.answer.legs.iter().filter(|leg| seen.insert(leg.step.number)) {
-        let (text, time) = (order.describe(&leg.step, objects), format!("{:.2} s", leg.end()));
-        rows.push(Row::new(order.number(&leg.step), text, time, INK));
+        rows.push(Row::of(&leg.step, &order, objects, format!("{:.2} s", leg.end()), INK));
     }
     if rows.len() > 1 + MAX_ROWS {
         let text = format!("and {} further steps", rows.len() - 1 - MAX_ROWS);
@@ -87,7 +94,7 @@ pub fn rows(picture: &TaskPicture) -> Vec<Row> {
             _ => "unknown",
         };
         let step = &failed.step;
-        rows.push(Row::new(order.number(step), order.describe(step, objects), time, INFEASIBLE));
+        rows.push(Row::of(step, &order, objects, time, INFEASIBLE));
     }
     rows
 }
