@@ -431,9 +431,12 @@ class Live {
     ].filter(Boolean);
     const separated = (texts) => texts.join(' \u00b7 ');
     const known = view?.figures?.duration === undefined ? { duration, gap: bound ? length / bound - 1 : undefined, clearance } : view.figures;
-    const cards = verdict === 'found' && known.duration ? View.cards({ figures: final ? known : { ...known, clearance: undefined } }) : [];
-    // The cards keep their places while something is dragged.
-    if (cards.length && !final && this.cards.children.length > cards.length) cards.push(['clearance', '\u2026', 'proven when you let go']);
+    let cards = final && verdict === 'found' && known.duration ? View.cards({ figures: known }) : [];
+    // The cards keep their places while something is dragged, with what is known then.
+    if (!final && !this.cards.hidden) {
+      const now = new Map(View.cards({ figures: { duration, gap: known.gap } }).map((card) => [card[0], card]));
+      cards = ['time', 'over the optimum', 'clearance'].map((name) => now.get(name) ?? [name, '\u2026', 'known when you let go']);
+    }
     View.fillCards(this.cards, cards);
     const line = cards.length ? [parts[0], length && `length ${length.toFixed(4)}`].filter(Boolean) : parts;
     this.figures.replaceChildren(separated(line), element('span', { class: 'detail' }, ` \u00b7 ${separated(details)}`));
