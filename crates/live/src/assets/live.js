@@ -430,12 +430,13 @@ class Live {
       !final && `${this.updatesPerSecond} updates/s`,
     ].filter(Boolean);
     const separated = (texts) => texts.join(' \u00b7 ');
-    const known = view?.figures?.duration === undefined ? { duration, gap: bound ? length / bound - 1 : undefined, clearance } : view.figures;
+    const own = { duration: duration ?? undefined, gap: bound ? length / bound - 1 : undefined, clearance: clearance ?? undefined };
+    const known = final && view?.figures?.duration ? view.figures : own;
     let cards = final && verdict === 'found' && known.duration ? View.cards({ figures: known }) : [];
     // The cards keep their places while something is dragged, with what is known then.
     if (!final && !this.cards.hidden) {
-      const now = new Map(View.cards({ figures: { duration, gap: known.gap } }).map((card) => [card[0], card]));
-      cards = ['time', 'over the optimum', 'clearance'].map((name) => now.get(name) ?? [name, '\u2026', 'known when you let go']);
+      const now = new Map(View.cards({ figures: { duration: own.duration, gap: own.gap } }).map((card) => [card[0], card]));
+      cards = ['time', 'over the optimum', 'clearance'].map((name) => (name === 'over the optimum' && own.gap === undefined ? null : now.get(name)) ?? [name, '\u2026', 'known when you let go']);
     }
     View.fillCards(this.cards, cards);
     const line = cards.length ? [parts[0], length && `length ${length.toFixed(4)}`].filter(Boolean) : parts;
