@@ -29,12 +29,12 @@ def test_menus_keep_their_order_and_send_what_is_chosen(serve, program):
     option = lambda name: seen.page.locator(f"[data-option='{name}']")
     assert option("--cells").locator("option").all_inner_texts() == ["64", "128", "256", "512", "1024"]
     assert [option(name).input_value() for name in ("--cells", "--neighbors", "--search", "--path")] == ["64", "8", "", ""]
-    assert seen.page.get_by_label("more options").input_value() == "--levels 3"
+    assert seen.page.get_by_label("other options").input_value() == "--levels 3"
     option("--cells").select_option(label="256")
     option("--neighbors").select_option(label="4")
     option("--search").select_option("astar")
-    seen.page.get_by_label("more options").fill("")
-    seen.page.get_by_label("more options").press("Enter")
+    seen.page.get_by_label("other options").fill("")
+    seen.page.get_by_label("other options").press("Enter")
     settled(seen)
     assert seen.do("cplan.words") == "wavefront --search astar"
     expected = program.run(*PLANAR, "--planner", "wavefront", "--search", "astar", "--json")

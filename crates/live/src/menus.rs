@@ -28,12 +28,12 @@ struct Choice {
 const CHOICES: [Choice; 8] = [
     Choice {
         name: "gap",
-        label: "proven within",
+        label: "gap at most",
         numbers: &[("0.01", "1 %"), ("0.001", "0.1 %"), ("0.0001", "0.01 %")],
-        standard: |_| Some("as it comes".into()),
+        standard: |_| Some("default".into()),
         is_for: |_| true,
     },
-    Choice { name: "metric", label: "short means", numbers: &[], standard: |_| None, is_for: |_| true },
+    Choice { name: "metric", label: "length", numbers: &[], standard: |_| None, is_for: |_| true },
     Choice {
         name: "cells",
         label: "cells",
@@ -136,7 +136,7 @@ mod tests {
             planner.options.into_iter().map(|option| (option.name, option.standard)).collect::<Vec<_>>()
         };
         let pairs = |list: &[(&str, &str)]| list.iter().map(|&(a, b)| (a.into(), b.into())).collect::<Vec<_>>();
-        let optimum = pairs(&[("--gap", "as it comes"), ("--metric", "euclidean")]);
+        let optimum = pairs(&[("--gap", "default"), ("--metric", "euclidean")]);
         let roadmap = [("--path", "taut"), ("--search", "astar")];
         let visibility = [optimum.clone(), pairs(&roadmap[1..])].concat();
         assert_eq!((of("shortest"), of("visibility"), of("first")), (optimum, visibility, Vec::new()));

@@ -254,7 +254,7 @@ impl Phases {
             };
             kind.push([cell.lower.into(), cell.upper.into()]);
         }
-        let caption = "Slabs of joint 1, halved where it matters: free, colliding and undecided";
+        let caption = "Strips of the first joint's values, halved where needed: free, colliding and undecided";
         self.add(seen.len(), caption, Shows::Slabs(found));
     }
 

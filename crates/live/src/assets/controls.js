@@ -37,7 +37,7 @@ class Controls {
     this.menus = element('div', { class: 'group menus' });
     this.more = element('input', {
       type: 'text', class: 'more', spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', placeholder: '--field oriented --epsilon 0.5',
-      'aria-label': 'more options, as on the command line', onchange: () => this.replan(),
+      'aria-label': 'other options, as on the command line', onchange: () => this.replan(),
     });
     this.command = element('code', {});
     const group = (label, ...children) => element('div', { class: 'tools', role: 'group', 'aria-label': label }, ...children);
@@ -50,7 +50,7 @@ class Controls {
     this.toolbar = element('section', { class: 'toolbar', 'aria-label': 'Tools' }, ...this.edits, group('Files', ...this.fileTools()));
     this.root = element(
       'section', { class: 'controls', 'aria-label': 'Planner' },
-      element('div', { class: 'group' }, element('label', {}, 'planner ', this.planner), this.menus, this.clearanceLabel, element('label', { class: 'grows' }, 'more ', this.more)),
+      element('div', { class: 'group' }, element('label', {}, 'planner ', this.planner), this.menus, this.clearanceLabel, element('label', { class: 'grows' }, 'other options ', this.more)),
     );
     this.remarks = element('span', { class: 'remark', role: 'status' }, live.remarked ?? '');
     this.commandLine = element('p', { class: 'command' }, 'as a command: ', this.command);

@@ -78,6 +78,7 @@ class Live {
       isDrawn: ({ shape }) => this.root.classList.contains('behind') || this.shown?.error ? Boolean(this.drawn?.has(shape)) : true,
     });
     this.controls = new Controls(this);
+    this.cards = element('dl', { class: 'cards', 'aria-label': 'Key figures', hidden: true });
     this.figures = element('p', { class: 'figures' });
     this.figuresShown = -Infinity;
     for (const panel of Object.values(this.view.panels)) this.speedUp(panel);
@@ -89,7 +90,7 @@ class Live {
     verdicts.append(status, element('div', { class: 'aside' }, this.lastVerdict, this.why.button));
     this.spoken = element('p', { class: 'spoken', 'aria-live': 'polite' });
     const { places } = this.notices;
-    this.outcome = element('div', { class: 'outcome' }, this.figures, places.picture, places.files, this.controls.remarks);
+    this.outcome = element('div', { class: 'outcome' }, this.cards, this.figures, places.picture, places.files, this.controls.remarks);
     this.root.querySelector('.panels').after(this.outcome, this.spoken, this.controls.inspector.root);
     this.arrange();
     SMALL_SCREEN.addEventListener('change', () => this.arrange());
@@ -399,11 +400,12 @@ class Live {
     this.frames.draw(...panels);
   }
 
-  /** Shows the figures in a line. */
-  showFigures({ figures, reason, final, verdict, certified, error }) {
+  /** Shows the key figures as cards, and the others in a line. */
+  showFigures({ figures, reason, final, verdict, certified, error, view }) {
     if (!this.figures) return;
     if (error) {
       this.figures.textContent = '';
+      View.fillCards(this.cards, []);
       this.lastFigures = null;
       if (final) this.spoken.textContent = '';
       return;
@@ -428,7 +430,17 @@ class Live {
       !final && `${this.updatesPerSecond} updates/s`,
     ].filter(Boolean);
     const separated = (texts) => texts.join(' \u00b7 ');
-    this.figures.replaceChildren(separated(parts), element('span', { class: 'detail' }, ` \u00b7 ${separated(details)}`));
+    const own = { duration: duration ?? undefined, gap: bound ? length / bound - 1 : undefined, clearance: clearance ?? undefined };
+    const known = final && view?.figures?.duration ? view.figures : own;
+    let cards = final && verdict === 'found' && known.duration ? View.cards({ figures: known }) : [];
+    // The cards keep their places while something is dragged, with what is known then.
+    if (!final && !this.cards.hidden) {
+      const now = new Map(View.cards({ figures: { duration: own.duration, gap: own.gap } }).map((card) => [card[0], card]));
+      cards = ['time', 'over the optimum', 'clearance'].map((name) => (name === 'over the optimum' && own.gap === undefined ? null : now.get(name)) ?? [name, '\u2026', 'known when you let go']);
+    }
+    View.fillCards(this.cards, cards);
+    const line = cards.length ? [parts[0], length && `length ${length.toFixed(4)}`].filter(Boolean) : parts;
+    this.figures.replaceChildren(separated(line), element('span', { class: 'detail' }, ` \u00b7 ${separated(details)}`));
     if (final) this.lastFigures = [...this.figures.childNodes];
     if (final) this.spoken.textContent = parts.slice(0, 5).join(', ');
   }

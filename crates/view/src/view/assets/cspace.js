@@ -413,8 +413,9 @@ const CSpace = (() => {
     if (seen?.kind === 'channel' && view.shows('channel')) channelPoints(context, panel, view, seen);
     if (view.model.checked?.nearest_free) ring(context, panel, place(view, panel, view.model.checked.nearest_free), 5, panel.theme.grey);
     if (view.model.stuck?.at) cross(context, panel.theme, place(view, panel, view.model.stuck.at[0]));
-    ends(context, panel, view);
-    if (view.isTask) {
+    if (view.isPlain) Labels.blockSpot(panel, place(view, panel, view.beginning()), 10);
+    else ends(context, panel, view);
+    if (view.isTask && !view.isPlain) {
       const ends = view.pathsHere().map((path) => [`step ${path.step}`, Labels.about(place(view, panel, path.points.slice(-2)), 7)]);
       Labels.beside(context, panel, ends);
     }

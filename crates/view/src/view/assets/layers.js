@@ -135,7 +135,8 @@ class Layers {
     const { theme } = view.panels.workspace;
     for (const row of this.rows) {
       const { item, sign, key, layer, box } = row;
-      item.hidden = Boolean(layer) && !(box ? view.draws(layer) : view.shows(layer));
+      const isOfMotion = ['start', 'goal', 'unreached'].includes(key.sign);
+      item.hidden = layer ? !(box ? view.draws(layer) : view.shows(layer)) : isOfMotion && view.isPlain;
       if (row.theme === theme) continue;
       row.theme = theme;
       sign.replaceChildren(Legend.sign(theme, key));

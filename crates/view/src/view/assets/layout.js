@@ -25,6 +25,7 @@ function buildPage(view) {
     }),
     clock: element('span', { class: 'clock' }),
     step: element('p', { class: 'step', 'aria-live': 'polite' }),
+    key: element('ul', { class: 'key', 'aria-label': 'Colours', hidden: true }),
     plots: element('section', { class: 'plots', 'aria-label': 'Motion over time' }),
   };
   const speed = element('select', { 'aria-label': 'speed', onchange: (event) => view.setSpeed(Number(event.target.value)) });
@@ -36,7 +37,7 @@ function buildPage(view) {
   view.layers = new Layers(view);
   const track = element('div', { class: 'track' }, view.steps.timeline, element('span', { class: 'slider' }, parts.ticks, parts.scrubber));
   const controls = element('div', { class: 'controls-of-time' }, parts.modes, parts.play, track, parts.clock, speed);
-  parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, parts.step, controls);
+  parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, element('div', { class: 'caption' }, parts.step, parts.key), controls);
   const zoom = (name, label) => Zoom.buttons(label, () => view.panels[name], () => view.zoomSpot(view.panels[name]));
   parts.panels = element(
     'section',

@@ -7,6 +7,7 @@
  * @typedef {object} Lesson
  * @property {string} name
  * @property {string} figure 'move', 'think', 'slice' or 'pair': the motion, the planner's replay, a slice, or two polygons
+ * @property {boolean} [isPlain] true if the figure shows only the arm, the obstacles and the C-obstacles
  * @property {(model: Model) => string} title
  * @property {(model: Model) => boolean} isOffered whether the model has the subject of the lesson
  * @property {(view: View) => string} text at most about sixty words

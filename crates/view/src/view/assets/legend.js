@@ -10,7 +10,7 @@ const Legend = (() => {
     start: () => '<circle cx="18" cy="8" r="6" fill="var(--paper)" stroke="var(--ink)" stroke-width="2.2"/>',
     goal: () => diamond('ink'),
     unreached: () => diamond('paper'),
-    line: (theme, { color, width, dash = [] }) => `<path d="M0 8h26" stroke="${theme.tint(color)}" stroke-width="${width}" stroke-dasharray="${dash.join(' ')}"/>`,
+    line: (theme, { color, width, dash = [] }) => `<path d="M0 8h26" stroke="${theme.stroke(color)}" stroke-width="${width}" stroke-dasharray="${dash.join(' ')}"/>`,
     swatch: (theme, { color }) => {
       const { fill, line: edge } = theme[color] ? { fill: theme[color], line: theme.grey } : theme.obstacle(color);
       return `<path ${SQUARE} fill="${fill}" stroke="${edge}"/>`;

@@ -30,6 +30,11 @@ class Theme {
     return this[color] ?? color;
   }
 
+  /** Returns the colour of a line that is given by its name or as #rrggbb. Colours of objects are lighter on a dark ground. */
+  stroke(color) {
+    return this[color] ?? (this.dark ? Theme.mixed(color, '#ffffff', 0.5) : color);
+  }
+
   /** Returns the surface and the outline of an obstacle. */
   obstacle(color) {
     if (this.dark) return { fill: Theme.mixed(color, this.paper, 0.35), line: Theme.mixed(color, '#ffffff', 0.35) };

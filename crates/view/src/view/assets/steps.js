@@ -87,6 +87,9 @@ class Steps {
     // `scrollIntoView` would also scroll the page.
     const { list } = this;
     const top = button.getBoundingClientRect().top - list.getBoundingClientRect().top + list.scrollTop;
-    list.scrollTo({ top: top - (list.clientHeight - button.offsetHeight) / 2, behavior: Settings.reducesMotion ? 'auto' : 'smooth' });
+    // The first row in sight is a whole one: as far up as the current row stays about in the middle.
+    const middle = top - (list.clientHeight - button.offsetHeight) / 2;
+    const rows = [...list.querySelectorAll('.object, button')].map((row) => row.getBoundingClientRect().top - list.getBoundingClientRect().top + list.scrollTop);
+    list.scrollTo({ top: rows.find((at) => at >= middle) ?? middle, behavior: Settings.reducesMotion ? 'auto' : 'smooth' });
   }
 }

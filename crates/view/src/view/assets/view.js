@@ -51,6 +51,10 @@ class View {
     /** Content that is played: 'move', the motion; 'think', the planner's replay; or 'learn', a lesson. Each keeps its time. */
     this.mode = 'move';
     this.times = { move: 0, think: 0, learn: 0 };
+    /** Time at which the replay is shown first. It plays from its beginning, unless the reader has moved. @type {?number} */
+    this.opening = null;
+    /** True after the replay was shown. */
+    this.hasThought = false;
     /** Index of a task's motion whose replay 'think' shows. */
     this.replayed = 0;
     this.recall = recall;
@@ -154,6 +158,10 @@ class View {
     if (replayed !== this.replayed) [this.replayed, this.times.think] = [replayed, 0];
     this.mode = mode;
     this.time = this.times[mode];
+    if (mode !== 'think' || this.hasThought) return;
+    // There is nothing to see at the very beginning.
+    this.hasThought = true;
+    if (this.time === 0) this.time = this.opening = Math.max(0, this.replay[0].seconds - 1e-3);
   }
 
   /** Returns true if there is a replay of the planner for a motion of a task. */
@@ -184,6 +192,7 @@ class View {
     this.report();
     // While the user drags, hidden controls keep their room, because they come back.
     parts.transport.classList.toggle('still', !this.duration && !this.light);
+    parts.transport.classList.toggle('timeless', this.isPlain);
     for (const button of parts.modes.children) button.setAttribute('aria-pressed', String(button.dataset.mode === this.mode));
     parts.scrubber.max = this.duration;
     this.tick();
@@ -273,7 +282,13 @@ class View {
   /** Returns true if the current mode draws a layer, unless the reader hides it. */
   draws(layer) {
     if (this.drawn === 'slice') return SliceFigure.LAYERS.has(layer);
+    if (this.isPlain) return SliceFigure.LAYERS.has(layer);
     return !PLANNER_LAYERS.has(layer) || this.showsSearch;
+  }
+
+  /** Returns true if the lesson is about the arm and the obstacles alone, without a motion. */
+  get isPlain() {
+    return this.mode === 'learn' && Boolean(this.learn.current?.isPlain);
   }
 
   /** Returns true if a layer is visible. */
@@ -371,9 +386,13 @@ class View {
 
   /** Shows key figures: name, value and meaning of each. */
   showCards(cards) {
-    const { parts } = this;
-    parts.cards.hidden = !cards.length;
-    parts.cards.replaceChildren(...cards.map(([name, value, note]) => element('div', { class: 'card' }, element('dt', {}, name), element('dd', {}, value, element('small', {}, note)))));
+    View.fillCards(this.parts.cards, cards);
+  }
+
+  /** Fills a list with key figures. @param {HTMLElement} list @param {any[][]} cards */
+  static fillCards(list, cards) {
+    list.hidden = !cards.length;
+    list.replaceChildren(...cards.map(([name, value, note]) => element('div', { class: 'card' }, element('dt', {}, name), element('dd', {}, value, element('small', {}, note)))));
   }
 
   /**
@@ -473,6 +492,7 @@ class View {
   seek(time) {
     const before = this.motion;
     this.time = Math.min(this.duration, Math.max(0, Number.isFinite(time) ? time : 0));
+    if (this.drawn === 'think' && this.time !== this.opening) this.opening = null;
     const { parts, motion } = this;
     if (Number(parts.scrubber.value) !== this.time) parts.scrubber.value = this.time;
     const { moment } = this;
@@ -489,6 +509,7 @@ class View {
     const phase = moment && `${owner}${moment.index + 1} of ${this.replay.length}: ${moment.phase.caption}`;
     const step = phase ?? (this.model.motions.length > 1 && motion ? `${motion.label} (${this.world.label})` : '');
     if (parts.step.textContent !== step) parts.step.textContent = step;
+    this.showKey(moment);
     if (motion !== before || moment) {
       for (const panel of Object.values(this.panels)) panel.dirty = true;
     }
@@ -502,6 +523,17 @@ class View {
     for (const panel of this.allPanels()) panel.draw();
   }
 
+  /** Shows the meaning of the colours of a phase that sorts parts of the configuration space. */
+  showKey(moment) {
+    const { key } = this.parts;
+    const sorts = ['slabs', 'boxes'].includes(moment?.phase.kind);
+    key.hidden = !sorts;
+    if (!sorts || key.children.length) return;
+    for (const [color, text] of [['free', 'free'], ['paper', 'colliding'], ['undecided', 'undecided']]) {
+      key.append(element('li', {}, element('span', { class: 'swatch', style: `background:var(--${color})` }), text));
+    }
+  }
+
   toggle() {
     if (this.playing) this.pause();
     else this.play();
@@ -510,7 +542,7 @@ class View {
   play() {
     if (!this.duration) return;
     if (this.probe) this.examine(null);
-    if (this.time >= this.duration) this.seek(0);
+    if (this.time >= this.duration || (this.drawn === 'think' && this.time === this.opening)) this.seek(0);
     this.playing = true;
     this.mark();
     let before = null;
@@ -639,6 +671,7 @@ class View {
     const { examined } = this;
     const text = examined ? `${this.valued(examined.q)}: ${this.touched(examined.contacts)}` : '';
     if (this.parts.probe.textContent !== text) this.parts.probe.textContent = text;
+    this.parts.probe.classList.toggle('tried', Boolean(this.probe));
     this.parts.probe.title = examined ? Numbers.exact(this.model.arm.joints, examined.q) : '';
     this.parts.probe.dataset.free = examined ? String(!(examined.contacts[0]?.distance <= 0)) : '';
   }

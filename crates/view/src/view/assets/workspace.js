@@ -88,7 +88,7 @@ const Workspace = (() => {
     const shown = [];
     const { arm: model } = view.model;
     const beyond = (text, q) => [text, Labels.beyond(context, panel, text, panel.at(tipAt(model, q)), panel.at(elbowAt(model, q)))];
-    if (view.isTask) {
+    if (view.isTask && !view.isPlain) {
       for (const path of view.pathsHere()) shown.push(beyond(`step ${path.step}`, path.points.slice(-2)));
     } else if (view.shows('poses') && view.isMotion) {
       for (const q of view.ends()) shown.push(beyond('goal', q));
@@ -422,7 +422,7 @@ const Workspace = (() => {
 /** Draws a path or trace in its colour, over a broad pale line that makes it visible on any ground. */
 function pathLine(context, theme, path, stroke) {
   context.lineCap = 'round';
-  for (const [color, width, dash] of [[theme.paper, path.width + 2.6, []], [theme.tint(path.color ?? 'ink'), path.width, path.dash]]) {
+  for (const [color, width, dash] of [[theme.paper, path.width + 2.6, []], [theme.stroke(path.color ?? 'ink'), path.width, path.dash]]) {
     context.strokeStyle = color;
     context.lineWidth = width;
     context.setLineDash(dash);

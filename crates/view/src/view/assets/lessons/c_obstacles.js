@@ -83,7 +83,7 @@ const C_OBSTACLES = (() => {
     title: 'C-obstacles',
     lessons: [
       {
-        name: 'point', figure: 'move', title: () => 'A whole arm as one point',
+        name: 'point', figure: 'move', isPlain: true, title: () => 'A whole arm as one point',
         isOffered: (model) => firstObstacle(model) !== null,
         text: () => 'Two numbers describe the pose of this arm: its joint values. In the configuration space, each pair of values is one point, a configuration. A coloured region has all configurations in which the arm touches an obstacle: its C-obstacle. Drag the tip of the arm, or point into the configuration space.',
         question: askContact,
