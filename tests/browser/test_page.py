@@ -387,7 +387,7 @@ def test_numbers_have_few_digits_and_units(program, show_file):
     assert lengths == ["0.004 mm", "20.4 mm", "614 mm", "1.42 m", "0 mm", "\u221231.2 mm"]
     assert seen.do("[0.9, -1.8136, 0].map((x) => Numbers.angle(x))") == ["51.6°", "\u2212103.9°", "0.0°"]
     bounds = seen.do("[8.4e-5, 0.0341, 1.1964, 0, 1e-9].map((x) => Numbers.percent(x, Math.ceil))")
-    assert bounds == ["0.0084 %", "3.41 %", "120 %", "0 %", "0.0001 %"]
+    assert bounds == ["0.009 %", "3.41 %", "119.64 %", "0 %", "0.001 %"]
     # The readout has degrees, and radians under the pointer.
     seen.do("cplan.examine([0.139626, 0])")
     readout = seen.page.locator(".probe")
