@@ -119,7 +119,8 @@ impl<'a> Summary<'a> {
     pub fn edges(&self) -> Vec<String> {
         let edge = |(parameter, value, _): (&Parameter, f64, _)| {
             let [from, to] = parameter.values.range();
-            let which = if to - value <= value - from { format!("of at most {to}") } else { format!("of at least {from}") };
+            let which =
+                if to - value <= value - from { format!("of at most {to}") } else { format!("of at least {from}") };
             // The digits of tables, without trailing zeros.
             let value = format_value(value).parse().unwrap_or(value);
             format!("{} = {value} {which}: a wider range may give a better layout", parameter.name)

@@ -178,6 +178,7 @@ mod tests {
         let column = RankedColumn::new("time", "", Better::Less, values, |v| format!("{v} s"));
         let rows = [row("<a>", true), row("b", true), row("c", false), row("d", true)];
         let html = table("t", "outcome", &rows, &[column]);
+        let html = format!("<div>{html}</div>");
         let document = roxmltree::Document::parse(&html).unwrap();
         let best: Vec<_> = document.descendants().filter(|node| node.attribute("class") == Some("r best")).collect();
         assert_eq!(best.len(), 1);
