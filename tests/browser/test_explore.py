@@ -118,7 +118,7 @@ def test_the_arm_is_dragged_and_compared_with_what_is_known(rooms, show_file):
 def test_layers_are_the_legend(rooms, show_file):
     seen = show_file(rooms[0])
     legend = seen.page.locator(".legend li:visible").all_inner_texts()
-    for text in ("start", "free", "occupied", "unknown, counts as solid", "view of the sensor", "configurations that are known to be free", "chest"):
+    for text in ("start", "free", "occupied", "unknown, counts as solid", "view of the sensor", "configurations that are known to be free", "7 chest"):
         assert text in legend
     assert "goal" not in legend
     for layer in ("map", "sensor", "known", "path", "c-obstacles"):
@@ -143,6 +143,6 @@ def test_times_of_decisions_are_shown_only_if_they_were_measured(program, rooms,
     program.run("explore", *files, "--quiet", "--timings", "--picture", page)
     seen = show_file(page)
     assert "decision" in seen.page.locator(".card dt").all_inner_texts()
-    assert seen.page.locator(".status").inner_text() == "✓ found: reached"
+    assert seen.page.locator(".status").inner_text() == "✓ reached"
     assert "goal" in seen.page.locator(".legend li:visible").all_inner_texts()
     assert "decision" not in show_file(rooms[0]).page.locator(".card dt").all_inner_texts()

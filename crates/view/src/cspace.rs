@@ -132,10 +132,16 @@ fn names(view: &View, panel: &PanelView, chart: &Chart, paths: &[(Vec<Step>, Pen
         let text = if is_crowded { world.called(number) } else { world.obstacles[number].name.clone() };
         (!is_crowded || !view.is_task()).then_some(NamedRegion { text, outline })
     });
+    // A moving obstacle may be out of reach at first: its name is then where it comes near.
+    let end = view.duration().filter(|_| view.still.now.is_none());
     let moving = world.movers.iter().enumerate().filter_map(|(number, mover)| {
-        let own = world.moment(view.still.time)?.c_obstacles.iter().filter(|c| c.obstacle == number);
-        let Item::Outline(outline, _) = chart.c_obstacle(own, Style::fill(WHITE)) else { return None };
-        (!outline.is_empty()).then(|| NamedRegion { text: mover.obstacle.name.clone(), outline })
+        let later = end.map_or_else(Vec::new, |end| mover.moments(end));
+        let outline = std::iter::once(view.still.time).chain(later).find_map(|time| {
+            let own = world.moment(time)?.c_obstacles.iter().filter(|c| c.obstacle == number);
+            let Item::Outline(outline, _) = chart.c_obstacle(own, Style::fill(WHITE)) else { return None };
+            (!outline.is_empty()).then_some(outline)
+        });
+        Some(NamedRegion { text: mover.obstacle.name.clone(), outline: outline? })
     });
     placer.on_regions(&regions.chain(moving).collect::<Vec<_>>());
     placer.into_items()

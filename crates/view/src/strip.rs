@@ -5,6 +5,7 @@ use super::axes::{Frame, Unit};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, bold, chain, label, lines};
 use super::labels::{NamedRegion, Placer};
 use super::view::{StripView, View};
+use cplan_core::space::Configuration;
 use cplan_theme::{ACCENT, GRAY, INK, Rgb};
 
 /// Height of the strip with its heading and its axes, in pixels.
@@ -13,10 +14,32 @@ pub const HEIGHT: f64 = 226.0;
 const HEADING_HEIGHT: f64 = 26.0;
 /// Room below the strip for values and the title of its axis, in pixels.
 const AXIS_HEIGHT: f64 = 52.0;
+/// Least height of a region, in pixels.
+const LEAST_HEIGHT: f64 = 10.0;
 /// Pen of the motion.
 const MOTION_PEN: Pen = Pen { color: INK, width: 2.4, dash: &[] };
 /// Pen of the motion while it waits.
 const WAIT_PEN: Pen = Pen { color: ACCENT, width: 4.0, dash: &[] };
+
+/// Returns the outline of a region. A region that is too low to be seen is drawn higher, on the side where the motion does
+/// not pass.
+fn visible(strip: &StripView, frame: &Frame, corners: &[Configuration]) -> Vec<Step> {
+    let begin = corners.iter().map(|q| q[0]).fold(f64::INFINITY, f64::min);
+    let [low, high] = [f64::min, f64::max].map(|pick| corners.iter().map(|q| q[1]).reduce(pick).unwrap_or_default());
+    let missing = (LEAST_HEIGHT / frame.rect.height - (high - low)).max(0.0);
+    // The motion only advances: if it is beyond the region when this begins, it is beyond all that lies below.
+    let passed = strip.motion.0.iter().take_while(|q| q[0] <= begin).last().is_some_and(|q| q[1] > high);
+    let middle = f64::midpoint(low, high);
+    let shifted = |q: &Configuration| {
+        let by = match (passed, q[1] > middle) {
+            (true, false) => -missing,
+            (false, true) => missing,
+            _ => 0.0,
+        };
+        frame.at(q[0], q[1] + by)
+    };
+    chain(corners.iter().map(shifted), true)
+}
 
 /// Draws the strip into a part of the page, [`HEIGHT`] pixels high.
 #[must_use]
@@ -27,15 +50,13 @@ pub fn items(strip: &StripView, view: &View, area: Rect) -> Vec<Item> {
     let mut placer = Placer::new(rect);
     let mut inside = frame.grid(units);
     let surface = |color: Rgb| Style::line(color.darker(0.25), 1.2).filled(color.lighter(0.35)).faded(0.85);
-    let outline = |corners: &[cplan_core::space::Configuration], closed: bool| {
-        chain(corners.iter().map(|q| frame.at(q[0], q[1])), closed)
-    };
+    let outline = |corners: &[Configuration], closed: bool| chain(corners.iter().map(|q| frame.at(q[0], q[1])), closed);
     let regions: Vec<NamedRegion> = strip
         .obstacles
         .iter()
         .map(|obstacle| NamedRegion {
-            text: obstacle.name.clone(),
-            outline: obstacle.regions.iter().flat_map(|region| outline(&region.0, true)).collect(),
+            text: format!("{} blocks", obstacle.name),
+            outline: obstacle.regions.iter().flat_map(|region| visible(strip, &frame, &region.0)).collect(),
         })
         .collect();
     inside.extend(

@@ -125,7 +125,13 @@ fn names(view: &View, frame: &Frame) -> Vec<Named> {
     let world = view.first_world();
     let lying = world.obstacles.iter().enumerate().filter(|(_, obstacle)| obstacle.lies());
     let obstacles = lying.map(|(number, o)| (world.called(number), labels::place(frame, &o.outline, o.own())));
-    let movers = world.movers.iter().map(|mover| mover.at(view.still.time));
+    // A moving obstacle may begin outside the picture: its name is then where it enters.
+    let end = view.duration().filter(|_| view.still.now.is_none());
+    let movers = world.movers.iter().map(|mover| {
+        let now = mover.at(view.still.time);
+        let later = end.map_or_else(Vec::new, |end| mover.moments(end)).into_iter().map(|time| mover.at(time));
+        std::iter::once(now.clone()).chain(later).find(|o| is_inside(frame, o)).unwrap_or(now)
+    });
     let movers = movers.map(|o| (o.name.clone(), labels::place(frame, &o.outline, o.own())));
     arms.chain(obstacles).chain(movers).collect()
 }
@@ -154,17 +160,19 @@ fn step_ends(view: &View, frame: &Frame, items: &mut Vec<Item>) -> Vec<Tag> {
     tags
 }
 
+/// Returns true if a part of the obstacle lies inside the panel.
+fn is_inside(frame: &Frame, obstacle: &ObstacleView) -> bool {
+    let [x, y] = bounding_box(obstacle.own());
+    x.1 >= frame.x.0 && x.0 <= frame.x.1 && y.1 >= frame.y.0 && y.0 <= frame.y.1
+}
+
 /// Returns a note if obstacles lie outside the panel.
 fn hidden_note<'a>(
     frame: &Frame,
     obstacles: impl Iterator<Item = &'a ObstacleView>,
     placer: &mut Placer,
 ) -> Option<Item> {
-    let outside = |o: &&ObstacleView| {
-        let [x, y] = bounding_box(o.own());
-        x.1 < frame.x.0 || x.0 > frame.x.1 || y.1 < frame.y.0 || y.0 > frame.y.1
-    };
-    let text = match obstacles.filter(outside).count() {
+    let text = match obstacles.filter(|obstacle| !is_inside(frame, obstacle)).count() {
         0 => return None,
         1 => "1 obstacle lies outside this picture".to_owned(),
         n => format!("{n} obstacles lie outside this picture"),
