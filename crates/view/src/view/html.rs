@@ -3,7 +3,7 @@
 use super::content::View;
 use cplan_text::markup;
 
-const STYLE: &str = concat!(include_str!("assets/view.css"), include_str!("assets/extra.css"));
+const STYLE: &str = include_str!("assets/view.css");
 
 /// Code that draws a view. Each script needs only the scripts before it.
 const SCRIPTS: [&str; 35] = [
