@@ -43,7 +43,7 @@ def test_thinking_is_played_by_keyboard_and_each_keeps_its_time(program, show_fi
     keyboard.press("Shift+ArrowRight")
     assert seen.do("cplan.time") == pytest.approx(0.5)
     keyboard.press("t")
-    # At first, the end of the first phase is shown, because its beginning shows nothing. Playing begins at the beginning.
+    # The page begins at the end of the first phase, because its beginning shows nothing. Playing begins at the beginning.
     assert seen.do("cplan.mode") == "think" and seen.do("cplan.time") == pytest.approx(seen.do("cplan.replay[0].seconds"), abs=0.01)
     assert seen.page.locator(".caption .key li").all_inner_texts() == ["free", "colliding", "undecided"]
     seen.do("cplan.toggle()")

@@ -29,7 +29,7 @@ pub struct CheckedView {
     /// The nearest free configuration. `None` if the configuration is free, or if the search found none.
     #[serde(skip_serializing_if = "Option::is_none")]
     nearest_free: Option<[f64; 2]>,
-    /// The shortest line to the obstacles. `None` if the arm touches one, or if there is none.
+    /// The shortest line to the obstacles. `None` if the arm touches one, or if no obstacle exists.
     #[serde(skip_serializing_if = "Option::is_none")]
     nearest: Option<DistanceView>,
     /// Key figures: name, value and meaning of each.

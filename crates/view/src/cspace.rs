@@ -132,7 +132,7 @@ fn names(view: &View, panel: &PanelView, chart: &Chart, paths: &[(Vec<Step>, Pen
         let text = if is_crowded { world.called(number) } else { world.obstacles[number].name.clone() };
         (!is_crowded || !view.is_task()).then_some(NamedRegion { text, outline })
     });
-    // A moving obstacle may be out of reach at first: its name is then where it comes near.
+    // A moving obstacle may begin out of reach. Its name is then at the place where it comes near.
     let end = view.duration().filter(|_| view.still.now.is_none());
     let moving = world.movers.iter().enumerate().filter_map(|(number, mover)| {
         let later = end.map_or_else(Vec::new, |end| mover.moments(end));

@@ -42,7 +42,7 @@ pub(crate) struct CardView {
     /// The amount with which there is a path, certified.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub opens: String,
-    /// The amount with which there is none, proven.
+    /// The amount with which no path exists, proven.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub closed: String,
     /// Anything else that is known about it.

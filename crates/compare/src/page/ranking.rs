@@ -139,7 +139,7 @@ fn cell(column: &RankedColumn, row: usize, is_best: bool) -> String {
 const BEST_MARK: &str = "<svg class=\"star\" viewBox=\"0 0 10 10\" role=\"img\" aria-label=\"best\"><path d=\"M5 .4 6.5 3.5 9.8 \
                          3.9 7.4 6.2 8 9.6 5 8 2 9.6 2.6 6.2 .2 3.9 3.5 3.5Z\"/></svg>";
 
-/// The same sign in the explanation below the table.
+/// The star in the explanation below the table.
 const BEST_SIGN: &str = "<svg class=\"star\" viewBox=\"0 0 10 10\" role=\"img\" aria-label=\"Star\"><path d=\"M5 .4 6.5 3.5 9.8 \
                          3.9 7.4 6.2 8 9.6 5 8 2 9.6 2.6 6.2 .2 3.9 3.5 3.5Z\"/></svg>";
 

@@ -433,7 +433,7 @@ class Live {
     const own = { duration: duration ?? undefined, gap: bound ? length / bound - 1 : undefined, clearance: clearance ?? undefined };
     const known = final && view?.figures?.duration ? view.figures : own;
     let cards = final && verdict === 'found' && known.duration ? View.cards({ figures: known }) : [];
-    // The cards keep their places while something is dragged, with what is known then.
+    // The cards keep their places while something is dragged, with the values that are known then.
     if (!final && !this.cards.hidden) {
       const now = new Map(View.cards({ figures: { duration: own.duration, gap: own.gap } }).map((card) => [card[0], card]));
       cards = ['time', 'over the optimum', 'clearance'].map((name) => (name === 'over the optimum' && own.gap === undefined ? null : now.get(name)) ?? [name, '\u2026', 'known when you let go']);

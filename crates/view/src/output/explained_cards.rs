@@ -107,7 +107,7 @@ impl CardMaker<'_> {
             }
             Element::Link { .. } => None,
             Element::Limit { joint, side } => {
-                // The other end stays as it is.
+                // The other end does not change.
                 let (lower, upper) = self.scene().arm().joints[joint].range.domain();
                 let (least, most) = changed.scene().arm().joints[joint].range.domain();
                 let range = if side == Side::Lower { [least, upper] } else { [lower, most] };
@@ -217,7 +217,7 @@ impl CardMaker<'_> {
     fn contours(&self, changed: &Scene, element: Element) -> Vec<ContourView> {
         let only = match element {
             Element::Obstacle { number } => Some(number),
-            // Shapes of revolute joints repeat after each turn, whatever the limits.
+            // Shapes of revolute joints repeat after each turn, for any limits.
             Element::Limit { joint, .. } if !changed.arm().joints[joint].joint_type.is_revolute() => None,
             _ => return Vec::new(),
         };

@@ -232,7 +232,7 @@ pub fn bounds(scene: &Scene, set: &BlockingSet, change: &Change) -> [String; 2] 
     [format!("{open} opens a path, certified"), format!("{shut} does not, proven{}", context(scene, set, change))]
 }
 
-/// Returns true if the change makes an obstacle so small that nothing is left of it.
+/// Returns true if the change makes an obstacle so small that it vanishes.
 pub(super) fn leaves_nothing(scene: &Scene, change: &Change) -> bool {
     let shrinks = matches!(change.cure, ChangeKind::Eroded | ChangeKind::Scaled { .. });
     shrinks && change.changed_obstacle(scene).is_some_and(|obstacle| obstacle.pieces.is_empty())

@@ -139,7 +139,7 @@ pub(crate) struct StillContent {
 pub(crate) struct PanelView {
     /// The text above the panel.
     pub title: String,
-    /// A second line above the panel; empty if there is none.
+    /// A second line above the panel; empty without one.
     pub subtitle: String,
     /// Indices of the worlds of this space. They differ only in the obstacles that link 2 may reach into.
     pub worlds: Vec<usize>,
