@@ -45,7 +45,7 @@ def test_thinking_is_played_by_keyboard_and_each_keeps_its_time(program, show_fi
     keyboard.press("t")
     # The page begins at the end of the first phase, because its beginning shows nothing. Playing begins at the beginning.
     assert seen.do("cplan.mode") == "think" and seen.do("cplan.time") == pytest.approx(seen.do("cplan.replay[0].seconds"), abs=0.01)
-    assert seen.page.locator(".caption .key li").all_inner_texts() == ["free", "colliding", "undecided"]
+    assert seen.page.locator(".caption .key li").all_inner_texts() == ["free", "colliding: white, or under a C-obstacle", "undecided"]
     seen.do("cplan.toggle()")
     seen.until("cplan.time < 0.5 * cplan.replay[0].seconds")
     seen.do("cplan.pause()")

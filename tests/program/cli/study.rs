@@ -411,7 +411,7 @@ fn the_page_distinguishes_what_colours_mean() {
         assert!(html.contains(part), "{part}");
     }
     // Cells of layouts with a motion that is too long are neither grey nor in the colour of a proof.
-    let unfit = "fill=\"var(--unknown)\"><title>";
+    let unfit = "fill=\"var(--unknown)\" data-layout=";
     assert!(!html.contains(unfit));
     let (html, _) = page("conditions = [\"duration <= 0.01\"]");
     assert!(html.contains(unfit) && html.contains("a motion, but not one that meets the conditions"));

@@ -162,7 +162,7 @@ const Strip = (() => {
       const known = strip.obstacles.length ? `Blocked by ${strip.obstacles.map(({ name }) => name).join(', ')}.` : 'No moving obstacle comes near the motion.';
       canvas.setAttribute('aria-label', `Progress of the motion against time. ${known} ${texts.map((text) => `The arm ${text}.`).join(' ')}`.trim());
       waits.replaceChildren(...strip.waits.map(({ from, text }) => {
-        const button = element('button', { type: 'button', class: 'button', onclick: () => view.seek(from) }, text, element('span', { class: 'at' }, `at ${Numbers.seconds(from)}`));
+        const button = element('button', { type: 'button', class: 'button', onclick: () => view.seek(from) }, text, element('span', { class: 'at' }, `from ${Numbers.seconds(from)}`));
         return element('li', {}, button);
       }));
       waits.hidden = !strip.waits.length;

@@ -529,7 +529,7 @@ class View {
     const sorts = ['slabs', 'boxes'].includes(moment?.phase.kind);
     key.hidden = !sorts;
     if (!sorts || key.children.length) return;
-    for (const [color, text] of [['free', 'free'], ['paper', 'colliding'], ['undecided', 'undecided']]) {
+    for (const [color, text] of [['free', 'free'], ['paper', 'colliding: white, or under a C-obstacle'], ['undecided', 'undecided']]) {
       key.append(element('li', {}, element('span', { class: 'swatch', style: `background:var(--${color})` }), text));
     }
   }
