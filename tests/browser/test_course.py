@@ -73,7 +73,7 @@ def test_the_chapters_of_the_book_are_those_of_the_page():
 @pytest.mark.parametrize("chapter", CHAPTERS)
 def test_a_chapter_opens_in_the_course_of_its_page(program, show, chapter):
     file = written(program, chapter)
-    assert file.stat().st_size < 450_000
+    assert file.stat().st_size < 550_000
     seen = show(f"{file.as_uri()}#learn={chapter}")
     lessons = lessons_of(seen, chapter)
     assert (seen.do("cplan.mode"), seen.do("cplan.learn.lesson")) == ("learn", lessons[0]) and len(lessons) > 1

@@ -161,5 +161,6 @@ def test_nothing_moves_under_the_finger(serve):
     assert "blocked" in badge(seen)
     drag(seen, "cspace", [1.55, -0.35], [2.0, 0.5])
     settled(seen)
-    tops = seen.do("[...tops]")
-    assert len(tops) == 1, tops
+    tops = seen.do("[...tops].map((top) => JSON.parse(top))")
+    # While the page scrolls, places are rounded to fractions of a pixel.
+    assert all(max(top) - min(top) < 1 for top in zip(*tops)), tops

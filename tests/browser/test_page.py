@@ -416,7 +416,7 @@ def test_key_figures_are_cards_and_bounds_are_rounded_to_the_safe_side(program, 
     seen = show_file(page)
     figures = {"duration": 2.063, "gap": 8.41e-5, "clearance": 0.0204999}
     texts = seen.do("(figures) => View.cards({ figures }).map(([, value]) => value)", figures)
-    assert texts == ["2.06 s", "at most 0.0085 %", "20.4 mm"]
+    assert texts == ["2.06 s", "at most 0.009 %", "20.4 mm"]
     assert seen.do("View.cards({ figures: { duration: 1 } })[1][1]") == "not proven"
     seen.do("() => { cplan.model.figures = undefined; cplan.headings(); }")
     assert seen.page.locator(".cards").is_hidden(), "no figures, no row"

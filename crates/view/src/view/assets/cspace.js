@@ -507,12 +507,12 @@ const CSpace = (() => {
   /** Draws everything that moves: the arm's configuration, and the one that the user examines. */
   function moving(context, panel, view) {
     const { theme } = panel;
-    const stamps = () => view.world.moments && stamp(context, panel, Numbers.seconds(view.now));
+    const time = view.world.moments ? Numbers.seconds(view.now) : null;
     // Names avoid the stamp, which lies over the C-obstacles.
-    stamps();
+    if (time) panel.blocked.boxes.push(stampBox(context, panel, time));
     inTime(context, panel, view, view.world);
     view.reachMap?.inCSpace(context, panel);
-    stamps();
+    if (time) stamp(context, panel, time);
     const [x, y] = place(view, panel, view.q);
     context.beginPath();
     context.arc(x, y, 4.8, 0, 2 * Math.PI);
@@ -536,12 +536,20 @@ const CSpace = (() => {
     line(context, [[px, py - 7], [px, py + 7]]);
   }
 
-  /** Writes the time for which the C-obstacles of moving obstacles are drawn, in a corner. */
-  function stamp(context, panel, text) {
-    const { rect, theme, zoom } = panel;
+  /**
+   * Returns the place of the stamp: a corner of the panel.
+   * @returns {Rect}
+   */
+  function stampBox(context, { rect, theme, zoom }, text) {
     context.font = theme.font(600);
     const [width, height] = [context.measureText(text).width + 12 * zoom, 22 * zoom];
-    const [x, y] = [rect.x + rect.width - width - 6, rect.y + 6];
+    return { x: rect.x + rect.width - width - 6, y: rect.y + 6, width, height };
+  }
+
+  /** Writes the time for which the C-obstacles of moving obstacles are drawn. */
+  function stamp(context, panel, text) {
+    const { theme } = panel;
+    const { x, y, width, height } = stampBox(context, panel, text);
     context.fillStyle = theme.paper;
     context.strokeStyle = theme.grey;
     context.lineWidth = 1;
@@ -553,7 +561,6 @@ const CSpace = (() => {
     context.textAlign = 'center';
     context.textBaseline = 'middle';
     context.fillText(text, x + width / 2, y + height / 2);
-    panel.blocked.boxes.push({ x, y, width, height });
   }
 
   /** Draws the scale of colours, to the right of the panel. */

@@ -180,6 +180,8 @@ class Explain {
    * @returns {void}
    */
   render() {
+    // The pointer may leave a card after an edit has removed it.
+    if (!this.explanation) return;
     const { view } = this;
     const card = this.hovered ?? this.kept;
     this.buttons.forEach((button, k) => {
