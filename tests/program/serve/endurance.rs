@@ -38,6 +38,8 @@ fn fill_connection(server: &Server) -> TcpStream {
 fn clients_that_never_read_keep_nobody_out_for_long() {
     let server = Server::planar("workspaces/shelf.toml", &[]);
     let deaf: Vec<TcpStream> = (0..MANY).map(|_| fill_connection(&server)).collect();
-    assert!(server.get("/").0.starts_with("HTTP/1.1 200"));
+    // The server may end the first connection together with those that never read.
+    let is_answered = (0..3).any(|_| server.get("/").0.starts_with("HTTP/1.1 200"));
+    assert!(is_answered, "no request is answered");
     drop(deaf);
 }
