@@ -4,7 +4,6 @@
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
 use super::files::Files;
-use super::fresh::for_a_shell;
 use super::headings::{OUTPUT, QUERY};
 use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
@@ -20,6 +19,7 @@ use crate::model::Status;
 use crate::output::PlanOutput as _;
 use crate::output::explained;
 use crate::space::{GoalSet, Segment};
+use crate::text::for_a_shell;
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::path::PathBuf;

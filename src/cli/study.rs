@@ -3,14 +3,13 @@
 use super::ctrl_c;
 use super::exit::DONE;
 use super::failure::Failure;
-use super::fresh::for_a_shell;
 use super::headings::OUTPUT;
 use super::print_args::PrintArgs;
 use super::progress::Progress;
 use super::sinks;
 use crate::motion::write_whole_set;
 use crate::study::{Journal, JournalError, Row, Study, Summary, pictures};
-use crate::text::counted;
+use crate::text::{counted, for_a_shell};
 use clap::{Args, ValueHint};
 use std::ffi::OsString;
 use std::num::NonZeroUsize;

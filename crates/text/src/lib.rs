@@ -7,6 +7,7 @@ mod markup;
 pub mod number;
 mod plain;
 mod rounded;
+mod shell;
 mod wrapped;
 
 pub use base64::base64;
@@ -16,6 +17,7 @@ pub use plain::plain_json;
 pub use plain::{plain, plain_line};
 pub use rounded::{chosen_length, headline_length, headline_number, length_down, length_unlike, length_up};
 pub use rounded::{fixed, format_distinct, length, nonzero, percent, round_down, round_up, short};
+pub use shell::for_a_shell;
 pub use wrapped::wrapped;
 
 /// Formats a count with its noun: `1 obstacle`, `3 obstacles`, `2 boxes`.

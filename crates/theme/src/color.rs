@@ -143,15 +143,7 @@ pub fn scale(value: f64) -> Rgb {
 mod tests {
     use super::*;
     use crate::CHANNEL;
-
-    /// Returns the relative luminance (WCAG) of a colour. It does not depend on the code that mixes colours.
-    fn luminance(c: Rgb) -> f64 {
-        let linear = |v: u8| {
-            let v = f64::from(v) / 255.0;
-            if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
-        };
-        0.2126 * linear(c.0) + 0.7152 * linear(c.1) + 0.0722 * linear(c.2)
-    }
+    use crate::contrast::luminance;
 
     #[test]
     fn the_paths_of_many_planners_differ() {

@@ -3,6 +3,8 @@
 //! the program for pixels.
 
 mod color;
+#[cfg(test)]
+mod contrast;
 mod planners;
 mod roles;
 

@@ -109,20 +109,7 @@ impl PlannerPen {
 mod tests {
     use super::*;
     use crate::ROLES;
-
-    /// Relative luminance (WCAG), a measure that is independent of the mixing code.
-    fn luminance(c: Rgb) -> f64 {
-        let linear = |v: u8| {
-            let v = f64::from(v) / 255.0;
-            if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
-        };
-        0.2126 * linear(c.0) + 0.7152 * linear(c.1) + 0.0722 * linear(c.2)
-    }
-
-    fn contrast(a: Rgb, b: Rgb) -> f64 {
-        let [a, b] = [a, b].map(|color| luminance(color) + 0.05);
-        a.max(b) / a.min(b)
-    }
+    use crate::contrast::contrast;
 
     #[test]
     fn planners_stand_out_from_both_backgrounds() {
