@@ -115,6 +115,8 @@ def show_file(show):
         seen.page.on("request", lambda request: asked.append(request.url))
         seen.page.goto(path.as_uri())
         assert asked == [path.as_uri()], "a page by itself asks for nothing"
+        if not options.get("java_script_enabled", True):
+            return seen  # Without scripts there are no promises to wait for, either.
         # Names are placed again when the bundled font is there, which is wider than others.
         seen.page.evaluate(
             "Promise.all([400, 600].map((weight) => document.fonts.load(`${weight} 13px Inter`)))"
