@@ -46,6 +46,7 @@ mod settings;
 mod shapes;
 mod sheet;
 mod stroke;
+mod strokes;
 mod svg;
 mod unit;
 
@@ -55,6 +56,7 @@ pub use notes::{Note, Notes};
 pub use settings::{MIN_TOLERANCE, Settings};
 pub use shapes::{Drawing, Frame, Geometry, Point, Ring, Shape};
 pub use sheet::MAX_POINTS;
+pub use strokes::{Stroke, StrokeCurve, Strokes, strokes};
 pub use unit::{Unit, UnknownUnit};
 
 use std::path::Path;

@@ -1,13 +1,17 @@
 //! Reads SVG. Filled shapes become solid, and open shapes with only a stroke become walls.
 
 mod path;
+mod strokes;
 mod style;
 
+pub(crate) use strokes::read as read_strokes;
+
+use crate::Stroke;
 use crate::curve::Ellipse;
 use crate::map::Map;
 use crate::sheet::{Origin, Sheet};
 use crate::{Drawing, Error, Point, Settings, Unit};
-use path::{PathError, Stretch, stretches};
+use path::{Outline, Stretch, outlines};
 use roxmltree::{Document, Node, ParsingOptions};
 use simplecss::StyleSheet;
 use std::collections::HashMap;
@@ -29,6 +33,15 @@ const INKSCAPE_NAMESPACE: &str = "http://www.inkscape.org/namespaces/inkscape";
 /// # Errors
 /// If the text is not XML (with its line) or not SVG.
 pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
+    Ok(sheet_and_strokes(text, settings, None)?.0.finish())
+}
+
+/// Reads an SVG: its shapes, or the exact strokes of its outlines if `strokes` has a list for them.
+fn sheet_and_strokes(
+    text: &str,
+    settings: &Settings,
+    strokes: Option<Vec<Stroke>>,
+) -> Result<(Sheet, Vec<Stroke>), Error> {
     const SAVE_HINT: &str = "save the drawing again, as a plain SVG";
     if text.trim().is_empty() {
         return Err(Error::new(None, "the file is empty", SAVE_HINT));
@@ -49,10 +62,10 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
     sheets.filter_map(|node| node.text()).for_each(|text| styles.parse_more(text));
     let ends = text.bytes().zip(0..).filter(|(byte, _)| *byte == b'\n').map(|(_, at)| at).collect();
     let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node))).collect();
-    let mut reader = Reader { ends, ids, styles, sheet: Sheet::new(settings), elements: 0, groups: 0 };
+    let mut reader = Reader { ends, ids, styles, sheet: Sheet::new(settings), strokes, elements: 0, groups: 0 };
     let inside = reader.page(root, settings)?;
     reader.children(root, &inside, 0)?;
-    Ok(reader.sheet.finish())
+    Ok((reader.sheet, reader.strokes.unwrap_or_default()))
 }
 
 fn is_svg(node: Node) -> bool {
@@ -78,6 +91,8 @@ struct Reader<'a, 'i> {
     ids: HashMap<&'a str, Node<'a, 'i>>,
     styles: StyleSheet<'a>,
     sheet: Sheet,
+    /// The strokes so far, if strokes are read and not shapes.
+    strokes: Option<Vec<Stroke>>,
     elements: usize,
     groups: usize,
 }
@@ -261,16 +276,15 @@ impl<'a, 'i> Reader<'a, 'i> {
                 self.sheet.leave_out("elements not visible", &origin(kind, line, &inside));
                 Ok(())
             }
+            "path" | "polygon" | "polyline" | "line" | "rect" | "circle" | "ellipse" if self.strokes.is_some() => {
+                self.add_strokes(node, &inside)
+            }
             "path" => {
-                let data = node.attribute("d").unwrap_or_default();
                 let origin = origin(kind, line, &inside);
-                let stretches = stretches(data, &inside.map, self.sheet.tolerance).map_err(|error| match error {
-                    PathError::TooFine => self.sheet.too_fine(&origin),
-                    PathError::Syntax(why) => {
-                        Error::new(line, format!("path data: {why}"), "save the drawing again, as a plain SVG")
-                    }
-                })?;
-                self.stretches(stretches, style, &origin)
+                let stretches = self.outlines_of_path(node, &inside)?;
+                let stretches = stretches.iter().map(|outline| outline.stretch(self.sheet.tolerance)).collect();
+                let stretches: Result<Vec<Stretch>, _> = stretches;
+                self.stretches(stretches.map_err(|_| self.sheet.too_fine(&origin))?, style, &origin)
             }
             "polygon" | "polyline" => {
                 let points = PointsParser::from(node.attribute("points").unwrap_or_default());
@@ -279,13 +293,8 @@ impl<'a, 'i> Reader<'a, 'i> {
                 self.stretches(vec![stretch], style, &origin(kind, line, &inside))
             }
             "line" => {
-                let mut ends = [[0.0; 2]; 2];
-                for (end, names) in ends.iter_mut().zip([["x1", "y1"], ["x2", "y2"]]) {
-                    for k in 0..2 {
-                        end[k] = self.length_or_0(node, names[k], inside.page[k])?;
-                    }
-                }
-                self.sheet.wall(ends.map(|p| inside.map.point(p)).to_vec(), &origin(kind, line, &inside))
+                let ends = self.line_ends(node, &inside)?;
+                self.sheet.wall(ends.to_vec(), &origin(kind, line, &inside))
             }
             "rect" => self.rect(node, &inside, &origin(kind, line, &inside)),
             "circle" | "ellipse" => self.read_ellipse(node, &inside, &origin(kind, line, &inside)),
@@ -296,6 +305,13 @@ impl<'a, 'i> Reader<'a, 'i> {
             // These elements are not drawn: definitions, titles, animations.
             _ => Ok(()),
         }
+    }
+
+    /// Returns the outlines of a `path` element.
+    fn outlines_of_path(&self, node: Node, inside: &InheritedProperties) -> Result<Vec<Outline>, Error> {
+        outlines(node.attribute("d").unwrap_or_default(), &inside.map).map_err(|why| {
+            Error::new(self.line(node), format!("path data: {why}"), "save the drawing again, as a plain SVG")
+        })
     }
 
     /// Returns the properties within an `svg` or a `symbol` element, whose size is given by `sized`.
@@ -351,14 +367,22 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.children(target, &inside, depth + 1)
     }
 
-    fn rect(&mut self, node: Node, inside: &InheritedProperties, origin: &Origin) -> Result<(), Error> {
+    /// Returns the ends of a `line` element, mapped.
+    fn line_ends(&self, node: Node, inside: &InheritedProperties) -> Result<[Point; 2], Error> {
+        let mut ends = [[0.0; 2]; 2];
+        for (end, names) in ends.iter_mut().zip([["x1", "y1"], ["x2", "y2"]]) {
+            for k in 0..2 {
+                end[k] = self.length_or_0(node, names[k], inside.page[k])?;
+            }
+        }
+        Ok(ends.map(|p| inside.map.point(p)))
+    }
+
+    /// Returns corner, size and radii of a `rect` element; `None` if it has no extent.
+    fn rect_extents(&self, node: Node, inside: &InheritedProperties) -> Result<Option<[Point; 3]>, Error> {
         let page = inside.page;
         let [x, y] = [self.length_or_0(node, "x", page[0])?, self.length_or_0(node, "y", page[1])?];
         let [w, h] = [self.length_or_0(node, "width", page[0])?, self.length_or_0(node, "height", page[1])?];
-        if w <= 0.0 || h <= 0.0 {
-            self.sheet.leave_out("<rect> without extent", origin);
-            return Ok(());
-        }
         let radius = |name: &str, whole: f64| match node.attribute(name) {
             Some("auto") => Ok(None),
             _ => self.length(node, name, whole),
@@ -366,6 +390,14 @@ impl<'a, 'i> Reader<'a, 'i> {
         let (rx, ry) = match (radius("rx", page[0])?, radius("ry", page[1])?) {
             (None, None) => (0.0, 0.0),
             (rx, ry) => (rx.or(ry).unwrap_or(0.0).min(w / 2.0), ry.or(rx).unwrap_or(0.0).min(h / 2.0)),
+        };
+        Ok((w > 0.0 && h > 0.0).then_some([[x, y], [w, h], [rx, ry]]))
+    }
+
+    fn rect(&mut self, node: Node, inside: &InheritedProperties, origin: &Origin) -> Result<(), Error> {
+        let Some([[x, y], [w, h], [rx, ry]]) = self.rect_extents(node, inside)? else {
+            self.sheet.leave_out("<rect> without extent", origin);
+            return Ok(());
         };
         let mut ring: Vec<Point> = Vec::new();
         // Corners in turn, each with its quarter of an ellipse.
@@ -383,17 +415,22 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.sheet.closed(ring, origin)
     }
 
-    fn read_ellipse(&mut self, node: Node, inside: &InheritedProperties, origin: &Origin) -> Result<(), Error> {
+    /// Returns centre and half axes of a `circle` or an `ellipse` element; `None` if it has no extent.
+    fn ellipse_extents(&self, node: Node, inside: &InheritedProperties) -> Result<Option<[Point; 2]>, Error> {
         let page = inside.page;
         let center = [self.length_or_0(node, "cx", page[0])?, self.length_or_0(node, "cy", page[1])?];
         let [rx, ry] = match node.has_tag_name("circle") || node.has_tag_name((SVG_NAMESPACE, "circle")) {
             true => [self.length_or_0(node, "r", (page[0].hypot(page[1])) / 2.0_f64.sqrt())?; 2],
             false => [self.length_or_0(node, "rx", page[0])?, self.length_or_0(node, "ry", page[1])?],
         };
-        if rx <= 0.0 || ry <= 0.0 {
+        Ok((rx > 0.0 && ry > 0.0).then_some([center, [rx, ry]]))
+    }
+
+    fn read_ellipse(&mut self, node: Node, inside: &InheritedProperties, origin: &Origin) -> Result<(), Error> {
+        let Some([center, [rx, ry]]) = self.ellipse_extents(node, inside)? else {
             self.sheet.leave_out(&format!("{} without extent", origin.kind), origin);
             return Ok(());
-        }
+        };
         if rx == ry {
             return self.sheet.circle(center, rx, &inside.map, origin);
         }

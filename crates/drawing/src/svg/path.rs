@@ -1,10 +1,59 @@
-//! Converts SVG path data to chords.
+//! Converts SVG path data to curves, and curves to chords.
 
 use crate::Point;
 use crate::curve::{Ellipse, TooFineCurve, cubic};
 use crate::map::Map;
 use std::f64::consts::TAU;
 use svgtypes::{PathParser, PathSegment};
+
+/// A connected part of a path, with its exact curves. Each begins where the one before it ends.
+#[derive(Debug, Clone)]
+pub(super) struct Outline {
+    pub start: Point,
+    pub curves: Vec<OutlineCurve>,
+    pub is_closed: bool,
+}
+
+/// A curve of an outline.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum OutlineCurve {
+    /// A straight line to this point.
+    Line(Point),
+    /// A cubic Bézier curve: its two inner control points and its end.
+    Cubic([Point; 3]),
+    /// An arc of an ellipse from a parameter over a range.
+    Arc { ellipse: Ellipse, from: f64, by: f64, end: Point },
+}
+
+impl Outline {
+    /// Returns the outline as chords that are within `tolerance` of its curves.
+    pub fn stretch(&self, tolerance: f64) -> Result<Stretch, TooFineCurve> {
+        let mut points = vec![self.start];
+        let mut at = self.start;
+        for curve in &self.curves {
+            match *curve {
+                OutlineCurve::Line(end) => points.push(end),
+                OutlineCurve::Cubic([b, c, d]) => points.extend(cubic([at, b, c, d], tolerance)?),
+                OutlineCurve::Arc { ellipse, from, by, end } => {
+                    points.extend(ellipse.arc(from, by, tolerance)?);
+                    points.pop();
+                    points.push(end);
+                }
+            }
+            at = curve.end();
+        }
+        Ok(Stretch { points, is_closed: self.is_closed })
+    }
+}
+
+impl OutlineCurve {
+    /// Returns the point where the curve ends.
+    pub fn end(&self) -> Point {
+        match *self {
+            Self::Line(end) | Self::Cubic([_, _, end]) | Self::Arc { end, .. } => end,
+        }
+    }
+}
 
 /// A connected part of a path.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,43 +62,33 @@ pub(super) struct Stretch {
     pub is_closed: bool,
 }
 
-/// Errors in path data.
-pub(super) enum PathError {
-    Syntax(String),
-    TooFine,
-}
-
-impl From<TooFineCurve> for PathError {
-    fn from(_: TooFineCurve) -> Self {
-        Self::TooFine
-    }
-}
-
 /// The state of the pen, in coordinates before the map.
 struct Pen<'m> {
     map: &'m Map,
-    tolerance: f64,
     at: Point,
     begin: Point,
     /// The last control points, which smooth curves mirror: of a cubic and of a quadratic curve.
     control: [Option<Point>; 2],
-    stretches: Vec<Stretch>,
-    /// True if the pen is lifted, so the next segment starts a new stretch.
-    starts_stretch: bool,
+    outlines: Vec<Outline>,
+    /// True if the pen is lifted, so the next segment starts a new outline.
+    starts_outline: bool,
 }
 
-/// Returns the connected stretches of a path.
-pub(super) fn stretches(data: &str, map: &Map, tolerance: f64) -> Result<Vec<Stretch>, PathError> {
+/// Returns the connected outlines of a path.
+///
+/// # Errors
+/// If the data are not well-formed, with the reason.
+pub(super) fn outlines(data: &str, map: &Map) -> Result<Vec<Outline>, String> {
     let (at, begin) = ([0.0; 2], [0.0; 2]);
-    let mut pen = Pen { map, tolerance, at, begin, control: [None; 2], stretches: Vec::new(), starts_stretch: true };
+    let mut pen = Pen { map, at, begin, control: [None; 2], outlines: Vec::new(), starts_outline: true };
     for segment in PathParser::from(data) {
-        pen.draw(segment.map_err(|error| PathError::Syntax(error.to_string()))?)?;
+        pen.draw(segment.map_err(|error| error.to_string())?);
     }
-    Ok(pen.stretches)
+    Ok(pen.outlines)
 }
 
 impl Pen<'_> {
-    fn draw(&mut self, segment: PathSegment) -> Result<(), TooFineCurve> {
+    fn draw(&mut self, segment: PathSegment) {
         let here = self.at;
         let to = |abs: bool, x: f64, y: f64| if abs { [x, y] } else { [here[0] + x, here[1] + y] };
         let reflected = |control: Option<Point>| control.map_or(here, |c| [0, 1].map(|k| 2.0 * here[k] - c[k]));
@@ -58,71 +97,67 @@ impl Pen<'_> {
             PathSegment::MoveTo { abs, x, y } => {
                 self.at = to(abs, x, y);
                 self.begin = self.at;
-                self.starts_stretch = true;
+                self.starts_outline = true;
             }
             PathSegment::LineTo { abs, x, y } => self.line(to(abs, x, y)),
             PathSegment::HorizontalLineTo { abs, x } => self.line([to(abs, x, 0.0)[0], here[1]]),
             PathSegment::VerticalLineTo { abs, y } => self.line([here[0], to(abs, 0.0, y)[1]]),
             PathSegment::CurveTo { abs, x1, y1, x2, y2, x, y } => {
-                self.curve(to(abs, x1, y1), to(abs, x2, y2), to(abs, x, y))?;
+                self.curve(to(abs, x1, y1), to(abs, x2, y2), to(abs, x, y));
             }
             PathSegment::SmoothCurveTo { abs, x2, y2, x, y } => {
-                self.curve(reflected(controls[0]), to(abs, x2, y2), to(abs, x, y))?;
+                self.curve(reflected(controls[0]), to(abs, x2, y2), to(abs, x, y));
             }
-            PathSegment::Quadratic { abs, x1, y1, x, y } => self.quadratic(to(abs, x1, y1), to(abs, x, y))?,
-            PathSegment::SmoothQuadratic { abs, x, y } => self.quadratic(reflected(controls[1]), to(abs, x, y))?,
+            PathSegment::Quadratic { abs, x1, y1, x, y } => self.quadratic(to(abs, x1, y1), to(abs, x, y)),
+            PathSegment::SmoothQuadratic { abs, x, y } => self.quadratic(reflected(controls[1]), to(abs, x, y)),
             PathSegment::EllipticalArc { abs, rx, ry, x_axis_rotation, large_arc, sweep, x, y } => {
                 let end = to(abs, x, y);
                 match arc(here, end, [rx, ry], x_axis_rotation.to_radians(), large_arc, sweep) {
                     Some((ellipse, from, by)) => {
-                        let mut points: Vec<Point> = ellipse.mapped(self.map).arc(from, by, self.tolerance)?.collect();
-                        points.pop();
-                        self.begin_stretch().points.extend(points);
-                        self.line(end);
+                        let (ellipse, mapped) = (ellipse.mapped(self.map), self.map.point(end));
+                        self.begin_outline().curves.push(OutlineCurve::Arc { ellipse, from, by, end: mapped });
+                        self.at = end;
                     }
                     None => self.line(end),
                 }
             }
             PathSegment::ClosePath { .. } => {
-                if !self.starts_stretch {
-                    self.begin_stretch().is_closed = true;
+                if !self.starts_outline {
+                    self.begin_outline().is_closed = true;
                 }
                 self.at = self.begin;
-                self.starts_stretch = true;
+                self.starts_outline = true;
             }
         }
-        Ok(())
     }
 
-    /// Returns the current stretch, or starts a new one if the last has ended.
-    fn begin_stretch(&mut self) -> &mut Stretch {
-        if std::mem::take(&mut self.starts_stretch) {
+    /// Returns the current outline, or starts a new one if the last has ended.
+    fn begin_outline(&mut self) -> &mut Outline {
+        if std::mem::take(&mut self.starts_outline) {
             self.begin = self.at;
-            self.stretches.push(Stretch { points: vec![self.map.point(self.at)], is_closed: false });
+            self.outlines.push(Outline { start: self.map.point(self.at), curves: Vec::new(), is_closed: false });
         }
-        self.stretches.last_mut().expect("one was begun")
+        self.outlines.last_mut().expect("one was begun")
     }
 
     fn line(&mut self, end: Point) {
         let point = self.map.point(end);
-        self.begin_stretch().points.push(point);
+        self.begin_outline().curves.push(OutlineCurve::Line(point));
         self.at = end;
     }
 
-    fn curve(&mut self, b: Point, c: Point, d: Point) -> Result<(), TooFineCurve> {
-        let points = cubic([self.at, b, c, d].map(|p| self.map.point(p)), self.tolerance)?;
-        self.begin_stretch().points.extend(points);
+    fn curve(&mut self, b: Point, c: Point, d: Point) {
+        let points = [b, c, d].map(|p| self.map.point(p));
+        self.begin_outline().curves.push(OutlineCurve::Cubic(points));
         self.at = d;
         self.control[0] = Some(c);
-        Ok(())
     }
 
     /// Draws a quadratic curve as a cubic one.
-    fn quadratic(&mut self, b: Point, c: Point) -> Result<(), TooFineCurve> {
+    fn quadratic(&mut self, b: Point, c: Point) {
         let towards = |p: Point| [0, 1].map(|k| p[k] + (b[k] - p[k]) * 2.0 / 3.0);
-        self.curve(towards(self.at), towards(c), c)?;
+        self.curve(towards(self.at), towards(c), c);
         self.control = [None, Some(b)];
-        Ok(())
     }
 }
 

@@ -1,0 +1,216 @@
+//! Curves of the plane with exact formulas.
+
+/// A point or a displacement in the plane, metres.
+pub type Point = [f64; 2];
+
+/// Number of intervals by which the length of a cubic curve is integrated.
+const LENGTH_INTERVALS: usize = 32;
+
+/// Number of places at which the search for the nearest point of a cubic curve begins.
+const NEAREST_PLACES: usize = 8;
+
+/// Number of steps that refine the nearest point of a cubic curve. Each step takes the parameter's interval to less
+/// than two thirds, so the rest is below a millionth of it.
+const NEAREST_STEPS: usize = 34;
+
+/// A curve. Its parameter `u` runs from 0 to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Curve {
+    /// A straight line at constant speed of the parameter.
+    Line {
+        /// The first end, metres.
+        from: Point,
+        /// The other end, metres.
+        to: Point,
+    },
+    /// An arc of a circle at constant speed of the parameter.
+    Arc {
+        /// The circle's centre, metres.
+        center: Point,
+        /// The circle's radius, metres.
+        radius: f64,
+        /// Direction from the centre to the first end, radians from the x axis.
+        from: f64,
+        /// Angle about the centre from the first end to the other, radians; positive counter-clockwise.
+        by: f64,
+    },
+    /// A cubic Bézier curve with these control points, metres. The first and the last are its ends.
+    Cubic([Point; 4]),
+}
+
+impl Curve {
+    /// Returns the point at a parameter, metres. It is exact at both ends, except for rounding on arcs.
+    #[must_use]
+    pub fn at(&self, u: f64) -> Point {
+        match *self {
+            Curve::Line { from, to } => mix(from, to, u),
+            Curve::Arc { center, radius, from, by } => {
+                let (sin, cos) = (from + by * u).sin_cos();
+                [center[0] + radius * cos, center[1] + radius * sin]
+            }
+            Curve::Cubic([a, b, c, d]) => {
+                let [ab, bc, cd] = [mix(a, b, u), mix(b, c, u), mix(c, d, u)];
+                mix(mix(ab, bc, u), mix(bc, cd, u), u)
+            }
+        }
+    }
+
+    /// Returns the derivative by the parameter, metres.
+    #[must_use]
+    pub fn derivative(&self, u: f64) -> Point {
+        match *self {
+            Curve::Line { from, to } => minus(to, from),
+            Curve::Arc { radius, from, by, .. } => {
+                let (sin, cos) = (from + by * u).sin_cos();
+                [-radius * by * sin, radius * by * cos]
+            }
+            Curve::Cubic([a, b, c, d]) => {
+                let [ab, bc, cd] = [minus(b, a), minus(c, b), minus(d, c)];
+                mix(mix(ab, bc, u), mix(bc, cd, u), u).map(|x| 3.0 * x)
+            }
+        }
+    }
+
+    /// Returns a bound on the length of the second derivative by the parameter over the whole curve, metres.
+    #[must_use]
+    pub fn bend(&self) -> f64 {
+        match *self {
+            Curve::Line { .. } => 0.0,
+            Curve::Arc { radius, by, .. } => radius * by * by,
+            Curve::Cubic([a, b, c, d]) => {
+                let second = |p: Point, q: Point, r: Point| norm(minus(minus(r, q), minus(q, p)));
+                6.0 * second(a, b, c).max(second(b, c, d))
+            }
+        }
+    }
+
+    /// Returns the first end.
+    #[must_use]
+    pub fn start(&self) -> Point {
+        self.at(0.0)
+    }
+
+    /// Returns the other end.
+    #[must_use]
+    pub fn end(&self) -> Point {
+        self.at(1.0)
+    }
+
+    /// Returns the unit direction in which the curve leaves its first end (0) or reaches its other end (1). Returns
+    /// `None` if the curve has no length.
+    #[must_use]
+    pub fn direction(&self, end: f64) -> Option<Point> {
+        let derivative = match *self {
+            // The derivative may vanish where control points coincide; the next one then gives the direction.
+            Curve::Cubic(points) => {
+                let own = points[if end > 0.5 { 3 } else { 0 }];
+                let others = if end > 0.5 { [2, 1, 0] } else { [1, 2, 3] };
+                let away = others.map(|k| minus(points[k], own)).into_iter().find(|v| norm(*v) > 0.0)?;
+                if end > 0.5 { away.map(|x| -x) } else { away }
+            }
+            _ => self.derivative(end),
+        };
+        let length = norm(derivative);
+        (length > 0.0).then(|| derivative.map(|x| x / length))
+    }
+
+    /// Returns the length, metres. For a cubic curve it is a numerical integral.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.length_to(1.0)
+    }
+
+    /// Returns the length from the first end to a parameter, metres. For a cubic curve it is a numerical integral.
+    #[must_use]
+    pub fn length_to(&self, u: f64) -> f64 {
+        match *self {
+            Curve::Line { from, to } => u * norm(minus(to, from)),
+            Curve::Arc { radius, by, .. } => u * radius * by.abs(),
+            Curve::Cubic(_) => {
+                // Simpson's rule.
+                let step = u / LENGTH_INTERVALS as f64;
+                let speed = |k: f64| norm(self.derivative(k * step));
+                let part = |k: usize| speed(k as f64) + 4.0 * speed(k as f64 + 0.5) + speed(k as f64 + 1.0);
+                (0..LENGTH_INTERVALS).map(part).sum::<f64>() * step / 6.0
+            }
+        }
+    }
+
+    /// Returns the parameter from `least` on at which the curve is near a point. It is the nearest one on lines and
+    /// arcs, and on cubic curves unless two places are almost equally near. Arcs are searched for half a turn.
+    #[must_use]
+    pub fn nearest(&self, point: Point, least: f64) -> f64 {
+        match *self {
+            Curve::Line { from, to } => {
+                let along = minus(to, from);
+                let square = dot(along, along);
+                let u = if square > 0.0 { dot(minus(point, from), along) / square } else { 0.0 };
+                u.clamp(least, 1.0)
+            }
+            Curve::Arc { center, from, by, .. } => {
+                let away = minus(point, center);
+                let middle = from + by * least;
+                let turned = (away[1].atan2(away[0]) - middle) * by.signum();
+                // Within half a turn of the place `least`.
+                let turn = turned - std::f64::consts::TAU * (turned / std::f64::consts::TAU).round();
+                (least + (turn / by.abs()).max(0.0)).clamp(least, 1.0)
+            }
+            Curve::Cubic(_) => self.nearest_by_sections(point, least),
+        }
+    }
+
+    /// Finds the nearest place by samples, and refines it by golden sections.
+    fn nearest_by_sections(&self, point: Point, least: f64) -> f64 {
+        let far = |u: f64| norm(minus(self.at(u), point));
+        let step = (1.0 - least) / NEAREST_PLACES as f64;
+        let place = |k: usize| least + step * k as f64;
+        let best = (0..=NEAREST_PLACES).map(place).min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(least);
+        let (mut low, mut high) = ((best - step).max(least), (best + step).min(1.0));
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        for _ in 0..NEAREST_STEPS {
+            let [a, b] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+            if far(a) <= far(b) { high = b } else { low = a }
+        }
+        [low, high, (low + high) / 2.0].into_iter().min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(best)
+    }
+
+    /// Returns the curve after a scaling about the origin, a rotation about it, radians, and a displacement.
+    #[must_use]
+    pub fn placed(&self, scale: f64, turn: f64, shift: Point) -> Self {
+        let (sin, cos) = turn.sin_cos();
+        let moved = |[x, y]: Point| [scale * (x * cos - y * sin) + shift[0], scale * (x * sin + y * cos) + shift[1]];
+        match *self {
+            Curve::Line { from, to } => Curve::Line { from: moved(from), to: moved(to) },
+            Curve::Arc { center, radius, from, by } => {
+                Curve::Arc { center: moved(center), radius: scale * radius, from: from + turn, by }
+            }
+            Curve::Cubic(points) => Curve::Cubic(points.map(moved)),
+        }
+    }
+
+    /// Returns true if all numbers are finite and no coordinate exceeds `most`, metres.
+    pub(crate) fn is_within(&self, most: f64) -> bool {
+        let near = |p: &Point| p.iter().all(|x| x.abs() <= most);
+        match self {
+            Curve::Line { from, to } => near(from) && near(to),
+            Curve::Arc { center, radius, from, by } => near(center) && near(&[*radius, *by]) && from.is_finite(),
+            Curve::Cubic(points) => points.iter().all(near),
+        }
+    }
+}
+
+fn mix(a: Point, b: Point, u: f64) -> Point {
+    [0, 1].map(|k| a[k] * (1.0 - u) + b[k] * u)
+}
+
+pub(crate) fn minus(a: Point, b: Point) -> Point {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+pub(crate) fn norm(v: Point) -> f64 {
+    v[0].hypot(v[1])
+}

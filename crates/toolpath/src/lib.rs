@@ -1,0 +1,88 @@
+//! Lines that the tip of a robot follows: straight lines, circular arcs and cubic Bézier curves, read from G-code and
+//! SVG.
+//!
+//! ```
+//! use cplan_toolpath::{Curve, Format, Placement, read};
+//!
+//! let text = "G21 G90 F1200\nG0 X100 Y50\nG1 X120\nG3 X120 Y70 J10\nM2\n";
+//! let path = read(text.as_bytes(), Format::GCode, &Placement::default())?;
+//! let [line, arc] = path.pieces() else { panic!("two pieces") };
+//! assert_eq!((line.source.line, line.speed), (3, Some(0.02)));
+//! // A half circle with a radius of 10 mm.
+//! let Curve::Arc { radius, by, .. } = arc.curve else { panic!("an arc") };
+//! assert!((radius - 0.01).abs() < 1e-12 && (by - std::f64::consts::PI).abs() < 1e-12);
+//! assert!((path.length() - 0.0514159265).abs() < 1e-9);
+//! # Ok::<(), cplan_toolpath::Error>(())
+//! ```
+//!
+//! # G-code
+//!
+//! The reader accepts G0 to G3, G17, G20, G21, G90 and G91, the words F, I, J, N, R, X and Y, M2 and M30, and comments
+//! in parentheses or after a semicolon. It refuses every other word by its name, with line and column. Nothing is
+//! ignored silently: a machine that would do something else than the file says is worse than one that stops.
+//!
+//! The first point of the file is where the line begins. A later G0 is a piece with [`Piece::is_travel`]: a straight
+//! move of the tip.
+//!
+//! # SVG
+//!
+//! Every visible element is a line along its outline, in the order of the file. Curves stay exact, except that arcs of
+//! ellipses become cubic curves that deviate by less than a millionth of the ellipse's size. Between two elements there
+//! is a straight move, as for G0. Metres, and y upwards from the lower edge of the page, as in `cplan import`.
+#![forbid(unsafe_code)]
+
+mod arc;
+mod curve;
+mod error;
+mod gcode;
+mod path;
+mod placement;
+mod svg;
+
+pub use curve::{Curve, Point};
+pub use error::Error;
+pub use path::{MAX_PIECES, Piece, Source, Toolpath};
+pub use placement::Placement;
+
+use std::path::Path;
+
+/// A format of line files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Programs of machine tools (ISO 6983), as LinuxCNC reads them.
+    GCode,
+    /// Scalable vector graphics.
+    Svg,
+}
+
+impl Format {
+    /// Returns the format for a file extension: `.gcode`, `.nc`, `.ngc` or `.tap`; `.svg`.
+    #[must_use]
+    pub fn from_path(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "gcode" | "nc" | "ngc" | "tap" => Some(Self::GCode),
+            "svg" => Some(Self::Svg),
+            _ => None,
+        }
+    }
+}
+
+/// Reads a line, and places it.
+///
+/// # Errors
+/// If the file is broken, has something that cannot be followed, or has no line.
+pub fn read(bytes: &[u8], format: Format, placement: &Placement) -> Result<Toolpath, Error> {
+    match format {
+        Format::GCode => gcode::read(text(bytes)?, placement),
+        Format::Svg => svg::read(bytes, placement),
+    }
+}
+
+/// Returns bytes as UTF-8, without a byte order mark.
+fn text(bytes: &[u8]) -> Result<&str, Error> {
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        Error::new(line, None, "this is not UTF-8 text", "save the file as text in UTF-8")
+    })?;
+    Ok(text.trim_start_matches('\u{feff}'))
+}

@@ -1,0 +1,138 @@
+//! A line in pieces.
+
+use crate::curve::{minus, norm};
+use crate::{Curve, Error, Point};
+
+/// Greatest number of pieces of a line. A line with more is refused.
+pub const MAX_PIECES: usize = 1_000_000;
+
+/// Greatest magnitude of a coordinate, metres. It is that of obstacles.
+const MAX_COORDINATE: f64 = 1e6;
+
+/// Greatest distance, metres, between the end of a piece and the start of the next one. It is rounding.
+const MAX_GAP: f64 = 1e-9;
+
+/// A place in a file, both numbers from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Source {
+    /// Number of the line.
+    pub line: usize,
+    /// Number of the character in the line; `None` if only the line is known.
+    pub column: Option<usize>,
+}
+
+impl Source {
+    /// Returns the place of a whole line.
+    #[must_use]
+    pub fn of_line(line: usize) -> Self {
+        Self { line, column: None }
+    }
+}
+
+/// A piece of a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// The curve.
+    pub curve: Curve,
+    /// Speed of the tip that the file states, metres per second; `None` without one.
+    pub speed: Option<f64>,
+    /// True if the tip only travels to where the next piece begins (G0). Then the file's speed does not apply.
+    pub is_travel: bool,
+    /// Where the file describes the piece.
+    pub source: Source,
+}
+
+/// A line in the plane, as pieces in order. Each piece begins where the one before it ends. There is at least one
+/// piece, and every piece has a length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Toolpath {
+    pieces: Vec<Piece>,
+    notes: Vec<String>,
+}
+
+impl Toolpath {
+    /// Creates a line. Pieces without a length are omitted.
+    ///
+    /// # Errors
+    /// If no piece has a length, if a piece does not begin where the one before it ends, if there are more than
+    /// [`MAX_PIECES`] pieces, or if a number is too large or not finite.
+    pub fn new(pieces: Vec<Piece>) -> Result<Self, Error> {
+        const SMALLER: &str = "check the unit of the file, and --scale and --move";
+        let mut kept: Vec<Piece> = Vec::with_capacity(pieces.len());
+        for piece in pieces {
+            let Source { line, column } = piece.source;
+            if !piece.curve.is_within(MAX_COORDINATE) {
+                let message = format!("the line has a coordinate beyond {MAX_COORDINATE:.0e} m");
+                return Err(Error::new(line, column, message, SMALLER));
+            }
+            let last = kept.last().map(|before| before.curve.end());
+            let gap = last.map_or(0.0, |end| norm(minus(end, piece.curve.start())));
+            if gap > MAX_GAP * (1.0 + norm(piece.curve.start())) {
+                let message = "this piece does not begin where the one before it ends";
+                return Err(Error::new(line, column, message, "join the pieces by a travel"));
+            }
+            if piece.curve.length() > 0.0 {
+                kept.push(piece);
+            }
+        }
+        if kept.len() > MAX_PIECES {
+            let hint = "split the file into several";
+            return Err(Error::new(None, None, format!("the line has more than {MAX_PIECES} pieces"), hint));
+        }
+        if kept.is_empty() {
+            return Err(Error::new(None, None, "the file has no line", "add at least one move (G1) or one path"));
+        }
+        Ok(Self { pieces: kept, notes: Vec::new() })
+    }
+
+    /// Returns the line with notes about what was omitted or assumed.
+    #[must_use]
+    pub fn with_notes(self, notes: Vec<String>) -> Self {
+        Self { notes, ..self }
+    }
+
+    /// Returns the pieces, in order.
+    #[must_use]
+    pub fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// Returns notes for the user about what the reader omitted or assumed.
+    #[must_use]
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Returns the length, metres.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.pieces.iter().map(|piece| piece.curve.length()).sum()
+    }
+
+    /// Returns the point where the line begins.
+    #[must_use]
+    pub fn start(&self) -> Point {
+        self.pieces[0].curve.start()
+    }
+
+    /// Returns points along the line, for pictures. Each curve is within `tolerance` metres of its chords. Each inner
+    /// list is a stretch without a travel.
+    #[must_use]
+    pub fn outlines(&self, tolerance: f64) -> Vec<Vec<Point>> {
+        const MAX_CHORDS: f64 = 1e4;
+        let mut outlines: Vec<Vec<Point>> = Vec::new();
+        let mut is_joined = false;
+        for piece in &self.pieces {
+            if !piece.is_travel {
+                if !is_joined {
+                    outlines.push(vec![piece.curve.start()]);
+                }
+                let count = (piece.curve.bend() / (8.0 * tolerance)).sqrt().ceil().clamp(1.0, MAX_CHORDS);
+                let points = (1..=count as u32).map(|k| piece.curve.at(f64::from(k) / count));
+                outlines.last_mut().expect("one was begun").extend(points);
+            }
+            is_joined = !piece.is_travel;
+        }
+        outlines
+    }
+}

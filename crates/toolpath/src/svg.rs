@@ -1,0 +1,37 @@
+//! Reads the outlines of an SVG drawing.
+
+use crate::path::{Piece, Source, Toolpath};
+use crate::{Curve, Error, Placement, Point};
+use cplan_drawing::{Settings, StrokeCurve, strokes};
+
+/// Reads the outlines of all visible elements, with travels between them.
+///
+/// # Errors
+/// If the file is not SVG, or has no line.
+pub(crate) fn read(bytes: &[u8], placement: &Placement) -> Result<Toolpath, Error> {
+    let settings = Settings { unit: placement.unit, ..Settings::default() };
+    let drawing = strokes(bytes, &settings)
+        .map_err(|error| Error::new(error.line, None, error.message.clone(), error.cure.clone()))?;
+    let mut pieces: Vec<Piece> = Vec::new();
+    for stroke in &drawing.strokes {
+        let source = Source::of_line(stroke.line);
+        let piece = |curve: Curve, is_travel: bool| Piece { curve, speed: None, is_travel, source };
+        let last: Option<Point> = pieces.last().map(|piece| piece.curve.end());
+        if let Some(from) = last.filter(|end| *end != stroke.start) {
+            pieces.push(piece(Curve::Line { from, to: stroke.start }, true));
+        }
+        let mut from = stroke.start;
+        for curve in &stroke.curves {
+            let curve = match *curve {
+                StrokeCurve::Line(to) => Curve::Line { from, to },
+                StrokeCurve::Cubic([b, c, d]) => Curve::Cubic([from, b, c, d]),
+                StrokeCurve::Arc { center, radius, from, by } => Curve::Arc { center, radius, from, by },
+            };
+            from = curve.end();
+            pieces.push(piece(curve, false));
+        }
+    }
+    let placed = pieces.into_iter().map(|piece| Piece { curve: placement.place(&piece.curve), ..piece }).collect();
+    let notes = drawing.notes.all().iter().map(ToString::to_string).collect();
+    Toolpath::new(placed).map(|path| path.with_notes(notes))
+}
