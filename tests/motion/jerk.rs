@@ -169,7 +169,7 @@ fn a_jerk_beyond_the_limit_is_a_broken_limit() {
 #[test]
 fn the_tip_satisfies_its_speed_limit() {
     let scene = room([3.0, 3.0], [40.0, 40.0], [Some(300.0), Some(900.0)]);
-    let limits = Limits { tip: Some(TipSpeed { arm: scene.arm(), speed: 0.5 }), ..Limits::from(&scene.arm().joints) };
+    let limits = Limits { tip: Some(TipSpeed::new(scene.arm(), 0.5)), ..Limits::from(&scene.arm().joints) };
     let timed = time(curve(&scene, &[[0.0, 0.0], [0.3, 0.4], [1.0, 0.4]], 0.3), &limits, 0.01).unwrap();
     check(&scene.arm().joints, &timed);
     // The tip of a gantry is at the joint values.

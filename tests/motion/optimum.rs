@@ -182,7 +182,7 @@ fn a_slow_tip_is_as_fast_as_it_may() {
         let scene = crate::common::scene(arm, vec![]);
         let curve = curve(&scene, &[[-0.6, 0.2], [0.4, 0.7], [0.9, -0.1]], f64::INFINITY);
         for speed in [0.1, 0.4, 100.0] {
-            let tip = Some(TipSpeed { arm: scene.arm(), speed });
+            let tip = Some(TipSpeed::new(scene.arm(), speed));
             let limits = Limits { tip, ..Limits::from(&scene.arm().joints) };
             for curve in [curve.clone(), curve.clone().without(1)] {
                 let timed = time(curve.clone(), &limits, 0.002).unwrap();

@@ -132,6 +132,15 @@ impl CertifiedCurve {
 /// bisection as a straight piece, with a tube around the blend's chord.
 #[must_use]
 pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64) -> CertifiedCurve {
+    blend_up_to(scene, path, &vec![greatest; path.path().waypoints().len()], clearance)
+}
+
+/// Does the same as [`blend`], with a greatest radius for each waypoint. With 0 the motion stops at the corner.
+///
+/// # Panics
+/// If there are fewer radii than waypoints.
+#[must_use]
+pub fn blend_up_to(scene: &Scene, path: &CertifiedPath, greatest: &[f64], clearance: f64) -> CertifiedCurve {
     let q = path.path().waypoints();
     let required = required_distance(path, clearance);
     let mut blended = CertifiedCurve::from(path.clone());
@@ -144,7 +153,7 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
     for waypoint in 1..last {
         let share = |end: usize| if end == 0 || end == last { END_LEG_SHARE } else { INNER_LEG_SHARE };
         let room = |end: usize| share(end) * (q[end] - q[waypoint]).norm();
-        let most = greatest.min(room(waypoint - 1)).min(room(waypoint + 1));
+        let most = greatest[waypoint].min(room(waypoint - 1)).min(room(waypoint + 1));
         // A leg with a length below the least double has no room.
         if most <= 0.0 {
             continue;

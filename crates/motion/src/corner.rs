@@ -63,6 +63,8 @@ pub(super) struct Corner {
     fastest: f64,
     /// Speed at which the blend is passed, as a share of the speed that the limits allow.
     share: f64,
+    /// Share of the tip's speed limit that applies.
+    tip_share: f64,
 }
 
 /// Returns the least duration, seconds, of a blend that is cut into this many spans. Each span must last at least the
@@ -77,8 +79,8 @@ impl Corner {
     pub(super) fn new(blend: Blend, limits: &Limits, share: f64) -> Option<Self> {
         let limits = &limits.scaled(share);
         let directions = [blend.corner - blend.from, blend.to - blend.corner].map(|leg| leg / leg[0].hypot(leg[1]));
-        let corner =
-            Self { blend, radius: blend.radius(), directions, spans: INITIAL_SPANS, fastest: f64::INFINITY, share };
+        let (radius, fastest) = (blend.radius(), f64::INFINITY);
+        let corner = Self { blend, radius, directions, spans: INITIAL_SPANS, fastest, share, tip_share: 1.0 };
         let bend = corner.second_derivative();
         let turning = (0..2).map(|k| limits.acceleration[k] / bend[k].abs()).fold(f64::INFINITY, f64::min).sqrt();
         let fastest = directions.map(|d| limits.speed_along(d)).into_iter().fold(turning, f64::min);
@@ -92,8 +94,14 @@ impl Corner {
         let length = offset[0].hypot(offset[1]);
         let directions = [offset / length; 2];
         let fastest = limits.speed_along(directions[0]);
-        let corner = Self { blend, radius: length / 2.0, directions, spans: INITIAL_LINE_SPANS, fastest, share: 1.0 };
+        let (radius, spans) = (length / 2.0, INITIAL_LINE_SPANS);
+        let corner = Self { blend, radius, directions, spans, fastest, share: 1.0, tip_share: 1.0 };
         (length / fastest >= shortest(INITIAL_LINE_SPANS)).then_some(corner)
+    }
+
+    /// Returns the corner with a share of the tip's speed limit.
+    pub(super) fn with_tip_share(self, tip_share: f64) -> Self {
+        Self { tip_share, ..self }
     }
 
     /// Returns the share of the limits that stays unused.
@@ -105,7 +113,7 @@ impl Corner {
     /// Returns the corner with twice as many spans. Returns `None` if its spans are fine enough for these squared
     /// speeds at their ends, or cannot be cut.
     pub(super) fn finer(&self, squared_speeds: &[f64], limits: &Limits) -> Option<Self> {
-        let bend = self.second_derivative();
+        let (bend, limits) = (self.second_derivative(), &limits.with_tip_share(self.tip_share));
         let coarse = squared_speeds.windows(2).enumerate().any(|(i, z)| {
             let step = (z[1] - z[0]).abs();
             // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by three halves of q''
@@ -166,7 +174,7 @@ impl Corner {
 
     /// Returns the conditions on the squared speeds at the ends of each span, in order.
     pub(super) fn bounds(&self, limits: &Limits) -> Vec<Bounds> {
-        let limits = &limits.scaled(self.share);
+        let limits = &limits.scaled(self.share).with_tip_share(self.tip_share);
         let step = self.length() / self.spans as f64;
         let (bend, share) = (self.second_derivative(), |i: usize| i as f64 / self.spans as f64);
         let left = 1.0 - self.reserve();

@@ -2,11 +2,12 @@
 
 use super::schedule::duration_bound;
 use super::shape::ShapeSearch;
-use super::smooth::smoothed;
+use super::smooth::{smoothed, time_smoothly};
 use super::{Limits, TimedMotion, TimingError, TipSpeed, TorqueLimit, time};
 use crate::{CertifiedCurve, blend};
 use cplan_core::check::CertifiedPath;
 use cplan_core::model::Scene;
+use cplan_handling::Piece;
 use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 
@@ -68,7 +69,7 @@ impl Drive {
     /// If the motion would last too long or have too many samples, or if the efforts of the joints cannot hold the arm
     /// somewhere on the path.
     pub fn along(&self, scene: &Scene, path: &CertifiedPath, speed: f64) -> Result<TimedMotion, TimingError> {
-        let tip = self.tip_speed.map(|speed| TipSpeed { arm: scene.arm(), speed });
+        let tip = self.tip_speed.map(|speed| TipSpeed::new(scene.arm(), speed));
         let torque = TorqueLimit::of(scene);
         if let Some(torque) = &torque {
             torque.check_holding_along(path.path())?;
@@ -129,4 +130,39 @@ impl Drive {
         }
         Ok(best)
     }
+}
+
+/// Returns the fastest motion along a given curve, whose blends must not change. Compared with [`Drive::along`], no
+/// corner is moved.
+///
+/// With limits on jerks, the motion leaves the curve at its corners. `too_far` receives the pieces of such a motion, and
+/// returns the indices of those that are too far from the curve. The motion then passes the corners there more slowly.
+/// If that does not help, or without a blend, it stops at every corner.
+///
+/// # Errors
+/// Same as for [`Drive::along`].
+pub fn along_curve(
+    scene: &Scene,
+    curve: CertifiedCurve,
+    tip: Option<TipSpeed>,
+    period: f64,
+    too_far: &dyn Fn(&[Piece]) -> Vec<usize>,
+) -> Result<TimedMotion, TimingError> {
+    let torque = TorqueLimit::of(scene);
+    if let Some(torque) = &torque {
+        torque.check_holding_along(curve.straight().path())?;
+    }
+    let limits = Limits { tip, torque, ..Limits::from(&scene.arm().joints) };
+    let smooth = || time_smoothly(scene, &curve, limits, period, too_far);
+    let is_blended = curve.radii().iter().any(|radius| *radius > 0.0);
+    let found = (limits.stops_at_corners() && is_blended).then(smooth).flatten();
+    let mut best = match found {
+        Some(timed) => timed,
+        None => time(curve, &limits, period)?,
+    };
+    if let Some(torque) = torque {
+        torque.check(&best.trajectory.pieces())?;
+        best.trajectory.torque = torque.along_trajectory(&best.trajectory);
+    }
+    Ok(best)
 }

@@ -98,12 +98,12 @@ mod tests;
 #[cfg(feature = "mcap")]
 pub use self::mcap::{Body, Solid, Stage, mcap};
 pub use blend::{BLEND_TOLERANCE, Blend, BlendedPath, Stretch};
-pub use certified::{CertifiedCurve, Rounding, blend};
+pub use certified::{CertifiedCurve, Rounding, blend, blend_up_to};
 pub use clock::whole_nanoseconds;
 pub use clock::{nanoseconds, nearest_within, round_down, round_up, seconds};
 pub use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use csv::csv;
-pub use drive::{Drive, Objective};
+pub use drive::{Drive, Objective, along_curve};
 pub use field::FieldReport;
 pub use format::{Format, FormatError};
 pub use json::field_per_line;

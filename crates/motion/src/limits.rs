@@ -47,6 +47,16 @@ impl Limits<'_> {
         }
     }
 
+    /// Returns the limits with a share of the tip's speed.
+    pub(super) fn with_tip_share(self, share: f64) -> Self {
+        Self { tip: self.tip.map(|tip| TipSpeed { speed: tip.speed * share, ..tip }), ..self }
+    }
+
+    /// Returns the share of the tip's speed that a leg of the path allows.
+    pub(super) fn tip_share(&self, leg: usize) -> f64 {
+        self.tip.map_or(1.0, |tip| tip.share_of_leg(leg))
+    }
+
     /// Returns the greatest distance over both joints that a joint moves at top speed while its jerk builds up the full
     /// acceleration.
     pub(super) fn reversal(&self) -> f64 {

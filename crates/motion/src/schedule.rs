@@ -24,6 +24,10 @@ const MIN_PHASE_SHARE: f64 = 1.0 / 32.0;
 /// accelerate more, but coarse spans do not show this.
 const MIN_GAIN: f64 = 0.005;
 
+/// Greatest number of blends of a run whose spans are divided further than the accuracy needs. With more blends, the
+/// division takes long and gains little, because most of them are short.
+const MAX_FINER_BLENDS: usize = 256;
+
 /// A stretch of a path as a function of the distance along it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Track {
@@ -111,11 +115,12 @@ impl Line {
 
 impl Track {
     /// Splits a straight stretch into as many tracks as its limits require.
-    fn straight(from: Configuration, to: Configuration, limits: &Limits) -> Vec<Self> {
+    fn straight(from: Configuration, to: Configuration, limits: &Limits, tip_share: f64) -> Vec<Self> {
+        let limits = &limits.with_tip_share(tip_share);
         if limits.torque.is_none() {
             return Line::parts(from, to, limits).into_iter().map(Track::Line).collect();
         }
-        let corner = Corner::straight(from, to, limits).map(Track::Corner);
+        let corner = Corner::straight(from, to, limits).map(|corner| Track::Corner(corner.with_tip_share(tip_share)));
         vec![corner.unwrap_or_else(|| Track::Line(Line::new(from, to, limits).safe(limits)))]
     }
 
@@ -249,8 +254,11 @@ pub(super) fn places(run: &[TimedTrack], step: f64) -> Vec<Configuration> {
 
 /// Returns the tracks from rest to rest on each leg from one waypoint to another.
 fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans: Spans) -> Vec<Vec<TimedTrack>> {
-    let legs = curve.path().waypoints()[waypoints.start..=waypoints.end].windows(2);
-    let timed_tracks = |leg: &[Configuration]| {
+    let legs = waypoints.clone().zip(curve.path().waypoints()[waypoints.start..=waypoints.end].windows(2));
+    let timed_tracks = |(number, leg): (usize, &[Configuration])| {
+        let tip_share = limits.tip_share(number);
+        let whole_limits = limits;
+        let limits = &limits.with_tip_share(tip_share);
         let whole = || {
             let line = Line::new(leg[0], leg[1], limits).safe(limits);
             let phases = rest_to_rest(line.length, line.speed, line.acceleration, MIN_INTERVAL);
@@ -264,9 +272,9 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans
             let phases = jerk::rest_to_rest(line.length, line.speed, line.acceleration, line.jerk, MIN_INTERVAL);
             return vec![(Track::Line(line), phases)];
         }
-        let tracks = Track::straight(leg[0], leg[1], limits);
+        let tracks = Track::straight(leg[0], leg[1], whole_limits, tip_share);
         let is_more = tracks.len() > 1 || matches!(tracks[0], Track::Corner(_));
-        is_more.then(|| driven(tracks, limits, 0.0, spans)).flatten().unwrap_or_else(whole)
+        is_more.then(|| driven(tracks, whole_limits, 0.0, spans)).flatten().unwrap_or_else(whole)
     };
     legs.map(timed_tracks).collect()
 }
@@ -323,6 +331,9 @@ fn driven(tracks: Vec<Track>, limits: &Limits, coast: f64, spans: Spans) -> Opti
         }
     };
     let mut best = (timed_tracks(&tracks, &squared, coast)?, squared);
+    if tracks.iter().filter(|track| track.is_blend()).count() > MAX_FINER_BLENDS {
+        return Some(best.0);
+    }
     while let Some(finer) = much_finer(&tracks, &best.1) {
         let squared = squared_speeds(&finer, limits);
         let Some(timed_tracks) = timed_tracks(&finer, &squared, coast) else { break };
@@ -409,9 +420,11 @@ fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, shares:
     let mut tracks = Vec::new();
     for (waypoint, &corner) in q.iter().enumerate().take(waypoints.end + 1).skip(waypoints.start + 1) {
         let blend = curve.blend(waypoint);
-        tracks.extend(Track::straight(from, blend.map_or(corner, |b| b.from), limits));
+        let tip_share = limits.tip_share(waypoint - 1);
+        tracks.extend(Track::straight(from, blend.map_or(corner, |b| b.from), limits, tip_share));
         if let Some(blend) = blend {
-            tracks.push(Track::Corner(Corner::new(blend, limits, shares[waypoint])?));
+            let corner = Corner::new(blend, limits, shares[waypoint])?;
+            tracks.push(Track::Corner(corner.with_tip_share(tip_share.min(limits.tip_share(waypoint)))));
             from = blend.to;
         }
     }

@@ -10,7 +10,7 @@ use super::sample::{TimedMotion, Trajectory};
 use super::schedule::{TimedTrack, schedule, stopping_at};
 use super::spline::Spline;
 use crate::BlendedPath;
-use crate::{Rounding, blend};
+use crate::{CertifiedCurve, Rounding, blend};
 use cplan_core::check::CertifiedPath;
 use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
@@ -73,11 +73,39 @@ pub(super) fn smoothed(
     below: f64,
     retimes: bool,
 ) -> Option<TimedMotion> {
-    let clearance = scene.workspace().clearance;
-    let mut curve = blend(scene, path, greatest, clearance).curve().clone();
-    let rounding = Rounding::new(scene, path, clearance);
+    let curve = blend(scene, path, greatest, scene.workspace().clearance);
     // The extent of a rounding is never greater than the longest leg.
     let most = path.path().segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max).min(greatest);
+    smoothed_along(scene, &curve, most, limits, period, below, retimes, &|_| Vec::new())
+}
+
+/// Returns the fastest motion found along a curve within the limits on jerks. Every corner whose pieces are among the
+/// indices that `too_far` returns for the pieces of a motion is passed more slowly, and finally with a stop. Returns
+/// `None` if no motion is found that is free and has no such piece.
+pub(super) fn time_smoothly(
+    scene: &Scene,
+    curve: &CertifiedCurve,
+    limits: Limits,
+    period: f64,
+    too_far: &dyn Fn(&[Piece]) -> Vec<usize>,
+) -> Option<TimedMotion> {
+    smoothed_along(scene, curve, f64::INFINITY, limits, period, f64::INFINITY, true, too_far)
+}
+
+/// Does the work of [`smoothed`] and [`time_smoothly`]. `most` is the greatest extent of a rounding.
+#[allow(clippy::too_many_arguments)]
+fn smoothed_along(
+    scene: &Scene,
+    blended: &CertifiedCurve,
+    most: f64,
+    limits: Limits,
+    period: f64,
+    below: f64,
+    retimes: bool,
+    too_far: &dyn Fn(&[Piece]) -> Vec<usize>,
+) -> Option<TimedMotion> {
+    let mut curve = blended.curve().clone();
+    let rounding = Rounding::new(scene, blended.straight(), scene.workspace().clearance);
     let mut smoothing = Smoothing::new(&curve, limits, period)?;
     let mut shares = vec![1.0; curve.radii().len()];
     let mut plain = None;
@@ -101,7 +129,8 @@ pub(super) fn smoothed(
         }
         let radii = reaches(&curve, &smooth, &pieces);
         let far = (0..radii.len()).filter(|&w| radii[w] > most);
-        let open = rounding.uncertified_pieces(&pieces);
+        let mut open = rounding.uncertified_pieces(&pieces);
+        open.extend(too_far(&pieces));
         let slower: BTreeSet<usize> = open.iter().filter_map(|&i| smooth.corner(&pieces[i])).chain(far).collect();
         if slower.is_empty() {
             let certified = rounding.certified(radii, &pieces);

@@ -18,6 +18,9 @@ pub struct TipSpeed<'a> {
     pub arm: &'a Arm,
     /// Greatest speed, metres per second, positive.
     pub speed: f64,
+    /// Shares of that speed that each leg of the path allows, greater than 0 and at most 1; empty if all allow the
+    /// whole speed. Only [`super::time`] uses them, and a blend has the lower speed of its two legs.
+    pub legs: &'a [f64],
 }
 
 /// A part of a curve `q(s)` with a constant second derivative: all values of the parameter `s` within `half` of the
@@ -34,7 +37,18 @@ pub(super) struct Part {
     pub(super) half: f64,
 }
 
-impl TipSpeed<'_> {
+impl<'a> TipSpeed<'a> {
+    /// Returns the limit to one speed, metres per second, on the whole path.
+    #[must_use]
+    pub fn new(arm: &'a Arm, speed: f64) -> Self {
+        Self { arm, speed, legs: &[] }
+    }
+
+    /// Returns the share of the speed that a leg allows.
+    pub(super) fn share_of_leg(&self, leg: usize) -> f64 {
+        self.legs.get(leg).copied().unwrap_or(1.0)
+    }
+
     /// Returns a bound, in metres per unit of the parameter, on the overestimate of the tip's derivative on a part.
     pub(super) fn slack(&self, part: &Part) -> f64 {
         self.change(part) * part.half
