@@ -6,12 +6,12 @@ pub type Point = [f64; 2];
 /// Number of intervals by which the length of a cubic curve is integrated.
 const LENGTH_INTERVALS: usize = 32;
 
-/// Number of places at which the search for the nearest point of a cubic curve begins.
-const NEAREST_PLACES: usize = 8;
+/// Step of the parameter in the search for the nearest point of a cubic curve.
+const NEAREST_STEP: f64 = 1.0 / 64.0;
 
-/// Number of steps that refine the nearest point of a cubic curve. Each step takes the parameter's interval to less
-/// than two thirds, so the rest is below a millionth of it.
-const NEAREST_STEPS: usize = 34;
+/// Number of golden sections that refine the nearest point of a cubic curve. The rest is below a billionth of the
+/// parameter.
+const NEAREST_STEPS: usize = 36;
 
 /// A curve. Its parameter `u` runs from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -136,8 +136,8 @@ impl Curve {
         }
     }
 
-    /// Returns the parameter from `least` on at which the curve is near a point. It is the nearest one on lines and
-    /// arcs, and on cubic curves unless two places are almost equally near. Arcs are searched for half a turn.
+    /// Returns the parameter from `least` on at which the curve is near a point. It is the nearest one on lines, and on
+    /// arcs within half a turn. On cubic curves it is the first one from which the distance grows, in small steps.
     #[must_use]
     pub fn nearest(&self, point: Point, least: f64) -> f64 {
         match *self {
@@ -155,23 +155,24 @@ impl Curve {
                 let turn = turned - std::f64::consts::TAU * (turned / std::f64::consts::TAU).round();
                 (least + (turn / by.abs()).max(0.0)).clamp(least, 1.0)
             }
-            Curve::Cubic(_) => self.nearest_by_sections(point, least),
+            Curve::Cubic(_) => self.nearest_ahead(point, least),
         }
     }
 
-    /// Finds the nearest place by samples, and refines it by golden sections.
-    fn nearest_by_sections(&self, point: Point, least: f64) -> f64 {
-        let far = |u: f64| norm(minus(self.at(u), point));
-        let step = (1.0 - least) / NEAREST_PLACES as f64;
-        let place = |k: usize| least + step * k as f64;
-        let best = (0..=NEAREST_PLACES).map(place).min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(least);
-        let (mut low, mut high) = ((best - step).max(least), (best + step).min(1.0));
+    /// Finds the first place from `least` on where the distance stops falling, and refines it by golden sections.
+    fn nearest_ahead(&self, point: Point, least: f64) -> f64 {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        let far = |u: f64| norm(minus(self.at(u), point));
+        let (mut low, mut middle) = (least, least);
+        let mut high = (middle + NEAREST_STEP).min(1.0);
+        while far(high) < far(middle) && high < 1.0 {
+            (low, middle, high) = (middle, high, (high + NEAREST_STEP).min(1.0));
+        }
         for _ in 0..NEAREST_STEPS {
             let [a, b] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
             if far(a) <= far(b) { high = b } else { low = a }
         }
-        [low, high, (low + high) / 2.0].into_iter().min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(best)
+        [low, high, (low + high) / 2.0].into_iter().min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(middle)
     }
 
     /// Returns the curve after a scaling about the origin, a rotation about it, radians, and a displacement.

@@ -1,0 +1,245 @@
+//! Bounds on the motion of the tip, and on the joint values that put the tip near a point.
+
+use cplan_core::model::{Arm, JointType, inverse};
+use cplan_core::space::Configuration;
+use cplan_geometry::{Point, Vector, cross};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Joint values are widened by this, radians or metres, for rounding in proofs.
+const ROUNDING: f64 = 1e-11;
+
+/// All configurations that put the tip near a point, for one IK solution: a box about its middle.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SolutionBox {
+    pub middle: Configuration,
+    pub half: [f64; 2],
+}
+
+/// An arm with the lengths on which its kinematics depend.
+pub(crate) struct Kinematics<'a> {
+    pub arm: &'a Arm,
+    /// Length from joint 1 to joint 2, and from joint 2 to the tip, metres.
+    lengths: [f64; 2],
+}
+
+/// Returns the direction of a vector, radians.
+fn angle(v: Vector) -> f64 {
+    v.y.atan2(v.x)
+}
+
+impl<'a> Kinematics<'a> {
+    pub fn new(arm: &'a Arm) -> Self {
+        Self { arm, lengths: [arm.offset.norm(), arm.tip.norm()] }
+    }
+
+    fn kinds(&self) -> [JointType; 2] {
+        self.arm.joints.each_ref().map(|joint| joint.joint_type)
+    }
+
+    /// Returns the radius of the tip's circle about joint 1 when joint 2 slides, at most `beside` metres from `q2`.
+    fn radius(&self, direction: Vector, q2: f64, beside: f64) -> f64 {
+        (self.arm.offset + direction * q2 + self.arm.tip).norm() + beside
+    }
+
+    /// Returns a bound on the second derivative of the tip's position while the joint values deviate from `q` by at most
+    /// `beside`: the greatest length of its value for the two displacements `a` and `b`, metres.
+    pub fn bend(&self, q: Configuration, beside: Configuration, a: Configuration, b: Configuration) -> f64 {
+        use JointType::{Prismatic, Revolute};
+        let [a1, a2, b1, b2] = [a[0].abs(), a[1].abs(), b[0].abs(), b[1].abs()];
+        match self.kinds() {
+            [Revolute { sign: s1 }, Revolute { sign: s2 }] => {
+                let turn = |d: Configuration| (s1 * d[0] + s2 * d[1]).abs();
+                self.lengths[0] * a1 * b1 + self.lengths[1] * turn(a) * turn(b)
+            }
+            [Revolute { .. }, Prismatic { direction }] => {
+                self.radius(direction, q[1], beside[1].abs()) * a1 * b1 + a1 * b2 + a2 * b1
+            }
+            [Prismatic { .. }, Revolute { .. }] => self.lengths[1] * a2 * b2,
+            [Prismatic { .. }, Prismatic { .. }] => 0.0,
+        }
+    }
+
+    /// Returns a bound like [`Self::bend`] for displacements of which only the magnitudes in each joint are known.
+    pub fn bend_within(&self, q: Configuration, beside: Configuration, a: Configuration, b: Configuration) -> f64 {
+        use JointType::Revolute;
+        let [a, b] = [a.abs(), b.abs()];
+        match self.kinds() {
+            [Revolute { .. }, Revolute { .. }] => {
+                self.lengths[0] * a[0] * b[0] + self.lengths[1] * (a[0] + a[1]) * (b[0] + b[1])
+            }
+            _ => self.bend(q, beside, a, b),
+        }
+    }
+
+    /// Returns a bound on the displacement of the tip for a displacement whose magnitude in each joint is at most `d`,
+    /// to first order, while the joint values are at most `beside` from `q`.
+    pub fn motion_within(&self, q: Configuration, beside: Configuration, d: Configuration) -> f64 {
+        use JointType::{Prismatic, Revolute};
+        let d = d.abs();
+        match self.kinds() {
+            [Revolute { .. }, Revolute { .. }] => self.lengths[0] * d[0] + self.lengths[1] * (d[0] + d[1]),
+            [Revolute { .. }, Prismatic { direction }] => self.radius(direction, q[1], beside[1].abs()) * d[0] + d[1],
+            [Prismatic { .. }, Revolute { .. }] => d[0] + self.lengths[1] * d[1],
+            [Prismatic { .. }, Prismatic { .. }] => d[0] + d[1],
+        }
+    }
+
+    /// Returns the product of the tip's Jacobian and a displacement.
+    pub fn velocity(&self, q: Configuration, d: Configuration) -> Vector {
+        let [first, second] = self.arm.jacobian(1, self.arm.tip, q);
+        first * d[0] + second * d[1]
+    }
+
+    /// Returns the least and the greatest distance of the tip from joint 1, if joint 1 turns. Limits do not count.
+    fn annulus(&self) -> Option<[f64; 2]> {
+        match self.kinds() {
+            [JointType::Revolute { .. }, JointType::Revolute { .. }] => {
+                let [first, second] = self.lengths;
+                Some([(first - second).abs(), first + second])
+            }
+            [JointType::Revolute { .. }, JointType::Prismatic { direction }] => {
+                Some([cross(self.arm.offset + self.arm.tip, direction).abs(), f64::INFINITY])
+            }
+            _ => None,
+        }
+    }
+
+    /// Returns a lower bound on the distance of a point from all places that the tip can reach, metres; 0 for a point
+    /// that it reaches. Limits of joints do not count.
+    pub fn distance_out_of_reach(&self, point: Point) -> f64 {
+        let away = point - self.arm.base;
+        if let Some([least, most]) = self.annulus() {
+            return (away.norm() - most).max(least - away.norm()).max(0.0);
+        }
+        match self.kinds() {
+            [JointType::Prismatic { direction }, JointType::Revolute { .. }] => {
+                (cross(away - self.arm.offset, direction).abs() - self.lengths[1]).max(0.0)
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Returns a lower bound on the distance of the curve part from all singular places, metres. The part is within `off`
+    /// of the straight line between two points. At a singular place both IK solutions are the same.
+    pub fn distance_from_singular(&self, [a, b]: [Point; 2], off: f64) -> f64 {
+        let base = self.arm.base;
+        if let Some([least, most]) = self.annulus() {
+            let chord = b - a;
+            let square = chord.norm_squared();
+            let share = if square > 0.0 { ((base - a).dot(&chord) / square).clamp(0.0, 1.0) } else { 0.0 };
+            let nearest = (a + chord * share - base).norm();
+            let farthest = (a - base).norm().max((b - base).norm());
+            return (nearest - least).min(most - farthest) - off;
+        }
+        match self.kinds() {
+            [JointType::Prismatic { direction }, JointType::Revolute { .. }] => {
+                let aside = |p: Point| cross(p - base - self.arm.offset, direction).abs();
+                self.lengths[1] - aside(a).max(aside(b)) - off
+            }
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Returns the point nearest to `point` that the tip can reach, without regard to limits. Returns `None` if it is
+    /// farther than `slack`, metres.
+    pub fn reachable(&self, point: Point, slack: f64) -> Option<Point> {
+        let off = self.distance_out_of_reach(point);
+        if off == 0.0 {
+            return Some(point);
+        }
+        if off > slack {
+            return None;
+        }
+        let away = point - self.arm.base;
+        if let Some([least, most]) = self.annulus() {
+            let distance = away.norm();
+            return (distance > 0.0).then(|| self.arm.base + away * (distance.clamp(least, most) / distance));
+        }
+        let JointType::Prismatic { direction } = self.kinds()[0] else { return None };
+        let aside = Vector::new(direction.y, -direction.x);
+        // The sign of `cross(away, direction)` is that of the component along `aside`.
+        let side = cross(away - self.arm.offset, direction);
+        Some(point - aside * (side.signum() * (side.abs() - self.lengths[1])))
+    }
+
+    /// Returns both IK solutions for a point that the tip can reach, in a fixed order, up to whole turns. At a singular
+    /// place they are equal. Returns `None` if a joint is free there.
+    pub fn solutions(&self, point: Point) -> Option<[Configuration; 2]> {
+        let found = inverse(self.arm, point, Configuration::zeros());
+        let first = *found.branches.first().filter(|_| found.free.is_none())?;
+        Some([first, found.branches.get(1).copied().unwrap_or(first)])
+    }
+
+    /// Returns true if the arm has two IK solutions at most places.
+    pub fn has_two_solutions(&self) -> bool {
+        !self.arm.is_gantry()
+    }
+
+    /// Returns a box that contains, up to whole turns, all configurations of one IK solution that put the tip within
+    /// `near` of a point. Returns `None` if no such box is known.
+    pub fn solution_box(&self, point: Point, solution: usize, near: f64) -> Option<SolutionBox> {
+        use JointType::{Prismatic, Revolute};
+        let side = if solution == 0 { 1.0 } else { -1.0 };
+        let away = point - self.arm.base;
+        let distance = away.norm();
+        let [least, most] = [distance - near, distance + near];
+        let (offset, tip) = (self.arm.offset, self.arm.tip);
+        let (middle, half) = match self.kinds() {
+            [Revolute { sign: s1 }, Revolute { sign: s2 }] => {
+                let [first, second] = self.lengths;
+                if least <= 0.0 || first.min(second) <= 0.0 {
+                    return None;
+                }
+                let bend = |r: f64| {
+                    ((r * r - first * first - second * second) / (2.0 * first * second)).clamp(-1.0, 1.0).acos()
+                };
+                let [low, high] = [bend(most), bend(least)];
+                let (bent, half) = ((low + high) / 2.0, (high - low) / 2.0);
+                let phi = angle(offset) - angle(tip) + side * bent;
+                let elbow = offset + cplan_geometry::Pose::rotation(phi).direction(tip);
+                // The direction of the tip, seen from joint 1, turns by at most this per radian of joint 2.
+                let turns = second / (first - second).abs().max(least);
+                let q = Configuration::new(s1 * (angle(away) - angle(elbow)), s2 * phi);
+                (q, [(near / distance).asin() + turns * half, half])
+            }
+            [Revolute { sign }, Prismatic { direction }] => {
+                let from_joint = offset + tip;
+                let aside = cross(from_joint, direction).abs();
+                if least <= 0.0 {
+                    return None;
+                }
+                let root = |r: f64| (r * r - aside * aside).max(0.0).sqrt();
+                let [low, high] = [root(least), root(most)];
+                let q2 = side * (low + high) / 2.0 - from_joint.dot(&direction);
+                let q1 = sign * (angle(away) - angle(from_joint + direction * q2));
+                let half = (high - low) / 2.0;
+                let turns = aside / aside.max(least).powi(2);
+                (Configuration::new(q1, q2), [(near / distance).asin() + turns * half, half])
+            }
+            [Prismatic { direction }, Revolute { sign }] => {
+                let from_zero = away - offset;
+                let aside = cross(from_zero, direction).abs();
+                let reach = self.lengths[1];
+                if reach <= near {
+                    return None;
+                }
+                let root = |aside: f64| (reach * reach - aside * aside).max(0.0).sqrt();
+                let [low, high] = [root(aside + near), root((aside - near).max(0.0))];
+                let q1 = from_zero.dot(&direction) + side * (low + high) / 2.0;
+                let half = near + (high - low) / 2.0;
+                let lever = from_zero - direction * q1;
+                // The chord of the tip about joint 2 is at most this long.
+                let turn = (half + near + (lever.norm() - reach).abs()) / reach * FRAC_PI_2;
+                (Configuration::new(q1, sign * (angle(lever) - angle(tip))), [half, turn.min(PI)])
+            }
+            [Prismatic { direction: first }, Prismatic { direction: second }] => {
+                let d = away - offset - tip;
+                let determinant = cross(first, second);
+                let q = Configuration::new(cross(d, second) / determinant, cross(first, d) / determinant);
+                (q, [near / determinant.abs(); 2])
+            }
+        };
+        let is_finite = middle.iter().chain(&half).all(|x| x.is_finite());
+        is_finite.then(|| SolutionBox { middle, half: half.map(|h| h * (1.0 + ROUNDING) + ROUNDING) })
+    }
+}

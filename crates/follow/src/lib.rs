@@ -1,0 +1,215 @@
+//! Moves the tip of a planar arm along a line.
+//!
+//! [`follow`] gives one of three answers:
+//!
+//! - *found*: a motion within the joints' limits whose tip stays within the tolerance of the line, in the order of the
+//!   line. The bound on the distance holds between samples, for all motions that controllers make of the samples. The
+//!   motion is certified to be free of collisions.
+//! - *infeasible*, with a proof: a place is out of reach, or each IK solution there is outside the limits or collides. Or
+//!   each solution is excluded somewhere, and the line has no place between at which the arm could change it.
+//! - *unknown*, with the reason.
+//!
+//! ```
+//! use cplan_core::model::{Arm, Outcome, Scene, Workspace};
+//! use cplan_follow::{Settings, follow};
+//! use cplan_toolpath::{Format, Placement, read};
+//!
+//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([]))?;
+//! let text = "G21 G0 X900 Y200\nG1 X1200 F6000\nG3 X1300 Y300 J100\n";
+//! let line = read(text.as_bytes(), Format::GCode, &Placement::default())?;
+//! let Outcome::Found(found) = follow(&scene, &line, &Settings::default())? else { panic!("found") };
+//! assert!(found.deviation <= 1e-5 && found.timed.trajectory.duration() > 4.57);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Method
+//!
+//! The line is divided into parts (`nodes`) so short that the tip stays near each part while the joints move straight
+//! from its beginning to its end. A search (`search`) chooses the IK solution on each part, and where to change it. The
+//! corners of the resulting path in joint space are blended, each as far as the tolerance allows (`motion`), and the crate
+//! `cplan-motion` times it. Finally the motion is judged from its samples alone (`deviation`).
+//!
+//! With two joints, the tip's position leaves only the choice between two IK solutions. They meet where the arm is
+//! straight or folded. There the arm can change between them; near such places the joints are fast, so the limits on
+//! their speeds slow down the tip.
+//!
+//! A travel (G0) is a straight move of the tip as fast as the joints allow, with stops at both ends. It is held within
+//! the same tolerance, so nothing surprising happens between two cuts.
+#![forbid(unsafe_code)]
+
+mod deviation;
+mod kinematics;
+mod line;
+mod motion;
+mod nodes;
+mod proof;
+mod search;
+mod sheets;
+
+pub use line::Place;
+pub use proof::{Cause, Exclusion, Infeasible, Obstacle};
+
+use cplan_core::model::{Outcome, Scene};
+use cplan_motion::{TimedMotion, TimingError};
+use cplan_text::length;
+use cplan_toolpath::Toolpath;
+use kinematics::Kinematics;
+use line::Line;
+use motion::Driver;
+use nodes::{Division, MAX_NODES, Nodes};
+use proof::Prover;
+use search::Search;
+use sheets::Sheets;
+
+/// Least tolerance, metres: a micrometre. The accuracy of robots is far below it.
+pub const MIN_TOLERANCE: f64 = 1e-6;
+
+/// Share of the tolerance that the straight motions in joint space and the blends may use each. Their deviations have
+/// the same direction where the line is smooth, so they do not add up there.
+const INITIAL_SHARE: f64 = 0.7;
+
+/// Factor by which that share is lowered if the motion is not proven to be within the tolerance.
+const SHARE_FACTOR: f64 = 0.6;
+
+/// Number of shares that are tried.
+const ATTEMPTS: u32 = 5;
+
+/// Share of the tolerance up to which places out of reach are replaced by the nearest ones in reach.
+const SLACK_SHARE: f64 = 0.25;
+
+/// Factor by which the line is divided more finely for a proof, if none is found at the nodes of the search. The number of
+/// nodes grows with its root.
+const PROOF_FINENESS: f64 = 64.0;
+
+/// Greatest number of nodes before the line is divided more finely for a proof.
+const MAX_COARSE_NODES: usize = 20_000;
+
+/// Settings of a motion along a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Greatest distance between the tip's path and the line, metres. At least [`MIN_TOLERANCE`].
+    pub tolerance: f64,
+    /// Greatest speed of the tip, metres per second, instead of the speeds that the file states.
+    pub speed: Option<f64>,
+    /// Time between two samples, seconds.
+    pub period: f64,
+}
+
+impl Default for Settings {
+    /// Returns a tolerance of a hundredth of a millimetre, the speeds of the file, and a sample every hundredth of a
+    /// second.
+    fn default() -> Self {
+        Self { tolerance: 1e-5, speed: None, period: 0.01 }
+    }
+}
+
+/// The reason why settings cannot be used, or a motion cannot be timed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FollowError {
+    /// The tolerance is too small, or not a number.
+    #[error("the tolerance is {0} m; it must be a finite number of at least {MIN_TOLERANCE} m")]
+    Tolerance(f64),
+    /// The speed is not a positive number.
+    #[error("the speed is {0} m/s; it must be a finite number above 0")]
+    Speed(f64),
+    /// The motion cannot be timed.
+    #[error(transparent)]
+    Timing(#[from] TimingError),
+    /// A part of a certified path was not certified by itself.
+    #[error("a part of the path is not certified; use a smaller tolerance")]
+    Uncertified,
+}
+
+/// A motion along a line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// The motion, with its certified curve in joint space.
+    pub timed: TimedMotion,
+    /// Proven upper bound on the distance between the tip's path and the line, metres.
+    pub deviation: f64,
+    /// The places where the arm changes its IK solution.
+    pub changes: Vec<Place>,
+    /// Number of waypoints of the path in joint space.
+    pub waypoints: usize,
+}
+
+/// The answer about a line.
+pub type Followed = Outcome<Found, Infeasible>;
+
+/// Returns a motion whose tip follows a line, or a proof that there is none.
+///
+/// The motion begins and ends at rest at the ends of the line. It keeps the scene's clearance. It takes time linear in
+/// the length of the line and in the inverse root of the tolerance.
+///
+/// # Errors
+/// [`FollowError`]: unusable settings, or a motion that cannot be timed.
+pub fn follow(scene: &Scene, path: &Toolpath, settings: &Settings) -> Result<Followed, FollowError> {
+    let tolerance = settings.tolerance;
+    if !(tolerance.is_finite() && tolerance >= MIN_TOLERANCE) {
+        return Err(FollowError::Tolerance(tolerance));
+    }
+    if let Some(speed) = settings.speed.filter(|speed| !(speed.is_finite() && *speed > 0.0)) {
+        return Err(FollowError::Speed(speed));
+    }
+    let (kinematics, line) = (Kinematics::new(scene.arm()), Line::new(path));
+    let mut share = INITIAL_SHARE;
+    for attempt in 0..ATTEMPTS {
+        let division = Division { deviation: share * tolerance, slack: SLACK_SHARE * tolerance };
+        let Ok(nodes) = Nodes::new(&kinematics, &line, division) else {
+            return Ok(Outcome::Unknown(format!(
+                "the line needs more than {MAX_NODES} parts; split it, or raise the tolerance"
+            )));
+        };
+        if let Some(infeasible) = proof::out_of_reach(&kinematics, &nodes, tolerance) {
+            return Ok(Outcome::Infeasible(infeasible));
+        }
+        let sheets = Sheets::new(&kinematics, &nodes);
+        let mut search = Search::new(scene, (&kinematics, &line), &nodes, &sheets, division);
+        let Some(route) = search.route() else {
+            if attempt == 0
+                && let Some(infeasible) = prove(scene, &kinematics, &line, &nodes, &sheets, tolerance)
+            {
+                return Ok(Outcome::Infeasible(infeasible));
+            }
+            let stuck = nodes.nodes[search.furthest.get()].place;
+            return Ok(Outcome::Unknown(stuck_at(&stuck)));
+        };
+        let (kinematics, line, nodes) = (&kinematics, &line, &nodes);
+        let driver = Driver { scene, kinematics, line, nodes, settings, blend: share * tolerance };
+        let (timed, deviation) = driver.motion(&route)?;
+        if deviation <= tolerance {
+            let changes = route.changes.iter().map(|&w| nodes.nodes[route.nodes[w]].place).collect();
+            let waypoints = route.nodes.len();
+            return Ok(Outcome::Found(Found { timed, deviation, changes, waypoints }));
+        }
+        share *= SHARE_FACTOR;
+    }
+    Ok(Outcome::Unknown("a motion was found, but not proven to be within the tolerance; raise the tolerance".into()))
+}
+
+/// Searches for a proof at the nodes of a search, and then at a finer division.
+fn prove(
+    scene: &Scene,
+    kinematics: &Kinematics,
+    line: &Line,
+    nodes: &Nodes,
+    sheets: &Sheets,
+    tolerance: f64,
+) -> Option<Infeasible> {
+    let inner = &*scene.inner();
+    let prover = Prover { scene, inner, kinematics, line, nodes, sheets, tolerance };
+    prover.prove().or_else(|| {
+        if nodes.nodes.len() > MAX_COARSE_NODES {
+            return None;
+        }
+        let (deviation, slack) = (INITIAL_SHARE * tolerance / PROOF_FINENESS, SLACK_SHARE * tolerance);
+        let nodes = &Nodes::new(kinematics, line, Division { deviation, slack }).ok()?;
+        let sheets = &Sheets::new(kinematics, nodes);
+        proof::out_of_reach(kinematics, nodes, tolerance).or_else(|| Prover { nodes, sheets, ..prover }.prove())
+    })
+}
+
+fn stuck_at(place: &Place) -> String {
+    let at = length(place.distance);
+    format!("no free motion was found past {at} of the line (line {} of the file), and no proof", place.source.line)
+}

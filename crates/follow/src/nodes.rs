@@ -1,0 +1,176 @@
+//! Places on the line, so dense that the arm can move straight in joint space from each to the next.
+
+use crate::kinematics::Kinematics;
+use crate::line::{Line, Place};
+use cplan_core::space::Configuration;
+use cplan_geometry::Point;
+use cplan_interrupt::checkpoint;
+use cplan_toolpath::Curve;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// Greatest number of places. A line that needs more is too long for its tolerance.
+pub(crate) const MAX_NODES: usize = 400_000;
+
+/// Greatest number of halvings of a piece. Near singular places, joint values change like the root of the distance, so
+/// the least parts are about this fine.
+const MAX_HALVINGS: u32 = 44;
+
+/// Number of parts into which a cubic curve is cut initially.
+const CUBIC_PARTS: u32 = 4;
+
+/// A place of the line, with the joint values there.
+#[derive(Debug, Clone)]
+pub(crate) struct Node {
+    pub place: Place,
+    /// Both IK solutions, continued without jumps from the node before; `None` if the tip cannot reach the place or a
+    /// joint is free there.
+    pub solutions: Option<[Configuration; 2]>,
+    /// Distance of the tip from the place with these solutions, metres.
+    pub off: f64,
+    /// True if the solutions continue those of the node before.
+    pub is_continued: bool,
+}
+
+/// A part of the line between two nodes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Part {
+    pub piece: usize,
+    /// The parameters of the piece at both ends.
+    pub ends: [f64; 2],
+}
+
+/// The places of a line in order. Part `i` is between the nodes `i` and `i + 1`.
+pub(crate) struct Nodes {
+    pub nodes: Vec<Node>,
+    pub parts: Vec<Part>,
+}
+
+/// Settings for the division of a line.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Division {
+    /// Greatest deviation of the tip on a straight motion in joint space between two nodes, metres.
+    pub deviation: f64,
+    /// Distance from the reach up to which a place is replaced by the nearest one in reach, metres.
+    pub slack: f64,
+}
+
+/// The reason why a line cannot be divided.
+pub(crate) struct TooManyNodes;
+
+impl Nodes {
+    /// Divides a line.
+    pub fn new(kinematics: &Kinematics, line: &Line, division: Division) -> Result<Self, TooManyNodes> {
+        let mut divider = Divider { kinematics, line, division, nodes: Vec::new(), parts: Vec::new() };
+        for (piece, own) in line.pieces.iter().enumerate() {
+            if piece == 0 {
+                divider.push(0, 0.0);
+            }
+            let count = match own.curve {
+                Curve::Line { .. } => 1,
+                Curve::Arc { by, .. } => (by.abs() / FRAC_PI_2).ceil().max(1.0) as u32,
+                Curve::Cubic(_) => CUBIC_PARTS,
+            };
+            let share = |k: u32| f64::from(k) / f64::from(count);
+            (0..count).try_for_each(|k| divider.divide(piece, [share(k), share(k + 1)]))?;
+        }
+        Ok(Self { nodes: divider.nodes, parts: divider.parts })
+    }
+}
+
+struct Divider<'a, 'l> {
+    kinematics: &'a Kinematics<'a>,
+    line: &'a Line<'l>,
+    division: Division,
+    nodes: Vec<Node>,
+    parts: Vec<Part>,
+}
+
+impl Divider<'_, '_> {
+    fn node(&self, piece: usize, u: f64) -> Node {
+        let place = self.line.place(piece, u);
+        let target = self.kinematics.reachable(place.point, self.division.slack);
+        let solutions = target.and_then(|target| self.kinematics.solutions(target));
+        let far = |q: &Configuration| (self.kinematics.arm.tip_at(*q) - place.point).norm();
+        let off = solutions.iter().flatten().map(far).fold(0.0, f64::max);
+        Node { place, solutions, off, is_continued: false }
+    }
+
+    fn push(&mut self, piece: usize, u: f64) {
+        let node = self.node(piece, u);
+        self.nodes.push(node);
+    }
+
+    /// Appends the nodes of a part of a piece, up to the part's end. Its beginning is the last node.
+    fn divide(&mut self, piece: usize, [from, to]: [f64; 2]) -> Result<(), TooManyNodes> {
+        let mut open = vec![(self.node(piece, to), 0_u32)];
+        let mut from = from;
+        while let Some((mut next, halvings)) = open.pop() {
+            checkpoint();
+            let last = self.nodes.last().expect("the line's first node");
+            let to = next.place.u;
+            let Some((solutions, deviation)) = self.continued(last, &next, piece, [from, to]) else {
+                // One end is out of reach. If so is the line's part, the nodes prove it.
+                self.accept(next, piece, [from, to])?;
+                from = to;
+                continue;
+            };
+            let middle = from + (to - from) / 2.0;
+            if deviation <= self.division.deviation || halvings >= MAX_HALVINGS || middle <= from || middle >= to {
+                (next.solutions, next.is_continued) = (Some(solutions), true);
+                self.accept(next, piece, [from, to])?;
+                from = to;
+            } else {
+                let half = self.node(piece, middle);
+                open.push((next, halvings + 1));
+                open.push((half, halvings + 1));
+            }
+        }
+        Ok(())
+    }
+
+    fn accept(&mut self, node: Node, piece: usize, ends: [f64; 2]) -> Result<(), TooManyNodes> {
+        if self.nodes.len() >= MAX_NODES {
+            return Err(TooManyNodes);
+        }
+        self.nodes.push(node);
+        self.parts.push(Part { piece, ends });
+        Ok(())
+    }
+
+    /// Returns the solutions of `next` that continue those of `last`, and the greater one of the deviations of the tip
+    /// on the straight motions between them.
+    fn continued(&self, last: &Node, next: &Node, piece: usize, ends: [f64; 2]) -> Option<([Configuration; 2], f64)> {
+        let (before, after) = (last.solutions?, next.solutions?);
+        let lifted = [0, 1].map(|s| self.lift(before[s], after[s]));
+        let off = last.off.max(next.off);
+        let sag = sag(self.line.curve(piece), ends);
+        let deviation = |s: usize| off + sag + chord_deviation(self.kinematics, before[s], lifted[s]);
+        Some((lifted, deviation(0).max(deviation(1))))
+    }
+
+    /// Returns a configuration plus the whole turns of its joints that bring it nearest to another one.
+    fn lift(&self, near: Configuration, q: Configuration) -> Configuration {
+        let joints = &self.kinematics.arm.joints;
+        Configuration::from_fn(|k, _| {
+            let turns = if joints[k].joint_type.is_revolute() { ((near[k] - q[k]) / TAU).round() } else { 0.0 };
+            q[k] + turns * TAU
+        })
+    }
+}
+
+/// Returns a bound on the distance of a part of a curve from its chord, at equal shares of the parameter.
+pub(crate) fn sag(curve: &Curve, [from, to]: [f64; 2]) -> f64 {
+    curve.bend() * (to - from) * (to - from) / 8.0
+}
+
+/// Returns a bound on the distance of the tip from the straight line between its two ends, at equal shares of a straight
+/// motion in joint space.
+pub(crate) fn chord_deviation(kinematics: &Kinematics, from: Configuration, to: Configuration) -> f64 {
+    let d = to - from;
+    kinematics.bend((from + to) / 2.0, d / 2.0, d, d) / 8.0
+}
+
+/// Returns the chord of a part as points of the plane.
+pub(crate) fn chord(line: &Line, part: &Part) -> [Point; 2] {
+    part.ends.map(|u| line.curve(part.piece).at(u).into())
+}

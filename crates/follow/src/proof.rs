@@ -1,0 +1,288 @@
+//! Proofs that no motion follows a line.
+//!
+//! All configurations that put the tip within the tolerance of a place lie in one box for each IK solution and whole
+//! turn ([`Kinematics::solution_box`]). If all these boxes are outside the joint limits, or collide as a whole, then no
+//! motion follows the line past that place.
+//!
+//! Where the line stays farther than the tolerance from all singular places, the boxes of a stretch form separate bands.
+//! A motion cannot change from one band to another there. So there is no motion either if each band has some place that
+//! is excluded, not necessarily the same one.
+
+use crate::kinematics::Kinematics;
+use crate::line::{Line, Place};
+use crate::nodes::{Nodes, chord, sag};
+use crate::sheets::{LISTED_BEYOND_LIMITS, Sheets};
+use cplan_core::check::{Deviation, Posture};
+use cplan_core::model::{Pair, Scene};
+use cplan_core::space::{Configuration, JointRange};
+use cplan_geometry::Point;
+use cplan_interrupt::checkpoint;
+use cplan_text::length;
+
+/// Greatest difference of joint values at both ends of a part for which no whole turn can be hidden between them.
+const MAX_STEP: f64 = 0.5;
+
+/// Greatest length of a part as a share of its distance from joint 1, for the same reason.
+const MAX_STEP_SHARE: f64 = 0.1;
+
+/// Allowance for rounding in comparisons of distances with the tolerance, as a share of the distances.
+const ROUNDING: f64 = 1e-12;
+
+/// A proof that no motion follows a line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Infeasible {
+    /// The reason.
+    pub cause: Cause,
+    /// The place that the reason refers to; for [`Cause::NoChange`], the first one.
+    pub place: Place,
+}
+
+/// The reason why no motion follows a line.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cause {
+    /// The tip cannot come within the tolerance of the place.
+    OutOfReach {
+        /// Lower bound on the distance of the place from all points that the tip can reach, metres.
+        by: f64,
+    },
+    /// Each IK solution at the place violates a limit or collides.
+    Excluded(Vec<Exclusion>),
+    /// Each IK solution is excluded somewhere on a stretch, and cannot be changed within the stretch.
+    NoChange(Vec<Exclusion>),
+}
+
+/// An IK solution that is excluded at a place, with everything that keeps the tip within the tolerance of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exclusion {
+    /// Number of the IK solution, 0 or 1.
+    pub solution: usize,
+    /// The place on the line.
+    pub place: Place,
+    /// The joint values that put the tip at the place.
+    pub q: [f64; 2],
+    /// The obstacle.
+    pub by: Obstacle,
+}
+
+/// The reason why an IK solution is excluded at a place.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Obstacle {
+    /// The joint with this index, 0 or 1, is outside its limits.
+    Limit(usize),
+    /// These shapes collide, or are nearer than the clearance.
+    Collision(Pair),
+}
+
+/// The input of a search for a proof.
+pub(crate) struct Prover<'a> {
+    pub scene: &'a Scene,
+    pub inner: &'a Scene,
+    pub kinematics: &'a Kinematics<'a>,
+    pub line: &'a Line<'a>,
+    pub nodes: &'a Nodes,
+    pub sheets: &'a Sheets<'a>,
+    pub tolerance: f64,
+}
+
+/// Returns a proof that the tip cannot reach a node, if there is one.
+pub(crate) fn out_of_reach(kinematics: &Kinematics, nodes: &Nodes, tolerance: f64) -> Option<Infeasible> {
+    let off = |place: &Place| {
+        let scale = place.point.norm() + kinematics.arm.base.norm() + kinematics.arm.reach();
+        let by = kinematics.distance_out_of_reach(place.point) - ROUNDING * scale;
+        (by > tolerance).then_some(by)
+    };
+    nodes.nodes.iter().find_map(|node| {
+        let by = off(&node.place)?;
+        Some(Infeasible { cause: Cause::OutOfReach { by }, place: node.place })
+    })
+}
+
+impl Prover<'_> {
+    /// Returns a proof that no motion follows the line, if one is found.
+    pub fn prove(&self) -> Option<Infeasible> {
+        if !self.sheets.is_complete {
+            return None;
+        }
+        let count = self.sheets.sheets.len();
+        let excluded: Vec<Vec<Option<Exclusion>>> = (0..self.nodes.nodes.len())
+            .map(|node| (0..count).map(|sheet| self.exclusion(node, sheet)).collect())
+            .collect();
+        self.at_one_place(&excluded).or_else(|| self.on_a_stretch(&excluded))
+    }
+
+    fn at_one_place(&self, excluded: &[Vec<Option<Exclusion>>]) -> Option<Infeasible> {
+        let blocked =
+            |node: &usize| self.nodes.nodes[*node].solutions.is_some() && excluded[*node].iter().all(Option::is_some);
+        let node = (0..excluded.len()).find(blocked)?;
+        let mut list: Vec<Exclusion> = excluded[node].iter().flatten().cloned().collect();
+        if list.is_empty() {
+            // No sheet is within the limits at any node.
+            let solutions = if self.kinematics.has_two_solutions() { 0..2 } else { 0..1 };
+            list = solutions.map(|solution| self.outside(node, solution)).collect::<Option<_>>()?;
+        }
+        self.is_box_known(node).then(|| Infeasible { cause: Cause::Excluded(one_each(list)), place: self.place(node) })
+    }
+
+    fn on_a_stretch(&self, excluded: &[Vec<Option<Exclusion>>]) -> Option<Infeasible> {
+        let count = self.sheets.sheets.len();
+        let mut found: Vec<Option<Exclusion>> = vec![None; count];
+        for (node, here) in excluded.iter().enumerate() {
+            if node > 0 && !self.is_separate(node - 1) {
+                found = vec![None; count];
+            }
+            for (known, new) in found.iter_mut().zip(here) {
+                // The last place where a sheet is excluded is nearest to where the next one is.
+                *known = new.clone().or(known.take());
+            }
+            if count > 0 && found.iter().all(Option::is_some) {
+                let mut list: Vec<Exclusion> = found.into_iter().flatten().collect();
+                list.sort_by(|a, b| a.place.distance.total_cmp(&b.place.distance));
+                let place = list[0].place;
+                return Some(Infeasible { cause: Cause::NoChange(one_each(list)), place });
+            }
+        }
+        None
+    }
+
+    fn place(&self, node: usize) -> Place {
+        self.nodes.nodes[node].place
+    }
+
+    fn is_box_known(&self, node: usize) -> bool {
+        let point = self.place(node).point;
+        let solutions = if self.kinematics.has_two_solutions() { 0..2 } else { 0..1 };
+        solutions.into_iter().all(|solution| self.kinematics.solution_box(point, solution, self.tolerance).is_some())
+    }
+
+    /// Returns true if the boxes of all sheets stay separate on a part, and the sheets are continuous there.
+    fn is_separate(&self, part: usize) -> bool {
+        let own = &self.nodes.parts[part];
+        let (Some(from), Some(to)) = (self.nodes.nodes[part].solutions, self.nodes.nodes[part + 1].solutions) else {
+            return false;
+        };
+        let [a, b]: [Point; 2] = chord(self.line, own);
+        let off = sag(self.line.curve(own.piece), own.ends);
+        let scale = a.norm() + b.norm() + self.kinematics.arm.base.norm() + self.kinematics.arm.reach();
+        let away = (a - self.kinematics.arm.base).norm();
+        let joints = &self.kinematics.arm.joints;
+        let turns_little = (0..2)
+            .all(|k| !joints[k].joint_type.is_revolute() || (0..2).all(|s| (to[s][k] - from[s][k]).abs() <= MAX_STEP));
+        let is_short = self.kinematics.arm.is_gantry()
+            || (b - a).norm() + off + self.tolerance <= MAX_STEP_SHARE * away
+            || !joints[0].joint_type.is_revolute();
+        let apart = self.kinematics.distance_from_singular([a, b], off) - ROUNDING * scale;
+        self.nodes.nodes[part + 1].is_continued && turns_little && is_short && apart > self.tolerance
+    }
+
+    /// Returns the reason why a sheet is excluded at a node, if it is proven.
+    fn exclusion(&self, node: usize, sheet: usize) -> Option<Exclusion> {
+        checkpoint();
+        let own = self.sheets.sheets[sheet];
+        let q = self.sheets.unlimited(node, sheet)?;
+        let (point, place) = (self.place(node).point, self.place(node));
+        let known = self.kinematics.solution_box(point, own.solution, self.tolerance)?;
+        // The box is known up to whole turns, and its middle is near the solution.
+        let middle = Configuration::from_fn(|k, _| self.near(k, known.middle[k], q[k]));
+        let is_near = (0..2).all(|k| (middle[k] - q[k]).abs() <= known.half[k] + 1e-6);
+        let exclusion = |by: Obstacle| Exclusion { solution: own.solution, place, q: [q[0], q[1]], by };
+        // Sheets that are not listed must be outside the limits with the whole box.
+        if !is_near || known.half[0].max(known.half[1]) >= LISTED_BEYOND_LIMITS {
+            return None;
+        }
+        if let Some(joint) = (0..2).find(|&k| self.is_outside(k, middle[k], known.half[k])) {
+            return Some(exclusion(Obstacle::Limit(joint)));
+        }
+        self.collision(middle, known.half).map(|pair| exclusion(Obstacle::Collision(pair)))
+    }
+
+    fn near(&self, joint: usize, value: f64, near: f64) -> f64 {
+        let turn = std::f64::consts::TAU;
+        let is_revolute = self.kinematics.arm.joints[joint].joint_type.is_revolute();
+        if is_revolute { value + ((near - value) / turn).round() * turn } else { value }
+    }
+
+    fn is_outside(&self, joint: usize, middle: f64, half: f64) -> bool {
+        match self.kinematics.arm.joints[joint].range {
+            JointRange::Circle => false,
+            JointRange::Interval { lower, upper } => middle + half < lower || middle - half > upper,
+        }
+    }
+
+    /// Returns the exclusion of an IK solution that is outside the limits with all whole turns.
+    fn outside(&self, node: usize, solution: usize) -> Option<Exclusion> {
+        let place = self.place(node);
+        let known = self.kinematics.solution_box(place.point, solution, self.tolerance)?;
+        let is_outside = |k: usize| match self.kinematics.arm.joints[k].range {
+            JointRange::Circle => false,
+            JointRange::Interval { lower, upper } => {
+                let middle = (lower + upper) / 2.0;
+                let room = (upper - lower) / 2.0 + known.half[k];
+                if self.kinematics.arm.joints[k].joint_type.is_revolute() {
+                    let turn = std::f64::consts::TAU;
+                    let away = known.middle[k] - middle;
+                    // Distance from the middle of the range to the nearest copy.
+                    room < turn / 2.0 && (away - (away / turn).round() * turn).abs() > room
+                } else {
+                    (known.middle[k] - middle).abs() > room
+                }
+            }
+        };
+        let joint = (0..2).find(|&k| is_outside(k))?;
+        let q = [known.middle[0], known.middle[1]];
+        Some(Exclusion { solution, place, q, by: Obstacle::Limit(joint) })
+    }
+
+    /// Returns a pair that collides, or is nearer than the clearance, in the whole box.
+    fn collision(&self, middle: Configuration, half: [f64; 2]) -> Option<Pair> {
+        let clearance = self.scene.workspace().clearance;
+        let posture = Posture::new(self.inner, middle);
+        let here = Deviation::Box(half);
+        let meets = |pair: &Pair| {
+            let between = posture.disc_bound(*pair, Deviation::Box([0.0; 2]));
+            between < clearance.max(0.0) && posture.greatest(*pair, here) < clearance
+        };
+        self.inner.pairs().iter().copied().find(meets)
+    }
+}
+
+/// Returns one exclusion for each IK solution: a collision if there is one, because a limit may concern only another
+/// number of whole turns.
+fn one_each(mut list: Vec<Exclusion>) -> Vec<Exclusion> {
+    list.sort_by_key(|exclusion| matches!(exclusion.by, Obstacle::Limit(_)));
+    let mut kept: Vec<Exclusion> = Vec::new();
+    for exclusion in list {
+        if kept.iter().all(|known| known.solution != exclusion.solution) {
+            kept.push(exclusion);
+        }
+    }
+    kept
+}
+
+impl Exclusion {
+    /// Describes the exclusion in words.
+    #[must_use]
+    pub fn describe(&self, scene: &Scene) -> String {
+        match &self.by {
+            Obstacle::Limit(joint) => {
+                let own = &scene.arm().joints[*joint];
+                let range = match own.range {
+                    JointRange::Circle => String::new(),
+                    JointRange::Interval { lower, upper } => {
+                        format!(" from {} to {}", own.format_value(lower), own.format_value(upper))
+                    }
+                };
+                let value = own.format_value(self.q[*joint]);
+                format!("joint \"{}\" would be at {value}, outside its limits{range}", own.name)
+            }
+            Obstacle::Collision(pair) => {
+                let (part, obstacle) = (scene.describe_part(*pair), scene.describe_obstacle(pair.obstacle));
+                match scene.workspace().clearance {
+                    clearance if clearance > 0.0 => {
+                        format!("{part} is nearer to {obstacle} than the clearance of {}", length(clearance))
+                    }
+                    _ => format!("{part} hits {obstacle}"),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! The cheapest sequence of IK solutions along a line.
+//!
+//! States are the sheets at the nodes. Within a sheet, the arm moves straight in joint space from each node to the next.
+//! It changes the sheet at a node if the straight motion between both joint values keeps the tip within the tolerance:
+//! that is so at singular places, where the solutions meet. Whether motions are free is checked only for the sequence
+//! that is cheapest otherwise, and after a collision for all motions.
+
+use crate::kinematics::Kinematics;
+use crate::line::Line;
+use crate::nodes::{Division, Nodes, chord_deviation, sag};
+use crate::sheets::Sheets;
+use cplan_core::check::{CertifiedPath, StraightMotions, certify};
+use cplan_core::model::Scene;
+use cplan_core::space::{Configuration, JointRange, Path};
+use cplan_interrupt::checkpoint;
+use std::cell::Cell;
+use std::f64::consts::TAU;
+
+/// Cost of a change of the sheet, seconds, in addition to the time that its motion takes.
+const CHANGE_COST: f64 = 0.1;
+
+/// A sequence of configurations, and the part of the line that leads to each of them.
+pub(crate) struct Route {
+    pub path: CertifiedPath,
+    /// For each waypoint: the index of its node.
+    pub nodes: Vec<usize>,
+    /// The waypoints at which the arm changes its IK solution.
+    pub changes: Vec<usize>,
+}
+
+/// A path, and for each waypoint its node and its IK solution; and the waypoints at which the solution changes.
+type Sequence = (Path, Vec<usize>, Vec<usize>, Vec<usize>);
+
+/// The state of the search.
+pub(crate) struct Search<'a> {
+    pub scene: &'a Scene,
+    pub kinematics: &'a Kinematics<'a>,
+    pub line: &'a Line<'a>,
+    pub nodes: &'a Nodes,
+    pub sheets: &'a Sheets<'a>,
+    pub division: Division,
+    /// For each part and sheet: true if the motion is within the limits and the tolerance, and not known to collide.
+    open: Vec<bool>,
+    /// For each part and sheet: true if the motion is not shown to be free.
+    pub blocked: Vec<bool>,
+    /// The last node that a sequence reaches.
+    pub furthest: Cell<usize>,
+}
+
+/// A step to a state: from the same node or the one before.
+#[derive(Debug, Clone, Copy)]
+struct Step {
+    cost: f64,
+    from: Option<(usize, usize)>,
+}
+
+const UNREACHED: Step = Step { cost: f64::INFINITY, from: None };
+
+impl<'a> Search<'a> {
+    pub fn new(
+        scene: &'a Scene,
+        (kinematics, line): (&'a Kinematics<'a>, &'a Line<'a>),
+        nodes: &'a Nodes,
+        sheets: &'a Sheets<'a>,
+        division: Division,
+    ) -> Self {
+        let count = sheets.sheets.len();
+        let blocked = vec![false; nodes.parts.len() * count];
+        let mut search = Self {
+            scene,
+            kinematics,
+            line,
+            nodes,
+            sheets,
+            division,
+            open: Vec::new(),
+            blocked,
+            furthest: Cell::new(0),
+        };
+        search.open = (0..nodes.parts.len() * count).map(|i| search.is_near(i / count, i % count)).collect();
+        search
+    }
+
+    fn count(&self) -> usize {
+        self.sheets.sheets.len()
+    }
+
+    fn motion(&self, part: usize, sheet: usize) -> Option<[Configuration; 2]> {
+        Some([self.sheets.at(part, sheet)?, self.sheets.at(part + 1, sheet)?])
+    }
+
+    /// Returns true if the motion of a sheet over a part is within the limits and the tolerance.
+    fn is_near(&self, part: usize, sheet: usize) -> bool {
+        let Some([from, to]) = self.motion(part, sheet) else { return false };
+        let own = &self.nodes.parts[part];
+        let off = self.nodes.nodes[part].off.max(self.nodes.nodes[part + 1].off);
+        let bound = off + sag(self.line.curve(own.piece), own.ends) + chord_deviation(self.kinematics, from, to);
+        self.nodes.nodes[part + 1].is_continued && bound <= self.division.deviation * (1.0 + 1e-9)
+    }
+
+    /// Returns the cheapest sequence that is certified. Returns `None` if there is none among those that are considered.
+    pub fn route(&mut self) -> Option<Route> {
+        let (path, nodes, _, changes) = self.cheapest()?;
+        let clearance = self.scene.workspace().clearance;
+        if let Ok(path) = certify(self.scene, path, clearance) {
+            return Some(Route { path, nodes, changes });
+        }
+        self.check_all();
+        // Changes are checked here, and a change that collides closes its node.
+        for _ in 0..self.nodes.nodes.len() {
+            checkpoint();
+            let (path, nodes, solutions, changes) = self.cheapest()?;
+            match certify(self.scene, path.clone(), clearance) {
+                Ok(path) => return Some(Route { path, nodes, changes }),
+                Err(_) if !self.close_first_blocked(&path, &nodes, &solutions) => return None,
+                Err(_) => {}
+            }
+        }
+        None
+    }
+
+    /// Checks the motions of all sheets.
+    fn check_all(&mut self) {
+        let motions = StraightMotions::new(self.scene, self.scene.workspace().clearance);
+        for part in 0..self.nodes.parts.len() {
+            for sheet in 0..self.count() {
+                checkpoint();
+                let index = part * self.count() + sheet;
+                if self.open[index]
+                    && let Some([from, to]) = self.motion(part, sheet)
+                    && !motions.is_free(from, to)
+                {
+                    (self.open[index], self.blocked[index]) = (false, true);
+                }
+            }
+        }
+    }
+
+    /// Closes the motions beside the first change of a path that is not free. Returns false if there is none.
+    fn close_first_blocked(&mut self, path: &Path, nodes: &[usize], solutions: &[usize]) -> bool {
+        let motions = StraightMotions::new(self.scene, self.scene.workspace().clearance);
+        let mut legs = path.waypoints().windows(2).enumerate();
+        let Some(leg) = legs.find(|(_, leg)| !motions.is_free(leg[0], leg[1])).map(|(leg, _)| leg) else {
+            return false;
+        };
+        let (node, count) = (nodes[leg], self.count());
+        let parts = [node.checked_sub(1), Some(node).filter(|node| *node < self.nodes.parts.len())];
+        let mut closed = false;
+        for part in parts.into_iter().flatten() {
+            for sheet in (0..count).filter(|s| self.sheets.sheets[*s].solution == solutions[leg]) {
+                closed |= std::mem::take(&mut self.open[part * count + sheet]);
+            }
+        }
+        closed
+    }
+
+    /// Returns the least time of a straight motion, seconds.
+    fn cost(&self, from: Configuration, to: Configuration) -> f64 {
+        let joints = &self.scene.arm().joints;
+        (0..2).map(|k| (to[k] - from[k]).abs() / joints[k].velocity).fold(0.0, f64::max)
+    }
+
+    /// Returns the whole turns to add to joints on circles, so that `to` is nearest to `from`.
+    fn turns_between(&self, from: Configuration, to: Configuration) -> Configuration {
+        let joints = &self.scene.arm().joints;
+        Configuration::from_fn(|k, _| match joints[k].range {
+            JointRange::Circle => ((from[k] - to[k]) / TAU).round() * TAU,
+            JointRange::Interval { .. } => 0.0,
+        })
+    }
+
+    /// Returns the displacement of a change between two sheets at a node, if the tip stays within the tolerance.
+    fn change(&self, node: usize, from: usize, to: usize) -> Option<[Configuration; 2]> {
+        let [a, b] = [self.sheets.at(node, from)?, self.sheets.at(node, to)?];
+        let b = b + self.turns_between(a, b);
+        let bound = self.nodes.nodes[node].off + chord_deviation(self.kinematics, a, b);
+        (bound <= self.division.deviation).then_some([a, b])
+    }
+
+    fn cheapest(&self) -> Option<Sequence> {
+        let (count, last) = (self.count(), self.nodes.nodes.len() - 1);
+        let mut steps = vec![UNREACHED; (last + 1) * count];
+        for node in 0..=last {
+            checkpoint();
+            for sheet in 0..count {
+                let own = node * count + sheet;
+                if node == 0 {
+                    if self.sheets.at(0, sheet).is_some() {
+                        steps[own] = Step { cost: 0.0, from: None };
+                    }
+                } else if self.open[(node - 1) * count + sheet] && steps[own - count].cost.is_finite() {
+                    let [from, to] = self.motion(node - 1, sheet)?;
+                    let cost = steps[own - count].cost + self.cost(from, to);
+                    steps[own] = Step { cost, from: Some((node - 1, sheet)) };
+                }
+            }
+            if (0..count).any(|sheet| steps[node * count + sheet].cost.is_finite()) {
+                self.furthest.set(node);
+            }
+            // One change at a node is enough: after it, another one would only lead on to a third sheet there.
+            let before: Vec<f64> = (0..count).map(|sheet| steps[node * count + sheet].cost).collect();
+            for (from, to) in (0..count).flat_map(|from| (0..count).map(move |to| (from, to))) {
+                if from == to
+                    || !before[from].is_finite()
+                    || before[from] + CHANGE_COST >= steps[node * count + to].cost
+                {
+                    continue;
+                }
+                if let Some([a, b]) = self.change(node, from, to) {
+                    let cost = before[from] + CHANGE_COST + self.cost(a, b);
+                    let own = &mut steps[node * count + to];
+                    if cost < own.cost {
+                        *own = Step { cost, from: Some((node, from)) };
+                    }
+                }
+            }
+        }
+        let ends = (0..count).map(|sheet| (steps[last * count + sheet].cost, sheet));
+        let (cost, sheet) = ends.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        if !cost.is_finite() {
+            return None;
+        }
+        let mut states = vec![(last, sheet)];
+        while let Some(before) = steps[states[states.len() - 1].0 * count + states[states.len() - 1].1].from {
+            states.push(before);
+        }
+        states.reverse();
+        Some(self.path(&states))
+    }
+
+    /// Returns the configurations of a sequence of states, unwrapped, without repetitions.
+    fn path(&self, states: &[(usize, usize)]) -> Sequence {
+        let (mut waypoints, mut nodes, mut solutions) = (Vec::<Configuration>::new(), Vec::new(), Vec::<usize>::new());
+        let mut changes = Vec::new();
+        for &(node, sheet) in states {
+            let Some(q) = self.sheets.at(node, sheet) else { continue };
+            let solution = self.sheets.sheets[sheet].solution;
+            let q = waypoints.last().map_or(q, |last| q + self.turns_between(*last, q));
+            let is_same = waypoints.last() == Some(&q);
+            if solutions.last().is_some_and(|last| *last != solution) {
+                changes.push(if is_same { waypoints.len() - 1 } else { waypoints.len() });
+            }
+            if is_same {
+                // The same configuration belongs to both solutions where they meet.
+                *nodes.last_mut().expect("a node") = node;
+                *solutions.last_mut().expect("a solution") = solution;
+                continue;
+            }
+            waypoints.push(q);
+            nodes.push(node);
+            solutions.push(solution);
+        }
+        (Path::new(waypoints), nodes, solutions, changes)
+    }
+}

@@ -1,0 +1,85 @@
+//! IK solutions as sheets: continuous functions of the place on the line, one per solution and whole turn.
+
+use crate::kinematics::Kinematics;
+use crate::nodes::{Node, Nodes};
+use cplan_core::space::{Configuration, JointRange};
+use std::f64::consts::TAU;
+
+/// Values beyond a limit by at most this, radians or metres, are set to the limit: such an excess is rounding.
+const LIMIT_ROUNDING: f64 = 1e-9;
+
+/// Greatest distance beyond the limits, radians, of a sheet that is listed although it is outside them at all nodes. Other
+/// joint values near it may be inside, and proofs must exclude them too.
+pub(crate) const LISTED_BEYOND_LIMITS: f64 = 1.5;
+
+/// Greatest number of whole turns of a joint that are considered in either direction.
+const MAX_TURNS: i64 = 100;
+
+/// An IK solution with whole turns added to its joints.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sheet {
+    /// Number of the IK solution, 0 or 1.
+    pub solution: usize,
+    /// Displacement by whole turns.
+    pub turns: Configuration,
+}
+
+/// All sheets that are within the joint limits at some node, or near them.
+pub(crate) struct Sheets<'a> {
+    kinematics: &'a Kinematics<'a>,
+    nodes: &'a [Node],
+    pub sheets: Vec<Sheet>,
+    /// True if the list has all such sheets.
+    pub is_complete: bool,
+}
+
+impl<'a> Sheets<'a> {
+    pub fn new(kinematics: &'a Kinematics<'a>, nodes: &'a Nodes) -> Self {
+        let nodes = &nodes.nodes[..];
+        let mut list = Self { kinematics, nodes, sheets: Vec::new(), is_complete: true };
+        let solutions = if kinematics.has_two_solutions() { 2 } else { 1 };
+        for solution in 0..solutions {
+            let [first, second] = [0, 1].map(|joint| list.turns(joint, solution));
+            let pairs = first.iter().flat_map(|a| second.iter().map(move |b| Configuration::new(*a, *b)));
+            list.sheets.extend(pairs.map(|turns| Sheet { solution, turns }));
+        }
+        list
+    }
+
+    /// Returns the whole turns with which a joint is within its limits at some node, or near them.
+    fn turns(&mut self, joint: usize, solution: usize) -> Vec<f64> {
+        let own = &self.kinematics.arm.joints[joint];
+        let JointRange::Interval { lower, upper } = own.range else { return vec![0.0] };
+        if !own.joint_type.is_revolute() {
+            return vec![0.0];
+        }
+        let values = self.nodes.iter().filter_map(|node| Some(node.solutions?[solution][joint]));
+        let (least, greatest) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, g), v| (l.min(v), g.max(v)));
+        if least > greatest {
+            return Vec::new();
+        }
+        let first = ((lower - LISTED_BEYOND_LIMITS - greatest) / TAU).ceil() as i64;
+        let last = ((upper + LISTED_BEYOND_LIMITS - least) / TAU).floor() as i64;
+        self.is_complete &= first >= -MAX_TURNS && last <= MAX_TURNS;
+        (first.max(-MAX_TURNS)..=last.min(MAX_TURNS)).map(|turns| turns as f64 * TAU).collect()
+    }
+
+    /// Returns the joint values of a sheet at a node, without regard to limits. `None` if the place is out of reach.
+    pub fn unlimited(&self, node: usize, sheet: usize) -> Option<Configuration> {
+        let Sheet { solution, turns } = self.sheets[sheet];
+        Some(self.nodes[node].solutions?[solution] + turns)
+    }
+
+    /// Returns the joint values of a sheet at a node, if they are within the limits.
+    pub fn at(&self, node: usize, sheet: usize) -> Option<Configuration> {
+        let q = self.unlimited(node, sheet)?;
+        let limited = |k: usize| match self.kinematics.arm.joints[k].range {
+            JointRange::Circle => Some(q[k]),
+            JointRange::Interval { lower, upper } => {
+                let inside = lower - LIMIT_ROUNDING <= q[k] && q[k] <= upper + LIMIT_ROUNDING;
+                inside.then(|| q[k].clamp(lower, upper))
+            }
+        };
+        Some(Configuration::new(limited(0)?, limited(1)?))
+    }
+}

@@ -1,0 +1,260 @@
+//! Tests of motions along lines. Each answer is compared with checks that share no code with the crate.
+
+mod oracle;
+mod random;
+
+use cplan_core::model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
+use cplan_follow::{Cause, FollowError, Found, Infeasible, Settings, follow};
+use cplan_toolpath::{Format, Placement, Toolpath, read};
+use oracle::{Bars, Point, pass_together, played, points};
+
+const BARS: Bars = Bars { lengths: [1.0, 0.8], width: 0.06 };
+
+/// A scene of the arm on joints from -`limit` to `limit`, with speeds of 2 rad/s and accelerations of 10 rad/s2.
+pub fn scene_of(bars: Bars, limit: f64, obstacles: Vec<Obstacle>) -> Scene {
+    let joint = |name: &str| Joint::turning(name, -limit, limit).at_most(2.0, 10.0);
+    let link = |name: &str, length: f64| Link::bar(name, length, bars.width).expect("a link");
+    let links = [link("upper arm", bars.lengths[0]), link("forearm", bars.lengths[1])];
+    let arm = Arm::new([joint("shoulder"), joint("elbow")], links, bars.lengths);
+    Scene::new(arm, Workspace::new(obstacles)).expect("a scene")
+}
+
+fn line(text: &str) -> Toolpath {
+    read(format!("G21 {text}").as_bytes(), Format::GCode, &Placement::default()).expect("a line")
+}
+
+fn found(scene: &Scene, line: &Toolpath, settings: &Settings) -> Found {
+    match follow(scene, line, settings).expect("usable settings") {
+        Outcome::Found(found) => found,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn infeasible(scene: &Scene, line: &Toolpath) -> Infeasible {
+    match follow(scene, line, &Settings::default()).expect("usable settings") {
+        Outcome::Infeasible(proof) => proof,
+        other => panic!("{:?}", other.status()),
+    }
+}
+
+/// Checks the played motion by dense samples: the distance from the line in its order, and the limits. Returns the
+/// greatest speed of the tip.
+pub fn check(bars: &Bars, scene: &Scene, line: &Toolpath, settings: &Settings, found: &Found) -> f64 {
+    let tolerance = settings.tolerance;
+    assert!(found.deviation <= tolerance, "{}", found.deviation);
+    let step = tolerance / 8.0;
+    let states = played(bars, &found.timed.trajectory, step);
+    let tips: Vec<Point> = states.iter().map(|state| bars.tip(state.position)).collect();
+    // Between samples both curves move by at most a step more.
+    assert!(pass_together(&tips, &points(line, step), found.deviation + step), "the tip leaves the line");
+    let mut fastest = 0.0_f64;
+    for (pair, tips) in states.windows(2).zip(tips.windows(2)) {
+        for (k, joint) in scene.arm().joints.iter().enumerate() {
+            assert!(joint.range.contains(pair[0].position[k]), "{:?}", pair[0]);
+            assert!(pair[0].velocity[k].abs() <= joint.velocity * (1.0 + 1e-9), "{:?}", pair[0]);
+            assert!(pair[0].acceleration[k].abs() <= joint.acceleration * (1.0 + 1e-6), "{:?}", pair[0]);
+        }
+        let speed = (tips[1][0] - tips[0][0]).hypot(tips[1][1] - tips[0][1]) / (pair[1].time - pair[0].time);
+        fastest = fastest.max(speed);
+    }
+    fastest
+}
+
+#[test]
+fn a_straight_line() {
+    let (scene, line) = (scene_of(BARS, 3.0, vec![]), line("G0 X900 Y-500\nG1 Y700"));
+    let found = found(&scene, &line, &Settings::default());
+    let fastest = check(&BARS, &scene, &line, &Settings::default(), &found);
+    // The tip is far faster than if the arm stopped between the parts of the line.
+    assert!(fastest > 1.0 && found.timed.trajectory.duration() < 1.5, "{fastest}");
+    assert!(found.changes.is_empty());
+}
+
+#[test]
+fn arcs_and_curves() {
+    let scene = scene_of(BARS, 3.0, vec![]);
+    let circle = line("G0 X1200 Y0\nG3 I-200\nG2 X1000 Y-200 R200");
+    check(&BARS, &scene, &circle, &Settings::default(), &found(&scene, &circle, &Settings::default()));
+    let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='1000mm' height='1000mm' viewBox='0 0 1000 1000'>\
+               <path d='M 700 800 C 900 500 1000 900 800 400 S 600 300 700 700'/></svg>";
+    let curve = read(svg.as_bytes(), Format::Svg, &Placement::default()).expect("a line");
+    check(&BARS, &scene, &curve, &Settings::default(), &found(&scene, &curve, &Settings::default()));
+}
+
+#[test]
+fn corners_are_passed_within_the_tolerance_without_a_stop() {
+    let (scene, line) = (scene_of(BARS, 3.0, vec![]), line("G0 X900 Y0\nG1 X1100\nY200\nX900 Y195\nX910 Y300"));
+    let loose = Settings { tolerance: 2e-3, ..Settings::default() };
+    let motions = [Settings::default(), loose].map(|settings| {
+        let found = found(&scene, &line, &settings);
+        check(&BARS, &scene, &line, &settings, &found);
+        found.timed.trajectory
+    });
+    // A wider tolerance makes corners faster.
+    assert!(motions[1].duration() < 0.97 * motions[0].duration(), "{}", motions[1].duration());
+    let stops = |at: &Point| at[0].hypot(at[1]) < 1e-9;
+    assert_eq!(motions[1].velocity.iter().filter(|v| stops(v)).count(), 2, "it stops only at its ends");
+}
+
+#[test]
+fn a_place_out_of_reach_is_named() {
+    let (scene, line) = (scene_of(BARS, 3.0, vec![]), line("G0 X900 Y0\nG1 X1500\nG1 X1900"));
+    let proof = infeasible(&scene, &line);
+    let Cause::OutOfReach { by } = proof.cause else { panic!("{proof:?}") };
+    assert!(proof.place.piece == 1 && proof.place.source.line == 3, "{:?}", proof.place);
+    assert!((proof.place.point.x - 1.8 - by).abs() < 1e-9 && by > 1e-5);
+    // The inner circle is out of reach as well.
+    let line = self::line("G0 X300 Y0\nG1 X0 Y100");
+    assert!(matches!(infeasible(&scene, &line).cause, Cause::OutOfReach { .. }));
+}
+
+fn block(name: &str, [x, y]: Point, [w, h]: Point) -> Obstacle {
+    Obstacle::polygon(name, [[x, y], [x + w, y], [x + w, y + h], [x, y + h]]).expect("a polygon")
+}
+
+#[test]
+fn an_obstacle_leaves_one_solution() {
+    // The elbow above the line is in the block, and the elbow below is free.
+    let scene = scene_of(BARS, 3.0, vec![block("shelf", [0.2, 0.45], [0.6, 0.3])]);
+    let line = line("G0 X1000 Y-200\nG1 Y200");
+    let found = found(&scene, &line, &Settings::default());
+    check(&BARS, &scene, &line, &Settings::default(), &found);
+    assert!(found.timed.trajectory.position.iter().all(|q| q[1] > 0.0), "the elbow is below the line");
+}
+
+#[test]
+fn obstacles_at_both_solutions_are_named() {
+    let shelves = vec![block("shelf", [0.2, 0.3], [0.8, 0.3]), block("floor", [0.2, -0.6], [0.8, 0.3])];
+    let scene = scene_of(BARS, 3.0, shelves);
+    let proof = infeasible(&scene, &line("G0 X1000 Y-200\nG1 Y200"));
+    let Cause::Excluded(list) = &proof.cause else { panic!("{proof:?}") };
+    let words: Vec<String> = list.iter().map(|exclusion| exclusion.describe(&scene)).collect();
+    assert_eq!(list.len(), 2, "{words:?}");
+    assert!(
+        words.iter().any(|text| text.contains("\"shelf\"")) && words.iter().any(|text| text.contains("\"floor\"")),
+        "{words:?}"
+    );
+}
+
+#[test]
+fn joint_limits_are_named() {
+    // With joint 1 within half a radian, the tip cannot be above the base.
+    let scene = scene_of(BARS, 0.5, vec![]);
+    let proof = infeasible(&scene, &line("G0 X1700 Y0\nG1 X1000 Y1000"));
+    let (Cause::Excluded(list) | Cause::NoChange(list)) = &proof.cause else { panic!("{proof:?}") };
+    assert!(list.iter().all(|exclusion| exclusion.describe(&scene).contains("outside its limits")), "{list:?}");
+}
+
+/// A scene in which the elbow cannot be far above the line, and joint 1 not far below the x axis.
+fn lopsided() -> Scene {
+    let mut arm = scene_of(BARS, 3.0, vec![]).arm().clone();
+    let ranges = [(-0.2, 3.0), (-1.0, 3.0)];
+    for (joint, (lower, upper)) in arm.joints.iter_mut().zip(ranges) {
+        *joint = Joint::turning(&joint.name, lower, upper).at_most(2.0, 10.0);
+    }
+    Scene::new(arm, Workspace::new([])).expect("a scene")
+}
+
+/// The beginning allows only the elbow below the line, and the end only the elbow above. Between them the line touches
+/// the reach of the arm, where both solutions meet.
+#[test]
+fn the_solution_changes_at_full_stretch() {
+    let (scene, line) = (lopsided(), line("G0 X808.1 Y1018.3\nG1 X1579.648 Y862.965\nG1 X1650 Y0"));
+    for settings in [Settings::default(), Settings { tolerance: 1e-4, ..Settings::default() }] {
+        let found = found(&scene, &line, &settings);
+        check(&BARS, &scene, &line, &settings, &found);
+        let [change] = found.changes[..] else { panic!("{:?}", found.changes) };
+        assert!(change.point.norm() > 1.7999 && (change.distance - 0.787).abs() < 1e-3, "{change:?}");
+        let positions = &found.timed.trajectory.position;
+        assert!(positions[0][1] > 0.5 && positions[positions.len() - 1][1] < -0.5, "the elbow changes its side");
+    }
+}
+
+#[test]
+fn no_change_of_the_solution_is_possible_away_from_full_stretch() {
+    let (scene, line) = (lopsided(), line("G0 X808.1 Y1018.3\nG1 X1540 Y840\nG1 X1650 Y0"));
+    let proof = infeasible(&scene, &line);
+    let Cause::NoChange(list) = &proof.cause else { panic!("{proof:?}") };
+    let words: Vec<String> = list.iter().map(|exclusion| exclusion.describe(&scene)).collect();
+    assert!(words.iter().any(|text| text.contains("\"shoulder\" would be")), "{words:?}");
+    assert!(words.iter().any(|text| text.contains("\"elbow\" would be")), "{words:?}");
+    assert_ne!(list[0].solution, list[1].solution);
+}
+
+#[test]
+fn the_tip_is_slow_near_full_stretch() {
+    let scene = scene_of(BARS, 3.0, vec![]);
+    let near = line("G0 X1799 Y-400\nG1 Y400");
+    let near_error = infeasible(&scene, &near);
+    assert!(matches!(near_error.cause, Cause::OutOfReach { .. }));
+    let radial = line("G0 X1000 Y0\nG1 X1799.99");
+    let found = found(&scene, &radial, &Settings::default());
+    let fastest = check(&BARS, &scene, &radial, &Settings::default(), &found);
+    let states = played(&BARS, &found.timed.trajectory, 1e-5);
+    let slow = states.windows(2).filter(|pair| {
+        let [x, y] = BARS.tip(pair[0].position);
+        (1.79..1.7995).contains(&x.hypot(y))
+    });
+    let speed = |pair: &[oracle::State]| {
+        let [a, b] = [0, 1].map(|k| BARS.tip(pair[k].position));
+        (b[0] - a[0]).hypot(b[1] - a[1]) / (pair[1].time - pair[0].time)
+    };
+    let near_stretch = slow.map(speed).fold(0.0, f64::max);
+    assert!(near_stretch < 0.5 * fastest, "{near_stretch} {fastest}");
+}
+
+#[test]
+fn the_speed_of_the_tip_is_kept() {
+    let scene = scene_of(BARS, 3.0, vec![]);
+    // 20 mm/s and then 50 mm/s.
+    let line = line("G0 X1000 Y0\nG1 X1020 F1200\nY50 F3000\nX1000");
+    let settings = Settings::default();
+    let found = found(&scene, &line, &settings);
+    let fastest = check(&BARS, &scene, &line, &settings, &found);
+    assert!(fastest <= 0.05 * (1.0 + 1e-6) && fastest > 0.049, "{fastest}");
+    let states = played(&BARS, &found.timed.trajectory, 1e-6);
+    for pair in states.windows(2) {
+        let [a, b] = [0, 1].map(|k| BARS.tip(pair[k].position));
+        let speed = (b[0] - a[0]).hypot(b[1] - a[1]) / (pair[1].time - pair[0].time);
+        assert!(b[1] > 2e-5 || speed <= 0.02 * (1.0 + 1e-4), "{speed} at {a:?}");
+    }
+    // 20 mm at 20 mm/s and 70 mm at 50 mm/s.
+    let duration = found.timed.trajectory.duration();
+    assert!((2.4..2.45).contains(&duration), "{duration}");
+    let own = self::found(&scene, &line, &Settings { speed: Some(0.01), ..settings });
+    assert!((9.0..9.1).contains(&own.timed.trajectory.duration()));
+}
+
+#[test]
+fn jerks_are_limited() {
+    let mut scene = scene_of(BARS, 3.0, vec![]);
+    scene.arm_mut().joints.iter_mut().for_each(|joint| joint.jerk = Some(100.0));
+    let line = line("G0 X1000 Y-200\nG1 Y200\nG3 X900 Y300 I-100\nG1 X800 Y200");
+    let settings = Settings { tolerance: 1e-4, ..Settings::default() };
+    let found = found(&scene, &line, &settings);
+    check(&BARS, &scene, &line, &settings, &found);
+    let states = played(&BARS, &found.timed.trajectory, 1e-5);
+    for pair in states.windows(2) {
+        let step = pair[1].time - pair[0].time;
+        for k in 0..2 {
+            let change = (pair[1].acceleration[k] - pair[0].acceleration[k]).abs();
+            assert!(change <= 100.0 * step * (1.0 + 1e-3) + 1e-3, "{change} in {step}");
+        }
+    }
+    assert!(found.timed.trajectory.duration() < 6.0, "{}", found.timed.trajectory.duration());
+}
+
+#[test]
+fn unusable_settings_are_refused() {
+    let (scene, line) = (scene_of(BARS, 3.0, vec![]), line("G0 X900 Y0\nG1 X1000"));
+    for tolerance in [0.0, -1.0, 1e-7, f64::NAN, f64::INFINITY] {
+        let answer = follow(&scene, &line, &Settings { tolerance, ..Settings::default() });
+        assert!(matches!(answer, Err(FollowError::Tolerance(_))), "{tolerance}");
+    }
+    for speed in [0.0, -0.1, f64::NAN] {
+        let answer = follow(&scene, &line, &Settings { speed: Some(speed), ..Settings::default() });
+        assert!(matches!(answer, Err(FollowError::Speed(_))), "{speed}");
+    }
+    let answer = follow(&scene, &line, &Settings { period: 0.0, ..Settings::default() });
+    assert!(matches!(answer, Err(FollowError::Timing(_))));
+}

@@ -1,0 +1,164 @@
+//! Checks that share no code with the crate: kinematics, distances, and the order of a line's points.
+
+use cplan_motion::Trajectory;
+use cplan_toolpath::Toolpath;
+
+pub type Point = [f64; 2];
+
+/// The arm of the tests: two bars with round ends on joints at the ends, which turn counter-clockwise.
+#[derive(Debug, Clone, Copy)]
+pub struct Bars {
+    pub lengths: [f64; 2],
+    pub width: f64,
+}
+
+impl Bars {
+    /// Returns the places of joint 1, joint 2 and the tip.
+    pub fn places(&self, q: Point) -> [Point; 3] {
+        let [first, second] = self.lengths;
+        let elbow = [first * q[0].cos(), first * q[0].sin()];
+        let turned = q[0] + q[1];
+        [[0.0; 2], elbow, [elbow[0] + second * turned.cos(), elbow[1] + second * turned.sin()]]
+    }
+
+    pub fn tip(&self, q: Point) -> Point {
+        self.places(q)[2]
+    }
+
+    /// Returns the distance between the bars and a convex polygon, or a disc if there is one corner; 0 if they overlap.
+    pub fn distance(&self, q: Point, corners: &[Point], radius: f64) -> f64 {
+        let [base, elbow, tip] = self.places(q);
+        let bars = [[base, elbow], [elbow, tip]];
+        let apart = bars.iter().map(|bar| bar_to_polygon(*bar, corners)).fold(f64::INFINITY, f64::min);
+        (apart - self.width / 2.0 - radius).max(0.0)
+    }
+
+    /// Returns both elbow solutions for a point within reach; both are the same where the arm is straight or folded.
+    pub fn solutions(&self, [x, y]: Point) -> Option<[Point; 2]> {
+        let [first, second] = self.lengths;
+        let cosine = (x * x + y * y - first * first - second * second) / (2.0 * first * second);
+        (cosine.abs() <= 1.0).then(|| {
+            [1.0, -1.0].map(|side| {
+                let bend: f64 = side * cosine.acos();
+                let turned = (second * bend.sin()).atan2(first + second * bend.cos());
+                [y.atan2(x) - turned, bend]
+            })
+        })
+    }
+}
+
+fn bar_to_polygon([a, b]: [Point; 2], corners: &[Point]) -> f64 {
+    if let [center] = corners {
+        return to_segment(*center, a, b);
+    }
+    let sides = (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]);
+    let is_inside = |p: Point| sides.clone().all(|[c, d]| turn(c, d, p) >= 0.0);
+    if is_inside(a) || is_inside(b) {
+        return 0.0;
+    }
+    sides.map(|side| segments_apart([a, b], side)).fold(f64::INFINITY, f64::min)
+}
+
+fn turn(a: Point, b: Point, p: Point) -> f64 {
+    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+}
+
+fn segments_apart([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
+    let crosses = turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;
+    if crosses {
+        return 0.0;
+    }
+    [to_segment(a, c, d), to_segment(b, c, d), to_segment(c, a, b), to_segment(d, a, b)]
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+}
+
+fn to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let along = [b[0] - a[0], b[1] - a[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
+    let share = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / square;
+    let share = if square > 0.0 { share.clamp(0.0, 1.0) } else { 0.0 };
+    (p[0] - a[0] - share * along[0]).hypot(p[1] - a[1] - share * along[1])
+}
+
+/// A state of the played motion.
+#[derive(Debug, Clone, Copy)]
+pub struct State {
+    pub time: f64,
+    pub position: Point,
+    pub velocity: Point,
+    pub acceleration: Point,
+}
+
+/// Returns states of the motion that a controller plays, which joins positions and velocities by cubics: so many that the
+/// tip moves by less than `step` between them.
+pub fn played(bars: &Bars, trajectory: &Trajectory, step: f64) -> Vec<State> {
+    let mut states = Vec::new();
+    for i in 1..trajectory.time.len() {
+        let duration = trajectory.time[i] - trajectory.time[i - 1];
+        let ends = [i - 1, i].map(|k| (trajectory.position[k], trajectory.velocity[k]));
+        // Coefficients of the cubic in seconds.
+        let cubic = [0, 1].map(|k| {
+            let [(a, va), (b, vb)] = ends.map(|(q, v)| (q[k], v[k]));
+            let [c, d] = [
+                (3.0 * (b - a) / duration - 2.0 * va - vb) / duration,
+                (2.0 * (a - b) / duration + va + vb) / duration / duration,
+            ];
+            [a, va, c, d]
+        });
+        let reach = bars.lengths[0] + 2.0 * bars.lengths[1];
+        let fastest = cubic
+            .iter()
+            .map(|[_, v, c, d]| v.abs() + 2.0 * (c * duration).abs() + 3.0 * (d * duration * duration).abs());
+        let count = (fastest.fold(0.0, f64::max) * duration * reach / step).ceil().max(4.0) as usize;
+        let state = |t: f64| State {
+            time: trajectory.time[i - 1] + t,
+            position: cubic.map(|[a, v, c, d]| a + t * (v + t * (c + t * d))),
+            velocity: cubic.map(|[_, v, c, d]| v + t * (2.0 * c + 3.0 * t * d)),
+            acceleration: cubic.map(|[_, _, c, d]| 2.0 * c + 6.0 * t * d),
+        };
+        let first = usize::from(i > 1);
+        states.extend((first..=count).map(|k| state(duration * k as f64 / count as f64)));
+    }
+    states
+}
+
+/// Returns points of a line that are less than `step` apart.
+pub fn points(line: &Toolpath, step: f64) -> Vec<Point> {
+    let mut points = vec![line.start()];
+    for piece in line.pieces() {
+        let count = (2.0 * piece.curve.length() / step).ceil().max(1.0) as usize;
+        points.extend((1..=count).map(|k| piece.curve.at(k as f64 / count as f64)));
+    }
+    points
+}
+
+/// Returns true if both sequences can be passed from the first to the last points together, never farther apart than
+/// `most` (the discrete Fréchet distance).
+pub fn pass_together(first: &[Point], second: &[Point], most: f64) -> bool {
+    let near = |a: &Point, j: usize| (a[0] - second[j][0]).hypot(a[1] - second[j][1]) <= most;
+    let mut reached: Vec<usize> = (0..second.len()).take_while(|&j| near(&first[0], j)).collect();
+    for a in &first[1..] {
+        let Some(&begin) = reached.first() else { return false };
+        let until = reached[reached.len() - 1] + 1;
+        let mut next = Vec::new();
+        let mut old = reached.iter().peekable();
+        let mut before = None;
+        let mut j = begin;
+        while j < second.len() && (j <= until || next.last() == Some(&(j - 1))) {
+            while old.next_if(|&&k| k < j).is_some_and(|&k| {
+                before = Some(k);
+                true
+            }) {}
+            let comes = old.peek() == Some(&&j)
+                || before.is_some_and(|k| k + 1 == j)
+                || next.last().is_some_and(|&k| k + 1 == j);
+            if comes && near(a, j) {
+                next.push(j);
+            }
+            j += 1;
+        }
+        reached = next;
+    }
+    reached.last() == Some(&(second.len() - 1))
+}
