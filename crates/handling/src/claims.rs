@@ -15,6 +15,15 @@ pub struct RecordedTurn {
     pub seconds: f64,
 }
 
+/// The parts of a stroke during which the arm moves, seconds.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct RecordedOverlap {
+    /// Time from the beginning of the lowering to the arrival of the arm.
+    pub before_arrival: f64,
+    /// Time from the departure of the arm to the end of the raising.
+    pub after_departure: f64,
+}
+
 /// A recorded step of a task. Its action is that of the step with this number in the task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedStep {
@@ -26,6 +35,8 @@ pub struct RecordedStep {
     pub samples: RangeInclusive<usize>,
     /// The turn of the wrist after the motion.
     pub turn: Option<RecordedTurn>,
+    /// The parts of the step's stroke during which the arm moves. Zero if the arm rests during the whole stroke.
+    pub overlap: RecordedOverlap,
 }
 
 /// The statements of a result about its motion, in addition to the samples. A statement that the file does not make is

@@ -46,4 +46,6 @@ pub struct HeldMotion {
     pub joint: HeldJoint,
     /// Values of the joint at the samples of the arm's motion, as the first coordinate of each sample.
     pub values: Recording,
+    /// True if the joint also lifts the carried object.
+    pub lifts_payload: bool,
 }

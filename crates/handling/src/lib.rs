@@ -24,7 +24,9 @@ mod task;
 mod task_error;
 mod timed;
 
-pub use claims::{BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedStep, RecordedTurn, StepClaims, TaskClaims};
+pub use claims::{
+    BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedOverlap, RecordedStep, RecordedTurn, StepClaims, TaskClaims,
+};
 pub use held::{HeldEffect, HeldJoint, HeldMotion};
 pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 pub use moving_obstacle::{Leg, MAX_STOP_TIME, MovingObstacle, ObstacleTrajectory, ObstacleTrajectoryError, Stop};
@@ -32,7 +34,7 @@ pub use payload::Payload;
 pub use piece::{Derivative, Piece, State};
 pub use recording::{Recording, RecordingError};
 pub use robot_joints::{Driver, Drives, RobotJoint, RobotJoints};
-pub use stroke::{Stroke, ToolJoint};
+pub use stroke::{Arch, Stroke, ToolJoint};
 pub use task::{Action, Holding, Item, Object, Step, Task, Wrist};
 pub use task_error::TaskError;
 pub use timed::{TimedScene, TimedWorkspace};

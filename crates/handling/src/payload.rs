@@ -1,6 +1,6 @@
 //! The object that the arm carries.
 
-use super::{Object, Task, TimedWorkspace};
+use super::{Object, Stroke, Task, TimedWorkspace};
 use cplan_core::model::{Additions, Arm, AttachedPart, Attachment, Body, Grip, Heights, Scene};
 use cplan_dynamics::{joined, spread};
 use cplan_geometry::{Convex, Pose, inset_union};
@@ -108,6 +108,35 @@ impl Task {
         let allowed_contacts: Vec<usize> = touched.into_iter().map(|object| self.obstacle_number(object)).collect();
         let payload = payload.map(|payload| (payload, heights));
         Some(self.scene_of(arm, self.obstacles(poses), payload, allowed_contacts))
+    }
+
+    /// Returns the scene for a stroke during a motion of the arm, with the tool raised. The second value is true if the
+    /// payload follows the tool; otherwise it has all its heights from lying to carried. Link 2 may touch those of the
+    /// objects `touched` that it meets with the raised tool, too: others must be free whenever the arm moves.
+    #[must_use]
+    pub fn arch_scene(
+        &self,
+        stroke: &Stroke,
+        poses: &[Option<Pose>],
+        payload: Option<&Payload>,
+        touched: impl IntoIterator<Item = usize>,
+    ) -> (Scene, bool) {
+        let meets_raised = |object: &usize| {
+            let heights = self.objects[*object].heights;
+            self.arm.links[1].parts.iter().any(|part| part.heights.meet(heights))
+        };
+        let allowed_contacts = touched.into_iter().filter(meets_raised).map(|object| self.obstacle_number(object));
+        let follows = |payload: &Payload| {
+            let object = &self.objects[payload.object];
+            stroke.depth(object) == object.lift
+        };
+        let follows = payload.is_none_or(follows);
+        let payload = payload.map(|payload| {
+            let object = &self.objects[payload.object];
+            (payload, if follows { object.carried_heights() } else { object.handled_heights() })
+        });
+        let scene = self.scene_of(self.arm.clone(), self.obstacles(poses), payload, allowed_contacts.collect());
+        (scene, follows)
     }
 
     /// Returns the scene of an arm with a payload at these heights.

@@ -1,6 +1,6 @@
 //! Recordings: motions given by samples.
 
-use super::{Interpolation, Piece};
+use super::{Derivative, Interpolation, Piece};
 use cplan_core::space::{Configuration, Path, Topology};
 use std::ops::RangeInclusive;
 use thiserror::Error;
@@ -212,6 +212,35 @@ impl Recording {
             interpolation: self.interpolation,
             rests: self.rests.iter().filter(|rest| range.contains(rest)).map(|rest| rest - range.start()).collect(),
         })
+    }
+
+    /// Returns the same motion with samples at these times, which must increase and lie within the recording. Between
+    /// the new samples the motion is the same, up to rounding, if each sample of this recording is also among the
+    /// `times`, or if the motion is one polynomial there.
+    #[must_use]
+    pub fn resampled(&self, times: &[f64]) -> Self {
+        let pieces = self.pieces();
+        let mut piece = 0;
+        let (mut position, mut velocity, mut acceleration) = (Vec::new(), Vec::new(), Vec::new());
+        for &time in times {
+            while piece + 1 < pieces.len() && time >= pieces[piece].to {
+                piece += 1;
+            }
+            let within = &pieces[piece];
+            let duration = within.to - within.from;
+            let share = if duration > 0.0 { ((time - within.from) / duration).clamp(0.0, 1.0) } else { 0.0 };
+            position.push(within.at(share));
+            velocity.push(within.derivative(Derivative::Velocity, share));
+            acceleration.push(within.derivative(Derivative::Acceleration, share));
+        }
+        Self {
+            position,
+            time: Some(times.to_vec()),
+            velocity: self.velocity.is_some().then_some(velocity),
+            acceleration: self.acceleration.is_some().then_some(acceleration),
+            interpolation: self.interpolation,
+            rests: Vec::new(),
+        }
     }
 
     /// Returns the pieces of the motion: piece `k` leads from sample `k` to sample `k + 1`. A single sample gives one

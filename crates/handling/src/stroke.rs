@@ -30,7 +30,25 @@ impl ToolJoint {
     }
 }
 
-/// The motion that lowers and raises a tool at picks and places, while the arm is at rest.
+/// Least heights for the overlap of strokes with motions of the arm, metres.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Arch {
+    /// Height above the lowest position that the tool reaches before the arm moves.
+    pub rise: f64,
+    /// Height above the lowest position below which the tool moves only while the arm is at rest.
+    pub fall: f64,
+}
+
+impl Arch {
+    /// Returns true if both heights are finite and not negative.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        [self.rise, self.fall].into_iter().all(|height| height.is_finite() && height >= 0.0)
+    }
+}
+
+/// The motion that lowers and raises a tool at picks and places.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stroke {
@@ -45,6 +63,9 @@ pub struct Stroke {
     pub acceleration: f64,
     /// Names of the URDF links that the joint moves.
     pub bodies: Vec<String>,
+    /// Least heights for an overlap with motions of the arm. With `None`, the arm is at rest during strokes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arch: Option<Arch>,
 }
 
 impl Stroke {

@@ -132,6 +132,8 @@ impl Task {
             "its joint needs a sign of 1 or -1, a range, and a rest value within the range"
         } else if self.stroke.iter().filter_map(|s| s.travel).any(|travel| !travel.is_finite() || travel < 0.0) {
             "its travel must be finite and not negative"
+        } else if self.stroke.iter().filter_map(|s| s.arch).any(|arch| !arch.is_valid()) {
+            "the heights of its arch must be finite and not negative"
         } else if self.stroke.iter().any(|stroke| !self.objects.iter().all(|object| stroke.reaches(object))) {
             "an object lies too deep for the stroke"
         } else {

@@ -178,7 +178,7 @@ pub fn clearance_at_rest(timed: TimedScene, q: Configuration, seconds: f64) -> O
 }
 
 /// Returns a motion as recordings for both interpolations: by cubics, and by the polynomials that it states.
-fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
+pub fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
     let rows = |values: &[[f64; 2]]| values.iter().map(|&row| Configuration::from(row)).collect::<Vec<_>>();
     let (position, velocity) = (rows(&trajectory.position), rows(&trajectory.velocity));
     let cubic = Recording::new(position, Some(trajectory.time.clone()), Some(velocity)).ok()?;

@@ -2,7 +2,7 @@
 
 use crate::quantity::{Number, Numbers, PerJoint, Written};
 use crate::schema::{AngleOrLength, HeldAs, NumberPair, Positive};
-use crate::stroke::StrokeTable;
+use crate::stroke::{ArchValue, StrokeTable};
 use crate::wrist::WristTable;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -69,6 +69,10 @@ pub struct RobotTable {
     /// Motion of the tool down and up at picks and places; by default it does not move.
     #[schemars(with = "Option<StrokeTable>")]
     pub stroke: Option<StrokeTable>,
+    /// Least heights, m, that the tool rises before the arm moves, and below which it only moves while the arm is at rest;
+    /// by default { rise = 0, fall = 0 }. With false, the arm is at rest during strokes.
+    #[schemars(with = "Option<ArchValue>")]
+    pub(crate) arch: Option<Spanned<ArchValue>>,
     /// How objects are held unless they say otherwise; by default "rigid".
     #[schemars(with = "Option<HeldAs>")]
     pub payload: Option<Spanned<String>>,

@@ -1,5 +1,6 @@
 //! The outcome of a task.
 
+use super::arch::Overlap;
 use super::failed_step::FailedStep;
 use super::sequence::Sequence;
 use super::stroke::ToolStroke;
@@ -45,6 +46,9 @@ impl Event {
 /// - Pick: motion, stroke down, grasp, dwell, stroke up, turn.
 /// - Place: motion, turn, stroke down, release, dwell, stroke up.
 /// - Move: motion, dwell.
+///
+/// A stroke down may begin before the motion ends, and the next motion may begin before a stroke up ends: see
+/// [`Overlap`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Leg {
     /// The step.
@@ -61,6 +65,8 @@ pub struct Leg {
     pub turn: Option<(WristTurn, f64)>,
     /// Lowering and raising of the tool. `None` if the world has no stroke, or the step has no event.
     pub stroke: Option<ToolStroke>,
+    /// The parts of the motion during which the tool is raised after the step before, or lowered for this step.
+    pub overlap: Overlap,
     /// The event while the tool is lowered.
     pub event: Option<Event>,
     /// Time from the beginning of the task to that of the motion, in seconds.
@@ -80,16 +86,27 @@ impl Leg {
         self.begin + self.timed.trajectory.duration()
     }
 
-    /// Returns how long the arm stands still after the motion, in seconds.
+    /// Returns the time from the end of the motion to that of the step, when the tool is raised, in seconds. The next
+    /// motion may begin earlier: see [`Overlap::raising`].
     #[must_use]
     pub fn rest(&self) -> f64 {
-        self.step.dwell + self.turning() + 2.0 * self.lowering()
+        self.step.dwell + self.turning() + 2.0 * self.lowering() - self.overlap.lowering
     }
 
     /// Returns how long the wrist turns, in seconds.
     #[must_use]
     pub fn turning(&self) -> f64 {
         self.turn.map_or(0.0, |(_, seconds)| seconds)
+    }
+
+    /// Returns the times from the beginning of the task at which the lowering and the raising of the tool begin, in
+    /// seconds. `None` if the tool is not lowered.
+    #[must_use]
+    pub fn stroke_begins(&self) -> Option<[f64; 2]> {
+        let stroke = self.stroke?;
+        let turned = if matches!(self.event, Some(Event::Release { .. })) { self.turning() } else { 0.0 };
+        let lowering = self.arrival() + turned - self.overlap.lowering;
+        Some([lowering, lowering + stroke.seconds + self.step.dwell])
     }
 
     /// Returns how long the tool takes to go down, in seconds. It takes as long to go up.
@@ -102,8 +119,8 @@ impl Leg {
     #[must_use]
     pub fn event_after(&self) -> Option<f64> {
         match self.event? {
-            Event::Grasp { .. } => Some(self.lowering()),
-            Event::Release { .. } => Some(self.turning() + self.lowering()),
+            Event::Grasp { .. } => Some(self.lowering() - self.overlap.lowering),
+            Event::Release { .. } => Some(self.turning() + self.lowering() - self.overlap.lowering),
         }
     }
 
@@ -125,7 +142,7 @@ impl Leg {
     pub fn clearance(&self) -> f64 {
         let turn = self.turn.map_or(f64::INFINITY, |(turn, _)| turn.clearance);
         let stroke = self.stroke.map_or(f64::INFINITY, |stroke| stroke.clearance);
-        turn.min(stroke).min(self.timed.curve.clearance())
+        turn.min(stroke).min(self.overlap.clearance).min(self.timed.curve.clearance())
     }
 }
 
@@ -157,8 +174,8 @@ pub struct TaskAnswer {
     pub outcome: Outcome<TaskMotion, FailedStep, FailedStep>,
     /// The steps in the order of execution: all of them, or those before the step that fails.
     pub legs: Vec<Leg>,
-    /// Proven lower bound, in seconds, on the duration of every motion that performs the whole task and rests after
-    /// each step.
+    /// Proven lower bound, in seconds, on the duration of every motion that performs the whole task, stops at each
+    /// target, and lowers and raises the tool there.
     pub lower_bound: f64,
     /// Number of motions that were planned, including those that the answer does not use.
     pub motions: usize,

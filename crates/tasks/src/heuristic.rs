@@ -3,7 +3,7 @@
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
 use super::least_time::least_time;
 use super::state::Progress;
-use super::stroke::least_rest;
+use super::stroke::{least_rest, least_without_strokes, most_overlap};
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
@@ -16,7 +16,9 @@ pub(super) struct Stop {
     /// All IK solutions at the target. `None` if there are infinitely many, or if earlier steps determine them.
     ik_solutions: Option<Vec<Configuration>>,
     speed: f64,
-    /// Least time that the arm stands still at the stop, in seconds.
+    /// Longest overlaps of strokes with the motion to the stop, at its beginning and its end, in seconds.
+    overlaps: [f64; 2],
+    /// Least time of the dwell and the stroke at the stop, in seconds.
     dwell: f64,
 }
 
@@ -44,7 +46,7 @@ impl Stop {
     /// Returns a lower bound on the duration of the motion to a configuration of the stop, plus its dwell, in seconds.
     fn seconds(&self, arm: &Arm, from: Option<Configuration>, place: usize) -> f64 {
         let travel = from.zip(self.at(place)).map_or(0.0, |(from, to)| least_time(arm, from, to, self.speed));
-        travel + self.dwell
+        least_without_strokes(travel, self.overlaps) + self.dwell
     }
 }
 
@@ -229,19 +231,32 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
     let lies = |object: &Object| object.trajectory.is_none().then(|| KnownPose::from(object));
     let mut lies: Vec<Option<KnownPose>> = task.objects.iter().map(lies).collect();
     let mut held = None;
-    let mut stop = |step: &Step, lies: &mut [Option<KnownPose>]| {
+    // The longest overlap at the beginning of the next motion.
+    let mut rising = 0.0;
+    let mut stop = |step: &Step, rising: &mut f64, lies: &mut [Option<KnownPose>]| {
         let object = match step.action {
             Action::Pick { object, .. } => Some(object),
             Action::Place { .. } => held.map(|(object, _)| object),
             Action::Move(_) => None,
         };
         let dwell = least_rest(task, step, object);
-        Stop { ik_solutions: targets(task, step, lies, &mut held), speed: step.speed, dwell }
+        let sinking = most_overlap(task, object);
+        let overlaps = [std::mem::replace(rising, sinking), sinking];
+        Stop { ik_solutions: targets(task, step, lies, &mut held), speed: step.speed, overlaps, dwell }
     };
     let of = |item: &Item| match item {
-        Item::Step(step) => Stops::One(stop(step, &mut lies)),
+        Item::Step(step) => Stops::One(stop(step, &mut rising, &mut lies)),
         Item::AnyOrder(pairs) => {
-            Stops::Pairs(pairs.iter().map(|pair| pair.each_ref().map(|step| stop(step, &mut lies))).collect())
+            // Any of the pairs may come before another, or before the next item.
+            let objects = pairs.iter().map(|[pick, _]| most_overlap(task, pick.action.picked()));
+            let most = objects.fold(rising, f64::max);
+            let mut stops = |[pick, place]: &[Step; 2]| {
+                let mut before = most;
+                [pick, place].map(|step| stop(step, &mut before, &mut lies))
+            };
+            let stops = Stops::Pairs(pairs.iter().map(&mut stops).collect());
+            rising = most;
+            stops
         }
         Item::Renew(objects) => {
             objects.iter().for_each(|&object| lies[object] = Some(KnownPose::from(&task.objects[object])));
@@ -333,6 +348,7 @@ mod tests {
             let stop = |(radius, angle): (f64, f64), dwell| Stop {
                 ik_solutions: Some(ik_solutions(&arm, arm.tip, Point::new(radius * angle.cos(), radius * angle.sin()), Configuration::zeros()).configurations),
                 speed: 1.0,
+                overlaps: [0.0; 2],
                 dwell,
             };
             let pairs: Vec<[Stop; 2]> = spots.iter().zip(&dwells).map(|((a, b), (c, d))| [stop(*a, *c), stop(*b, *d)]).collect();

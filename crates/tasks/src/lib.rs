@@ -49,6 +49,7 @@
 
 mod among_movers;
 mod answer;
+mod arch;
 mod failed_step;
 mod motion_cache;
 mod least_time;
@@ -64,6 +65,7 @@ mod state;
 mod stroke;
 
 pub use answer::{Event, Leg, TaskAnswer, TaskMotion};
+pub use arch::Overlap;
 pub use failed_step::{FailedStep, RefusedIkSolution};
 pub use least_time::rest_to_rest;
 pub use plan::plan;

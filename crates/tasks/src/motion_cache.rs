@@ -1,5 +1,6 @@
 //! The motions of a task, each planned once.
 
+use super::arch::{Overlap, overlap};
 use super::least_time::rest_to_rest;
 use super::state::{Candidate, State};
 use super::stroke::{ToolStroke, stroke};
@@ -68,14 +69,16 @@ pub(super) struct Motion {
     pub timed: Arc<TimedMotion>,
     pub turn: Option<(WristTurn, f64)>,
     pub stroke: Option<ToolStroke>,
+    pub overlap: Overlap,
 }
 
 impl Motion {
-    /// Returns the duration of the motion and of the turn and the stroke after it, without the step's dwell, in
-    /// seconds.
+    /// Returns the time from the end of the step before to the end of this one, without its dwell, in seconds. A step
+    /// ends when the tool is raised. If the arm departs earlier, the time is shorter than that of the motion.
     pub fn seconds(&self) -> f64 {
         let turn = self.turn.map_or(0.0, |(_, seconds)| seconds);
-        self.timed.trajectory.duration() + turn + self.stroke.map_or(0.0, |stroke| 2.0 * stroke.seconds)
+        let stroke = self.stroke.map_or(0.0, |stroke| 2.0 * stroke.seconds);
+        self.timed.trajectory.duration() - self.overlap.seconds() + turn + stroke
     }
 }
 
@@ -121,6 +124,8 @@ pub(super) struct MotionCache {
     motions: BTreeMap<(PathKey, u64), Result<Arc<TimedMotion>, Refusal>>,
     /// Scenes with all objects, for answers.
     scenes: BTreeMap<SceneKey, Arc<Scene>>,
+    /// Overlaps by scene, objects of the strokes, ends and speed.
+    overlaps: BTreeMap<SceneKey, Overlap>,
 }
 
 impl MotionCache {
@@ -132,6 +137,7 @@ impl MotionCache {
             fewer: BTreeMap::new(),
             motions: BTreeMap::new(),
             scenes: BTreeMap::new(),
+            overlaps: BTreeMap::new(),
         }
     }
 
@@ -163,7 +169,24 @@ impl MotionCache {
         })?;
         let turn = candidate.turn.map(|turn| self.turn(task, from, candidate, turn)).transpose()?;
         let stroke = stroke(task, from, candidate)?;
-        Ok(Motion { timed, turn, stroke })
+        let overlap = self.overlap(task, from, candidate, (&timed, stroke.as_ref()));
+        Ok(Motion { timed, turn, stroke, overlap })
+    }
+
+    /// Returns the overlap of strokes with a motion.
+    fn overlap(
+        &mut self,
+        task: &Task,
+        from: &State,
+        candidate: &Candidate,
+        (timed, stroke): (&TimedMotion, Option<&ToolStroke>),
+    ) -> Overlap {
+        let mut key = scene_key(from, candidate.step, |_| true);
+        let object = |object: Option<usize>| object.map_or(u64::MAX, |object| object as u64);
+        let sinks_to = candidate.event.map(|event| event.object());
+        key.extend([object(from.rising), object(sinks_to), u64::from(candidate.turns_before_stroke())]);
+        key.extend([from.q[0], from.q[1], candidate.to[0], candidate.to[1], candidate.step.speed].map(f64::to_bits));
+        *self.overlaps.entry(key).or_insert_with(|| overlap(task, from, candidate, timed, stroke))
     }
 
     fn planned_motion(

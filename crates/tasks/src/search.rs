@@ -9,7 +9,7 @@ use super::heuristic::Heuristic;
 use super::least_time::least_time;
 use super::motion_cache::{Motion, MotionCache, Refusal};
 use super::state::{Candidate, State};
-use super::stroke::least_rest;
+use super::stroke::{least_rest, least_without_strokes, most_overlap};
 use cplan_geometry::OpenList;
 use cplan_handling::Task;
 use cplan_interrupt::checkpoint;
@@ -213,6 +213,7 @@ impl<'a, 'l> Search<'a, 'l> {
     fn expand(&mut self, index: usize) {
         let Node { stage: Stage::Reached(state, _), depth, seconds, .. } = &self.nodes[index] else { return };
         let (depth, seconds, from) = (*depth, *seconds, state.q);
+        let rising = most_overlap(self.task, state.rising);
         for candidates in state.candidates(self.task) {
             self.complete &= candidates.all;
             if candidates.ways.is_empty() {
@@ -227,8 +228,11 @@ impl<'a, 'l> Search<'a, 'l> {
             }
             for candidate in candidates.ways {
                 let turn = candidate.turn.map_or(0.0, |turn| MotionCache::min_turn_seconds(self.task, turn));
-                let least = least_time(&self.task.arm, from, candidate.to, candidate.step.speed) + turn;
-                let least = least + least_rest(self.task, candidate.step, candidate.event.map(|event| event.object()));
+                let object = candidate.event.map(|event| event.object());
+                let sinking = most_overlap(self.task, object.filter(|_| !candidate.turns_before_stroke()));
+                let travel = least_time(&self.task.arm, from, candidate.to, candidate.step.speed);
+                let travel = least_without_strokes(travel, [rising, sinking]);
+                let least = travel + turn + least_rest(self.task, candidate.step, object);
                 let stage = Stage::Pending(candidate);
                 self.push(Node { parent: Some(index), depth: depth + 1, seconds: seconds + least, stage });
             }
@@ -254,8 +258,9 @@ impl<'a, 'l> Search<'a, 'l> {
                     timed: motion.timed.clone(),
                     turn: motion.turn,
                     stroke: motion.stroke,
+                    overlap: motion.overlap,
                     event: candidate.event,
-                    begin: *seconds,
+                    begin: *seconds - motion.overlap.raising,
                 });
             }
             at = node.parent;

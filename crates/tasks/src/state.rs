@@ -33,6 +33,8 @@ pub(super) struct State {
     pub held: Option<Payload>,
     /// The object that the last step released. `None` if the last step released none.
     pub released: Option<usize>,
+    /// The object for which the tool is still lowered when the next motion may begin. `None` if the tool is raised.
+    pub rising: Option<usize>,
 }
 
 /// A candidate for the next step: one possible configuration at its target, and one orientation of the object.
@@ -48,6 +50,18 @@ pub(super) struct Candidate<'a> {
     grip: Option<Grip>,
     /// The progress after the step.
     pub progress: Progress,
+}
+
+impl Candidate<'_> {
+    /// Returns true if the wrist turns at the target before the tool is lowered.
+    pub fn turns_before_stroke(&self) -> bool {
+        self.turn.is_some() && matches!(self.event, Some(Event::Release { .. }))
+    }
+
+    /// Returns true if the wrist turns at the target after the tool is raised.
+    pub fn turns_after_stroke(&self) -> bool {
+        self.turn.is_some() && matches!(self.event, Some(Event::Grasp { .. }))
+    }
 }
 
 /// The candidates for a step.
@@ -78,6 +92,7 @@ impl State {
             moving: task.initially_moving().collect(),
             held: None,
             released: None,
+            rising: None,
         };
         state.renewed(task)
     }
@@ -228,7 +243,8 @@ impl State {
     /// Returns the state directly after a candidate's step, with the arm at `q`, before any renewals.
     pub fn after_step(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
         let mut poses = self.poses.clone();
-        let mut after = Self { progress: candidate.progress, q, released: None, ..self.clone() };
+        let rising = candidate.event.filter(|_| !candidate.turns_after_stroke()).map(|event| event.object());
+        let mut after = Self { progress: candidate.progress, q, released: None, rising, ..self.clone() };
         match candidate.event {
             Some(Event::Grasp { object }) => {
                 Arc::make_mut(&mut poses)[object] = None;

@@ -24,13 +24,32 @@ pub struct ToolStroke {
     pub clearance: f64,
 }
 
-/// Returns a lower bound on the time, in seconds, for which the arm stands still in a step. It is the dwell, plus the
-/// stroke if the step has an object. Turns of the wrist are not included.
+/// Returns a lower bound, in seconds, on the dwell of a step and the stroke for its object, if it has one. Turns of the
+/// wrist are not included. A part of the stroke may overlap with motions: see [`overlapped`].
 pub(super) fn least_rest(task: &Task, step: &Step, object: Option<usize>) -> f64 {
     let down = |(stroke, object): (&Stroke, usize)| {
         rest_to_rest(stroke.depth(&task.objects[object]).abs(), stroke.velocity, stroke.acceleration)
     };
     step.dwell + 2.0 * task.stroke.as_ref().zip(object).map_or(0.0, down)
+}
+
+/// Returns the time, in seconds, by which the stroke to an object may overlap with a motion at most: its whole duration
+/// down or up, or zero if the arm is at rest during strokes.
+pub(super) fn most_overlap(task: &Task, object: Option<usize>) -> f64 {
+    let stroke = task.stroke.as_ref().filter(|stroke| stroke.arch.is_some());
+    stroke.zip(object).map_or(0.0, |(stroke, object)| stroke_seconds(stroke, stroke.depth(&task.objects[object])))
+}
+
+/// Returns the time, in seconds, in which the tool is lowered by a depth, or raised again.
+pub(super) fn stroke_seconds(stroke: &Stroke, depth: f64) -> f64 {
+    let motion = single(depth.abs(), stroke.velocity, stroke.acceleration);
+    motion.last().map_or(0.0, |[seconds, ..]| *seconds)
+}
+
+/// Returns a lower bound, in seconds, on the part of a motion that overlaps with no stroke. `overlaps` are the longest
+/// overlaps at its beginning and its end. Between them the tool is raised completely.
+pub(super) fn least_without_strokes(travel: f64, overlaps: [f64; 2]) -> f64 {
+    (travel - overlaps[0] - overlaps[1]).max(0.0)
 }
 
 /// Returns the stroke at a candidate's target. `None` if the tool is not lowered. Without a stroke, still checks that
@@ -45,8 +64,7 @@ pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result
     let certified = certified.map_err(|_| Refusal::new(format!("no proof that it is free {when} was found"), false))?;
     let Some(stroke) = &task.stroke else { return Ok(None) };
     let depth = stroke.depth(&task.objects[event.object()]);
-    let motion = single(depth.abs(), stroke.velocity, stroke.acceleration);
-    let seconds = motion.last().map_or(0.0, |[seconds, ..]| *seconds);
+    let seconds = stroke_seconds(stroke, depth);
     let (raised, lowered) = (stroke.joint.rest, stroke.lowered(depth));
     Ok(Some(ToolStroke { raised, lowered, seconds, clearance: certified.clearance() }))
 }

@@ -69,7 +69,7 @@ fn pen() -> Style {
 }
 
 /// Draws a cross on white.
-fn cross([x, y]: [f64; 2]) -> Vec<Item> {
+pub fn cross([x, y]: [f64; 2]) -> Vec<Item> {
     let strokes = |r: f64| {
         vec![
             Step::Move([x - r, y - r]),

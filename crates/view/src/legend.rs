@@ -4,7 +4,7 @@ use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shor
 use super::flow::FieldLines;
 use super::key::{Key, KeyView, Layered, Sign};
 use super::view::{MAX_NAMED_OBSTACLES, ObstacleView, PathView, TraceView, View};
-use super::{blocking, boxes, channel, checked, cspace, preferences, reach, shapes, trace};
+use super::{blocking, boxes, channel, checked, cspace, line, preferences, reach, shapes, trace};
 use cplan_theme::{GRAY, INFEASIBLE, INK, PALE};
 
 /// Height of a row, in pixels.
@@ -77,6 +77,8 @@ fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
     keys.extend(preferences::keys(&world.regions).into_iter().map(|key| -> Layered { (key, &["regions"]) }));
     let reach = view.still.reach.as_ref().map_or_else(Vec::new, reach::keys);
     keys.extend(reach.into_iter().map(|key| -> Layered { (key, &["access"]) }));
+    let given = view.still.line.as_ref().map_or_else(Vec::new, line::keys);
+    keys.extend(given.into_iter().map(|key| -> Layered { (key, &["path"]) }));
     keys.extend(view.still.stuck.as_ref().map_or_else(Vec::new, blocking::keys).into_iter().map(always));
     keys.extend(view.still.checked.as_ref().map_or_else(Vec::new, checked::keys).into_iter().map(always));
     keys.push(always((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned())));

@@ -6,7 +6,7 @@ use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines, lines_
 use super::labels::{self, Named, Placer};
 use super::tags::{self, Tag};
 use super::view::{ObstacleView, PathView, View, bounding_box, reach_shape, titles};
-use super::{blocking, checked, frames, preferences, reach, shapes};
+use super::{blocking, checked, frames, line, preferences, reach, shapes};
 use cplan_core::model::{Arm, Shape};
 use cplan_core::space::Configuration;
 use cplan_theme::{GRAY, INFEASIBLE, INK, PALE, WHITE};
@@ -38,6 +38,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     if let Some((q, world)) = still.end {
         inside.extend(pose(view, &frame, &mut placer, world, q.into(), &GOAL_LOOK));
     }
+    inside.extend(still.line.iter().flat_map(|given| line::in_workspace(given, &frame)));
     let paths = still.panels.iter().flat_map(|panel| &panel.paths).map(|&index| &view.paths[index]);
     let traces: Vec<_> = paths.map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
     traces.iter().for_each(|(steps, _)| placer.block_line(steps));
@@ -47,6 +48,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
         inside.extend(pose(view, &frame, &mut placer, world, q.into(), &CURRENT_LOOK));
     }
     inside.extend(marks(view, &frame, &mut placer));
+    inside.extend(still.line.iter().flat_map(|given| line::place(given, &frame)));
     inside.extend(hidden_note(&frame, lying(), &mut placer));
     tags.iter().for_each(|tag| placer.block_spot(tag.at, STEP_END_RADIUS + 1.0));
     placer.beside(&tags::names(&tags, STEP_END_RADIUS + 1.0));

@@ -6,7 +6,7 @@ use crate::common::random::{seeds, times};
 use cplan::check::{CollisionCheck, ReplayedStep};
 use cplan::engine::Options;
 use cplan::engine::task::{TaskAnswer, TaskMotion, plan};
-use cplan::model::{RecordedStep, RecordedTurn};
+use cplan::model::{RecordedOverlap, RecordedStep, RecordedTurn};
 use cplan::motion::Drive;
 use cplan::space::{Configuration, Recording};
 
@@ -16,11 +16,16 @@ fn record(answer: &TaskAnswer, TaskMotion { sequence, .. }: &TaskMotion) -> (Rec
     let rows = |rows: &[[f64; 2]]| rows.iter().map(|q| Configuration::new(q[0], q[1])).collect::<Vec<_>>();
     let (position, velocity) = (rows(&trajectory.position), rows(&trajectory.velocity));
     let recording = Recording::new(position, Some(trajectory.time.clone()), Some(velocity)).unwrap();
-    let steps = answer.legs.iter().zip(&sequence.samples).map(|(leg, samples)| RecordedStep {
+    let legs = answer.legs.iter().enumerate().zip(&sequence.samples);
+    let steps = legs.map(|((index, leg), samples)| RecordedStep {
         number: leg.step.number,
         cycle: leg.step.cycle,
         samples: samples.clone(),
         turn: leg.turn.map(|(turn, seconds)| RecordedTurn { from: turn.from, to: turn.to, seconds }),
+        overlap: RecordedOverlap {
+            before_arrival: leg.overlap.lowering,
+            after_departure: answer.legs.get(index + 1).map_or(0.0, |next| next.overlap.raising),
+        },
     });
     (recording, steps.collect())
 }
@@ -35,7 +40,7 @@ fn planned_tasks_are_judged_free() {
     let options = Options { drive: Drive::default(), ..options() };
     let (mut done, mut turns, mut refuted) = (0_u64, 0_u64, 0_u64);
     for seed in seeds(100) {
-        let task = task::task(seed);
+        let task = if seed % 3 == 0 { task::with_arches(seed) } else { task::task(seed) };
         let answer = plan(&task, &options, &mut |_| {});
         let Some(motion) = answer.outcome.found() else { continue };
         done += 1;

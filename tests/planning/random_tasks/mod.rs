@@ -52,6 +52,66 @@ fn planned_tasks_are_feasible() {
     assert!(found.done * 2 > found.infeasible + found.unknown, "hardly any task can be done: {found:?}");
 }
 
+/// Checks tasks in which the tool is lowered and raised while the arm moves: free at the heights of each moment, and
+/// faster than with strokes at rest.
+#[test]
+fn planned_arches_are_feasible() {
+    let (mut found, mut overlaps, mut partial, mut saved) = (Count::default(), 0, 0, 0.0);
+    for seed in seeds(120) {
+        let task = task::with_arches(seed);
+        let answer = plan(&task, &options(), &mut |_| {});
+        match &answer.outcome {
+            Outcome::Found(_) => found.done += 1,
+            Outcome::Infeasible(_) => found.infeasible += 1,
+            Outcome::Unknown(_) => found.unknown += 1,
+        }
+        found.legs += answer.legs.len();
+        let all = answer.failed().is_none();
+        if let Err(violation) = replay::replay(&task, &answer, all) {
+            panic!("seed {seed}: {violation}");
+        }
+        assert!(!all || answer.lower_bound <= answer.duration(), "seed {seed}: faster than the bound");
+        for leg in &answer.legs {
+            overlaps += usize::from(leg.overlap.seconds() > 0.0);
+            let seconds = leg.stroke.map_or(0.0, |stroke| stroke.seconds);
+            partial += usize::from(0.0 < leg.overlap.lowering && leg.overlap.lowering < 0.9 * seconds);
+            saved += leg.overlap.seconds();
+        }
+        let mut resting = task.clone();
+        resting.stroke.iter_mut().for_each(|stroke| stroke.arch = None);
+        let slower = plan(&resting, &options(), &mut |_| {});
+        assert_eq!(answer.outcome.status(), slower.outcome.status(), "seed {seed}");
+        assert!(!all || answer.duration() < slower.duration() + 1e-6, "seed {seed}: slower than with strokes at rest");
+    }
+    println!("{found:?}, {overlaps} motions with overlaps, {partial} with a part of the lowering, {saved} s saved");
+    assert!(found.done > 20 && overlaps > 50 && partial > 5, "{found:?}, {overlaps} overlaps, {partial} partial");
+}
+
+/// Checks that the oracle sees collisions during strokes: a tool that is lowered earlier than planned hits something.
+#[test]
+fn a_tool_that_is_lowered_too_early_is_refused() {
+    let mut hits = 0;
+    for seed in seeds(60) {
+        let task = task::with_arches(seed);
+        let answer = plan(&task, &options(), &mut |_| {});
+        for index in 0..answer.legs.len() {
+            let leg = &answer.legs[index];
+            let Some(stroke) = leg.stroke else { continue };
+            let most = stroke.seconds.min(leg.timed.trajectory.duration() - leg.overlap.raising);
+            let earlier = most - leg.overlap.lowering;
+            if leg.overlap.lowering == 0.0 || earlier < 0.02 {
+                continue;
+            }
+            let mut changed = answer.clone();
+            changed.legs[index].overlap.lowering = most;
+            changed.legs[index + 1..].iter_mut().for_each(|leg| leg.begin -= earlier);
+            let refused = replay::replay(&task, &changed, answer.failed().is_none());
+            hits += usize::from(refused.is_err_and(|why| why.contains(" from ")));
+        }
+    }
+    assert!(hits > 10, "only {hits} are refused");
+}
+
 /// Checks that the oracle refuses recordings of other tasks: those for smaller objects are not valid for larger ones,
 /// nor for other targets.
 #[test]

@@ -3,8 +3,8 @@
 #![allow(dead_code, reason = "each test uses some of it")]
 
 use crate::random_worlds::solid::{Solid, V, add, norm, rotate, sub};
-use cplan::engine::task::TaskAnswer;
-use cplan::model::{Action, Goal, Holding, Item, Joint, JointType, Step, Task};
+use cplan::engine::task::{Leg, TaskAnswer};
+use cplan::model::{Action, Goal, Holding, Item, Joint, JointType, Part, Step, Task};
 
 /// Tolerance of positions, metres: inverse kinematics is exact to a few nanometres.
 const NEAR: f64 = 1e-7;
@@ -50,6 +50,10 @@ pub struct World<'a> {
     lies: Vec<Option<Frame>>,
     held: Option<Held>,
     released: Option<usize>,
+    /// Height of the tool above its raised position, metres; negative while it is lowered.
+    tool: f64,
+    /// The tool may touch the objects that it handles only while the arm rests, unless it does so when raised, too.
+    arm_moves: bool,
 }
 
 /// Replays the answer to a task and checks every motion.
@@ -61,6 +65,8 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
     let renewed = order(task, answer, all)?;
     let mut q = [task.start[0], task.start[1]];
     let mut clock = 0.0;
+    // Depth from which the tool rises when the next motion may begin, and that time.
+    let mut risen_from = 0.0;
     for (index, leg) in answer.legs.iter().enumerate() {
         for &object in &renewed[index] {
             let (sin, cos) = task.objects[object].at.rotation.angle().sin_cos();
@@ -72,9 +78,12 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
         if t.position[0] != q {
             return Err(say("does not begin where the arm is"));
         }
-        if (leg.begin - clock).abs() > 1e-9 {
+        let [raising, lowering] = [leg.overlap.raising, leg.overlap.lowering];
+        if (leg.begin - (clock - raising)).abs() > 1e-9 {
             return Err(say("does not begin when the step before ends"));
         }
+        let sinks_to = depth_of(task, leg);
+        check_overlaps(task, t.duration(), [(risen_from, raising), (sinks_to, lowering)]).map_err(|what| say(&what))?;
         let target = match &leg.step.action {
             Action::Pick { object, .. } => Some(*object),
             _ => None,
@@ -89,6 +98,10 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
             let at = if moves { t.duration() * look as f64 / LOOKS as f64 } else { 0.0 };
             let (position, velocity) = state(t, at);
             limits(&task.arm.joints, position, velocity, leg.step.speed).map_err(|what| say(&what))?;
+            let rises = stroke_height(task, risen_from, stroke_time(task, risen_from) - raising + at);
+            let sinks = stroke_height(task, sinks_to, stroke_time(task, sinks_to) - (at - (t.duration() - lowering)));
+            world.tool = (rises - risen_from).min(sinks - sinks_to).min(0.0);
+            world.arm_moves = true;
             world.check(position, target, keep).map_err(|what| say(&format!("at {at} s: {what}")))?;
         }
         for k in 0..t.time.len() {
@@ -101,11 +114,61 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
         }
         q = *t.position.last().ok_or_else(|| say("has no samples"))?;
         let strokes = leg.stroke.map_or(0.0, |stroke| 2.0 * stroke.seconds);
-        clock += t.duration() + leg.step.dwell + leg.turn.map_or(0.0, |(_, seconds)| seconds) + strokes;
+        clock +=
+            t.duration() - raising - lowering + leg.step.dwell + leg.turn.map_or(0.0, |(_, seconds)| seconds) + strokes;
+        (world.tool, world.arm_moves) = (0.0, false);
+        risen_from = sinks_to;
         let then = next_supports(task, answer, index);
         world
             .finish(q, &leg.step, &then, leg.turn.map(|(turn, _)| [turn.from, turn.to]), keep)
             .map_err(|what| say(&what))?;
+    }
+    Ok(())
+}
+
+/// Returns the depth to which the tool is lowered at the end of a leg, metres.
+fn depth_of(task: &Task, leg: &Leg) -> f64 {
+    let stroke = task.stroke.as_ref().filter(|_| leg.stroke.is_some());
+    let Some((stroke, event)) = stroke.zip(leg.event) else { return 0.0 };
+    stroke.travel.unwrap_or(task.objects[event.object()].lift)
+}
+
+/// Returns the time of a stroke over a distance, seconds, from the formula for constant acceleration.
+fn stroke_time(task: &Task, distance: f64) -> f64 {
+    let Some(stroke) = &task.stroke else { return 0.0 };
+    let (v, a) = (stroke.velocity, stroke.acceleration);
+    if distance <= v * v / a { 2.0 * (distance / a).sqrt() } else { distance / v + v / a }
+}
+
+/// Returns the distance covered by a stroke some seconds after its beginning, metres.
+fn stroke_height(task: &Task, distance: f64, since: f64) -> f64 {
+    let Some(stroke) = &task.stroke else { return 0.0 };
+    let (whole, a) = (stroke_time(task, distance), stroke.acceleration);
+    let since = since.clamp(0.0, whole);
+    let ramp = (stroke.velocity / a).min(whole / 2.0);
+    if since < ramp {
+        a * since * since / 2.0
+    } else if since > whole - ramp {
+        distance - a * (whole - since).powi(2) / 2.0
+    } else {
+        a * ramp * ramp / 2.0 + a * ramp * (since - ramp)
+    }
+}
+
+/// Checks that the tool is raised completely during a motion, and as high as the task requires at its ends.
+fn check_overlaps(task: &Task, seconds: f64, ends: [(f64, f64); 2]) -> Result<(), String> {
+    let [(_, raising), (_, lowering)] = ends;
+    if raising + lowering > seconds + 1e-9 || raising < 0.0 || lowering < 0.0 {
+        return Err(format!("overlaps of {raising} and {lowering} s in {seconds} s"));
+    }
+    let arch = task.stroke.as_ref().and_then(|stroke| stroke.arch);
+    for (k, (depth, overlap)) in ends.into_iter().enumerate().filter(|(_, (_, overlap))| *overlap > 0.0) {
+        let arch = arch.ok_or("the arm moves during a stroke")?;
+        let reached = stroke_height(task, depth, stroke_time(task, depth) - overlap);
+        let least = [arch.rise, arch.fall][k];
+        if reached < least - 1e-6 {
+            return Err(format!("the tool is {reached} m high when the arm moves, {least} m are required"));
+        }
     }
     Ok(())
 }
@@ -202,7 +265,7 @@ impl<'a> World<'a> {
             let (sin, cos) = o.at.rotation.angle().sin_cos();
             Some(([cos, sin], [o.at.translation.x, o.at.translation.y]))
         });
-        World { task, lies: lies.collect(), held: None, released: None }
+        World { task, lies: lies.collect(), held: None, released: None, tool: 0.0, arm_moves: false }
     }
 
     /// Returns the world after an object was gripped by the arm at `q`.
@@ -263,14 +326,24 @@ impl<'a> World<'a> {
     fn distances(&self, q: V, target: Option<usize>, mut f: impl FnMut(&str, usize, f64, Option<f64>)) {
         let fixed = self.task.workspace.fixed.obstacles.len();
         let (frames, _) = self.frames(q);
-        let allowed_contacts =
-            |number: usize| [target, self.released].iter().flatten().any(|&object| number == fixed + object);
+        let bodies = self.task.stroke.iter().flat_map(|stroke| &stroke.bodies).collect::<Vec<_>>();
+        let meets_raised = |object: usize| {
+            let heights = self.task.objects[object].heights;
+            let meets = |part: &Part| part.heights.lower <= heights.upper && heights.lower <= part.heights.upper;
+            self.task.arm.links[1].parts.iter().any(meets)
+        };
+        let allowed_contacts = |number: usize| {
+            let mut touched = [target, self.released].into_iter().flatten();
+            touched
+                .any(|object| number == fixed + object && (!self.arm_moves || self.tool == 0.0 || meets_raised(object)))
+        };
         let obstacles = self.obstacles();
         for (link, frame) in frames.into_iter().enumerate() {
             for part in &self.task.arm.links[link].parts {
                 let body = Solid::new(&part.shape).placed(frame.0, frame.1);
                 for (number, solid, heights) in &obstacles {
-                    let meets = part.heights.lower <= heights[1] && heights[0] <= part.heights.upper;
+                    let lift = if bodies.contains(&&part.body) { self.tool } else { 0.0 };
+                    let meets = part.heights.lower + lift <= heights[1] && heights[0] <= part.heights.upper + lift;
                     if meets && (link == 0 || !allowed_contacts(*number)) {
                         f(["link 1", "link 2"][link], *number, body.distance(solid), None);
                     }
@@ -283,7 +356,8 @@ impl<'a> World<'a> {
         for piece in &object.pieces {
             let body = Solid::new(piece).placed(frame.0, frame.1);
             for (number, solid, heights) in &obstacles {
-                let [lower, upper] = [object.heights.lower, object.heights.upper].map(|height| height + object.lift);
+                let [lower, upper] =
+                    [object.heights.lower, object.heights.upper].map(|height| height + object.lift + self.tool);
                 // An object does not collide with its support.
                 if lower + RESTING_TOLERANCE < heights[1] && heights[0] <= upper {
                     let rests = held.supports.contains(number);

@@ -3,8 +3,11 @@
 use crate::common::dice::Dice;
 use crate::common::{all_kinds, clutter, convex, disc, obstacle, placed};
 use cplan::geometry::{Convex, Point, Pose, Vector, hull};
-use cplan::model::{Action, Goal, Heights, Holding, Item, Object, Shape, Step, Task, Workspace, Wrist};
-use cplan::space::Configuration;
+use cplan::model::{
+    Action, Arch, Goal, Heights, Holding, Item, Object, Obstacle, Part, Shape, Step, Stroke, Task, ToolJoint,
+    Workspace, Wrist,
+};
+use cplan::space::{Configuration, JointRange};
 use std::f64::consts::{PI, TAU};
 
 pub fn task(seed: u64) -> Task {
@@ -110,6 +113,42 @@ pub fn task(seed: u64) -> Task {
     if dice.chance(0.5) {
         task.items.push(Item::Step(step(Action::Move(Goal::Joints(task.start)), &mut dice)));
     }
+    task
+}
+
+/// Returns a task among obstacles of several heights, for an arm whose tool is lowered at picks and places.
+pub fn with_arches(seed: u64) -> Task {
+    const DEPTH: f64 = 0.15;
+    let mut task = task(seed);
+    let mut dice = Dice::new(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15));
+    let mut heights = |obstacle: &mut Obstacle| {
+        let upper = [0.04, 0.1, 0.16, 0.25, 0.5][dice.below(5)];
+        obstacle.heights = Heights { lower: if dice.chance(0.2) { upper - 0.03 } else { 0.0 }, upper };
+    };
+    task.workspace.fixed.obstacles.iter_mut().for_each(&mut heights);
+    let high = Heights { lower: 0.3, upper: 0.4 };
+    task.arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(|part| part.heights = high);
+    task.arm.links[1].parts.push(Part {
+        shape: disc(task.arm.tip, 0.02),
+        inner: None,
+        number: 0,
+        is_visual: false,
+        heights: Heights { lower: DEPTH + 0.05, upper: 0.3 },
+        body: "tool".into(),
+    });
+    for object in &mut task.objects {
+        (object.heights, object.lift) = (Heights { lower: 0.0, upper: 0.05 }, DEPTH);
+    }
+    let joint = ToolJoint {
+        name: "quill".into(),
+        rest: 0.0,
+        sign: 1.0,
+        range: JointRange::Interval { lower: -DEPTH, upper: 0.0 },
+    };
+    let arch =
+        Arch { rise: if dice.chance(0.3) { 0.05 } else { 0.0 }, fall: if dice.chance(0.3) { 0.03 } else { 0.0 } };
+    let (velocity, acceleration, bodies) = (0.6, 4.0, vec!["tool".into()]);
+    task.stroke = Some(Stroke { joint, travel: None, velocity, acceleration, bodies, arch: Some(arch) });
     task
 }
 

@@ -181,6 +181,14 @@ impl Scene {
         })
     }
 
+    /// Returns the scene with its attachment at other heights.
+    #[must_use]
+    pub fn with_attached_heights(&self, heights: Heights) -> Self {
+        let mut scene = self.clone();
+        scene.additions.attachment.iter_mut().for_each(|attachment| attachment.heights = heights);
+        scene.changed(|_, _| ())
+    }
+
     /// Returns the scene without the pairs of static obstacles that the arm cannot reach, clearance included.
     /// Returns `None` if few pairs would be omitted, or if there is an attachment. Parts, obstacles and pieces keep
     /// their numbers.

@@ -102,7 +102,7 @@ fn certificate_of_task(
     let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
     let members = robot_members(files, &task.arm).into_iter().chain(start).chain(clearance).collect();
     let (steps, _) = step_reports(task, answer);
-    let evidence = [motion::evidence(&task.arm, &motion.sequence.trajectory), task::steps(&steps)];
+    let evidence = [motion::evidence(&task.arm, &motion.sequence.trajectory), task::steps(task, &steps)];
     Ok(written("found", members, evidence))
 }
 

@@ -69,7 +69,9 @@ pub fn recorded(
     };
     let all = [&positions, &velocities, &accelerations];
     let motion = motion_member(&[reading], recording.times().unwrap_or(&counted), &all[..columns]);
-    Ok(written("found", members, [motion].into_iter().chain(steps.map(|(_, steps)| steps_of_recording(steps)))))
+    let times = recording.times().unwrap_or(&counted);
+    let steps = steps.map(|(task, steps)| steps_of_recording(task, steps, times));
+    Ok(written("found", members, [motion].into_iter().chain(steps)))
 }
 
 /// Returns the values of the joints for a certificate, moved inwards at limits.

@@ -4,34 +4,86 @@
 use super::{NoCertificate, lines};
 use crate::result::StepReport;
 use cplan_geometry::can_inset_union;
-use cplan_handling::{Action, Object, Payload, RecordedStep, Step, Task};
+use cplan_handling::{Action, Object, Payload, RecordedStep, Step, Stroke, Task};
+use cplan_motion::single;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
 /// Returns the steps of a planned task as a member of the certificate's JSON. The motion of such a task is part of the
 /// result.
-pub(super) fn steps(steps: &[StepReport]) -> (&'static str, String) {
+pub(super) fn steps(task: &Task, steps: &[StepReport]) -> (&'static str, String) {
     let step = |step: &StepReport| {
         let turn = step.turn.as_ref().map(|turn| turn.to - turn.from);
-        done(step.step, [step.first_sample, step.last_sample].map(Option::unwrap_or_default), turn)
+        let knots = [step.first_sample, step.last_sample].map(Option::unwrap_or_default);
+        let overlaps = step.stroke.map(|stroke| Overlaps {
+            lowered: stroke.lowered,
+            lowering: Some(step.arrival - stroke.before_arrival).filter(|_| stroke.before_arrival > 0.0),
+            raised_at: Some(step.end + stroke.after_departure).filter(|_| stroke.after_departure > 0.0),
+        });
+        done(task, (step.step, knots), turn, overlaps)
     };
     ("steps", lines(&steps.iter().map(step).collect::<Vec<_>>()))
 }
 
-/// Returns the steps of a recorded task as a member of the certificate's JSON.
-pub(super) fn steps_of_recording(steps: &[RecordedStep]) -> (&'static str, String) {
-    let step = |step: &RecordedStep| {
+/// Returns the steps of a recorded task as a member of the certificate's JSON. `times` are those of the samples, in
+/// seconds.
+pub(super) fn steps_of_recording(task: &Task, steps: &[RecordedStep], times: &[f64]) -> (&'static str, String) {
+    let mut held = None;
+    let mut step = |(index, step): (usize, &RecordedStep)| {
         let knots = [*step.samples.start(), *step.samples.end()];
-        done(step.number, knots, step.turn.map(|turn| turn.to - turn.from))
+        let action = task.steps().find(|asked| asked.number == step.number).map(|asked| &asked.action);
+        held = action.and_then(Action::picked).or(held);
+        let departure = steps.get(index + 1).map_or(times.len() - 1, |next| *next.samples.start());
+        let overlap = step.overlap;
+        let overlaps = held.zip(task.stroke.as_ref()).map(|(object, stroke)| Overlaps {
+            lowered: stroke.lowered(stroke.depth(&task.objects[object])),
+            lowering: Some(times[knots[1]] - overlap.before_arrival).filter(|_| overlap.before_arrival > 0.0),
+            raised_at: Some(times[departure] + overlap.after_departure).filter(|_| overlap.after_departure > 0.0),
+        });
+        done(task, (step.number, knots), step.turn.map(|turn| turn.to - turn.from), overlaps)
     };
-    ("steps", lines(&steps.iter().map(step).collect::<Vec<_>>()))
+    ("steps", lines(&steps.iter().enumerate().map(&mut step).collect::<Vec<_>>()))
 }
 
-fn done(step: usize, knots: [usize; 2], turn: Option<f64>) -> Value {
-    match turn {
-        None => json!({ "step": step, "knots": knots }),
-        Some(turn) => json!({ "step": step, "knots": knots, "turn": turn }),
+/// The strokes of a step that overlap with motions of the arm.
+struct Overlaps {
+    /// The joint's value while the tool is lowered, metres.
+    lowered: f64,
+    /// Time at which the lowering begins, in seconds. `None` if the arm rests while the tool is lowered.
+    lowering: Option<f64>,
+    /// Time at which the tool is raised, in seconds. `None` if the arm rests until then.
+    raised_at: Option<f64>,
+}
+
+fn done(task: &Task, (step, knots): (usize, [usize; 2]), turn: Option<f64>, overlaps: Option<Overlaps>) -> Value {
+    let mut done = json!({ "step": step, "knots": knots });
+    if let Some(turn) = turn {
+        done["turn"] = json!(turn);
     }
+    if let (Some(stroke), Some(Overlaps { lowered, lowering, raised_at })) = (&task.stroke, overlaps) {
+        let raised = stroke.joint.rest;
+        if let Some(begin) = lowering {
+            done["lowering"] = json!(stroke_knots(stroke, [raised, lowered], begin));
+        }
+        if let Some(end) = raised_at {
+            let seconds = stroke_knots(stroke, [lowered, raised], 0.0).last().map_or(0.0, |[time, ..]| *time);
+            done["raising"] = json!(stroke_knots(stroke, [lowered, raised], end - seconds));
+        }
+    }
+    done
+}
+
+/// Returns the knots of a stroke between two values of its joint: time in seconds, value, and velocity. Cubics join
+/// them.
+fn stroke_knots(stroke: &Stroke, [from, to]: [f64; 2], begin: f64) -> Vec<[f64; 3]> {
+    let sign = (to - from).signum();
+    let mut knots: Vec<[f64; 3]> = single((to - from).abs(), stroke.velocity, stroke.acceleration)
+        .into_iter()
+        .map(|[time, distance, speed]| [begin + time, from + sign * distance, sign * speed + 0.0])
+        .collect();
+    // The last value is exact.
+    knots.last_mut().into_iter().for_each(|last| last[1] = to);
+    knots
 }
 
 /// Returns the indices of the objects that rest on supports when a step picks or places them.

@@ -1,13 +1,14 @@
 //! Motions of all joints of the robot during a task, for messages that name them.
 //!
-//! The arm moves with the tool raised. While the arm stands still, the wrist turns, and the tool is lowered and raised.
+//! The arm moves with the tool raised, except where a stroke overlaps with the motion. While the arm stands still, the
+//! wrist turns, and the tool is lowered and raised.
 //! If the world names the wrist's joint, that joint compensates the rotation of link 2, so that level payloads keep
 //! their orientation. Without a payload, it returns towards its rest position during the motion, as far as its limits
 //! allow.
 
 use cplan_core::model::JointType;
 use cplan_core::space::JointRange;
-use cplan_handling::{Driver, Drives, Holding, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
+use cplan_handling::{Derivative, Driver, Drives, Holding, Piece, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
 use cplan_motion::{AccelerationJump, JointMotion, nanoseconds, seconds, single, whole_nanoseconds};
 use cplan_tasks::{Event, Leg, Sequence};
 use thiserror::Error;
@@ -49,7 +50,8 @@ pub enum MessageError {
 pub struct Messages {
     /// The motion of the whole task, including the times at which the arm stands still.
     pub whole: JointMotion,
-    /// For each step, the time in seconds at which it begins, and its motion until all of the joints are at rest.
+    /// For each step, the time in seconds at which it begins, and its motion until all of the joints are at rest. If the
+    /// arm departs while the tool is still raised for the step before, the motion begins with that raising.
     pub steps: Vec<(f64, JointMotion)>,
 }
 
@@ -59,17 +61,63 @@ const ROUNDING: f64 = 1e-6;
 impl Messages {
     /// Creates the messages for the steps of a sequence. They have accelerations of the arm, but none of the tool.
     pub fn new(robot: &RobotJoints, task: &Task, legs: &[Leg], sequence: &Sequence) -> Result<Self, MessageError> {
-        let mut tool = Tool { robot, task, wrist: robot.wrist.as_ref().map_or(0.0, |joint| joint.rest) };
-        let mut whole = Rows::default();
-        let mut steps = Vec::new();
+        let wrist = robot.wrist.as_ref().map_or(0.0, |joint| joint.rest);
+        let mut tool = Tool { robot, task, wrist, strokes: Vec::new() };
+        let mut rows = Rows::default();
+        let mut begins = Vec::new();
         for (index, leg) in legs.iter().enumerate() {
-            let rows = tool.rows(leg, sequence.times(index).map(nanoseconds));
-            tool.check(&rows)?;
-            let begin = rows.0.first().map_or(0, |row| row.at);
-            rows.0.iter().for_each(|row| whole.push(*row));
-            steps.push((seconds(begin), rows.motion(robot, begin).without_rest()));
+            let times = sequence.times(index).map(nanoseconds);
+            let raising = tool.strokes.last().filter(|_| leg.overlap.raising > 0.0);
+            begins.push(raising.map_or(times[0], |raising| raising.begin));
+            tool.rows(leg, times).0.iter().for_each(|row| rows.push(*row));
         }
-        Ok(Self { whole: whole.motion(robot, 0), steps })
+        rows.add_strokes(&tool.strokes);
+        tool.check(&rows)?;
+        let step = |index: usize| {
+            let end = begins.get(index + 1).copied().unwrap_or(u64::MAX);
+            (seconds(begins[index]), rows.between(begins[index], end).motion(robot, begins[index]).without_rest())
+        };
+        let steps = (0..legs.len()).map(step).collect();
+        Ok(Self { whole: rows.motion(robot, 0), steps })
+    }
+}
+
+/// Shortest time between a row and a change of a stroke's acceleration that gets a row of its own, nanoseconds. Up to
+/// this time, the stroke between rows deviates from its profile by less than a nanometre.
+const MIN_ROW_GAP: u64 = 1_000;
+
+/// A stroke of the tool, down or up.
+#[derive(Debug, Clone)]
+struct TimedStroke {
+    /// Time at which it begins, nanoseconds.
+    begin: u64,
+    /// The joint's values at both ends, metres.
+    ends: [f64; 2],
+    /// Seconds since the beginning, distance and speed at the ends of phases of constant acceleration.
+    phases: Vec<[f64; 3]>,
+}
+
+impl TimedStroke {
+    /// Iterates over the times at which the acceleration changes, in nanoseconds.
+    fn changes(&self) -> impl Iterator<Item = u64> {
+        self.phases.iter().map(|[time, ..]| self.begin + nanoseconds(*time))
+    }
+
+    /// Returns the joint's value and velocity at a time during or after the stroke.
+    fn at(&self, time: u64) -> [f64; 2] {
+        let [from, to] = self.ends;
+        let since = seconds(time - self.begin);
+        let Some(phase) =
+            self.phases.windows(2).find(|phase| nanoseconds(phase[1][0]) > nanoseconds(since) + MIN_ROW_GAP)
+        else {
+            return [to, 0.0];
+        };
+        let [[begin, distance, speed], [end, _, later]] = [phase[0], phase[1]];
+        // A row may stand for a change of the acceleration shortly before or after it.
+        let into = (since - begin).max(0.0);
+        let rate = speed + (later - speed) * into / (end - begin);
+        let sign = (to - from).signum();
+        [from + sign * (distance + into * (speed + rate) / 2.0), sign * rate]
     }
 }
 
@@ -105,6 +153,27 @@ struct Row {
     acceleration: [f64; 2],
 }
 
+impl Row {
+    /// Returns the row at a time between this row and a later one. All joints move along cubics.
+    fn toward(&self, later: &Self, at: u64) -> Self {
+        let ends = [self.at, later.at].map(seconds);
+        let cubic = |value: fn(&Drives) -> [f64; 2]| {
+            let state = |row: &Row| [value(&row.value).into(), value(&row.rate).into()];
+            let piece = Piece::hermite(ends[0], ends[1], state(self), state(later));
+            let share = (seconds(at) - ends[0]) / (ends[1] - ends[0]);
+            [Derivative::Position, Derivative::Velocity, Derivative::Acceleration].map(|of| piece.derivative(of, share))
+        };
+        let [planned, rates, accelerations] = cubic(|drives| drives.planned);
+        let [wrist, turning, _] = cubic(|drives| [drives.wrist, 0.0]);
+        Self {
+            at,
+            value: Drives { planned: planned.into(), wrist: wrist[0], ..self.value },
+            rate: Drives { planned: rates.into(), wrist: turning[0], ..self.rate },
+            acceleration: accelerations.into(),
+        }
+    }
+}
+
 /// Rows in chronological order, each with a different time.
 #[derive(Debug, Default)]
 struct Rows(Vec<Row>);
@@ -115,6 +184,32 @@ impl Rows {
     fn push(&mut self, row: Row) {
         self.0.pop_if(|last| last.at == row.at);
         self.0.push(row);
+    }
+
+    /// Adds strokes to rows in which the tool is at rest: values in all rows, and further rows where a stroke's
+    /// acceleration changes.
+    fn add_strokes(&mut self, strokes: &[TimedStroke]) {
+        for change in strokes.iter().flat_map(TimedStroke::changes) {
+            let next = self.0.partition_point(|row| row.at < change);
+            let (Some(before), Some(after)) = (next.checked_sub(1), self.0.get(next)) else { continue };
+            if change - self.0[before].at > MIN_ROW_GAP && after.at - change > MIN_ROW_GAP {
+                let row = self.0[before].toward(after, change);
+                self.0.insert(next, row);
+            }
+        }
+        for row in &mut self.0 {
+            let begun = strokes.partition_point(|stroke| stroke.begin <= row.at);
+            if let Some(stroke) = begun.checked_sub(1).map(|last| &strokes[last]) {
+                [row.value.stroke, row.rate.stroke] = stroke.at(row.at);
+            }
+        }
+    }
+
+    /// Returns the rows between two times. The last one has no acceleration, since its interval is not included.
+    fn between(&self, from: u64, to: u64) -> Self {
+        let mut rows: Vec<Row> = self.0.iter().filter(|row| (from..=to).contains(&row.at)).copied().collect();
+        rows.last_mut().into_iter().for_each(|last| last.acceleration = [0.0; 2]);
+        Self(rows)
     }
 
     fn motion(&self, robot: &RobotJoints, begin: u64) -> JointMotion {
@@ -135,10 +230,13 @@ struct Tool<'a> {
     task: &'a Task,
     /// The value of the wrist's joint.
     wrist: f64,
+    /// The strokes so far, in chronological order.
+    strokes: Vec<TimedStroke>,
 }
 
 impl Tool<'_> {
-    /// Returns the rows of a step. `begin`, `arrival` and `end` are its times in nanoseconds.
+    /// Returns the rows of a step, with the tool raised, and records its strokes. `begin`, `arrival` and `end` are its
+    /// times in nanoseconds.
     fn rows(&mut self, leg: &Leg, [begin, arrival, end]: [u64; 3]) -> Rows {
         let mut rows = Rows::default();
         let trajectory = &leg.timed.trajectory;
@@ -161,9 +259,10 @@ impl Tool<'_> {
         if places {
             self.turn(leg, &mut still, &mut rows);
         }
-        self.stroke(leg, false, &mut still, &mut rows);
+        still.at -= nanoseconds(leg.overlap.lowering);
+        self.stroke(leg, false, &mut still);
         still.at += nanoseconds(whole_nanoseconds(leg.step.dwell));
-        self.stroke(leg, true, &mut still, &mut rows);
+        self.stroke(leg, true, &mut still);
         if !places {
             self.turn(leg, &mut still, &mut rows);
         }
@@ -221,22 +320,15 @@ impl Tool<'_> {
         self.wrist = still.value.wrist;
     }
 
-    /// Adds rows in which the tool is lowered or raised, and everything else stands still.
-    fn stroke(&self, leg: &Leg, up: bool, still: &mut Row, rows: &mut Rows) {
+    /// Records that the tool is lowered or raised, and advances the time to the end of the stroke.
+    fn stroke(&mut self, leg: &Leg, up: bool, still: &mut Row) {
         let (Some(stroke), Some(limits)) = (leg.stroke, &self.task.stroke) else { return };
-        if self.robot.stroke.is_none() {
-            still.at += nanoseconds(stroke.seconds);
-            return;
-        }
         let ends = if up { [stroke.lowered, stroke.raised] } else { [stroke.raised, stroke.lowered] };
-        let sign = (ends[1] - ends[0]).signum();
-        let (from, samples) = (still.at, single((ends[1] - ends[0]).abs(), limits.velocity, limits.acceleration));
-        for (k, [time, distance, speed]) in samples.iter().enumerate() {
-            still.at = from + nanoseconds(*time);
-            // The last value is exact, without rounding.
-            still.value.stroke = if k + 1 == samples.len() { ends[1] } else { ends[0] + sign * distance };
-            rows.push(Row { rate: Drives { stroke: sign * speed, ..Drives::default() }, ..*still });
+        if self.robot.stroke.is_some() {
+            let phases = single((ends[1] - ends[0]).abs(), limits.velocity, limits.acceleration);
+            self.strokes.push(TimedStroke { begin: still.at, ends, phases });
         }
+        still.at += nanoseconds(stroke.seconds);
     }
 
     /// Checks that the wrist's joint stays within its range and below its top speed.

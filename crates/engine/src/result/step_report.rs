@@ -46,7 +46,8 @@ pub struct TurnReport {
     pub clearance: Option<f64>,
 }
 
-/// The stroke of the tool while the arm stands still. The tool is lowered, the gripper acts, and the tool is raised.
+/// The stroke of the tool. The tool is lowered, the gripper acts, and the tool is raised. The arm stands still, except in
+/// the overlaps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct StrokeReport {
     /// The joint's value while the tool is raised, metres.
@@ -55,7 +56,12 @@ pub struct StrokeReport {
     pub lowered: f64,
     /// Duration of lowering, in seconds. Raising takes as long.
     pub seconds: f64,
-    /// Proven lower bound on the distance to obstacles, metres. `None` if no obstacle is within reach.
+    /// Time from the beginning of the lowering to the arrival of the arm, in seconds. 0 if the arm arrives first.
+    pub before_arrival: f64,
+    /// Time from the beginning of the next motion to the end of the raising, in seconds. 0 if the arm departs later.
+    pub after_departure: f64,
+    /// Proven lower bound on the distance to obstacles while the arm stands still, metres. `None` if no obstacle is
+    /// within reach.
     pub clearance: Option<f64>,
 }
 
@@ -104,7 +110,8 @@ pub struct StepReport {
 impl StepReport {
     /// Creates the report of step `index` of a sequence. `is_whole` is true if the result includes the trajectory of
     /// the whole sequence.
-    fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize, is_whole: bool) -> Self {
+    fn new(task: &Task, legs: &[Leg], sequence: &Sequence, index: usize, is_whole: bool) -> Self {
+        let leg = &legs[index];
         let curve = &leg.timed.curve;
         let path = curve.curve().path();
         let name = |object: usize| task.objects[object].name.clone();
@@ -134,6 +141,8 @@ impl StepReport {
                 raised,
                 lowered,
                 seconds,
+                before_arrival: leg.overlap.lowering,
+                after_departure: legs.get(index + 1).map_or(0.0, |next| next.overlap.raising),
                 clearance: finite(clearance),
             }),
             first_sample: is_whole.then_some(*samples.start()),
@@ -149,7 +158,7 @@ pub fn step_reports(task: &Task, answer: &TaskAnswer) -> (Vec<StepReport>, Vec<E
         None => (Cow::Owned(Sequence::of(&answer.legs)), false),
     };
     let legs = || answer.legs.iter().enumerate();
-    let steps = legs().map(|(index, leg)| StepReport::new(task, leg, &sequence, index, is_whole));
+    let steps = (0..answer.legs.len()).map(|index| StepReport::new(task, &answer.legs, &sequence, index, is_whole));
     let events = legs().filter_map(|(index, leg)| EventReport::new(task, leg, &sequence, index));
     (steps.collect(), events.collect())
 }

@@ -7,7 +7,7 @@
 
 use crate::{Place, Span};
 use cplan_core::check::Deviation;
-use cplan_core::model::{Heights, Pair, Part, Scene};
+use cplan_core::model::{Heights, OutlineSource, Pair, Part, Scene};
 use cplan_geometry::{Convex, Point};
 use cplan_handling::{HeldEffect, HeldMotion, Piece};
 
@@ -21,6 +21,7 @@ struct Lift<'a> {
     rest: f64,
     sign: f64,
     bodies: &'a [String],
+    lifts_payload: bool,
 }
 
 impl Lift<'_> {
@@ -40,6 +41,8 @@ impl Lift<'_> {
 /// The arm's scene while joints move that the scene holds still.
 pub(super) struct ToolMotion<'a> {
     lifts: Vec<Lift<'a>>,
+    /// Index among link 2's parts of the bar from joint 2 to the tip, if it has one. One end of a bar moves with the tip.
+    bar: Option<usize>,
     /// The scene with parts at the heights of the held joints, and with discs in place of parts that turn.
     still: Scene,
     /// The scene with parts at all heights that they take during the motion, and with the pairs that meet at some of
@@ -54,10 +57,11 @@ impl<'a> ToolMotion<'a> {
     pub fn new(scene: &Scene, motions: &'a [HeldMotion]) -> Self {
         let mut lifts = Vec::new();
         let mut turns: Vec<(Point, &[String])> = Vec::new();
-        for HeldMotion { joint, values } in motions {
+        for HeldMotion { joint, values, lifts_payload } in motions {
             match joint.effect {
                 HeldEffect::Lifts { sign } => {
-                    lifts.push(Lift { pieces: values.pieces(), rest: joint.value, sign, bodies: &joint.bodies });
+                    let (pieces, lifts_payload) = (values.pieces(), *lifts_payload);
+                    lifts.push(Lift { pieces, rest: joint.value, sign, bodies: &joint.bodies, lifts_payload });
                 }
                 HeldEffect::Turns { axis } => turns.push((axis, &joint.bodies)),
                 HeldEffect::Unjudged { .. } => {}
@@ -81,11 +85,28 @@ impl<'a> ToolMotion<'a> {
             scene.reshaped(turned, |obstacle| obstacle.pieces.clone()),
             scene.reshaped(all, |obstacle| obstacle.pieces.clone()),
         ];
+        let all_pieces = |lift: &Lift| lift.extent(Span::all(lift.pieces.len()));
+        let swept = match scene.attachment() {
+            Some(attachment) => {
+                let carrying = lifts.iter().filter(|lift| lift.lifts_payload);
+                let heights = carrying.fold(attachment.heights, |heights, lift| heights.lifted(all_pieces(lift)));
+                swept.with_attached_heights(heights)
+            }
+            None => swept,
+        };
         let swept = swept.with_self_heights(|link, heights| {
             let carried = lifts.iter().filter(|lift| lift.bodies.iter().any(|body| body == link));
-            carried.fold(heights, |heights, lift| heights.lifted(lift.extent(Span::all(lift.pieces.len()))))
+            carried.fold(heights, |heights, lift| heights.lifted(all_pieces(lift)))
         });
-        Self { lifts, still, swept, covers }
+        let bar = bar_of(scene).filter(|_| !lifts.is_empty());
+        let swept = match bar {
+            Some(bar) => swept.changed(|arm, _| {
+                let heights = &mut arm.links[1].parts[bar].heights;
+                *heights = lifts.iter().fold(*heights, |heights, lift| heights.and(heights.lifted(all_pieces(lift))));
+            }),
+            None => swept,
+        };
+        Self { lifts, bar, still, swept, covers }
     }
 
     /// Returns the scene with all pairs that meet at some time.
@@ -101,28 +122,54 @@ impl<'a> ToolMotion<'a> {
     /// Returns the heights of a pair's part with these lifts, and those of its obstacle.
     fn heights(&self, pair: Pair, extents: &[[f64; 2]]) -> [Heights; 2] {
         let part = &self.still.link(pair).parts[pair.part];
+        let lifts_part = |lift: &Lift| match self.still.is_attached(pair) {
+            true => lift.lifts_payload,
+            false => lift.bodies.contains(&part.body),
+        };
+        let lifts = || self.lifts.iter().zip(extents);
+        let of_part = if self.is_bar(pair) {
+            lifts().fold(part.heights, |heights, (_, extent)| heights.and(heights.lifted(*extent)))
+        } else {
+            let carrying = lifts().filter(|(lift, _)| lifts_part(lift));
+            carrying.fold(part.heights, |heights, (_, extent)| heights.lifted(*extent))
+        };
         let lifted = |link: &String, heights: Heights| {
-            let lifts = self.lifts.iter().zip(extents).filter(|(lift, _)| lift.bodies.contains(link));
-            lifts.fold(heights, |heights, (_, extent)| heights.lifted(*extent))
+            let carrying = lifts().filter(|(lift, _)| lift.bodies.contains(link));
+            carrying.fold(heights, |heights, (_, extent)| heights.lifted(*extent))
         };
         let obstacle = self.still.obstacle(pair.obstacle);
         let is_own = self.still.self_obstacle(pair.obstacle).is_some();
         let of_obstacle = if is_own { lifted(&obstacle.name, obstacle.heights) } else { obstacle.heights };
-        [lifted(&part.body, part.heights), of_obstacle]
+        [of_part, of_obstacle]
+    }
+
+    /// Returns true if a pair's part is the bar from joint 2 to the tip.
+    fn is_bar(&self, pair: Pair) -> bool {
+        pair.link == 1 && self.bar == Some(pair.part)
     }
 
     /// Returns true if the heights of a pair may meet with lifts within these bounds.
     pub fn may_meet(&self, pair: Pair, extents: &[[f64; 2]]) -> bool {
         let [part, obstacle] = self.heights(pair, extents);
-        part.meet(obstacle)
+        if self.still.is_attached(pair) { part.object_may_meet(obstacle) } else { part.meet(obstacle) }
     }
 
     /// Returns true if at a moment the heights of a pair certainly meet, and its part is exact.
     pub fn certainly_meets(&self, pair: Pair, (piece, share): Place) -> bool {
         let is_cover = self.covers[pair.link.min(1)].get(pair.part).is_some_and(|is_cover| *is_cover);
         let [part, obstacle] = self.heights(pair, &self.extents(Span::Part(piece, share, share)));
-        !is_cover && part.definitely_meet(obstacle)
+        let meet = match self.still.is_attached(pair) {
+            true => part.object_definitely_meets(obstacle),
+            false => part.definitely_meet(obstacle),
+        };
+        !is_cover && !self.is_bar(pair) && meet
     }
+}
+
+/// Returns the index of the bar from joint 2 to the tip among link 2's parts. `None` if there is none.
+fn bar_of(scene: &Scene) -> Option<usize> {
+    let is_bar = scene.arm().links[1].source == OutlineSource::Bar;
+    scene.own_parts(1).len().checked_sub(1).filter(|_| is_bar)
 }
 
 /// Returns true if a shape is a disc about an axis, unchanged by rotation.

@@ -6,9 +6,9 @@ use super::reduction::Reduction;
 use super::tree;
 use crate::error::Diagnostic;
 use crate::quantity::Number;
-use crate::stroke::StrokeTable;
+use crate::stroke::{ArchTable, ArchValue, StrokeTable};
 use cplan_core::model::{Plane, assumed_acceleration};
-use cplan_handling::{Driver, RobotJoint, RobotJoints, Stroke, ToolJoint};
+use cplan_handling::{Arch, Driver, RobotJoint, RobotJoints, Stroke, ToolJoint};
 use toml::Spanned;
 use urdf_rs::JointType;
 
@@ -46,6 +46,11 @@ impl Reduction<'_> {
     pub fn robot_joints(&self, plane: &Plane) -> Result<RobotJoints, Diagnostic> {
         let chooser = Chooser { document: self.document, tree: self.tree, settings: self.settings };
         let robot = &self.settings.table;
+        if let Some(arch) = robot.arch.as_ref().filter(|_| robot.stroke.is_none()) {
+            let message = "[robot] arch needs a joint that lowers the tool";
+            let help = "add stroke = { joint = \"NAME\" }, or remove arch";
+            return Err(self.settings.source.diagnostic_at(arch.span(), message).help(help));
+        }
         let stroke = robot.stroke.as_ref().map(|table| self.stroke(&chooser, table, plane)).transpose()?;
         let wrist = robot.wrist_joint().map(|name| self.tool_joint(&chooser, name, Tool::Wrist, plane)).transpose()?;
         let driver = |leader: usize| {
@@ -93,7 +98,30 @@ impl Reduction<'_> {
         };
         let below = |link: &usize| self.tree.carries(index, *link);
         let bodies = (0..self.tree.links.len()).filter(below).map(|link| self.tree.links[link].clone()).collect();
-        Ok(Stroke { joint, travel, velocity, acceleration: acceleration.unwrap_or(own), bodies })
+        let (acceleration, arch) = (acceleration.unwrap_or(own), self.arch()?);
+        Ok(Stroke { joint, travel, velocity, acceleration, bodies, arch })
+    }
+
+    /// Returns the least heights for overlaps of strokes with motions. `None` if the arm is at rest during strokes.
+    fn arch(&self) -> Result<Option<Arch>, Diagnostic> {
+        let height = |number: &Option<Number>, what: &str| match number {
+            None => Ok(0.0),
+            Some(number) => match self.settings.source.finite(number, &format!("[robot] arch, {what}"))? {
+                value if value >= 0.0 => Ok(value),
+                value => {
+                    let message = format!("[robot] arch: {what} must not be negative, is {value}");
+                    let help = "arch = { rise = 0.02, fall = 0.02 }, in metres, or arch = false";
+                    Err(self.settings.source.diagnostic_at(number.span(), message).help(help))
+                }
+            },
+        };
+        Ok(match self.settings.table.arch.as_ref().map(Spanned::get_ref) {
+            Some(ArchValue::Switch(false)) => None,
+            None | Some(ArchValue::Switch(true)) => Some(Arch::default()),
+            Some(ArchValue::Heights(ArchTable { rise, fall })) => {
+                Some(Arch { rise: height(rise, "rise")?, fall: height(fall, "fall")? })
+            }
+        })
     }
 
     /// Returns the name of a joint that follows a joint of the tool by a mimic rule, and moves the tip or a link that

@@ -16,6 +16,7 @@ mod passing;
 mod timed_candidates;
 
 use super::answer::{Event, Leg, TaskAnswer, TaskMotion};
+use super::arch::Overlap;
 use super::failed_step::{FailedStep, RefusedStep, farthest};
 use super::heuristic::Heuristic;
 use super::motion_cache::{MotionCache, Refusal, of_legs, require_unobstructed};
@@ -437,6 +438,7 @@ impl<'a> Search<'a> {
             timed: Arc::new(TimedMotion { curve: curve.among_movers(kept, None), trajectory }),
             turn: None,
             stroke: None,
+            overlap: Overlap::NONE,
             event: candidate.event,
             begin: time,
         };

@@ -1,6 +1,7 @@
 //! The content of pictures and pages.
 
 use super::arm;
+use super::height::HeightView;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::Chain;
 use super::phase::{MotionReplayView, PhaseView};
@@ -12,6 +13,7 @@ use crate::blocking::BlockingView;
 use crate::checked::CheckedView;
 use crate::explanation::ExplanationView;
 use crate::flow::FieldLines;
+use crate::line::LineView;
 use cplan_core::model::{Arm, Status};
 use cplan_core::space::Configuration;
 use cplan_explain::Reach;
@@ -82,6 +84,9 @@ pub struct View {
     /// The strip of progress against time. `None` unless obstacles move.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) strip: Option<StripView>,
+    /// The strip of the tool's height. `None` unless the tool is lowered.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) height: Option<HeightView>,
     /// The phases of the planner's search, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) replay: Vec<PhaseView>,
@@ -111,6 +116,8 @@ pub(crate) struct StillContent {
     pub placed: Vec<ObstacleView>,
     /// The places that the tip can reach.
     pub reach: Option<Reach>,
+    /// The line that the tip should follow.
+    pub line: Option<LineView>,
     /// During an animation of the motion: the arm's configuration, and the index of the current world. `None` in a
     /// still picture.
     pub now: Option<([f64; 2], usize)>,
@@ -186,6 +193,13 @@ impl View {
     #[must_use]
     pub fn with_reach(mut self, reach: &Reach) -> Self {
         self.still.reach = Some(reach.clone());
+        self
+    }
+
+    /// Returns the view with the line that the tip should follow.
+    #[must_use]
+    pub fn with_line(mut self, line: LineView) -> Self {
+        self.still.line = Some(line);
         self
     }
 

@@ -7,11 +7,12 @@ use crate::checked::CheckedView;
 use crate::explanation::ExplanationView;
 use crate::key::KeyView;
 use crate::legend;
+use crate::line::LineDocument;
 use crate::reach::ReachView;
 use serde::Serialize;
 
 /// The data of a page: a view, its legend, the obstacles that block the motion, the findings about a checked
-/// configuration, and the places that the tip can reach.
+/// configuration, the places that the tip can reach, and the line that it should follow.
 #[derive(Serialize)]
 struct Document<'a> {
     #[serde(flatten)]
@@ -25,6 +26,8 @@ struct Document<'a> {
     checked: Option<&'a CheckedView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reach: Option<ReachView>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<LineDocument>,
 }
 
 impl View {
@@ -35,9 +38,11 @@ impl View {
     #[must_use]
     pub fn json(&self) -> String {
         let reach = self.still.reach.as_ref().map(|reach| ReachView::new(reach, RoundingSteps::of(&self.arm)));
+        let line = self.still.line.as_ref().map(|line| LineDocument::new(line, RoundingSteps::of(&self.arm)));
         let StillContent { stuck, explanation, checked, .. } = &self.still;
         let (stuck, explanation, checked) = (stuck.as_ref(), explanation.as_ref(), checked.as_ref());
-        let document = Document { view: self, legend: legend::on_pages(self), stuck, explanation, checked, reach };
+        let document =
+            Document { view: self, legend: legend::on_pages(self), stuck, explanation, checked, reach, line };
         serde_json::to_string(&document).expect("numbers and strings")
     }
 }

@@ -23,6 +23,7 @@ const SCRIPTS: [&str; 35] = [
     include_str!("assets/cspace.js"),
     include_str!("assets/plots.js"),
     include_str!("assets/strip.js"),
+    include_str!("assets/height.js"),
     include_str!("assets/contact.js"),
     include_str!("assets/lessons/question.js"),
     include_str!("assets/lessons/slice.js"),

@@ -26,6 +26,7 @@ mod replay;
 mod slope;
 mod states;
 mod steps;
+mod height;
 mod strip;
 mod task;
 mod task_picture;

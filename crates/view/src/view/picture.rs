@@ -145,6 +145,7 @@ impl View {
             clock: picture.trajectory.map(|trajectory| Clock::new(trajectory, grain)),
             frames: Vec::new(),
             strip: picture.strip(&world),
+            height: None,
             replay: Vec::new(),
             replays: Vec::new(),
             still: StillContent {

@@ -3,6 +3,7 @@
 use super::arm;
 use super::content::{KeyFigures, PanelView, StillContent, View};
 use super::extent;
+use super::height::HeightView;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::RoundingSteps;
 use super::states::{PayloadGroup, PayloadState, describe, grouped, hand, payload_states};
@@ -106,6 +107,7 @@ impl View {
             clock: (!legs.is_empty()).then(|| Clock::new(&Sequence::of(legs).trajectory, grain)),
             frames: Vec::new(),
             strip,
+            height: HeightView::of_task(task, legs),
             replay: Vec::new(),
             replays: Vec::new(),
             still,

@@ -64,7 +64,7 @@ impl Names<'_> {
             }
             notes.push(describe_motion(joint, series));
             let values = values(series, recording, samples).map_err(|error| misplaced(source, samples, &error))?;
-            moved.push(HeldMotion { joint: joint.clone(), values });
+            moved.push(HeldMotion { joint: joint.clone(), values, lifts_payload: false });
         }
         Ok(moved)
     }

@@ -2,7 +2,7 @@
 
 use super::samples::Samples;
 use crate::parsers::json_diagnostic;
-use cplan_handling::{RecordedStep, RecordedTurn};
+use cplan_handling::{RecordedOverlap, RecordedStep, RecordedTurn};
 use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 
@@ -23,6 +23,15 @@ struct StepMember {
     first_sample: Option<usize>,
     last_sample: Option<usize>,
     turn: Option<TurnMember>,
+    stroke: Option<StrokeMember>,
+}
+
+#[derive(Deserialize)]
+struct StrokeMember {
+    #[serde(default)]
+    before_arrival: f64,
+    #[serde(default)]
+    after_departure: f64,
 }
 
 #[derive(Deserialize)]
@@ -79,6 +88,16 @@ impl StepMember {
                 Some(RecordedTurn { from: *from, to: *to, seconds: *seconds })
             }
         };
-        Ok(RecordedStep { number: self.step, cycle: self.cycle, samples: first..=last, turn })
+        let overlap = match self.stroke {
+            None => RecordedOverlap::default(),
+            Some(StrokeMember { before_arrival, after_departure }) => {
+                let parts = [("before_arrival", before_arrival), ("after_departure", after_departure)];
+                if let Some((what, value)) = parts.into_iter().find(|(_, value)| !(0.0..=MAX_NUMBER).contains(value)) {
+                    return refuse(format!("the stroke's {what} is {value}"), "a stroke overlaps by seconds from 0");
+                }
+                RecordedOverlap { before_arrival, after_departure }
+            }
+        };
+        Ok(RecordedStep { number: self.step, cycle: self.cycle, samples: first..=last, turn, overlap })
     }
 }

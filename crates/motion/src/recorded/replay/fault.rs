@@ -50,6 +50,28 @@ pub enum Fault {
         /// The required rest: for the step's dwell, the turn of the wrist and the stroke of the tool.
         asked: f64,
     },
+    /// The arm moves during a stroke, but the world has no arch motions.
+    #[error("the arm moves while the tool is lowered or raised, which the world forbids")]
+    NoArch,
+    /// The tool is lower during a motion than the world allows.
+    #[error("the arm moves during {overlap:.6} s of a stroke, but only {most:.6} s are high enough")]
+    TooLow {
+        /// The recorded overlap, seconds.
+        overlap: f64,
+        /// The longest overlap at the heights that the world requires, seconds.
+        most: f64,
+    },
+    /// The tool is lowered again before it is raised completely.
+    #[error("strokes overlap with the motion for {shared:.6} s, but it takes only {seconds:.6} s")]
+    NotRaised {
+        /// Sum of both overlaps, seconds.
+        shared: f64,
+        /// Duration of the motion, seconds.
+        seconds: f64,
+    },
+    /// A stroke overlaps with a motion although the wrist turns in between, or the task ends.
+    #[error("a stroke overlaps with a motion, although the arm must rest there with the tool raised")]
+    MustRest,
     /// The recorded turn of the wrist begins at an orientation that the object does not have.
     #[error("the recorded turn of the wrist begins {off:.6} rad away from the object's orientation")]
     Turn {

@@ -6,6 +6,7 @@
 
 mod fault;
 mod order;
+mod overlap;
 mod state;
 
 pub use fault::{Fault, OrderDeviation};
@@ -18,7 +19,8 @@ use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::{Interval, Point, Pose};
 use cplan_handling::{Action, ObstacleTrajectory, RecordedStep, RecordedTurn, Recording, Step, Task, TimedScene};
 use order::{MatchedStep, match_steps};
-use state::{State, stroke_seconds};
+use overlap::{Overlaps, PartialStroke};
+use state::{State, lowering_seconds};
 
 /// Largest difference between an actual and a required place, metres or radians. It is a thousand times the error of
 /// inverse kinematics, and below the repeatability of any arm.
@@ -78,7 +80,7 @@ pub struct ReplayedStep<'a> {
     pub times: [f64; 3],
     /// The gripper event, if there is one.
     pub event: Option<GripperEvent>,
-    /// The check of the motion among the obstacles of the scene; moments are those of the whole recording.
+    /// The check of the motion among the obstacles of the scene, at the heights that strokes give the tool; moments are those of the whole recording.
     pub collision_check: CollisionCheck,
     /// Violations of joint limits. The joints' own limits apply, even if the step states a lower speed.
     pub broken: Vec<LimitViolation>,
@@ -98,6 +100,8 @@ pub struct Replay<'a> {
     departure: Option<OrderDeviation>,
     next: usize,
     state: State,
+    /// The raising of the tool that overlaps with the next motion.
+    raising: Option<PartialStroke>,
 }
 
 /// Matches the steps of a record with those of the task. Steps must come in the task's order, except that pairs of a
@@ -107,6 +111,8 @@ pub struct Replay<'a> {
 ///   Objects are where previous steps have left them, and the load has the pose in which it was taken. Link 2 may touch
 ///   the object that it takes, and the object that it released last. Payloads may rest on their supports. The state
 ///   after the last step is checked as well.
+/// - Strokes that overlap with motions, at the heights of each moment. The tool must be raised completely in between, and
+///   be as high as the world requires while the arm moves.
 /// - Moving obstacles, which move on the clock of the record from its first sample on. Moving objects must be picked
 ///   within their windows of time, and the resting arm must stay free between motions.
 /// - The end of each step. The tip must be at the grasp, and the object or the arm at its target, within a micrometre.
@@ -118,7 +124,7 @@ pub struct Replay<'a> {
 #[must_use]
 pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [RecordedStep]) -> Replay<'a> {
     let (matched, departure) = match_steps(task, recording, recorded);
-    Replay { task, recording, recorded, matched, departure, next: 0, state: State::initial(task) }
+    Replay { task, recording, recorded, matched, departure, next: 0, state: State::initial(task), raising: None }
 }
 
 impl Replay<'_> {
@@ -173,6 +179,20 @@ impl<'a> Iterator for Replay<'a> {
         broken.extend(torque_violations(&scene, &motion));
         broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
         let mut object = carried;
+        let handled = picked.or(carried.filter(|_| matches!(step.action, Action::Place { .. })));
+        let overlaps = Overlaps::new(self.raising.take(), recorded, handled);
+        faults.extend(overlaps.faults(task, motion.duration().unwrap_or(0.0)));
+        if matches!(collision_check, CollisionCheck::Free { .. })
+            && let Some((at_heights, found)) = overlaps.check(task, &self.state, &motion, picked)
+        {
+            let found = shifted(found, *recorded.samples.start());
+            match (&mut collision_check, found) {
+                (CollisionCheck::Free { clearance, .. }, CollisionCheck::Free { clearance: least, .. }) => {
+                    *clearance = clearance.min(least);
+                }
+                (_, found) => (scene, collision_check) = (at_heights, found),
+            }
+        }
         let (turn, lowered);
         match &step.action {
             Action::Pick { object: picked, grasp, when, .. } => {
@@ -205,7 +225,9 @@ impl<'a> Iterator for Replay<'a> {
         }
         let asked = step.dwell
             + recorded.turn.map_or(0.0, |turn| turn.seconds)
-            + object.map_or(0.0, |object| stroke_seconds(task, object));
+            + handled.map_or(0.0, |object| 2.0 * lowering_seconds(task, object))
+            - overlaps.lowering.map_or(0.0, |lowering| lowering.overlap)
+            - recorded.overlap.after_departure;
         let standing = || self.recording.part(*recorded.samples.end()..=*recorded.samples.end());
         // A moving obstacle may hit the resting arm.
         if task.has_moving_obstacles()
@@ -254,6 +276,16 @@ impl<'a> Iterator for Replay<'a> {
                 (scene, trajectories, collision_check) = (after, then, shifted(found, *recorded.samples.end()));
             }
         }
+        let is_picked = matches!(step.action, Action::Pick { .. });
+        if let Some(object) = handled.filter(|_| recorded.overlap.after_departure > 0.0) {
+            self.raising = Some(PartialStroke { object, overlap: recorded.overlap.after_departure });
+            if is_last || (turn.is_some() && is_picked) {
+                faults.push(Fault::MustRest);
+            }
+        }
+        if turn.is_some() && !is_picked && overlaps.lowering.is_some() {
+            faults.push(Fault::MustRest);
+        }
         if let Some(stood) = matched.rest.filter(|stood| *stood < asked - TIME_TOLERANCE) {
             faults.push(Fault::Rest { stood, asked });
         }
@@ -261,7 +293,7 @@ impl<'a> Iterator for Replay<'a> {
         let event = object.map(|object| {
             let pose = self.state.pose(object);
             let turning = pose.and(recorded.turn).map_or(0.0, |turn| turn.seconds);
-            let lowering = stroke_seconds(task, object) / 2.0;
+            let lowering = lowering_seconds(task, object) - overlaps.lowering.map_or(0.0, |lowering| lowering.overlap);
             let (number, cycle, tip) = (step.number, step.cycle, task.arm.tip_at(to));
             GripperEvent { step: number, cycle, object, time: (times[1] + turning + lowering).min(times[2]), tip, pose }
         });

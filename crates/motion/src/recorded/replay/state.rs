@@ -5,7 +5,7 @@ use super::{Fault, PLACE_TOLERANCE, ReplayedTurn, TIME_TOLERANCE, angle_between}
 use cplan_core::model::{Grip, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
-use cplan_handling::{Action, Holding, Object, ObstacleTrajectory, Payload, RecordedTurn, Step, Task};
+use cplan_handling::{Action, Holding, Object, ObstacleTrajectory, Payload, RecordedTurn, Step, Stroke, Task};
 
 /// The places of the objects, and the load.
 #[derive(Debug, Clone)]
@@ -110,6 +110,12 @@ impl State {
         task.lowered_scene(payload.object, is_placed, &self.poses, Some(payload), self.released)
     }
 
+    /// Returns the scene for a stroke during a motion, and whether the payload follows the tool: see
+    /// [`Task::arch_scene`].
+    pub fn arch_scene(&self, task: &Task, stroke: &Stroke, touched: Option<usize>) -> (Scene, bool) {
+        task.arch_scene(stroke, &self.poses, self.held.as_ref(), self.released.into_iter().chain(touched))
+    }
+
     /// Forgets the object that was released last, since the arm has moved.
     pub fn moved(&mut self) {
         self.released = None;
@@ -153,11 +159,11 @@ impl State {
     }
 }
 
-/// Returns the least time, in seconds, in which the tool moves down to an object and up again.
-pub(super) fn stroke_seconds(task: &Task, object: usize) -> f64 {
+/// Returns the least time, in seconds, in which the tool moves down to an object. It moves up in the same time.
+pub(super) fn lowering_seconds(task: &Task, object: usize) -> f64 {
     task.stroke.as_ref().map_or(0.0, |stroke| {
         let depth = stroke.depth(&task.objects[object]).abs();
-        2.0 * least_seconds(depth, stroke.velocity, stroke.acceleration)
+        least_seconds(depth, stroke.velocity, stroke.acceleration)
     })
 }
 

@@ -95,6 +95,9 @@ interface StripModel {
   waits: WaitModel[];
 }
 
+/** The height of the tool in millimetres against time. */
+interface HeightModel { joint: string; duration: number; motion: Chain }
+
 /** Key figures of a result. */
 interface FiguresModel { duration?: number; gap?: number; fastest?: boolean; clearance?: number }
 
@@ -143,6 +146,7 @@ interface Model {
   clock: ClockModel | null;
   frames: any[];
   strip?: StripModel;
+  height?: HeightModel;
   replay?: PhaseModel[];
   replays?: { phases: PhaseModel[]; trace?: any; scale?: any }[];
   legend: any[];
@@ -150,6 +154,8 @@ interface Model {
   explanation?: ExplanationModel;
   checked?: any;
   reach?: any;
+  /** The line that the tip should follow, and the place where it cannot. */
+  line?: { strokes: Chain[]; at?: Point };
   /** The data of an exploration, and the knowledge over time. */
   exploration?: any;
   survey?: any;

@@ -35,6 +35,7 @@ class View {
     this.tour = null;
     /** Progress against time. @type {ReturnType<typeof Strip.mount>} */
     this.strip = null;
+    this.height = null;
     /** True if obstacles are written with their names; otherwise with numbers. */
     this.named = true;
     /** True if names appear only under the pointer. */
@@ -180,6 +181,7 @@ class View {
     parts.plots.hidden = this.mode !== 'move' || !this.model.clock;
     this.learn.show();
     this.strip.show();
+    this.height.show();
     parts.panels.hidden = this.drawn === 'pair';
     // Room for a scale of colours beside the panel.
     const { scale } = this;

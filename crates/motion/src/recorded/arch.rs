@@ -1,0 +1,109 @@
+//! Strokes of the tool during motions of the arm.
+
+use super::{CollisionCheck, check_collision_with, is_free_with};
+use crate::single;
+use cplan_core::model::Scene;
+use cplan_core::space::Configuration;
+use cplan_handling::{HeldEffect, HeldJoint, HeldMotion, Recording, Stroke, TimedScene};
+
+/// Least time between two samples at which a motion and a stroke are joined, seconds. A stroke changes its acceleration
+/// at most this long after a sample, so it deviates from its profile by less than rounding.
+const MIN_GAP: f64 = 1e-7;
+
+/// A stroke that begins or ends during a motion of the arm.
+#[derive(Debug, Clone)]
+pub struct StrokeDuringMotion<'a> {
+    /// The scene during the motion, with the tool raised; see [`cplan_handling::Task::arch_scene`].
+    pub scene: &'a Scene,
+    /// True if the payload follows the tool.
+    pub lifts_payload: bool,
+    /// The stroke's joint, and its limits.
+    pub stroke: &'a Stroke,
+    /// The joint's values at both ends, metres.
+    pub ends: [f64; 2],
+    /// Time at which the stroke begins, on the clock of the motion, seconds.
+    pub begin: f64,
+}
+
+impl StrokeDuringMotion<'_> {
+    /// Returns the whole stroke as a recording of its joint's value, on the clock of the arm's motion.
+    fn profile(&self) -> Option<Recording> {
+        let [from, to] = self.ends;
+        let sign = (to - from).signum();
+        let samples = single((to - from).abs(), self.stroke.velocity, self.stroke.acceleration);
+        let value = |x: f64| Configuration::new(x, 0.0);
+        Recording::new(
+            samples.iter().map(|[_, distance, _]| value(from + sign * distance)).collect(),
+            Some(samples.iter().map(|[time, ..]| self.begin + time).collect()),
+            Some(samples.iter().map(|[_, _, speed]| value(sign * speed)).collect()),
+        )
+        .ok()
+    }
+
+    /// Returns the part of a motion during the stroke, and the stroke's joint in the same samples. `None` if they do
+    /// not overlap.
+    fn overlap(&self, motion: &Recording) -> Option<(Recording, HeldMotion)> {
+        let profile = self.profile()?;
+        let (of_arm, of_tool) = (motion.times()?, profile.times()?);
+        let from = of_arm[0].max(of_tool[0]);
+        let to = of_arm[of_arm.len() - 1].min(of_tool[of_tool.len() - 1]);
+        if to - from < MIN_GAP {
+            return None;
+        }
+        let mut times: Vec<f64> =
+            of_arm.iter().chain(of_tool).copied().filter(|time| from < *time && *time < to).collect();
+        times.push(from);
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|next, kept| *next - *kept < MIN_GAP);
+        if times.len() > 1 && to - times[times.len() - 1] < MIN_GAP {
+            times.pop();
+        }
+        times.push(to);
+        let joint = &self.stroke.joint;
+        let joint = HeldJoint {
+            name: joint.name.clone(),
+            value: joint.rest,
+            effect: HeldEffect::Lifts { sign: joint.sign },
+            bodies: self.stroke.bodies.clone(),
+        };
+        let values = profile.resampled(&times);
+        Some((motion.resampled(&times), HeldMotion { joint, values, lifts_payload: self.lifts_payload }))
+    }
+
+    /// Returns true if the arm is quickly proven to keep at least `clearance` metres during the stroke, at the heights of
+    /// each moment. Also true if the stroke and the motion do not overlap.
+    #[must_use]
+    pub fn keeps(&self, motion: &Recording, clearance: f64) -> bool {
+        self.overlap(motion).is_none_or(|(motion, held)| is_free_with(self.timed(), &motion, &[held], clearance))
+    }
+
+    /// Checks the arm during the stroke, at the heights of each moment. `None` if the stroke and the motion do not
+    /// overlap.
+    #[must_use]
+    pub fn check(&self, motion: &Recording) -> Option<CollisionCheck> {
+        let (motion, held) = self.overlap(motion)?;
+        Some(check_collision_with(self.timed(), &motion, &[held], self.scene.workspace().clearance))
+    }
+
+    fn timed(&self) -> TimedScene<'_> {
+        TimedScene { scene: self.scene, trajectories: &[] }
+    }
+}
+
+/// Returns the time, in seconds, in which a stroke of length `depth` rises by `height` from its lowest position, both in
+/// metres. It descends the last `height` metres in the same time. Returns the duration of the whole stroke if it is no
+/// longer than `height`.
+#[must_use]
+pub fn seconds_to_rise(stroke: &Stroke, depth: f64, height: f64) -> f64 {
+    let samples = single(depth.abs(), stroke.velocity, stroke.acceleration);
+    let end = samples.last().map_or(0.0, |[seconds, ..]| *seconds);
+    let reached = samples.windows(2).find(|phase| phase[1][1] >= height);
+    let Some(&[[begin, distance, speed], [until, _, later]]) = reached else { return end };
+    if height <= distance {
+        return begin;
+    }
+    // Within a phase the acceleration is constant, so the squared speed is linear in the distance.
+    let acceleration = (later - speed) / (until - begin);
+    let reached = (speed * speed + 2.0 * acceleration * (height - distance)).max(0.0).sqrt();
+    (begin + 2.0 * (height - distance) / (speed + reached)).min(until)
+}
