@@ -73,6 +73,7 @@ impl View {
             time: 0.0,
             now: None,
             reach: None,
+            line: None,
             stuck: None,
             explanation: None,
             checked: None,
