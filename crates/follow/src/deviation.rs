@@ -26,9 +26,9 @@ const ROUNDING: f64 = 1e-13;
 /// Number of times that a part of the motion is halved before its bound counts.
 const MAX_HALVINGS: u32 = 10;
 
-/// Number of golden sections in the search for the place nearest to a corner. The distance there is off by the square of
-/// the last interval.
-const CORNER_STEPS: u32 = 24;
+/// Number of Newton steps in the search for the place nearest to a corner. Any place gives a valid bound; the nearest one
+/// gives the best.
+const CORNER_STEPS: u32 = 3;
 
 /// How far ahead of the tip's distance from a corner the next piece is considered, as a multiple of the tolerance: the
 /// tip cuts a corner of a few degrees this far before.
@@ -70,17 +70,21 @@ impl Deviation<'_> {
     /// Returns an upper bound on the distance between the line and each piece.
     pub fn of_pieces(&self, pieces: &[Piece]) -> Vec<f64> {
         let [mut foot, last] = self.ends;
+        let mut start = pieces.first().map_or(Point::zeros(), |piece| self.tip(piece, 0.0));
         let bound = |(i, piece): (usize, &Piece)| {
             let (from, mut corners) = (foot, 0);
+            // Each piece begins exactly where the one before it ends.
+            let begin = start;
             let end = self.tip(piece, 1.0);
-            let step = (end - self.tip(piece, 0.0)).norm();
+            start = end;
+            let step = (end - begin).norm();
             foot = self.advance(foot, end, step, &mut corners);
             if i + 1 == pieces.len() {
                 // The motion ends where the line does.
                 corners += last.piece - foot.piece;
                 foot = last;
             }
-            self.of_piece(piece, from, foot, corners)
+            self.of_piece(piece, [begin, end], [from, foot], corners)
         };
         pieces.iter().enumerate().map(bound).collect()
     }
@@ -126,33 +130,48 @@ impl Deviation<'_> {
         foot
     }
 
-    /// Returns the bound for a piece between two places with several corners of the line between them.
-    fn of_piece(&self, piece: &Piece, from: Foot, to: Foot, corners: usize) -> f64 {
-        let (mut bound, mut begin, mut foot) = (0.0_f64, 0.0, from);
+    /// Returns the bound for a piece, with the tip at its ends, between two places with several corners of the line
+    /// between them.
+    fn of_piece(&self, piece: &Piece, tips: [Point; 2], [from, to]: [Foot; 2], corners: usize) -> f64 {
+        let (mut bound, mut begin, mut foot) = (0.0_f64, (0.0, tips[0]), from);
         for _ in 0..corners {
             let corner: Point = self.curve(foot.piece).end().into();
-            let u = self.nearest(piece, begin, corner);
-            bound = bound.max(self.of_part(piece, [begin, u], foot.piece, [foot.u, 1.0], 0));
-            (begin, foot) = (u, Foot { piece: foot.piece + 1, u: 0.0 });
+            let u = self.nearest(piece, begin.0, [begin.1, tips[1]], corner);
+            let next = (u, self.tip(piece, u));
+            let part = ([begin.0, u], [begin.1, next.1]);
+            bound = bound.max(self.of_part(piece, part, foot.piece, [foot.u, 1.0], 0));
+            (begin, foot) = (next, Foot { piece: foot.piece + 1, u: 0.0 });
         }
-        bound.max(self.of_part(piece, [begin, 1.0], to.piece, [foot.u, to.u], 0))
+        let part = ([begin.0, 1.0], [begin.1, tips[1]]);
+        bound.max(self.of_part(piece, part, to.piece, [foot.u, to.u], 0))
     }
 
-    /// Returns the share of a piece, from `least` on, at which the tip is nearest to a corner.
-    fn nearest(&self, piece: &Piece, least: f64, corner: Point) -> f64 {
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let far = |u: f64| (self.tip(piece, u) - corner).norm();
-        let (mut low, mut high) = (least, 1.0);
+    /// Returns a share of a piece, from `least` on, at which the tip is near a corner. The tip is given there and at the
+    /// end of the piece.
+    fn nearest(&self, piece: &Piece, least: f64, [a, b]: [Point; 2], corner: Point) -> f64 {
+        let (chord, duration) = (b - a, piece.to - piece.from);
+        let share = if chord.norm() > 0.0 { (corner - a).dot(&chord) / chord.norm_squared() } else { 0.0 };
+        let mut u = (least + (1.0 - least) * share).clamp(least, 1.0);
         for _ in 0..CORNER_STEPS {
-            let [a, b] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-            if far(a) <= far(b) { high = b } else { low = a }
+            let q = piece.at(u);
+            let slope = self.kinematics.velocity(q, piece.derivative(Derivative::Velocity, u) * duration);
+            if slope.norm() > 0.0 {
+                let off = corner - self.kinematics.arm.tip_at(q);
+                u = (u + off.dot(&slope) / slope.norm_squared()).clamp(least, 1.0);
+            }
         }
-        [least, 1.0, (low + high) / 2.0].into_iter().min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(least)
+        u
     }
 
     /// Returns the bound for the part of a piece between two shares, and the part of a curve between two parameters.
-    fn of_part(&self, piece: &Piece, u: [f64; 2], curve: usize, w: [f64; 2], halvings: u32) -> f64 {
-        let tips = u.map(|u| self.tip(piece, u));
+    fn of_part(
+        &self,
+        piece: &Piece,
+        (u, tips): ([f64; 2], [Point; 2]),
+        curve: usize,
+        w: [f64; 2],
+        halvings: u32,
+    ) -> f64 {
         let ends = self.gap(curve, w[0], tips[0]).max(self.gap(curve, w[1], tips[1]));
         let sag = crate::nodes::sag(self.curve(curve), w);
         let scale = self.kinematics.arm.base.norm() + tips[0].norm() + self.kinematics.arm.reach();
@@ -165,8 +184,10 @@ impl Deviation<'_> {
         let middle = (u[0] + u[1]) / 2.0;
         let tip = self.tip(piece, middle);
         let foot = self.curve(curve).nearest([tip.x, tip.y], w[0]).min(w[1]);
-        let first = self.of_part(piece, [u[0], middle], curve, [w[0], foot], halvings + 1);
-        first.max(self.of_part(piece, [middle, u[1]], curve, [foot, w[1]], halvings + 1))
+        let first = ([u[0], middle], [tips[0], tip]);
+        let second = ([middle, u[1]], [tip, tips[1]]);
+        let bound = self.of_part(piece, first, curve, [w[0], foot], halvings + 1);
+        bound.max(self.of_part(piece, second, curve, [foot, w[1]], halvings + 1))
     }
 
     /// Returns a bound on the Fréchet distance between the tip's path on a part of a piece and its chord.
