@@ -2,6 +2,7 @@
 
 mod order;
 mod replay;
+mod stroke;
 
 use crate::robot::Robot;
 use crate::world::WorldFile;

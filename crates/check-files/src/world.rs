@@ -190,7 +190,7 @@ impl Reader<'_> {
                 // These keys do not affect the positions of shapes.
                 "velocity" | "acceleration" | "jerk" | "effort" | "dynamics" | "gravity" => {}
                 // These keys affect tasks only.
-                "wrist" | "stroke" | "payload" => {}
+                "wrist" | "stroke" | "arch" | "payload" => {}
                 "bar" => robot.bar = Some(self.number(value)?),
                 "own_body" => match value.get_ref().as_bool() {
                     Some(own_body) => robot.own_body = own_body,

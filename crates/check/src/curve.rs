@@ -17,9 +17,13 @@ const SHARE_BITS: u32 = 20;
 /// Maximum number of times that curves are halved.
 pub const MAX_HALVINGS: u32 = 40;
 
+/// Maximum number of times that a piece may have been halved before it is checked. A hundredth of a second then becomes
+/// less than a nanosecond.
+pub const MAX_PRIOR_HALVINGS: u32 = 24;
+
 /// Bound on the rounding error of a control point, in units of `2^-FRACTION_BITS`. Initially it is less than two units.
 /// Each halving adds at most five, one for each of its steps. The computations of a tube add less than one.
-const ROUNDING_UNITS: i128 = 3 + 5 * MAX_HALVINGS as i128;
+const ROUNDING_UNITS: i128 = 3 + 5 * (MAX_HALVINGS + MAX_PRIOR_HALVINGS) as i128;
 
 /// Both joints' values, in units of `2^-FRACTION_BITS`.
 pub type Values = [i128; 2];

@@ -113,6 +113,18 @@ impl<'a> Robot<'a> {
         Ok((joint, carried))
     }
 
+    /// Returns the joint of the stroke as an axis of heights.
+    ///
+    /// # Errors
+    /// If the links do not form a tree.
+    pub fn lift_axis(&self, joint: &str) -> ReadResult<LiftAxis> {
+        let found = self.tree.joints.iter().find(|(_, node)| node.attribute("name") == Some(joint));
+        let (carried, node) = found.expect("the reader of the robot has found this joint");
+        let axis = self.tree.pose(carried)?.direction(&self.tree.axis(*node)?);
+        let is_upward = self.plane.height(&axis).lower.sign() == Sign::Plus;
+        Ok(LiftAxis { is_upward, raised: self.tree.values.get(joint).cloned().unwrap_or(Interval::whole(0)) })
+    }
+
     /// Returns true if `joint`, which lowers the tool, carries a shape. A bar ends at the tip, so the joint carries the
     /// bar if it carries the tip.
     ///
@@ -140,13 +152,40 @@ pub fn penetration_depth_allowed(arm: &Arm) -> Interval {
     &(if near.lower > out.lower { near } else { out }) * &Interval::from(&Decimal::power_of_ten(PENETRATION_DECIMALS))
 }
 
-/// Extends the heights of a body downwards, to all heights that it has while it is lowered by a length.
-pub fn lowered(body: &Body, by: &Decimal) -> Body {
-    let by = Interval::from(by);
-    let is_raised = by.lower.sign() == Sign::Minus;
-    let heights = body.heights.as_ref().map(|[low, high]| {
-        let [least, most] = [low - &by, high - &by];
-        if is_raised { [low.clone(), most] } else { [least, high.clone()] }
-    });
+/// The joint of a stroke, as an axis of heights.
+pub struct LiftAxis {
+    /// True if greater values of the joint are higher.
+    is_upward: bool,
+    /// Value of the joint with the tool raised.
+    raised: Interval,
+}
+
+impl LiftAxis {
+    /// Converts a displacement or a velocity of the joint to one along the plane's normal.
+    pub fn upward(&self, along: &Interval) -> Interval {
+        if self.is_upward { along.clone() } else { -along }
+    }
+
+    /// Returns the height of the tool above its raised position, at a value of the joint.
+    pub fn height(&self, value: &Decimal) -> Interval {
+        self.upward(&(&Interval::from(value) - &self.raised))
+    }
+}
+
+/// Returns the least and the greatest height above its raised position of a tool that is lowered by a length.
+pub fn swept_heights(by: &Decimal) -> [Decimal; 2] {
+    let [raised, lowered] = [Decimal::whole(0), -by];
+    if lowered < raised { [lowered, raised] } else { [raised, lowered] }
+}
+
+/// Extends a shape's heights to all heights that it has while the tool is in a range above its raised position. A bar
+/// ends at a height that stays the same, so it also keeps its own heights.
+pub fn displaced(shape: &CollisionShape, [least, most]: &[Decimal; 2]) -> Body {
+    let body = &shape.around;
+    let zero = Decimal::whole(0);
+    let is_bar = shape.kind == "bar";
+    let least = Interval::from(if is_bar { least.min(&zero) } else { least });
+    let most = Interval::from(if is_bar { most.max(&zero) } else { most });
+    let heights = body.heights.as_ref().map(|[low, high]| [low + &least, high + &most]);
     Body { link: body.link, shape: body.shape.clone(), heights }
 }

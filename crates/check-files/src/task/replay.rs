@@ -1,11 +1,14 @@
 //! Checks a task by repeating its steps one after the other.
 
+mod arch;
 mod held;
 
 use super::order::MatchedStep;
+use super::stroke::StrokeCurve;
 use crate::robot::Robot;
-use crate::robot::tool::{lowered, penetration_depth_allowed};
-use crate::world::task::{Action, RESTING_DECIMALS, Step, Stroke, Task};
+use crate::robot::tool::{LiftAxis, displaced, penetration_depth_allowed, swept_heights};
+use crate::world::task::{Action, RESTING_DECIMALS, Step, Task};
+use arch::Overlaps;
 use cplan_check::CheckError;
 use cplan_check::arm::Arm;
 use cplan_check::certificate::Motion;
@@ -57,19 +60,28 @@ pub(super) struct Replay<'a> {
     /// The last knot of the previous step.
     knot: usize,
     held: Option<HeldObject>,
+    /// The joint that lowers the tool.
+    lift: Option<LiftAxis>,
+    /// The stroke after the previous step, if it ends during the motion of the next one.
+    raising: Option<StrokeCurve>,
     /// Index among the obstacles of the object that was released last. `None` if it must not be touched any more.
     released: Option<usize>,
     /// Greatest deviation so far of an object or the tip from its required place.
     pub(super) off: BigInt,
 }
 
-/// The heights at which shapes are checked: their own (`Raised`), or all heights that they have during the stroke. With
-/// `Lying`, the carried object is checked at its final pose.
+/// The heights at which shapes are checked.
 #[derive(Clone, Copy, PartialEq)]
-enum ToolHeights {
+enum ToolHeights<'a> {
+    /// The shapes' own heights.
     Raised,
+    /// All heights during the stroke.
     Swept,
+    /// The carried object is checked at its final pose.
     Lying,
+    /// The heights while the tool is in a range, which is relative to its raised position. Only shapes that the stroke
+    /// lowers are checked.
+    At(&'a [Decimal; 2]),
 }
 
 impl<'a> Replay<'a> {
@@ -106,9 +118,16 @@ impl<'a> Replay<'a> {
             all: world.all().chain(&arm.own).collect(),
             knot: 0,
             held: None,
+            lift: task.stroke.as_ref().map(|stroke| robot.lift_axis(&stroke.joint)).transpose()?,
+            raising: None,
             released: None,
             off: BigInt::ZERO,
         })
+    }
+
+    /// Returns the time of a knot, seconds after the start of the motion.
+    fn time(&self, knot: usize) -> Decimal {
+        &self.motion.knots[knot][0] - &self.motion.knots[0][0]
     }
 
     /// Returns the pieces of the motion from a knot to another. If both are the same, returns a motion at rest.
@@ -119,11 +138,8 @@ impl<'a> Replay<'a> {
     }
 
     /// Checks a step and updates the state. `after` are the steps that follow.
-    pub(super) fn step(
-        &mut self,
-        MatchedStep { step, done, renewed }: &MatchedStep,
-        after: &[MatchedStep],
-    ) -> Result<(), CheckError> {
+    pub(super) fn step(&mut self, matched: &MatchedStep, after: &[MatchedStep]) -> Result<(), CheckError> {
+        let MatchedStep { step, done, renewed } = matched;
         // Objects return to their initial poses only after the arm has rested.
         if !renewed.is_empty() {
             let at = [1, 2].map(|k| Interval::from(&self.motion.knots[self.knot][k]));
@@ -153,6 +169,9 @@ impl<'a> Replay<'a> {
             _ => None,
         };
         self.free(&pieces, &from, target, ToolHeights::Raised)?;
+        let Overlaps { lowering, raising } = self.overlaps(matched, after.first())?;
+        let raising_before = std::mem::replace(&mut self.raising, raising);
+        self.free_during_strokes(raising_before.as_ref(), lowering.as_ref(), &pieces, target)?;
         match &step.action {
             Action::Pick { object, grasp, supports, passing } => {
                 let places = |step: &&Step| matches!(step.action, Action::Place { .. });
@@ -193,11 +212,16 @@ impl<'a> Replay<'a> {
         let own = self.task.first + held.object;
         let [heights, others] = [own, obstacle].map(|number| self.all[number].heights.as_ref());
         if let (Some(lying), Some([low, high])) = (heights, others) {
-            let carried = lying.each_ref().map(|height| height + &self.task.objects[held.object].lift);
+            let lift = &self.task.objects[held.object].lift;
+            let carried = lying.each_ref().map(|height| height + lift);
             let [least, most] = match tool {
                 ToolHeights::Raised => carried,
                 ToolHeights::Lying => lying.clone(),
-                ToolHeights::Swept => {
+                // The object follows the tool.
+                ToolHeights::At([below, above]) if self.task.depth(held.object) == Some(lift) => {
+                    [&carried[0] + below, &carried[1] + above]
+                }
+                ToolHeights::Swept | ToolHeights::At(_) => {
                     [lying[0].clone().min(carried[0].clone()), lying[1].clone().max(carried[1].clone())]
                 }
             };
@@ -260,32 +284,42 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
+    /// Returns true if a shape of the second link is at the height of an obstacle while the tool is raised.
+    fn is_at_raised_height(&self, obstacle: usize) -> bool {
+        let heights = self.all[obstacle].heights.as_ref();
+        let mut bodies = self.shapes.iter().map(|(shape, ..)| &shape.around).filter(|body| body.link == 1);
+        bodies.any(|body| !body.misses_heights(heights))
+    }
+
     /// Checks that the arm, with its load, is free on pieces of motion that begin in the configuration `from`. The
     /// second link may touch the object that was released last, and the obstacle with the index `also`.
     fn free(&self, pieces: &[Piece], from: &Point, also: Option<usize>, tool: ToolHeights) -> Result<(), CheckError> {
-        let stroke = match (tool, &self.task.stroke, &self.held) {
-            (ToolHeights::Raised | ToolHeights::Lying, ..) => None,
-            (ToolHeights::Swept, Some(Stroke { travel, .. }), Some(held)) => {
-                Some(travel.as_ref().unwrap_or(&self.task.objects[held.object].lift))
+        let heights = match (tool, &self.held) {
+            (ToolHeights::Raised | ToolHeights::Lying, _) => None,
+            (ToolHeights::At(heights), _) => Some(heights.clone()),
+            (ToolHeights::Swept, held) => {
+                let Some(by) = held.as_ref().and_then(|held| self.task.depth(held.object)) else { return Ok(()) };
+                self.require_static("a stroke of the tool")?;
+                Some(swept_heights(by))
             }
-            (ToolHeights::Swept, ..) => return Ok(()),
         };
-        if stroke.is_some() {
-            self.require_static("a stroke of the tool")?;
-        }
+        let is_partial = matches!(tool, ToolHeights::At(_));
+        let mut touched: Vec<usize> = self.released.into_iter().chain(also).collect();
+        touched.retain(|number| !is_partial || self.is_at_raised_height(*number));
         let own = |shape| {
             let (counted, solid, is_lowered): &(&CollisionShape, Solid, bool) = shape;
             let body = &counted.around;
-            let lowered = stroke.filter(|_| *is_lowered).map(|by| lowered(body, by));
+            let lowered = heights.as_ref().filter(|_| *is_lowered).map(|heights| displaced(counted, heights));
             let heights = lowered.as_ref().unwrap_or(body);
             let meets = |(number, obstacle): (usize, &&Obstacle)| {
-                let is_allowed = body.link == 1 && [self.released, also].contains(&Some(number));
+                let is_allowed = body.link == 1 && touched.contains(&number);
                 !is_allowed && counted.meets(heights, obstacle)
             };
             let meets = self.all.iter().enumerate().map(meets).collect();
             Part { name: counted.to_string(), keeps: &self.keeps, solid, meets }
         };
-        let mut parts: Vec<Part> = self.shapes.iter().map(own).collect();
+        let counted = self.shapes.iter().filter(|(.., is_lowered)| *is_lowered || !is_partial);
+        let mut parts: Vec<Part> = counted.map(own).collect();
         if let Some(held) = &self.held {
             parts.extend(self.hanging(held, &held.solids, tool));
             self.require_outside(held, from, &pieces[0].time[0], tool)?;

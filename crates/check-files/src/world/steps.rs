@@ -1,12 +1,13 @@
 //! Reads objects, pallets and steps of the world file.
 
-use super::task::{Action, Group, MovingPick, Node, Object, Step, Stroke, Task, Wrist};
+use super::task::{Action, Arch, Group, MovingPick, Node, Object, Step, Stroke, Task, Wrist};
 use super::{ReadResult, Reader, Value};
 use cplan_check::decimal::Decimal;
 use cplan_check::interval::{Interval, Point, both_turns, sum, turned};
 use cplan_check::obstacle::{Obstacle, point};
 use cplan_check::polygon::Corner;
 use cplan_check::world::World;
+use num_bigint::Sign;
 use std::collections::{BTreeMap, BTreeSet};
 use toml::de::{DeTable, DeValue};
 
@@ -77,7 +78,10 @@ impl Reader<'_> {
             return self.error(steps, &format!("the checker does not know [task] {}", key.get_ref()));
         }
         let steps = reading.group(steps, manner, &dwell)?;
-        let stroke = own("stroke").map(|value| self.stroke(value)).transpose()?;
+        let stroke = own("stroke").map(|value| self.stroke(value, own("arch"))).transpose()?;
+        if let (None, Some(arch)) = (&stroke, own("arch")) {
+            return self.error(arch, "[robot] arch needs a joint that lowers the tool");
+        }
         let joint = |value| self.table(value)?.get("joint").map(|name| self.text(name)).transpose();
         let wrist = own("wrist").map(|value| Ok(Wrist { joint: joint(value)? })).transpose()?;
         Ok(Some(Task { first, objects, steps, wrist, stroke }))
@@ -100,10 +104,32 @@ impl Reader<'_> {
         }
     }
 
-    fn stroke(&self, value: &Value) -> ReadResult<Stroke> {
+    fn stroke(&self, value: &Value, arch: Option<&Value>) -> ReadResult<Stroke> {
         let table = self.table(value)?;
         let Some(joint) = table.get("joint") else { return self.error(value, "a stroke needs a joint") };
-        Ok(Stroke { joint: self.text(joint)?, travel: table.get("travel").map(|n| self.number(n)).transpose()? })
+        let travel = table.get("travel").map(|n| self.number(n)).transpose()?;
+        Ok(Stroke { joint: self.text(joint)?, travel, arch: self.arch(arch)? })
+    }
+
+    /// Reads the least heights for strokes during motions. Returns `None` if the arm must rest during strokes.
+    fn arch(&self, value: Option<&Value>) -> ReadResult<Option<Arch>> {
+        let mut arch = Arch { rise: Decimal::whole(0), fall: Decimal::whole(0) };
+        let Some(value) = value else { return Ok(Some(arch)) };
+        if let Some(is_allowed) = value.get_ref().as_bool() {
+            return Ok(is_allowed.then_some(arch));
+        }
+        for (key, value) in self.table(value)? {
+            let height = match &**key.get_ref() {
+                "rise" => &mut arch.rise,
+                "fall" => &mut arch.fall,
+                other => return self.error(value, &format!("the checker does not know [robot] arch, {other}")),
+            };
+            *height = self.number(value)?;
+            if height.sign() == Sign::Minus {
+                return self.error(value, "the height of an arch is negative");
+            }
+        }
+        Ok(Some(arch))
     }
 
     fn pallet(&self, value: &Value) -> ReadResult<(String, Pallet)> {

@@ -45,6 +45,16 @@ pub struct Wrist {
 pub struct Stroke {
     pub joint: String,
     pub travel: Option<Decimal>,
+    /// `None` if the arm must rest during strokes.
+    pub arch: Option<Arch>,
+}
+
+/// Least heights of the tool above its lowest position while the arm moves, metres.
+pub struct Arch {
+    /// Least height at which the arm departs.
+    pub rise: Decimal,
+    /// Least height at which the arm arrives.
+    pub fall: Decimal,
 }
 
 /// Steps that belong together.
@@ -108,6 +118,12 @@ pub struct CarryRules {
 }
 
 impl Task {
+    /// Returns the distance by which the tool is lowered for an object. `None` if the robot has no stroke.
+    pub fn depth(&self, object: usize) -> Option<&Decimal> {
+        let stroke = self.stroke.as_ref()?;
+        Some(stroke.travel.as_ref().unwrap_or(&self.objects[object].lift))
+    }
+
     /// Returns the rules for an object that is picked from `supports`, and placed by the step `placing` if there is
     /// one.
     pub fn carrying(&self, object: usize, supports: &[usize], placing: Option<&Step>) -> CarryRules {

@@ -13,4 +13,9 @@ pub struct ExecutedStep {
     pub knots: [usize; 2],
     /// Angle, radians, by which the wrist turns the load to the left after the motion, while the arm is at rest.
     pub turn: Option<Decimal>,
+    /// Knots of the stroke that lowers the tool: time, value and velocity of the stroke's joint. `None` if the arm rests
+    /// during this stroke.
+    pub lowering: Option<Vec<[Decimal; 3]>>,
+    /// Knots of the stroke that raises the tool after the step. `None` if the arm rests during this stroke.
+    pub raising: Option<Vec<[Decimal; 3]>>,
 }

@@ -1,0 +1,142 @@
+//! Arch motions: the tool is lowered or raised while the arm moves.
+
+use super::{Replay, ToolHeights};
+use crate::task::REST_TOLERANCE_DECIMALS;
+use crate::task::order::MatchedStep;
+use crate::task::stroke::StrokeCurve;
+use crate::world::task::Action;
+use cplan_check::CheckError;
+use cplan_check::curve::{FRACTION_BITS, MAX_PRIOR_HALVINGS, Piece};
+use cplan_check::decimal::Decimal;
+use cplan_check::interval::{BITS, Interval};
+use num_bigint::BigInt;
+
+/// The strokes of a step that overlap with motions of the arm.
+#[derive(Default)]
+pub(super) struct Overlaps {
+    /// The stroke that begins during the step's motion.
+    pub(super) lowering: Option<StrokeCurve>,
+    /// The stroke that ends during the motion of the next step.
+    pub(super) raising: Option<StrokeCurve>,
+}
+
+impl Replay<'_> {
+    /// Reads the strokes of a step that overlap with motions. Checks that the world allows them, and that the tool
+    /// stays lowered for the step's dwell.
+    pub(super) fn overlaps(&self, matched: &MatchedStep, next: Option<&MatchedStep>) -> Result<Overlaps, CheckError> {
+        let MatchedStep { step, done, .. } = matched;
+        let given = [&done.lowering, &done.raising];
+        if given.iter().all(|knots| knots.is_none()) {
+            return Ok(Overlaps::default());
+        }
+        let (object, after_turn) = match (&step.action, &self.held) {
+            (Action::Pick { object, .. }, _) => (*object, false),
+            (Action::Place { .. }, Some(held)) => (held.object, true),
+            _ => return CheckError::fails("it has a stroke, but neither picks nor places an object"),
+        };
+        let (Some(axis), Some(depth)) = (&self.lift, self.task.depth(object)) else {
+            return CheckError::fails("it has a stroke, but the robot has no joint that lowers the tool");
+        };
+        let Some(arch) = self.task.stroke.as_ref().and_then(|stroke| stroke.arch.as_ref()) else {
+            return CheckError::fails("the arm must rest during strokes, but one of them overlaps with a motion");
+        };
+        if done.turn.is_some() && given[usize::from(!after_turn)].is_some() {
+            return CheckError::fails("a stroke overlaps with a motion, but the wrist turns in between");
+        }
+        if done.raising.is_some() && next.is_none_or(|next| !next.renewed.is_empty()) {
+            return CheckError::fails("its raising needs another motion, before which no object is renewed");
+        }
+        let (raised, lowered) = (Interval::whole(0), -&Interval::from(depth));
+        let start = &self.motion.knots[0][0];
+        let read = |knots: &Option<Vec<[Decimal; 3]>>, name: &str, ends: [&Interval; 2]| {
+            let curve = knots.as_ref().map(|knots| StrokeCurve::new(knots, start, axis, ends)).transpose();
+            curve.map_err(|error| match error {
+                CheckError::Fails(why) => CheckError::Fails(format!("its {name} is wrong: {why}")),
+                other => other,
+            })
+        };
+        let lowering = read(&done.lowering, "lowering", [&raised, &lowered])?;
+        let raising = read(&done.raising, "raising", [&lowered, &raised])?;
+        // The arm rests from its arrival to its departure. The tool must be lowered for a part of this time.
+        let arrival = self.time(done.knots[1]);
+        let departure = self.time(next.map_or(self.motion.knots.len() - 1, |next| next.done.knots[0]));
+        let down = lowering.as_ref().map_or(&arrival, |lowering| lowering.end()).max(&arrival);
+        let up = raising.as_ref().map_or(&departure, |raising| raising.begin()).min(&departure);
+        if &(up - down) + &Decimal::power_of_ten(REST_TOLERANCE_DECIMALS) < step.dwell {
+            return CheckError::fails(format!("the tool is not lowered for {} s", step.dwell));
+        }
+        if let Some(lowering) = &lowering {
+            if *lowering.end() < arrival || !lowering.is_at(up, &lowered) {
+                return CheckError::fails("its lowering does not end between the arrival of the arm and the raising");
+            }
+            if !lowering.is_away(&arrival, &lowered, &arch.fall) {
+                return CheckError::fails(format!("the arm arrives with the tool lower than {} m", arch.fall));
+            }
+        }
+        if let Some(raising) = &raising {
+            if *raising.begin() > departure || !raising.is_at(down, &lowered) {
+                return CheckError::fails("its raising does not begin between the lowering and the departure");
+            }
+            if !raising.is_away(&departure, &lowered, &arch.rise) {
+                return CheckError::fails(format!("the arm departs before the tool has risen by {} m", arch.rise));
+            }
+        }
+        Ok(Overlaps { lowering, raising })
+    }
+
+    /// Checks the motion of a step at the heights of the strokes that overlap with it. The second link may touch the
+    /// obstacle with the index `also`.
+    pub(super) fn free_during_strokes(
+        &self,
+        raising: Option<&StrokeCurve>,
+        lowering: Option<&StrokeCurve>,
+        pieces: &[Piece],
+        also: Option<usize>,
+    ) -> Result<(), CheckError> {
+        if raising.is_none() && lowering.is_none() {
+            return Ok(());
+        }
+        self.require_static("a stroke of the tool")?;
+        let (departure, arrival) = (&pieces[0].time[0], &pieces[pieces.len() - 1].time[1]);
+        let raised = Interval::whole(0);
+        let until = lowering.map_or(arrival, |lowering| lowering.begin().min(arrival));
+        let since = raising.map_or(departure, |raising| raising.end().max(departure));
+        let is_raised = |stroke: Option<&StrokeCurve>, at| stroke.is_none_or(|stroke| stroke.is_at(at, &raised));
+        if !is_raised(raising, until) || !is_raised(lowering, since) {
+            return CheckError::fails("the tool is not raised completely during its motion");
+        }
+        let first = raising.map_or(0, |raising| pieces.partition_point(|piece| piece.time[0] < *raising.end()));
+        let last = lowering
+            .map_or(pieces.len(), |lowering| pieces.partition_point(|piece| piece.time[1] <= *lowering.begin()));
+        raising.map_or(Ok(()), |stroke| self.free_at_heights(stroke, &pieces[..first], also, 0))?;
+        lowering.map_or(Ok(()), |stroke| self.free_at_heights(stroke, &pieces[last..], also, 0))
+    }
+
+    /// Checks pieces of motion at the heights of a stroke. Checks all its heights on these pieces first. If that fails,
+    /// checks both halves. `halvings` is the number of times that a piece was halved.
+    fn free_at_heights(
+        &self,
+        stroke: &StrokeCurve,
+        pieces: &[Piece],
+        also: Option<usize>,
+        halvings: u32,
+    ) -> Result<(), CheckError> {
+        let ([first, ..], [.., last]) = (pieces, pieces) else { return Ok(()) };
+        let heights = stroke.range([&first.time[0], &last.time[1]]);
+        // All curves begin in one tube, which is free of sides. So it does not matter which of them is tested.
+        let from = first.curves[0][0].map(|value| Interval::exact(BigInt::from(value) << (BITS - FRACTION_BITS)));
+        let checked = self.free(pieces, &from, also, ToolHeights::At(&heights));
+        let Err(CheckError::Fails(why)) = checked else { return checked };
+        if let [piece] = pieces {
+            if halvings == MAX_PRIOR_HALVINGS {
+                return CheckError::fails(format!("during a stroke, {why}"));
+            }
+            let halves = piece.halves();
+            return halves
+                .iter()
+                .try_for_each(|half| self.free_at_heights(stroke, std::slice::from_ref(half), also, halvings + 1));
+        }
+        let (first, second) = pieces.split_at(pieces.len() / 2);
+        [first, second].into_iter().try_for_each(|half| self.free_at_heights(stroke, half, also, halvings))
+    }
+}

@@ -1,0 +1,116 @@
+//! Strokes that overlap with motions of the arm: the height of the tool as a function of time.
+
+use crate::robot::tool::LiftAxis;
+use cplan_check::CheckError;
+use cplan_check::decimal::Decimal;
+use cplan_check::interval::Interval;
+use num_bigint::{BigInt, Sign};
+
+/// Number of decimals of the tolerance of heights in strokes: `10^-9` m, for rounding in certificates.
+const HEIGHT_TOLERANCE_DECIMALS: u32 = 9;
+
+/// A stroke: cubic curves of the tool's height that never turn back. Heights are relative to the raised tool.
+pub(super) struct StrokeCurve {
+    /// Times of the knots, seconds after the start of the motion.
+    times: Vec<Decimal>,
+    heights: Vec<Interval>,
+    /// Velocities along the plane's normal.
+    rates: Vec<Interval>,
+}
+
+fn tolerance() -> BigInt {
+    Interval::from(&Decimal::power_of_ten(HEIGHT_TOLERANCE_DECIMALS)).lower
+}
+
+/// Returns true if two heights differ by no more than the tolerance.
+fn are_equal(a: &Interval, b: &Interval) -> bool {
+    (a - b).magnitude() <= tolerance()
+}
+
+impl StrokeCurve {
+    /// Makes a stroke from its knots, whose clock shows `start` when the motion starts. `ends` are the heights at which
+    /// the stroke must begin and end.
+    ///
+    /// # Errors
+    /// If times do not increase, if the stroke turns back or moves at an end, or if an end is elsewhere.
+    pub(super) fn new(
+        knots: &[[Decimal; 3]],
+        start: &Decimal,
+        axis: &LiftAxis,
+        ends: [&Interval; 2],
+    ) -> Result<Self, CheckError> {
+        let [[_, first, v], .., [_, last, w]] = knots else { return CheckError::fails("it has fewer than two knots") };
+        let along = last - first;
+        if [v, w].iter().any(|rate| rate.sign() != Sign::NoSign) || along.sign() == Sign::NoSign {
+            return CheckError::fails("it does not lead from rest to rest at another height");
+        }
+        let goes_back = |rate: &Decimal| (rate * &along).sign() == Sign::Minus;
+        for (k, pair) in knots.windows(2).enumerate() {
+            let [[from, p, v], [to, q, w]] = [&pair[0], &pair[1]];
+            let span = to - from;
+            if span.sign() != Sign::Plus {
+                return CheckError::fails(format!("its knot {} is not later than the previous one", k + 1));
+            }
+            // Control points of the cubic's derivative, times positive numbers.
+            let middle = &(&(q - p) * &Decimal::whole(3)) - &(&span * &(v + w));
+            if [v, &middle, w].into_iter().any(goes_back) {
+                return CheckError::fails(format!("it turns back after its knot {k}"));
+            }
+        }
+        let curve = Self {
+            times: knots.iter().map(|[time, ..]| time - start).collect(),
+            heights: knots.iter().map(|[_, value, _]| axis.height(value)).collect(),
+            rates: knots.iter().map(|[.., rate]| axis.upward(&Interval::from(rate))).collect(),
+        };
+        let [first, last] = ends;
+        if !are_equal(&curve.heights[0], first) || !are_equal(&curve.heights[knots.len() - 1], last) {
+            return CheckError::fails("it does not lead from the raised to the lowered height, or back");
+        }
+        Ok(curve)
+    }
+
+    pub(super) fn begin(&self) -> &Decimal {
+        &self.times[0]
+    }
+
+    pub(super) fn end(&self) -> &Decimal {
+        &self.times[self.times.len() - 1]
+    }
+
+    /// Returns the height at a time. Before the stroke it is that of the first knot, and after it that of the last.
+    fn height_at(&self, time: &Decimal) -> Interval {
+        let next = self.times.partition_point(|knot| knot <= time);
+        if next == 0 || next == self.times.len() {
+            return self.heights[next.saturating_sub(1)].clone();
+        }
+        let [p, q] = [next - 1, next].map(|k| self.heights[k].clone());
+        let span = Interval::from(&(&self.times[next] - &self.times[next - 1]));
+        if span.lower.sign() != Sign::Plus {
+            return Interval { lower: p.lower.min(q.lower), upper: p.upper.max(q.upper) };
+        }
+        let share = Interval::from(&(time - &self.times[next - 1])).divided(&span);
+        let third = |k: usize| (&self.rates[k] * &span).over(3);
+        let mut points = vec![p.clone(), &p + &third(next - 1), &q - &third(next), q];
+        while points.len() > 1 {
+            points = points.windows(2).map(|pair| &pair[0] + &(&(&pair[1] - &pair[0]) * &share)).collect();
+        }
+        points.remove(0)
+    }
+
+    /// Returns true if the height at a time is `height`, within the tolerance.
+    pub(super) fn is_at(&self, time: &Decimal, height: &Interval) -> bool {
+        are_equal(&self.height_at(time), height)
+    }
+
+    /// Returns true if the tool is at least `distance` from `height` at a time, within the tolerance.
+    pub(super) fn is_away(&self, time: &Decimal, height: &Interval, distance: &Decimal) -> bool {
+        (&self.height_at(time) - height).magnitude() + tolerance() >= Interval::from(distance).lower
+    }
+
+    /// Returns the least and the greatest height from one time to another. The stroke never turns back, so these are
+    /// the heights at both times.
+    pub(super) fn range(&self, times: [&Decimal; 2]) -> [Decimal; 2] {
+        let [a, b] = times.map(|time| self.height_at(time));
+        Interval { lower: a.lower.min(b.lower), upper: a.upper.max(b.upper) }.ends()
+    }
+}
