@@ -20,7 +20,7 @@ pub enum Subject {
 }
 
 /// Pictures of the documentation with the names of their files.
-pub const PICTURES: [(&str, Subject); 17] = [
+pub const PICTURES: [(&str, Subject); 18] = [
     ("shortest", Subject::Answer("planar_2r", "workbench", Method::Shortest)),
     ("visibility", Subject::Answer("planar_2r", "workbench", Method::Visibility)),
     ("trapezoid", Subject::Answer("planar_2r", "workbench", Method::Trapezoid)),
@@ -36,6 +36,7 @@ pub const PICTURES: [(&str, Subject); 17] = [
     ("upright", Subject::Answer("rrbot_vertical", "upright", Method::Shortest)),
     ("crossing", Subject::Answer("planar_2r", "moving/crossing", Method::Shortest)),
     ("belt", Subject::Answer("planar_2r", "moving/belt_pick", Method::Shortest)),
+    ("arch", Subject::Answer("scara", "arch/pick_and_place", Method::Shortest)),
     ("tower", Subject::Task("rrbot_vertical", "tower")),
     ("board_and_gate", Subject::Task("gantry", "board_and_gate")),
 ];

@@ -88,6 +88,10 @@ fn kind(value: &Value, number: Number) -> String {
                 None => list(value, number),
             },
         },
+        Value::Null if value["anyOf"].is_array() => {
+            let forms = value["anyOf"].as_array().into_iter().flatten();
+            forms.map(|form| kind(form, number)).collect::<Vec<_>>().join(", or ")
+        }
         other => panic!("a type that the reference has no words for: {other}"),
     }
 }

@@ -69,8 +69,7 @@ pub struct RobotTable {
     /// Motion of the tool down and up at picks and places; by default it does not move.
     #[schemars(with = "Option<StrokeTable>")]
     pub stroke: Option<StrokeTable>,
-    /// Least heights, m, that the tool rises before the arm moves, and below which it only moves while the arm is at rest;
-    /// by default { rise = 0, fall = 0 }. With false, the arm is at rest during strokes.
+    /// Overlap of strokes with motions of the arm.
     #[schemars(with = "Option<ArchValue>")]
     pub(crate) arch: Option<Spanned<ArchValue>>,
     /// How objects are held unless they say otherwise; by default "rigid".

@@ -3,7 +3,10 @@
 use super::quantity::Number;
 use super::schema::Positive;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::fmt::{self, Formatter};
 use toml::Spanned;
 
 /// Motion of the tool down and up at picks and places.
@@ -26,15 +29,38 @@ pub struct StrokeTable {
     pub acceleration: Option<Number>,
 }
 
-/// Overlap of strokes with motions of the arm: least heights, or false if the arm is at rest during strokes.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "expected heights { rise = 0.02, fall = 0.02 } in metres, or false")]
-#[schemars(inline)]
+/// Least heights that the tool rises before the arm moves, and below which the tool moves only while the arm is at rest; by
+/// default both 0. With false, the arm is at rest during strokes.
+#[derive(Debug, Clone, PartialEq, JsonSchema)]
+#[schemars(inline, untagged)]
 pub enum ArchValue {
     /// False if the arm is at rest during strokes; true for the default heights.
     Switch(bool),
     /// Least heights.
     Heights(ArchTable),
+}
+
+impl<'de> Deserialize<'de> for ArchValue {
+    /// Reads the value without a buffer, so that its numbers keep their places in the file.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct EitherVisitor;
+        impl<'de> Visitor<'de> for EitherVisitor {
+            type Value = ArchValue;
+
+            fn expecting(&self, formatter: &mut Formatter) -> fmt::Result {
+                formatter.write_str("heights { rise = 0.02, fall = 0.02 } in metres, or false")
+            }
+
+            fn visit_bool<E>(self, value: bool) -> Result<ArchValue, E> {
+                Ok(ArchValue::Switch(value))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<ArchValue, A::Error> {
+                ArchTable::deserialize(MapAccessDeserializer::new(map)).map(ArchValue::Heights)
+            }
+        }
+        deserializer.deserialize_any(EitherVisitor)
+    }
 }
 
 /// Least heights for the overlap of strokes with motions of the arm.

@@ -31,7 +31,11 @@ dwell = 0.2
 move = { joints = [0.0, 1.2] }
 "#;
 
-const STROKE: &str = "stroke = { joint = \"axis_3\", velocity = 1.0, acceleration = 5.0 }";
+/// The arm rests during strokes.
+const STROKE: &str = "arch = false\nstroke = { joint = \"axis_3\", velocity = 1.0, acceleration = 5.0 }";
+
+/// The tool moves with the arm, as far as possible.
+const ARCH: &str = "stroke = { joint = \"axis_3\", velocity = 1.0, acceleration = 5.0 }";
 
 fn plan_and_check(world: &str, options: &[&str]) -> (Run, Option<(i32, String)>) {
     let folder = tempfile::tempdir().unwrap();
@@ -130,6 +134,69 @@ fn the_quill_goes_down_at_picks_and_places_and_nowhere_else() {
     }
 }
 
+/// Checks arch motions as a controller plays them: the quill moves while the arm does, keeps its limits, is down at picks
+/// and places, and the arm stands still there.
+#[test]
+fn the_quill_moves_while_the_arm_does() {
+    let world = CELL.replace(", angle = 1.0", "");
+    let (resting, _) = plan_and_check(&world.replace("STROKE", STROKE), &[]);
+    let (run, verified) = plan_and_check(&world.replace("STROKE", ARCH), &[]);
+    assert_eq!(verified.expect("done").0, 0);
+    let (message, result) = (files::yaml(&run.text("yaml")), run.json());
+    let saved = number(&resting.json()["duration"]) - number(&result["duration"]);
+    let steps = result["steps"].as_array().unwrap();
+    let overlap = |step: &Value, key: &str| step["stroke"].get(key).map_or(0.0, number);
+    let overlaps: f64 =
+        steps.iter().map(|step| overlap(step, "before_arrival") + overlap(step, "after_departure")).sum();
+    assert!(saved > 0.4 && (saved - overlaps).abs() < 1e-6, "{saved} s saved, {overlaps} s overlap");
+    assert!(number(&result["lower_bound"]) <= number(&result["duration"]));
+    for (step, event) in steps.iter().zip(result["events"].as_array().unwrap()) {
+        let time = number(&event["time"]);
+        let dwell = if event["event"] == "release" { 0.2 } else { 0.1 };
+        for time in [time + 1e-9, time + dwell / 2.0, time + dwell - 1e-6] {
+            let [depth, speed] = joint_state_at(&message, "axis_3", time);
+            assert!((depth + 0.12).abs() < 1e-6 && speed.abs() < 1e-4, "{event}: {depth}, {speed}");
+            let still = ["axis_1", "axis_2"].map(|joint| joint_state_at(&message, joint, time)[1]);
+            assert!(still.iter().all(|speed| speed.abs() < 1e-6), "the arm moves at {time}: {still:?}");
+        }
+        // The stroke down, by the formulas for constant acceleration: it begins before the arm arrives.
+        let (seconds, begin) =
+            (number(&step["stroke"]["seconds"]), number(&step["arrival"]) - overlap(step, "before_arrival"));
+        assert!((begin + seconds - time).abs() < 1e-6, "{step}");
+        for share in [0.1, 0.3, 0.5, 0.7, 0.9] {
+            let depth = 0.12 * if share < 0.5 { 2.0 * share * share } else { 1.0 - 2.0 * (1.0_f64 - share).powi(2) };
+            let [played, _] = joint_state_at(&message, "axis_3", begin + share * seconds);
+            assert!((played + depth).abs() < 1e-5, "{played} at {share} of the stroke, not {}", -depth);
+        }
+    }
+    let quill = message.joints.iter().position(|name| name == "axis_3").unwrap();
+    for k in 0..message.since.len() - 1 {
+        let duration = seconds(message.since[k], message.since[k + 1]);
+        for share in 0..=16 {
+            let [z, v, a] = played(&message, k, quill, duration * f64::from(share) / 16.0);
+            let is_within =
+                (-0.12 - 1e-9..=1e-9).contains(&z) && v.abs() <= 1.0 + 1e-6 && a.abs() <= 5.0 * (1.0 + 1e-4);
+            assert!(is_within, "{z} {v} {a} after sample {k}");
+        }
+    }
+    #[cfg(feature = "mcap")]
+    {
+        // One message per step, each from rest to rest; together they are the whole motion.
+        let messages = files::mcap(&run.bytes("mcap"));
+        assert_eq!(messages.len(), 3);
+        for (begin, part) in &messages {
+            for point in [&part.points[0], &part.points[part.points.len() - 1]] {
+                assert!(point[1].iter().all(|speed| speed.abs() < 1e-9), "moves at an end of a step: {point:?}");
+            }
+            for k in 0..part.since.len() {
+                let time = seconds(0, begin + part.since[k]);
+                let [whole, _] = joint_state_at(&message, "axis_3", time);
+                assert!((part.points[k][0][quill] - whole).abs() < 1e-9, "the quill differs at {time}");
+            }
+        }
+    }
+}
+
 #[test]
 fn the_wrist_levels_and_turns_the_payload() {
     let (run, _) = plan_and_check(&CELL.replace("STROKE", STROKE), &[]);
@@ -192,6 +259,10 @@ fn strokes_that_cannot_be_are_refused() {
         ("stroke = { joint = \"axis_3\", velocity = -1.0 }", ["velocity", "positive"]),
         ("stroke = { joint = \"axis_3\", travel = 0.3 }", ["part", "-0.18"]),
         ("stroke = { speed = 1.0 }", ["speed", "joint"]),
+        ("arch = true", ["arch", "stroke"]),
+        ("stroke = { joint = \"axis_3\" }\narch = { rise = -0.1 }", ["rise", "negative"]),
+        ("stroke = { joint = \"axis_3\" }\narch = { raise = 0.1 }", ["raise", "fall"]),
+        ("stroke = { joint = \"axis_3\" }\narch = 3", ["rise", "false"]),
     ] {
         let (run, _) = plan_and_check(&CELL.replace("STROKE", stroke), &[]);
         assert_eq!(run.code, 1, "{stroke}");

@@ -156,6 +156,10 @@ struct Row {
 impl Row {
     /// Returns the row at a time between this row and a later one. All joints move along cubics.
     fn toward(&self, later: &Self, at: u64) -> Self {
+        if self.value == later.value && self.rate == later.rate {
+            // Rounding must not move joints at rest.
+            return Self { at, ..*self };
+        }
         let ends = [self.at, later.at].map(seconds);
         let cubic = |value: fn(&Drives) -> [f64; 2]| {
             let state = |row: &Row| [value(&row.value).into(), value(&row.rate).into()];

@@ -6,7 +6,7 @@ use cplan_text::markup;
 const STYLE: &str = include_str!("assets/view.css");
 
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 35] = [
+const SCRIPTS: [&str; 36] = [
     include_str!("assets/element.js"),
     include_str!("assets/icons.js"),
     include_str!("assets/settings.js"),

@@ -182,8 +182,8 @@ impl<'a> Iterator for Replay<'a> {
         let handled = picked.or(carried.filter(|_| matches!(step.action, Action::Place { .. })));
         let overlaps = Overlaps::new(self.raising.take(), recorded, handled);
         faults.extend(overlaps.faults(task, motion.duration().unwrap_or(0.0)));
-        if matches!(collision_check, CollisionCheck::Free { .. })
-            && let Some((at_heights, found)) = overlaps.check(task, &self.state, &motion, picked)
+        if let CollisionCheck::Free { clearance, .. } = collision_check
+            && let Some((at_heights, found)) = overlaps.check(task, &self.state, &motion, picked, clearance)
         {
             let found = shifted(found, *recorded.samples.start());
             match (&mut collision_check, found) {

@@ -57,13 +57,15 @@ impl Overlaps {
     }
 
     /// Checks a motion while the tool is raised or lowered during it. Returns the first check that does not find the
-    /// motion free, with its scene, or else the least clearance. `None` if nothing overlaps.
+    /// motion free, with its scene, or else the least clearance. `None` if nothing overlaps, or if the overlaps keep the
+    /// `clearance` of the motion with the raised tool.
     pub fn check(
         &self,
         task: &Task,
         state: &State,
         motion: &Recording,
         picked: Option<usize>,
+        clearance: f64,
     ) -> Option<(Scene, CollisionCheck)> {
         let tool = task.stroke.as_ref()?;
         let times = motion.times()?;
@@ -75,7 +77,9 @@ impl Overlaps {
                 true => ([lowered, tool.joint.rest], times[0] + stroke.overlap - seconds),
                 false => ([tool.joint.rest, lowered], times[times.len() - 1] - stroke.overlap),
             };
-            StrokeDuringMotion { scene: &scene, lifts_payload, stroke: tool, ends, begin }.check(motion)
+            let stroke = StrokeDuringMotion { scene: &scene, lifts_payload, stroke: tool, ends, begin };
+            let keeps = clearance.is_finite() && stroke.keeps(motion, clearance);
+            if keeps { None } else { stroke.check(motion) }
         };
         let of = |stroke: Option<PartialStroke>, is_raising| stroke.and_then(|stroke| during(stroke, is_raising));
         let checks = of(self.raising, true).into_iter().chain(of(self.lowering, false));
