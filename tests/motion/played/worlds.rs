@@ -37,7 +37,7 @@ fn judge_all(what: &str, run: &Run, joints: &[Joint; 2]) -> Extremes {
             for (k, joint) in joints.iter().enumerate() {
                 let named = names.iter().position(|name| *name == joint.name).unwrap();
                 let off = (position[named] - certified.at(stamp as f64 * 1e-9, k)).abs();
-                assert!(off < 1e-12 * (1.0 + position[named].abs()), "{what}: the state at {stamp} ns is {off} off");
+                assert!(off < 1e-10 * (1.0 + position[named].abs()), "{what}: the state at {stamp} ns is {off} off");
             }
         }
     }

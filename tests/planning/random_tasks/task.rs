@@ -136,6 +136,14 @@ pub fn with_arches(seed: u64) -> Task {
         heights: Heights { lower: DEPTH + 0.05, upper: 0.3 },
         body: "tool".into(),
     });
+    // Posts beside the objects, over which the tool and its load pass only when they are raised.
+    for object in &task.objects {
+        let (sin, cos) = dice.within(-PI, PI).sin_cos();
+        let post = disc(object.at.translation + Vector::new(cos, sin) * 0.16, 0.04);
+        let post = Obstacle { heights: Heights { lower: 0.0, upper: 0.14 }, ..obstacle("post", post) };
+        let number = task.workspace.fixed.obstacles.len();
+        task.workspace.fixed.obstacles.push(Obstacle { name: format!("post {number}"), ..post });
+    }
     for object in &mut task.objects {
         (object.heights, object.lift) = (Heights { lower: 0.0, upper: 0.05 }, DEPTH);
     }
