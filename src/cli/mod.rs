@@ -15,6 +15,7 @@ mod explain;
 mod explore;
 mod failure;
 mod files;
+mod follow;
 mod fresh;
 mod headings;
 mod import;
@@ -78,6 +79,7 @@ commands! { program:
         #[cfg(feature = "study")]
         Study(study::StudyArgs),
         Explore(explore::ExploreArgs),
+        Follow(follow::FollowArgs),
         Batch(batch::BatchArgs),
     }
     "Understand" {
@@ -128,6 +130,8 @@ Examples:
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan compare --suite workspaces --output report.html
+  cplan follow robots/planar_2r.urdf workspaces/follow/engraving.toml \
+    workspaces/follow/plate.gcode
 
 Lengths are in metres, angles in radians (or degrees: 30deg), times in seconds.
 

@@ -1,6 +1,6 @@
 //! Parsers for numbers on the command line.
 
-use crate::grammar::number_in;
+use crate::grammar::{finite, number_in};
 
 /// Longest time limit that a command accepts, in seconds: some thirty years.
 const MAX_JOB_SECONDS: f64 = 1e9;
@@ -17,4 +17,23 @@ pub fn time_limit(text: &str) -> Result<f64, String> {
         |x| x > 0.0 && x <= MAX_JOB_SECONDS,
         &format!("of seconds, greater than 0 and at most {MAX_JOB_SECONDS:e}"),
     )
+}
+
+/// Greatest distance by which a drawing or a line can be moved, in metres. Their coordinates are at most half of this.
+const MAX_MOVE: f64 = 2e12;
+
+/// Parses a displacement `x,y`, in metres.
+pub fn displacement(text: &str) -> Result<[f64; 2], String> {
+    let (x, y) = text.split_once(',').ok_or("expected two numbers separated by a comma, such as -0.4,1")?;
+    let length =
+        |text: &str| number_in(text.trim(), |x| x.abs() <= MAX_MOVE, &format!("of metres, {MAX_MOVE:e} at most"));
+    Ok([length(x)?, length(y)?])
+}
+
+/// Parses an angle in radians, or in degrees if it ends in `deg`. Returns radians.
+pub fn turn(text: &str) -> Result<f64, String> {
+    match text.strip_suffix("deg") {
+        Some(degrees) => Ok(finite(degrees.trim_end())?.to_radians()),
+        None => finite(text),
+    }
 }

@@ -5,7 +5,8 @@ use crate::cli::headings::OUTPUT;
 use crate::cli::print_args::PrintArgs;
 use crate::cli::query_args::QueryArgs;
 use crate::cli::theme::ThemeArgs;
-use crate::grammar::{finite, number_in, positive};
+use crate::cli::values::{displacement, turn};
+use crate::grammar::{number_in, positive};
 use clap::{Args, ValueHint};
 use cplan_drawing::{MIN_TOLERANCE, Settings, Unit};
 use std::path::PathBuf;
@@ -62,7 +63,7 @@ pub struct ImportArgs {
     #[arg(long, value_name = "FACTOR", value_parser = positive, default_value_t = 1.0)]
     pub scale: f64,
     /// Angle by which the drawing is turned about its origin: radians, or degrees such as 90deg.
-    #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true, default_value_t = 0.0)]
+    #[arg(long, value_name = "ANGLE", value_parser = turn, allow_hyphen_values = true, default_value_t = 0.0)]
     pub turn: f64,
     /// New position of the drawing's origin, metres.
     #[arg(long = "move", value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
@@ -84,21 +85,4 @@ impl ImportArgs {
 
 fn tolerance(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x >= MIN_TOLERANCE, &format!("of metres, finite and at least {MIN_TOLERANCE}"))
-}
-
-/// Greatest distance by which a drawing can be moved, in metres. The coordinates of drawings are at most half of this.
-const MAX_MOVE: f64 = 2e12;
-
-fn displacement(text: &str) -> Result<[f64; 2], String> {
-    let (x, y) = text.split_once(',').ok_or("expected two numbers separated by a comma, such as -0.4,1")?;
-    let length =
-        |text: &str| number_in(text.trim(), |x| x.abs() <= MAX_MOVE, &format!("of metres, {MAX_MOVE:e} at most"));
-    Ok([length(x)?, length(y)?])
-}
-
-fn angle(text: &str) -> Result<f64, String> {
-    match text.strip_suffix("deg") {
-        Some(degrees) => Ok(finite(degrees.trim_end())?.to_radians()),
-        None => finite(text),
-    }
 }

@@ -18,6 +18,7 @@ mod explain;
 mod explore;
 mod fields;
 mod figures;
+mod follow;
 mod free_joint;
 mod grids;
 pub mod help;

@@ -1,0 +1,88 @@
+//! The arguments of `cplan follow`.
+
+use crate::cli::files::Files;
+use crate::cli::headings::OUTPUT;
+use crate::cli::print_args::PrintArgs;
+use crate::cli::theme::ThemeArgs;
+use crate::cli::values::{clearance, displacement, turn};
+use crate::grammar::{number_in, positive};
+use clap::{Args, ValueHint};
+use cplan_drawing::Unit;
+use cplan_follow::{MIN_TOLERANCE, Settings};
+use cplan_toolpath::Placement;
+use std::path::PathBuf;
+
+/// Move the tip along a line: G-code or SVG.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The motion stays within the tolerance of the line, in the line's order, between
+samples too. It is certified free of collision, and as fast as the limits of the
+joints and of the tip allow. If there is none, the answer names the place. The
+line is scaled, then turned, then moved.
+
+Examples:
+  cplan follow robots/planar_2r.urdf workspaces/follow/engraving.toml \\
+    workspaces/follow/plate.gcode
+  cplan follow robots/planar_2r.urdf workspaces/follow/engraving.toml \\
+    workspaces/follow/plate.gcode --speed 0.1 --output plate.yaml \\
+    --picture plate.html
+  cplan follow robots/planar_2r.urdf workspaces/follow/engraving.toml \\
+    workspaces/follow/plate.gcode --tolerance 0.0001 --move 0.05,0 --json
+
+Exit codes: 0 found and certified, 1 bad input or I/O, 2 wrong command line, 3
+proven infeasible, 4 unknown.")]
+pub struct FollowArgs {
+    #[command(flatten)]
+    pub files: Files,
+    /// Line: G-code (.gcode, .nc, .ngc, .tap) or a drawing (.svg).
+    #[arg(value_name = "PATH", value_hint = ValueHint::FilePath)]
+    pub path: PathBuf,
+    /// Greatest distance of the tip from the line, metres.
+    #[arg(long, value_name = "METRES", value_parser = tolerance, default_value_t = Settings::default().tolerance)]
+    pub tolerance: f64,
+    /// Greatest speed of the tip, metres per second, instead of the speeds (F) of the file.
+    #[arg(long, value_name = "M/S", value_parser = positive)]
+    pub speed: Option<f64>,
+    /// Unit of the line's numbers instead of the unit in the file: mm, cm, dm, m, km, um, mil, in, ft, yd or px.
+    #[arg(long, value_name = "UNIT")]
+    pub unit: Option<Unit>,
+    /// Factor by which the line is scaled about its origin. Speeds of the file stay the same.
+    #[arg(long, value_name = "FACTOR", value_parser = positive, default_value_t = 1.0)]
+    pub scale: f64,
+    /// Angle by which the line is turned about its origin: radians, or degrees such as 90deg.
+    #[arg(long, value_name = "ANGLE", value_parser = turn, allow_hyphen_values = true, default_value_t = 0.0)]
+    pub turn: f64,
+    /// New position of the line's origin, metres.
+    #[arg(long = "move", value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
+    pub shift: Option<[f64; 2]>,
+    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    #[arg(long, value_name = "METRES", value_parser = clearance)]
+    pub clearance: Option<f64>,
+    /// Time between two samples of the motion, seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = Settings::default().period)]
+    pub period: f64,
+    /// Write the answer (.json) or the motion (.csv, .yaml for a ROS 2 JointTrajectory). Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
+    pub output: Vec<PathBuf>,
+    /// Draw the line and the motion in workspace and configuration space: .svg, .png or .html. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
+    pub picture: Vec<PathBuf>,
+    #[command(flatten)]
+    pub theme: ThemeArgs,
+    #[command(flatten)]
+    pub print: PrintArgs,
+    /// Also print the pieces of the line, and each change of the IK solution.
+    #[arg(long, short, help_heading = OUTPUT)]
+    pub verbose: bool,
+}
+
+impl FollowArgs {
+    /// Returns the place of the line in the plane.
+    pub(super) fn placement(&self) -> Placement {
+        Placement { unit: self.unit, scale: self.scale, turn: self.turn, shift: self.shift.unwrap_or_default() }
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    number_in(text, |x| x.is_finite() && x >= MIN_TOLERANCE, &format!("of metres, finite and at least {MIN_TOLERANCE}"))
+}

@@ -1,0 +1,60 @@
+//! `cplan follow`: moves the tip along a line.
+
+mod args;
+mod files;
+mod json;
+mod picture;
+mod read;
+mod words;
+
+pub use args::FollowArgs;
+
+use super::exit::{DONE, INFEASIBLE, UNKNOWN};
+use super::failure::Failure;
+use super::sinks;
+use crate::input::{self, LoadedScene};
+use crate::model::Status;
+use cplan_follow::{FollowError, Followed, Settings, follow};
+use cplan_toolpath::Toolpath;
+
+/// A line with its robot, its world and the answer.
+struct Answered<'a> {
+    args: &'a FollowArgs,
+    loaded: &'a LoadedScene,
+    line: &'a Toolpath,
+    answer: &'a Followed,
+}
+
+/// Follows a line, and prints and writes the answer.
+///
+/// # Errors
+/// Bad input and I/O, and options that do not suit the robot.
+pub fn run(args: &FollowArgs) -> Result<u8, Failure> {
+    let outputs = files::Outputs::new(args)?;
+    let loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
+    loaded.require_static_obstacles("a line is followed among obstacles at rest")?;
+    let read: Vec<_> = loaded.files().into_iter().chain([args.path.clone()]).collect();
+    sinks::refuse_to_overwrite_inputs(outputs.paths(), &read)?;
+    let line = read::line(args)?;
+    if !args.print.quiet {
+        loaded.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
+    }
+    let settings = Settings { tolerance: args.tolerance, speed: args.speed, period: args.period };
+    let answer = follow(&loaded.scene, &line, &settings).map_err(refused)?;
+    let answered = Answered { args, loaded: &loaded, line: &line, answer: &answer };
+    outputs.write(&answered)?;
+    let code = match answer.status() {
+        Status::Found => DONE,
+        Status::Infeasible => INFEASIBLE,
+        Status::Unknown => UNKNOWN,
+    };
+    args.print.report(code, || sinks::pretty(&json::object(&answered)), || words::summary(&answered))?;
+    Ok(code)
+}
+
+fn refused(error: FollowError) -> Failure {
+    match error {
+        FollowError::Timing(error) => Failure::Trajectory(error),
+        error => Failure::Option(error.to_string()),
+    }
+}

@@ -1,0 +1,193 @@
+//! `cplan follow` from outside: motions against the tests' own kinematics, answers, files and errors.
+
+use super::{Done, Place, shipped};
+use serde_json::Value;
+
+fn files() -> [String; 2] {
+    [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/engraving.toml")]
+}
+
+fn follow(place: &Place, line: &str, options: &str) -> Done {
+    let [robot, world] = files();
+    place.run(&["follow", &robot, &world, line], options)
+}
+
+/// Writes a program that begins at a point, millimetres, and follows it.
+fn follow_program(place: &Place, text: &str, options: &str) -> Done {
+    place.write("line.gcode", text);
+    follow(place, "line.gcode", options)
+}
+
+/// Returns the position of the tip of `planar_2r`.
+fn tip([a, b]: [f64; 2]) -> [f64; 2] {
+    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
+}
+
+#[test]
+fn the_shipped_plate_is_engraved_at_its_speeds() {
+    let place = Place::new();
+    let done = follow(&place, &shipped("workspaces/follow/plate.gcode"), "--output m.csv --picture m.svg --quiet");
+    assert_eq!((done.code, done.stdout.as_str()), (0, ""), "{}", done.stderr);
+    let csv = place.read("m.csv");
+    let rows: Vec<Vec<f64>> =
+        csv.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
+    assert_eq!(csv.lines().next(), Some("time,shoulder,elbow,shoulder_velocity,elbow_velocity"));
+    let [first, last] = [&rows[0], &rows[rows.len() - 1]].map(|row| tip([row[1], row[2]]));
+    assert!((first[0] - 1.1).hypot(first[1] + 0.15) < 1e-9 && (last[0] - 1.25).hypot(last[1] - 0.06) < 1e-9);
+    // The circle is engraved last, at 50 mm/s.
+    let on_circle = |q: [f64; 2]| {
+        let [x, y] = tip(q);
+        ((x - 1.2).hypot(y - 0.06) - 0.05).abs() < 1e-5
+    };
+    let end = rows[rows.len() - 1][0];
+    let circle: Vec<_> = rows.windows(2).filter(|pair| pair[0][0] > end - 6.2).collect();
+    assert!(circle.len() > 100);
+    for pair in circle {
+        let [a, b] = [&pair[0], &pair[1]].map(|row| tip([row[1], row[2]]));
+        assert!(on_circle([pair[0][1], pair[0][2]]), "{a:?}");
+        let speed = (b[0] - a[0]).hypot(b[1] - a[1]) / (pair[1][0] - pair[0][0]);
+        assert!(speed < 0.0501, "{speed}");
+    }
+    let picture = place.read("m.svg");
+    for part in ["Workspace", "The tip follows the line within", "line to follow"] {
+        assert!(picture.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn the_answer_is_json_with_a_bound_on_the_distance() {
+    let place = Place::new();
+    let done = follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200 F3000\n", "--json --output m.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let result: Value = done.json();
+    assert_eq!(result["status"], "found");
+    let number = |value: &Value| value.as_f64().unwrap();
+    assert!(number(&result["deviation"]) <= 1e-5 && number(&result["tolerance"]) == 1e-5);
+    assert!((number(&result["line"]["length"]) - 0.1).abs() < 1e-12);
+    // 100 mm at 50 mm/s.
+    assert!((2.0..2.1).contains(&number(&result["duration"])), "{}", result["duration"]);
+    assert_eq!(result, serde_json::from_str::<Value>(&place.read("m.json")).unwrap());
+    for position in result["trajectory"]["position"].as_array().unwrap() {
+        let [x, y] = tip([0, 1].map(|k| number(&position[k])));
+        assert!((y + 0.15).abs() < 1e-5 && (1.1 - 1e-9..1.2 + 1e-9).contains(&x), "{x} {y}");
+    }
+}
+
+#[test]
+fn a_line_out_of_reach_is_infeasible_at_a_place() {
+    let place = Place::new();
+    let text = "G21 G0 X1100 Y0\nG1 X1400\nG1 X1900\n";
+    let done = follow_program(&place, text, "--json --picture m.svg --output m.csv");
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    let result = done.json();
+    assert_eq!((result["status"].as_str(), result["cause"].as_str()), (Some("infeasible"), Some("out_of_reach")));
+    assert_eq!(result["place"]["line"], 3);
+    assert!(place.read("m.svg").contains("x: the tip cannot follow the line here"));
+    assert!(!place.path("m.csv").exists() && done.stderr.contains("m.csv is not written"), "{}", done.stderr);
+    let done = follow_program(&place, text, "");
+    assert!(
+        done.stdout.contains("infeasible: the line is") && done.stdout.contains("line 3 of the file"),
+        "{}",
+        done.stdout
+    );
+}
+
+#[test]
+fn obstacles_at_both_solutions_are_named() {
+    let place = Place::new();
+    let world = "[[obstacle]]\nname = \"above\"\npolygon = [[0.2, 0.3], [1.0, 0.3], [1.0, 0.6], [0.2, 0.6]]\n\
+                 [[obstacle]]\nname = \"below\"\npolygon = [[0.2, -0.6], [1.0, -0.6], [1.0, -0.3], [0.2, -0.3]]\n";
+    place.write("world.toml", world);
+    place.write("line.gcode", "G21 G0 X1000 Y-100\nG1 Y100\n");
+    let done = place.run(&["follow", &files()[0], "world.toml", "line.gcode"], "");
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    for part in ["no IK solution is possible at", "hits obstacle \"above\"", "hits obstacle \"below\""] {
+        assert!(done.stdout.contains(part), "{part}: {}", done.stdout);
+    }
+}
+
+#[test]
+fn placements_units_and_speeds_apply() {
+    let place = Place::new();
+    let options = "--unit cm --scale 2 --turn 90deg --move 1.2,-0.2 --speed 0.02 --json";
+    let done = follow_program(&place, "G0 X0 Y0\nG1 X5 F99999\n", options);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let result = done.json();
+    let number = |value: &Value| value.as_f64().unwrap();
+    assert!((number(&result["line"]["length"]) - 0.1).abs() < 1e-12);
+    assert!((5.0..5.1).contains(&number(&result["duration"])));
+    let positions = result["trajectory"]["position"].as_array().unwrap();
+    let last = tip([0, 1].map(|k| number(&positions[positions.len() - 1][k])));
+    assert!((last[0] - 1.2).hypot(last[1] + 0.1) < 1e-8, "{last:?}");
+    // Without the option, the drawing's own unit counts.
+    place.write(
+        "line.svg",
+        "<svg xmlns='http://www.w3.org/2000/svg' width='500mm' height='500mm' viewBox='0 0 500 500'>\
+                 <path d='M 0 500 L 100 500' fill='none'/></svg>",
+    );
+    let done = follow(&place, "line.svg", "--move 1.1,0 --json");
+    assert!((number(&done.json()["line"]["length"]) - 0.1).abs() < 1e-12, "{}", done.stderr);
+}
+
+#[test]
+fn ros_messages_and_pages_are_written() {
+    let place = Place::new();
+    let done = follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200\n", "--output m.yaml --picture m.html --verbose");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(
+        done.stdout.contains("found and certified: at most") && done.stdout.contains("line 2: straight of"),
+        "{}",
+        done.stdout
+    );
+    let message = place.read("m.yaml");
+    assert!(message.contains("joint_names") && message.contains("elbow") && message.contains("velocities"));
+    let page = place.read("m.html");
+    assert!(page.contains("\"line\":{\"strokes\":[[1.1,-0.15,1.2,-0.15]]}"), "the page has the line");
+}
+
+#[test]
+fn defects_of_the_line_have_their_place_and_a_hint() {
+    let place = Place::new();
+    let done = follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200 Z-2\n", "");
+    done.refused(1, &["line.gcode: line 2, column 10: Z-2 moves the tip out of the plane", "hint: the arm moves in a plane"]);
+    let done = follow_program(&place, "G21\nM3 S1000\n", "--json");
+    let error = done.json();
+    assert_eq!(
+        (error["status"].as_str(), error["line"].as_u64(), error["column"].as_u64()),
+        (Some("error"), Some(2), Some(1))
+    );
+    assert_eq!(done.code, 1);
+    place.write("empty.svg", "<svg xmlns='http://www.w3.org/2000/svg'/>");
+    follow(&place, "empty.svg", "").refused(1, &["empty.svg: the file has no line"]);
+    follow(&place, "missing.gcode", "").refused(1, &["missing.gcode"]);
+    follow(&place, "line.txt", "")
+        .refused(2, &["line.txt: the name of a line must end in .gcode, .nc, .ngc, .tap or .svg"]);
+}
+
+#[test]
+fn unusable_options_are_refused_before_any_work() {
+    let place = Place::new();
+    place.write("line.gcode", "G21 G0 X1100 Y-150\nG1 X1200\n");
+    for (options, message) in [
+        ("--tolerance 0", "at least 0.000001"),
+        ("--tolerance nan", "at least 0.000001"),
+        ("--speed 0", "--speed"),
+        ("--scale 0", "--scale"),
+        ("--unit furlong", "\"furlong\" is not a known unit"),
+        ("--move 1", "two numbers separated by a comma"),
+        ("--output m.txt", "must end in .json, .csv, .yaml or .yml"),
+        ("--picture m.gif", "a line is drawn as .svg, .png or .html"),
+    ] {
+        follow(&place, "line.gcode", options).refused(2, &[message]);
+    }
+    follow(&place, "line.gcode", "--output line.svg.json --output ./line.svg.json").refused(1, &["are the same file"]);
+    let moving = shipped("workspaces/moving");
+    let mover = std::fs::read_dir(moving).unwrap().map(|entry| entry.unwrap().path()).find(|path| {
+        path.extension().is_some_and(|end| end == "toml")
+            && std::fs::read_to_string(path).unwrap().contains("planar_2r")
+    });
+    let mover = mover.expect("a world with a moving obstacle").display().to_string();
+    place
+        .run(&["follow", &files()[0], &mover, "line.gcode"], "")
+        .refused(1, &["a line is followed among obstacles at rest"]);
+}
