@@ -95,3 +95,21 @@ def test_the_strip_is_there_for_motions_among_moving_obstacles_alone(program, sh
     seen = show_file(program.plan("planar_2r", "moving/cart_in_task")[0])
     assert seen.page.locator(".strip").is_visible()
     assert seen.page.locator(".waits li").count() == 1
+
+
+def test_the_height_of_the_tool_is_shown_in_time(program, show_file):
+    page, plan = program.plan("scara", "arch/pick_and_place")
+    seen = show_file(page)
+    height = seen.do("cplan.model.height")
+    assert height["joint"] == "axis_3" and math.isclose(height["duration"], plan["duration"], abs_tol=1e-3)
+    canvas = seen.page.locator(".height canvas")
+    assert canvas.is_visible() and "from -150 to -125 mm" in canvas.get_attribute("aria-label")
+    # The tool is down when the gripper acts, and in between it is up at least once.
+    at = lambda time: seen.do("(time) => Height.valueAt(cplan.model.height, time)", time)
+    times = [event["time"] for event in plan["events"]]
+    assert all(math.isclose(at(time), -150, abs_tol=0.1) for time in times)
+    for before, after in zip(times, times[1:]):
+        assert max(at(before + (after - before) * k / 200) for k in range(201)) > -125.1
+    # A task without strokes has no strip of heights.
+    page, _ = program.plan("rrbot_vertical", "tasks/tower")
+    assert show_file(page).page.locator(".height").is_hidden()

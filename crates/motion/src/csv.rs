@@ -1,6 +1,6 @@
 //! Trajectories as comma-separated values.
 
-use super::Trajectory;
+use super::{JointMotion, Trajectory};
 use std::borrow::Cow;
 use std::fmt::Write;
 
@@ -40,6 +40,31 @@ pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, s
             write!(text, ",{step}").expect("a string takes all");
         }
         text.push('\n');
+    }
+    text
+}
+
+/// Returns a motion of all joints as CSV, in the format of [`csv`]: a value and a velocity of each joint, with their
+/// accelerations if the motion has them, and the step of each sample.
+#[must_use]
+pub fn csv_of_joints(motion: &JointMotion, steps: &[usize]) -> String {
+    let columns = [("", Some(&motion.position)), ("_velocity", Some(&motion.velocity))];
+    let columns = columns.into_iter().chain([("_acceleration", motion.acceleration.as_ref())]);
+    let columns: Vec<_> = columns.filter_map(|(suffix, rows)| rows.map(|rows| (suffix, rows))).collect();
+    let mut text = String::from("time");
+    for (suffix, _) in &columns {
+        motion.joints.iter().for_each(|joint| {
+            text.push(',');
+            text.push_str(&quoted(&format!("{joint}{suffix}")));
+        });
+    }
+    text.push_str(",step\n");
+    for (k, (time, step)) in motion.time.iter().zip(steps).enumerate() {
+        write!(text, "{time:?}").expect("a string takes all");
+        for value in columns.iter().flat_map(|(_, rows)| &rows[k]) {
+            write!(text, ",{value:?}").expect("a string takes all");
+        }
+        writeln!(text, ",{step}").expect("a string takes all");
     }
     text
 }

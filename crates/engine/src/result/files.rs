@@ -2,7 +2,7 @@
 
 use super::Messages;
 use crate::plan::{Detail, Plan, joints_in_messages};
-use cplan_motion::{Format, JointMotion, Trajectory, csv, ros_yaml};
+use cplan_motion::{Format, JointMotion, Trajectory, csv, csv_of_joints, ros_yaml};
 #[cfg(feature = "mcap")]
 use cplan_motion::{Stage, mcap};
 
@@ -11,13 +11,19 @@ impl Plan {
     /// motion. All formats except MCAP are text in UTF-8.
     ///
     /// The table of a task has a column with the number of each sample's step, counted from 1 in the order of
-    /// execution. A ROS 2 message has the whole motion. A recording has a message for each step: its motion, followed
+    /// execution. If strokes of the tool overlap with motions of the arm, it has all joints. A ROS 2 message has the whole motion. A recording has a message for each step: its motion, followed
     /// by the turns of the wrist and strokes of the tool. This recording has nothing to display; see
     /// `PlanOutput::bytes` of the crate `view` for one that has.
     #[must_use]
     pub fn encoded(&self, format: Format) -> Option<Vec<u8>> {
         Some(match format {
             Format::Json => self.to_json().into_bytes(),
+            Format::Csv if self.has_overlaps() => {
+                let Messages { whole, steps } = self.messages()?;
+                let step = |time: &f64| steps.partition_point(|(begin, _)| begin <= time);
+                let steps: Vec<usize> = whole.time.iter().map(step).collect();
+                csv_of_joints(&whole, &steps).into_bytes()
+            }
             Format::Csv => {
                 let motion = self.task().and_then(|(_, answer)| answer.outcome.found());
                 let steps: Option<Vec<usize>> =
@@ -45,6 +51,10 @@ impl Plan {
     pub fn encoded_per_step(&self, format: Format) -> Option<Vec<Vec<u8>>> {
         let (_, answer) = self.task()?;
         let text: Vec<String> = match format {
+            Format::Csv if self.has_overlaps() => {
+                let motions = self.messages()?.steps.into_iter().zip(1..);
+                motions.map(|((_, motion), number)| csv_of_joints(&motion, &vec![number; motion.time.len()])).collect()
+            }
             Format::Csv => {
                 let motions = answer.legs.iter().map(|leg| &leg.timed.trajectory).zip(1..);
                 motions.map(|(motion, number)| self.table(motion, Some(&vec![number; motion.time.len()]))).collect()
@@ -53,6 +63,11 @@ impl Plan {
             _ => return None,
         };
         Some(text.into_iter().map(String::into_bytes).collect())
+    }
+
+    /// Returns true if strokes of the tool overlap with motions of the arm.
+    fn has_overlaps(&self) -> bool {
+        self.task().is_some_and(|(_, answer)| answer.legs.iter().any(|leg| leg.overlap.seconds() > 0.0))
     }
 
     /// Returns a motion as a table. If given, `steps` has the number of each sample's step.

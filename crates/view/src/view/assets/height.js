@@ -54,7 +54,7 @@ const Height = (() => {
   function mount(view) {
     const canvas = element('canvas', { role: 'img', 'aria-label': 'Height of the tool against time' });
     const caption = element('figcaption', {}, 'Height of the tool');
-    const root = element('figure', { class: 'strip height', hidden: true }, caption, canvas);
+    const root = element('figure', { class: 'height', hidden: true }, caption, canvas);
     const panel = new Panel(canvas, {
       x: [0, 1],
       y: [-1, 0],
