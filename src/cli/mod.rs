@@ -130,8 +130,6 @@ Examples:
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan compare --suite workspaces --output report.html
-  cplan follow robots/planar_2r.urdf workspaces/follow/engraving.toml \
-    workspaces/follow/plate.gcode
 
 Lengths are in metres, angles in radians (or degrees: 30deg), times in seconds.
 
