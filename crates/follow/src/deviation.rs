@@ -30,12 +30,12 @@ const MAX_HALVINGS: u32 = 10;
 /// gives the best.
 const CORNER_STEPS: u32 = 3;
 
-/// How far ahead of the tip's distance from a corner the next piece is considered, as a multiple of the tolerance: the
-/// tip cuts a corner of a few degrees this far before.
+/// Distance from a corner at which the next piece is considered, as a multiple of the tolerance. The tip cuts a corner of
+/// a few degrees this far before it.
 const LOOKAHEAD_TOLERANCES: f64 = 100.0;
 
-/// How much nearer the next piece must be than the present one, as a share of the tolerance. Where the line returns on
-/// itself, both are equally near up to the deviation of the tip.
+/// Least distance by which the next piece must be nearer than the present one, as a share of the tolerance. Where the line
+/// returns on itself, both are equally near up to the deviation of the tip.
 const SWITCH_SHARE: f64 = 0.1;
 
 /// A line, an arm, and the tolerance that bounds should prove.

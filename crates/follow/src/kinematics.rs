@@ -59,7 +59,7 @@ impl<'a> Kinematics<'a> {
         }
     }
 
-    /// Returns a bound like [`Self::bend`] for displacements of which only the magnitudes in each joint are known.
+    /// Returns a bound like [`Self::bend`] for displacements with known magnitudes in each joint and unknown signs.
     pub fn bend_within(&self, q: Configuration, beside: Configuration, a: Configuration, b: Configuration) -> f64 {
         use JointType::Revolute;
         let [a, b] = [a.abs(), b.abs()];

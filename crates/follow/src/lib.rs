@@ -77,7 +77,7 @@ const ATTEMPTS: u32 = 5;
 /// Share of the tolerance up to which places out of reach are replaced by the nearest ones in reach.
 const SLACK_SHARE: f64 = 0.25;
 
-/// Factor by which the line is divided more finely for a proof, if none is found at the nodes of the search. The number of
+/// Factor by which the line is divided more finely for a proof, if the nodes of the search give no proof. The number of
 /// nodes grows with its root.
 const PROOF_FINENESS: f64 = 64.0;
 
@@ -136,7 +136,7 @@ pub struct Found {
 /// The answer about a line.
 pub type Followed = Outcome<Found, Infeasible>;
 
-/// Returns a motion whose tip follows a line, or a proof that there is none.
+/// Returns a motion whose tip follows a line, or a proof that no motion does.
 ///
 /// The motion begins and ends at rest at the ends of the line. It keeps the scene's clearance. It takes time linear in
 /// the length of the line and in the inverse root of the tolerance.

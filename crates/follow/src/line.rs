@@ -14,7 +14,7 @@ pub struct Place {
     pub distance: f64,
     /// The point in the plane, metres.
     pub point: Point,
-    /// Where the file describes the piece.
+    /// Place of the piece in the file.
     pub source: Source,
 }
 

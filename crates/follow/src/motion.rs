@@ -17,7 +17,7 @@ const REVERSAL_COSINE: f64 = -0.95;
 /// Cosine of the angle by which the tip may turn at a corner that a motion with limited jerk passes without a stop.
 const SMOOTH_CORNER_COSINE: f64 = 0.985;
 
-/// What a motion is made from.
+/// The input of a motion.
 pub(crate) struct Driver<'a> {
     pub scene: &'a Scene,
     pub kinematics: &'a Kinematics<'a>,

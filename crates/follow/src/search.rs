@@ -98,7 +98,7 @@ impl<'a> Search<'a> {
         self.nodes.nodes[part + 1].is_continued && bound <= self.division.deviation * (1.0 + 1e-9)
     }
 
-    /// Returns the cheapest sequence that is certified. Returns `None` if there is none among those that are considered.
+    /// Returns the cheapest sequence that is certified. Returns `None` if no considered sequence is certified.
     pub fn route(&mut self) -> Option<Route> {
         let (path, nodes, _, changes) = self.cheapest()?;
         let clearance = self.scene.workspace().clearance;
@@ -136,7 +136,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Closes the motions beside the first change of a path that is not free. Returns false if there is none.
+    /// Closes the motions beside the first change of a path that is not free. Returns false if all are free.
     fn close_first_blocked(&mut self, path: &Path, nodes: &[usize], solutions: &[usize]) -> bool {
         let motions = StraightMotions::new(self.scene, self.scene.workspace().clearance);
         let mut legs = path.waypoints().windows(2).enumerate();

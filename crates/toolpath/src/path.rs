@@ -38,7 +38,7 @@ pub struct Piece {
     pub speed: Option<f64>,
     /// True if the tip only travels to where the next piece begins (G0). Then the file's speed does not apply.
     pub is_travel: bool,
-    /// Where the file describes the piece.
+    /// Place of the piece in the file.
     pub source: Source,
 }
 
@@ -85,7 +85,7 @@ impl Toolpath {
         Ok(Self { pieces: kept, notes: Vec::new() })
     }
 
-    /// Returns the line with notes about what was omitted or assumed.
+    /// Returns the line with notes about omissions and assumptions.
     #[must_use]
     pub fn with_notes(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }
@@ -97,7 +97,7 @@ impl Toolpath {
         &self.pieces
     }
 
-    /// Returns notes for the user about what the reader omitted or assumed.
+    /// Returns notes for the user about omissions and assumptions of the reader.
     #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.notes

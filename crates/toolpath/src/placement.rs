@@ -1,4 +1,4 @@
-//! Where a line lies in the plane of the robot.
+//! The place of a line in the plane of the robot.
 
 use crate::{Curve, Point};
 use cplan_drawing::Unit;

@@ -17,7 +17,7 @@ const WIDTH: f64 = 4.5;
 pub struct LineView {
     /// Points of the line, metres. Each inner list is a stretch without a travel.
     pub strokes: Vec<Vec<Point>>,
-    /// The place on the line where no motion is possible; `None` if there is none.
+    /// The place on the line where no motion is possible; `None` for other answers.
     pub at: Option<Point>,
 }
 

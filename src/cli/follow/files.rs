@@ -72,7 +72,7 @@ impl Outputs {
     }
 }
 
-/// Returns the text of a file; `None` if it can only contain a motion and there is none.
+/// Returns the text of a file; `None` if it can only contain a motion and the answer has no motion.
 fn text(answered: &Answered, content: Content) -> Result<Option<String>, Failure> {
     let trajectory = match answered.answer {
         Outcome::Found(found) => Some(&found.timed.trajectory),

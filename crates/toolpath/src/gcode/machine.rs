@@ -23,7 +23,7 @@ enum Move {
     Arc { is_left: bool },
 }
 
-/// What the words of a block say.
+/// The words of a block by their purpose.
 #[derive(Default)]
 struct Block<'w> {
     motion: Option<&'w Word>,
@@ -182,7 +182,7 @@ impl<'p> Machine<'p> {
     /// Returns the line.
     ///
     /// # Errors
-    /// If there is none.
+    /// If the program has no line.
     pub fn finish(self) -> Result<Toolpath, Error> {
         let placed = |piece: Piece| Piece { curve: self.placement.place(&piece.curve), ..piece };
         // Where a travel leads to nothing, the tip would only leave the line.

@@ -11,7 +11,7 @@ pub(super) struct Word {
     pub value: f64,
     /// The word as the file has it.
     pub text: String,
-    /// Where the word begins.
+    /// Place of the word's first character.
     pub source: Source,
 }
 
