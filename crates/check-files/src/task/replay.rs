@@ -55,7 +55,7 @@ pub(super) struct Replay<'a> {
     /// Obstacles and objects in their current state, then moving obstacles, then links of the robot. An entry is `None`
     /// for the carried object.
     present: Vec<Option<PlacedObstacle>>,
-    /// The same obstacles and links, in their initial state.
+    /// All obstacles and links in their initial state.
     all: Vec<&'a Obstacle>,
     /// The last knot of the previous step.
     knot: usize,
@@ -144,6 +144,9 @@ impl<'a> Replay<'a> {
         if !renewed.is_empty() {
             let at = [1, 2].map(|k| Interval::from(&self.motion.knots[self.knot][k]));
             self.free(&self.pieces(self.knot..done.knots[0])?, &at, None, ToolHeights::Raised)?;
+            // While the tool still rises, these objects count at both places.
+            let pieces = self.pieces(done.knots[0]..done.knots[1])?;
+            self.free_during_strokes(self.raising.as_ref(), None, &pieces, None)?;
         }
         for object in renewed {
             let number = self.task.first + object;
@@ -171,7 +174,8 @@ impl<'a> Replay<'a> {
         self.free(&pieces, &from, target, ToolHeights::Raised)?;
         let Overlaps { lowering, raising } = self.overlaps(matched, after.first())?;
         let raising_before = std::mem::replace(&mut self.raising, raising);
-        self.free_during_strokes(raising_before.as_ref(), lowering.as_ref(), &pieces, target)?;
+        let moving = self.pieces(done.knots[0]..last)?;
+        self.free_during_strokes(raising_before.as_ref(), lowering.as_ref(), &moving, target)?;
         match &step.action {
             Action::Pick { object, grasp, supports, passing } => {
                 let places = |step: &&Step| matches!(step.action, Action::Place { .. });

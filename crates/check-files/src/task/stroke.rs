@@ -97,6 +97,12 @@ impl StrokeCurve {
         points.remove(0)
     }
 
+    /// Returns true if the tool is raised all the time from one time to another.
+    pub(super) fn is_raised_during(&self, [from, to]: [&Decimal; 2]) -> bool {
+        let [first, last] = [0, self.heights.len() - 1].map(|k| self.heights[k].magnitude());
+        if first < last { to <= self.begin() } else { self.end() <= from }
+    }
+
     /// Returns true if the height at a time is `height`, within the tolerance.
     pub(super) fn is_at(&self, time: &Decimal, height: &Interval) -> bool {
         are_equal(&self.height_at(time), height)

@@ -43,8 +43,8 @@ impl Replay<'_> {
         if done.turn.is_some() && given[usize::from(!after_turn)].is_some() {
             return CheckError::fails("a stroke overlaps with a motion, but the wrist turns in between");
         }
-        if done.raising.is_some() && next.is_none_or(|next| !next.renewed.is_empty()) {
-            return CheckError::fails("its raising needs another motion, before which no object is renewed");
+        if done.raising.is_some() && next.is_none() {
+            return CheckError::fails("its raising overlaps with a motion, but the task ends");
         }
         let (raised, lowered) = (Interval::whole(0), -&Interval::from(depth));
         let start = &self.motion.knots[0][0];
@@ -62,11 +62,12 @@ impl Replay<'_> {
         let departure = self.time(next.map_or(self.motion.knots.len() - 1, |next| next.done.knots[0]));
         let down = lowering.as_ref().map_or(&arrival, |lowering| lowering.end()).max(&arrival);
         let up = raising.as_ref().map_or(&departure, |raising| raising.begin()).min(&departure);
-        if &(up - down) + &Decimal::power_of_ten(REST_TOLERANCE_DECIMALS) < step.dwell {
+        let tolerance = Decimal::power_of_ten(REST_TOLERANCE_DECIMALS);
+        if &(up - down) + &tolerance < step.dwell {
             return CheckError::fails(format!("the tool is not lowered for {} s", step.dwell));
         }
         if let Some(lowering) = &lowering {
-            if *lowering.end() < arrival || !lowering.is_at(up, &lowered) {
+            if lowering.end() + &tolerance < arrival || !lowering.is_at(up, &lowered) {
                 return CheckError::fails("its lowering does not end between the arrival of the arm and the raising");
             }
             if !lowering.is_away(&arrival, &lowered, &arch.fall) {
@@ -74,7 +75,7 @@ impl Replay<'_> {
             }
         }
         if let Some(raising) = &raising {
-            if *raising.begin() > departure || !raising.is_at(down, &lowered) {
+            if *raising.begin() > &departure + &tolerance || !raising.is_at(down, &lowered) {
                 return CheckError::fails("its raising does not begin between the lowering and the departure");
             }
             if !raising.is_away(&departure, &lowered, &arch.rise) {
@@ -84,8 +85,8 @@ impl Replay<'_> {
         Ok(Overlaps { lowering, raising })
     }
 
-    /// Checks the motion of a step at the heights of the strokes that overlap with it. The second link may touch the
-    /// obstacle with the index `also`.
+    /// Checks the motion of a step at the heights of the strokes that overlap with it. `pieces` are the motion from the
+    /// departure to the arrival. The second link may touch the obstacle with the index `also`.
     pub(super) fn free_during_strokes(
         &self,
         raising: Option<&StrokeCurve>,
@@ -122,7 +123,11 @@ impl Replay<'_> {
         halvings: u32,
     ) -> Result<(), CheckError> {
         let ([first, ..], [.., last]) = (pieces, pieces) else { return Ok(()) };
-        let heights = stroke.range([&first.time[0], &last.time[1]]);
+        let times = [&first.time[0], &last.time[1]];
+        if stroke.is_raised_during(times) {
+            return Ok(());
+        }
+        let heights = stroke.range(times);
         // All curves begin in one tube, which is free of sides. So it does not matter which of them is tested.
         let from = first.curves[0][0].map(|value| Interval::exact(BigInt::from(value) << (BITS - FRACTION_BITS)));
         let checked = self.free(pieces, &from, also, ToolHeights::At(&heights));
