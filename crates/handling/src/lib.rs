@@ -30,7 +30,7 @@ pub use claims::{
 pub use held::{HeldEffect, HeldJoint, HeldMotion};
 pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 pub use moving_obstacle::{Leg, MAX_STOP_TIME, MovingObstacle, ObstacleTrajectory, ObstacleTrajectoryError, Stop};
-pub use payload::Payload;
+pub use payload::{ArchScene, Payload};
 pub use piece::{Derivative, Piece, State};
 pub use recording::{Recording, RecordingError};
 pub use robot_joints::{Driver, Drives, RobotJoint, RobotJoints};

@@ -1,9 +1,10 @@
 //! The object that the arm carries.
 
 use super::{Object, Stroke, Task, TimedWorkspace};
-use cplan_core::model::{Additions, Arm, AttachedPart, Attachment, Body, Grip, Heights, Scene};
+use cplan_core::model::{Additions, Arm, AttachedPart, Attachment, Body, Grip, Heights, Pair, Scene};
 use cplan_dynamics::{joined, spread};
 use cplan_geometry::{Convex, Pose, inset_union};
+use std::collections::BTreeSet;
 
 /// An object of a task while the arm carries it.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,6 +69,19 @@ impl Payload {
     }
 }
 
+/// The scenes of an arm whose tool moves up or down while the arm moves.
+#[derive(Debug, Clone)]
+pub struct ArchScene {
+    /// The scene with the tool raised.
+    pub raised: Scene,
+    /// The scene with all heights of the stroke. Parts and obstacles have the same numbers in both.
+    pub swept: Scene,
+    /// The pairs that meet only while the tool is not raised. The others keep their distance whatever its height.
+    pub lowered_pairs: Vec<Pair>,
+    /// True if the payload follows the tool. Otherwise it has all its heights from lying to carried in both scenes.
+    pub lifts_payload: bool,
+}
+
 impl Task {
     /// Returns the scene with the objects at their poses. The objects `moving` become loose obstacles, after those of
     /// the workspace, in the order of [`Task::trajectories`]. Link 2 may touch the objects `touched`.
@@ -110,33 +124,37 @@ impl Task {
         Some(self.scene_of(arm, self.obstacles(poses), payload, allowed_contacts))
     }
 
-    /// Returns the scene for a stroke during a motion of the arm, with the tool raised. The second value is true if the
-    /// payload follows the tool; otherwise it has all its heights from lying to carried. Link 2 may touch those of the
+    /// Returns the scenes for strokes down to a depth, in metres, during a motion of the arm. Link 2 may touch those of the
     /// objects `touched` that it meets with the raised tool, too: others must be free whenever the arm moves.
     #[must_use]
     pub fn arch_scene(
         &self,
-        stroke: &Stroke,
+        (stroke, depth): (&Stroke, f64),
         poses: &[Option<Pose>],
         payload: Option<&Payload>,
         touched: impl IntoIterator<Item = usize>,
-    ) -> (Scene, bool) {
+    ) -> ArchScene {
         let meets_raised = |object: &usize| {
             let heights = self.objects[*object].heights;
             self.arm.links[1].parts.iter().any(|part| part.heights.meet(heights))
         };
-        let allowed_contacts = touched.into_iter().filter(meets_raised).map(|object| self.obstacle_number(object));
-        let follows = |payload: &Payload| {
+        let allowed: Vec<usize> =
+            touched.into_iter().filter(meets_raised).map(|object| self.obstacle_number(object)).collect();
+        let lifts_payload = payload.is_none_or(|payload| {
             let object = &self.objects[payload.object];
             stroke.depth(object) == object.lift
-        };
-        let follows = payload.is_none_or(follows);
-        let payload = payload.map(|payload| {
-            let object = &self.objects[payload.object];
-            (payload, if follows { object.carried_heights() } else { object.handled_heights() })
         });
-        let scene = self.scene_of(self.arm.clone(), self.obstacles(poses), payload, allowed_contacts.collect());
-        (scene, follows)
+        let obstacles = self.obstacles(poses);
+        let scene = |arm: Arm, heights: fn(&Object) -> Heights| {
+            let payload = payload.map(|payload| (payload, heights(&self.objects[payload.object])));
+            self.scene_of(arm, obstacles.clone(), payload, allowed.clone())
+        };
+        let swept = scene(stroke.swept(&self.arm, depth), Object::handled_heights);
+        let raised = scene(self.arm.clone(), Object::carried_heights);
+        let known: BTreeSet<Pair> = raised.pairs().iter().copied().collect();
+        let lowered_pairs = swept.pairs().iter().copied().filter(|pair| !known.contains(pair)).collect();
+        let raised = if lifts_payload { raised } else { scene(self.arm.clone(), Object::handled_heights) };
+        ArchScene { raised, swept, lowered_pairs, lifts_payload }
     }
 
     /// Returns the scene of an arm with a payload at these heights.

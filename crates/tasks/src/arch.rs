@@ -5,8 +5,7 @@
 
 use super::state::{Candidate, State};
 use super::stroke::{ToolStroke, stroke_seconds};
-use cplan_core::model::Scene;
-use cplan_handling::{Recording, Stroke, Task};
+use cplan_handling::{ArchScene, Recording, Stroke, Task};
 use cplan_motion::recorded::{CollisionCheck, StrokeDuringMotion, seconds_to_rise};
 use cplan_motion::{TimedMotion, round_down};
 use cplan_movers::recordings;
@@ -40,8 +39,7 @@ impl Overlap {
 /// The strokes that may overlap with a motion.
 struct Strokes<'a> {
     stroke: &'a Stroke,
-    scene: Scene,
-    lifts_payload: bool,
+    scene: ArchScene,
     /// Duration of the motion, in seconds.
     seconds: f64,
     /// Depth from which the tool rises. `None` if it is already raised.
@@ -58,8 +56,8 @@ impl Strokes<'_> {
     }
 
     fn during(&self, ends: [f64; 2], begin: f64) -> StrokeDuringMotion<'_> {
-        let Self { scene, lifts_payload, stroke, .. } = self;
-        StrokeDuringMotion { scene, lifts_payload: *lifts_payload, stroke, ends, begin }
+        let Self { scene, stroke, .. } = self;
+        StrokeDuringMotion { scene, stroke, ends, begin }
     }
 
     /// Returns the raising whose last `overlap` seconds are in the motion.
@@ -91,14 +89,14 @@ pub(super) fn overlap(
     let depth = |object: usize| tool.depth(&task.objects[object]);
     let sinks_to = candidate.event.filter(|_| stroke.is_some() && !candidate.turns_before_stroke());
     let touched = from.released.into_iter().chain(candidate.step.action.picked());
-    let (scene, lifts_payload) = task.arch_scene(tool, &from.poses, from.held.as_ref(), touched);
+    let (rises_from, sinks_to) = (from.rising.map(depth), sinks_to.map(|event| depth(event.object())));
+    let deepest = rises_from.into_iter().chain(sinks_to).fold(0.0, f64::max);
     let strokes = Strokes {
         stroke: tool,
-        scene,
-        lifts_payload,
+        scene: task.arch_scene((tool, deepest), &from.poses, from.held.as_ref(), touched),
         seconds: motion.trajectory.duration(),
-        rises_from: from.rising.map(depth),
-        sinks_to: sinks_to.map(|event| depth(event.object())),
+        rises_from,
+        sinks_to,
     };
     let Some([cubic, quartic]) = recordings(&motion.trajectory) else { return Overlap::NONE };
     let required = task.workspace.fixed.clearance;

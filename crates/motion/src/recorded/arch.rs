@@ -1,10 +1,10 @@
 //! Strokes of the tool during motions of the arm.
 
-use super::{CollisionCheck, check_collision_with, is_free_with};
+use super::CollisionCheck;
+use super::collision::{check_stroke, keeps_during_stroke};
 use crate::single;
-use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
-use cplan_handling::{HeldEffect, HeldJoint, HeldMotion, Recording, Stroke, TimedScene};
+use cplan_handling::{ArchScene, HeldEffect, HeldJoint, HeldMotion, Recording, Stroke};
 
 /// Least time between two samples at which a motion and a stroke are joined, seconds. A stroke changes its acceleration
 /// at most this long after a sample, so it deviates from its profile by less than rounding.
@@ -13,10 +13,8 @@ const MIN_GAP: f64 = 1e-7;
 /// A stroke that begins or ends during a motion of the arm.
 #[derive(Debug, Clone)]
 pub struct StrokeDuringMotion<'a> {
-    /// The scene during the motion, with the tool raised; see [`cplan_handling::Task::arch_scene`].
-    pub scene: &'a Scene,
-    /// True if the payload follows the tool.
-    pub lifts_payload: bool,
+    /// The scenes during the motion.
+    pub scene: &'a ArchScene,
     /// The stroke's joint, and its limits.
     pub stroke: &'a Stroke,
     /// The joint's values at both ends, metres.
@@ -67,26 +65,22 @@ impl StrokeDuringMotion<'_> {
             bodies: self.stroke.bodies.clone(),
         };
         let values = profile.resampled(&times);
-        Some((motion.resampled(&times), HeldMotion { joint, values, lifts_payload: self.lifts_payload }))
+        Some((motion.resampled(&times), HeldMotion { joint, values, lifts_payload: self.scene.lifts_payload }))
     }
 
-    /// Returns true if the arm is quickly proven to keep at least `clearance` metres during the stroke, at the heights of
-    /// each moment. Also true if the stroke and the motion do not overlap.
+    /// Returns true if parts that the stroke lowers are quickly proven to keep at least `clearance` metres during it, at the
+    /// heights of each moment. Also true if the stroke and the motion do not overlap. Pairs of shapes that meet while the
+    /// tool is raised, too, are not checked: their distances do not depend on the stroke.
     #[must_use]
     pub fn keeps(&self, motion: &Recording, clearance: f64) -> bool {
-        self.overlap(motion).is_none_or(|(motion, held)| is_free_with(self.timed(), &motion, &[held], clearance))
+        self.overlap(motion).is_none_or(|(motion, held)| keeps_during_stroke(self.scene, &motion, &held, clearance))
     }
 
-    /// Checks the arm during the stroke, at the heights of each moment. `None` if the stroke and the motion do not
-    /// overlap.
+    /// Checks the same pairs of shapes as [`StrokeDuringMotion::keeps`]. `None` if the stroke and the motion do not overlap.
     #[must_use]
     pub fn check(&self, motion: &Recording) -> Option<CollisionCheck> {
         let (motion, held) = self.overlap(motion)?;
-        Some(check_collision_with(self.timed(), &motion, &[held], self.scene.workspace().clearance))
-    }
-
-    fn timed(&self) -> TimedScene<'_> {
-        TimedScene { scene: self.scene, trajectories: &[] }
+        Some(check_stroke(self.scene, &motion, &held, self.scene.raised.workspace().clearance))
     }
 }
 

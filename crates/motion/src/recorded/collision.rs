@@ -6,7 +6,7 @@ use cplan_core::check::{Deviation, Drift, Posture, SeparationBound};
 use cplan_core::model::{Contact, Pair};
 use cplan_core::space::Configuration;
 use cplan_geometry::Separation;
-use cplan_handling::{HeldMotion, Piece, Recording, TimedScene};
+use cplan_handling::{ArchScene, HeldMotion, Piece, Recording, TimedScene};
 use cplan_interrupt::checkpoint;
 use std::borrow::Cow;
 
@@ -113,28 +113,47 @@ pub fn check_collision_with(
     clearance: f64,
 ) -> CollisionCheck {
     let tool = ToolMotion::new(scene.scene, held);
+    let pairs = all_pairs(TimedScene { scene: tool.scene(), ..scene }, recording);
+    check_with_tool(scene, recording, (&tool, &pairs), clearance)
+}
+
+/// Checks a motion during a stroke of the tool, as [`check_collision_with`] does. Checks only pairs that do not meet
+/// while the tool is raised.
+pub(super) fn check_stroke(
+    scene: &ArchScene,
+    recording: &Recording,
+    held: &HeldMotion,
+    clearance: f64,
+) -> CollisionCheck {
+    let timed = TimedScene { scene: &scene.raised, trajectories: &[] };
+    check_with_tool(timed, recording, (&ToolMotion::of_stroke(scene, held), &scene.lowered_pairs), clearance)
+}
+
+fn check_with_tool(
+    scene: TimedScene,
+    recording: &Recording,
+    (tool, pairs): (&ToolMotion, &[Pair]),
+    clearance: f64,
+) -> CollisionCheck {
     let pieces = recording.pieces();
     let scene = TimedScene { scene: tool.scene(), ..scene };
-    let pairs = all_pairs(scene, recording);
-    let mut search = Search::new(scene, &pairs, &pieces, clearance);
-    search.tool = Some(&tool);
+    let mut search = Search::new(scene, pairs, &pieces, clearance);
+    search.tool = Some(tool);
     search.sample_motion();
     search.run();
     search.verdict()
 }
 
-/// Greatest number of checks of a pair of shapes on a span in [`is_free_with`]. They take a few milliseconds.
+/// Greatest number of checks of a pair of shapes on a span in [`keeps_during_stroke`]. They take a few milliseconds.
 const TRIAL_EVALUATIONS: usize = 4_000;
 
-/// Returns true if a motion is proven to keep its clearance while other joints move. Gives up at the first contact, and
-/// after few checks, so it is faster than [`check_collision_with`].
-#[must_use]
-pub fn is_free_with(scene: TimedScene, recording: &Recording, held: &[HeldMotion], clearance: f64) -> bool {
-    let tool = ToolMotion::new(scene.scene, held);
+/// Returns true if the pairs of [`check_stroke`] are proven to keep a clearance during a stroke of the tool. Gives up at
+/// the first contact, and after few checks, so it is faster than that.
+pub(super) fn keeps_during_stroke(scene: &ArchScene, recording: &Recording, held: &HeldMotion, clearance: f64) -> bool {
+    let tool = ToolMotion::of_stroke(scene, held);
     let pieces = recording.pieces();
-    let scene = TimedScene { scene: tool.scene(), ..scene };
-    let pairs = all_pairs(scene, recording);
-    let mut search = Search::new(scene, &pairs, &pieces, clearance);
+    let timed = TimedScene { scene: tool.scene(), trajectories: &[] };
+    let mut search = Search::new(timed, &scene.lowered_pairs, &pieces, clearance);
     (search.tool, search.tightness, search.budget, search.is_trial) = (Some(&tool), 0.0, TRIAL_EVALUATIONS, true);
     search.run();
     matches!(search.verdict(), CollisionCheck::Free { .. })

@@ -21,9 +21,7 @@ mod wrist;
 pub use arch::{StrokeDuringMotion, seconds_to_rise};
 pub use claims::{FalseClaim, false_claims, false_step_claims, false_task_claims};
 pub use collision::first_moving_contact;
-pub use collision::{
-    CollisionCheck, Encounter, Moment, certify_in_time, check_collision, check_collision_with, is_free_with,
-};
+pub use collision::{CollisionCheck, Encounter, Moment, certify_in_time, check_collision, check_collision_with};
 pub use ends::{END_TOLERANCE, EndpointError, endpoint_errors};
 pub use limits::{Limit, LimitViolation, limit_violations, torque_violations};
 pub use replay::{Fault, GripperEvent, OrderDeviation, Replay, ReplayedStep, ReplayedTurn, replay};

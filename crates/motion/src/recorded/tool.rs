@@ -9,7 +9,8 @@ use crate::{Place, Span};
 use cplan_core::check::Deviation;
 use cplan_core::model::{Heights, OutlineSource, Pair, Part, Scene};
 use cplan_geometry::{Convex, Point};
-use cplan_handling::{HeldEffect, HeldMotion, Piece};
+use cplan_handling::{ArchScene, HeldEffect, HeldMotion, Piece};
+use std::borrow::Cow;
 
 /// Greatest distance of the centre of a round part from its axis of rotation, metres. It allows for rounding.
 const AXIS_TOLERANCE: f64 = 1e-9;
@@ -44,10 +45,10 @@ pub(super) struct ToolMotion<'a> {
     /// Index among link 2's parts of the bar from joint 2 to the tip, if it has one. One end of a bar moves with the tip.
     bar: Option<usize>,
     /// The scene with parts at the heights of the held joints, and with discs in place of parts that turn.
-    still: Scene,
+    still: Cow<'a, Scene>,
     /// The scene with parts at all heights that they take during the motion, and with the pairs that meet at some of
     /// them.
-    swept: Scene,
+    swept: Cow<'a, Scene>,
     /// For each part of both links, true if its shape covers more than the part, as a disc for a turning part does.
     covers: [Vec<bool>; 2],
 }
@@ -106,7 +107,17 @@ impl<'a> ToolMotion<'a> {
             }),
             None => swept,
         };
-        Self { lifts, bar, still, swept, covers }
+        Self { lifts, bar, still: Cow::Owned(still), swept: Cow::Owned(swept), covers }
+    }
+
+    /// Creates a motion of the joint that lowers the tool, in scenes that are already known.
+    pub fn of_stroke(scene: &'a ArchScene, HeldMotion { joint, values, lifts_payload }: &'a HeldMotion) -> Self {
+        let ArchScene { raised, swept, .. } = scene;
+        let sign = if let HeldEffect::Lifts { sign } = joint.effect { sign } else { 0.0 };
+        let (pieces, lifts_payload) = (values.pieces(), *lifts_payload);
+        let lifts = vec![Lift { pieces, rest: joint.value, sign, bodies: &joint.bodies, lifts_payload }];
+        let covers = raised.arm().links.each_ref().map(|link| vec![false; link.parts.len()]);
+        Self { lifts, bar: bar_of(raised), still: Cow::Borrowed(raised), swept: Cow::Borrowed(swept), covers }
     }
 
     /// Returns the scene with all pairs that meet at some time.

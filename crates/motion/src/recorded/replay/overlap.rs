@@ -69,15 +69,17 @@ impl Overlaps {
     ) -> Option<(Scene, CollisionCheck)> {
         let tool = task.stroke.as_ref()?;
         let times = motion.times()?;
-        let (scene, lifts_payload) = state.arch_scene(task, tool, picked);
+        let depth = |stroke: PartialStroke| tool.depth(&task.objects[stroke.object]);
+        let deepest = self.all().map(depth).fold(0.0, f64::max);
+        let scene = state.arch_scene(task, (tool, deepest), picked);
         let during = |stroke: PartialStroke, is_raising: bool| {
-            let lowered = tool.lowered(tool.depth(&task.objects[stroke.object]));
+            let lowered = tool.lowered(depth(stroke));
             let seconds = lowering_seconds(task, stroke.object);
             let (ends, begin) = match is_raising {
                 true => ([lowered, tool.joint.rest], times[0] + stroke.overlap - seconds),
                 false => ([tool.joint.rest, lowered], times[times.len() - 1] - stroke.overlap),
             };
-            let stroke = StrokeDuringMotion { scene: &scene, lifts_payload, stroke: tool, ends, begin };
+            let stroke = StrokeDuringMotion { scene: &scene, stroke: tool, ends, begin };
             let keeps = clearance.is_finite() && stroke.keeps(motion, clearance);
             if keeps { None } else { stroke.check(motion) }
         };
@@ -101,6 +103,6 @@ impl Overlaps {
             CollisionCheck::Collision { first, deepest, .. } => [first, deepest].into_iter().for_each(renumber),
             CollisionCheck::Undecided(nearest) => renumber(nearest),
         }
-        Some((scene, check))
+        Some((scene.swept, check))
     }
 }

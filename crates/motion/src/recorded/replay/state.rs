@@ -5,7 +5,9 @@ use super::{Fault, PLACE_TOLERANCE, ReplayedTurn, TIME_TOLERANCE, angle_between}
 use cplan_core::model::{Grip, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
-use cplan_handling::{Action, Holding, Object, ObstacleTrajectory, Payload, RecordedTurn, Step, Stroke, Task};
+use cplan_handling::{
+    Action, ArchScene, Holding, Object, ObstacleTrajectory, Payload, RecordedTurn, Step, Stroke, Task,
+};
 
 /// The places of the objects, and the load.
 #[derive(Debug, Clone)]
@@ -110,9 +112,8 @@ impl State {
         task.lowered_scene(payload.object, is_placed, &self.poses, Some(payload), self.released)
     }
 
-    /// Returns the scene for a stroke during a motion, and whether the payload follows the tool: see
-    /// [`Task::arch_scene`].
-    pub fn arch_scene(&self, task: &Task, stroke: &Stroke, touched: Option<usize>) -> (Scene, bool) {
+    /// Returns the scenes for strokes down to a depth during a motion: see [`Task::arch_scene`].
+    pub fn arch_scene(&self, task: &Task, stroke: (&Stroke, f64), touched: Option<usize>) -> ArchScene {
         task.arch_scene(stroke, &self.poses, self.held.as_ref(), self.released.into_iter().chain(touched))
     }
 
