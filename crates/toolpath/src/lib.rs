@@ -33,6 +33,7 @@
 
 mod arc;
 mod curve;
+mod cusps;
 mod error;
 mod gcode;
 mod path;

@@ -1,6 +1,7 @@
 //! A line in pieces.
 
 use crate::curve::{minus, norm};
+use crate::cusps;
 use crate::{Curve, Error, Point};
 
 /// Greatest number of pieces of a line. A line with more is refused.
@@ -51,7 +52,8 @@ pub struct Toolpath {
 }
 
 impl Toolpath {
-    /// Creates a line. Pieces without a length are omitted.
+    /// Creates a line. Pieces without a length are omitted. Cubic curves are cut where they turn back in a cusp, or almost
+    /// do, so that these places are ends of pieces.
     ///
     /// # Errors
     /// If no piece has a length, if a piece does not begin where the one before it ends, if there are more than
@@ -71,9 +73,8 @@ impl Toolpath {
                 let message = "this piece does not begin where the one before it ends";
                 return Err(Error::new(line, column, message, "join the pieces by a travel"));
             }
-            if piece.curve.length() > 0.0 {
-                kept.push(piece);
-            }
+            let parts = cusps::parts(&piece.curve).into_iter().filter(|curve| curve.length() > 0.0);
+            kept.extend(parts.map(|curve| Piece { curve, ..piece }));
         }
         if kept.len() > MAX_PIECES {
             let hint = "split the file into several";

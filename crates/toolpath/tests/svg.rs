@@ -80,3 +80,21 @@ fn broken_and_empty_drawings_are_refused() {
     assert!(error.line == Some(2) && error.to_string().starts_with("path data:"), "{error:?}");
     assert_eq!(refuse("G0 X0").line, Some(1));
 }
+
+/// The control points cross over, so the curve turns back in a cusp at its middle, at (40, 77.5) of the page.
+#[test]
+fn cubics_are_cut_at_their_cusps() {
+    let path = drawing("<path d=\"M 30 70 C 50 80 30 80 50 70\" fill=\"none\"/>");
+    let [first, second] = path.pieces() else { panic!("two pieces: {:?}", path.pieces()) };
+    assert!(near(first.curve.end(), [0.04, 0.0225]) && first.curve.end() == second.curve.start());
+    assert!(near(second.curve.end(), [0.05, 0.03]));
+    // Both parts together are the whole curve: halves of the parameter.
+    let whole = Curve::Cubic([[0.03, 0.03], [0.05, 0.02], [0.03, 0.02], [0.05, 0.03]]);
+    for k in 0..=20 {
+        let u = f64::from(k) / 20.0;
+        let part = if u <= 0.5 { first.curve.at(2.0 * u) } else { second.curve.at(2.0 * u - 1.0) };
+        assert!(near(part, whole.at(u)), "{u}");
+    }
+    let smooth = drawing("<path d=\"M 30 70 C 40 80 50 80 60 70\" fill=\"none\"/>");
+    assert_eq!(smooth.pieces().len(), 1);
+}

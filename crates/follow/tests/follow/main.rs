@@ -244,6 +244,37 @@ fn jerks_are_limited() {
     assert!(found.timed.trajectory.duration() < 6.0, "{}", found.timed.trajectory.duration());
 }
 
+/// Arms that slide along one axis or both, with their kinematics written out: the tip for joint values.
+#[test]
+fn arms_that_slide_follow_lines() {
+    type Tip = fn(Point) -> Point;
+    let slide = |name: &str, direction: Point| Joint::sliding(name, direction.into(), -1.5, 1.5).at_most(1.0, 5.0);
+    let turn = |name: &str| Joint::turning(name, -3.0, 3.0).at_most(2.0, 10.0);
+    let arms: [([Joint; 2], Tip); 3] = [
+        ([turn("turn"), slide("slide", [1.0, 0.0])], |[a, b]| [(1.4 + b) * a.cos(), (1.4 + b) * a.sin()]),
+        ([slide("slide", [1.0, 0.0]), turn("turn")], |[a, b]| [a + 0.8 + 0.6 * b.cos(), 0.6 * b.sin()]),
+        ([slide("x", [1.0, 0.0]), slide("y", [0.0, 1.0])], |[a, b]| [a + 1.4, b]),
+    ];
+    let line = line("G0 X900 Y0\nG1 X1100 Y150\nG2 X1300 Y150 R150\nG1 X1200 Y-200\nX1000 Y-150");
+    for (joints, tip) in arms {
+        let links = [Link::bar("first", 0.8, 0.06), Link::bar("second", 0.6, 0.06)].map(|link| link.expect("a link"));
+        let arm = Arm::new(joints, links, [0.8, 0.6]);
+        let scene = Scene::new(arm, Workspace::new([block("crate", [0.9, 0.75], [0.3, 0.3])])).expect("a scene");
+        let settings = Settings::default();
+        let found = self::found(&scene, &line, &settings);
+        let step = settings.tolerance / 8.0;
+        // These bars only bound the speed of the tip.
+        let bars = Bars { lengths: [3.0, 1.0], width: 0.0 };
+        let tips: Vec<Point> =
+            played(&bars, &found.timed.trajectory, step).iter().map(|state| tip(state.position)).collect();
+        assert!(pass_together(&tips, &points(&line, step), found.deviation + step), "{}", scene.arm().kind());
+        let away = self::line("G0 X900 Y0\nG1 X900 Y3500");
+        let proof = infeasible(&scene, &away);
+        let beyond = matches!(proof.cause, Cause::OutOfReach { .. } | Cause::Excluded(_) | Cause::NoChange(_));
+        assert!(beyond && proof.place.source.line == 2, "{}: {proof:?}", scene.arm().kind());
+    }
+}
+
 #[test]
 fn unusable_settings_are_refused() {
     let (scene, line) = (scene_of(BARS, 3.0, vec![]), line("G0 X900 Y0\nG1 X1000"));

@@ -157,7 +157,7 @@ fn random_lines_have_no_false_answer() {
             Outcome::Unknown(why) => {
                 answers[2] += 1;
                 undecided += u64::from(passes);
-                assert!(!why.is_empty());
+                assert!(!why.is_empty(), "{seed}");
             }
         }
     }
