@@ -53,6 +53,8 @@ pub enum Kind {
     Pp,
     /// The cell of `cplan demo`, a SCARA among six obstacles.
     Scara,
+    /// The pick-and-place cycle of `cplan demo --kind arch`.
+    Arch,
 }
 
 /// Texts that replace the marks of the template.
@@ -178,7 +180,7 @@ impl Kind {
             Kind::Rp => include_str!("starter/rp.urdf"),
             Kind::Pr => include_str!("starter/pr.urdf"),
             Kind::Pp => include_str!("starter/pp.urdf"),
-            Kind::Scara => demo::DEMO_ROBOT,
+            Kind::Scara | Kind::Arch => demo::DEMO_ROBOT,
         }
     }
 
@@ -189,14 +191,16 @@ impl Kind {
             Kind::Rp => RP_MARKS.world(),
             Kind::Pr => PR_MARKS.world(),
             Kind::Pp => PP_MARKS.world(),
-            Kind::Scara => {
-                // Lines that only the tests of the shipped worlds need are removed.
-                let lines =
-                    demo::DEMO_WORLD.lines().filter(|l| !l.starts_with("# robot:") && !l.starts_with("# expect:"));
-                lines.fold(format!("#:schema ./{SCHEMA_FILE}\n"), |text, line| text + line + "\n")
-            }
+            Kind::Scara => shipped(demo::DEMO_WORLD),
+            Kind::Arch => shipped(demo::ARCH_WORLD),
         }
     }
+}
+
+/// Returns a shipped world without the lines that only the tests of shipped worlds need.
+fn shipped(world: &str) -> String {
+    let lines = world.lines().filter(|line| !line.starts_with("# robot:") && !line.starts_with("# expect:"));
+    lines.fold(format!("#:schema ./{SCHEMA_FILE}\n"), |text, line| text + line + "\n")
 }
 
 /// Writes the files, and prints further commands to try.

@@ -76,7 +76,7 @@ pub struct ArchScene {
     pub raised: Scene,
     /// The scene with all heights of the stroke. Parts and obstacles have the same numbers in both.
     pub swept: Scene,
-    /// The pairs that meet only while the tool is not raised. The others keep their distance whatever its height.
+    /// The pairs that meet only while the tool is not raised. The distance of all other pairs does not depend on its height.
     pub lowered_pairs: Vec<Pair>,
     /// True if the payload follows the tool. Otherwise it has all its heights from lying to carried in both scenes.
     pub lifts_payload: bool,

@@ -76,7 +76,8 @@ pub(super) fn smoothed(
     let curve = blend(scene, path, greatest, scene.workspace().clearance);
     // The extent of a rounding is never greater than the longest leg.
     let most = path.path().segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max).min(greatest);
-    smoothed_along(scene, &curve, most, limits, period, below, retimes, &|_| Vec::new())
+    let required = Requirements { most, below, retimes, too_far: &|_| Vec::new() };
+    smoothed_along(scene, &curve, (limits, period), &required)
 }
 
 /// Returns the fastest motion found along a curve within the limits on jerks. Every corner whose pieces are among the
@@ -89,20 +90,28 @@ pub(super) fn time_smoothly(
     period: f64,
     too_far: &dyn Fn(&[Piece]) -> Vec<usize>,
 ) -> Option<TimedMotion> {
-    smoothed_along(scene, curve, f64::INFINITY, limits, period, f64::INFINITY, true, too_far)
+    let required = Requirements { most: f64::INFINITY, below: f64::INFINITY, retimes: true, too_far };
+    smoothed_along(scene, curve, (limits, period), &required)
 }
 
-/// Does the work of [`smoothed`] and [`time_smoothly`]. `most` is the greatest extent of a rounding.
-#[allow(clippy::too_many_arguments)]
+/// Requirements for a smooth motion.
+struct Requirements<'a> {
+    /// Greatest extent of a rounding.
+    most: f64,
+    /// The motion must be shorter than this, in seconds.
+    below: f64,
+    /// True if the motion is finally driven along its own curve in the least time.
+    retimes: bool,
+    /// Returns the indices of the pieces whose corners must be passed more slowly.
+    too_far: &'a dyn Fn(&[Piece]) -> Vec<usize>,
+}
+
+/// Does the work of [`smoothed`] and [`time_smoothly`].
 fn smoothed_along(
     scene: &Scene,
     blended: &CertifiedCurve,
-    most: f64,
-    limits: Limits,
-    period: f64,
-    below: f64,
-    retimes: bool,
-    too_far: &dyn Fn(&[Piece]) -> Vec<usize>,
+    (limits, period): (Limits, f64),
+    &Requirements { most, below, retimes, too_far }: &Requirements,
 ) -> Option<TimedMotion> {
     let mut curve = blended.curve().clone();
     let rounding = Rounding::new(scene, blended.straight(), scene.workspace().clearance);

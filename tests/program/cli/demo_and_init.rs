@@ -39,6 +39,21 @@ fn the_demo_needs_no_files() {
     assert_eq!(planned.stdout, place.read("plan.json"));
 }
 
+/// Checks the built-in cycle of a SCARA: its files are those of `init`, and each stroke overlaps with motions of the arm.
+#[test]
+fn the_demo_of_arch_motions_is_a_task() {
+    let place = Place::new();
+    let done = place.run(&["demo"], "--kind arch");
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    assert!(done.stdout.contains("found and certified: 6 steps"), "{}", done.stdout);
+    let result: serde_json::Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+    let steps = result["steps"].as_array().unwrap();
+    assert!(steps.iter().all(|step| step["stroke"]["before_arrival"].as_f64().unwrap() > 0.1), "{steps:?}");
+    assert_eq!(init(&place, "arch").code, 0);
+    let verified = place.run(&["verify", "arch/arm.urdf", "arch/world.toml", "plan.json"], "");
+    assert_eq!(verified.code, 0, "{}", verified.stdout);
+}
+
 #[test]
 fn the_demo_does_not_overwrite_files() {
     let place = Place::new();

@@ -149,7 +149,10 @@ fn ros_messages_and_pages_are_written() {
 fn defects_of_the_line_have_their_place_and_a_hint() {
     let place = Place::new();
     let done = follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200 Z-2\n", "");
-    done.refused(1, &["line.gcode: line 2, column 10: Z-2 moves the tip out of the plane", "hint: the arm moves in a plane"]);
+    done.refused(
+        1,
+        &["line.gcode: line 2, column 10: Z-2 moves the tip out of the plane", "hint: the arm moves in a plane"],
+    );
     let done = follow_program(&place, "G21\nM3 S1000\n", "--json");
     let error = done.json();
     assert_eq!(

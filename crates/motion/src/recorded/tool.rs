@@ -177,7 +177,7 @@ impl<'a> ToolMotion<'a> {
     }
 }
 
-/// Returns the index of the bar from joint 2 to the tip among link 2's parts. `None` if there is none.
+/// Returns the index of the bar from joint 2 to the tip among link 2's parts, or `None` without a bar.
 fn bar_of(scene: &Scene) -> Option<usize> {
     let is_bar = scene.arm().links[1].source == OutlineSource::Bar;
     scene.own_parts(1).len().checked_sub(1).filter(|_| is_bar)
