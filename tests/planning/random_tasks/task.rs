@@ -156,7 +156,9 @@ pub fn with_arches(seed: u64) -> Task {
     let arch =
         Arch { rise: if dice.chance(0.3) { 0.05 } else { 0.0 }, fall: if dice.chance(0.3) { 0.03 } else { 0.0 } };
     let (velocity, acceleration, bodies) = (0.6, 4.0, vec!["tool".into()]);
-    task.stroke = Some(Stroke { joint, travel: None, velocity, acceleration, bodies, arch: Some(arch) });
+    // With another travel than the lift, the load's height during strokes is known only within bounds.
+    let travel = dice.chance(0.3).then_some(0.8 * DEPTH);
+    task.stroke = Some(Stroke { joint, travel, velocity, acceleration, bodies, arch: Some(arch) });
     task
 }
 
