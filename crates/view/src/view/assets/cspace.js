@@ -416,7 +416,7 @@ const CSpace = (() => {
     if (view.isPlain) Labels.blockSpot(panel, place(view, panel, view.beginning()), 10);
     else ends(context, panel, view);
     if (view.isTask && !view.isPlain) {
-      const ends = view.pathsHere().map((path) => [`step ${path.step}`, Labels.about(place(view, panel, path.points.slice(-2)), 7)]);
+      const ends = view.pathsWithNames().map((path) => [`step ${path.step}`, Labels.about(place(view, panel, path.points.slice(-2)), 7)]);
       Labels.beside(context, panel, ends);
     }
     obstacleNames(context, panel, view, world);

@@ -312,6 +312,15 @@ class View {
     return this.model.paths.filter((path) => path.world === world);
   }
 
+  /** Returns the paths of the current world of which each ends elsewhere, or with another step, than those before. */
+  pathsWithNames() {
+    const seen = new Set();
+    return this.pathsHere().filter(({ step, points }) => {
+      const end = [step, ...points.slice(-2)].join();
+      return !seen.has(end) && seen.add(end);
+    });
+  }
+
   /** Returns the configuration in which the current content begins. */
   beginning() {
     const { clock, start } = this.model;

@@ -89,7 +89,7 @@ const Workspace = (() => {
     const { arm: model } = view.model;
     const beyond = (text, q) => [text, Labels.beyond(context, panel, text, panel.at(tipAt(model, q)), panel.at(elbowAt(model, q)))];
     if (view.isTask && !view.isPlain) {
-      for (const path of view.pathsHere()) shown.push(beyond(`step ${path.step}`, path.points.slice(-2)));
+      for (const path of view.pathsWithNames()) shown.push(beyond(`step ${path.step}`, path.points.slice(-2)));
     } else if (view.shows('poses') && view.isMotion) {
       for (const q of view.ends()) shown.push(beyond('goal', q));
       shown.push(beyond('start', view.beginning()));
