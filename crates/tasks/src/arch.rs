@@ -111,34 +111,42 @@ pub(super) fn overlap(
         raising = round_down(raising - excess * raising / (raising + lowering)).max(0.0);
         lowering = round_down(strokes.seconds - raising).min(lowering);
     }
-    let clearance_of = |stroke: Option<StrokeDuringMotion>| {
-        let Some(stroke) = stroke else { return Some(f64::INFINITY) };
-        // Usually the strokes keep as far from obstacles as the raised tool, which is quick to prove.
-        let of_motion = motion.curve.clearance();
-        let clearance = |motion| {
-            if of_motion.is_finite() && stroke.keeps(motion, of_motion) {
-                return Some(of_motion);
-            }
-            match stroke.check(motion) {
-                None => Some(f64::INFINITY),
-                Some(CollisionCheck::Free { clearance, .. }) => Some(clearance),
-                Some(_) => None,
-            }
-        };
-        let is_curved = motion.curve.curve().radii().iter().any(|radius| *radius > 0.0);
-        let of_cubic = clearance(&cubic)?;
-        if is_curved { Some(of_cubic.min(clearance(&quartic)?)) } else { Some(of_cubic) }
-    };
     let mut clearance = f64::INFINITY;
-    match clearance_of(strokes.raising(raising)) {
+    match clearance_during(strokes.raising(raising), motion, &[&cubic, &quartic]) {
         Some(found) => clearance = clearance.min(found),
         None => raising = 0.0,
     }
-    match clearance_of(strokes.lowering(lowering)) {
+    match clearance_during(strokes.lowering(lowering), motion, &[&cubic, &quartic]) {
         Some(found) => clearance = clearance.min(found),
         None => lowering = 0.0,
     }
     Overlap { raising, lowering, clearance }
+}
+
+/// Returns a proven lower bound, in metres, on the distance to obstacles during a stroke, for both interpolations of a
+/// motion. Infinite if there is no stroke. Returns `None` if the motion is not proven free.
+fn clearance_during(
+    stroke: Option<StrokeDuringMotion>,
+    motion: &TimedMotion,
+    [cubic, quartic]: &[&Recording; 2],
+) -> Option<f64> {
+    let Some(stroke) = stroke else { return Some(f64::INFINITY) };
+    // Usually the strokes keep as far from obstacles as the raised tool, which is quick to prove.
+    let of_motion = motion.curve.clearance();
+    let clearance = |recording: &Recording| {
+        if of_motion.is_finite() && stroke.keeps(recording, of_motion) {
+            return Some(of_motion);
+        }
+        match stroke.check(recording) {
+            None => Some(f64::INFINITY),
+            Some(CollisionCheck::Free { clearance, .. }) => Some(clearance),
+            Some(_) => None,
+        }
+    };
+    // Without blends, both interpolations are the same motion.
+    let is_curved = motion.curve.curve().radii().iter().any(|radius| *radius > 0.0);
+    let of_cubic = clearance(cubic)?;
+    if is_curved { Some(of_cubic.min(clearance(quartic)?)) } else { Some(of_cubic) }
 }
 
 /// Returns the longest overlap up to `most` seconds that is free, within the accuracy of [`HALVINGS`].
