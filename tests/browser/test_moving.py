@@ -66,7 +66,7 @@ def test_the_motion_passes_between_the_blocked_regions(program, show_file):
         progress = strip["motion"][1::2]
         assert progress == sorted(progress) and (progress[0], progress[-1]) == (0, 1)
         for wait in strip["waits"]:
-            ends = [seen.do("(t) => Strip.progress(cplan.model.strip, t)", wait[end]) for end in ("from", "to")]
+            ends = [seen.do("(t) => Timeline.valueAt(cplan.model.strip.motion, t)", wait[end]) for end in ("from", "to")]
             assert math.isclose(*ends, abs_tol=5e-3) and math.isclose(ends[0], wait["at"], abs_tol=5e-3)
         # No place of the motion lies clearly within a region that an obstacle blocks.
         inside = """(margin) => {
@@ -80,7 +80,7 @@ def test_the_motion_passes_between_the_blocked_regions(program, show_file):
           let count = 0;
           for (let k = 0; k <= 400; k += 1) {
             const t = (k / 400) * duration;
-            const p = Strip.progress(cplan.model.strip, t);
+            const p = Timeline.valueAt(cplan.model.strip.motion, t);
             if ([-1, 1].every((s) => blocked(t + s * margin, p))) count += 1;
           }
           return count;
@@ -105,7 +105,7 @@ def test_the_height_of_the_tool_is_shown_in_time(program, show_file):
     canvas = seen.page.locator(".height canvas")
     assert canvas.is_visible() and "from -150 to -125 mm" in canvas.get_attribute("aria-label")
     # The tool is down when the gripper acts, and in between it is up at least once.
-    at = lambda time: seen.do("(time) => Height.valueAt(cplan.model.height, time)", time)
+    at = lambda time: seen.do("(time) => Timeline.valueAt(cplan.model.height.motion, time)", time)
     times = [event["time"] for event in plan["events"]]
     assert all(math.isclose(at(time), -150, abs_tol=0.1) for time in times)
     for before, after in zip(times, times[1:]):

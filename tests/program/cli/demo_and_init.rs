@@ -52,6 +52,20 @@ fn the_demo_of_arch_motions_is_a_task() {
     assert_eq!(init(&place, "arch").code, 0);
     let verified = place.run(&["verify", "arch/arm.urdf", "arch/world.toml", "plan.json"], "");
     assert_eq!(verified.code, 0, "{}", verified.stdout);
+    // The book compares this cycle with the one in which the arm rests during strokes.
+    let world = place.read("arch/world.toml").replace("arch = { rise = 0.0, fall = 0.0 }", "arch = false");
+    place.write("arch/resting.toml", &world);
+    let resting = place.run(&["arch/arm.urdf", "arch/resting.toml"], "--json --quiet");
+    let resting: serde_json::Value = serde_json::from_str(&resting.stdout).unwrap();
+    let page = include_str!("../../../docs/arch_motions.md");
+    let cycle = |result: &serde_json::Value| {
+        let time = |event: usize| result["events"][event]["time"].as_f64().unwrap();
+        time(4) - time(2)
+    };
+    assert!(cycle(&result) < 0.8 * cycle(&resting), "{} {}", cycle(&result), cycle(&resting));
+    let row = format!("| {:.3} s | {:.3} s |", cycle(&resting), cycle(&result));
+    let whole = format!("takes {:.3} s", resting["duration"].as_f64().unwrap());
+    assert!(page.contains(&row) && page.contains(&whole), "docs/arch_motions.md: {row} {whole}");
 }
 
 #[test]

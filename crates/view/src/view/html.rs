@@ -6,7 +6,7 @@ use cplan_text::markup;
 const STYLE: &str = include_str!("assets/view.css");
 
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 36] = [
+const SCRIPTS: [&str; 37] = [
     include_str!("assets/element.js"),
     include_str!("assets/icons.js"),
     include_str!("assets/settings.js"),
@@ -22,6 +22,7 @@ const SCRIPTS: [&str; 36] = [
     include_str!("assets/workspace.js"),
     include_str!("assets/cspace.js"),
     include_str!("assets/plots.js"),
+    include_str!("assets/timeline.js"),
     include_str!("assets/strip.js"),
     include_str!("assets/height.js"),
     include_str!("assets/contact.js"),

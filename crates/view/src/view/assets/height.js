@@ -6,19 +6,6 @@ const Height = (() => {
   const ROOM = 0.15;
 
   /**
-   * Returns the value of the joint at a time.
-   * @param {HeightModel} height
-   * @param {number} time in seconds
-   * @returns {number} in millimetres
-   */
-  function valueAt({ motion }, time) {
-    let next = 2;
-    while (next + 2 < motion.length && motion[next] < time) next += 2;
-    const [from, low, to, high] = motion.slice(next - 2, next + 2);
-    return low + (high - low) * Math.min(1, Math.max(0, (time - from) / Math.max(to - from, 1e-9)));
-  }
-
-  /**
    * @param {CanvasRenderingContext2D} context
    * @param {Panel} panel
    * @param {HeightModel} height
@@ -26,24 +13,6 @@ const Height = (() => {
   function draw(context, panel, { motion }) {
     [context.lineWidth, context.strokeStyle] = [2, panel.theme.ink];
     line(context, [...Geometry.pointsOf(motion)].map((point) => panel.at(point)));
-  }
-
-  /**
-   * Draws the current time, and the tool at its height.
-   * @param {CanvasRenderingContext2D} context
-   * @param {Panel} panel
-   * @param {View} view
-   */
-  function cursor(context, panel, view) {
-    const { rect, theme } = panel;
-    const [x, y] = panel.at([view.time, valueAt(view.model.height, view.time)]);
-    [context.lineWidth, context.strokeStyle] = [1.5, theme.accent];
-    line(context, [[x, rect.y], [x, rect.y + rect.height]]);
-    context.beginPath();
-    context.arc(x, y, 5, 0, 2 * Math.PI);
-    [context.fillStyle, context.strokeStyle, context.lineWidth] = [theme.accent, theme.paper, 1.5];
-    context.fill();
-    context.stroke();
   }
 
   /**
@@ -61,14 +30,9 @@ const Height = (() => {
       titles: ['time (s)', 'mm'],
       margins: [58, 12, 6, 40],
       still: (context, panel) => view.model.height && draw(context, panel, view.model.height),
-      moving: (context, panel) => view.model.height && cursor(context, panel, view),
+      moving: (context, panel) => view.model.height && Timeline.dot(context, panel, view, view.model.height.motion),
     });
-    const scrub = (event) => event.buttons && view.seek(panel.value(panel.spot(event))[0]);
-    canvas.addEventListener('pointerdown', (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      scrub(event);
-    });
-    canvas.addEventListener('pointermove', scrub);
+    Timeline.scrub(canvas, panel, view);
 
     /** Shows the strip of the current model. */
     function fit() {
@@ -93,5 +57,5 @@ const Height = (() => {
     return { root, panel, fit, show };
   }
 
-  return { mount, valueAt };
+  return { mount };
 })();

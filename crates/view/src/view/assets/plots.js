@@ -54,13 +54,6 @@ const Plots = (() => {
     });
   }
 
-  function cursor(context, panel, view) {
-    const [x] = panel.at([view.time, 0]);
-    context.lineWidth = 1.5;
-    context.strokeStyle = panel.theme.accent;
-    line(context, [[x, panel.rect.y], [x, panel.rect.y + panel.rect.height]]);
-  }
-
   /** Creates one panel per quantity. */
   function mount(element, view) {
     const key = document.createElement('p');
@@ -77,14 +70,9 @@ const Plots = (() => {
         titles: ['time (s)', quantity.title],
         margins: [58, 10, 6, 38],
         still: (context, panel) => shows(view, quantity) && draw(context, panel, view, quantity),
-        moving: (context, panel) => shows(view, quantity) && cursor(context, panel, view),
+        moving: (context, panel) => shows(view, quantity) && Timeline.cursor(context, panel, view),
       });
-      const scrub = (event) => event.buttons && view.seek(panel.value(panel.spot(event))[0]);
-      canvas.addEventListener('pointerdown', (event) => {
-        canvas.setPointerCapture(event.pointerId);
-        scrub(event);
-      });
-      canvas.addEventListener('pointermove', scrub);
+      Timeline.scrub(canvas, panel, view);
       return {
         panel,
         fit: () => {

@@ -34,7 +34,7 @@ const Strip = (() => {
       const missing = Math.max(0, LEAST_HEIGHT - (low - high));
       const begin = Math.min(...[...Geometry.pointsOf(region)].map(([time]) => time));
       // The motion only advances: if it is beyond the region when this begins, it is beyond all that lies below.
-      const isBelow = panel.at([begin, progress(strip, begin)])[1] < high;
+      const isBelow = panel.at([begin, Timeline.valueAt(strip.motion, begin)])[1] < high;
       const middle = (low + high) / 2;
       const shifted = ([x, y]) => (isBelow ? [x, y > middle ? y + missing : y] : [x, y < middle ? y - missing : y]);
       spots.map(shifted).forEach(([x, y], index) => (index ? path.lineTo(x, y) : path.moveTo(x, y)));
@@ -96,38 +96,6 @@ const Strip = (() => {
   }
 
   /**
-   * Draws the current time, and the place of the motion.
-   * @param {CanvasRenderingContext2D} context
-   * @param {Panel} panel
-   * @param {View} view
-   */
-  function cursor(context, panel, view) {
-    const { rect, theme } = panel;
-    const [x] = panel.at([view.time, 0]);
-    [context.lineWidth, context.strokeStyle] = [1.5, theme.accent];
-    line(context, [[x, rect.y], [x, rect.y + rect.height]]);
-    const [, y] = panel.at([view.time, progress(view.model.strip, view.time)]);
-    context.beginPath();
-    context.arc(x, y, 5, 0, 2 * Math.PI);
-    [context.fillStyle, context.strokeStyle, context.lineWidth] = [theme.accent, theme.paper, 1.5];
-    context.fill();
-    context.stroke();
-  }
-
-  /**
-   * Returns the progress of the motion at a time.
-   * @param {StripModel} strip
-   * @param {number} time in seconds
-   * @returns {number} from 0 to 1
-   */
-  function progress({ motion }, time) {
-    let next = 2;
-    while (next + 2 < motion.length && motion[next] < time) next += 2;
-    const [from, low, to, high] = motion.slice(next - 2, next + 2);
-    return low + (high - low) * Math.min(1, Math.max(0, (time - from) / Math.max(to - from, 1e-9)));
-  }
-
-  /**
    * Creates the strip of a view.
    * @param {View} view
    * @returns {{ root: HTMLElement, panel: Panel, fit: () => void, show: () => void, follow: () => void }}
@@ -143,14 +111,9 @@ const Strip = (() => {
       percent: [false, true],
       margins: [58, 12, 6, 40],
       still: (context, panel) => view.model.strip && draw(context, panel, view.model.strip),
-      moving: (context, panel) => view.model.strip && cursor(context, panel, view),
+      moving: (context, panel) => view.model.strip && Timeline.dot(context, panel, view, view.model.strip.motion),
     });
-    const scrub = (event) => event.buttons && view.seek(panel.value(panel.spot(event))[0]);
-    canvas.addEventListener('pointerdown', (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      scrub(event);
-    });
-    canvas.addEventListener('pointermove', scrub);
+    Timeline.scrub(canvas, panel, view);
 
     /** Shows the strip of the current model. */
     function fit() {
@@ -188,5 +151,5 @@ const Strip = (() => {
     return { root, panel, fit, show, follow };
   }
 
-  return { mount, waitAt, progress };
+  return { mount, waitAt };
 })();
