@@ -1,243 +1,39 @@
-//! The proven distance between the line and the motion as controllers play it.
+//! The proven distance between a line and a motion as controllers play it.
 //!
-//! Controllers join samples by polynomials. Let a part of the motion lead the tip from `A` to `B`, and let a part of the
-//! line lead from `P` to `Q`. The tip's path deviates from the straight line `A B` by at most an eighth of its second
-//! derivative across that line, and the part of the line from `P Q` by an eighth of its own. If the tip never moves
-//! backwards along `A B`, then both parts can be passed from the first to the last point together, never farther apart
-//! than the greater one of `|A P|` and `|B Q|`, plus the two deviations. (That is a bound on the Fréchet distance, which
-//! counts the order of the points.) If the tip may move backwards, an eighth of the second derivative along `A B` is
-//! added. A part whose bound is too large is halved.
-//!
-//! The second derivative of the tip is `J q'' + H(q', q')`, with the Jacobian `J` and the Hessian `H` of the arm's
-//! kinematics. Both change along a part by at most the bounds of [`Kinematics`]. So no sample counts by itself, and the
-//! result holds between samples.
+//! Controllers join samples by polynomials of several kinds. [`Deviation`] bounds the distance for cubics; here, the
+//! differences of the others from these cubics are added.
 
-use crate::kinematics::Kinematics;
-use crate::line::Line;
 use cplan_core::space::Configuration;
-use cplan_geometry::{Point, Vector, perpendicular};
+use cplan_deviation::{Deviation, Kinematics};
 use cplan_handling::{Derivative, Piece};
 use cplan_motion::Trajectory;
-use cplan_toolpath::Curve;
 
-/// Allowance for rounding, as a share of the lengths that occur.
-const ROUNDING: f64 = 1e-13;
-
-/// Number of times that a part of the motion is halved before its bound counts.
-const MAX_HALVINGS: u32 = 10;
-
-/// Number of Newton steps in the search for the place nearest to a corner. Any place gives a valid bound; the nearest one
-/// gives the best.
-const CORNER_STEPS: u32 = 3;
-
-/// Distance from a corner at which the next piece is considered, as a multiple of the tolerance. The tip cuts a corner of
-/// a few degrees this far before it.
-const LOOKAHEAD_TOLERANCES: f64 = 100.0;
-
-/// Least distance by which the next piece must be nearer than the present one, as a share of the tolerance. Where the line
-/// returns on itself, both are equally near up to the deviation of the tip.
-const SWITCH_SHARE: f64 = 0.1;
-
-/// A line, an arm, and the tolerance that bounds should prove.
-pub(crate) struct Deviation<'a> {
-    pub kinematics: &'a Kinematics<'a>,
-    pub line: &'a Line<'a>,
-    pub tolerance: f64,
-    /// The places where motions begin and end.
-    pub ends: [Foot; 2],
+/// Returns an upper bound on the distance between a line and each piece of a motion, metres. Every motion counts that
+/// readers of the samples may play: cubics through positions and velocities, polynomials that also have the accelerations
+/// at their beginnings, and with `quintics` those that have them at both ends.
+pub(crate) fn bounds(deviation: &Deviation, trajectory: &Trajectory, quintics: bool) -> Vec<f64> {
+    let pieces = trajectory.pieces();
+    let mut bounds = deviation.of_pieces(&pieces);
+    for (i, (bound, piece)) in bounds.iter_mut().zip(&pieces).enumerate() {
+        *bound += difference(deviation.kinematics, trajectory, i, piece, quintics);
+    }
+    bounds
 }
 
-/// A place on the line: a piece and its parameter.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Foot {
-    pub piece: usize,
-    pub u: f64,
-}
-
-impl Deviation<'_> {
-    /// Returns an upper bound on the distance between the line and each piece of a motion, metres. Every motion counts that readers of the samples may play: cubics through positions and
-    /// velocities, polynomials that also have the accelerations at their beginnings, and with `quintics` those that have
-    /// them at both ends.
-    pub fn bounds(&self, trajectory: &Trajectory, quintics: bool) -> Vec<f64> {
-        let pieces = trajectory.pieces();
-        let mut bounds = self.of_pieces(&pieces);
-        for (i, (bound, piece)) in bounds.iter_mut().zip(&pieces).enumerate() {
-            *bound += self.difference(trajectory, i, piece, quintics);
-        }
-        bounds
-    }
-
-    /// Returns an upper bound on the distance between the line and each piece.
-    pub fn of_pieces(&self, pieces: &[Piece]) -> Vec<f64> {
-        let [mut foot, last] = self.ends;
-        let mut start = pieces.first().map_or(Point::zeros(), |piece| self.tip(piece, 0.0));
-        let bound = |(i, piece): (usize, &Piece)| {
-            let (from, mut corners) = (foot, 0);
-            // Each piece begins exactly where the one before it ends.
-            let begin = start;
-            let end = self.tip(piece, 1.0);
-            start = end;
-            let step = (end - begin).norm();
-            foot = self.advance(foot, end, step, &mut corners);
-            if i + 1 == pieces.len() {
-                // The motion ends where the line does.
-                corners += last.piece - foot.piece;
-                foot = last;
-            }
-            self.of_piece(piece, [begin, end], [from, foot], corners)
-        };
-        pieces.iter().enumerate().map(bound).collect()
-    }
-
-    /// Returns an upper bound on the distance between the line and an arm that rests.
-    pub fn at_rest(&self, q: Configuration) -> f64 {
-        self.of_pieces(&[Piece::line(0.0, 1.0, q, q)]).into_iter().fold(0.0, f64::max)
-    }
-
-    fn tip(&self, piece: &Piece, u: f64) -> Point {
-        self.kinematics.arm.tip_at(piece.at(u))
-    }
-
-    fn curve(&self, piece: usize) -> &Curve {
-        self.line.curve(piece)
-    }
-
-    fn gap(&self, piece: usize, u: f64, tip: Point) -> f64 {
-        (Point::from(self.curve(piece).at(u)) - tip).norm()
-    }
-
-    /// Returns the place of the line for the next position of the tip, which is `step` metres away. Counts the corners
-    /// between both places.
-    fn advance(&self, from: Foot, tip: Point, step: f64, corners: &mut usize) -> Foot {
-        let near = |piece: usize, least: f64| self.curve(piece).nearest([tip.x, tip.y], least);
-        let mut foot = Foot { u: near(from.piece, from.u), ..from };
-        let ahead = 2.0 * step + LOOKAHEAD_TOLERANCES * self.tolerance;
-        while foot.piece < self.ends[1].piece {
-            let curve = self.curve(foot.piece);
-            let left = if foot.u >= 1.0 { 0.0 } else { curve.length() - curve.length_to(foot.u) };
-            if left > ahead {
-                break;
-            }
-            let next = Foot { piece: foot.piece + 1, u: near(foot.piece + 1, 0.0) };
-            let [here, there] = [foot, next].map(|f| self.gap(f.piece, f.u, tip));
-            let is_ahead = there < here - SWITCH_SHARE * self.tolerance || (foot.u >= 1.0 && there <= here);
-            if !is_ahead || self.curve(next.piece).length_to(next.u) > ahead {
-                break;
-            }
-            *corners += 1;
-            foot = next;
-        }
-        foot
-    }
-
-    /// Returns the bound for a piece, with the tip at its ends, between two places with several corners of the line
-    /// between them.
-    fn of_piece(&self, piece: &Piece, tips: [Point; 2], [from, to]: [Foot; 2], corners: usize) -> f64 {
-        let (mut bound, mut begin, mut foot) = (0.0_f64, (0.0, tips[0]), from);
-        for _ in 0..corners {
-            let corner: Point = self.curve(foot.piece).end().into();
-            let u = self.nearest(piece, begin.0, [begin.1, tips[1]], corner);
-            let next = (u, self.tip(piece, u));
-            let part = ([begin.0, u], [begin.1, next.1]);
-            bound = bound.max(self.of_part(piece, part, foot.piece, [foot.u, 1.0], 0));
-            (begin, foot) = (next, Foot { piece: foot.piece + 1, u: 0.0 });
-        }
-        let part = ([begin.0, 1.0], [begin.1, tips[1]]);
-        bound.max(self.of_part(piece, part, to.piece, [foot.u, to.u], 0))
-    }
-
-    /// Returns a share of a piece, from `least` on, at which the tip is near a corner. The tip is given there and at the
-    /// end of the piece.
-    fn nearest(&self, piece: &Piece, least: f64, [a, b]: [Point; 2], corner: Point) -> f64 {
-        let (chord, duration) = (b - a, piece.to - piece.from);
-        let share = if chord.norm() > 0.0 { (corner - a).dot(&chord) / chord.norm_squared() } else { 0.0 };
-        let mut u = (least + (1.0 - least) * share).clamp(least, 1.0);
-        for _ in 0..CORNER_STEPS {
-            let q = piece.at(u);
-            let slope = self.kinematics.velocity(q, piece.derivative(Derivative::Velocity, u) * duration);
-            if slope.norm() > 0.0 {
-                let off = corner - self.kinematics.arm.tip_at(q);
-                u = (u + off.dot(&slope) / slope.norm_squared()).clamp(least, 1.0);
-            }
-        }
-        u
-    }
-
-    /// Returns the bound for the part of a piece between two shares, and the part of a curve between two parameters.
-    fn of_part(
-        &self,
-        piece: &Piece,
-        (u, tips): ([f64; 2], [Point; 2]),
-        curve: usize,
-        w: [f64; 2],
-        halvings: u32,
-    ) -> f64 {
-        let ends = self.gap(curve, w[0], tips[0]).max(self.gap(curve, w[1], tips[1]));
-        let sag = crate::nodes::sag(self.curve(curve), w);
-        let scale = self.kinematics.arm.base.norm() + tips[0].norm() + self.kinematics.arm.reach();
-        let bound = ends + sag + self.off_chord(piece, u, tips) + ROUNDING * scale;
-        // Halving lowers everything except the distance of the ends.
-        let is_useful = bound > self.tolerance && ends < self.tolerance;
-        if !is_useful || halvings >= MAX_HALVINGS {
-            return bound;
-        }
-        let middle = (u[0] + u[1]) / 2.0;
-        let tip = self.tip(piece, middle);
-        let foot = self.curve(curve).nearest([tip.x, tip.y], w[0]).min(w[1]);
-        let first = ([u[0], middle], [tips[0], tip]);
-        let second = ([middle, u[1]], [tip, tips[1]]);
-        let bound = self.of_part(piece, first, curve, [w[0], foot], halvings + 1);
-        bound.max(self.of_part(piece, second, curve, [foot, w[1]], halvings + 1))
-    }
-
-    /// Returns a bound on the Fréchet distance between the tip's path on a part of a piece and its chord.
-    fn off_chord(&self, piece: &Piece, [from, to]: [f64; 2], [a, b]: [Point; 2]) -> f64 {
-        let (length, chord) = (to - from, b - a);
-        let middle = (from + to) / 2.0;
-        let q = piece.at(middle);
-        let duration = piece.to - piece.from;
-        // Derivatives by the part's own share, from 0 to 1.
-        let rate = |of: Derivative, u: f64, order: i32| piece.derivative(of, u) * (duration * length).powi(order);
-        let bend = rate(Derivative::Acceleration, middle, 2);
-        let bend_change = (rate(Derivative::Acceleration, to, 2) - rate(Derivative::Acceleration, from, 2)).abs() / 2.0;
-        let slope = rate(Derivative::Velocity, middle, 1);
-        // The slope changes by at most this within half of the part.
-        let slope_change = (bend.abs() + bend_change) / 2.0;
-        let beside = (slope.abs() + slope_change) / 2.0;
-        let kinematics = self.kinematics;
-        // H(q', q') at the slope in the middle, and the terms with its change.
-        let curved = kinematics.bend(q, beside, slope, slope)
-            + 2.0 * kinematics.bend_within(q, beside, slope, slope_change)
-            + kinematics.bend_within(q, beside, slope_change, slope_change);
-        let changes = kinematics.motion_within(q, beside, bend_change)
-            + kinematics.bend_within(q, beside, beside, bend.abs())
-            + curved;
-        let pushed = kinematics.velocity(q, bend);
-        let Some(along) = (chord.norm() > 0.0).then(|| chord / chord.norm()) else {
-            return (pushed.norm() + changes) / 8.0;
-        };
-        let across: Vector = perpendicular(along);
-        let [lengthwise, sideways] = [along, across].map(|n| n.dot(&pushed).abs() + changes);
-        // At the ends of the part, the slope along the chord is less by at most half of its derivative.
-        let is_forward = along.dot(&kinematics.velocity(q, slope)) >= lengthwise / 2.0;
-        sideways / 8.0 + if is_forward { 0.0 } else { lengthwise / 8.0 }
-    }
-
-    /// Returns a bound on the distance of the tip between the cubic through two samples and the polynomials that also have
-    /// the accelerations there. Their difference is `u^2 (1 - u)^2` times a polynomial whose values at the ends are half
-    /// the differences of the accelerations.
-    fn difference(&self, trajectory: &Trajectory, index: usize, piece: &Piece, quintics: bool) -> f64 {
-        let duration = piece.to - piece.from;
-        let off = |sample: usize, u: f64| {
-            let stated = Configuration::from(trajectory.acceleration[sample]);
-            (stated - piece.derivative(Derivative::Acceleration, u)).abs() * (duration * duration / 2.0)
-        };
-        let first = off(index, 0.0);
-        let greatest = if quintics { first.sup(&off(index + 1, 1.0)) } else { first };
-        let q = piece.at(0.5);
-        let beside = Configuration::from_fn(|k, _| {
-            piece.control().iter().map(|c| (c[k] - q[k]).abs()).fold(0.0, f64::max) + greatest[k]
-        });
-        self.kinematics.motion_within(q, beside, greatest) / 16.0
-    }
+/// Returns a bound on the distance of the tip between the cubic through two samples and the polynomials that also have
+/// the accelerations there. Their difference is `u^2 (1 - u)^2` times a polynomial whose values at the ends are half
+/// the differences of the accelerations.
+fn difference(kinematics: &Kinematics, trajectory: &Trajectory, index: usize, piece: &Piece, quintics: bool) -> f64 {
+    let duration = piece.to - piece.from;
+    let off = |sample: usize, u: f64| {
+        let stated = Configuration::from(trajectory.acceleration[sample]);
+        (stated - piece.derivative(Derivative::Acceleration, u)).abs() * (duration * duration / 2.0)
+    };
+    let first = off(index, 0.0);
+    let greatest = if quintics { first.sup(&off(index + 1, 1.0)) } else { first };
+    let q = piece.at(0.5);
+    let beside = Configuration::from_fn(|k, _| {
+        piece.control().iter().map(|c| (c[k] - q[k]).abs()).fold(0.0, f64::max) + greatest[k]
+    });
+    kinematics.motion_within(q, beside, greatest) / 16.0
 }

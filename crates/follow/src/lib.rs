@@ -38,23 +38,20 @@
 #![forbid(unsafe_code)]
 
 mod deviation;
-mod kinematics;
-mod line;
 mod motion;
 mod nodes;
 mod proof;
 mod search;
 mod sheets;
 
-pub use line::Place;
+pub use cplan_deviation::Place;
 pub use proof::{Cause, Exclusion, Infeasible, Obstacle};
 
 use cplan_core::model::{Outcome, Scene};
+use cplan_deviation::{Kinematics, Line};
 use cplan_motion::{TimedMotion, TimingError};
 use cplan_text::length;
 use cplan_toolpath::Toolpath;
-use kinematics::Kinematics;
-use line::Line;
 use motion::Driver;
 use nodes::{Division, MAX_NODES, Nodes};
 use proof::Prover;

@@ -1,14 +1,13 @@
 //! The motion in time along a sequence of configurations.
 
-use crate::deviation::{Deviation, Foot};
-use crate::kinematics::Kinematics;
-use crate::line::Line;
+use crate::deviation::bounds;
 use crate::nodes::Nodes;
 use crate::search::Route;
 use crate::{FollowError, Settings};
 use cplan_core::check::certify;
 use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, Path};
+use cplan_deviation::{Deviation, Foot, Kinematics, Line};
 use cplan_motion::{CertifiedCurve, TimedMotion, TipSpeed, along_curve, blend_up_to};
 
 /// Cosine of the angle between two legs beyond which the motion stops between them: it almost returns on itself.
@@ -54,8 +53,7 @@ impl Driver<'_> {
         }
         let timed = whole.expect("at least one part");
         let deviation = self.deviation(route, [0, q.len() - 1]);
-        let bounds = deviation.bounds(&timed.trajectory, is_smooth);
-        let greatest = bounds.into_iter().reduce(f64::max);
+        let greatest = bounds(&deviation, &timed.trajectory, is_smooth).into_iter().reduce(f64::max);
         let bound = greatest.unwrap_or_else(|| deviation.at_rest(timed.curve.straight().path().start()));
         Ok((timed, bound))
     }

@@ -1,8 +1,7 @@
 //! Places on the line, so dense that the arm can move straight in joint space from each to the next.
 
-use crate::kinematics::Kinematics;
-use crate::line::{Line, Place};
 use cplan_core::space::Configuration;
+use cplan_deviation::{Kinematics, Line, Place, sag};
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
 use cplan_toolpath::Curve;
@@ -156,11 +155,6 @@ impl Divider<'_, '_> {
             q[k] + turns * TAU
         })
     }
-}
-
-/// Returns a bound on the distance of a part of a curve from its chord, at equal shares of the parameter.
-pub(crate) fn sag(curve: &Curve, [from, to]: [f64; 2]) -> f64 {
-    curve.bend() * (to - from) * (to - from) / 8.0
 }
 
 /// Returns a bound on the distance of the tip from the straight line between its two ends, at equal shares of a straight

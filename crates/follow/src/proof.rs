@@ -8,13 +8,12 @@
 //! A motion cannot change from one band to another there. So there is no motion either if each band has some place that
 //! is excluded, not necessarily the same one.
 
-use crate::kinematics::Kinematics;
-use crate::line::{Line, Place};
-use crate::nodes::{Nodes, chord, sag};
+use crate::nodes::{Nodes, chord};
 use crate::sheets::{LISTED_BEYOND_LIMITS, Sheets};
 use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::{Pair, Scene};
 use cplan_core::space::{Configuration, JointRange};
+use cplan_deviation::{Kinematics, Line, Place, sag};
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
 use cplan_text::length;

@@ -5,13 +5,12 @@
 //! that is so at singular places, where the solutions meet. Whether motions are free is checked only for the sequence
 //! that is cheapest otherwise, and after a collision for all motions.
 
-use crate::kinematics::Kinematics;
-use crate::line::Line;
-use crate::nodes::{Division, Nodes, chord_deviation, sag};
+use crate::nodes::{Division, Nodes, chord_deviation};
 use crate::sheets::Sheets;
 use cplan_core::check::{CertifiedPath, StraightMotions, certify};
 use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, JointRange, Path};
+use cplan_deviation::{Kinematics, Line, sag};
 use cplan_interrupt::checkpoint;
 use std::cell::Cell;
 use std::f64::consts::TAU;

@@ -1,4 +1,4 @@
-//! The line as the planner sees it: pieces with distances along it.
+//! A line as pieces with distances along it.
 
 use cplan_geometry::Point;
 use cplan_toolpath::{Curve, Piece, Source, Toolpath};
@@ -19,12 +19,15 @@ pub struct Place {
 }
 
 /// A line with the distance at which each piece begins.
-pub(crate) struct Line<'a> {
+pub struct Line<'a> {
+    /// The pieces, in order.
     pub pieces: &'a [Piece],
     begins: Vec<f64>,
 }
 
 impl<'a> Line<'a> {
+    /// Measures the pieces of a line. It takes `O(n)` for `n` pieces.
+    #[must_use]
     pub fn new(path: &'a Toolpath) -> Self {
         let mut at = 0.0;
         let begin = |piece: &Piece| {
@@ -35,10 +38,14 @@ impl<'a> Line<'a> {
         Self { pieces: path.pieces(), begins: path.pieces().iter().map(begin).collect() }
     }
 
+    /// Returns the curve of a piece.
+    #[must_use]
     pub fn curve(&self, piece: usize) -> &'a Curve {
         &self.pieces[piece].curve
     }
 
+    /// Returns the place at a parameter of a piece.
+    #[must_use]
     pub fn place(&self, piece: usize, u: f64) -> Place {
         let Piece { curve, source, .. } = &self.pieces[piece];
         let distance = self.begins[piece] + curve.length_to(u);

@@ -1,0 +1,13 @@
+//! Proven bounds on the distance between the path of the tip and a line that it follows.
+//!
+//! [`Deviation`] bounds the distance for a motion in polynomial pieces, in the order of the line and between samples. The
+//! planner of motions along lines and the judge of recorded motions both use it.
+#![forbid(unsafe_code)]
+
+mod deviation;
+mod kinematics;
+mod line;
+
+pub use deviation::{Deviation, Foot, sag};
+pub use kinematics::{Kinematics, SolutionBox};
+pub use line::{Line, Place};
