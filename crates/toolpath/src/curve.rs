@@ -1,5 +1,7 @@
 //! Curves of the plane with exact formulas.
 
+use serde::{Deserialize, Serialize};
+
 /// A point or a displacement in the plane, metres.
 pub type Point = [f64; 2];
 
@@ -14,7 +16,8 @@ const NEAREST_STEP: f64 = 1.0 / 64.0;
 const NEAREST_STEPS: usize = 36;
 
 /// A curve. Its parameter `u` runs from 0 to 1.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Curve {
     /// A straight line at constant speed of the parameter.
     Line {
@@ -208,7 +211,7 @@ pub(crate) fn minus(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-fn dot(a: Point, b: Point) -> f64 {
+pub(crate) fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 

@@ -1,5 +1,5 @@
 //! Lines that the tip of a robot follows: straight lines, circular arcs and cubic Bézier curves, read from G-code and
-//! SVG.
+//! SVG, or through given points.
 //!
 //! ```
 //! use cplan_toolpath::{Curve, Format, Placement, read};
@@ -38,12 +38,14 @@ mod error;
 mod gcode;
 mod path;
 mod placement;
+mod shapes;
 mod svg;
 
 pub use curve::{Curve, Point};
 pub use error::Error;
 pub use path::{MAX_PIECES, Piece, Source, Toolpath};
 pub use placement::Placement;
+pub use shapes::{Leg, arc_through, polyline, spline};
 
 use std::path::Path;
 

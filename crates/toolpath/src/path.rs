@@ -3,6 +3,7 @@
 use crate::curve::{minus, norm};
 use crate::cusps;
 use crate::{Curve, Error, Point};
+use serde::{Deserialize, Serialize};
 
 /// Greatest number of pieces of a line. A line with more is refused.
 pub const MAX_PIECES: usize = 1_000_000;
@@ -14,7 +15,7 @@ const MAX_COORDINATE: f64 = 1e6;
 const MAX_GAP: f64 = 1e-9;
 
 /// A place in a file, both numbers from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Source {
     /// Number of the line.
     pub line: usize,
@@ -31,7 +32,7 @@ impl Source {
 }
 
 /// A piece of a line.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Piece {
     /// The curve.
     pub curve: Curve,
@@ -45,7 +46,8 @@ pub struct Piece {
 
 /// A line in the plane, as pieces in order. Each piece begins where the one before it ends. There is at least one
 /// piece, and every piece has a length.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Vec<Piece>", into = "Vec<Piece>")]
 pub struct Toolpath {
     pieces: Vec<Piece>,
     notes: Vec<String>,
@@ -116,6 +118,12 @@ impl Toolpath {
         self.pieces[0].curve.start()
     }
 
+    /// Returns the point where the line ends.
+    #[must_use]
+    pub fn end(&self) -> Point {
+        self.pieces[self.pieces.len() - 1].curve.end()
+    }
+
     /// Returns points along the line, for pictures. Each curve is within `tolerance` metres of its chords. Each inner
     /// list is a stretch without a travel.
     #[must_use]
@@ -135,5 +143,19 @@ impl Toolpath {
             is_joined = !piece.is_travel;
         }
         outlines
+    }
+}
+
+impl TryFrom<Vec<Piece>> for Toolpath {
+    type Error = Error;
+
+    fn try_from(pieces: Vec<Piece>) -> Result<Self, Error> {
+        Self::new(pieces)
+    }
+}
+
+impl From<Toolpath> for Vec<Piece> {
+    fn from(path: Toolpath) -> Self {
+        path.pieces
     }
 }

@@ -25,7 +25,8 @@ impl Default for Placement {
 
 impl Placement {
     /// Returns the curve at its place. Its lengths are already metres.
-    pub(crate) fn place(&self, curve: &Curve) -> Curve {
+    #[must_use]
+    pub fn place(&self, curve: &Curve) -> Curve {
         curve.placed(self.scale, self.turn, self.shift)
     }
 }
