@@ -1,7 +1,9 @@
 //! A line as pieces with distances along it.
 
 use cplan_geometry::Point;
+use cplan_text::length;
 use cplan_toolpath::{Curve, Piece, Source, Toolpath};
+use std::fmt;
 
 /// A place on a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +18,13 @@ pub struct Place {
     pub point: Point,
     /// Place of the piece in the file.
     pub source: Source,
+}
+
+impl fmt::Display for Place {
+    /// Writes the distance along the line, and the line of the file.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of the line (line {} of the file)", length(self.distance), self.source.line)
+    }
 }
 
 /// A line with the distance at which each piece begins.

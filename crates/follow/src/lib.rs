@@ -48,9 +48,9 @@ pub use cplan_deviation::Place;
 pub use proof::{Cause, Exclusion, Infeasible, Obstacle};
 
 use cplan_core::model::{Outcome, Scene};
+use cplan_core::space::Configuration;
 use cplan_deviation::{Kinematics, Line};
 use cplan_motion::{TimedMotion, TimingError};
-use cplan_text::length;
 use cplan_toolpath::Toolpath;
 use motion::Driver;
 use nodes::{Division, MAX_NODES, Nodes};
@@ -88,6 +88,10 @@ pub struct Settings {
     pub tolerance: f64,
     /// Greatest speed of the tip, metres per second, instead of the speeds that the file states.
     pub speed: Option<f64>,
+    /// Greatest speed of the tip on the whole line, travels included, metres per second; `None` for none.
+    pub tip_speed: Option<f64>,
+    /// Share of the joints' top speeds to use, above 0 and at most 1.
+    pub share: f64,
     /// Time between two samples, seconds.
     pub period: f64,
 }
@@ -96,7 +100,20 @@ impl Default for Settings {
     /// Returns a tolerance of a hundredth of a millimetre, the speeds of the file, and a sample every hundredth of a
     /// second.
     fn default() -> Self {
-        Self { tolerance: 1e-5, speed: None, period: 0.01 }
+        Self { tolerance: 1e-5, speed: None, tip_speed: None, share: 1.0, period: 0.01 }
+    }
+}
+
+impl Settings {
+    fn check(&self) -> Result<(), FollowError> {
+        let Self { tolerance, .. } = *self;
+        if !(tolerance.is_finite() && tolerance >= MIN_TOLERANCE) {
+            return Err(FollowError::Tolerance(tolerance));
+        }
+        match self.speed.filter(|speed| !(speed.is_finite() && *speed > 0.0)) {
+            Some(speed) => Err(FollowError::Speed(speed)),
+            None => Ok(()),
+        }
     }
 }
 
@@ -141,72 +158,102 @@ pub type Followed = Outcome<Found, Infeasible>;
 /// # Errors
 /// [`FollowError`]: unusable settings, or a motion that cannot be timed.
 pub fn follow(scene: &Scene, path: &Toolpath, settings: &Settings) -> Result<Followed, FollowError> {
-    let tolerance = settings.tolerance;
-    if !(tolerance.is_finite() && tolerance >= MIN_TOLERANCE) {
-        return Err(FollowError::Tolerance(tolerance));
-    }
-    if let Some(speed) = settings.speed.filter(|speed| !(speed.is_finite() && *speed > 0.0)) {
-        return Err(FollowError::Speed(speed));
-    }
+    settings.check()?;
     let (kinematics, line) = (Kinematics::new(scene.arm()), Line::new(path));
-    let mut share = INITIAL_SHARE;
-    for attempt in 0..ATTEMPTS {
-        let division = Division { deviation: share * tolerance, slack: SLACK_SHARE * tolerance };
-        let Ok(nodes) = Nodes::new(&kinematics, &line, division) else {
-            return Ok(Outcome::Unknown(format!(
-                "the line needs more than {MAX_NODES} parts; split it, or raise the tolerance"
-            )));
-        };
-        if let Some(infeasible) = proof::out_of_reach(&kinematics, &nodes, tolerance) {
-            return Ok(Outcome::Infeasible(infeasible));
-        }
-        let sheets = Sheets::new(&kinematics, &nodes);
-        let mut search = Search::new(scene, (&kinematics, &line), &nodes, &sheets, division);
-        let Some(route) = search.route() else {
-            if attempt == 0
-                && let Some(infeasible) = prove(scene, &kinematics, &line, &nodes, &sheets, tolerance)
-            {
-                return Ok(Outcome::Infeasible(infeasible));
-            }
-            let stuck = nodes.nodes[search.furthest.get()].place;
-            return Ok(Outcome::Unknown(stuck_at(&stuck)));
-        };
-        let (kinematics, line, nodes) = (&kinematics, &line, &nodes);
-        let driver = Driver { scene, kinematics, line, nodes, settings, blend: share * tolerance };
-        let (timed, deviation) = driver.motion(&route)?;
-        if deviation <= tolerance {
-            let changes = route.changes.iter().map(|&w| nodes.nodes[route.nodes[w]].place).collect();
-            let waypoints = route.nodes.len();
-            return Ok(Outcome::Found(Found { timed, deviation, changes, waypoints }));
-        }
-        share *= SHARE_FACTOR;
-    }
-    Ok(Outcome::Unknown("a motion was found, but not proven to be within the tolerance; raise the tolerance".into()))
+    let follower = Follower { scene, kinematics: &kinematics, line: &line, settings, ends: None };
+    let prove = |prover: &Prover, _: &Search| prover.prove().or_else(|| follower.prove_finely(prover));
+    follower.run(&prove, &|infeasible| infeasible)
 }
 
-/// Searches for a proof at the nodes of a search, and then at a finer division.
-fn prove(
+/// Returns a motion along a line from one configuration to another, up to whole turns of joints on circles. Both put the
+/// tip at the ends of the line. Else as [`follow`]; the reason of a proof is given in words.
+///
+/// # Errors
+/// [`FollowError`]: unusable settings, or a motion that cannot be timed.
+pub fn follow_between(
     scene: &Scene,
-    kinematics: &Kinematics,
-    line: &Line,
-    nodes: &Nodes,
-    sheets: &Sheets,
-    tolerance: f64,
-) -> Option<Infeasible> {
-    let inner = &*scene.inner();
-    let prover = Prover { scene, inner, kinematics, line, nodes, sheets, tolerance };
-    prover.prove().or_else(|| {
-        if nodes.nodes.len() > MAX_COARSE_NODES {
+    path: &Toolpath,
+    settings: &Settings,
+    ends: [Configuration; 2],
+) -> Result<Outcome<Found, String>, FollowError> {
+    settings.check()?;
+    let (kinematics, line) = (Kinematics::new(scene.arm()), Line::new(path));
+    let follower = Follower { scene, kinematics: &kinematics, line: &line, settings, ends: Some(ends) };
+    let prove = |prover: &Prover, search: &Search| {
+        let sheet = |end: usize| (0..prover.sheets.sheets.len()).find(|sheet| search.is_end(end, *sheet));
+        let between = sheet(0).zip(sheet(1)).and_then(|(from, to)| prover.prove_between([from, to]));
+        between.or_else(|| prover.prove().map(|infeasible| infeasible.describe()))
+    };
+    follower.run(&prove, &|infeasible: Infeasible| infeasible.describe())
+}
+
+/// The input of a motion along a line.
+struct Follower<'a> {
+    scene: &'a Scene,
+    kinematics: &'a Kinematics<'a>,
+    line: &'a Line<'a>,
+    settings: &'a Settings,
+    ends: Option<[Configuration; 2]>,
+}
+
+impl Follower<'_> {
+    /// Searches for a motion, with smaller shares of the tolerance until the motion is proven to be within it. `prove`
+    /// searches for a proof if there is no sequence of IK solutions.
+    fn run<P>(
+        &self,
+        prove: &dyn Fn(&Prover, &Search) -> Option<P>,
+        proof: &dyn Fn(Infeasible) -> P,
+    ) -> Result<Outcome<Found, P>, FollowError> {
+        let Self { scene, kinematics, line, settings, ends } = *self;
+        let tolerance = settings.tolerance;
+        let mut share = INITIAL_SHARE;
+        for attempt in 0..ATTEMPTS {
+            let division = Division { deviation: share * tolerance, slack: SLACK_SHARE * tolerance };
+            let Ok(nodes) = Nodes::new(kinematics, line, division) else {
+                return Ok(Outcome::Unknown(format!(
+                    "the line needs more than {MAX_NODES} parts; split it, or raise the tolerance"
+                )));
+            };
+            if let Some(infeasible) = proof::out_of_reach(kinematics, &nodes, tolerance) {
+                return Ok(Outcome::Infeasible(proof(infeasible)));
+            }
+            let sheets = Sheets::new(kinematics, &nodes);
+            let mut search = Search::new(scene, (kinematics, line), &nodes, &sheets, division, ends);
+            let Some(route) = search.route() else {
+                let (inner, nodes, sheets) = (&*scene.inner(), &nodes, &sheets);
+                let prover = Prover { scene, inner, kinematics, line, nodes, sheets, tolerance };
+                if attempt == 0
+                    && let Some(proven) = prove(&prover, &search)
+                {
+                    return Ok(Outcome::Infeasible(proven));
+                }
+                let stuck = nodes.nodes[search.furthest.get()].place;
+                return Ok(Outcome::Unknown(format!("no free motion was found past {stuck}, and no proof")));
+            };
+            let driver = Driver { scene, kinematics, line, nodes: &nodes, settings, blend: share * tolerance };
+            let (timed, deviation) = driver.motion(&route)?;
+            if deviation <= tolerance {
+                let changes = route.changes.iter().map(|&w| nodes.nodes[route.nodes[w]].place).collect();
+                let waypoints = route.nodes.len();
+                return Ok(Outcome::Found(Found { timed, deviation, changes, waypoints }));
+            }
+            share *= SHARE_FACTOR;
+        }
+        Ok(Outcome::Unknown(
+            "a motion was found, but not proven to be within the tolerance; raise the tolerance".into(),
+        ))
+    }
+
+    /// Searches for a proof at a finer division of the line.
+    fn prove_finely(&self, prover: &Prover) -> Option<Infeasible> {
+        if prover.nodes.nodes.len() > MAX_COARSE_NODES {
             return None;
         }
+        let tolerance = self.settings.tolerance;
         let (deviation, slack) = (INITIAL_SHARE * tolerance / PROOF_FINENESS, SLACK_SHARE * tolerance);
-        let nodes = &Nodes::new(kinematics, line, Division { deviation, slack }).ok()?;
-        let sheets = &Sheets::new(kinematics, nodes);
-        proof::out_of_reach(kinematics, nodes, tolerance).or_else(|| Prover { nodes, sheets, ..prover }.prove())
-    })
-}
-
-fn stuck_at(place: &Place) -> String {
-    let at = length(place.distance);
-    format!("no free motion was found past {at} of the line (line {} of the file), and no proof", place.source.line)
+        let nodes = &Nodes::new(self.kinematics, self.line, Division { deviation, slack }).ok()?;
+        let sheets = &Sheets::new(self.kinematics, nodes);
+        let finer = Prover { nodes, sheets, ..*prover };
+        proof::out_of_reach(self.kinematics, nodes, tolerance).or_else(|| finer.prove())
+    }
 }

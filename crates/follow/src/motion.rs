@@ -8,7 +8,7 @@ use cplan_core::check::certify;
 use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, Path};
 use cplan_deviation::{Deviation, Foot, Kinematics, Line};
-use cplan_motion::{CertifiedCurve, TimedMotion, TipSpeed, along_curve, blend_up_to};
+use cplan_motion::{CertifiedCurve, CurveDrive, TimedMotion, TipSpeed, along_curve, blend_up_to};
 
 /// Cosine of the angle between two legs beyond which the motion stops between them: it almost returns on itself.
 const REVERSAL_COSINE: f64 = -0.95;
@@ -80,6 +80,7 @@ impl Driver<'_> {
         let shares: Vec<f64> = speeds[from..to].iter().map(|speed| speed / greatest).collect();
         let is_limited = greatest.is_finite() && greatest > 0.0;
         let tip = is_limited.then(|| TipSpeed { legs: &shares, ..TipSpeed::new(self.scene.arm(), greatest) });
+        let drive = CurveDrive { tip, share: self.settings.share, period: self.settings.period };
         let deviation = self.deviation(route, ends);
         let tolerance = self.settings.tolerance;
         let too_far = |pieces: &[cplan_handling::Piece]| {
@@ -87,10 +88,10 @@ impl Driver<'_> {
             (0..bounds.len()).filter(|&i| bounds[i] > tolerance).collect::<Vec<_>>()
         };
         let curve = blend_up_to(self.scene, &path, &radii[from..=to], clearance);
-        let timed = along_curve(self.scene, curve, tip, self.settings.period, &too_far)?;
+        let timed = along_curve(self.scene, curve, drive, &too_far)?;
         if is_smooth && !too_far(&timed.trajectory.pieces()).is_empty() {
             // Stopping everywhere stays on the path.
-            return Ok(along_curve(self.scene, CertifiedCurve::from(path), tip, self.settings.period, &too_far)?);
+            return Ok(along_curve(self.scene, CertifiedCurve::from(path), drive, &too_far)?);
         }
         Ok(timed)
     }
@@ -119,7 +120,8 @@ impl Driver<'_> {
         let speed = |leg: usize| {
             let part = route.nodes[leg + 1].saturating_sub(1);
             let piece = &self.line.pieces[self.nodes.parts[part].piece];
-            if piece.is_travel { None } else { self.settings.speed.or(piece.speed) }
+            let stated = if piece.is_travel { None } else { self.settings.speed.or(piece.speed) };
+            stated.into_iter().chain(self.settings.tip_speed).reduce(f64::min)
         };
         let speeds: Vec<Option<f64>> = (0..route.nodes.len().saturating_sub(1)).map(speed).collect();
         if speeds.iter().all(Option::is_none) {

@@ -16,7 +16,7 @@ use cplan_core::space::{Configuration, JointRange};
 use cplan_deviation::{Kinematics, Line, Place, sag};
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
-use cplan_text::length;
+use cplan_text::{length, length_down};
 
 /// Greatest difference of joint values at both ends of a part for which no whole turn can be hidden between them.
 const MAX_STEP: f64 = 0.5;
@@ -73,6 +73,7 @@ pub enum Obstacle {
 }
 
 /// The input of a search for a proof.
+#[derive(Clone, Copy)]
 pub(crate) struct Prover<'a> {
     pub scene: &'a Scene,
     pub inner: &'a Scene,
@@ -107,6 +108,19 @@ impl Prover<'_> {
             .map(|node| (0..count).map(|sheet| self.exclusion(node, sheet)).collect())
             .collect();
         self.at_one_place(&excluded).or_else(|| self.on_a_stretch(&excluded))
+    }
+
+    /// Returns the reason why no motion follows the line from one sheet to another, if it is proven: the sheet is the same
+    /// along the whole line, and it is another one at the end, or excluded somewhere.
+    pub fn prove_between(&self, [from, to]: [usize; 2]) -> Option<String> {
+        if !(0..self.nodes.parts.len()).all(|part| self.is_separate(part)) {
+            return None;
+        }
+        if from != to {
+            return Some("the IK solution cannot change along the line".into());
+        }
+        let excluded = (0..self.nodes.nodes.len()).find_map(|node| self.exclusion(node, from))?;
+        Some(format!("{} at {}", excluded.describe(self.scene), excluded.place))
     }
 
     fn at_one_place(&self, excluded: &[Vec<Option<Exclusion>>]) -> Option<Infeasible> {
@@ -255,6 +269,22 @@ fn one_each(mut list: Vec<Exclusion>) -> Vec<Exclusion> {
         }
     }
     kept
+}
+
+impl Infeasible {
+    /// Describes the reason in words.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        let at = self.place;
+        match &self.cause {
+            Cause::OutOfReach { by } => format!("the line is {} out of reach at {at}", length_down(*by)),
+            Cause::Excluded(_) => format!("no IK solution is possible at {at}"),
+            Cause::NoChange(list) => {
+                let last = list.last().map_or(at, |exclusion| exclusion.place);
+                format!("the IK solution must change between {at} and {last}, and cannot")
+            }
+        }
+    }
 }
 
 impl Exclusion {

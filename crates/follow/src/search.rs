@@ -15,6 +15,10 @@ use cplan_interrupt::checkpoint;
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
+/// Difference of joint values, radians or metres, up to which a configuration is that of a sheet: rounding of inverse
+/// kinematics.
+const END_ROUNDING: f64 = 1e-6;
+
 /// Cost of a change of the sheet, seconds, in addition to the time that its motion takes.
 const CHANGE_COST: f64 = 0.1;
 
@@ -38,6 +42,8 @@ pub(crate) struct Search<'a> {
     pub nodes: &'a Nodes,
     pub sheets: &'a Sheets<'a>,
     pub division: Division,
+    /// The configurations in which the motion begins and ends. With `None`, any IK solutions will do.
+    pub ends: Option<[Configuration; 2]>,
     /// For each part and sheet: true if the motion is within the limits and the tolerance, and not known to collide.
     open: Vec<bool>,
     /// For each part and sheet: true if the motion is not shown to be free.
@@ -62,6 +68,7 @@ impl<'a> Search<'a> {
         nodes: &'a Nodes,
         sheets: &'a Sheets<'a>,
         division: Division,
+        ends: Option<[Configuration; 2]>,
     ) -> Self {
         let count = sheets.sheets.len();
         let blocked = vec![false; nodes.parts.len() * count];
@@ -72,6 +79,7 @@ impl<'a> Search<'a> {
             nodes,
             sheets,
             division,
+            ends,
             open: Vec::new(),
             blocked,
             furthest: Cell::new(0),
@@ -86,6 +94,16 @@ impl<'a> Search<'a> {
 
     fn motion(&self, part: usize, sheet: usize) -> Option<[Configuration; 2]> {
         Some([self.sheets.at(part, sheet)?, self.sheets.at(part + 1, sheet)?])
+    }
+
+    /// Returns true if the motion may begin (0) or end (1) with a sheet.
+    pub fn is_end(&self, end: usize, sheet: usize) -> bool {
+        let node = if end == 0 { 0 } else { self.nodes.nodes.len() - 1 };
+        let Some(q) = self.sheets.at(node, sheet) else { return false };
+        self.ends.is_none_or(|ends| {
+            let off = ends[end] - q;
+            (off - self.turns_between(ends[end], q)).amax() <= END_ROUNDING
+        })
     }
 
     /// Returns true if the motion of a sheet over a part is within the limits and the tolerance.
@@ -184,7 +202,7 @@ impl<'a> Search<'a> {
             for sheet in 0..count {
                 let own = node * count + sheet;
                 if node == 0 {
-                    if self.sheets.at(0, sheet).is_some() {
+                    if self.is_end(0, sheet) {
                         steps[own] = Step { cost: 0.0, from: None };
                     }
                 } else if self.open[(node - 1) * count + sheet] && steps[own - count].cost.is_finite() {
@@ -214,7 +232,8 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        let ends = (0..count).map(|sheet| (steps[last * count + sheet].cost, sheet));
+        let ends =
+            (0..count).filter(|sheet| self.is_end(1, *sheet)).map(|sheet| (steps[last * count + sheet].cost, sheet));
         let (cost, sheet) = ends.min_by(|a, b| a.0.total_cmp(&b.0))?;
         if !cost.is_finite() {
             return None;
@@ -234,7 +253,8 @@ impl<'a> Search<'a> {
         for &(node, sheet) in states {
             let Some(q) = self.sheets.at(node, sheet) else { continue };
             let solution = self.sheets.sheets[sheet].solution;
-            let q = waypoints.last().map_or(q, |last| q + self.turns_between(*last, q));
+            let first = || self.ends.map_or(q, |[start, _]| start);
+            let q = waypoints.last().map_or_else(first, |last| q + self.turns_between(*last, q));
             let is_same = waypoints.last() == Some(&q);
             if solutions.last().is_some_and(|last| *last != solution) {
                 changes.push(if is_same { waypoints.len() - 1 } else { waypoints.len() });

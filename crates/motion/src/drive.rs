@@ -132,6 +132,17 @@ impl Drive {
     }
 }
 
+/// Options for the motion along a given curve.
+#[derive(Clone, Copy)]
+pub struct CurveDrive<'a> {
+    /// Limit on the speed of the tip.
+    pub tip: Option<TipSpeed<'a>>,
+    /// Share of the joints' top speeds to use, above 0 and at most 1.
+    pub share: f64,
+    /// Time between two samples, seconds.
+    pub period: f64,
+}
+
 /// Returns the fastest motion along a given curve, whose blends must not change. Compared with [`Drive::along`], no
 /// corner is moved.
 ///
@@ -144,15 +155,14 @@ impl Drive {
 pub fn along_curve(
     scene: &Scene,
     curve: CertifiedCurve,
-    tip: Option<TipSpeed>,
-    period: f64,
+    CurveDrive { tip, share, period }: CurveDrive,
     too_far: &dyn Fn(&[Piece]) -> Vec<usize>,
 ) -> Result<TimedMotion, TimingError> {
     let torque = TorqueLimit::of(scene);
     if let Some(torque) = &torque {
         torque.check_holding_along(curve.straight().path())?;
     }
-    let limits = Limits { tip, torque, ..Limits::from(&scene.arm().joints) };
+    let limits = Limits { tip, torque, ..Limits::from(&scene.arm().joints).scaled(share) };
     let smooth = || time_smoothly(scene, &curve, limits, period, too_far);
     let is_blended = curve.radii().iter().any(|radius| *radius > 0.0);
     let found = (limits.stops_at_corners() && is_blended).then(smooth).flatten();

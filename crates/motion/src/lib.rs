@@ -103,7 +103,7 @@ pub use clock::whole_nanoseconds;
 pub use clock::{nanoseconds, nearest_within, round_down, round_up, seconds};
 pub use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use csv::{csv, csv_of_joints};
-pub use drive::{Drive, Objective, along_curve};
+pub use drive::{CurveDrive, Drive, Objective, along_curve};
 pub use field::FieldReport;
 pub use format::{Format, FormatError};
 pub use json::field_per_line;

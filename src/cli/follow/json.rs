@@ -1,7 +1,7 @@
 //! The answer as JSON.
 
 use super::Answered;
-use super::words::{exclusions, joints, reason};
+use super::words::{exclusions, joints};
 use crate::model::Outcome;
 use crate::motion::interpolation;
 use cplan_follow::{Cause, Infeasible, Place};
@@ -61,7 +61,7 @@ fn infeasible_object(answered: &Answered, infeasible: &Infeasible) -> Value {
     };
     json!({
         "cause": cause,
-        "reason": reason(infeasible),
+        "reason": infeasible.describe(),
         "place": place(&infeasible.place),
         "misses": by,
         "excluded": excluded.collect::<Vec<_>>(),

@@ -39,7 +39,8 @@ pub fn run(args: &FollowArgs) -> Result<u8, Failure> {
     if !args.print.quiet {
         loaded.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     }
-    let settings = Settings { tolerance: args.tolerance, speed: args.speed, period: args.period };
+    let settings =
+        Settings { tolerance: args.tolerance, speed: args.speed, period: args.period, ..Settings::default() };
     let answer = follow(&loaded.scene, &line, &settings).map_err(refused)?;
     let answered = Answered { args, loaded: &loaded, line: &line, answer: &answer };
     outputs.write(&answered)?;

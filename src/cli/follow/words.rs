@@ -33,7 +33,7 @@ pub fn result(answered: &Answered) -> String {
         Outcome::Found(found) => {
             format!("found and certified: at most {} from the line", length_up(found.deviation))
         }
-        Outcome::Infeasible(infeasible) => format!("infeasible: {}; proven", reason(infeasible)),
+        Outcome::Infeasible(infeasible) => format!("infeasible: {}; proven", infeasible.describe()),
         Outcome::Unknown(why) => format!("unknown: {why}"),
     }
 }
@@ -42,7 +42,7 @@ pub fn result(answered: &Answered) -> String {
 pub fn headline(answered: &Answered) -> String {
     match answered.answer {
         Outcome::Found(found) => format!("The tip follows the line within {}", length_up(found.deviation)),
-        Outcome::Infeasible(infeasible) => format!("No motion follows the line: {}", reason(infeasible)),
+        Outcome::Infeasible(infeasible) => format!("No motion follows the line: {}", infeasible.describe()),
         Outcome::Unknown(_) => "No motion along the line was found".into(),
     }
 }
@@ -56,19 +56,6 @@ pub fn figures(answered: &Answered) -> KeyFigures {
             ..KeyFigures::default()
         },
         _ => KeyFigures::default(),
-    }
-}
-
-/// Returns the reason for which no motion follows a line.
-pub fn reason(infeasible: &Infeasible) -> String {
-    let at = place(&infeasible.place);
-    match &infeasible.cause {
-        Cause::OutOfReach { by } => format!("the line is {} out of reach at {at}", length_down(*by)),
-        Cause::Excluded(_) => format!("no IK solution is possible at {at}"),
-        Cause::NoChange(list) => {
-            let last = list.last().map_or(infeasible.place, |exclusion| exclusion.place);
-            format!("the IK solution must change between {at} and {}, and cannot", place(&last))
-        }
     }
 }
 
@@ -86,12 +73,7 @@ fn solution(exclusion: &Exclusion) -> &'static str {
 }
 
 fn at_place(exclusion: &Exclusion, answered: &Answered) -> String {
-    format!("{} at {}", exclusion.describe(&answered.loaded.scene), place(&exclusion.place))
-}
-
-/// Returns a place on the line, with its line in the file.
-fn place(place: &Place) -> String {
-    format!("{} of the line (line {} of the file)", length(place.distance), place.source.line)
+    format!("{} at {}", exclusion.describe(&answered.loaded.scene), exclusion.place)
 }
 
 fn line(answered: &Answered) -> String {
@@ -116,7 +98,7 @@ pub fn facts(answered: &Answered, found: &Found) -> Vec<(&'static str, String)> 
         _ => ("clearance", "no obstacle within reach".into()),
     });
     if !found.changes.is_empty() {
-        let places: Vec<String> = found.changes.iter().map(place).collect();
+        let places: Vec<String> = found.changes.iter().map(Place::to_string).collect();
         let count = counted(found.changes.len(), "change");
         let shown = if answered.args.verbose { places.join(", ") } else { places[0].clone() };
         facts.push(("solutions", format!("{count} of the IK solution; the first at {shown}")));

@@ -4,7 +4,8 @@ mod oracle;
 mod random;
 
 use cplan_core::model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
-use cplan_follow::{Cause, FollowError, Found, Infeasible, Settings, follow};
+use cplan_core::space::Configuration;
+use cplan_follow::{Cause, FollowError, Found, Infeasible, Settings, follow, follow_between};
 use cplan_toolpath::{Format, Placement, Toolpath, read};
 use oracle::{Bars, Point, pass_together, played, points};
 
@@ -288,4 +289,47 @@ fn unusable_settings_are_refused() {
     }
     let answer = follow(&scene, &line, &Settings { period: 0.0, ..Settings::default() });
     assert!(matches!(answer, Err(FollowError::Timing(_))));
+}
+
+/// Follows a line between all pairs of IK solutions at its ends. The line stays away from full stretch, so the solution
+/// stays the same.
+#[test]
+fn motions_begin_and_end_as_asked() {
+    let scene = scene_of(BARS, 3.0, vec![]);
+    let (line, settings) = (line("G0 X1000 Y-200\nG1 Y200\nG1 X800 Y300"), Settings::default());
+    let [starts, ends] =
+        [line.start(), line.end()].map(|point| BARS.solutions(point).expect("within reach").map(Configuration::from));
+    for (from, start) in starts.into_iter().enumerate() {
+        for (to, end) in ends.into_iter().enumerate() {
+            let answer = follow_between(&scene, &line, &settings, [start, end]).expect("usable settings");
+            if from == to {
+                let Outcome::Found(found) = answer else { panic!("{answer:?}") };
+                check(&BARS, &scene, &line, &settings, &found);
+                let positions = &found.timed.trajectory.position;
+                assert_eq!(Configuration::from(positions[0]), start);
+                assert!((Configuration::from(positions[positions.len() - 1]) - end).amax() < 1e-9);
+            } else {
+                let Outcome::Infeasible(why) = answer else { panic!("{answer:?}") };
+                assert!(why.contains("cannot change"), "{why}");
+            }
+        }
+    }
+    // A configuration that is no IK solution of the line's start.
+    let elsewhere = starts[0] + Configuration::new(0.1, 0.0);
+    let answer = follow_between(&scene, &line, &settings, [elsewhere, ends[0]]).expect("usable settings");
+    assert!(matches!(answer, Outcome::Unknown(_)), "{answer:?}");
+}
+
+/// Slows down the joints, and the tip on travels as well.
+#[test]
+fn shares_of_speeds_are_kept() {
+    let (scene, line) = (scene_of(BARS, 3.0, vec![]), line("G0 X1000 Y-200\nG1 Y200\nG0 X800 Y300\nG1 X900"));
+    let half = Settings { share: 0.5, tip_speed: Some(0.2), ..Settings::default() };
+    let found = found(&scene, &line, &half);
+    let fastest = check(&BARS, &scene, &line, &half, &found);
+    assert!(fastest <= 0.2 * (1.0 + 1e-6) && fastest > 0.19, "{fastest}");
+    let states = played(&BARS, &found.timed.trajectory, 1e-4);
+    let greatest = |of: fn(&oracle::State) -> Point| states.iter().flat_map(of).map(f64::abs).fold(0.0, f64::max);
+    assert!(greatest(|state| state.acceleration) <= 2.5 * (1.0 + 1e-6));
+    assert!(greatest(|state| state.velocity) <= 1.0);
 }
