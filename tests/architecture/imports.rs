@@ -18,7 +18,9 @@ fn workspace_dependencies(folder: &str, table: &str) -> Vec<String> {
 fn the_checker_shares_no_crate_with_the_planner() {
     assert_eq!(workspace_dependencies("crates/check", "dependencies"), [""; 0]);
     assert_eq!(workspace_dependencies("crates/check", "dev-dependencies"), [""; 0]);
-    assert_eq!(workspace_dependencies("crates/check-files", "dependencies"), ["cplan-check"]);
+    assert_eq!(workspace_dependencies("crates/check-line", "dependencies"), ["cplan-check"]);
+    assert_eq!(workspace_dependencies("crates/check-line", "dev-dependencies"), [""; 0]);
+    assert_eq!(workspace_dependencies("crates/check-files", "dependencies"), ["cplan-check", "cplan-check-line"]);
     // Its tests share only the choice of random cases.
     assert_eq!(workspace_dependencies("crates/check-files", "dev-dependencies"), ["cplan-cases"]);
 }

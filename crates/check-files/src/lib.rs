@@ -96,9 +96,10 @@ fn check_texts([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2
     })?;
     let mut robot = Robot::read(&document, &world, &files, certificate.joints.as_ref())?;
     robot.arm.ignore(&certificate)?;
-    let proven = match &certificate.steps {
-        Some(steps) => task::check_motion(&robot, &world, &certificate, steps)?,
-        None => cplan_check::judge(&robot.arm, &world.world, &certificate)?,
+    let proven = match (&certificate.line, &certificate.steps) {
+        (Some(line), _) => cplan_check_line::judge(&robot.arm, &world.world, &certificate, line.get())?,
+        (None, Some(steps)) => task::check_motion(&robot, &world, &certificate, steps)?,
+        (None, None) => cplan_check::judge(&robot.arm, &world.world, &certificate)?,
     };
     Ok(proven + &robot.arm.notes)
 }

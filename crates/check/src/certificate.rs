@@ -62,6 +62,8 @@ pub struct Certificate {
     pub boxes: Option<Vec<CollisionBox>>,
     /// Evidence that no motion is shorter than a length.
     pub bound: Option<Bound>,
+    /// For an answer about a motion along a line: the line as JSON. The crate `cplan-check-line` reads it.
+    pub line: Option<Box<RawValue>>,
 }
 
 impl Certificate {

@@ -29,7 +29,9 @@ struct Part {
 
 /// A shape and a part that can collide.
 pub struct Pair<'a> {
+    /// The shape of the arm.
     pub body: &'a Body,
+    /// The part, grown by the clearance.
     pub part: &'a Shape,
     /// The link, if the part belongs to the robot. Overlap is then tested in the box that [`Cell::beside`] returns.
     pub beside: Option<&'a Owner>,

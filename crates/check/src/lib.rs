@@ -23,7 +23,7 @@
 pub mod arm;
 mod bound;
 pub mod certificate;
-mod contacts;
+pub mod contacts;
 pub mod curve;
 pub mod decimal;
 pub mod domain;
@@ -33,7 +33,7 @@ pub mod free;
 mod infeasible;
 pub mod interval;
 pub mod motion;
-mod mover;
+pub mod mover;
 pub mod obstacle;
 pub mod overlap;
 pub mod polygon;

@@ -184,8 +184,12 @@ fn is_curve_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings:
     [first, second].iter().all(|half| is_curve_within(half, low, high, halvings - 1))
 }
 
-/// Checks that all shapes of the arm keep farther than the clearance from all obstacles, along the whole motion.
-fn check_arm_clear(
+/// Checks that all shapes of the arm keep farther than the clearance from all obstacles, along the whole motion. `start`
+/// is its first configuration.
+///
+/// # Errors
+/// The first part of the motion, shape and obstacle for which this is not shown.
+pub fn check_arm_clear(
     arm: &Arm,
     world: &World,
     pieces: &[Piece],

@@ -88,6 +88,7 @@ fn reach(points: &[Point]) -> Interval {
 }
 
 impl<'a> MovingBody<'a> {
+    /// Prepares a body that an arm moves.
     pub fn new(arm: &'a Arm, body: &'a Body) -> Self {
         let zero = Interval::whole(0);
         let first = RefCell::new((zero.clone(), arm.displaced(0, &zero)));

@@ -1,0 +1,115 @@
+//! The line as the certificate states it.
+
+use crate::curve::{Arc, Curve};
+use cplan_check::decimal::Decimal;
+use cplan_check::interval::{BITS, Interval, Point, length, minus, rough};
+use cplan_check::polygon::Corner;
+use cplan_check::{CheckError, Input};
+use num_bigint::BigInt;
+use serde::Deserialize;
+use std::fmt;
+
+/// Number of decimals of the greatest gap between two pieces, as a share of one metre and the distance from the origin.
+const GAP_DECIMALS: u32 = 8;
+
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+enum PieceText {
+    Straight([Corner; 2]),
+    Cubic([Corner; 4]),
+    Arc { center: Corner, radius: Decimal, from: Decimal, by: Decimal },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LineText {
+    tolerance: Decimal,
+    pieces: Vec<PieceText>,
+    #[serde(default)]
+    travels: Vec<usize>,
+    #[serde(default)]
+    places: Vec<[Decimal; 2]>,
+    stretch: Option<[Decimal; 2]>,
+}
+
+/// A line, and its part in the evidence.
+pub struct Line {
+    /// Greatest distance between the tip and the line, metres.
+    pub tolerance: Decimal,
+    /// The pieces in order.
+    pub pieces: Vec<Curve>,
+    /// Number of the pieces that only lead the tip to the next piece.
+    travels: usize,
+    /// Evidence for "found": moments of the motion, and the positions on the line at which the tip is near then. A
+    /// moment is a knot plus the share of the time until the next knot. A position is a piece plus its parameter.
+    pub places: Vec<[Decimal; 2]>,
+    /// Evidence for "infeasible": the positions between which no motion follows the line.
+    pub stretch: Option<[Decimal; 2]>,
+}
+
+fn point(corner: &Corner) -> Point {
+    corner.each_ref().map(Interval::from)
+}
+
+impl Line {
+    /// Reads a line.
+    ///
+    /// # Errors
+    /// If the text is not a line, or if a piece does not begin where the one before it ends.
+    pub fn read(text: &str) -> Result<Self, CheckError> {
+        let wrong = |message: String| CheckError::in_file(Input::Certificate, message);
+        let LineText { tolerance, pieces, travels, places, stretch } =
+            serde_json::from_str(text).map_err(|error| wrong(format!("\"line\": {error}")))?;
+        let curve = |piece: &PieceText| match piece {
+            PieceText::Straight(ends) => Curve::Bezier(ends.iter().map(point).collect()),
+            PieceText::Cubic(control) => Curve::Bezier(control.iter().map(point).collect()),
+            PieceText::Arc { center, radius, from, by } => {
+                let [radius, from, by] = [radius, from, by].map(Interval::from);
+                Curve::Arc(Box::new(Arc { center: point(center), radius, from, by }))
+            }
+        };
+        let line =
+            Self { tolerance, pieces: pieces.iter().map(curve).collect(), travels: travels.len(), places, stretch };
+        if line.pieces.is_empty() {
+            return Err(wrong("\"line\": it has no pieces".into()));
+        }
+        let is_piece = |piece: &usize| *piece < pieces.len();
+        if !travels.iter().all(is_piece) || travels.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return Err(wrong("\"line\": \"travels\" must be counts of pieces, in ascending order".into()));
+        }
+        match line.pieces.windows(2).position(|pair| !is_joined(&pair[0], &pair[1])) {
+            Some(before) => {
+                CheckError::fails(format!("piece {} of the line does not begin where piece {before} ends", before + 1))
+            }
+            None => Ok(line),
+        }
+    }
+}
+
+/// Returns the greatest whole number up to `number`, and below `count`; 0 for negative numbers.
+pub fn index(number: &Decimal, count: usize) -> usize {
+    usize::try_from(number.floor(0)).unwrap_or(if *number < Decimal::whole(0) { 0 } else { usize::MAX }).min(count - 1)
+}
+
+/// Returns the parameter of a position on a piece, in units of [`Interval`].
+pub fn parameter(position: &Decimal, piece: usize) -> BigInt {
+    position.floor(BITS) - (BigInt::from(piece) << BITS)
+}
+
+/// Returns true if a piece begins where another one ends, apart from rounding.
+fn is_joined(before: &Curve, after: &Curve) -> bool {
+    let (end, start) = (before.at(&Interval::whole(1)), after.at(&Interval::whole(0)));
+    let scale = &length(&start) + &Interval::whole(1);
+    length(&minus(&end, &start)).upper <= (&scale * &Interval::from(&Decimal::power_of_ten(GAP_DECIMALS))).lower
+}
+
+impl fmt::Display for Line {
+    /// Describes the line by its number of pieces and its ends.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let count = self.pieces.len();
+        let (from, to) = (self.pieces[0].at(&Interval::whole(0)), self.pieces[count - 1].at(&Interval::whole(1)));
+        let [[a, b], [c, d]] = [rough(&from), rough(&to)];
+        let travels = if self.travels > 0 { format!(", {} of them travels,", self.travels) } else { String::new() };
+        write!(f, "a line of {count} pieces{travels} from ({a:.6}, {b:.6}) to ({c:.6}, {d:.6})")
+    }
+}
