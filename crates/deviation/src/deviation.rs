@@ -59,14 +59,48 @@ pub struct Foot {
     pub u: f64,
 }
 
+/// The part of a line that belongs to a piece of a motion.
+struct Stride {
+    /// The positions of the tip at the ends of the piece.
+    tips: [Point; 2],
+    /// The places on the line then.
+    feet: [Foot; 2],
+    /// Number of corners of the line between them.
+    corners: usize,
+}
+
 impl Deviation<'_> {
     /// Returns an upper bound on the distance between the line and each piece of a motion, metres. It takes `O(n)` for
     /// `n` pieces, and more where a bound exceeds the tolerance.
     #[must_use]
     pub fn of_pieces(&self, pieces: &[Piece]) -> Vec<f64> {
+        let bound = |(piece, stride): (&Piece, Stride)| self.of_piece(piece, stride.tips, stride.feet, stride.corners);
+        pieces.iter().zip(self.strides(pieces)).map(bound).collect()
+    }
+
+    /// Returns the moments of a motion at the ends of its pieces and at the corners of the line, each with the place on
+    /// the line that counts then. A moment is a piece of the motion plus the share of its duration. Both never return. It
+    /// takes `O(n)` for `n` pieces.
+    #[must_use]
+    pub fn pairs(&self, pieces: &[Piece]) -> Vec<(f64, Foot)> {
+        let mut pairs = vec![(0.0, self.ends[0])];
+        for (k, (piece, Stride { tips, feet, corners })) in pieces.iter().zip(self.strides(pieces)).enumerate() {
+            let (mut share, mut tip) = (0.0, tips[0]);
+            for corner in feet[0].piece..feet[0].piece + corners {
+                share = self.nearest(piece, share, [tip, tips[1]], self.curve(corner).end().into());
+                tip = self.tip(piece, share);
+                pairs.push((k as f64 + share, Foot { piece: corner, u: 1.0 }));
+            }
+            pairs.push(((k + 1) as f64, feet[1]));
+        }
+        pairs
+    }
+
+    /// Returns the parts of the line that belong to the pieces of a motion.
+    fn strides(&self, pieces: &[Piece]) -> Vec<Stride> {
         let [mut foot, last] = self.ends;
         let mut start = pieces.first().map_or(Point::zeros(), |piece| self.tip(piece, 0.0));
-        let bound = |(i, piece): (usize, &Piece)| {
+        let stride = |(i, piece): (usize, &Piece)| {
             let (from, mut corners) = (foot, 0);
             // Each piece begins exactly where the one before it ends.
             let begin = start;
@@ -79,9 +113,9 @@ impl Deviation<'_> {
                 corners += last.piece - foot.piece;
                 foot = last;
             }
-            self.of_piece(piece, [begin, end], [from, foot], corners)
+            Stride { tips: [begin, end], feet: [from, foot], corners }
         };
-        pieces.iter().enumerate().map(bound).collect()
+        pieces.iter().enumerate().map(stride).collect()
     }
 
     /// Returns an upper bound on the distance between the line and an arm that rests, metres.

@@ -23,7 +23,8 @@ mod result;
 mod stored;
 
 pub use certificate::{
-    BoundCertificate, NoCertificate, certificate_of_bound, certificate_of_boxes, certificate_of_recording,
+    BoundCertificate, CertifiedLine, ExcludedSolution, NoCertificate, certificate_of_bound, certificate_of_boxes,
+    certificate_of_recording,
 };
 pub use motion::Motion;
 pub use plan::{Detail, Plan, PlanError, Refutation, plan, plan_with};

@@ -34,6 +34,9 @@ pub struct Infeasible {
     pub cause: Cause,
     /// The place that the reason refers to; for [`Cause::NoChange`], the first one.
     pub place: Place,
+    /// All exclusions that the proof needs: one for each IK solution and whole turn within the limits or near them. Empty
+    /// if the place is out of reach.
+    pub evidence: Vec<Exclusion>,
 }
 
 /// The reason why no motion follows a line.
@@ -93,7 +96,7 @@ pub(crate) fn out_of_reach(kinematics: &Kinematics, nodes: &Nodes, tolerance: f6
     };
     nodes.nodes.iter().find_map(|node| {
         let by = off(&node.place)?;
-        Some(Infeasible { cause: Cause::OutOfReach { by }, place: node.place })
+        Some(Infeasible { cause: Cause::OutOfReach { by }, place: node.place, evidence: Vec::new() })
     })
 }
 
@@ -133,7 +136,8 @@ impl Prover<'_> {
             let solutions = if self.kinematics.has_two_solutions() { 0..2 } else { 0..1 };
             list = solutions.map(|solution| self.outside(node, solution)).collect::<Option<_>>()?;
         }
-        self.is_box_known(node).then(|| Infeasible { cause: Cause::Excluded(one_each(list)), place: self.place(node) })
+        let (place, evidence) = (self.place(node), list.clone());
+        self.is_box_known(node).then(|| Infeasible { cause: Cause::Excluded(one_each(list)), place, evidence })
     }
 
     fn on_a_stretch(&self, excluded: &[Vec<Option<Exclusion>>]) -> Option<Infeasible> {
@@ -151,7 +155,8 @@ impl Prover<'_> {
                 let mut list: Vec<Exclusion> = found.into_iter().flatten().collect();
                 list.sort_by(|a, b| a.place.distance.total_cmp(&b.place.distance));
                 let place = list[0].place;
-                return Some(Infeasible { cause: Cause::NoChange(one_each(list)), place });
+                let evidence = list.clone();
+                return Some(Infeasible { cause: Cause::NoChange(one_each(list)), place, evidence });
             }
         }
         None

@@ -67,6 +67,10 @@ pub struct FollowArgs {
     /// Draw the line and the motion in workspace and configuration space: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
+    /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact
+    /// arithmetic. If FILE is also a .json of --output, it becomes the member `certificate` there.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
+    pub certificate: Option<PathBuf>,
     #[command(flatten)]
     pub theme: ThemeArgs,
     #[command(flatten)]

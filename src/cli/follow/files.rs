@@ -1,11 +1,12 @@
 //! The files that the answer is written to.
 
-use super::{Answered, FollowArgs, json, picture};
+use super::{Answered, FollowArgs, certificate, json, picture};
 use crate::cli::failure::Failure;
 use crate::cli::sinks;
 use crate::model::Outcome;
 use crate::motion::{JointMotion, check_writable, csv, ros_yaml, write_whole_set};
 use crate::output::PictureFormat;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The contents of an output.
@@ -19,6 +20,8 @@ enum Content {
 /// The outputs that are requested.
 pub struct Outputs {
     results: Vec<(PathBuf, Content)>,
+    /// The file of the certificate, if it is requested.
+    certificate: Option<PathBuf>,
     pictures: Vec<(PathBuf, PictureFormat)>,
 }
 
@@ -39,7 +42,9 @@ impl Outputs {
         });
         let pictures = pictures.collect::<Result<Vec<_>, Failure>>()?;
         pictures.iter().try_for_each(|(path, _)| check_writable(path))?;
-        let outputs = Self { results, pictures };
+        let certificate = args.certificate.clone();
+        certificate.iter().try_for_each(|path| check_writable(path))?;
+        let outputs = Self { results, certificate, pictures };
         sinks::distinct(outputs.paths())?;
         Ok(outputs)
     }
@@ -47,7 +52,13 @@ impl Outputs {
     /// Returns the names of all files.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         let results = self.results.iter().map(|(path, _)| path.as_path());
-        results.chain(self.pictures.iter().map(|(path, _)| path.as_path()))
+        let certificate = self.certificate.iter().filter(|path| !self.is_member(path)).map(PathBuf::as_path);
+        results.chain(certificate).chain(self.pictures.iter().map(|(path, _)| path.as_path()))
+    }
+
+    /// Returns true if the certificate in this file is a member of a result.
+    fn is_member(&self, path: &Path) -> bool {
+        self.results.iter().any(|(result, content)| result == path && *content == Content::Json)
     }
 
     /// Writes all files. Without a motion, warns about those that can only contain one.
@@ -56,8 +67,13 @@ impl Outputs {
     /// I/O, and pictures that cannot be drawn.
     pub fn write(&self, answered: &Answered) -> Result<(), Failure> {
         let mut files = Vec::new();
+        let certificate = self.certificate.as_deref().and_then(|path| Some((path, certificate::text(answered, path)?)));
+        if let Some((path, text)) = certificate.as_ref().filter(|(path, _)| !self.is_member(path)) {
+            files.push((path.to_path_buf(), text.clone().into_bytes()));
+        }
         for (path, content) in &self.results {
-            match text(answered, *content)? {
+            let member = certificate.as_ref().filter(|(own, _)| own == path).map(|(_, text)| text.as_str());
+            match text(answered, *content, member)? {
                 Some(text) => files.push((path.clone(), text.into_bytes())),
                 None => sinks::warn_unwritten(path, "trajectory"),
             }
@@ -72,15 +88,22 @@ impl Outputs {
     }
 }
 
-/// Returns the text of a file; `None` if it can only contain a motion and the answer has no motion.
-fn text(answered: &Answered, content: Content) -> Result<Option<String>, Failure> {
+/// Returns the text of a file; `None` if it can only contain a motion and the answer has no motion. A certificate becomes
+/// a member of JSON.
+fn text(answered: &Answered, content: Content, certificate: Option<&str>) -> Result<Option<String>, Failure> {
     let trajectory = match answered.answer {
         Outcome::Found(found) => Some(&found.timed.trajectory),
         _ => None,
     };
     let loaded = answered.loaded;
     Ok(match content {
-        Content::Json => Some(sinks::pretty(&json::object(answered))?),
+        Content::Json => {
+            let mut object = json::object(answered);
+            if let Some(certificate) = certificate.and_then(|text| serde_json::from_str::<Value>(text).ok()) {
+                object["certificate"] = certificate;
+            }
+            Some(sinks::pretty(&object)?)
+        }
         Content::Csv => {
             let joints = loaded.scene.arm().joints.each_ref().map(|joint| joint.name.clone());
             trajectory.map(|trajectory| csv(&joints, trajectory, false, None))

@@ -1,6 +1,7 @@
 //! `cplan follow`: moves the tip along a line.
 
 mod args;
+mod certificate;
 mod files;
 mod json;
 mod picture;
@@ -12,7 +13,7 @@ pub use args::FollowArgs;
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
 use super::sinks;
-use crate::input::{self, LoadedScene};
+use crate::input::{self, Digests, LoadedScene};
 use crate::model::Status;
 use cplan_follow::{FollowError, Followed, Settings, follow};
 use cplan_toolpath::Toolpath;
@@ -23,6 +24,8 @@ struct Answered<'a> {
     loaded: &'a LoadedScene,
     line: &'a Toolpath,
     answer: &'a Followed,
+    /// The digests of the files of robot and world, for a certificate.
+    digests: Option<Digests>,
 }
 
 /// Follows a line, and prints and writes the answer.
@@ -35,6 +38,8 @@ pub fn run(args: &FollowArgs) -> Result<u8, Failure> {
     loaded.require_static_obstacles("a line is followed among obstacles at rest")?;
     let read: Vec<_> = loaded.files().into_iter().chain([args.path.clone()]).collect();
     sinks::refuse_to_overwrite_inputs(outputs.paths(), &read)?;
+    let digests = || Digests::of(&args.files.robot(), &args.files.world, &loaded.files());
+    let digests = args.certificate.as_ref().map(|_| digests()).transpose()?;
     let line = read::line(args)?;
     if !args.print.quiet {
         loaded.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
@@ -42,7 +47,7 @@ pub fn run(args: &FollowArgs) -> Result<u8, Failure> {
     let settings =
         Settings { tolerance: args.tolerance, speed: args.speed, period: args.period, ..Settings::default() };
     let answer = follow(&loaded.scene, &line, &settings).map_err(refused)?;
-    let answered = Answered { args, loaded: &loaded, line: &line, answer: &answer };
+    let answered = Answered { args, loaded: &loaded, line: &line, answer: &answer, digests };
     outputs.write(&answered)?;
     let code = match answer.status() {
         Status::Found => DONE,

@@ -3,11 +3,13 @@
 
 mod bound;
 mod contacts;
+mod line;
 mod lower_bound;
 mod motion;
 mod stated;
 mod task;
 
+pub use line::{CertifiedLine, ExcludedSolution};
 pub use motion::recorded as certificate_of_recording;
 pub use stated::{BoundCertificate, certificate_of_bound, certificate_of_boxes};
 
@@ -47,6 +49,9 @@ pub enum NoCertificate {
     /// The motion has no times, but the world has moving obstacles.
     #[error("the motion has no times, which decide whether it avoids the moving obstacles")]
     Untimed,
+    /// No box of collisions is found around an IK solution that is excluded at a place of a line.
+    #[error("an IK solution collides too slightly for a checker to confirm it; a smaller tolerance may help")]
+    Line,
 }
 
 impl Plan {

@@ -75,13 +75,13 @@ pub fn recorded(
 }
 
 /// Returns the values of the joints for a certificate, moved inwards at limits.
-fn written_inward(topology: &Topology, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
+pub(super) fn written_inward(topology: &Topology, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
     positions.iter().map(|&q| inward(topology, q.into()).into()).collect()
 }
 
 /// Returns the motion as a member of the certificate's JSON. It consists of knots, each with a time and the values of
 /// the columns at that time. `readings` are the names of the interpolations.
-fn motion_member(readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> (&'static str, String) {
+pub(super) fn motion_member(readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> (&'static str, String) {
     let knot =
         |k: usize| json!([times[k]].into_iter().chain(columns.iter().flat_map(|rows| rows[k])).collect::<Vec<f64>>());
     let knots: Vec<Value> = (0..times.len()).map(knot).collect();

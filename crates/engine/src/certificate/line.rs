@@ -1,0 +1,149 @@
+//! Evidence for a motion of the tip along a line, or for the claim that there is none.
+
+use super::contacts::Contacts;
+use super::motion::{motion_member, written_inward};
+use super::{BOX_MARGINS, Evidence, NoCertificate, lines, robot_members, written};
+use cplan_core::check::{Cell, CollisionBox};
+use cplan_core::model::{Pair, Scene};
+use cplan_core::space::Configuration;
+use cplan_deviation::{Deviation, Foot, Kinematics, Line, Place};
+use cplan_handling::Piece;
+use cplan_motion::Trajectory;
+use cplan_toolpath::{Curve, Toolpath};
+use cplan_world::{Digests, Overrides};
+use serde_json::{Value, json};
+use std::f64::consts::TAU;
+
+/// A line that the tip should follow, and the files of the robot and the world.
+#[derive(Clone, Copy)]
+pub struct CertifiedLine<'a> {
+    /// The arm and its obstacles.
+    pub scene: &'a Scene,
+    /// The line.
+    pub line: &'a Toolpath,
+    /// Greatest distance between the tip and the line, metres.
+    pub tolerance: f64,
+    /// The values that replace those of the world file.
+    pub asked: &'a Overrides,
+    /// The digests of the files.
+    pub files: Option<&'a Digests>,
+}
+
+/// An IK solution that is excluded at a place of a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExcludedSolution {
+    /// The place.
+    pub place: Place,
+    /// Number of the IK solution, 0 or 1.
+    pub solution: usize,
+    /// The joint values of the solution, with their whole turns.
+    pub q: [f64; 2],
+    /// The shapes that collide. `None` if a joint is outside its limits.
+    pub pair: Option<Pair>,
+}
+
+impl CertifiedLine<'_> {
+    /// Returns the certificate of a motion along the line, as controllers play it. It takes time linear in the number of
+    /// samples.
+    #[must_use]
+    pub fn of_motion(&self, trajectory: &Trajectory) -> String {
+        let arm = self.scene.arm();
+        let Trajectory { time, position, velocity, acceleration, torque: _ } = trajectory;
+        let position = &written_inward(&arm.topology(), position);
+        // Readers of motions with limited jerk may also use the accelerations at both ends.
+        let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
+        let readings = if is_smooth { ["cubic", "quintic"] } else { ["cubic", "quartic"] };
+        let motion = motion_member(&readings, time, &[position, velocity, acceleration]);
+        let places = ("places", lines(&self.places(trajectory)));
+        self.written("found", places, [motion])
+    }
+
+    /// Returns the certificate that no motion follows the line past a place, or past the stretch between several places.
+    /// All IK solutions are excluded there. Without any, the place `from` is out of reach.
+    ///
+    /// # Errors
+    /// [`NoCertificate::Line`] if no box of collisions is found around a solution.
+    pub fn of_exclusions(&self, from: &Place, excluded: &[ExcludedSolution]) -> Result<String, NoCertificate> {
+        let position = |place: &Place| place.piece as f64 + place.u;
+        let positions = || excluded.iter().map(|solution| position(&solution.place)).chain([position(from)]);
+        let stretch = [positions().fold(f64::INFINITY, f64::min), positions().fold(0.0, f64::max)];
+        let colliding = excluded.iter().filter(|solution| solution.pair.is_some());
+        let boxes: Option<Vec<CollisionBox>> = colliding.map(|solution| self.collision_box(solution)).collect();
+        let Some(boxes) = boxes else { return Err(NoCertificate::Line) };
+        let mut contacts = Contacts::new(self.scene);
+        let boxes = contacts.boxes(&boxes);
+        let stretch = ("stretch", json!(stretch).to_string());
+        Ok(self.written("infeasible", stretch, contacts.named().into_iter().chain([boxes])))
+    }
+
+    fn written(
+        &self,
+        answer: &str,
+        evidence: (&'static str, String),
+        others: impl IntoIterator<Item = (&'static str, String)>,
+    ) -> String {
+        let clearance = self.asked.clearance.map(|clearance| ("clearance", json!(clearance)));
+        let members = robot_members(self.files, self.scene.arm()).into_iter().chain(clearance).collect();
+        written(answer, members, [self.line_member(evidence)].into_iter().chain(others))
+    }
+
+    /// Returns the line as a member of the certificate's JSON, with its part in the evidence.
+    fn line_member(&self, evidence: (&'static str, String)) -> (&'static str, String) {
+        let pieces: Vec<Value> = self.line.pieces().iter().map(|piece| curve(&piece.curve)).collect();
+        let travels = self.line.pieces().iter().enumerate().filter(|(_, piece)| piece.is_travel);
+        let travels: Vec<usize> = travels.map(|(number, _)| number).collect();
+        let mut members: Evidence = vec![("tolerance", json!(self.tolerance).to_string()), ("pieces", lines(&pieces))];
+        members.extend((!travels.is_empty()).then(|| ("travels", json!(travels).to_string())));
+        members.push(evidence);
+        let members: Vec<String> = members.iter().map(|(name, value)| format!("\"{name}\": {value}")).collect();
+        ("line", format!("{{ {} }}", members.join(",\n  ")))
+    }
+
+    /// Returns moments of a motion, and the positions on the line at which the tip is near then. A moment is a sample plus
+    /// the share of the time until the next one, and a position is a piece plus its parameter.
+    fn places(&self, trajectory: &Trajectory) -> Vec<[f64; 2]> {
+        let (kinematics, line) = (Kinematics::new(self.scene.arm()), Line::new(self.line));
+        let last = Foot { piece: self.line.pieces().len() - 1, u: 1.0 };
+        let ends = [Foot { piece: 0, u: 0.0 }, last];
+        let deviation = Deviation { kinematics: &kinematics, line: &line, tolerance: self.tolerance, ends };
+        let mut pieces = trajectory.pieces();
+        if pieces.is_empty() {
+            let q = trajectory.position[0].into();
+            pieces.push(Piece::line(0.0, 1.0, q, q));
+        }
+        deviation.pairs(&pieces).into_iter().map(|(moment, foot)| [moment, foot.piece as f64 + foot.u]).collect()
+    }
+
+    /// Returns a box of collisions around all configurations of a solution that keep the tip within the tolerance: the
+    /// widest one that is found.
+    fn collision_box(&self, excluded: &ExcludedSolution) -> Option<CollisionBox> {
+        let scene = &*self.scene.inner();
+        let (arm, q) = (scene.arm(), Configuration::from(excluded.q));
+        let known = Kinematics::new(arm).solution_box(excluded.place.point, excluded.solution, self.tolerance)?;
+        let middle = Configuration::from_fn(|k, _| match arm.joints[k].joint_type.is_revolute() {
+            true => known.middle[k] + ((q[k] - known.middle[k]) / TAU).round() * TAU,
+            false => known.middle[k],
+        });
+        let ranges = arm.topology().ranges.map(|range| range.domain());
+        let mut pairs: Vec<Pair> = scene.obstructions(middle).into_iter().map(|o| o.contact.pair).collect();
+        pairs.extend(excluded.pair);
+        let of_margin = |margin: f64| {
+            let half = [0, 1].map(|k| known.half[k] + margin * (ranges[k].1 - ranges[k].0));
+            let cell = Cell { lower: [0, 1].map(|k| middle[k] - half[k]), upper: [0, 1].map(|k| middle[k] + half[k]) };
+            let claims = pairs.iter().map(|pair| CollisionBox { cell, pair: *pair });
+            claims.into_iter().find(|stuck| stuck.holds(scene, scene.workspace().clearance))
+        };
+        BOX_MARGINS.into_iter().chain([0.0]).find_map(of_margin)
+    }
+}
+
+/// Returns a curve in the form of certificates.
+fn curve(curve: &Curve) -> Value {
+    match *curve {
+        Curve::Line { from, to } => json!({ "straight": [from, to] }),
+        Curve::Arc { center, radius, from, by } => {
+            json!({ "arc": { "center": center, "radius": radius, "from": from, "by": by } })
+        }
+        Curve::Cubic(points) => json!({ "cubic": points }),
+    }
+}

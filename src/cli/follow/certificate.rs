@@ -1,0 +1,35 @@
+//! The certificate of an answer.
+
+use super::Answered;
+use crate::cli::sinks;
+use crate::engine::{CertifiedLine, ExcludedSolution, NoCertificate};
+use crate::input::Overrides;
+use crate::model::{Outcome, Status};
+use cplan_follow::{Exclusion, Obstacle};
+use std::path::Path;
+
+/// Returns the text of the certificate. Without one, prints a warning about the file that would contain it.
+pub fn text(answered: &Answered, path: &Path) -> Option<String> {
+    let Answered { args, loaded, line, answer, digests } = answered;
+    let asked = &Overrides { clearance: args.clearance, ..Overrides::default() };
+    let (scene, tolerance, files) = (&loaded.scene, args.tolerance, digests.as_ref());
+    let certified = CertifiedLine { scene, line, tolerance, asked, files };
+    let text = match answer {
+        Outcome::Found(found) => Ok(certified.of_motion(&found.timed.trajectory)),
+        Outcome::Infeasible(infeasible) => {
+            let excluded: Vec<ExcludedSolution> = infeasible.evidence.iter().map(excluded).collect();
+            certified.of_exclusions(&infeasible.place, &excluded)
+        }
+        Outcome::Unknown(_) => Err(NoCertificate::Answer(Status::Unknown)),
+    };
+    text.map_err(|why| sinks::print_status(&format!("warning: {} is not written: {why}", path.display()))).ok()
+}
+
+fn excluded(exclusion: &Exclusion) -> ExcludedSolution {
+    let Exclusion { place, solution, q, by } = exclusion;
+    let pair = match by {
+        Obstacle::Limit(_) => None,
+        Obstacle::Collision(pair) => Some(*pair),
+    };
+    ExcludedSolution { place: *place, solution: *solution, q: *q, pair }
+}
