@@ -166,6 +166,14 @@ speed = 0.5
 [[step]]
 move = { joints = [0, 0.5] }
 [[step]]
+follow = { points = [[0.9, 0], [1, 0], [1, 0.1]], radius = 0.02, speed = 0.1, tolerance = 0.0001 }
+[[step]]
+follow = { arc = [[0.9, 0], [1, 0.1], [0.9, 0.2]], scale = 1.1, turn = "10deg", move = [0.1, 0] }
+[[step]]
+follow = { spline = [[0.9, 0], [1, 0.1]], turn = 0.1 }
+[[step]]
+follow = { file = "plate.gcode", unit = "mm" }
+[[step]]
 repeat = 100
 order = "free"
 speed = 1
@@ -336,6 +344,10 @@ fn broken_worlds_are_not_valid() {
         "[[step]]",
         "[[step]]\npick = \"a\"\nplace = { at = [0, 0] }",
         "[[step]]\nplace = [0, 0]",
+        "[[step]]\nfollow = { points = [[0, 0]] }",
+        "[[step]]\nfollow = { arc = [[0, 0], [1, 1]] }",
+        "[[step]]\nfollow = { points = [[0, 0], [1, 1]], spline = [[0, 0], [1, 1]] }",
+        "[[step]]\nfollow = { spline = [[0, 0], [1, 1]], radius = 1 }",
         "[[step]]\nplace = { at = [0, 0] }\ngrasp = [0, 0]",
         "[[step]]\npick = \"a\"\nrepeat = 2",
         "[[step]]\nmove = { joints = [0, 0] }\nwindow = [1, 2]",

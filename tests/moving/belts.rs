@@ -253,7 +253,7 @@ impl Replayed<'_> {
         self.released = None;
         match &leg.step.action {
             Action::Move(Goal::Tip(target)) => near("the tip", tip, [target.x, target.y])?,
-            Action::Move(Goal::Joints(_) | Goal::Area(_)) => (),
+            Action::Move(Goal::Joints(_) | Goal::Area(_)) | Action::Follow(_) => (),
             Action::Pick { object, grasp, when, .. } => {
                 let thing = &self.task.objects[*object];
                 let moves = std::mem::take(&mut self.moving[*object]);

@@ -10,6 +10,7 @@ mod contract;
 mod decide;
 mod explaining;
 mod fastest;
+mod followed_lines;
 mod free_orders;
 mod full_graph;
 mod goal_seams;

@@ -127,7 +127,7 @@ fn ik_solutions(task: &Task, step: &Step) -> Vec<Configuration> {
     let target = match &step.action {
         Action::Pick { object, .. } => task.objects[*object].at.translation,
         Action::Place { at, .. } => *at,
-        Action::Move(_) => panic!("picks and places only"),
+        Action::Move(_) | Action::Follow(_) => panic!("picks and places only"),
     };
     let branches = inverse(&task.arm, target, task.start).branches;
     let copies = |q: &Configuration| {

@@ -35,7 +35,7 @@ pub struct Shape {
     pub kind: String,
     /// Line number at which the shape begins, in formats that have lines.
     pub line: Option<usize>,
-    /// Frame of the outermost block that contains the shape; `None` if there is none.
+    /// Frame of the outermost block that contains the shape; `None` without a block.
     pub frame: Option<Frame>,
 }
 

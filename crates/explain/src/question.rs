@@ -105,7 +105,7 @@ impl MotionQuestion {
         Self { time_limit: Some(limit), ..self }
     }
 
-    /// Returns the time limit of an explanation. `None` if there is none.
+    /// Returns the time limit of an explanation. `None` means that it may take any time.
     #[must_use]
     pub fn time_limit(&self) -> Option<Duration> {
         self.time_limit

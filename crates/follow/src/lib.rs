@@ -45,6 +45,7 @@ mod search;
 mod sheets;
 
 pub use cplan_deviation::Place;
+pub use cplan_handling::{DEFAULT_TOLERANCE, MIN_TOLERANCE};
 pub use proof::{Cause, Exclusion, Infeasible, Obstacle};
 
 use cplan_core::model::{Outcome, Scene};
@@ -58,8 +59,6 @@ use proof::Prover;
 use search::Search;
 use sheets::Sheets;
 
-/// Least tolerance, metres: a micrometre. The accuracy of robots is far below it.
-pub const MIN_TOLERANCE: f64 = 1e-6;
 
 /// Share of the tolerance that the straight motions in joint space and the blends may use each. Their deviations have
 /// the same direction where the line is smooth, so they do not add up there.
@@ -100,7 +99,7 @@ impl Default for Settings {
     /// Returns a tolerance of a hundredth of a millimetre, the speeds of the file, and a sample every hundredth of a
     /// second.
     fn default() -> Self {
-        Self { tolerance: 1e-5, speed: None, tip_speed: None, share: 1.0, period: 0.01 }
+        Self { tolerance: DEFAULT_TOLERANCE, speed: None, tip_speed: None, share: 1.0, period: 0.01 }
     }
 }
 

@@ -12,6 +12,7 @@
 
 mod bernstein;
 mod claims;
+mod followed_line;
 mod held;
 mod interpolation;
 mod moving_obstacle;
@@ -27,6 +28,7 @@ mod timed;
 pub use claims::{
     BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedOverlap, RecordedStep, RecordedTurn, StepClaims, TaskClaims,
 };
+pub use followed_line::{DEFAULT_TOLERANCE, FollowedLine, MIN_TOLERANCE};
 pub use held::{HeldEffect, HeldJoint, HeldMotion};
 pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 pub use moving_obstacle::{Leg, MAX_STOP_TIME, MovingObstacle, ObstacleTrajectory, ObstacleTrajectoryError, Stop};

@@ -1,10 +1,10 @@
 //! Tasks: objects, and the steps to execute with them.
 
-use super::{MovingObstacle, ObstacleTrajectory, Payload, Stroke, TimedWorkspace};
+use super::{FollowedLine, MovingObstacle, ObstacleTrajectory, Payload, Stroke, TimedWorkspace};
 use cplan_core::model::{Arm, Goal, Heights, Obstacle, Shape};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Interval, Point, Pose};
-use cplan_text::short;
+use cplan_text::{length, short};
 use serde::{Deserialize, Serialize};
 
 /// The rule for an object's orientation while the arm carries it.
@@ -82,6 +82,8 @@ pub enum Action {
     },
     /// The arm moves to a goal, with the object that it carries, if any.
     Move(Goal),
+    /// The tip follows a line, with the object that the arm carries, if any. The step before ends where the line begins.
+    Follow(FollowedLine),
 }
 
 /// A step: an action, and its speed.
@@ -275,7 +277,7 @@ impl Action {
     pub fn picked(&self) -> Option<usize> {
         match self {
             Action::Pick { object, .. } => Some(*object),
-            Action::Place { .. } | Action::Move(_) => None,
+            Action::Place { .. } | Action::Move(_) | Action::Follow(_) => None,
         }
     }
 
@@ -291,6 +293,7 @@ impl Action {
             }
             Action::Move(Goal::Joints(q)) => format!("move to joints {}", point(q[0], q[1])),
             Action::Move(Goal::Tip(tip)) => format!("move the tip to {} m", point(tip.x, tip.y)),
+            Action::Follow(line) => format!("follow a line of {}", length(line.path.length())),
             Action::Move(Goal::Area([low, high])) => {
                 format!("move the tip into {} to {} m", point(low.x, low.y), point(high.x, high.y))
             }

@@ -4,11 +4,15 @@ use super::{Action, Holding, Item, MAX_STOP_TIME, Object, Step, Stroke, Task, Ti
 use cplan_core::model::{
     Goal, MAX_COORDINATE, MotionProblem, MotionProblemError, Scene, SceneError, are_small, is_pose, is_small,
 };
+use cplan_geometry::Point;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 /// Limit on the duration of each part of a task, seconds. It is the same as for motions.
 const MAX_PART_DURATION: f64 = 1e6;
+
+/// Greatest distance between a line's beginning and the target of the move before it, metres: rounding.
+const LINE_START_TOLERANCE: f64 = 1e-9;
 
 /// Reason why an arm, objects and steps do not form a valid task.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -93,6 +97,7 @@ impl Task {
             carried: None,
             picked: BTreeSet::new(),
             turned: self.objects.iter().map(angle_at_first).collect(),
+            tip: None,
         };
         self.items.iter().try_for_each(|item| state.item(item))?;
         let first = TimedScene { scene: &scene, trajectories: &self.trajectories(&moving) }.frozen(0.0);
@@ -107,6 +112,9 @@ impl Task {
         let movers = self.workspace.movers.iter().map(|mover| (&mover.obstacle.name, &mover.trajectory));
         let trajectories: Vec<_> = movers.chain(own).collect();
         let (first, _) = trajectories.first()?;
+        if self.steps().any(|step| matches!(step.action, Action::Follow(_))) {
+            return Some(((*first).clone(), "a line is followed among obstacles at rest"));
+        }
         let turns = |step: &Step| matches!(step.action, Action::Place { angle: Some(_), .. });
         if self.stroke.is_some() {
             return Some(((*first).clone(), "a tool that is lowered and raised needs static obstacles"));
@@ -176,6 +184,8 @@ struct Gripper<'a> {
     picked: BTreeSet<usize>,
     /// Orientation of each object, radians. The orientation of rigid payloads is ignored.
     turned: Vec<f64>,
+    /// Target of the tip if the last step was a move to it.
+    tip: Option<Point>,
 }
 
 impl Gripper<'_> {
@@ -216,6 +226,8 @@ impl Gripper<'_> {
                 "its speed must be greater than 0 and at most 1, and its dwell from 0 to a million seconds",
             ));
         }
+        let tip = if let Action::Move(Goal::Tip(tip)) = step.action { Some(tip) } else { None };
+        let before = std::mem::replace(&mut self.tip, tip);
         match &step.action {
             Action::Pick { object, grasp, supports, when } => {
                 if *object >= self.task.objects.len() || self.carried.is_some() {
@@ -261,6 +273,18 @@ impl Gripper<'_> {
             }
             Action::Move(Goal::Area(_)) => {
                 Err(wrong(step, "a move needs joint values or a position of the tip, not an area"))
+            }
+            Action::Follow(line) => {
+                let start: Point = line.path.start().into();
+                if !line.is_valid() {
+                    let why =
+                        "its tolerance must be finite and at least a micrometre, and its speed finite and positive";
+                    Err(wrong(step, why))
+                } else if before.is_none_or(|tip| (tip - start).norm() > LINE_START_TOLERANCE) {
+                    Err(wrong(step, "the step before a line must move the tip to where the line begins"))
+                } else {
+                    Ok(())
+                }
             }
             Action::Move(Goal::Tip(tip)) => {
                 let is_finite = are_small(tip.iter().copied());

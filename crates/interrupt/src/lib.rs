@@ -125,7 +125,7 @@ impl Interrupt {
         self.flag.store(true, Ordering::Relaxed);
     }
 
-    /// Returns the reason to stop: the interrupt is set, or the deadline has passed. `None` if there is none.
+    /// Returns the reason to stop: the interrupt is set, or the deadline has passed. `None` to go on.
     #[must_use]
     pub fn stop_reason(&self) -> Option<Interrupted> {
         if self.flag.load(Ordering::Relaxed) {

@@ -67,6 +67,8 @@ pub struct Leg {
     pub stroke: Option<ToolStroke>,
     /// The parts of the motion during which the tool is raised after the step before, or lowered for this step.
     pub overlap: Overlap,
+    /// Proven upper bound on the distance between the tip's path and the line, in metres, if the step follows one.
+    pub deviation: Option<f64>,
     /// The event while the tool is lowered.
     pub event: Option<Event>,
     /// Time from the beginning of the task to that of the motion, in seconds.

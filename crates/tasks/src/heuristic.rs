@@ -1,7 +1,7 @@
 //! Lower bounds on the remaining time of a task, ignoring obstacles.
 
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
-use super::least_time::least_time;
+use super::least_time::{least_line_time, least_time};
 use super::state::Progress;
 use super::stroke::{least_rest, least_without_strokes, most_overlap};
 use cplan_core::model::Arm;
@@ -16,6 +16,8 @@ pub(super) struct Stop {
     /// All IK solutions at the target. `None` if there are infinitely many, or if earlier steps determine them.
     ik_solutions: Option<Vec<Configuration>>,
     speed: f64,
+    /// Lower bound on the duration of the motion to the stop, from the speed of the tip alone, in seconds.
+    least_travel: f64,
     /// Longest overlaps of strokes with the motion to the stop, at its beginning and its end, in seconds.
     overlaps: [f64; 2],
     /// Least time of the dwell and the stroke at the stop, in seconds.
@@ -45,7 +47,8 @@ impl Stop {
 
     /// Returns a lower bound on the duration of the motion to a configuration of the stop, plus its dwell, in seconds.
     fn seconds(&self, arm: &Arm, from: Option<Configuration>, place: usize) -> f64 {
-        let travel = from.zip(self.at(place)).map_or(0.0, |(from, to)| least_time(arm, from, to, self.speed));
+        let of_joints = from.zip(self.at(place)).map_or(0.0, |(from, to)| least_time(arm, from, to, self.speed));
+        let travel = of_joints.max(self.least_travel);
         least_without_strokes(travel, self.overlaps) + self.dwell
     }
 }
@@ -237,12 +240,13 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
         let object = match step.action {
             Action::Pick { object, .. } => Some(object),
             Action::Place { .. } => held.map(|(object, _)| object),
-            Action::Move(_) => None,
+            Action::Move(_) | Action::Follow(_) => None,
         };
         let dwell = least_rest(task, step, object);
         let sinking = most_overlap(task, object);
         let overlaps = [std::mem::replace(rising, sinking), sinking];
-        Stop { ik_solutions: targets(task, step, lies, &mut held), speed: step.speed, overlaps, dwell }
+        let least_travel = least_line_time(step);
+        Stop { ik_solutions: targets(task, step, lies, &mut held), speed: step.speed, least_travel, overlaps, dwell }
     };
     let of = |item: &Item| match item {
         Item::Step(step) => Stops::One(stop(step, &mut rising, &mut lies)),
@@ -283,6 +287,7 @@ fn targets(
             let reach = goal_ik_solutions(arm, goal, task.start);
             reach.all.then_some(reach.configurations)
         }
+        Action::Follow(line) => tip_to(Some(line.path.end().into())),
         Action::Pick { object, grasp, .. } => {
             *held = Some((*object, *grasp));
             tip_to(lies[*object]?.place_of(*grasp))
@@ -348,6 +353,7 @@ mod tests {
             let stop = |(radius, angle): (f64, f64), dwell| Stop {
                 ik_solutions: Some(ik_solutions(&arm, arm.tip, Point::new(radius * angle.cos(), radius * angle.sin()), Configuration::zeros()).configurations),
                 speed: 1.0,
+                least_travel: 0.0,
                 overlaps: [0.0; 2],
                 dwell,
             };

@@ -2,6 +2,7 @@
 
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
+use cplan_handling::{Action, Step};
 
 /// Returns the time that a joint takes for a distance from rest to rest, in seconds. It accelerates constantly until it
 /// reaches its top speed.
@@ -29,4 +30,11 @@ pub(super) fn least_time(arm: &Arm, from: Configuration, to: Configuration, spee
         rest_to_rest(displacement[k].abs(), joint.velocity * speed, joint.acceleration * speed * speed)
     };
     of(0).max(of(1)) * (1.0 - ROUNDING)
+}
+
+/// Returns a lower bound, in seconds, on the duration of a step's motion that follows from the speed of the tip along a
+/// line. 0 for other steps.
+#[must_use]
+pub(super) fn least_line_time(step: &Step) -> f64 {
+    if let Action::Follow(line) = &step.action { line.least_seconds() * (1.0 - ROUNDING) } else { 0.0 }
 }

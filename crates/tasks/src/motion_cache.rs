@@ -7,8 +7,9 @@ use super::stroke::{ToolStroke, stroke};
 use cplan_core::check::{CertifiedPath, CheckedProof, certify};
 use cplan_core::model::{Grip, MotionProblem, Outcome, Scene};
 use cplan_core::space::{Configuration, Path};
+use cplan_follow::{Settings, follow_between};
 use cplan_geometry::Pose;
-use cplan_handling::{Payload, Step, Task};
+use cplan_handling::{Action, FollowedLine, Payload, Step, Task};
 use cplan_motion::recorded::{WristTurn, wrist_turn};
 use cplan_motion::{TimedMotion, TorqueLimit, single};
 use cplan_proofs::{Connectivity, slab_connectivity};
@@ -70,6 +71,8 @@ pub(super) struct Motion {
     pub turn: Option<(WristTurn, f64)>,
     pub stroke: Option<ToolStroke>,
     pub overlap: Overlap,
+    /// Proven bound on the distance of the tip from the line, in metres, if the motion follows one.
+    pub deviation: Option<f64>,
 }
 
 impl Motion {
@@ -122,6 +125,8 @@ pub(super) struct MotionCache {
     fewer: BTreeMap<(SceneKey, [u64; 4]), Result<CertifiedPath, Refusal>>,
     /// Motions by path and speed.
     motions: BTreeMap<(PathKey, u64), Result<Arc<TimedMotion>, Refusal>>,
+    /// Motions along lines, by scene, ends and number of the step.
+    lines: BTreeMap<SceneKey, Result<(Arc<TimedMotion>, f64), Refusal>>,
     /// Scenes with all objects, for answers.
     scenes: BTreeMap<SceneKey, Arc<Scene>>,
     /// Overlaps by scene, objects of the strokes, ends and speed.
@@ -136,6 +141,7 @@ impl MotionCache {
             path_statuses: BTreeMap::new(),
             fewer: BTreeMap::new(),
             motions: BTreeMap::new(),
+            lines: BTreeMap::new(),
             scenes: BTreeMap::new(),
             overlaps: BTreeMap::new(),
         }
@@ -143,7 +149,7 @@ impl MotionCache {
 
     /// Returns the number of motions planned so far.
     pub fn planned(&self) -> usize {
-        self.motions.len()
+        self.motions.len() + self.lines.len()
     }
 
     /// Returns the number of paths examined so far, including those of motions.
@@ -159,6 +165,10 @@ impl MotionCache {
 
     /// Returns the motion to a candidate's target with the turn and the stroke there.
     pub fn motion(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<Motion, Refusal> {
+        if let Action::Follow(line) = &candidate.step.action {
+            let (timed, deviation) = self.line(task, from, candidate, line)?;
+            return Ok(Motion { timed, turn: None, stroke: None, overlap: Overlap::NONE, deviation: Some(deviation) });
+        }
         let key = self.checked_path_key(task, from, candidate)?;
         let speed = candidate.step.speed;
         let known = self.motions.get(&(key, speed.to_bits())).cloned();
@@ -170,7 +180,42 @@ impl MotionCache {
         let turn = candidate.turn.map(|turn| self.turn(task, from, candidate, turn)).transpose()?;
         let stroke = stroke(task, from, candidate)?;
         let overlap = self.overlap(task, from, candidate, (&timed, stroke.as_ref()));
-        Ok(Motion { timed, turn, stroke, overlap })
+        Ok(Motion { timed, turn, stroke, overlap, deviation: None })
+    }
+
+    /// Returns the motion along a line, and a bound on its distance from the line, in metres.
+    fn line(
+        &mut self,
+        task: &Task,
+        from: &State,
+        candidate: &Candidate,
+        line: &FollowedLine,
+    ) -> Result<(Arc<TimedMotion>, f64), Refusal> {
+        require_free_after(task, from, candidate)?;
+        let step = candidate.step;
+        let mut key = scene_key(from, step, |_| true);
+        key.extend([from.q[0], from.q[1], candidate.to[0], candidate.to[1]].map(f64::to_bits));
+        key.push(step.number as u64);
+        if let Some(known) = self.lines.get(&key) {
+            return known.clone();
+        }
+        let drive = &self.options.drive;
+        let settings = Settings {
+            tolerance: line.tolerance,
+            speed: line.speed,
+            tip_speed: drive.tip_speed,
+            share: step.speed,
+            period: drive.period,
+        };
+        let scene = from.scene(task, None);
+        let planned = match follow_between(&scene, &line.path, &settings, [from.q, candidate.to]) {
+            Ok(Outcome::Found(found)) => Ok((Arc::new(found.timed), found.deviation)),
+            Ok(Outcome::Infeasible(why)) => Err(Refusal::new(why, true)),
+            Ok(Outcome::Unknown(why)) => Err(Refusal::new(why, false)),
+            Err(error) => Err(Refusal::new(error.to_string(), false)),
+        };
+        self.lines.insert(key, planned.clone());
+        planned
     }
 
     /// Returns the overlap of strokes with a motion.
@@ -234,6 +279,9 @@ impl MotionCache {
     /// Refuses a candidate if an inexpensive check rules out the motion to its target, or the turn there. Such checks
     /// find most reasons in a small part of the time for planning the motion.
     pub fn check_candidate(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<(), Refusal> {
+        if let Action::Follow(line) = &candidate.step.action {
+            return self.line(task, from, candidate, line).map(|_| ());
+        }
         let key = self.checked_path_key(task, from, candidate)?;
         if let Some(Err(refusal)) = self.motions.get(&(key, candidate.step.speed.to_bits())) {
             return Err(refusal.clone());
@@ -245,17 +293,7 @@ impl MotionCache {
     /// Examines the path to a candidate's target, and returns its key. Refuses the candidate if there is provably no
     /// path.
     fn checked_path_key(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<PathKey, Refusal> {
-        let left = from.after_step(task, candidate, candidate.to);
-        if left.is_done(task) {
-            // No later motion will begin there.
-            let left = left.scene(task, from.released);
-            require_unobstructed(&left, candidate.to, "after it")?;
-            let held = TorqueLimit::check_holding_at(&left, candidate.to);
-            held.map_err(|error| Refusal::new(format!("after it {error}"), false))?;
-        } else if left.needs_renewal(task) {
-            // The next motion begins among other objects.
-            require_unobstructed(&left.scene(task, None), candidate.to, "after it")?;
-        }
+        require_free_after(task, from, candidate)?;
         let carried = from.held.as_ref().map(|held| task.objects[held.object].carried_heights());
         let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);
         let matters = |object: usize| own().chain(carried).any(|h| h.meet(task.objects[object].heights));
@@ -301,6 +339,23 @@ impl MotionCache {
         let least = ahead.min(std::f64::consts::TAU - ahead);
         task.wrist.map_or(0.0, |wrist| rest_to_rest(least, wrist.velocity, wrist.acceleration))
     }
+}
+
+/// Refuses a candidate if the arm collides, or cannot be held, after its step: at the end of the task, or when objects
+/// are renewed.
+fn require_free_after(task: &Task, from: &State, candidate: &Candidate) -> Result<(), Refusal> {
+    let left = from.after_step(task, candidate, candidate.to);
+    if left.is_done(task) {
+        // No later motion will begin there.
+        let left = left.scene(task, from.released);
+        require_unobstructed(&left, candidate.to, "after it")?;
+        let held = TorqueLimit::check_holding_at(&left, candidate.to);
+        held.map_err(|error| Refusal::new(format!("after it {error}"), false))?;
+    } else if left.needs_renewal(task) {
+        // The next motion begins among other objects.
+        require_unobstructed(&left.scene(task, None), candidate.to, "after it")?;
+    }
+    Ok(())
 }
 
 /// Returns the options for planning the motions of a task. A task minimises duration, not length, and a slightly longer

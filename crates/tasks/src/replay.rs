@@ -3,7 +3,7 @@
 use super::answer::{Leg, TaskAnswer};
 use super::motion_cache::{of_legs, planned_again};
 use cplan_core::planner::Trace;
-use cplan_handling::Task;
+use cplan_handling::{Action, Task};
 use cplan_solver::{Options, Phase, Replay, Shows};
 use std::sync::Arc;
 
@@ -45,6 +45,9 @@ impl TaskReplay {
 
 impl MotionReplay {
     fn new(task: &Task, options: &Options, leg: &Leg) -> Self {
+        if let Action::Follow(_) = leg.step.action {
+            return Self::without_search("The line, which the tip follows within the tolerance", leg);
+        }
         let path = leg.timed.curve.curve().path();
         let ends = [path.start(), task.arm.topology().wrap(path.goal())];
         match planned_again(&leg.scene, task.workspace.fixed.obstacles.len(), ends, options) {
@@ -56,12 +59,14 @@ impl MotionReplay {
                 }
                 Self { replay, trace: Some(answer.drawn().into_owned()) }
             }
-            None => {
-                let caption = "The straight path: certified, and no path is shorter".to_owned();
-                let phase = Phase { caption, shows: Shows::Path, events: path.waypoints().len() };
-                Self { replay: Replay { phases: vec![phase] }, trace: None }
-            }
+            None => Self::without_search("The straight path: certified, and no path is shorter", leg),
         }
+    }
+
+    /// Returns the replay of a motion whose path was not searched for.
+    fn without_search(caption: &str, leg: &Leg) -> Self {
+        let phase = Phase { caption: caption.to_owned(), shows: Shows::Path, events: leg.path().waypoints().len() };
+        Self { replay: Replay { phases: vec![phase] }, trace: None }
     }
 }
 

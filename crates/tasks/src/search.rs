@@ -6,12 +6,12 @@
 use super::answer::Leg;
 use super::failed_step::{FailedStep, RefusedStep, farthest};
 use super::heuristic::Heuristic;
-use super::least_time::least_time;
+use super::least_time::{least_line_time, least_time};
 use super::motion_cache::{Motion, MotionCache, Refusal};
 use super::state::{Candidate, State};
 use super::stroke::{least_rest, least_without_strokes, most_overlap};
 use cplan_geometry::OpenList;
-use cplan_handling::Task;
+use cplan_handling::{Action, Task};
 use cplan_interrupt::checkpoint;
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
@@ -217,7 +217,10 @@ impl<'a, 'l> Search<'a, 'l> {
         for candidates in state.candidates(self.task) {
             self.complete &= candidates.all;
             if candidates.ways.is_empty() {
-                let refusal = Refusal::new("no IK solution within the joint limits reaches its target", candidates.all);
+                let target =
+                    if let Action::Follow(_) = candidates.step.action { "the end of the line" } else { "its target" };
+                let reason = format!("no IK solution within the joint limits reaches {target}");
+                let refusal = Refusal::new(reason, candidates.all);
                 self.refused.push(RefusedStep {
                     depth,
                     node: index,
@@ -231,6 +234,7 @@ impl<'a, 'l> Search<'a, 'l> {
                 let object = candidate.event.map(|event| event.object());
                 let sinking = most_overlap(self.task, object.filter(|_| !candidate.turns_before_stroke()));
                 let travel = least_time(&self.task.arm, from, candidate.to, candidate.step.speed);
+                let travel = travel.max(least_line_time(candidate.step));
                 let travel = least_without_strokes(travel, [rising, sinking]);
                 let least = travel + turn + least_rest(self.task, candidate.step, object);
                 let stage = Stage::Pending(candidate);
@@ -259,6 +263,7 @@ impl<'a, 'l> Search<'a, 'l> {
                     turn: motion.turn,
                     stroke: motion.stroke,
                     overlap: motion.overlap,
+                    deviation: motion.deviation,
                     event: candidate.event,
                     begin: *seconds - motion.overlap.raising,
                 });

@@ -178,6 +178,11 @@ impl State {
                 reach.configurations.iter().for_each(|&to| add(to, None, None, None));
                 reach
             }
+            (Action::Follow(line), _) => {
+                let reach = ik_solutions(arm, arm.tip, line.path.end().into(), self.q);
+                reach.configurations.iter().for_each(|&to| add(to, None, None, None));
+                reach
+            }
             (Action::Pick { object, grasp, .. }, None) => {
                 let Some(lies) = self.poses[*object] else { return Candidates { step, ways, all: false } };
                 let reach = ik_solutions(arm, arm.tip, lies.point(*grasp), self.q);
@@ -305,7 +310,7 @@ impl Progress {
 fn supports(pick: &Step, place: Option<&Step>) -> Vec<usize> {
     let of = |step: &Step| match &step.action {
         Action::Pick { supports, .. } | Action::Place { supports, .. } => supports.clone(),
-        Action::Move(_) => Vec::new(),
+        Action::Move(_) | Action::Follow(_) => Vec::new(),
     };
     let mut both = of(pick);
     both.extend(place.map(of).unwrap_or_default());

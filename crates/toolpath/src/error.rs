@@ -15,7 +15,9 @@ pub struct Error {
 }
 
 impl Error {
-    pub(crate) fn new(
+    /// Creates an error about a place of the file, or about the whole file.
+    #[must_use]
+    pub fn new(
         line: impl Into<Option<usize>>,
         column: impl Into<Option<usize>>,
         message: impl Into<String>,

@@ -41,6 +41,7 @@ mod placement;
 mod shapes;
 mod svg;
 
+pub use cplan_drawing::Unit;
 pub use curve::{Curve, Point};
 pub use error::Error;
 pub use path::{MAX_PIECES, Piece, Source, Toolpath};

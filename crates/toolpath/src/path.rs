@@ -2,7 +2,7 @@
 
 use crate::curve::{minus, norm};
 use crate::cusps;
-use crate::{Curve, Error, Point};
+use crate::{Curve, Error, Placement, Point};
 use serde::{Deserialize, Serialize};
 
 /// Greatest number of pieces of a line. A line with more is refused.
@@ -92,6 +92,15 @@ impl Toolpath {
     #[must_use]
     pub fn with_notes(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }
+    }
+
+    /// Returns the line at another place.
+    ///
+    /// # Errors
+    /// If a coordinate becomes too large.
+    pub fn placed(&self, placement: &Placement) -> Result<Self, Error> {
+        let place = |piece: &Piece| Piece { curve: placement.place(&piece.curve), ..*piece };
+        Self::new(self.pieces.iter().map(place).collect()).map(|path| path.with_notes(self.notes.clone()))
     }
 
     /// Returns the pieces, in order.

@@ -7,6 +7,9 @@ use crate::{Curve, Error, Point, arc};
 /// count as lying on a straight line. The arc's radius would be above 10 km for each metre.
 const STRAIGHT: f64 = 1e-5;
 
+/// Unit to which the greatest radius is rounded down in messages, metres.
+const RADIUS_UNIT: f64 = 1e-6;
+
 /// A curve, and the index of the point to which it leads.
 pub type Leg = (Curve, usize);
 
@@ -21,20 +24,25 @@ pub fn polyline(points: &[Point], radius: f64) -> Result<Vec<Leg>, Error> {
     // For each point: the length that its arc takes of both lines there.
     let cut = |i: usize| if i == 0 || i == last { 0.0 } else { radius * half_turn(points, i).tan() };
     let cuts: Vec<f64> = (0..=last).map(cut).collect();
+    let lengths: Vec<f64> = points.windows(2).map(|pair| norm(minus(pair[1], pair[0]))).collect();
+    // With the radius 0, nothing is cut.
+    let fit = |i: usize| if radius > 0.0 { lengths[i - 1] / (cuts[i - 1] + cuts[i]) } else { f64::INFINITY };
+    if let Some(i) = (1..=last).min_by(|a, b| fit(*a).total_cmp(&fit(*b))).filter(|i| fit(*i) < 1.0) {
+        let message = format!("corners rounded by {radius} m do not fit between points {i} and {}", i + 1);
+        let greatest = (radius * fit(i) / RADIUS_UNIT).floor() * RADIUS_UNIT;
+        let hint = match greatest > 0.0 {
+            true => format!("a radius of {greatest:.6} m fits"),
+            false => "leave the radius out".into(),
+        };
+        return Err(Error::new(None, None, message, hint));
+    }
     let mut legs = Vec::new();
     let mut from = points[0];
     for i in 1..=last {
         let along = minus(points[i], points[i - 1]);
-        let length = norm(along);
-        let taken = cuts[i - 1] + cuts[i];
-        // With the radius 0, nothing is taken.
-        if radius > 0.0 && taken > length {
-            let message = format!("corners rounded by {radius} m do not fit between points {i} and {}", i + 1);
-            let hint = format!("a radius of at most {:.3e} m fits there", radius * length / taken);
-            return Err(Error::new(None, None, message, hint));
-        }
+        let length = lengths[i - 1];
         let to = [0, 1].map(|k| points[i][k] - along[k] * cuts[i] / length);
-        if taken < length {
+        if cuts[i - 1] + cuts[i] < length {
             legs.push((Curve::Line { from, to }, i));
         }
         from = to;

@@ -28,7 +28,7 @@ fn radii_that_do_not_fit_are_refused_with_the_greatest_one() {
     let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.3], [2.0, 0.3]];
     let error = polyline(&points, 0.2).unwrap_err();
     assert!(error.message.contains("between points 2 and 3"), "{error}");
-    assert!(error.hint.contains("1.500e-1"), "{}", error.hint);
+    assert!(error.hint.contains("0.150000 m"), "{}", error.hint);
     assert!(polyline(&points, 0.1499).is_ok());
     // A line that returns on itself has no arc.
     assert!(polyline(&[[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]], 0.01).is_err());

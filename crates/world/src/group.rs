@@ -3,6 +3,7 @@
 use super::object::Supports;
 use cplan_core::model::Goal;
 use cplan_geometry::{Interval, Point};
+use cplan_handling::FollowedLine;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -51,6 +52,7 @@ pub(super) enum LeafAction {
     Pick { object: usize, grasp: Point, supports: Supports, when: Option<When> },
     Place { at: Point, angle: Option<(f64, Range<usize>)>, supports: Option<Supports> },
     Move(Goal),
+    Follow(FollowedLine),
 }
 
 /// Times at which a moving object may be picked.

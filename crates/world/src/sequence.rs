@@ -181,6 +181,7 @@ impl Writer<'_> {
                 }
                 Action::Move(*goal)
             }
+            LeafAction::Follow(line) => Action::Follow(line.clone()),
         };
         if self.cycles.len() < leaf.number {
             self.cycles.resize(leaf.number, 0);

@@ -2,11 +2,13 @@
 
 use super::goal_table::GoalTable;
 use super::group::{Body, Group, Leaf, LeafAction, Node, When};
+use super::line_table::LineTable;
 use super::object::{MovableObject, NameList, Names};
 use super::pallet::Pallets;
 use super::reader::Reader;
 use super::schema::{DoneIn, NotNegative, Share};
 use super::table::Table;
+use cplan_core::model::Goal;
 use cplan_geometry::Pose;
 use cplan_handling::{MAX_STOP_TIME, Object};
 use cplan_robot::{AngleOrLength, Cursor, Diagnostic, Number, NumberPair, Numbers, Written};
@@ -16,13 +18,13 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use toml::Spanned;
 
-/// A step or several: exactly one of pick, place, move, transfer and steps.
+/// A step or several: exactly one of pick, place, move, follow, transfer and steps.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "step", extend(
     "oneOf" = [
-        { "required": ["pick"] }, { "required": ["place"] }, { "required": ["move"] }, { "required": ["transfer"] },
-        { "required": ["steps"] }
+        { "required": ["pick"] }, { "required": ["place"] }, { "required": ["move"] }, { "required": ["follow"] },
+        { "required": ["transfer"] }, { "required": ["steps"] }
     ],
     "dependencies" = {
         "grasp": ["pick"], "supports": ["pick"], "at": ["pick"], "window": ["pick"], "repeat": ["steps"], "order": ["steps"]
@@ -39,6 +41,9 @@ pub(super) struct StepTable {
     #[serde(rename = "move")]
     #[schemars(with = "Option<GoalTable>")]
     goal: Option<Spanned<Table<GoalTable>>>,
+    /// A line for the tip, with or without an object. These are two steps: a move to where the line begins, and the line.
+    #[schemars(with = "Option<LineTable>")]
+    follow: Option<Spanned<Table<LineTable>>>,
     /// Picks and places, one after the other: all objects on a pallet, to the places of another.
     #[schemars(with = "Option<TransferTable>")]
     transfer: Option<Table<TransferTable>>,
@@ -69,6 +74,21 @@ pub(super) struct StepTable {
     /// Time for which the arm stands still at the end, s; by default 0.
     #[schemars(with = "Option<NotNegative>")]
     dwell: Option<Number>,
+}
+
+impl StepTable {
+    /// Returns the number of actions that the table states.
+    fn actions(&self) -> usize {
+        let given = [
+            self.pick.is_some(),
+            self.place.is_some(),
+            self.goal.is_some(),
+            self.follow.is_some(),
+            self.transfer.is_some(),
+            self.steps.is_some(),
+        ];
+        given.into_iter().filter(|given| *given).count()
+    }
 }
 
 /// A place for an object: a point, or a place of a pallet.
@@ -134,6 +154,10 @@ const MAX_STEPS: usize = 100_000;
 /// Distance from an axis, in metres, within which a position counts as on the axis. This is the precision with which
 /// people write positions.
 const ON_AXIS_DISTANCE: f64 = 1e-3;
+
+/// Unit to which the coordinates of a line's start are rounded, in metres. It is far below all tolerances, and hides the
+/// rounding of arcs.
+const PICOMETRE: f64 = 1e-12;
 
 /// Speed and dwell of steps that state none.
 #[derive(Clone, Copy)]
@@ -267,6 +291,19 @@ impl<'a> StepReader<'a> {
         let pace = self.read_pace(pace, step.speed.as_ref(), step.dwell.as_ref())?;
         self.require_fitting_keys(step)?;
         let one = |at, action| Ok(vec![(at, action)]);
+        if step.actions() != 1 {
+            let message = format!(
+                "a step needs exactly one of `pick`, `place`, `move`, `follow`, `transfer` and `steps`, but has {}",
+                step.actions()
+            );
+            let help = "pick = \"NAME\", place = { at = [x, y] }, move = { joints = [q1, q2] }, \
+                        follow = { points = [[x, y], [x, y]] }, transfer = { objects = \"NAME\", to = \"PALLET\" }, \
+                        or [[step.steps]]";
+            return Err(self.reader.source.diagnostic_at(table.span(), message).help(help));
+        }
+        if let Some(follow) = &step.follow {
+            return self.follow(follow, pace, table.span());
+        }
         let actions = match (&step.pick, &step.place, &step.goal, &step.transfer, &step.steps) {
             (None, None, None, None, Some(steps)) => {
                 let manner = Manner { repeat: step.repeat.as_ref(), order: step.order.as_ref() };
@@ -281,25 +318,33 @@ impl<'a> StepReader<'a> {
                 one(at, LeafAction::Move(goal))
             }
             (None, None, None, Some(Table(transfer)), None) => self.transfer(transfer),
-            (pick, place, goal, transfer, steps) => {
-                let given = [pick.is_some(), place.is_some(), goal.is_some(), transfer.is_some(), steps.is_some()];
-                let count = given.iter().filter(|x| **x).count();
-                let message = format!(
-                    "a step needs exactly one of `pick`, `place`, `move`, `transfer` and `steps`, but has {count}"
-                );
-                let help = "pick = \"NAME\", place = { at = [x, y] }, move = { joints = [q1, q2] }, \
-                            transfer = { objects = \"NAME\", to = \"PALLET\" }, or [[step.steps]]";
-                return Err(self.reader.source.diagnostic_at(table.span(), message).help(help));
-            }
+            // The table has exactly one action.
+            _ => Ok(Vec::new()),
         }?;
-        let position = self.cursor.position(table.span().start);
+        Ok(actions.into_iter().map(|(at, action)| self.leaf(at, action, pace, table.span())).collect())
+    }
+
+    /// Returns the next step. `at` is the position of its target, and `table` that of its table.
+    fn leaf(&mut self, at: Range<usize>, action: LeafAction, pace: Pace, table: Range<usize>) -> Node {
+        let position = self.cursor.position(table.start);
         let place = format!("{}:{}:{}", self.file, position.line, position.column);
-        let leaf = |(at, action)| {
-            self.count += 1;
-            let (speed, dwell) = (pace.speed, pace.dwell);
-            Node::Step(Leaf { number: self.count, place: place.clone(), at, action, speed, dwell })
-        };
-        Ok(actions.into_iter().map(leaf).collect())
+        self.count += 1;
+        let (speed, dwell) = (pace.speed, pace.dwell);
+        Node::Step(Leaf { number: self.count, place, at, action, speed, dwell })
+    }
+
+    /// Returns the steps of a line: a move to where it begins, and the line.
+    fn follow(
+        &mut self,
+        follow: &Spanned<Table<LineTable>>,
+        pace: Pace,
+        table: Range<usize>,
+    ) -> Result<Vec<Node>, Diagnostic> {
+        let line = follow.get_ref().0.read(self.reader, follow.span())?;
+        let start = line.path.start().map(|x| (x / PICOMETRE).round() * PICOMETRE);
+        let begin = Goal::Tip(start.into());
+        let to_line = self.leaf(follow.span(), LeafAction::Move(begin), Pace { dwell: 0.0, ..pace }, table.clone());
+        Ok(vec![to_line, self.leaf(follow.span(), LeafAction::Follow(line), pace, table)])
     }
 
     /// Checks that all keys of a step apply to its action.

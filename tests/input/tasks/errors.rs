@@ -114,9 +114,15 @@ fn steps_without_exactly_one_action_are_refused() {
         (
             pick,
             "",
-            &["line 24", "exactly one of `pick`, `place`, `move`, `transfer` and `steps`", "but has 0", "hint: "][..],
+            &[
+                "line 24",
+                "exactly one of `pick`, `place`, `move`, `follow`, `transfer` and `steps`",
+                "but has 0",
+                "hint: ",
+            ][..],
         ),
         (pick, "pick = \"part\"\nmove = { tip = [1, 1] }", &["line 24", "but has 2"]),
+        (pick, "pick = \"part\"\nfollow = { points = [[1, 1], [1, 0]] }", &["line 24", "but has 2"]),
         (pick, "grab = \"part\"", &["line 25, column 1", "unknown key `grab`"]),
         (pick, "pick = 1", &["line 25, column 8"]),
         (
@@ -332,4 +338,55 @@ fn an_inspection_warns_of_infeasible_steps() {
     assert!(warnings(&valid_world()).is_empty());
     let far = warnings(&valid_world().replace("at = [0.5, 1.5]", "at = [2.5, 1.5]"));
     assert!(far.iter().any(|w| w.starts_with("task: step 2: (2.5, 1.5) m is out of reach")), "{far:?}");
+}
+
+#[test]
+fn invalid_lines_are_refused() {
+    let step = "move = { joints = [0.1, 0.2] }";
+    for (line, parts) in [
+        ("", &["needs exactly one of `file`, `points`, `arc` and `spline`, but has 0", "hint: follow = {"][..]),
+        ("points = [[1, 0], [1, 1]], file = \"a.svg\"", &["but has 2"]),
+        ("points = [[1, 0]]", &["a line needs two points or more, not 1"]),
+        ("points = [[1, 0], [1, 0]]", &["points 1 and 2 of this line are equal", "hint: remove one"]),
+        ("points = [[1, 0], [1, 1, 2]]", &["expected two numbers, found 3"]),
+        ("points = [[1, 0], [1, 1], [0, 1]], radius = 1.5", &["do not fit", "hint: a radius of 1.000000 m fits"]),
+        ("points = [[1, 0], [1, 1]], radius = -1", &["radius must not be negative"]),
+        ("spline = [[1, 0], [1, 1]], radius = 0.1", &["only a line with `points` has a `radius`"]),
+        ("spline = [[1, 0], [1, 1]], unit = \"mm\"", &["only a line with a `file` has a `unit`"]),
+        ("arc = [[1, 0], [1, 1]]", &["an arc needs three points, not 2"]),
+        ("arc = [[1, 0], [1, 1], [1, 2]]", &["on a straight line", "hint: write the straight line as points"]),
+        ("points = [[1, 0], [1, 1]], speed = 0", &["speed must be positive"]),
+        ("points = [[1, 0], [1, 1]], scale = -1", &["scale must be positive"]),
+        ("points = [[1, 0], [1, 1]], tolerance = 0", &["tolerance must be positive"]),
+        ("points = [[1, 0], [1, 1]], tolerance = 1e-9", &["less than 0.000001 m"]),
+        ("points = [[1, 0], [1, 1]], turn = \"1 rad\"", &["an angle such as"]),
+        ("points = [[1, 0], [1, 1]], pace = 1", &["unknown key `pace`"]),
+        ("file = \"a.gcode\"", &["there is no file", "hint: paths are relative to the world file"]),
+        ("points = [[19, 0], [20, 0]]", &["step", "out of reach"]),
+    ] {
+        check_refused(step, &format!("follow = {{ {line} }}"), parts);
+    }
+}
+
+/// Defects of a line's file are reported with its name and the place in it.
+#[test]
+fn defects_of_the_file_of_a_line_are_reported_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/robots/planar_2r.urdf");
+    let load = |file: &str| {
+        write("world.toml", &format!("[start]\njoints = [0.3, 1.2]\n[[step]]\nfollow = {{ file = \"{file}\" }}\n"));
+        let scene = cplan::input::load_scene(std::path::Path::new(urdf), &folder.path().join("world.toml"));
+        scene.and_then(|scene| scene.task(&Overrides::default())).map_err(|error| error.to_string())
+    };
+    write("good.gcode", "G21 G0 X1100 Y0\nG1 X1200\n");
+    write("bad.gcode", "G21 G0 X1100 Y0\nG1 X1200 Z-2\n");
+    write("line.txt", "");
+    assert_eq!(load("good.gcode").unwrap().task.items.len(), 2);
+    let error = load("bad.gcode").unwrap_err();
+    assert!(error.contains("bad.gcode: line 2, column 10: Z-2 moves the tip out of the plane"), "{error}");
+    let error = load("line.txt").unwrap_err();
+    assert!(error.contains("world.toml: line 4") && error.contains("unknown ending"), "{error}");
+    let error = load("none.svg").unwrap_err();
+    assert!(error.contains("there is no file") && error.contains("none.svg"), "{error}");
 }

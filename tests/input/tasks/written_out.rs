@@ -92,7 +92,7 @@ fn assert_sound(loaded: &LoadedTask) {
                 assert!(carried.take().is_some());
                 assert!(at.iter().chain(angle).all(|v| v.is_finite()));
             }
-            Action::Move(_) => {}
+            Action::Move(_) | Action::Follow(_) => {}
         }
         carried
     };

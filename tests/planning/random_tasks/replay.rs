@@ -436,7 +436,7 @@ impl<'a> World<'a> {
                     }
                 }
             }
-            Action::Move(_) => {}
+            Action::Move(_) | Action::Follow(_) => {}
             Action::Pick { object, grasp, supports, .. } => {
                 let lies = self.lies[*object].take().ok_or("what is picked lies nowhere")?;
                 let grasp = [grasp.x, grasp.y];

@@ -73,7 +73,7 @@ impl Segment {
         }
     }
 
-    /// Returns the part on or to the left of the directed line from `a` to `b`; `None` if there is none.
+    /// Returns the part on or to the left of the directed line from `a` to `b`; `None` if all of it is to the right.
     #[must_use]
     pub fn left_of(&self, a: Point, b: Point) -> Option<Self> {
         let [from, to] = self.ends().map(|p| cross(b - a, p - a));

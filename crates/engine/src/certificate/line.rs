@@ -1,4 +1,4 @@
-//! Evidence for a motion of the tip along a line, or for the claim that there is none.
+//! Evidence for a motion of the tip along a line, or for the claim that no motion follows it.
 
 use super::contacts::Contacts;
 use super::motion::{motion_member, written_inward};

@@ -41,6 +41,9 @@ pub enum NoCertificate {
     /// The answer is that a task is infeasible.
     #[error("an infeasible task has no certificate: the result states the step that fails, and why")]
     Task,
+    /// A step of the task follows a line.
+    #[error("a task with a line has no certificate; `cplan follow` with --certificate certifies the line by itself")]
+    LineInTask,
     /// An object rests on another one, and its outline has corners that a checker cannot move inwards.
     #[error(
         "object \"{0}\" rests on a support, but its outline is too fine or touches itself: it cannot be shrunk by the depth that it may press in"

@@ -101,8 +101,11 @@ fn pressed_objects(task: &Task) -> BTreeSet<usize> {
 /// must do.
 ///
 /// # Errors
-/// [`NoCertificate::Outline`].
+/// [`NoCertificate::Outline`], and [`NoCertificate::LineInTask`].
 pub(super) fn checkable(task: &Task) -> Result<(), NoCertificate> {
+    if task.steps().any(|step| matches!(step.action, Action::Follow(_))) {
+        return Err(NoCertificate::LineInTask);
+    }
     let allowance = Payload::penetration_allowance(&task.arm);
     for object in pressed_objects(task) {
         let Object { name, pieces, .. } = &task.objects[object];

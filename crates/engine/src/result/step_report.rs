@@ -19,6 +19,8 @@ pub enum ActionName {
     Place,
     /// Moves somewhere without handling an object.
     Move,
+    /// Follows a line.
+    Follow,
 }
 
 impl From<&Action> for ActionName {
@@ -27,6 +29,7 @@ impl From<&Action> for ActionName {
             Action::Pick { .. } => Self::Pick,
             Action::Place { .. } => Self::Place,
             Action::Move(_) => Self::Move,
+            Action::Follow(_) => Self::Follow,
         }
     }
 }
@@ -95,6 +98,10 @@ pub struct StepReport {
     pub closest: Option<String>,
     /// How the motion rounds the corners of the path.
     pub blends: BlendReport,
+    /// Proven upper bound on the distance between the tip's path and the line, metres. `None` if the step follows no
+    /// line.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub deviation: Option<f64>,
     /// The turn of the wrist after the motion.
     pub turn: Option<TurnReport>,
     /// The stroke of the tool at the end of the motion. `None` if the world has no stroke.
@@ -131,6 +138,7 @@ impl StepReport {
             clearance: finite(leg.clearance()),
             closest: curve.nearest().map(|nearest| leg.scene.describe(nearest.contact.pair)),
             blends: BlendReport::of(curve),
+            deviation: leg.deviation,
             turn: leg.turn.map(|(WristTurn { from, to, clearance }, seconds)| TurnReport {
                 from,
                 to,

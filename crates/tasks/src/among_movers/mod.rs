@@ -114,7 +114,7 @@ fn failed_pick_out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
             let is_first = moving.iter().position(|other| other == object).map(|place| moving.remove(place)).is_some();
             is_first && passages(&task.arm, &task.objects[*object], *grasp, when, 0.0).is_empty()
         }
-        Action::Place { .. } | Action::Move(_) => false,
+        Action::Place { .. } | Action::Move(_) | Action::Follow(_) => false,
     })?;
     let name = &task.objects[step.action.picked()?].name;
     Some(FailedStep {
@@ -439,6 +439,7 @@ impl<'a> Search<'a> {
             turn: None,
             stroke: None,
             overlap: Overlap::NONE,
+            deviation: None,
             event: candidate.event,
             begin: time,
         };

@@ -37,7 +37,7 @@ fn follow(step: &Step, poses: &mut [Option<Pose>], held: &mut Option<(usize, Opt
                 poses[object] = Some(Pose::new(at, turned));
             }
         }
-        Action::Move(_) => {}
+        Action::Move(_) | Action::Follow(_) => {}
     }
 }
 

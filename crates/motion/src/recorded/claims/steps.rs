@@ -32,6 +32,7 @@ pub fn false_step_claims(
             Action::Pick { .. } => "pick",
             Action::Place { .. } => "place",
             Action::Move(_) => "move",
+            Action::Follow(_) => "follow",
         };
         ledger.check_equal("action", action, &is.to_owned());
     }

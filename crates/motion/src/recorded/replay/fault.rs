@@ -1,7 +1,7 @@
 //! Differences between a recorded task and the requested one.
 
 use cplan_core::space::Configuration;
-use cplan_text::length;
+use cplan_text::{length, length_up};
 use thiserror::Error;
 
 /// A difference between a recorded step and the required one.
@@ -23,6 +23,16 @@ pub enum Fault {
     Tip {
         /// Distance of the tip from there, metres.
         off: f64,
+    },
+    /// The tip is not proven to stay within the tolerance of the line.
+    #[error("the tip may leave the line by {} after sample {piece} of the step, more than {}", length_up(*off), length(*tolerance))]
+    Line {
+        /// Upper bound on the distance of the tip from the line, metres.
+        off: f64,
+        /// The tolerance, metres.
+        tolerance: f64,
+        /// Index of the sample before the part of the motion with this bound, from the step's first sample.
+        piece: usize,
     },
     /// A moving object is picked at a time outside its window.
     #[error("the object is picked at {time:.6} s, outside the required times")]

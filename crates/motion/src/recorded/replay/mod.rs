@@ -5,6 +5,7 @@
 //! contacts follow from the world's steps and from the recorded configurations.
 
 mod fault;
+mod line;
 mod order;
 mod overlap;
 mod state;
@@ -115,6 +116,7 @@ pub struct Replay<'a> {
 ///   be as high as the world requires while the arm moves.
 /// - Moving obstacles, which move on the clock of the record from its first sample on. Moving objects must be picked
 ///   within their windows of time, and the resting arm must stay free between motions.
+/// - Motions along a line, which must be within its tolerance.
 /// - The end of each step. The tip must be at the grasp, and the object or the arm at its target, within a micrometre.
 ///   A turn must start at the object's orientation, last at least as long as the wrist needs, and be free
 ///   ([`super::judge_given_turn`]). The arm must rest for the dwell, the turn, and the stroke of the tool. The stroke
@@ -219,6 +221,12 @@ impl<'a> Iterator for Replay<'a> {
             Action::Move(goal) => {
                 (object, lowered) = (None, None);
                 faults.extend(distance_from_goal(task, to, goal));
+                turn = self.state.turn(task, to, recorded.turn, &mut faults);
+                self.state.moved();
+            }
+            Action::Follow(followed) => {
+                (object, lowered) = (None, None);
+                faults.extend(line::fault(task, &motion, followed));
                 turn = self.state.turn(task, to, recorded.turn, &mut faults);
                 self.state.moved();
             }

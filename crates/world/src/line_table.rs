@@ -1,0 +1,195 @@
+//! Lines for the tip: the table `follow` of a step, and files of lines in TOML.
+
+use super::reader::Reader;
+use super::schema::NotNegative;
+use super::world::in_toml_words;
+use cplan_handling::{DEFAULT_TOLERANCE, FollowedLine, MIN_TOLERANCE};
+use cplan_robot::{
+    AngleOrLength, Diagnostic, InputError, Number, NumberPair, Numbers, Position, Positive, Source, Written, read_bytes,
+};
+use cplan_toolpath::{Curve, Error, Format, Leg, Piece, Placement, Toolpath, Unit, arc_through, polyline, spline};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::ops::Range;
+use std::sync::Arc;
+use toml::Spanned;
+
+/// A line for the tip: exactly one of file, points, arc and spline. It is scaled, then turned, then moved.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "follow", extend(
+    "oneOf" = [{ "required": ["file"] }, { "required": ["points"] }, { "required": ["arc"] }, { "required": ["spline"] }],
+    "dependencies" = { "radius": ["points"], "unit": ["file"] },
+))]
+pub(super) struct LineTable {
+    /// G-code (.gcode, .nc, .ngc, .tap) or a drawing (.svg), named relative to this file.
+    #[schemars(with = "Option<String>")]
+    file: Option<Spanned<String>>,
+    /// Points that straight lines join, m.
+    #[schemars(with = "Option<Vec<NumberPair>>", length(min = 2))]
+    points: Option<Spanned<Vec<Numbers>>>,
+    /// Radius of the arcs that replace the corners of `points`, m; by default 0.
+    #[schemars(with = "Option<NotNegative>")]
+    radius: Option<Number>,
+    /// An arc of a circle from the first point through the second to the third, m.
+    #[schemars(with = "Option<[NumberPair; 3]>")]
+    arc: Option<Spanned<Vec<Numbers>>>,
+    /// Points that a smooth curve joins, m: a cubic spline. It is closed if the last point is the first.
+    #[schemars(with = "Option<Vec<NumberPair>>", length(min = 2))]
+    spline: Option<Spanned<Vec<Numbers>>>,
+    /// Greatest speed of the tip, m/s; by default the speeds of the file, and else as fast as the joints allow.
+    #[schemars(with = "Option<Positive>")]
+    speed: Option<Number>,
+    /// Greatest distance of the tip from the line, m; by default 0.00001.
+    #[schemars(with = "Option<Positive>")]
+    tolerance: Option<Number>,
+    /// Unit of the file's numbers, such as "mm"; by default the unit that the file states.
+    #[schemars(with = "Option<String>")]
+    unit: Option<Spanned<String>>,
+    /// Factor by which the line is scaled about its origin; by default 1.
+    #[schemars(with = "Option<Positive>")]
+    scale: Option<Number>,
+    /// Angle by which the line is turned about its origin, rad; by default 0.
+    #[schemars(with = "Option<AngleOrLength>")]
+    turn: Option<Written>,
+    /// Position of the line's origin, m; by default [0, 0].
+    #[serde(rename = "move")]
+    #[schemars(with = "Option<NumberPair>")]
+    shift: Option<Numbers>,
+}
+
+/// A function that returns the curves through points.
+type LegsThrough<'a> = &'a dyn Fn(&[[f64; 2]]) -> Result<Vec<Leg>, Error>;
+
+/// Reads a file in TOML with the keys of a step's table `follow`.
+///
+/// # Errors
+/// Malformed TOML, unknown keys, invalid values, and defects of the file that it names.
+pub fn read_line(source: &Source) -> Result<FollowedLine, InputError> {
+    let table: LineTable = toml::from_str(source.text()).map_err(|error| {
+        let at = error.span().unwrap_or(0..0);
+        source
+            .diagnostic_at(at, in_toml_words(error.message()))
+            .help("points = [[x, y], [x, y]], with keys as in `follow` of a step")
+    })?;
+    Ok(table.read(&Reader::new(source), 0..0)?)
+}
+
+impl LineTable {
+    /// Returns the line. `at` is the position of the table in the file.
+    pub fn read(&self, reader: &Reader, at: Range<usize>) -> Result<FollowedLine, Diagnostic> {
+        let source = reader.source;
+        let placement = self.placement(reader)?;
+        let refuse_key = |given: Option<Range<usize>>, message: &str| match given {
+            Some(at) => Err(source.diagnostic_at(at, message).help("remove the key")),
+            None => Ok(()),
+        };
+        if self.points.is_none() {
+            refuse_key(self.radius.as_ref().map(Spanned::span), "only a line with `points` has a `radius`")?;
+        }
+        if self.file.is_none() {
+            refuse_key(self.unit.as_ref().map(Spanned::span), "only a line with a `file` has a `unit`")?;
+        }
+        let path = match (&self.file, &self.points, &self.arc, &self.spline) {
+            (Some(file), None, None, None) => read_file(reader, file, &placement)?,
+            (None, Some(points), None, None) => {
+                let radius = self.radius.as_ref().map_or(Ok(0.0), |radius| reader.not_negative(radius, "radius"))?;
+                let legs = |points: &[_]| polyline(points, radius);
+                self.through(reader, points, &placement, &legs)?
+            }
+            (None, None, Some(points), None) => {
+                let legs = |points: &[[f64; 2]]| match *points {
+                    [from, through, to] => Ok(vec![arc_through([from, through, to])?]),
+                    _ => {
+                        let message = format!("an arc needs three points, not {}", points.len());
+                        Err(Error::new(None, None, message, "arc = [[x, y], [x, y], [x, y]]: from, through and to"))
+                    }
+                };
+                self.through(reader, points, &placement, &legs)?
+            }
+            (None, None, None, Some(points)) => self.through(reader, points, &placement, &spline)?,
+            (file, points, arc, spline) => {
+                let given = [file.is_some(), points.is_some(), arc.is_some(), spline.is_some()];
+                let count = given.iter().filter(|given| **given).count();
+                let message =
+                    format!("a line needs exactly one of `file`, `points`, `arc` and `spline`, but has {count}");
+                return Err(source.diagnostic_at(at, message).help("follow = { points = [[x, y], [x, y]] }"));
+            }
+        };
+        let speed = self.speed.as_ref().map(|speed| positive(reader, speed, "speed")).transpose()?;
+        let tolerance = self.tolerance.as_ref().map(|t| positive(reader, t, "tolerance")).transpose()?;
+        let line = FollowedLine { path: Arc::new(path), tolerance: tolerance.unwrap_or(DEFAULT_TOLERANCE), speed };
+        match &self.tolerance {
+            Some(number) if line.tolerance < MIN_TOLERANCE => {
+                let message = format!("the tolerance is {} m, less than {MIN_TOLERANCE} m", line.tolerance);
+                Err(source.diagnostic_at(number.span(), message).help("no robot is as accurate as that"))
+            }
+            _ => Ok(line),
+        }
+    }
+
+    fn placement(&self, reader: &Reader) -> Result<Placement, Diagnostic> {
+        let unit = self.unit.as_ref().map(|unit| {
+            let unknown = |message: String| reader.source.diagnostic_at(unit.span(), message).help("unit = \"mm\"");
+            unit.get_ref().parse::<Unit>().map_err(|error| unknown(error.to_string()))
+        });
+        let scale = self.scale.as_ref().map(|scale| positive(reader, scale, "scale")).transpose()?;
+        let turn = self.turn.as_ref().map(|turn| reader.quantity(turn, "turn")).transpose()?;
+        let shift = self.shift.as_ref().map(|shift| reader.number_pair(shift, "move")).transpose()?;
+        Ok(Placement {
+            unit: unit.transpose()?,
+            scale: scale.unwrap_or(1.0),
+            turn: turn.unwrap_or(0.0),
+            shift: shift.unwrap_or_default(),
+        })
+    }
+
+    /// Returns the line through points of the table.
+    fn through(
+        &self,
+        reader: &Reader,
+        points: &Spanned<Vec<Numbers>>,
+        placement: &Placement,
+        legs: LegsThrough,
+    ) -> Result<Toolpath, Diagnostic> {
+        let list = points.get_ref();
+        let values = list.iter().map(|point| reader.number_pair(point, "a point")).collect::<Result<Vec<_>, _>>()?;
+        let mut cursor = reader.source.cursor();
+        let lines: Vec<usize> = list.iter().map(|point| cursor.position(point.span().start).line).collect();
+        let piece = |(curve, to): (Curve, usize)| {
+            let source = cplan_toolpath::Source::of_line(lines[to]);
+            Piece { curve: placement.place(&curve), speed: None, is_travel: false, source }
+        };
+        let path = legs(&values).and_then(|legs| Toolpath::new(legs.into_iter().map(piece).collect()));
+        path.map_err(|error| reader.source.diagnostic_at(points.span(), error.message).help(error.hint))
+    }
+}
+
+/// Returns the line of a file that a table names. Defects of that file are reported with its name.
+fn read_file(reader: &Reader, file: &Spanned<String>, placement: &Placement) -> Result<Toolpath, Diagnostic> {
+    let path = reader.path_of_named_file(file, "follow")?;
+    let wrong = |message: String, help: &str| reader.source.diagnostic_at(file.span(), message).help(help);
+    let format = Format::from_path(&path).ok_or_else(|| {
+        wrong("the line's file has an unknown ending".into(), "it must end in .gcode, .nc, .ngc, .tap or .svg")
+    })?;
+    let bytes = read_bytes(&path).map_err(|error| wrong(error.to_string(), "check the file"))?;
+    cplan_toolpath::read(&bytes, format, placement).map_err(|error| line_diagnostic(path.display().to_string(), error))
+}
+
+/// Returns the diagnostic for a defect of a line's file, with its name and the place in it.
+#[must_use]
+pub fn line_diagnostic(file: String, error: Error) -> Diagnostic {
+    let position = error.line.map(|line| Position { line, column: error.column.unwrap_or(1) });
+    Diagnostic { position, ..Diagnostic::new(file, error.message).help(error.hint) }
+}
+
+fn positive(reader: &Reader, number: &Number, what: &str) -> Result<f64, Diagnostic> {
+    let value = reader.source.finite(number, what)?;
+    if value > 0.0 {
+        return Ok(value);
+    }
+    Err(reader
+        .source
+        .diagnostic_at(number.span(), format!("{what} must be positive, is {value}"))
+        .help("write a number above 0"))
+}
