@@ -41,7 +41,7 @@ pub fn no_motion(arm: &Arm, world: &World, certificate: &Certificate, line: &Lin
     let none = format!("no motion of \"{first}\" and \"{second}\" leads the tip \"{tip}\" along {line}");
     if ends.iter().any(|end| is_out_of_reach(arm, end, &Interval::from(tolerance))) {
         return Ok(format!(
-            "{none}: the tip cannot come within {tolerance} of ({a:.6}, {b:.6}), whatever the limits are"
+            "{none}: the tip cannot come within {tolerance} of ({a:.6}, {b:.6}), even without limits of the joints"
         ));
     }
     let stuck = certificate.boxes.as_deref().unwrap_or_default();
@@ -77,6 +77,8 @@ struct Candidate {
     ends: [bool; 2],
     /// True if the cell touches a box.
     is_beside_box: bool,
+    /// True if the tip is near both ends in the middle of the cell, and no box contains the middle.
+    is_passage: bool,
 }
 
 impl Search<'_> {
@@ -90,7 +92,7 @@ impl Search<'_> {
             }
             let coarse = COARSE_LEVEL + round / ROUNDS_PER_LEVEL;
             let is_cut = |c: &Candidate| c.cell.level < coarse || c.is_beside_box || c.ends != [false; 2];
-            if joined.len() > MAX_CELLS || joined.iter().any(|candidate| candidate.cell.level >= MAX_LEVEL) {
+            if joined.len() > MAX_CELLS || joined.iter().any(|c| c.is_passage || c.cell.level >= MAX_LEVEL) {
                 break;
             }
             let smaller = |c: Candidate| if is_cut(&c) { c.cell.quarters().to_vec() } else { vec![c.cell] };
@@ -115,14 +117,20 @@ impl Search<'_> {
         if self.boxes.iter().any(|other| within(&ranges, other)) {
             return None;
         }
-        let middle = ranges.each_ref().map(|[low, high]| Interval::from(&Decimal::middle(low, high)));
-        let at = tip::at(self.arm, &middle);
-        let near: BigInt = Interval::from(self.tolerance).upper + tip.farthest(&mover::Cell::from(&ranges));
+        let middle = ranges.each_ref().map(|[low, high]| Decimal::middle(low, high));
+        let at = tip::at(self.arm, &middle.each_ref().map(Interval::from));
+        let tolerance = Interval::from(self.tolerance);
+        let near: BigInt = &tolerance.upper + tip.farthest(&mover::Cell::from(&ranges));
         if self.chords.iter().all(|chord| chord.is_farther(&at, &near)) {
             return None;
         }
-        let ends = self.ends.each_ref().map(|end| length(&minus(&at, end)).lower <= near);
+        let distances = self.ends.each_ref().map(|end| length(&minus(&at, end)));
+        let ends = distances.each_ref().map(|distance| distance.lower <= near);
         let meets = |other: &Rectangle| (0..2).all(|k| ranges[k][0] <= other[k][1] && other[k][0] <= ranges[k][1]);
-        Some(Candidate { cell, ends, is_beside_box: self.boxes.iter().any(meets) })
+        let beside: Vec<&Rectangle> = self.boxes.iter().filter(|other| meets(other)).collect();
+        let point = middle.map(|value| [value.clone(), value]);
+        let is_passage = distances.iter().all(|distance| distance.upper <= tolerance.lower)
+            && !beside.iter().any(|other| within(&point, other));
+        Some(Candidate { cell, ends, is_beside_box: !beside.is_empty(), is_passage })
     }
 }

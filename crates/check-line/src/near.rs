@@ -45,6 +45,13 @@ struct Pairing {
     off: BigInt,
 }
 
+impl Pairing {
+    fn new(curve: &Curve, tip: &Point, u: BigInt) -> Self {
+        let off = length(&minus(tip, &curve.at(&Interval::exact(u.clone())))).upper;
+        Self { u, off }
+    }
+}
+
 /// Checks that the tip follows the line within the tolerance, and that the arm keeps its limits and the clearance.
 pub fn follows(arm: &Arm, world: &World, certificate: &Certificate, line: &Line) -> Result<String, CheckError> {
     let clearance = certificate.clearance(world)?;
@@ -118,8 +125,8 @@ impl Follower<'_> {
         let curve = &self.line.pieces[span.piece];
         let joints = cut(joint_curve(control), &span.shares);
         let [from, to] = &span.parameters;
-        let begin = self.pairing(curve, &joints[0], from);
-        let end = self.pairing(curve, &joints[joints.len() - 1], to);
+        let begin = Pairing::new(curve, &tip::at(self.arm, &joints[0]), from.clone());
+        let end = Pairing::new(curve, &tip::at(self.arm, &joints[joints.len() - 1]), to.clone());
         let mut open = vec![(joints, [begin, end], 0)];
         while let Some((joints, [begin, end], halvings)) = open.pop() {
             self.parts += 1;
@@ -142,11 +149,6 @@ impl Follower<'_> {
         Ok(())
     }
 
-    fn pairing(&self, curve: &Curve, q: &Point, u: &BigInt) -> Pairing {
-        let off = length(&minus(&tip::at(self.arm, q), &curve.at(&Interval::exact(u.clone())))).upper;
-        Pairing { u: u.clone(), off }
-    }
-
     /// Returns a bound on the second derivative of the difference between the tip and its place on the line, by the share
     /// `s` of the part, in units. The place at `s` has the parameter `from + (to - from) (s + delay s (1 - s))`, where the
     /// delay is from -1 to 1. So it never returns. Also returns the delay, which is guessed so that the bound is small.
@@ -166,16 +168,18 @@ impl Follower<'_> {
         (length(&minus(&minus(&tip, &place[0]), &place[1])).upper, delay)
     }
 
-    /// Returns the pairing for the middle of a part, near the place on the line that is nearest to the tip.
+    /// Returns the pairing for the middle of a part. Its place is between those of the part's ends, near the place that is
+    /// nearest to the tip.
     fn middle(&self, curve: &Curve, q: &Point, [from, to]: [&BigInt; 2], delay: f64) -> Pairing {
-        let share = units(0.5 + delay / 4.0);
-        let u = Interval::exact(from + (((to - from) * share) >> BITS));
-        let off = minus(&tip::at(self.arm, q), &curve.at(&u));
-        let [along, _] = curve.derivatives(&u);
-        let [off, along] = [off, along].map(|v| v.map(|c| roughly(&c.lower)));
-        let square = along[0] * along[0] + along[1] * along[1];
-        let step = units((off[0] * along[0] + off[1] * along[1]) / square);
-        self.pairing(curve, q, &(u.lower + step).clamp(from.clone(), to.clone()))
+        let tip = tip::at(self.arm, q);
+        let u = from + (((to - from) * units(0.5 + delay / 4.0)) >> BITS);
+        let place = Interval::exact(u.clone());
+        let [along, _] = curve.derivatives(&place);
+        let [off, along] = [minus(&tip, &curve.at(&place)), along].map(|v| v.map(|c| roughly(&c.lower)));
+        let step = (off[0] * along[0] + off[1] * along[1]) / (along[0] * along[0] + along[1] * along[1]);
+        let near = (&u + units(step)).clamp(from.clone(), to.clone());
+        let pairings = [near, u].map(|u| Pairing::new(curve, &tip, u));
+        pairings.into_iter().min_by(|a, b| a.off.cmp(&b.off)).expect("two")
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod batch;
 mod certificates;
+mod certified_lines;
 mod certified_motions;
 mod certified_movers;
 mod certified_robots;

@@ -1,0 +1,282 @@
+//! Certificates of motions along lines, and the verdict of the checker, which shares no code with the program.
+
+use super::certificates::without_digests;
+use super::{Done, Place, shipped};
+use cplan_cases::dice::Dice;
+use cplan_check_files::{CheckError, check};
+use serde_json::{Value, json};
+
+fn robot() -> String {
+    shipped("robots/planar_2r.urdf")
+}
+
+fn follow(place: &Place, robot: &str, world: &str, line: &str, options: &str) -> Done {
+    place.run(&["follow", robot, world, line, "--quiet"], &format!("--certificate c.json {options}"))
+}
+
+/// The files of a certificate.
+struct Judged {
+    urdf: String,
+    world: String,
+    certificate: Value,
+}
+
+impl Judged {
+    /// Follows a line, and returns the certificate. It checks the exit code.
+    fn of(robot: &str, world: &str, line: &str, options: &str, code: i32) -> Self {
+        let place = Place::new();
+        place.write("world.toml", world);
+        place.write("line.gcode", line);
+        let done = follow(&place, robot, "world.toml", "line.gcode", options);
+        assert_eq!(done.code, code, "{}{line}{world}", done.stderr);
+        let certificate = serde_json::from_str(&without_digests(&place.read("c.json"))).unwrap();
+        Self { urdf: std::fs::read_to_string(robot).unwrap(), world: world.to_owned(), certificate }
+    }
+
+    fn verdict(&self) -> Result<String, CheckError> {
+        check(&self.urdf, &self.world, &self.certificate.to_string())
+    }
+
+    /// Returns the checker's statement.
+    fn proven(&self) -> String {
+        self.verdict().unwrap_or_else(|why| panic!("{why}: {}", self.world))
+    }
+
+    /// Checks that the certificate does not hold with a change, for a reason that contains `why`.
+    fn fails(&self, change: impl FnOnce(&mut Value), why: &str) {
+        let mut certificate = self.certificate.clone();
+        change(&mut certificate);
+        match check(&self.urdf, &self.world, &certificate.to_string()) {
+            Err(CheckError::Fails(reason)) => assert!(reason.contains(why), "{reason}, not: {why}"),
+            other => panic!("{other:?}, not: {why}"),
+        }
+    }
+}
+
+fn plate() -> Judged {
+    let text = |file: &str| std::fs::read_to_string(shipped(&format!("workspaces/follow/{file}"))).unwrap();
+    Judged::of(&robot(), &text("engraving.toml"), &text("plate.gcode"), "", 0)
+}
+
+#[test]
+fn the_shipped_plate_has_a_certificate_that_holds() {
+    let plate = plate();
+    let proven = plate.proven();
+    for part in [
+        "a motion of \"shoulder\" and \"elbow\" leads the tip \"tool0\" along a line of 13 pieces, 2 of them travels, from \
+         (1.100000, -0.150000) to (1.250000, 0.060000), within 0.00001 of the line and in its order, with clearance 0",
+        "read as cubic or quartic",
+    ] {
+        assert!(proven.contains(part), "{proven}");
+    }
+    let pieces = plate.certificate["line"]["pieces"].as_array().unwrap();
+    assert_eq!(pieces[0], json!({ "straight": [[1.1, -0.15], [1.28, -0.15]] }));
+    assert_eq!(plate.certificate["line"]["travels"], json!([7, 11]));
+}
+
+#[test]
+fn changed_motions_and_lines_are_refused() {
+    let plate = plate();
+    let count = plate.certificate["motion"]["knots"].as_array().unwrap().len();
+    // The tip is 1.1 m or more from the first joint.
+    for knot in [0, count / 3, count / 2, count - 1] {
+        plate.fails(
+            |c| {
+                let value = c["motion"]["knots"][knot][1].as_f64().unwrap();
+                c["motion"]["knots"][knot][1] = json!(value + 0.05e-3);
+            },
+            "not shown to stay within 0.00001 of piece",
+        );
+    }
+    plate.fails(|c| c["line"]["tolerance"] = json!(6e-6), "not shown to stay within 0.000006 of piece");
+    plate.fails(|c| c["line"]["pieces"][2]["straight"][1][0] = json!(1.30005), "piece 3 of the line does not begin");
+    plate.fails(|c| c["line"]["pieces"].as_array_mut().unwrap().swap(0, 2), "of the line does not begin");
+    plate.fails(|c| drop(c["line"]["pieces"].as_array_mut().unwrap().pop()), "do not begin and end");
+    plate.fails(|c| drop(c["line"]["places"].as_array_mut().unwrap().remove(count / 2)), "omits a knot");
+    plate.fails(|c| drop(c["motion"]["knots"].as_array_mut().unwrap().pop()), "do not begin and end");
+    plate.fails(|c| c["clearance"] = json!(0.3), "is not shown to stay farther than 0.3 from obstacle 0");
+    // The post moves into the plate.
+    let world = plate.world.replace("[1.75, 0.55]", "[1.2, 0.0]");
+    assert_ne!(world, plate.world);
+    let moved = Judged { world, ..plate };
+    assert!(matches!(moved.verdict(), Err(CheckError::Fails(why)) if why.contains("from obstacle 1")));
+}
+
+/// Two squares that share a corner: the same path of the tip in another order of the pieces.
+#[test]
+fn the_order_of_the_line_counts() {
+    let squares = "G21 F60000\nG0 X1000 Y0\nG1 X1100\nY100\nX1000\nY0\nG1 X900\nY-100\nX1000\nY0\n";
+    let judged = Judged::of(&robot(), "", squares, "", 0);
+    judged.proven();
+    let swapped = |c: &mut Value| {
+        let pieces = c["line"]["pieces"].as_array_mut().unwrap();
+        pieces.rotate_left(4);
+    };
+    judged.fails(swapped, "not shown to stay within");
+    // Backwards along both squares, each piece is joined to the next.
+    let reversed = |c: &mut Value| {
+        let pieces = c["line"]["pieces"].as_array_mut().unwrap();
+        pieces.reverse();
+        pieces.iter_mut().for_each(|piece| piece["straight"].as_array_mut().unwrap().reverse());
+    };
+    judged.fails(reversed, "not shown to stay within");
+}
+
+/// All shapes of lines, with each kind of arm, and with limited jerk.
+#[test]
+fn every_kind_of_line_and_arm_has_a_certificate_that_holds() {
+    let line = "G21 F6000\nG0 X800 Y200\nG1 X900\nG3 X1000 Y300 J100\nG0 X900 Y250\nG2 I-20\nG1 X900 Y220\nX880 Y210\n";
+    let jerk = "[robot]\njerk = { shoulder = 200, elbow = 200 }\n";
+    for (robot, world, options, reading) in [
+        ("planar_2r", "", "", "quartic"),
+        ("planar_2r", jerk, "--tolerance 0.0001", "quintic"),
+        ("planar_2r", "", "--tolerance 0.001 --scale 0.5 --turn 30deg --move 0.4,0", "quartic"),
+        ("planar_2r_continuous", "", "--turn 2.8", "quartic"),
+        ("polar", "", "--scale 0.5 --move 0.3,0", "quartic"),
+        ("rail_arm", "", "--scale 0.5", "quartic"),
+        ("gantry", "", "--scale 0.2", "quartic"),
+    ] {
+        let robot = shipped(&format!("robots/{robot}.urdf"));
+        let judged = Judged::of(&robot, world, line, options, 0);
+        let proven = judged.proven();
+        assert!(proven.contains("a line of 6 pieces, 1 of them travels") && proven.contains(reading), "{proven}");
+        judged.fails(|c| c["line"]["tolerance"] = json!(1e-7), "not shown to stay within 0.0000001 of piece");
+    }
+    let place = Place::new();
+    place.write(
+        "line.svg",
+        "<svg xmlns='http://www.w3.org/2000/svg' width='1000mm' height='1000mm' viewBox='0 0 1000 1000'>\
+         <path d='M 700 800 C 900 500 1000 900 800 400 S 600 300 700 700'/><path d='M 500 300 C 700 300 500 300 700 400'/></svg>",
+    );
+    place.write("world.toml", "");
+    let done = follow(&place, &robot(), "world.toml", "line.svg", "--output r.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let read = |file: &str| std::fs::read_to_string(file).unwrap();
+    let proven = check(&read(&robot()), "", &place.read("c.json")).unwrap();
+    assert!(proven.contains("leads the tip") && place.read("c.json").contains("cubic"), "{proven}");
+    // A certificate can be a member of the result.
+    let done =
+        place.run(&["follow", &robot(), "world.toml", "line.svg", "--quiet"], "--output r.json --certificate r.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let result: Value = serde_json::from_str(&place.read("r.json")).unwrap();
+    assert_eq!(result["certificate"], serde_json::from_str::<Value>(&place.read("c.json")).unwrap());
+    assert_eq!(check(&read(&robot()), "", &place.read("r.json")).unwrap(), proven);
+}
+
+#[test]
+fn lines_out_of_reach_have_certificates() {
+    let judged = Judged::of(&robot(), "", "G21 G0 X1100 Y0\nG1 X1400\nG1 X1900\n", "", 3);
+    let proven = judged.proven();
+    assert!(proven.contains("the tip cannot come within 0.00001 of (1.900000, 0.000000)"), "{proven}");
+    judged.fails(|c| c["line"]["stretch"] = json!([1, 1]), "not shown to bar the tip");
+    judged.fails(|c| c["line"]["tolerance"] = json!(0.11), "not shown to bar the tip");
+}
+
+#[test]
+fn excluded_places_have_certificates() {
+    let world = "[[obstacle]]\nname = \"above\"\npolygon = [[0.2, 0.3], [1.0, 0.3], [1.0, 0.6], [0.2, 0.6]]\n\
+                 [[obstacle]]\nname = \"below\"\npolygon = [[0.2, -0.6], [1.0, -0.6], [1.0, -0.3], [0.2, -0.3]]\n";
+    let judged = Judged::of(&robot(), world, "G21 G0 X1000 Y-100\nG1 Y100\n", "", 3);
+    let proven = judged.proven();
+    assert!(proven.contains("none stays within 0.00001 of it from (1.000000, -0.1"), "{proven}");
+    judged.fails(|c| drop(c["boxes"].as_array_mut().unwrap().pop()), "not shown to bar the tip");
+    judged.fails(|c| c["line"]["tolerance"] = json!(0.2), "not shown to bar the tip");
+    judged.fails(|c| c["boxes"][0]["upper"][0] = json!(3.0), "does not touch the part everywhere");
+    // The clearance of the command line is part of the claim.
+    let near = world.replace("0.3]", "0.33]").replace("-0.3]", "-0.33]");
+    let judged = Judged::of(&robot(), &near, "G21 G0 X1000 Y-100\nG1 Y100\n", "--clearance 0.1", 3);
+    assert!(judged.proven().contains("with clearance 0.1"));
+}
+
+/// Each end of the line allows only one IK solution, and the arm cannot change it between them.
+#[test]
+fn lines_that_need_a_change_of_the_solution_have_certificates() {
+    let world = "[robot.limits]\nshoulder = [-0.2, 3]\nelbow = [-1, 3]\n";
+    let line = "G21 G0 X808.1 Y1018.3\nG1 X1540 Y840\nG1 X1650 Y0\n";
+    let judged = Judged::of(&robot(), world, line, "", 3);
+    let proven = judged.proven();
+    assert!(proven.contains("none stays within 0.00001 of it from"), "{proven}");
+    let stretch = judged.certificate["line"]["stretch"].clone();
+    assert!(stretch[0].as_f64().unwrap() + 0.5 < stretch[1].as_f64().unwrap(), "{stretch}");
+    judged.fails(|c| c["line"]["stretch"][1] = stretch[0].clone(), "not shown to bar the tip");
+    let wide = Judged { world: world.replace("-1", "-2"), ..judged };
+    assert!(matches!(wide.verdict(), Err(CheckError::Fails(_))));
+}
+
+#[test]
+fn unknown_answers_have_no_certificate() {
+    let place = Place::new();
+    let plate = shipped("workspaces/follow/plate.gcode");
+    let done = follow(&place, &robot(), &shipped("workspaces/follow/engraving.toml"), &plate, "--tolerance 0.000001");
+    assert_eq!(done.code, 4, "{}", done.stderr);
+    assert!(done.stderr.contains("c.json is not written: the answer is \"unknown\""), "{}", done.stderr);
+    assert!(!place.path("c.json").exists());
+    place.write("line.gcode", "G21 G0 X1100 Y-150\nG1 X1200\n");
+    place.write("world.toml", "");
+    place
+        .run(&["follow", &robot(), "world.toml", "line.gcode"], "--certificate line.gcode")
+        .refused(1, &["line.gcode is the input"]);
+}
+
+/// Returns a line of a few straight pieces, travels and arcs, in millimetres.
+fn random_line(dice: &mut Dice) -> String {
+    let (far, angle) = (dice.within(300.0, 1700.0), dice.within(-2.8, 2.8));
+    let mut at = [far * angle.cos(), far * angle.sin()];
+    let mut text = format!("G21 F6000\nG0 X{:.4} Y{:.4}\n", at[0], at[1]);
+    for k in 0..1 + dice.below(4) {
+        let size = [300.0, 300.0, 30.0, 3.0][dice.below(4)];
+        let next = at.map(|c| c + size * dice.within(-1.0, 1.0));
+        let radius = dice.within(0.51, 3.0) * (next[0] - at[0]).hypot(next[1] - at[1]);
+        text += &match dice.below(5) {
+            0 if k > 0 => format!("G0 X{:.4} Y{:.4}\n", next[0], next[1]),
+            1 => format!("G2 X{:.4} Y{:.4} R{radius:.4}\n", next[0], next[1]),
+            2 => format!("G3 X{:.4} Y{:.4} R{:.4}\n", next[0], next[1], -radius),
+            _ => format!("G1 X{:.4} Y{:.4}\n", next[0], next[1]),
+        };
+        at = next;
+    }
+    text
+}
+
+fn random_world(dice: &mut Dice) -> String {
+    let disc = |dice: &mut Dice| {
+        let (far, angle) = (dice.within(0.35, 1.6), dice.within(-3.2, 3.2));
+        let radius = dice.within(0.02, 0.2).min(far - 0.2);
+        format!(
+            "[[obstacle]]\ncircle = {{ center = [{:?}, {:?}], radius = {radius:?} }}\n",
+            far * angle.cos(),
+            far * angle.sin()
+        )
+    };
+    (0..dice.below(4)).map(|_| disc(dice)).collect()
+}
+
+#[test]
+fn every_answer_about_random_lines_has_a_certificate_that_holds() {
+    let mut answers = [0, 0, 0];
+    for seed in cplan_cases::seeds(60) {
+        let mut dice = cplan_cases::dice(seed);
+        let (line, world) = (random_line(&mut dice), random_world(&mut dice));
+        let robot = shipped(["robots/planar_2r.urdf", "robots/planar_2r_continuous.urdf"][dice.below(2)]);
+        let options = ["", "--tolerance 0.0001", "--tolerance 0.0005 --clearance 0.02"][dice.below(3)];
+        let place = Place::new();
+        place.write("world.toml", &world);
+        place.write("line.gcode", &line);
+        let done = follow(&place, &robot, "world.toml", "line.gcode", options);
+        let code = done.code;
+        answers[match code {
+            0 => 0,
+            3 => 1,
+            4 => 2,
+            _ => panic!("{seed}: {}{line}", done.stderr),
+        }] += 1;
+        if code != 4 {
+            let urdf = std::fs::read_to_string(&robot).unwrap();
+            let proven = check(&urdf, &world, &place.read("c.json"));
+            let proven = proven.unwrap_or_else(|why| panic!("{seed}: {why}\n{line}{world}"));
+            assert!(proven.starts_with(if code == 0 { "a motion" } else { "no motion" }), "{seed}: {proven}");
+        }
+    }
+    println!("found, infeasible, unknown: {answers:?}");
+    assert!(answers[0] >= 15 && answers[1] >= 10 && answers[2] <= 5, "{answers:?}");
+}
