@@ -2,12 +2,16 @@
 
 use super::exit::DONE;
 use super::failure::Failure;
+use super::follow::{self, FollowArgs};
 use super::fresh::{folder, refuse_existing_files, word};
 use super::plan::PlanArgs;
+use super::print_args::PrintArgs;
 use super::{plan, sinks};
-use crate::input::{Source, scene_from};
+use crate::input::{LoadedScene, Source, scene_from};
 use crate::output::format_columns;
-use clap::{Args, ValueEnum, ValueHint};
+use clap::{Args, Parser, ValueEnum, ValueHint};
+use cplan_toolpath::{Format, Placement, Toolpath, read};
+use std::mem::take;
 use std::path::{Path, PathBuf};
 
 /// The robot of the demonstration.
@@ -18,22 +22,35 @@ pub const DEMO_WORLD: &str = include_str!("../../workspaces/scara_cell.toml");
 /// The pick-and-place cycle by which SCARAs are compared.
 pub const ARCH_WORLD: &str = include_str!("../../workspaces/arch/pick_and_place.toml");
 
-/// The built-in worlds, all of the same SCARA.
+/// Robot, world and line of the demonstration of lines.
+const FOLLOW_FILES: [[&str; 2]; 3] = [
+    ["built-in planar_2r.urdf", include_str!("../../robots/planar_2r.urdf")],
+    ["built-in engraving.toml", include_str!("../../workspaces/follow/engraving.toml")],
+    ["built-in plate.gcode", include_str!("../../workspaces/follow/plate.gcode")],
+];
+
+/// The built-in worlds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum DemoKind {
     /// A motion in a cell with six obstacles.
     Scara,
     /// Pick and place with arch motions: 25 mm up, 305 mm across, 25 mm down.
     Arch,
+    /// The tip follows a line of G-code, as with `cplan follow`.
+    Follow,
 }
 
 impl DemoKind {
-    /// Returns the name of the world in messages, and its text.
-    fn world(self) -> [&'static str; 2] {
-        match self {
-            Self::Scara => ["built-in scara_cell.toml", DEMO_WORLD],
-            Self::Arch => ["built-in pick_and_place.toml", ARCH_WORLD],
-        }
+    /// Reads the robot and the world.
+    fn load(self) -> Result<LoadedScene, crate::input::InputError> {
+        const SCARA: [&str; 2] = ["built-in scara.urdf", DEMO_ROBOT];
+        let files = match self {
+            Self::Scara => [SCARA, ["built-in scara_cell.toml", DEMO_WORLD]],
+            Self::Arch => [SCARA, ["built-in pick_and_place.toml", ARCH_WORLD]],
+            Self::Follow => [FOLLOW_FILES[0], FOLLOW_FILES[1]],
+        };
+        let [robot, world] = files.map(|[name, text]| Source::in_memory(name, text));
+        scene_from(robot, world)
     }
 }
 
@@ -41,9 +58,10 @@ impl DemoKind {
 const RESULT_FILE: &str = "plan.json";
 const PICTURE_FILE: &str = "plan.html";
 
-/// Plan in a built-in SCARA cell; write plan.json and plan.html.
+/// Plan in a built-in cell; write plan.json and plan.html.
 ///
-/// All options of `cplan plan` also apply; `cplan help planners` lists those of planners.
+/// All options of `cplan plan` also apply; `cplan help planners` lists those of planners. With `--kind follow`, only those
+/// apply that `cplan follow` has as well.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 `cplan init --kind scara` writes the files of this cell.
@@ -52,6 +70,7 @@ Examples:
   cplan demo
   cplan demo --planner harmonic --force
   cplan demo --kind arch --dir arch
+  cplan demo --kind follow --dir engraving
   cplan demo --dir wider --clearance 0.02 --goal-tip 0.1,0.45
 
 Exit codes: those of `cplan plan`, such as 0 found and certified; 1 also if the
@@ -81,14 +100,58 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
     folder(&args.dir)?;
     args.plan.output.insert(0, result);
     args.plan.picture.insert(0, picture.clone());
-    let [name, world] = args.kind.world();
-    let code = plan::answer(&args.plan, None, || {
-        scene_from(Source::in_memory("built-in scara.urdf", DEMO_ROBOT), Source::in_memory(name, world))
-    })?;
+    let kind = args.kind;
+    let code = match kind {
+        DemoKind::Scara | DemoKind::Arch => plan::answer(&args.plan, None, || kind.load())?,
+        DemoKind::Follow => follow::answer(&follow_args(&mut args.plan)?, || kind.load(), |_| built_in_line())?,
+    };
     if code == DONE && !args.plan.print.quiet && !args.plan.print.json {
         sinks::sum_up(&next(&picture), code)?;
     }
     Ok(code)
+}
+
+/// The command line of `cplan follow`.
+#[derive(Debug, Parser)]
+struct FollowLine {
+    #[command(flatten)]
+    follow: FollowArgs,
+}
+
+/// The options of `cplan demo` for a plan.
+#[derive(Debug, Parser)]
+struct PlanLine {
+    #[command(flatten)]
+    plan: PlanArgs,
+}
+
+/// Moves the options for outputs, clearance and printed text to those of `cplan follow`.
+///
+/// # Errors
+/// Options that `cplan follow` does not have.
+fn follow_args(plan: &mut PlanArgs) -> Result<FollowArgs, Failure> {
+    let FollowLine { mut follow } =
+        FollowLine::parse_from(["follow"].into_iter().chain(FOLLOW_FILES.map(|file| file[0])));
+    let PlanLine { plan: mut unset } = PlanLine::parse_from(["demo"]);
+    (follow.output, follow.picture) = (take(&mut plan.output), take(&mut plan.picture));
+    (follow.verbose, follow.clearance) = (take(&mut plan.verbose), plan.query.clearance.take());
+    let PrintArgs { json, quiet } = plan.print;
+    follow.print = PrintArgs { json, quiet };
+    std::mem::swap(&mut follow.theme, &mut plan.theme);
+    unset.print = PrintArgs { json, quiet };
+    // All other options must have their defaults.
+    if format!("{plan:?}") == format!("{unset:?}") {
+        return Ok(follow);
+    }
+    let all = "--kind follow takes only --output, --picture, --clearance, --theme, --json, --quiet and --verbose";
+    Err(Failure::Usage(format!("{all}; for more, call `cplan follow` with files")))
+}
+
+/// Reads the line of the demonstration.
+fn built_in_line() -> Result<Toolpath, Failure> {
+    let [name, text] = FOLLOW_FILES[2];
+    let line = read(text.as_bytes(), Format::GCode, &Placement::default());
+    line.map_err(|error| Failure::Option(format!("{name}: {}", error.message)))
 }
 
 /// Returns the path of a file in the folder. If the folder is the current one, leaves it out.
@@ -104,6 +167,7 @@ fn next(picture: &Path) -> String {
         ),
         "cplan demo --planner harmonic --force     the same cell with another planner".into(),
         "cplan demo --kind arch --force            pick and place: the quill moves with the arm".into(),
+        "cplan demo --kind follow --force          the tip follows a line of G-code within 0.01 mm".into(),
         "cplan init --kind scara                   the files of this cell, to change".into(),
         "cplan init                                a small arm and world, every line explained".into(),
         "cplan --help                              all commands and options, with examples".into(),

@@ -6,11 +6,14 @@ use super::figure::{Item, Pen, Rect, Step, Style, lines, lines_by_path};
 use super::labels::{NamedRegion, Placer};
 use super::shapes::ABSENT_DASH;
 use super::view::{ContourView, MAX_NAMED_OBSTACLES, PanelView, View, WorldView};
-use super::{blocking, boxes, preferences, reach, tags, trace};
+use super::{blocking, boxes, followed, preferences, reach, tags, trace};
 use cplan_theme::{ACCENT, INK, Rgb, WHITE};
 
 /// Pen for goals along a segment.
 const GOAL_SEGMENT_PEN: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
+
+/// Size of the markers on a line that the tip follows, whose image is often small.
+const SMALL_MARKER: f64 = 0.7;
 
 /// Half the width of the markers of starts and goals, in pixels.
 const MARKER_HALF_WIDTH: f64 = 10.0;
@@ -46,16 +49,21 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     let paths: Vec<_> = paths.map(|path| (chart.outline(&path.points.0), path.pen())).collect();
     let names = names(view, panel, chart, &paths);
     inside.extend(if view.still.lights_paths { lines_by_path(paths, &view.still.top_paths) } else { lines(paths) });
+    inside.extend(view.still.line.iter().flat_map(|line| followed::in_cspace(line, chart)));
     inside.extend(world.trace.iter().flat_map(|trace| trace::items_above_path(trace, chart)));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));
     items.extend(world.scale.iter().flat_map(|scale| trace::color_bar(scale, &frame.rect)));
-    let size = marker_size(panel);
+    let size = marker_size(panel) * if view.still.line.is_some() { SMALL_MARKER } else { 1.0 };
     // If there are paths, the marker of a goal that no path reached is hollow.
     for (q, _, reached) in view.ends(panel) {
         items.extend(goal_marker_of_size(chart.place(q), reached, size));
     }
-    items.extend(panel.starts.iter().flat_map(|&q| start_marker_of_size(chart.place(q.into()), size)));
+    // Crosses mark the configurations of a line that cannot be followed.
+    let has_start = view.still.line.as_ref().is_none_or(|line| line.motion.is_some());
+    items.extend(
+        panel.starts.iter().filter(|_| has_start).flat_map(|&q| start_marker_of_size(chart.place(q.into()), size)),
+    );
     if let Some((q, world)) = view.still.now
         && panel.worlds.contains(&world)
     {
@@ -143,6 +151,9 @@ fn names(view: &View, panel: &PanelView, chart: &Chart, paths: &[(Vec<Step>, Pen
         });
         Some(NamedRegion { text: mover.obstacle.name.clone(), outline: outline? })
     });
+    if let Some(line) = &view.still.line {
+        placer.beside(&followed::solution_names(line, chart));
+    }
     placer.on_regions(&regions.chain(moving).collect::<Vec<_>>());
     placer.into_items()
 }

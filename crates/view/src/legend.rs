@@ -4,7 +4,7 @@ use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shor
 use super::flow::FieldLines;
 use super::key::{Key, KeyView, Layered, Sign};
 use super::view::{MAX_NAMED_OBSTACLES, ObstacleView, PathView, TraceView, View};
-use super::{blocking, boxes, channel, checked, cspace, line, preferences, reach, shapes, trace};
+use super::{blocking, boxes, channel, checked, cspace, followed, preferences, reach, shapes, trace};
 use cplan_theme::{GRAY, INFEASIBLE, INK, PALE};
 
 /// Height of a row, in pixels.
@@ -55,13 +55,15 @@ fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
         (true, _) => Some("home"),
         (false, true) => Some("start"),
         // The view of an arm alone has no configuration of interest.
-        (false, false) => view.frames.is_empty().then_some("configuration"),
+        (false, false) => (view.frames.is_empty() && view.still.line.is_none()).then_some("configuration"),
     };
     let mut keys: Vec<Layered> = start.map(|start| always((Sign::Start, start.to_owned()))).into_iter().collect();
     if view.moves() && view.still.reach.is_none() {
         keys.push(always((Sign::Goal, goal.to_owned())));
     }
-    keys.extend(paths(view).into_iter().map(|key| -> Layered { (key, &["path", "trace"]) }));
+    if view.still.line.is_none() {
+        keys.extend(paths(view).into_iter().map(|key| -> Layered { (key, &["path", "trace"]) }));
+    }
     if still && view.worlds.iter().any(|world| !world.open.is_empty()) {
         keys.push(always((Sign::Dashed(GRAY), "open to link 2 (picked or placed)".to_owned())));
     }
@@ -77,8 +79,10 @@ fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
     keys.extend(preferences::keys(&world.regions).into_iter().map(|key| -> Layered { (key, &["regions"]) }));
     let reach = view.still.reach.as_ref().map_or_else(Vec::new, reach::keys);
     keys.extend(reach.into_iter().map(|key| -> Layered { (key, &["access"]) }));
-    let given = view.still.line.as_ref().map_or_else(Vec::new, line::keys);
-    keys.extend(given.into_iter().map(|key| -> Layered { (key, &["path"]) }));
+    if let Some(line) = &view.still.line {
+        keys.extend(followed::keys(line).into_iter().map(|key| -> Layered { (key, &["path"]) }));
+        keys.extend(followed::solution_keys(line).into_iter().map(|key| -> Layered { (key, &["solutions"]) }));
+    }
     keys.extend(view.still.stuck.as_ref().map_or_else(Vec::new, blocking::keys).into_iter().map(always));
     keys.extend(view.still.checked.as_ref().map_or_else(Vec::new, checked::keys).into_iter().map(always));
     keys.push(always((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned())));

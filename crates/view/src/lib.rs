@@ -29,6 +29,7 @@ mod explanation;
 mod exploration;
 mod figure;
 mod flow;
+mod followed;
 mod frames;
 #[cfg(feature = "png")]
 mod gif_writer;
@@ -37,7 +38,6 @@ mod key;
 mod labels;
 mod legend;
 mod letter_widths;
-mod line;
 #[cfg(feature = "png")]
 mod letters;
 mod obstacles;
@@ -66,7 +66,7 @@ pub use compared::{ComparedPaths, SmallPicture, compared};
 pub use explanation::ExplanationView;
 pub use exploration::exploration_page;
 pub use flow::FieldLines;
-pub use line::LineView;
+pub use followed::{LineSettings, LineView};
 pub use obstacles::{extent, obstacles, still_page};
 pub use view::{AxesFrame, KeyFigures, Moments, Picture, TaskPicture, View, drawing, inspection_page, page, shell};
 

@@ -5,7 +5,7 @@ use super::grid::Grid;
 use super::key::Key;
 use super::legend;
 use super::view::{PanelView, View};
-use super::{chart, cspace, steps, strip, workspace};
+use super::{chart, cspace, followed, steps, strip, workspace};
 use cplan_core::model::Status;
 use cplan_theme::{FOUND, GRAY, INFEASIBLE, INK, Rgb};
 
@@ -73,7 +73,7 @@ pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
             items.extend(workspace::panel(view, left));
             items.extend(cspace::panel(view, panel, right));
             let below = top + height + AXES_HEIGHT;
-            let page_height = MIN_PAGE_HEIGHT + strip(view, [left.x, right.right()], below, &mut items);
+            let page_height = MIN_PAGE_HEIGHT + strips(view, [left.x, right.right()], below, &mut items);
             items.push(heading(left, top - 12.0, "Workspace"));
             items.push(heading(right, top - 12.0, &panel.title));
             items.extend(legend::items(&keys, PAGE_WIDTH / 2.0, page_height - legend));
@@ -99,10 +99,15 @@ fn pair(view: &View, top: f64, height: f64) -> [Rect; 2] {
     [Rect { x, y: top, width, height }, Rect { x: x + width + PAIR_GAP, y: top, width: right, height }]
 }
 
-/// Draws the strip of a motion among moving obstacles from `top` downwards; returns its height, or 0 without one.
-fn strip(view: &View, [left, right]: [f64; 2], top: f64, items: &mut Vec<Item>) -> f64 {
-    let Some(strip) = &view.strip else { return 0.0 };
+/// Draws the strip of a motion among moving obstacles from `top` downwards, or that of a motion along a line; returns its
+/// height, or 0 without one.
+fn strips(view: &View, [left, right]: [f64; 2], top: f64, items: &mut Vec<Item>) -> f64 {
     let area = Rect { x: left, y: top, width: right - left, height: 0.0 };
+    if let Some(line) = view.still.line.as_ref().filter(|line| line.motion.is_some()) {
+        items.extend(followed::strip::items(line, view, area));
+        return followed::strip::HEIGHT;
+    }
+    let Some(strip) = &view.strip else { return 0.0 };
     items.extend(strip::items(strip, view, area));
     strip::HEIGHT
 }
@@ -161,7 +166,7 @@ fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &
     let note = "objects at their initial positions, and dashed where they are placed";
     items.push(label([LEFT_COLUMN.x + LEFT_COLUMN.width / 2.0, top - 9.0], note, 13.0, Anchor::Middle, GRAY));
     items.push(heading(RIGHT_COLUMN, top - 56.0, "Configuration space for each payload"));
-    let height = height + strip(view, [LEFT_COLUMN.x, RIGHT_COLUMN.right()], height, items);
+    let height = height + strips(view, [LEFT_COLUMN.x, RIGHT_COLUMN.right()], height, items);
     items.extend(legend::items(keys, PAGE_WIDTH / 2.0, height));
     height + legend
 }

@@ -6,7 +6,7 @@ use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines, lines_
 use super::labels::{self, Named, Placer};
 use super::tags::{self, Tag};
 use super::view::{ObstacleView, PathView, View, bounding_box, reach_shape, titles};
-use super::{blocking, checked, frames, line, preferences, reach, shapes};
+use super::{blocking, checked, followed, frames, preferences, reach, shapes};
 use cplan_core::model::{Arm, Shape};
 use cplan_core::space::Configuration;
 use cplan_theme::{GRAY, INFEASIBLE, INK, PALE, WHITE};
@@ -19,8 +19,10 @@ const MARKER_HALF_WIDTH: f64 = 8.0;
 /// Draws the panel, which fills this part of the page.
 #[must_use]
 pub fn panel(view: &View, area: Rect) -> Vec<Item> {
-    let View { arm, frame: [x, y], still, .. } = view;
-    let frame = Frame::filling(area, (*x).into(), (*y).into());
+    let View { arm, still, .. } = view;
+    let focus = still.line.as_ref().and_then(|line| line.focus);
+    let [x, y] = focus.map_or(view.frame, |focus| focus.ranges);
+    let frame = Frame::filling(area, x.into(), y.into());
     let first = view.first_world();
     let lying = || first.obstacles.iter().chain(&still.placed).filter(|obstacle| obstacle.lies());
     let mut inside = ground(&frame, arm);
@@ -30,17 +32,24 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     inside.extend(still.placed.iter().map(|object| shapes::dashed(&frame, object)));
     inside.extend(preferences::in_workspace(&first.regions, &frame));
     let mut placer = Placer::new(frame.rect);
-    if let ([path], false) = (&view.paths[..], view.is_task()) {
+    let is_followed = still.line.is_some();
+    if let ([path], false) = (&view.paths[..], view.is_task() || is_followed) {
         inside.extend(path.ghosts.0.iter().flat_map(|&q| pose(view, &frame, &mut placer, 0, q, &GHOST_LOOK)));
     }
     inside.extend(view.unreached().flat_map(|(world, q)| pose(view, &frame, &mut placer, world, q, &UNREACHED_LOOK)));
-    inside.extend(pose(view, &frame, &mut placer, 0, view.start.into(), &START_LOOK));
-    if let Some((q, world)) = still.end {
-        inside.extend(pose(view, &frame, &mut placer, world, q.into(), &GOAL_LOOK));
+    // The arm would hide the line.
+    if !is_followed {
+        inside.extend(pose(view, &frame, &mut placer, 0, view.start.into(), &START_LOOK));
+        if let Some((q, world)) = still.end {
+            inside.extend(pose(view, &frame, &mut placer, world, q.into(), &GOAL_LOOK));
+        }
     }
-    inside.extend(still.line.iter().flat_map(|given| line::in_workspace(given, &frame)));
+    inside.extend(still.line.iter().flat_map(|line| followed::arms(line, view, &frame)));
+    inside.extend(still.line.iter().flat_map(|line| followed::in_workspace(line, &frame)));
+    inside.extend(still.line.iter().flat_map(|line| followed::tip_path(line, view, &frame)));
     let paths = still.panels.iter().flat_map(|panel| &panel.paths).map(|&index| &view.paths[index]);
-    let traces: Vec<_> = paths.map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
+    let traces = paths.filter(|_| !is_followed).map(|path| (tip_trace(&frame, arm, path), path.pen()));
+    let traces: Vec<_> = traces.collect();
     traces.iter().for_each(|(steps, _)| placer.block_line(steps));
     inside.extend(if still.lights_paths { lines_by_path(traces, &still.top_paths) } else { lines(traces) });
     let tags = if view.is_task() { step_ends(view, &frame, &mut inside) } else { Vec::new() };
@@ -48,7 +57,11 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
         inside.extend(pose(view, &frame, &mut placer, world, q.into(), &CURRENT_LOOK));
     }
     inside.extend(marks(view, &frame, &mut placer));
-    inside.extend(still.line.iter().flat_map(|given| line::place(given, &frame)));
+    inside.extend(still.line.iter().flat_map(|line| followed::place(line, &frame)));
+    let overview = still.line.as_ref().and_then(|line| followed::overview(line, view, &frame));
+    if let Some((place, _)) = &overview {
+        placer.block_box(*place);
+    }
     inside.extend(hidden_note(&frame, lying(), &mut placer));
     tags.iter().for_each(|tag| placer.block_spot(tag.at, STEP_END_RADIUS + 1.0));
     placer.beside(&tags::names(&tags, STEP_END_RADIUS + 1.0));
@@ -57,6 +70,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
         placer.beside(&names(view, &frame));
     }
     inside.extend(placer.into_items());
+    inside.extend(overview.into_iter().flat_map(|(_, items)| items));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.border([Unit::Meters; 2], titles(&arm.plane), [false; 2]));
     items.extend(frames::items(&frame, &view.frames));
@@ -122,7 +136,8 @@ fn names(view: &View, frame: &Frame) -> Vec<Named> {
         (name.to_owned(), labels::label_box_beyond(name, tip, elbow))
     };
     // An arm that does not move needs no name.
-    let ends = view.still.end.map(|(q, _)| [arm("goal", q), arm("start", view.start)]);
+    let ends = view.still.end.filter(|_| view.still.line.is_none());
+    let ends = ends.map(|(q, _)| [arm("goal", q), arm("start", view.start)]);
     let arms = ends.into_iter().flatten();
     let world = view.first_world();
     let lying = world.obstacles.iter().enumerate().filter(|(_, obstacle)| obstacle.lies());

@@ -13,7 +13,7 @@ pub use args::FollowArgs;
 use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
 use super::sinks;
-use crate::input::{self, Digests, LoadedScene};
+use crate::input::{self, Digests, InputError, LoadedScene};
 use crate::model::Status;
 use cplan_follow::{FollowError, Followed, Settings, follow};
 use cplan_toolpath::Toolpath;
@@ -33,14 +33,26 @@ struct Answered<'a> {
 /// # Errors
 /// Bad input and I/O, and options that do not suit the robot.
 pub fn run(args: &FollowArgs) -> Result<u8, Failure> {
+    answer(args, || input::load_scene(args.files.robot(), &args.files.world), read::line)
+}
+
+/// Follows the line that `read_line` returns, in the scene that `load` returns.
+///
+/// # Errors
+/// Same as for [`run`].
+pub fn answer(
+    args: &FollowArgs,
+    load: impl FnOnce() -> Result<LoadedScene, InputError>,
+    read_line: impl FnOnce(&FollowArgs) -> Result<Toolpath, Failure>,
+) -> Result<u8, Failure> {
     let outputs = files::Outputs::new(args)?;
-    let loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
+    let loaded = load()?.with_clearance(args.clearance)?;
     loaded.require_static_obstacles("a line is followed among obstacles at rest")?;
     let read: Vec<_> = loaded.files().into_iter().chain([args.path.clone()]).collect();
     sinks::refuse_to_overwrite_inputs(outputs.paths(), &read)?;
     let digests = || Digests::of(&args.files.robot(), &args.files.world, &loaded.files());
     let digests = args.certificate.as_ref().map(|_| digests()).transpose()?;
-    let line = read::line(args)?;
+    let line = read_line(args)?;
     if !args.print.quiet {
         loaded.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     }

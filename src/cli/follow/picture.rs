@@ -2,14 +2,11 @@
 
 use super::Answered;
 use super::words::{exclusions, facts, figures, headline};
-use crate::draw::{LineView, Picture, View};
+use crate::draw::{LineSettings, LineView, Picture, View};
 use crate::model::{Goal, Outcome, Scene};
 use crate::output::{contours, title_of};
 use crate::space::{Configuration, JointRange, Path};
-use cplan_follow::Followed;
-
-/// Greatest distance between the line and its chords in pictures, metres, as a share of the arm's reach.
-const DRAWN_TOLERANCE: f64 = 2e-5;
+use cplan_follow::{Exclusion, Followed};
 
 /// Returns the picture: the line, the motion or the place without one, and the configuration space.
 pub fn view(answered: &Answered) -> View {
@@ -18,7 +15,7 @@ pub fn view(answered: &Answered) -> View {
     let path: Option<&Path> = found.map(|found| found.timed.curve.straight().path());
     let shown = found.map_or_else(Vec::new, |found| facts(answered, found));
     let picture = Picture {
-        title: vec![headline(answered), title_of(scene)],
+        title: [headline(answered), title_of(scene)].into_iter().chain(reasons(answered)).collect(),
         status: answered.answer.status().name().into(),
         ending: Some(answered.answer.status()),
         facts: shown.into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
@@ -30,14 +27,31 @@ pub fn view(answered: &Answered) -> View {
     View::of_picture(&picture).with_figures(figures(answered)).with_line(line(answered, scene))
 }
 
+/// Returns a sentence about each IK solution that is excluded.
+fn reasons(answered: &Answered) -> Vec<String> {
+    let Followed::Infeasible(infeasible) = answered.answer else { return Vec::new() };
+    let scene = &answered.loaded.scene;
+    let reason =
+        |exclusion: &Exclusion| format!("IK solution {}: {}", exclusion.solution + 1, exclusion.describe(scene));
+    exclusions(infeasible).iter().map(reason).collect()
+}
+
+/// Returns the line with its motion, or with the place where it cannot be followed.
 fn line(answered: &Answered, scene: &Scene) -> LineView {
-    let strokes = answered.line.outlines(DRAWN_TOLERANCE * scene.arm().reach());
-    let strokes = strokes.into_iter().map(|stroke| stroke.into_iter().map(Into::into).collect()).collect();
-    let at = match answered.answer {
-        Followed::Infeasible(infeasible) => Some(infeasible.place.point),
-        _ => None,
-    };
-    LineView { strokes, at }
+    let given = answered.line;
+    let view = LineView::new(scene, given, answered.args.tolerance);
+    match answered.answer {
+        Followed::Found(found) => {
+            let settings = LineSettings { tolerance: answered.args.tolerance, speed: answered.args.speed };
+            let known = (found.deviation, !found.changes.is_empty());
+            view.with_motion(scene, given, &found.timed.trajectory, settings, known)
+        }
+        Followed::Infeasible(infeasible) => {
+            let excluded = exclusions(infeasible).iter().map(|exclusion| exclusion.q.into());
+            view.infeasible_at(infeasible.place.point, excluded.collect())
+        }
+        Followed::Unknown(_) => view,
+    }
 }
 
 /// Returns the first configuration of the motion. Without a motion, returns the one that is excluded, the world's start,

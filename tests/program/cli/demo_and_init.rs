@@ -68,6 +68,29 @@ fn the_demo_of_arch_motions_is_a_task() {
     assert!(page.contains(&row) && page.contains(&whole), "docs/arch_motions.md: {row} {whole}");
 }
 
+/// Checks the built-in line: its answer is that of the shipped files, and options of planners do not apply to it.
+#[test]
+fn the_demo_of_a_line_follows_it() {
+    let place = Place::new();
+    let done = place.run(&["demo"], "--kind follow");
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    assert!(done.stdout.contains("found and certified: at most 0.008 mm from the line"), "{}", done.stdout);
+    assert!(place.read("plan.html").contains("The tip follows the line within"));
+    let files =
+        ["robots/planar_2r.urdf", "workspaces/follow/engraving.toml", "workspaces/follow/plate.gcode"].map(shipped);
+    assert_eq!(place.run(&["follow", &files[0], &files[1], &files[2]], "--output shipped.json --quiet").code, 0);
+    let [demo, shipped] = ["plan.json", "shipped.json"].map(|name| {
+        let mut result: serde_json::Value = serde_json::from_str(&place.read(name)).unwrap();
+        result["line"].as_object_mut().unwrap().remove("file");
+        result
+    });
+    assert_eq!(demo, shipped);
+    let wider = place.run(&["demo"], "--kind follow --dir wide --clearance 0.05 --quiet");
+    assert_eq!((wider.code, wider.stdout.as_str()), (0, ""), "{}", wider.stderr);
+    place.run(&["demo"], "--kind follow --dir other --planner prm").refused(2, &["--kind follow takes only"]);
+    assert!(!place.path("other/plan.json").exists());
+}
+
 #[test]
 fn the_demo_does_not_overwrite_files() {
     let place = Place::new();

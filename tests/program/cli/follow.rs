@@ -142,7 +142,7 @@ fn ros_messages_and_pages_are_written() {
     let message = place.read("m.yaml");
     assert!(message.contains("joint_names") && message.contains("elbow") && message.contains("velocities"));
     let page = place.read("m.html");
-    assert!(page.contains("\"line\":{\"strokes\":[[1.1,-0.15,1.2,-0.15]]}"), "the page has the line");
+    assert!(page.contains("\"line\":{\"strokes\":[[1.1,-0.15,1.2,-0.15]],\"curves\":"), "the page has the line");
 }
 
 #[test]

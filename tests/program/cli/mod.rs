@@ -20,6 +20,7 @@ mod explore;
 mod fields;
 mod figures;
 mod follow;
+mod followed_pages;
 mod free_joint;
 mod grids;
 pub mod help;

@@ -13,7 +13,7 @@ use crate::blocking::BlockingView;
 use crate::checked::CheckedView;
 use crate::explanation::ExplanationView;
 use crate::flow::FieldLines;
-use crate::line::LineView;
+use crate::followed::LineView;
 use cplan_core::model::{Arm, Status};
 use cplan_core::space::Configuration;
 use cplan_explain::Reach;
@@ -198,7 +198,9 @@ impl View {
 
     /// Returns the view with the line that the tip should follow.
     #[must_use]
-    pub fn with_line(mut self, line: LineView) -> Self {
+    pub fn with_line(mut self, mut line: LineView) -> Self {
+        line.focus_within(self.frame, &self.arm);
+        self.clock = line.clock.take().or(self.clock);
         self.still.line = Some(line);
         self
     }

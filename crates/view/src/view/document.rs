@@ -5,9 +5,9 @@ use super::numbers::RoundingSteps;
 use crate::blocking::BlockingView;
 use crate::checked::CheckedView;
 use crate::explanation::ExplanationView;
+use crate::followed::LineDocument;
 use crate::key::KeyView;
 use crate::legend;
-use crate::line::LineDocument;
 use crate::reach::ReachView;
 use serde::Serialize;
 

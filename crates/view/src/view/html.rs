@@ -49,6 +49,9 @@ const SCRIPTS: [&str; 37] = [
 /// Code of the map of the tip's reach, for the pages that have one.
 const REACH_SCRIPT: &str = include_str!("assets/reach.js");
 
+/// Code of a line that the tip follows, for the pages that have one.
+const LINE_SCRIPTS: [&str; 2] = [include_str!("assets/lens.js"), include_str!("assets/follow.js")];
+
 /// Code that shows the view in the page.
 const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
 
@@ -57,7 +60,8 @@ const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
 pub fn page(view: &View) -> String {
     let title = view.title.first().map_or("cplan", String::as_str);
     let reach = if view.still.reach.is_some() { REACH_SCRIPT } else { "" };
-    sealed(title, "", "view", &view.json(), &(drawing() + reach + PLAN_SCRIPT))
+    let line = if view.still.line.is_some() { LINE_SCRIPTS.concat() } else { String::new() };
+    sealed(title, "", "view", &view.json(), &(drawing() + reach + &line + PLAN_SCRIPT))
 }
 
 /// Code of the page of an inspection.

@@ -42,7 +42,7 @@ pub use task_picture::{Moments, TaskPicture};
 pub(super) use arm::{reach_shape, titles};
 pub(super) use content::{FrameView, PanelView};
 pub(super) use extent::bounding_box;
-pub(super) use motion::PathView;
+pub(super) use motion::{Clock, PathView};
 pub(super) use numbers::{Chain, RoundingSteps};
 pub(super) use states::ranges;
 pub(super) use steps::Row;

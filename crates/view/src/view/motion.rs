@@ -193,11 +193,18 @@ impl Clock {
         positions[next - 1] + (positions[next] - positions[next - 1]) * part
     }
 
+    /// Creates the clock of a motion.
     pub fn new(trajectory: &Trajectory, grain: RoundingSteps) -> Self {
+        Self::precise(trajectory, grain, grain)
+    }
+
+    /// Creates the clock of a motion, with other rounding steps for its positions.
+    pub fn precise(trajectory: &Trajectory, grain: RoundingSteps, positions: RoundingSteps) -> Self {
+        let fine = |&q: &[f64; 2]| positions.configuration(q.into()).into();
         let chain = |values: &[[f64; 2]]| Chain(values.iter().map(|&q| grain.configuration(q.into()).into()).collect());
         Self {
             time: trajectory.time.iter().map(|&t| (t * 1e6).round() / 1e6).collect(),
-            position: chain(&trajectory.position),
+            position: Chain(trajectory.position.iter().map(fine).collect()),
             velocity: chain(&trajectory.velocity),
             acceleration: chain(&trajectory.acceleration),
             torque: (!trajectory.torque.is_empty()).then(|| chain(&trajectory.torque)),

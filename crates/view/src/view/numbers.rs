@@ -51,6 +51,13 @@ impl RoundingSteps {
         Self { lengths: grains(size), joints: [grains(1.0); 2] }
     }
 
+    /// Returns these rounding steps, with finer ones for joint values: each at most `step` radians or metres.
+    #[must_use]
+    pub fn finer(self, step: f64) -> Self {
+        let least = 10_f64.powi((-step.log10()).ceil().clamp(0.0, 12.0) as i32);
+        Self { joints: self.joints.map(|grains| grains.max(least)), ..self }
+    }
+
     /// Rounds a length or coordinate.
     #[must_use]
     pub fn length(self, value: f64) -> f64 {

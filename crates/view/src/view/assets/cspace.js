@@ -410,6 +410,7 @@ const CSpace = (() => {
     if (view.shows('path')) {
       for (const path of Think.paths(view, view.pathsHere())) pathOf(context, panel, view, path);
     }
+    view.followed?.inCSpace(context, panel, (flat) => shifted(context, panel, flat, circles(view), false));
     if (seen?.kind === 'channel' && view.shows('channel')) channelPoints(context, panel, view, seen);
     if (view.model.checked?.nearest_free) ring(context, panel, place(view, panel, view.model.checked.nearest_free), 5, panel.theme.grey);
     if (view.model.stuck?.at) cross(context, panel.theme, place(view, panel, view.model.stuck.at[0]));
@@ -419,14 +420,15 @@ const CSpace = (() => {
       const ends = view.pathsWithNames().map((path) => [`step ${path.step}`, Labels.about(place(view, panel, path.points.slice(-2)), 7)]);
       Labels.beside(context, panel, ends);
     }
+    view.followed?.names(context, panel);
     obstacleNames(context, panel, view, world);
   }
 
   /** Draws the start and the goals. Names avoid them. */
   function ends(context, panel, view) {
     goalLines(context, panel, view);
-    view.goals().forEach(([q, reached]) => diamond(context, panel, place(view, panel, q), reached));
-    ring(context, panel, place(view, panel, view.beginning()), 7);
+    view.goals().forEach(([q, reached]) => diamond(context, panel, place(view, panel, q), reached, view.followed ? 0.65 : 1));
+    if (view.followed?.motion ?? true) ring(context, panel, place(view, panel, view.beginning()), view.followed ? 4.5 : 7);
     for (const spot of markers(panel, view)) Labels.blockSpot(panel, spot, 10);
   }
 
@@ -495,10 +497,10 @@ const CSpace = (() => {
     context.stroke();
   }
 
-  function diamond(context, panel, [x, y], reached) {
+  function diamond(context, panel, [x, y], reached, size = 1) {
     for (const [r, color] of [[10, panel.theme.paper], [7.5, panel.theme.ink], [reached ? 0 : 5, panel.theme.paper]]) {
       context.beginPath();
-      for (const [dx, dy] of [[0, -r], [r, 0], [0, r], [-r, 0]]) context.lineTo(x + dx, y + dy);
+      for (const [dx, dy] of [[0, -r * size], [r * size, 0], [0, r * size], [-r * size, 0]]) context.lineTo(x + dx, y + dy);
       context.fillStyle = color;
       context.fill();
     }
@@ -513,6 +515,7 @@ const CSpace = (() => {
     inTime(context, panel, view, view.world);
     view.reachMap?.inCSpace(context, panel);
     if (time) stamp(context, panel, time);
+    view.followed?.movingInCSpace(context, panel);
     const [x, y] = place(view, panel, view.q);
     context.beginPath();
     context.arc(x, y, 4.8, 0, 2 * Math.PI);

@@ -313,9 +313,11 @@ const Geometry = (() => {
     return low;
   }
 
-  /** Returns position and velocity at a time, from the cubic between two samples. */
-  function moving(clock, t) {
-    const k = interval(clock, t);
+  /**
+   * Returns position and velocity at a time, from the cubic between two samples. If `smooth`, the position is that of the
+   * polynomial of degree five that also has the accelerations. `k` is the index of the first sample.
+   */
+  function moving(clock, t, k = interval(clock, t), smooth = false) {
     const h = clock.time[k + 1] - clock.time[k];
     const u = h > 0 ? Math.min(1, Math.max(0, (t - clock.time[k]) / h)) : 0;
     const at = (list, i, joint) => list[2 * i + joint];
@@ -323,7 +325,9 @@ const Geometry = (() => {
       const [p0, p1] = [at(clock.position, k, j), at(clock.position, k + 1, j)];
       const [m0, m1] = [h * at(clock.velocity, k, j), h * at(clock.velocity, k + 1, j)];
       const [a, b] = [2 * (p0 - p1) + m0 + m1, 3 * (p1 - p0) - 2 * m0 - m1];
-      return [((a * u + b) * u + m0) * u + p0, h > 0 ? ((3 * a * u + 2 * b) * u + m0) / h : 0];
+      // Half the differences of the accelerations at both ends.
+      const [c, d] = smooth ? [(h * h * at(clock.acceleration, k, j)) / 2 - b, (h * h * at(clock.acceleration, k + 1, j)) / 2 - 3 * a - b] : [0, 0];
+      return [((a * u + b) * u + m0) * u + p0 + (u * (1 - u)) ** 2 * (c * (1 - u) + d * u), h > 0 ? ((3 * a * u + 2 * b) * u + m0) / h : 0];
     };
     const [first, second] = [joint(0), joint(1)];
     return {
@@ -338,5 +342,5 @@ const Geometry = (() => {
     for (let i = 0; i + 1 < flat.length; i += 2) yield [flat[i], flat[i + 1]];
   }
 
-  return { TURN, apply, poses, tipAt, elbowAt, payloadPose, placed, moved, separation, contacts, inverse, wrap, moving, pointsOf };
+  return { TURN, apply, poses, tipAt, elbowAt, payloadPose, placed, moved, separation, contacts, inverse, solutions, wrap, interval, moving, pointsOf };
 })();

@@ -10,6 +10,7 @@ const LAYERS = [
   ['sensor', 'view of the sensor', true],
   ['known', 'configurations that are known to be free', true],
   ['path', 'paths, and traces of the tip', true],
+  ['solutions', 'IK solutions of the line', true],
   ['c-obstacles', 'C-obstacles', true],
   ['access', 'reachable tip positions', true],
   ['proof', 'proof of infeasibility', true],
@@ -42,12 +43,12 @@ class Layers {
   }
 
   /** Returns the names of the layers that a model has. */
-  static of({ worlds, replays = [], paths, reach, frames, exploration }) {
+  static of({ worlds, replays = [], paths, reach, frames, exploration, line: given }) {
     const traces = [...worlds, ...replays].map(({ trace }) => trace);
     const kinds = new Set(traces.map((trace) => trace?.kind));
     const any = (key) => worlds.some((world) => world[key]?.length > 0);
     const exists = {
-      path: paths.length > 0 || Boolean(exploration), 'c-obstacles': any('c_obstacles') || any('moments'), access: Boolean(reach), proof: any('proof'), regions: any('regions'),
+      path: paths.length > 0 || Boolean(exploration ?? given), solutions: Boolean(given?.solutions.length), 'c-obstacles': any('c_obstacles') || any('moments'), access: Boolean(reach), proof: any('proof'), regions: any('regions'),
       roadmap: kinds.has('roadmap'), roads: kinds.has('roads'), rows: kinds.has('rows'), channel: kinds.has('channel'), cells: kinds.has('channel'),
       expanded: traces.some((trace) => trace?.expanded?.length > 0), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'), flow: kinds.has('field'),
       boxes: kinds.has('boxes'), poses: paths.length > 0, map: Boolean(exploration), sensor: Boolean(exploration), known: Boolean(exploration),
@@ -79,7 +80,8 @@ class Layers {
     for (const [name, label] of LAYERS.filter(([one]) => layers.includes(one))) {
       const keys = ofLayer(name);
       const [only] = keys.length === 1 ? keys : [];
-      this.row({ key: only ?? { sign: name, text: label }, layer: name, box: this.box(name) });
+      const text = name === 'path' && model.line ? 'path of the tip, and the limit that it reaches' : label;
+      this.row({ key: only ?? { sign: name, text }, layer: name, box: this.box(name) });
       if (!only) for (const key of keys) this.row({ key, layer: name });
     }
     for (const key of entries.filter(({ sign }) => !['start', 'goal', 'unreached'].includes(sign))) this.row({ key });

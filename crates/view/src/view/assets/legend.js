@@ -21,6 +21,7 @@ const Legend = (() => {
     middle: () => '<circle cx="18" cy="8" r="3" fill="var(--paper)" stroke="var(--ink)" stroke-width="1.4"/>',
     hatched: (theme) => `<path d="M6 7l5-5M6 14l12-12M13 14l9-9M20 14l2-2" stroke="${theme.proof}" stroke-width="1.6"/><path ${SQUARE} fill="none" stroke="${theme.proof}" stroke-width="1.1"/>`,
     contact: () => '<circle cx="18" cy="8" r="4.5" fill="var(--infeasible)" stroke="var(--paper)" stroke-width="1.2"/>',
+    solutions: () => '<path d="M2 13c2-12 8-12 10-4M24 3c-2 12-8 12-10 4" fill="none" stroke="var(--grey)" stroke-width="2.2"/>',
     path: () => '<path d="M0 8h26" stroke="var(--ink)" stroke-width="2.4"/>',
     'c-obstacles': () => `<path d="M7 12c-3-5 2-10 8-9s9 6 5 9s-9 3-13 0z" fill="var(--ghost)" stroke="var(--grey)" stroke-width="1.2"/>`,
     map: () => '<path d="M2 2h7v12h-7z" fill="var(--paper)" stroke="var(--grey)"/><path d="M9 2h8v12h-8z" fill="var(--ink)" stroke="var(--grey)"/><path d="M17 2h7v12h-7z" fill="var(--pale)" stroke="var(--grey)"/>',

@@ -169,7 +169,7 @@ class Panel {
 
   /** Returns the room for the additional digits of values in a magnified panel, in pixels. */
   get digits() {
-    return 7 * this.zoom * Math.max(0, Math.ceil(Math.log10(this.times)) - 1);
+    return 7 * this.zoom * Math.max(0, Math.ceil(Math.log10(this.times) - 0.3));
   }
 
   /** Magnifies by a factor; the value at a spot stays there as far as possible. */

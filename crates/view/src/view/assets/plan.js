@@ -14,6 +14,7 @@ class CheckedView extends View {
   window.cplan = new (model.checked ? CheckedView : View)(document.querySelector('main'), model);
 }
 if (cplan.model.reach) new ReachMap(cplan);
+if (cplan.model.line) new FollowedLine(cplan);
 {
   /** Shows what the address asks for. */
   const follow = () => {

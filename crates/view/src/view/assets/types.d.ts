@@ -128,6 +128,35 @@ interface Card {
 /** Why there is no path, or what makes it longer. */
 interface ExplanationModel { headline: string; evidence: string; title: string; cards: Card[]; frame: [Point, Point]; stuck?: any }
 
+/** A line that the tip should follow, with the images under its IK solutions, and the place where it cannot be followed. */
+interface LineModel {
+  strokes: Chain[];
+  /** Exact curves: two ends; centre, radius, direction and angle; or four control points. */
+  curves?: number[][];
+  tolerance: number;
+  /** Radius of the lens, metres. */
+  lens: number;
+  at?: Point;
+  excluded: Point[];
+  solutions: { solution: number; excluded: boolean; points: Chain }[];
+  names: string[];
+  motion?: {
+    /** Proven bound on the distance from the line, metres. */
+    deviation: number;
+    /** Time and distance of the place that is farthest from the line. */
+    farthest: [number, number];
+    limits: [string, string][];
+    /** Ends of the stretches, each with the index of its limit. */
+    stretches: [number, number][];
+    stops: number[];
+    /** Least and greatest distance in equal intervals of time, in thousandths of the tolerance. */
+    deviations: [number, number][];
+    speeds: Chain;
+  };
+  focus?: { ranges: [Point, Point]; corner: Point };
+  smooth?: boolean;
+}
+
 /** The data of a page. */
 interface Model {
   title: string[];
@@ -154,8 +183,7 @@ interface Model {
   explanation?: ExplanationModel;
   checked?: any;
   reach?: any;
-  /** The line that the tip should follow, and the place where it cannot. */
-  line?: { strokes: Chain[]; at?: Point };
+  line?: LineModel;
   /** The data of an exploration, and the knowledge over time. */
   exploration?: any;
   survey?: any;

@@ -74,6 +74,8 @@ class View {
     this.judged = false;
     /** Map of the tip's reach; see `ReachMap`. */
     this.reachMap = null;
+    /** The line that the tip follows; see `FollowedLine`. */
+    this.followed = null;
     /** True to leave out everything that is slow to draw, while something moves. */
     this.light = false;
     buildPage(this);
@@ -182,6 +184,7 @@ class View {
     this.learn.show();
     this.strip.show();
     this.height.show();
+    this.followed?.show();
     parts.panels.hidden = this.drawn === 'pair';
     // Room for a scale of colours beside the panel.
     const { scale } = this;
@@ -416,13 +419,14 @@ class View {
 
   /**
    * Returns the key figures of a model: name, value and meaning. Proven bounds are rounded to the safe side.
-   * @param {{ figures?: FiguresModel }} model
+   * @param {{ figures?: FiguresModel, line?: LineModel }} model
    */
-  static cards({ figures = {} }) {
+  static cards({ figures = {}, line: given }) {
     const { duration, gap, fastest, clearance } = figures;
     return [
       duration !== undefined && ['time', Numbers.seconds(duration), 'from rest to rest, within all limits'],
-      duration !== undefined && gap === undefined && ['over the optimum', 'not proven', 'no bound on the optimum is known'],
+      given?.motion && ['off the line', `at most ${Numbers.length(given.motion.deviation, 0, Math.ceil)}`, `proven; the tolerance is ${Numbers.length(given.tolerance)}`],
+      duration !== undefined && !given && gap === undefined && ['over the optimum', 'not proven', 'no bound on the optimum is known'],
       gap !== undefined && ['over the optimum', gap === 0 ? '0 %' : `at most ${Numbers.percent(gap, Math.ceil)}`, fastest ? 'longer than the fastest' : 'longer than the shortest'],
       clearance !== undefined && ['clearance', Numbers.length(clearance, 0, Math.floor), 'proven, to the nearest obstacle'],
     ].filter(Boolean);

@@ -295,17 +295,10 @@ const Workspace = (() => {
     const nearestFree = model.checked?.nearest_free;
     if (nearestFree) arm(context, panel, view, world, nearestFree, { fill: theme.ghost, line: theme.grey, width: 1.2, alpha: 0.8, joints: true });
     if (model.stuck) stuck(context, panel, view, model.stuck);
-    if (model.line && view.shows('path')) given(context, panel, model.line);
-    if (view.shows('path')) traces(context, panel, view);
+    view.followed?.inWorkspace(context, panel);
+    if (view.shows('path') && !view.followed?.motion) traces(context, panel, view);
     if (model.line?.at) cross(context, theme, panel.at(model.line.at));
     if (view.shows('frames')) for (const frame of model.frames) axes(context, panel, frame);
-  }
-
-  /** Draws the line that the tip should follow. */
-  function given(context, panel, { strokes }) {
-    context.lineWidth = 4.5;
-    context.strokeStyle = panel.theme.grey;
-    for (const stroke of strokes) line(context, [...pointsOf(stroke)].map((p) => panel.at(p)));
   }
 
   /** Draws the blocking obstacles of a motion that does not exist, and the arm where it gets stuck. */
@@ -351,6 +344,7 @@ const Workspace = (() => {
     const { theme } = panel;
     movers(context, panel, view, view.world);
     view.reachMap?.inWorkspace(context, panel);
+    view.followed?.belowArm(context, panel);
     const { examined } = view;
     // While another arm is examined, this one steps back.
     const alpha = view.probe ? 0.45 : 1;
@@ -358,6 +352,7 @@ const Workspace = (() => {
     if (examined) tried(context, panel, view, examined);
     if (view.model.checked?.nearest && !view.probe) distance(context, panel, view.model.checked.nearest);
     view.reachMap?.aboveArm(context, panel);
+    view.followed?.aboveArm(context, panel);
     if (view.shows('names')) names(context, panel, view, view.world);
     if (view.hovered) Labels.write(context, theme, ...view.hovered);
   }

@@ -1,0 +1,206 @@
+//! Pictures of a line that the tip follows: in the workspace and in the configuration space.
+
+use super::LineView;
+use super::view::color;
+use crate::arm::{self, GHOST_LOOK, UNREACHED_LOOK};
+use crate::axes::Frame;
+use crate::blocking::cross;
+use crate::chart::Chart;
+use crate::figure::{Item, Pen, Rect, Step, Style, chain, lines, rectangle};
+use crate::key::{Key, Sign};
+use crate::labels::Named;
+use crate::shapes;
+use crate::view::{View, reach_shape};
+use cplan_core::space::Configuration;
+use cplan_geometry::Point;
+use cplan_theme::{GHOST, GRAY, INFEASIBLE, INK, PALE, WHITE};
+
+/// Width of the line below the path of the tip, and of that path, in pixels.
+const WIDTH: f64 = 7.0;
+const TRACE_WIDTH: f64 = 3.0;
+
+/// Pens of the images of the line under an IK solution.
+const FREE_PEN: Pen = Pen { color: GRAY, width: 2.2, dash: &[] };
+const EXCLUDED_PEN: Pen = Pen { color: INFEASIBLE, width: 2.2, dash: &[5.0, 3.0] };
+
+/// Greatest number of points of a path between two that are drawn.
+const MAX_SKIPPED: usize = 200;
+
+/// Size of the smallest visible detail of a path, in pixels.
+const MAX_CHORD: f64 = 1.0;
+
+/// Half the width of the square that marks the place of the lens, in pixels.
+const LENS_MARK: f64 = 7.0;
+
+/// Size of the overview as a share of the workspace's panel, and its distance from the sides, in pixels.
+const OVERVIEW_SHARE: f64 = 0.3;
+const OVERVIEW_GAP: f64 = 10.0;
+
+/// Draws the line in the workspace.
+#[must_use]
+pub fn in_workspace(line: &LineView, frame: &Frame) -> Vec<Item> {
+    let color = if line.motion.is_some() { GHOST } else { GRAY };
+    let steps = |stroke: &Vec<Point>| chain(stroke.iter().map(|p| frame.at(p.x, p.y)), false);
+    line.strokes.iter().map(|stroke| Item::Outline(steps(stroke), Style::line(color, WIDTH))).collect()
+}
+
+/// Returns the path of a point that moves with the arm, divided by the limits that the motion reaches.
+fn by_limit(line: &LineView, place: impl Fn(&[Configuration]) -> Vec<Step>) -> Vec<(Vec<Step>, Pen)> {
+    let Some((motion, _)) = &line.motion else { return Vec::new() };
+    let path = |from: f64, to: f64| place(&motion.played.between(from, to));
+    let pen = |limit| Pen { color: color(limit), width: TRACE_WIDTH, dash: &[] };
+    motion.stretches.iter().map(|stretch| (path(stretch.from, stretch.to), pen(stretch.limit))).collect()
+}
+
+/// Draws the path of the tip, coloured by the limits that the motion reaches, its stops, and the place of the lens.
+#[must_use]
+pub fn tip_path(line: &LineView, view: &View, frame: &Frame) -> Vec<Item> {
+    let spot = |q: &Configuration| {
+        let tip = view.arm.tip_at(*q);
+        frame.at(tip.x, tip.y)
+    };
+    let mut items = lines(by_limit(line, |path| straightened(path.iter().map(spot))));
+    let Some((motion, _)) = &line.motion else { return items };
+    let stop = |time: &f64| Item::Disc(spot(&motion.played.at(*time)), 3.0, Style::line(INK, 1.4).filled(WHITE));
+    items.extend(motion.stops.iter().map(stop));
+    let [x, y] = frame.at(motion.farthest.tip[0], motion.farthest.tip[1]);
+    let mark = Rect { x: x - LENS_MARK, y: y - LENS_MARK, width: 2.0 * LENS_MARK, height: 2.0 * LENS_MARK };
+    items.push(Item::Outline(rectangle(mark), Style::line(INK, 1.6)));
+    items
+}
+
+/// Returns the outline of a path on the page without the points that nobody would miss.
+fn straightened(spots: impl Iterator<Item = [f64; 2]>) -> Vec<Step> {
+    let spots: Vec<Configuration> = spots.map(Configuration::from).collect();
+    chain(thinned(&spots, 1.0).into_iter().map(Into::into), false)
+}
+
+/// Leaves out points that are within a tenth of `unit` of the line between their neighbours.
+fn thinned(points: &[Configuration], unit: f64) -> Vec<Configuration> {
+    let mut kept: Vec<Configuration> = points.first().copied().into_iter().collect();
+    let mut from = 0;
+    for to in 2..points.len() {
+        let (a, b) = (points[from], points[to]);
+        let along = (b - a) / (b - a).norm().max(f64::MIN_POSITIVE);
+        let is_off = |p: &Configuration| cplan_geometry::cross(along, p - a).abs() > 0.1 * unit;
+        if to - from > MAX_SKIPPED || points[from + 1..to].iter().any(is_off) {
+            from = to - 1;
+            kept.push(points[from]);
+        }
+    }
+    kept.extend(points.last().filter(|_| points.len() > 1));
+    kept
+}
+
+/// Draws the place where no motion is possible. It is above everything else.
+#[must_use]
+pub fn place(line: &LineView, frame: &Frame) -> Vec<Item> {
+    line.place.map_or_else(Vec::new, |at| cross(frame.at(at.x, at.y)))
+}
+
+/// Returns the arms to draw: at the place that is farthest from the line, and the other IK solution there; or those that
+/// are excluded.
+#[must_use]
+pub fn arms(line: &LineView, view: &View, frame: &Frame) -> Vec<Item> {
+    let payload = view.first_world().payload.as_ref();
+    let excluded = line.excluded.iter().flat_map(|&q| arm::items(frame, &view.arm, payload, q, &UNREACHED_LOOK));
+    let mut items: Vec<Item> = excluded.collect();
+    if let Some(pose) = line.pose {
+        if let Some((other, is_excluded)) = line.other {
+            let look = if is_excluded { &UNREACHED_LOOK } else { &GHOST_LOOK };
+            items.extend(arm::items(frame, &view.arm, payload, other, look));
+        }
+        items.extend(arm::items(frame, &view.arm, payload, pose, &arm::CURRENT_LOOK));
+    }
+    items
+}
+
+/// Draws the whole workspace in a corner of a magnified one: the arm, and the magnified part. Returns its place, too.
+#[must_use]
+pub fn overview(line: &LineView, view: &View, panel: &Frame) -> Option<(Rect, Vec<Item>)> {
+    let focus = line.focus?;
+    let size = OVERVIEW_SHARE * panel.rect.width.min(panel.rect.height);
+    let [x, y] = focus.corner;
+    let rect = Rect {
+        x: if x > 0.0 { panel.rect.right() - OVERVIEW_GAP - size } else { panel.rect.x + OVERVIEW_GAP },
+        y: if y > 0.0 { panel.rect.y + OVERVIEW_GAP } else { panel.rect.bottom() - OVERVIEW_GAP - size },
+        width: size,
+        height: size,
+    };
+    let [across, up] = view.frame;
+    let frame = Frame::filling(rect, across.into(), up.into());
+    let mut inside = vec![Item::Outline(rectangle(rect), Style::fill(WHITE))];
+    let reach = Style::line(PALE, 1.0).dashed(&[2.0, 4.0]);
+    inside.push(Item::Outline(shapes::outline(&frame, &reach_shape(&view.arm)), reach));
+    inside.extend(view.world_now().obstacles.iter().map(|obstacle| shapes::solid(&frame, obstacle)));
+    let payload = view.first_world().payload.as_ref();
+    if let Some(pose) = line.pose {
+        if let Some((other, is_excluded)) = line.other {
+            let look = if is_excluded { UNREACHED_LOOK.thin() } else { GHOST_LOOK.thin() };
+            inside.extend(arm::items(&frame, &view.arm, payload, other, &look));
+        }
+        inside.extend(arm::items(&frame, &view.arm, payload, pose, &arm::CURRENT_LOOK.thin()));
+    }
+    let [left, top] = frame.at(panel.x.0, panel.y.1);
+    let [right, bottom] = frame.at(panel.x.1, panel.y.0);
+    let part = Rect { x: left, y: top, width: right - left, height: bottom - top };
+    inside.push(Item::Outline(rectangle(part), Style::line(INK, 1.4)));
+    let border = Item::Outline(rectangle(rect), Style::line(GRAY, 1.0));
+    Some((rect, vec![Item::Clip(rect, inside), border]))
+}
+
+/// Draws the images of the line under both IK solutions, the motion coloured by the limits that it reaches, and the
+/// excluded configurations.
+#[must_use]
+pub fn in_cspace(line: &LineView, chart: &Chart) -> Vec<Item> {
+    let images = line
+        .solutions
+        .iter()
+        .map(|part| (chart.outline(&part.points), if part.is_excluded { EXCLUDED_PEN } else { FREE_PEN }));
+    let mut items = lines(images);
+    let path = |path: &[Configuration]| chart.outline(&thinned(path, MAX_CHORD / chart.frame.scale()));
+    items.extend(lines(by_limit(line, path)));
+    items.extend(line.excluded.iter().flat_map(|&q| cross(chart.place(q))));
+    items
+}
+
+/// Returns the names of the IK solutions, with the places of their images in the configuration space.
+#[must_use]
+pub fn solution_names(line: &LineView, chart: &Chart) -> Vec<Named> {
+    (0..2)
+        .filter_map(|solution| {
+            let own = line.solutions.iter().filter(|part| part.solution == solution);
+            let spots: Vec<[f64; 2]> = own.flat_map(|part| &part.points).map(|q| chart.place(*q)).collect();
+            Some((line.solution_name(solution), bounding_rect(&spots)?))
+        })
+        .collect()
+}
+
+/// Returns the box around places on the page.
+fn bounding_rect(spots: &[[f64; 2]]) -> Option<Rect> {
+    let end = |k: usize, pick: fn(f64, f64) -> f64| spots.iter().map(|spot| spot[k]).reduce(pick);
+    let [x, y] = [end(0, f64::min)?, end(1, f64::min)?];
+    Some(Rect { x, y, width: end(0, f64::max)? - x, height: end(1, f64::max)? - y })
+}
+
+/// Returns the legend of the line.
+#[must_use]
+pub fn keys(line: &LineView) -> Vec<Key> {
+    let pen = |color, width| Sign::Line(Pen { color, width, dash: &[] });
+    let color = if line.motion.is_some() { GHOST } else { GRAY };
+    let mut keys = vec![(pen(color, WIDTH), "line to follow".to_owned())];
+    keys.extend(line.limits().into_iter().map(|(_, name, color)| (pen(color, TRACE_WIDTH), name)));
+    if line.place.is_some() {
+        keys.push((pen(INFEASIBLE, 2.6), "x: the tip cannot follow the line here".to_owned()));
+    }
+    keys
+}
+
+/// Returns the legend of the images of the line in the configuration space.
+#[must_use]
+pub fn solution_keys(line: &LineView) -> Vec<Key> {
+    let kinds = [(false, FREE_PEN, "IK solution of the line"), (true, EXCLUDED_PEN, "IK solution that is excluded")];
+    let exists = |excluded: bool| line.solutions.iter().any(|part| part.is_excluded == excluded);
+    let shown = kinds.into_iter().filter(|(excluded, ..)| exists(*excluded));
+    shown.map(|(_, pen, text)| (Sign::Line(pen), text.to_owned())).collect()
+}

@@ -1,0 +1,113 @@
+//! The limits that keep a motion from being faster.
+
+use cplan_core::model::Arm;
+use cplan_handling::{Derivative, Piece};
+use cplan_motion::Trajectory;
+
+/// Share of a limit from which it counts as reached: within two per cent.
+pub const REACHED_SHARE: f64 = 0.98;
+
+/// Speed of a joint at rest, as a share of its limit.
+const REST_SHARE: f64 = 1e-9;
+
+/// A limit that a motion reaches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ActiveLimit {
+    /// The tip's speed along the line.
+    TipSpeed,
+    /// The speed of the joint with this index.
+    JointSpeed(usize),
+    /// The acceleration of the joint with this index.
+    JointAcceleration(usize),
+    /// The jerk of the joint with this index.
+    JointJerk(usize),
+    /// No limit within two per cent.
+    None,
+}
+
+/// A stretch of time with one limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch {
+    /// Its beginning, seconds.
+    pub from: f64,
+    /// Its end, seconds.
+    pub to: f64,
+    /// The limit.
+    pub limit: ActiveLimit,
+}
+
+/// Returns the limit that each piece of a motion reaches: the greatest value on the piece is within two per cent of the
+/// bound. `tip_limits` has the greatest speed of the tip on each piece, metres per second; `None` if there is no such limit.
+///
+/// A piece that reaches several limits counts for the first of them in this order: speeds, accelerations, jerks; of
+/// equal kind, the one with the greatest share. (A joint at top speed cannot be faster with any acceleration.)
+#[must_use]
+pub fn active_limits(arm: &Arm, pieces: &[Piece], tip_limits: &[Option<f64>]) -> Vec<ActiveLimit> {
+    pieces.iter().zip(tip_limits).map(|(piece, tip)| active_limit(arm, piece, *tip)).collect()
+}
+
+fn active_limit(arm: &Arm, piece: &Piece, tip_limit: Option<f64>) -> ActiveLimit {
+    let greatest = |of: Derivative, joint: usize| {
+        piece.critical(of, joint).map(|u| piece.derivative(of, u)[joint].abs()).fold(0.0, f64::max)
+    };
+    let of_joint = |of: Derivative, limit: fn(usize) -> ActiveLimit, bound: &dyn Fn(usize) -> Option<f64>| {
+        let share = |joint: usize| Some((greatest(of, joint) / bound(joint)?, limit(joint)));
+        [share(0), share(1)]
+    };
+    let joints = &arm.joints;
+    let tip = tip_limit.map(|limit| {
+        let speed = [0.0, 0.5, 1.0].map(|u| tip_speed(arm, piece, u)).into_iter().fold(0.0, f64::max);
+        (speed / limit, ActiveLimit::TipSpeed)
+    });
+    let [first, second] = of_joint(Derivative::Velocity, ActiveLimit::JointSpeed, &|k| Some(joints[k].velocity));
+    let accelerations =
+        of_joint(Derivative::Acceleration, ActiveLimit::JointAcceleration, &|k| Some(joints[k].acceleration));
+    let jerks = of_joint(Derivative::Jerk, ActiveLimit::JointJerk, &|k| joints[k].jerk);
+    let kinds: [&[Option<(f64, ActiveLimit)>]; 3] = [&[tip, first, second], &accelerations, &jerks];
+    let reached = |kind: &&[Option<(f64, ActiveLimit)>]| {
+        let all = kind.iter().flatten().filter(|(share, _)| *share >= REACHED_SHARE);
+        all.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, limit)| *limit)
+    };
+    kinds.iter().find_map(reached).unwrap_or(ActiveLimit::None)
+}
+
+/// Returns the speed of the tip at a share `u` of a piece, metres per second.
+#[must_use]
+pub fn tip_speed(arm: &Arm, piece: &Piece, u: f64) -> f64 {
+    let velocity = piece.derivative(Derivative::Velocity, u);
+    let [first, second] = arm.jacobian(1, arm.tip, piece.at(u));
+    (first * velocity[0] + second * velocity[1]).norm()
+}
+
+/// Joins neighbouring pieces with the same limit. A stretch shorter than `shortest` seconds gets the limit of the stretch
+/// before it, or of the one after it at the beginning.
+#[must_use]
+pub fn stretches(pieces: &[Piece], limits: &[ActiveLimit], shortest: f64) -> Vec<Stretch> {
+    let mut joined: Vec<Stretch> = Vec::new();
+    for (piece, &limit) in pieces.iter().zip(limits) {
+        match joined.last_mut() {
+            Some(last) if last.limit == limit => last.to = piece.to,
+            _ => joined.push(Stretch { from: piece.from, to: piece.to, limit }),
+        }
+    }
+    let mut visible: Vec<Stretch> = Vec::new();
+    for stretch in joined {
+        let is_short = stretch.to - stretch.from < shortest;
+        match visible.last_mut() {
+            Some(last) if is_short || last.limit == stretch.limit => last.to = stretch.to,
+            Some(last) if last.to - last.from < shortest => *last = Stretch { from: last.from, ..stretch },
+            _ => visible.push(stretch),
+        }
+    }
+    visible
+}
+
+/// Returns the times at which both joints rest, seconds: the ends of the motion, and stops on the way.
+#[must_use]
+pub fn stops(trajectory: &Trajectory) -> Vec<f64> {
+    let rests = |velocity: &[f64; 2]| velocity.iter().all(|speed| speed.abs() <= REST_SHARE);
+    let at_rest = trajectory.time.iter().zip(&trajectory.velocity).filter(|(_, velocity)| rests(velocity));
+    let mut times: Vec<f64> = at_rest.map(|(time, _)| *time).collect();
+    times.dedup_by(|later, earlier| *later - *earlier < 1e-6);
+    times
+}

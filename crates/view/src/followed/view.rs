@@ -1,0 +1,335 @@
+//! The content of pictures and pages about a line that the tip follows.
+
+use super::limits::ActiveLimit;
+use super::played::is_smooth;
+use super::solutions::other_solution;
+use super::{FollowedMotion, LineSettings, SolutionPart, solutions};
+use crate::view::{Chain, Clock, RoundingSteps};
+use cplan_core::model::{Arm, Scene};
+use cplan_core::space::Configuration;
+use cplan_geometry::Point;
+use cplan_motion::Trajectory;
+use cplan_theme::{GRAY, PATH_COLORS, Rgb};
+use cplan_toolpath::{Curve, Toolpath};
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// Greatest distance between the line and its chords in pictures, metres, as a share of the arm's reach.
+const DRAWN_TOLERANCE: f64 = 2e-5;
+
+/// Greatest error of the tip's place on a page, as a share of the tolerance. A lens magnifies it to half a pixel.
+const LENS_ERROR_SHARE: f64 = 0.005;
+
+/// Greatest number of pieces of a line for which pages have the exact curves, which a lens needs.
+const MAX_EXACT_PIECES: usize = 4000;
+
+/// Room around the line in a magnified workspace, as a share of the line's extent, and the greatest share of the whole
+/// workspace that is magnified.
+const FOCUS_MARGIN: f64 = 0.22;
+const MAX_FOCUS_SHARE: f64 = 0.7;
+
+/// Room for the overview beside the line, and the greatest share of the magnified part that the line fills along the
+/// same axis.
+const OVERVIEW_ROOM: f64 = 0.36;
+const MAX_LINE_SHARE: f64 = 0.58;
+
+/// Radius in which the distance from the line is magnified, as a multiple of the tolerance.
+pub const LENS_TOLERANCES: f64 = 8.0;
+
+/// Greatest difference of joint values that belong to the same IK solution, radians or metres.
+const SAME_SOLUTION: f64 = 1e-3;
+
+/// A line that the tip should follow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineView {
+    /// Points of the line, metres. Each inner list is a stretch without a travel.
+    pub(crate) strokes: Vec<Vec<Point>>,
+    /// The exact curves, with travels.
+    pub(crate) curves: Vec<Curve>,
+    /// Greatest distance of the tip from the line, metres.
+    pub(crate) tolerance: f64,
+    /// The place on the line where no motion is possible; `None` for other answers.
+    pub(crate) place: Option<Point>,
+    /// The joint values of the IK solutions that are excluded.
+    pub(crate) excluded: Vec<Configuration>,
+    /// The images of the line in joint space.
+    pub(crate) solutions: Vec<SolutionPart>,
+    /// The number of the only IK solution that the motion uses; `None` without a motion, or if it changes.
+    pub(crate) used: Option<usize>,
+    /// The motion along the line, and the proven bound on its distance from the line, metres.
+    pub(crate) motion: Option<(FollowedMotion, f64)>,
+    /// The motion in time, as precise as the lens needs it.
+    pub(crate) clock: Option<Clock>,
+    /// The joints' configuration where the tip is farthest from the line.
+    pub(crate) pose: Option<Configuration>,
+    /// The other IK solution there, and true if it is excluded.
+    pub(crate) other: Option<(Configuration, bool)>,
+    /// The magnified part of the workspace; `None` if the line fills most of the workspace.
+    pub(crate) focus: Option<Focus>,
+    is_smooth: bool,
+    names: [String; 2],
+}
+
+/// The part of the workspace around a line.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Focus {
+    /// Least and greatest of both coordinates, metres.
+    pub ranges: [[f64; 2]; 2],
+    /// The corner farthest from the arm, which has room for an overview: -1 or 1 for left or right, below or above.
+    pub corner: [f64; 2],
+}
+
+impl LineView {
+    /// Creates the view of a line without a motion.
+    #[must_use]
+    pub fn new(scene: &Scene, line: &Toolpath, tolerance: f64) -> Self {
+        let strokes = line.outlines(DRAWN_TOLERANCE * scene.arm().reach());
+        Self {
+            strokes: strokes.into_iter().map(|stroke| stroke.into_iter().map(Into::into).collect()).collect(),
+            curves: line.pieces().iter().map(|piece| piece.curve).collect(),
+            tolerance,
+            place: None,
+            excluded: Vec::new(),
+            solutions: solutions(scene, line),
+            used: None,
+            motion: None,
+            clock: None,
+            pose: None,
+            other: None,
+            focus: None,
+            is_smooth: is_smooth(scene.arm()),
+            names: scene.arm().joints.each_ref().map(|joint| joint.name.clone()),
+        }
+    }
+
+    /// Returns the view with the place where no motion is possible, and the IK solutions that are excluded.
+    #[must_use]
+    pub fn infeasible_at(mut self, place: Point, excluded: Vec<Configuration>) -> Self {
+        (self.place, self.excluded) = (Some(place), excluded);
+        self
+    }
+
+    /// Returns the view with a motion. `deviation` is the proven bound on its distance from the line, metres; `changes` is
+    /// true if it changes the IK solution.
+    #[must_use]
+    pub fn with_motion(
+        mut self,
+        scene: &Scene,
+        line: &Toolpath,
+        trajectory: &Trajectory,
+        settings: LineSettings,
+        (deviation, changes): (f64, bool),
+    ) -> Self {
+        let arm = scene.arm();
+        let motion = FollowedMotion::new(arm, line, trajectory, settings);
+        let step = LENS_ERROR_SHARE * self.tolerance / arm.reach().max(f64::MIN_POSITIVE);
+        self.used = (!changes).then(|| self.solution_of(trajectory.position[0].into())).flatten();
+        let pose = motion.played.at(motion.farthest.time);
+        self.pose = Some(pose);
+        self.other = other_solution(scene, pose);
+        let grain = RoundingSteps::of(arm);
+        self.clock = Some(Clock::precise(trajectory, grain, grain.finer(step)));
+        self.motion = Some((motion, deviation));
+        self
+    }
+
+    /// Returns the number of the IK solution that begins with a configuration.
+    fn solution_of(&self, q: Configuration) -> Option<usize> {
+        let apart = |a: f64, b: f64| (a - b).abs().min((a - b - ((a - b) / TAU).round() * TAU).abs());
+        let is_same = |part: &&SolutionPart| (0..2).all(|k| apart(part.points[0][k], q[k]) < SAME_SOLUTION);
+        self.solutions.iter().find(is_same).map(|part| part.solution)
+    }
+
+    /// Sets the magnified part of a workspace with this visible part. Without a motion, nothing is magnified.
+    pub(crate) fn focus_within(&mut self, frame: [[f64; 2]; 2], arm: &Arm) {
+        let Some(pose) = self.pose else { return };
+        let points = || self.strokes.iter().flatten();
+        let range = |k: usize| {
+            points().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p[k]), high.max(p[k])])
+        };
+        let ranges = [range(0), range(1)];
+        let extents = ranges.map(|[low, high]: [f64; 2]| high - low);
+        // The axis along which there is more room.
+        let free = usize::from(extents[1] < extents[0]);
+        let size = ((1.0 + 2.0 * FOCUS_MARGIN) * extents[1 - free]).max(extents[free] / MAX_LINE_SHARE);
+        let whole = (frame[0][1] - frame[0][0]).min(frame[1][1] - frame[1][0]);
+        if !(size > 0.0 && size <= MAX_FOCUS_SHARE * whole) {
+            return;
+        }
+        let middle = Point::new((ranges[0][0] + ranges[0][1]) / 2.0, (ranges[1][0] + ranges[1][1]) / 2.0);
+        // Where the arm comes from.
+        let arms = [arm.base, arm.elbow_at(pose[0])].map(|p| (p - middle).normalize());
+        let nearness = |corner: &[f64; 2]| {
+            arms.iter().map(|arm| arm.x * corner[0] + arm.y * corner[1]).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let corners = [[1.0, -1.0], [1.0, 1.0], [-1.0, -1.0], [-1.0, 1.0]];
+        let corner = corners.into_iter().min_by(|a, b| nearness(a).total_cmp(&nearness(b)));
+        self.focus = corner.map(|corner| {
+            let magnified = |k: usize| {
+                let room = size - extents[k];
+                // The overview lies beside the line.
+                let beside = if k == free { (OVERVIEW_ROOM * size).max(room / 2.0) } else { room / 2.0 };
+                let low = ranges[k][0] - if corner[k] > 0.0 { room - beside } else { beside };
+                [low, low + size]
+            };
+            Focus { ranges: [magnified(0), magnified(1)], corner }
+        });
+    }
+
+    /// Returns the limits that the motion reaches, in the order of the legend, each with its name and its colour.
+    pub(crate) fn limits(&self) -> Vec<(ActiveLimit, String, Rgb)> {
+        let Some((motion, _)) = &self.motion else { return Vec::new() };
+        let mut limits: Vec<ActiveLimit> = motion.stretches.iter().map(|stretch| stretch.limit).collect();
+        limits.sort_unstable();
+        limits.dedup();
+        limits.into_iter().map(|limit| (limit, self.name(limit), color(limit))).collect()
+    }
+
+    fn name(&self, limit: ActiveLimit) -> String {
+        let [kind, joint] = match limit {
+            ActiveLimit::TipSpeed => return "speed limit of the tip".to_owned(),
+            ActiveLimit::None => return "no limit within 2 %".to_owned(),
+            ActiveLimit::JointSpeed(k) => ["speed", &self.names[k]],
+            ActiveLimit::JointAcceleration(k) => ["acceleration", &self.names[k]],
+            ActiveLimit::JointJerk(k) => ["jerk", &self.names[k]],
+        };
+        format!("{kind} limit of {joint}")
+    }
+
+    /// Returns the name of an IK solution in pictures.
+    pub(crate) fn solution_name(&self, solution: usize) -> String {
+        let own = || self.solutions.iter().filter(|part| part.solution == solution);
+        let note = match (self.used == Some(solution), own().any(|p| p.is_excluded), own().all(|p| p.is_excluded)) {
+            (true, ..) => ", used",
+            (_, _, true) => ", excluded",
+            (_, true, _) => ", partly excluded",
+            _ => "",
+        };
+        format!("IK solution {}{note}", solution + 1)
+    }
+}
+
+/// Returns the colour of a limit: speeds of joints are blue, accelerations orange, jerks purple.
+#[must_use]
+pub fn color(limit: ActiveLimit) -> Rgb {
+    let path = |index: usize| PATH_COLORS[index].0;
+    match limit {
+        ActiveLimit::TipSpeed => path(2),
+        ActiveLimit::JointSpeed(0) => path(0),
+        ActiveLimit::JointSpeed(_) => path(5),
+        ActiveLimit::JointAcceleration(0) => path(1),
+        ActiveLimit::JointAcceleration(_) => path(4),
+        ActiveLimit::JointJerk(0) => path(3),
+        ActiveLimit::JointJerk(_) => path(3).darker(0.4),
+        ActiveLimit::None => GRAY,
+    }
+}
+
+/// The line as pages read it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LineDocument {
+    strokes: Vec<Chain>,
+    /// The exact curves: two ends; centre, radius, direction and angle; or four control points.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    curves: Vec<Vec<f64>>,
+    tolerance: f64,
+    /// Radius of the lens, metres.
+    lens: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at: Option<[f64; 2]>,
+    excluded: Vec<[f64; 2]>,
+    solutions: Vec<SolutionDocument>,
+    /// Names of the IK solutions.
+    names: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    motion: Option<MotionDocument>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    focus: Option<Focus>,
+    /// True if the motion between samples has degree five.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    smooth: bool,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct SolutionDocument {
+    solution: usize,
+    excluded: bool,
+    points: Chain,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct MotionDocument {
+    /// Proven bound on the distance from the line, metres.
+    deviation: f64,
+    /// Time and distance of the place that is farthest from the line.
+    farthest: [f64; 2],
+    /// Names and colours of the limits.
+    limits: Vec<(String, String)>,
+    /// Ends of stretches in seconds, each with the index of its limit.
+    stretches: Vec<(f64, usize)>,
+    stops: Vec<f64>,
+    /// Least and greatest distance to the left of the line in equal intervals of time, in thousandths of the tolerance.
+    deviations: Vec<[i64; 2]>,
+    /// Times and speeds of the tip.
+    speeds: Chain,
+}
+
+/// Rounds to nanometres, or to nanoseconds.
+fn fine(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9 + 0.0
+}
+
+impl LineDocument {
+    pub fn new(line: &LineView, grain: RoundingSteps) -> Self {
+        let flat = |curve: &Curve| -> Vec<f64> {
+            match *curve {
+                Curve::Line { from, to } => [from, to].concat(),
+                Curve::Arc { center, radius, from, by } => vec![center[0], center[1], radius, from, by],
+                Curve::Cubic(points) => points.concat(),
+            }
+        };
+        let has_curves = line.motion.is_some() && line.curves.len() <= MAX_EXACT_PIECES;
+        let shown = if has_curves { &line.curves[..] } else { &[] };
+        let count = line.solutions.iter().map(|part| part.solution + 1).max().unwrap_or(0);
+        Self {
+            strokes: line.strokes.iter().map(|stroke| Chain(grain.points(stroke))).collect(),
+            curves: shown.iter().map(|curve| flat(curve).into_iter().map(fine).collect()).collect(),
+            tolerance: line.tolerance,
+            lens: LENS_TOLERANCES * line.tolerance,
+            at: line.place.map(|at| grain.point(at).into()),
+            excluded: line.excluded.iter().map(|&q| grain.configuration(q)).collect(),
+            solutions: line
+                .solutions
+                .iter()
+                .map(|part| SolutionDocument {
+                    solution: part.solution,
+                    excluded: part.is_excluded,
+                    points: grain.configurations(&part.points),
+                })
+                .collect(),
+            names: (0..count).map(|solution| line.solution_name(solution)).collect(),
+            motion: line.motion.as_ref().map(|(motion, deviation)| MotionDocument::new(line, motion, *deviation)),
+            focus: line.focus,
+            smooth: line.is_smooth,
+        }
+    }
+}
+
+impl MotionDocument {
+    fn new(line: &LineView, motion: &FollowedMotion, deviation: f64) -> Self {
+        let limits = line.limits();
+        let index = |limit: ActiveLimit| limits.iter().position(|(known, ..)| *known == limit).unwrap_or_default();
+        let share = |offset: f64| (1000.0 * offset / line.tolerance).round() as i64;
+        let point =
+            |&[time, speed]: &[f64; 2]| Configuration::new((time * 1e4).round() / 1e4, (speed * 1e5).round() / 1e5);
+        Self {
+            deviation,
+            farthest: [motion.farthest.time, motion.farthest.offset].map(fine),
+            stretches: motion.stretches.iter().map(|s| ((s.to * 1e5).round() / 1e5, index(s.limit))).collect(),
+            stops: motion.stops.iter().map(|time| fine(*time)).collect(),
+            deviations: motion.deviations.iter().map(|ends| ends.map(share)).collect(),
+            speeds: Chain(motion.speeds.iter().map(point).collect()),
+            limits: limits.into_iter().map(|(_, name, color)| (name, color.to_string())).collect(),
+        }
+    }
+}
