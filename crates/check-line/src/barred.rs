@@ -46,7 +46,7 @@ pub fn no_motion(arm: &Arm, world: &World, certificate: &Certificate, line: &Lin
     }
     let stuck = certificate.boxes.as_deref().unwrap_or_default();
     let boxes = rectangles(stuck)?;
-    let search = Search { arm, boxes: &boxes, chords: of_stretch(line, &[from.clone(), to.clone()]), ends, tolerance };
+    let search = Search { arm, boxes: &boxes, chords: of_stretch(line, &[from.clone(), to.clone()])?, ends, tolerance };
     search.check_separated()?;
     Contacts::new(arm, world, certificate, clearance)?.check_boxes(arm, stuck, &boxes)?;
     Ok(format!(

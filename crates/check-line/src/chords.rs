@@ -2,12 +2,16 @@
 
 use crate::curve::Curve;
 use crate::text::{Line, parameter};
+use cplan_check::CheckError;
 use cplan_check::decimal::Decimal;
 use cplan_check::interval::{Interval, Point, dot, length, minus, sum};
 use num_bigint::{BigInt, Sign};
 
 /// Maximum number of times that a piece is halved for its chords.
 const MAX_HALVINGS: u32 = 12;
+
+/// Maximum number of chords of a stretch. Stretches of usual evidence have less than a hundred.
+const MAX_CHORDS: usize = 20_000;
 
 /// Binary digits of the deviation of chords as a share of the tolerance: a quarter.
 const DEVIATION_BITS: u32 = 2;
@@ -23,7 +27,10 @@ pub struct Chord {
 }
 
 /// Returns chords for the part of a line between two positions.
-pub fn of_stretch(line: &Line, [from, to]: &[Decimal; 2]) -> Vec<Chord> {
+///
+/// # Errors
+/// If there are too many.
+pub fn of_stretch(line: &Line, [from, to]: &[Decimal; 2]) -> Result<Vec<Chord>, CheckError> {
     let finest = &Interval::from(&line.tolerance).upper >> DEVIATION_BITS;
     let mut chords = Vec::new();
     let one = Interval::whole(1).lower;
@@ -34,6 +41,9 @@ pub fn of_stretch(line: &Line, [from, to]: &[Decimal; 2]) -> Vec<Chord> {
         }
         let mut open = vec![(ends.map(|u| u.clamp(BigInt::ZERO, one.clone())), 0)];
         while let Some(([from, to], halvings)) = open.pop() {
+            if chords.len() >= MAX_CHORDS {
+                return CheckError::fails("the stretch of the line is too long for the checker");
+            }
             let whole = Interval { lower: from.clone(), upper: to.clone() };
             let size = Interval::exact(&to - &from);
             let [_, second] = curve.derivatives(&whole);
@@ -47,7 +57,7 @@ pub fn of_stretch(line: &Line, [from, to]: &[Decimal; 2]) -> Vec<Chord> {
             }
         }
     }
-    chords
+    Ok(chords)
 }
 
 impl Chord {
