@@ -10,7 +10,8 @@ use super::{plan, sinks};
 use crate::input::{LoadedScene, Source, scene_from};
 use crate::output::format_columns;
 use clap::{Args, Parser, ValueEnum, ValueHint};
-use cplan_toolpath::{Format, Placement, Toolpath, read};
+use cplan_handling::FollowedLine;
+use cplan_toolpath::{Format, Placement, read};
 use std::mem::take;
 use std::path::{Path, PathBuf};
 
@@ -148,10 +149,10 @@ fn follow_args(plan: &mut PlanArgs) -> Result<FollowArgs, Failure> {
 }
 
 /// Reads the line of the demonstration.
-fn built_in_line() -> Result<Toolpath, Failure> {
+fn built_in_line() -> Result<FollowedLine, Failure> {
     let [name, text] = FOLLOW_FILES[2];
     let line = read(text.as_bytes(), Format::GCode, &Placement::default());
-    line.map_err(|error| Failure::Option(format!("{name}: {}", error.message)))
+    line.map(FollowedLine::from).map_err(|error| Failure::Option(format!("{name}: {}", error.message)))
 }
 
 /// Returns the path of a file in the folder. If the folder is the current one, leaves it out.

@@ -12,7 +12,7 @@ use cplan_follow::{MIN_TOLERANCE, Settings};
 use cplan_toolpath::Placement;
 use std::path::PathBuf;
 
-/// Move the tip along a line: G-code or SVG.
+/// Move the tip along a line: G-code, SVG or TOML.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 The motion stays within the tolerance of the line, in the line's order, between
@@ -34,12 +34,12 @@ proven infeasible, 4 unknown.")]
 pub struct FollowArgs {
     #[command(flatten)]
     pub files: Files,
-    /// Line: G-code (.gcode, .nc, .ngc, .tap) or a drawing (.svg).
+    /// Line: G-code (.gcode, .nc, .ngc, .tap), a drawing (.svg), or the keys of a step's `follow` (.toml).
     #[arg(value_name = "PATH", value_hint = ValueHint::FilePath)]
     pub path: PathBuf,
-    /// Greatest distance of the tip from the line, metres.
-    #[arg(long, value_name = "METRES", value_parser = tolerance, default_value_t = Settings::default().tolerance)]
-    pub tolerance: f64,
+    /// Greatest distance of the tip from the line, metres; by default that of the line in TOML, or else 0.00001.
+    #[arg(long, value_name = "METRES", value_parser = tolerance)]
+    pub tolerance: Option<f64>,
     /// Greatest speed of the tip, metres per second, instead of the speeds (F) of the file.
     #[arg(long, value_name = "M/S", value_parser = positive)]
     pub speed: Option<f64>,

@@ -10,9 +10,9 @@ use std::path::Path;
 
 /// Returns the text of the certificate. Without one, prints a warning about the file that would contain it.
 pub fn text(answered: &Answered, path: &Path) -> Option<String> {
-    let Answered { args, loaded, line, answer, digests } = answered;
+    let Answered { args, loaded, line, answer, digests, .. } = answered;
     let asked = &Overrides { clearance: args.clearance, ..Overrides::default() };
-    let (scene, tolerance, files) = (&loaded.scene, args.tolerance, digests.as_ref());
+    let (scene, tolerance, files) = (&loaded.scene, answered.tolerance, digests.as_ref());
     let certified = CertifiedLine { scene, line, tolerance, asked, files };
     let text = match answer {
         Outcome::Found(found) => Ok(certified.of_motion(&found.timed.trajectory)),

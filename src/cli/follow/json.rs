@@ -20,7 +20,7 @@ pub fn object(answered: &Answered) -> Value {
             "start": line.start(),
             "notes": line.notes(),
         },
-        "tolerance": answered.args.tolerance,
+        "tolerance": answered.tolerance,
         "clearance": answered.loaded.scene.workspace().clearance,
     });
     let more = match answered.answer {

@@ -16,6 +16,7 @@ use super::sinks;
 use crate::input::{self, Digests, InputError, LoadedScene};
 use crate::model::Status;
 use cplan_follow::{FollowError, Followed, Settings, follow};
+use cplan_handling::FollowedLine;
 use cplan_toolpath::Toolpath;
 
 /// A line with its robot, its world and the answer.
@@ -23,6 +24,10 @@ struct Answered<'a> {
     args: &'a FollowArgs,
     loaded: &'a LoadedScene,
     line: &'a Toolpath,
+    /// Greatest distance of the tip from the line, metres.
+    tolerance: f64,
+    /// Greatest speed of the tip, metres per second, instead of the speeds of the line.
+    speed: Option<f64>,
     answer: &'a Followed,
     /// The digests of the files of robot and world, for a certificate.
     digests: Option<Digests>,
@@ -43,7 +48,7 @@ pub fn run(args: &FollowArgs) -> Result<u8, Failure> {
 pub fn answer(
     args: &FollowArgs,
     load: impl FnOnce() -> Result<LoadedScene, InputError>,
-    read_line: impl FnOnce(&FollowArgs) -> Result<Toolpath, Failure>,
+    read_line: impl FnOnce(&FollowArgs) -> Result<FollowedLine, Failure>,
 ) -> Result<u8, Failure> {
     let outputs = files::Outputs::new(args)?;
     let loaded = load()?.with_clearance(args.clearance)?;
@@ -56,10 +61,10 @@ pub fn answer(
     if !args.print.quiet {
         loaded.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     }
-    let settings =
-        Settings { tolerance: args.tolerance, speed: args.speed, period: args.period, ..Settings::default() };
-    let answer = follow(&loaded.scene, &line, &settings).map_err(refused)?;
-    let answered = Answered { args, loaded: &loaded, line: &line, answer: &answer, digests };
+    let FollowedLine { path, tolerance, speed } = line;
+    let settings = Settings { tolerance, speed, period: args.period, ..Settings::default() };
+    let answer = follow(&loaded.scene, &path, &settings).map_err(refused)?;
+    let answered = Answered { args, loaded: &loaded, line: &path, tolerance, speed, answer: &answer, digests };
     outputs.write(&answered)?;
     let code = match answer.status() {
         Status::Found => DONE,

@@ -39,10 +39,10 @@ fn reasons(answered: &Answered) -> Vec<String> {
 /// Returns the line with its motion, or with the place where it cannot be followed.
 fn line(answered: &Answered, scene: &Scene) -> LineView {
     let given = answered.line;
-    let view = LineView::new(scene, given, answered.args.tolerance);
+    let view = LineView::new(scene, given, answered.tolerance);
     match answered.answer {
         Followed::Found(found) => {
-            let settings = LineSettings { tolerance: answered.args.tolerance, speed: answered.args.speed };
+            let settings = LineSettings { tolerance: answered.tolerance, speed: answered.speed };
             let known = (found.deviation, !found.changes.is_empty());
             view.with_motion(scene, given, &found.timed.trajectory, settings, known)
         }

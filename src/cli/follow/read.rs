@@ -2,22 +2,46 @@
 
 use super::FollowArgs;
 use crate::cli::failure::Failure;
-use crate::input::{self, Diagnostic, Position};
+use crate::input::{self, Source, line_diagnostic, read_line};
+use cplan_handling::FollowedLine;
 use cplan_toolpath::{Format, Toolpath};
+use std::ffi::OsStr;
+use std::sync::Arc;
 
-/// Reads the line that the arguments name, and places it.
+/// Reads the line that the arguments name, and places it. Tolerance and speed on the command line override those of the
+/// file.
 ///
 /// # Errors
 /// A file that cannot be read, or that has something that the tip cannot follow: with line, column and a hint.
-pub fn line(args: &FollowArgs) -> Result<Toolpath, Failure> {
-    let file = args.path.display();
+pub fn line(args: &FollowArgs) -> Result<FollowedLine, Failure> {
+    let line = if args.path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(OsStr::new("toml"))) {
+        in_toml(args)?
+    } else {
+        in_other_format(args)?.into()
+    };
+    let (tolerance, speed) = (args.tolerance.unwrap_or(line.tolerance), args.speed.or(line.speed));
+    Ok(FollowedLine { tolerance, speed, ..line })
+}
+
+/// Reads a file with the keys of a step's table `follow`. It is placed by its own keys, and then by the arguments.
+fn in_toml(args: &FollowArgs) -> Result<FollowedLine, Failure> {
+    if args.unit.is_some() {
+        return Err(Failure::Usage("a line in TOML is in metres; leave out --unit".into()));
+    }
+    let line = read_line(&Source::read(&args.path)?)?;
+    let placed = line.path.placed(&args.placement()).map_err(|error| defect(args, error))?;
+    Ok(FollowedLine { path: Arc::new(placed), ..line })
+}
+
+fn in_other_format(args: &FollowArgs) -> Result<Toolpath, Failure> {
     let format = Format::from_path(&args.path).ok_or_else(|| {
-        Failure::Usage(format!("{file}: the name of a line must end in .gcode, .nc, .ngc, .tap or .svg"))
+        let file = args.path.display();
+        Failure::Usage(format!("{file}: the name of a line must end in .gcode, .nc, .ngc, .tap, .svg or .toml"))
     })?;
     let bytes = input::read_bytes(&args.path)?;
-    cplan_toolpath::read(&bytes, format, &args.placement()).map_err(|error| {
-        let position = error.line.map(|line| Position { line, column: error.column.unwrap_or(1) });
-        let diagnostic = Diagnostic::new(file.to_string(), error.message).help(error.hint);
-        Failure::Input(Diagnostic { position, ..diagnostic }.into())
-    })
+    cplan_toolpath::read(&bytes, format, &args.placement()).map_err(|error| defect(args, error))
+}
+
+fn defect(args: &FollowArgs, error: cplan_toolpath::Error) -> Failure {
+    Failure::Input(line_diagnostic(args.path.display().to_string(), error).into())
 }

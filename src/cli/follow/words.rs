@@ -81,7 +81,7 @@ fn line(answered: &Answered) -> String {
     let travels = pieces.iter().filter(|piece| piece.is_travel).count();
     let travels = if travels > 0 { format!(", {} of them travels", travels) } else { String::new() };
     let (length, count) = (length(answered.line.length()), counted(pieces.len(), "piece"));
-    format!("{length} in {count}{travels}; tolerance {}", crate::text::chosen_length(answered.args.tolerance))
+    format!("{length} in {count}{travels}; tolerance {}", crate::text::chosen_length(answered.tolerance))
 }
 
 /// Returns names and values of the facts about a motion.

@@ -164,7 +164,7 @@ fn defects_of_the_line_have_their_place_and_a_hint() {
     follow(&place, "empty.svg", "").refused(1, &["empty.svg: the file has no line"]);
     follow(&place, "missing.gcode", "").refused(1, &["missing.gcode"]);
     follow(&place, "line.txt", "")
-        .refused(2, &["line.txt: the name of a line must end in .gcode, .nc, .ngc, .tap or .svg"]);
+        .refused(2, &["line.txt: the name of a line must end in .gcode, .nc, .ngc, .tap, .svg or .toml"]);
 }
 
 #[test]

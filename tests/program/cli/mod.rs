@@ -28,6 +28,7 @@ mod implausible_robots;
 mod import;
 mod inputs;
 mod large_turns;
+mod lines_in_toml;
 mod many_corners;
 mod mazes;
 mod moving;

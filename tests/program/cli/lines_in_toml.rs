@@ -1,0 +1,112 @@
+//! Lines in TOML from outside: in `cplan follow`, and as steps of tasks.
+
+use super::{Done, Place, shipped};
+use serde_json::Value;
+use std::f64::consts::PI;
+
+fn follow(place: &Place, line: &str, options: &str) -> Done {
+    let [robot, world] = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/engraving.toml")];
+    place.write("line.toml", line);
+    place.run(&["follow", &robot, &world, "line.toml"], options)
+}
+
+/// Returns the position of the tip of `planar_2r`.
+fn tip([a, b]: [f64; 2]) -> [f64; 2] {
+    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+/// Returns the positions of the tip at the samples of a result.
+fn tips(result: &Value) -> Vec<[f64; 2]> {
+    let positions = result["trajectory"]["position"].as_array().unwrap();
+    positions.iter().map(|q| tip([0, 1].map(|k| number(&q[k])))).collect()
+}
+
+#[test]
+fn an_arc_is_followed_at_its_own_speed_and_tolerance() {
+    let place = Place::new();
+    let arc = "arc = [[1.2, 0.0], [1.25, 0.05], [1.3, 0.0]]\nspeed = 0.05\ntolerance = 1e-4\n";
+    let result = follow(&place, arc, "--json").json();
+    assert_eq!((number(&result["tolerance"]), number(&result["line"]["pieces"])), (1e-4, 1.0));
+    // Half a circle of 50 mm at 50 mm/s.
+    assert!((number(&result["line"]["length"]) - 0.05 * PI).abs() < 1e-12);
+    assert!((PI..PI + 0.1).contains(&number(&result["duration"])), "{}", result["duration"]);
+    assert!(tips(&result).iter().all(|[x, y]| ((x - 1.25).hypot(*y) - 0.05).abs() < 1e-4));
+    // The command line overrides both, and places the line once more.
+    let result = follow(&place, arc, "--json --tolerance 0.00002 --speed 0.1 --move 0,-0.1").json();
+    assert_eq!(number(&result["tolerance"]), 2e-5);
+    assert!((PI / 2.0..PI / 2.0 + 0.1).contains(&number(&result["duration"])), "{}", result["duration"]);
+    assert!(tips(&result).iter().all(|[x, y]| ((x - 1.25).hypot(y + 0.1) - 0.05).abs() < 2e-5));
+}
+
+#[test]
+fn lines_name_files_beside_them() {
+    let place = Place::new();
+    place.write("part.gcode", "G21 G0 X0 Y0\nG1 X100 F6000\n");
+    let result =
+        follow(&place, "file = \"part.gcode\"\nscale = 0.5\nturn = \"90deg\"\nmove = [1.2, 0]\n", "--json").json();
+    let tips = tips(&result);
+    let [first, last] = [tips[0], tips[tips.len() - 1]];
+    assert!((first[0] - 1.2).hypot(first[1]) < 1e-8 && (last[0] - 1.2).hypot(last[1] - 0.05) < 1e-8, "{last:?}");
+}
+
+#[test]
+fn defects_have_their_place_and_a_hint() {
+    let place = Place::new();
+    for (line, parts) in [
+        ("points = [[1, 0], [1.1, 0]]\npoint = 1", ["line 2, column 1: unknown key `point`", "hint: "]),
+        ("points = [[1, 0], [1.1, \"a\"]]", ["line 1, column 25", "hint: "]),
+        ("arc = [[1, 0], [1.1, 0], [1.2, 0]]", ["on a straight line", "hint: write the straight line as points"]),
+        ("tolerance = 1e-4", ["exactly one of `file`, `points`, `arc` and `spline`, but has 0", "hint: follow = {"]),
+    ] {
+        let done = follow(&place, line, "");
+        assert_eq!((done.code, done.stdout.as_str()), (1, ""), "{line}");
+        for part in parts {
+            assert!(done.stderr.contains(part), "no \"{part}\" in:\n{}", done.stderr);
+        }
+    }
+    let done = follow(&place, "points = [[1, 0], [1.1, 0]]", "--unit mm");
+    assert!(done.code == 2 && done.stderr.contains("leave out --unit"), "{}", done.stderr);
+}
+
+#[test]
+fn a_task_follows_lines_of_all_kinds() {
+    let place = Place::new();
+    let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/badge.toml")];
+    let done = place.run(&[&files[0], &files[1]], "--output badge.json --output badge.yaml --quiet");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let result: Value = serde_json::from_str(&place.read("badge.json")).unwrap();
+    let steps = result["steps"].as_array().unwrap();
+    let lines: Vec<&Value> = steps.iter().filter(|step| step["action"] == "follow").collect();
+    assert_eq!((steps.len(), lines.len()), (9, 4));
+    for (line, tolerance) in lines.iter().zip([1e-5, 1e-4, 1e-5, 1e-5]) {
+        let deviation = number(&line["deviation"]);
+        assert!(deviation > 0.0 && deviation <= tolerance, "{deviation}");
+    }
+    assert!(steps.iter().all(|step| (step["action"] == "follow") == step.get("deviation").is_some()));
+    // The outline is passed at 0.3 m/s: 1.4 m less what the corners save.
+    let seconds = number(&lines[0]["arrival"]) - number(&lines[0]["begin"]);
+    assert!((4.4..4.8).contains(&seconds), "{seconds}");
+    let verified = place.run(&["verify", &files[0], &files[1], "badge.json"], "");
+    assert!(verified.code == 0 && verified.stdout.contains("free: the whole task, 9 steps"), "{}", verified.stdout);
+    // A sample of the outline is moved by a tenth of a millimetre.
+    let mut moved = result.clone();
+    let sample = (steps[1]["first_sample"].as_u64().unwrap() + steps[1]["last_sample"].as_u64().unwrap()) / 2;
+    let value = &mut moved["trajectory"]["position"][sample as usize][0];
+    *value = (number(value) + 1e-4).into();
+    place.write("moved.json", &moved.to_string());
+    let refused = place.run(&["verify", &files[0], &files[1], "moved.json"], "");
+    assert!(refused.code != 0 && refused.stdout.contains("leave the line"), "{} {}", refused.code, refused.stdout);
+}
+
+#[test]
+fn a_task_with_a_line_says_that_it_has_no_certificate() {
+    let place = Place::new();
+    let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/badge.toml")];
+    let done = place.run(&[&files[0], &files[1]], "--certificate c.json --quiet");
+    assert!(done.stderr.contains("a task with a line has no certificate"), "{}", done.stderr);
+    assert!(!place.path("c.json").exists());
+}
