@@ -59,7 +59,6 @@ use proof::Prover;
 use search::Search;
 use sheets::Sheets;
 
-
 /// Share of the tolerance that the straight motions in joint space and the blends may use each. Their deviations have
 /// the same direction where the line is smooth, so they do not add up there.
 const INITIAL_SHARE: f64 = 0.7;
