@@ -3,24 +3,27 @@
 use cplan_core::space::{Configuration, Metric};
 use std::ops::RangeInclusive;
 
-/// A recorded turn of the wrist while the arm is at rest.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A recorded turn of the wrist.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct RecordedTurn {
     /// The object's orientation at the beginning, radians.
     pub from: f64,
     /// The object's orientation at the end, radians. The wrist turns from `from` to `to` without wrapping, so the sign
     /// of the difference is the direction.
     pub to: f64,
-    /// Duration, seconds.
+    /// Duration, seconds. The wrist turns with its fastest profile, or with that profile stretched evenly in time.
     pub seconds: f64,
+    /// The parts of the turn during which the arm moves. A turn before a place overlaps with the step's own motion, from
+    /// the beginning of the turn on. A turn after a pick overlaps with the next motion, up to the end of the turn.
+    pub overlap: RecordedOverlap,
 }
 
-/// The parts of a stroke during which the arm moves, seconds.
+/// The parts of a stroke or a turn during which the arm moves, seconds.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct RecordedOverlap {
-    /// Time from the beginning of the lowering to the arrival of the arm.
+    /// Time from the beginning of the lowering, or of the turn, to the arrival of the arm.
     pub before_arrival: f64,
-    /// Time from the departure of the arm to the end of the raising.
+    /// Time from the departure of the arm to the end of the raising, or of the turn.
     pub after_departure: f64,
 }
 

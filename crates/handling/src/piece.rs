@@ -120,6 +120,18 @@ impl Piece {
         [0.0, 1.0].into_iter().chain(slope.map_or(Vec::new(), |slope| slope.zeros()))
     }
 
+    /// Returns bounds on a weighted sum of both joints' derivatives by time, between two shares of the piece. They are
+    /// those of the control points, so they are exact for linear derivatives. Zero for a piece without duration.
+    #[must_use]
+    pub fn bounds_of_sum(&self, of: Derivative, weights: [f64; 2], [from, to]: [f64; 2]) -> [f64; 2] {
+        let (order, duration) = (of as usize, self.to - self.from);
+        let Some(scaled) = self.curve.differences(order).filter(|_| duration > 0.0) else { return [0.0; 2] };
+        let part = scaled.map(|d| weights[0] * d[0] + weights[1] * d[1]).restricted(from, to);
+        let factor = |value: f64| (0..order).fold(value, |value, k| value * ((self.degree() - k) as f64 / duration));
+        let bound = |[low, high]: [f64; 2], value: &f64| [low.min(factor(*value)), high.max(factor(*value))];
+        part.coefficients().iter().fold([f64::INFINITY, f64::NEG_INFINITY], bound)
+    }
+
     /// Returns a bound on the magnitude of each joint's second derivative by `u` between two shares. It is exact for
     /// cubics.
     #[must_use]

@@ -14,7 +14,7 @@ pub enum Holding {
     /// The object turns with link 2.
     Rigid,
     /// A wrist joint keeps the object's orientation. If a step requires another orientation, the wrist turns the object
-    /// while the arm is at rest.
+    /// after its pick or before its place.
     Level,
 }
 
@@ -124,6 +124,9 @@ pub struct Wrist {
     pub velocity: f64,
     /// Greatest acceleration, radians per second squared.
     pub acceleration: f64,
+    /// True if the wrist may turn objects while the arm moves. Otherwise the arm is at rest during turns.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub turns_on_the_way: bool,
 }
 
 /// A task of an arm. In a valid task, an object that is picked lies somewhere, each place step follows a pick, and all

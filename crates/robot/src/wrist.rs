@@ -35,7 +35,8 @@ impl WristTable {
     pub fn read(&self, source: &Source) -> Result<Wrist, Diagnostic> {
         let velocity = positive(source, &self.velocity, "velocity")?;
         let acceleration = self.acceleration.as_ref().map(|a| positive(source, a, "acceleration")).transpose()?;
-        Ok(Wrist { velocity, acceleration: acceleration.unwrap_or(assumed_acceleration(velocity)) })
+        let acceleration = acceleration.unwrap_or(assumed_acceleration(velocity));
+        Ok(Wrist { velocity, acceleration, turns_on_the_way: false })
     }
 
     /// Returns a note about the acceleration limit. `None` if the file states the limit.

@@ -47,8 +47,8 @@ impl Event {
 /// - Place: motion, turn, stroke down, release, dwell, stroke up.
 /// - Move: motion, dwell.
 ///
-/// A stroke down may begin before the motion ends, and the next motion may begin before a stroke up ends: see
-/// [`Overlap`].
+/// A turn or a stroke down may begin before the motion ends, and the next motion may begin before a stroke up or a turn
+/// ends: see [`Overlap`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Leg {
     /// The step.
@@ -65,7 +65,8 @@ pub struct Leg {
     pub turn: Option<(WristTurn, f64)>,
     /// Lowering and raising of the tool. `None` if the world has no stroke, or the step has no event.
     pub stroke: Option<ToolStroke>,
-    /// The parts of the motion during which the tool is raised after the step before, or lowered for this step.
+    /// The parts of the motion during which the tool is raised or turned after the step before, or turned or lowered for
+    /// this step.
     pub overlap: Overlap,
     /// Proven upper bound on the distance between the tip's path and the line, in metres, if the step follows one.
     pub deviation: Option<f64>,
@@ -88,11 +89,20 @@ impl Leg {
         self.begin + self.timed.trajectory.duration()
     }
 
-    /// Returns the time from the end of the motion to that of the step, when the tool is raised, in seconds. The next
-    /// motion may begin earlier: see [`Overlap::raising`].
+    /// Returns the time from the end of the motion to that of the step, when the tool is raised and turned, in seconds.
+    /// The next motion may begin earlier: see [`Overlap::departure`].
     #[must_use]
     pub fn rest(&self) -> f64 {
-        self.step.dwell + self.turning() + 2.0 * self.lowering() - self.overlap.lowering
+        self.step.dwell + self.turning() + 2.0 * self.lowering() - self.overlap.arrival()
+    }
+
+    /// Returns the time from the beginning of the task at which the wrist begins to turn, in seconds. `None` if it does
+    /// not turn.
+    #[must_use]
+    pub fn turn_begins(&self) -> Option<f64> {
+        let (_, seconds) = self.turn?;
+        let is_before = matches!(self.event, Some(Event::Release { .. }));
+        Some(if is_before { self.arrival() - self.overlap.arrival() } else { self.end() - seconds })
     }
 
     /// Returns how long the wrist turns, in seconds.
@@ -107,7 +117,7 @@ impl Leg {
     pub fn stroke_begins(&self) -> Option<[f64; 2]> {
         let stroke = self.stroke?;
         let turned = if matches!(self.event, Some(Event::Release { .. })) { self.turning() } else { 0.0 };
-        let lowering = self.arrival() + turned - self.overlap.lowering;
+        let lowering = self.arrival() + turned - self.overlap.arrival();
         Some([lowering, lowering + stroke.seconds + self.step.dwell])
     }
 
@@ -121,8 +131,8 @@ impl Leg {
     #[must_use]
     pub fn event_after(&self) -> Option<f64> {
         match self.event? {
-            Event::Grasp { .. } => Some(self.lowering() - self.overlap.lowering),
-            Event::Release { .. } => Some(self.turning() + self.lowering() - self.overlap.lowering),
+            Event::Grasp { .. } => Some(self.lowering() - self.overlap.arrival()),
+            Event::Release { .. } => Some(self.turning() + self.lowering() - self.overlap.arrival()),
         }
     }
 

@@ -1,156 +1,164 @@
-//! Arch motions: the tool is raised while the arm already moves, and lowered before the arm arrives.
+//! Arch motions: the tool is raised and turned while the arm already moves, and turned and lowered before the arm
+//! arrives.
 //!
-//! The motion of the arm stays the same. Only the strokes are shifted into it, as far as both are proven free at the
-//! heights of each moment. So the joints keep their limits, and a motion that needs the raised tool waits for it.
+//! The motion of the arm stays the same. Only the strokes and turns are shifted into it, as far as all of them are proven
+//! free at the heights and angles of each moment. So the joints keep their limits, and a motion that needs the raised
+//! tool waits for it.
 
-use super::state::{Candidate, State};
-use super::stroke::{ToolStroke, stroke_seconds};
-use cplan_handling::{ArchScene, Recording, Stroke, Task};
-use cplan_motion::recorded::{CollisionCheck, StrokeDuringMotion, seconds_to_rise};
+use super::end_sequence::{End, EndSequence};
+use super::state::{Candidate, State, turns_on_the_way};
+use super::stroke::ToolStroke;
+use cplan_core::model::Grip;
+use cplan_handling::{ArchScene, Payload, Recording, Task};
+use cplan_motion::recorded::{TurnCover, WristTurn};
 use cplan_motion::{TimedMotion, round_down};
 use cplan_movers::recordings;
+use std::cell::LazyCell;
 
 /// Number of halvings in the search for the longest overlap. The overlap is then within a 64th of the stroke's
 /// duration.
 const HALVINGS: usize = 6;
 
-/// The parts of a motion during which the tool is raised after the last step, or lowered for the next one.
+/// The parts of a motion during which the tool is raised or turned after the last step, or turned or lowered for the next
+/// one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
     /// Time from the departure of the arm to the end of the raising, in seconds.
     pub raising: f64,
     /// Time from the beginning of the lowering to the arrival of the arm, in seconds.
     pub lowering: f64,
-    /// Proven lower bound on the distance to obstacles during both, in metres. Infinite if no obstacle is within reach.
+    /// Time from the departure of the arm to the end of the turn after a pick, in seconds. The tool is raised before the
+    /// turn.
+    pub turn_after_departure: f64,
+    /// Time from the beginning of the turn before a place to the arrival of the arm, in seconds. The tool is lowered
+    /// after the turn.
+    pub turn_before_arrival: f64,
+    /// Duration of the turn, in seconds, if it overlaps with the motion. It may be longer than at rest, because the wrist
+    /// also compensates the rotation of link 2.
+    pub turn_seconds: Option<f64>,
+    /// Proven lower bound on the distance to obstacles during all of them, in metres. Infinite if no obstacle is within
+    /// reach.
     pub clearance: f64,
 }
 
 impl Overlap {
-    /// No overlap: the arm is at rest during strokes.
-    pub const NONE: Self = Self { raising: 0.0, lowering: 0.0, clearance: f64::INFINITY };
+    /// No overlap: the arm is at rest during strokes and turns.
+    pub const NONE: Self = Self {
+        raising: 0.0,
+        lowering: 0.0,
+        turn_after_departure: 0.0,
+        turn_before_arrival: 0.0,
+        turn_seconds: None,
+        clearance: f64::INFINITY,
+    };
 
-    /// Returns the time that both overlaps save, in seconds.
+    /// Returns the time from the departure of the arm to the end of the raising and the turn, in seconds.
+    #[must_use]
+    pub fn departure(&self) -> f64 {
+        self.raising.max(self.turn_after_departure)
+    }
+
+    /// Returns the time from the beginning of the turn or the lowering to the arrival of the arm, in seconds.
+    #[must_use]
+    pub fn arrival(&self) -> f64 {
+        self.lowering.max(self.turn_before_arrival)
+    }
+
+    /// Returns the sum of the overlaps at both ends of the motion, in seconds.
     #[must_use]
     pub fn seconds(&self) -> f64 {
-        self.raising + self.lowering
+        self.departure() + self.arrival()
     }
 }
 
-/// The strokes that may overlap with a motion.
-struct Strokes<'a> {
-    stroke: &'a Stroke,
-    scene: ArchScene,
-    /// Duration of the motion, in seconds.
-    seconds: f64,
-    /// Depth from which the tool rises. `None` if it is already raised.
-    rises_from: Option<f64>,
-    /// Depth to which the tool is lowered. `None` if it stays raised until the arm rests.
-    sinks_to: Option<f64>,
-}
-
-impl Strokes<'_> {
-    /// Returns the longest overlap at a height that the world allows, in seconds.
-    fn longest(&self, depth: Option<f64>, least_height: f64) -> f64 {
-        let allowed = |depth| stroke_seconds(self.stroke, depth) - seconds_to_rise(self.stroke, depth, least_height);
-        round_down(depth.map_or(0.0, allowed).min(self.seconds))
-    }
-
-    fn during(&self, ends: [f64; 2], begin: f64) -> StrokeDuringMotion<'_> {
-        let Self { scene, stroke, .. } = self;
-        StrokeDuringMotion { scene, stroke, ends, begin }
-    }
-
-    /// Returns the raising whose last `overlap` seconds are in the motion.
-    fn raising(&self, overlap: f64) -> Option<StrokeDuringMotion<'_>> {
-        let depth = self.rises_from.filter(|_| overlap > 0.0)?;
-        let ends = [self.stroke.lowered(depth), self.stroke.joint.rest];
-        Some(self.during(ends, overlap - stroke_seconds(self.stroke, depth)))
-    }
-
-    /// Returns the lowering whose first `overlap` seconds are in the motion.
-    fn lowering(&self, overlap: f64) -> Option<StrokeDuringMotion<'_>> {
-        let depth = self.sinks_to.filter(|_| overlap > 0.0)?;
-        let ends = [self.stroke.joint.rest, self.stroke.lowered(depth)];
-        Some(self.during(ends, self.seconds - overlap))
-    }
-}
-
-/// Returns the overlap of strokes with the motion to a candidate's target. `stroke` is the one at the target.
+/// Returns the overlap of strokes and turns with the motion to a candidate's target. `stroke` and `turn` are those at the
+/// target; the turn is `None` unless it comes before the stroke.
 pub(super) fn overlap(
     task: &Task,
     from: &State,
     candidate: &Candidate,
     motion: &TimedMotion,
-    stroke: Option<&ToolStroke>,
+    (stroke, turn): (Option<&ToolStroke>, Option<(WristTurn, f64)>),
 ) -> Overlap {
-    let Some((tool, arch)) = task.stroke.as_ref().and_then(|tool| Some((tool, tool.arch?))) else {
+    let arch = task.stroke.as_ref().filter(|tool| tool.arch.is_some());
+    let on_the_way = turns_on_the_way(task);
+    if arch.is_none() && !on_the_way {
         return Overlap::NONE;
+    }
+    let may_lower = stroke.is_some() && (turn.is_none() || on_the_way);
+    let depth = |object: usize| arch.map(|tool| tool.depth(&task.objects[object]));
+    let depths =
+        [from.rising.and_then(depth), candidate.event.filter(|_| may_lower).and_then(|event| depth(event.object()))];
+    let turns = [from.turning, turn.filter(|_| on_the_way)];
+    if depths.iter().all(Option::is_none) && turns.iter().all(Option::is_none) {
+        return Overlap::NONE;
+    }
+    let deepest = depths.into_iter().flatten().fold(0.0, f64::max);
+    let touched = || from.released.into_iter().chain(candidate.step.action.picked());
+    let scene =
+        |payload: Option<&Payload>| arch.map(|tool| task.arch_scene((tool, deepest), &from.poses, payload, touched()));
+    // The payload at an orientation that it does not have during the rest of the motion.
+    let turned = |angle: f64| {
+        let mut payload = from.held.clone()?;
+        if let Grip::Level { angle: own, .. } = &mut payload.grip {
+            *own = angle;
+        }
+        Some(payload)
     };
-    let depth = |object: usize| tool.depth(&task.objects[object]);
-    let sinks_to = candidate.event.filter(|_| stroke.is_some() && !candidate.turns_before_stroke());
-    let touched = from.released.into_iter().chain(candidate.step.action.picked());
-    let (rises_from, sinks_to) = (from.rising.map(depth), sinks_to.map(|event| depth(event.object())));
-    let deepest = rises_from.into_iter().chain(sinks_to).fold(0.0, f64::max);
-    let strokes = Strokes {
-        stroke: tool,
-        scene: task.arch_scene((tool, deepest), &from.poses, from.held.as_ref(), touched),
-        seconds: motion.trajectory.duration(),
-        rises_from,
-        sinks_to,
-    };
+    let unturned = LazyCell::new(|| scene(from.held.as_ref()));
+    let angles = [turns[0].map(|(turn, _)| turn.from), turns[1].map(|(turn, _)| turn.to)];
+    let own_scenes: [Option<ArchScene>; 2] = [0, 1].map(|end| {
+        depths[end]?;
+        angles[end].and_then(|angle| scene(turned(angle).as_ref()))
+    });
+    let is_turned = turns.iter().any(Option::is_some);
+    let cover =
+        is_turned.then(|| TurnCover::new(&task.scene(&from.poses, &[], from.held.as_ref(), touched()))).flatten();
     let Some([cubic, quartic]) = recordings(&motion.trajectory) else { return Overlap::NONE };
-    let required = task.workspace.fixed.clearance;
-    let is_free =
-        |stroke: Option<StrokeDuringMotion>, motion: &Recording| stroke.is_none_or(|s| s.keeps(motion, required));
-    let most = [strokes.longest(strokes.rises_from, arch.rise), strokes.longest(strokes.sinks_to, arch.fall)];
-    let mut raising = longest_free(most[0], |overlap| is_free(strokes.raising(overlap), &cubic));
-    let mut lowering = longest_free(most[1], |overlap| is_free(strokes.lowering(overlap), &cubic));
-    let excess = raising + lowering - strokes.seconds;
+    let sequence = |end: End| {
+        let index = end as usize;
+        let strokes = depths[index].zip(arch).and_then(|(depth, tool)| {
+            let scene = if angles[index].is_some() { own_scenes[index].as_ref() } else { unturned.as_ref() };
+            scene.map(|scene| (tool, scene, depth))
+        });
+        let turn = turns[index].zip(cover.as_ref()).map(|((turn, seconds), cover)| (turn, cover, seconds));
+        EndSequence::new(task, end, motion.trajectory.duration(), strokes, turn)
+    };
+    let mut ends = [sequence(End::Departure), sequence(End::Arrival)];
+    let mut overlaps = [0, 1].map(|end| {
+        ends[end].stretch_turn(&cubic);
+        longest_free(ends[end].longest(), |overlap| ends[end].is_free(overlap, &cubic))
+    });
+    let excess = overlaps[0] + overlaps[1] - motion.trajectory.duration();
     if excess > 0.0 {
-        // The tool is raised completely before it is lowered.
-        raising = round_down(raising - excess * raising / (raising + lowering)).max(0.0);
-        lowering = round_down(strokes.seconds - raising).min(lowering);
+        // The sequence after the departure is complete before that at the arrival begins.
+        let [departure, arrival] = overlaps;
+        let most = round_down(departure - excess * departure / (departure + arrival)).max(0.0);
+        overlaps[0] = longest_free(most, |overlap| ends[0].is_free(overlap, &cubic));
+        let most = round_down(motion.trajectory.duration() - overlaps[0]).min(arrival);
+        overlaps[1] = longest_free(most, |overlap| ends[1].is_free(overlap, &cubic));
     }
     let mut clearance = f64::INFINITY;
-    match clearance_during(strokes.raising(raising), motion, &[&cubic, &quartic]) {
-        Some(found) => clearance = clearance.min(found),
-        None => raising = 0.0,
-    }
-    match clearance_during(strokes.lowering(lowering), motion, &[&cubic, &quartic]) {
-        Some(found) => clearance = clearance.min(found),
-        None => lowering = 0.0,
-    }
-    Overlap { raising, lowering, clearance }
-}
-
-/// Returns a proven lower bound, in metres, on the distance to obstacles during a stroke, for both interpolations of a
-/// motion. Infinite if there is no stroke. Returns `None` if the motion is not proven free.
-fn clearance_during(
-    stroke: Option<StrokeDuringMotion>,
-    motion: &TimedMotion,
-    [cubic, quartic]: &[&Recording; 2],
-) -> Option<f64> {
-    let Some(stroke) = stroke else { return Some(f64::INFINITY) };
-    // Usually the strokes keep as far from obstacles as the raised tool, which is quick to prove.
-    let of_motion = motion.curve.clearance();
-    let clearance = |recording: &Recording| {
-        if of_motion.is_finite() && stroke.keeps(recording, of_motion) {
-            return Some(of_motion);
+    for (end, overlap) in ends.iter().zip(&mut overlaps) {
+        match end.clearance(*overlap, motion, &[&cubic, &quartic]).filter(|_| end.saves(*overlap)) {
+            Some(found) => clearance = clearance.min(found),
+            None => *overlap = 0.0,
         }
-        match stroke.check(recording) {
-            None => Some(f64::INFINITY),
-            Some(CollisionCheck::Free { clearance, .. }) => Some(clearance),
-            Some(_) => None,
-        }
-    };
-    // Without blends, both interpolations are the same motion.
-    let is_curved = motion.curve.curve().radii().iter().any(|radius| *radius > 0.0);
-    let of_cubic = clearance(cubic)?;
-    if is_curved { Some(of_cubic.min(clearance(quartic)?)) } else { Some(of_cubic) }
+    }
+    let [departure, arrival] = overlaps;
+    let turn_of = |end: usize| Some(ends[end].turn_seconds()?).filter(|_| overlaps[end] > 0.0);
+    Overlap {
+        raising: ends[0].of_stroke(departure),
+        lowering: ends[1].of_stroke(arrival),
+        turn_after_departure: turn_of(0).map_or(0.0, |_| departure),
+        turn_before_arrival: turn_of(1).map_or(0.0, |_| arrival),
+        turn_seconds: turn_of(0).or(turn_of(1)),
+        clearance,
+    }
 }
 
 /// Returns the longest overlap up to `most` seconds that is free, within the accuracy of [`HALVINGS`].
-fn longest_free(most: f64, is_free: impl Fn(f64) -> bool) -> f64 {
+pub(super) fn longest_free(most: f64, is_free: impl Fn(f64) -> bool) -> f64 {
     if most <= 0.0 || is_free(most) {
         return most.max(0.0);
     }
@@ -160,4 +168,27 @@ fn longest_free(most: f64, is_free: impl Fn(f64) -> bool) -> f64 {
         if is_free(middle) { free = middle } else { blocked = middle }
     }
     free
+}
+
+/// Returns a proven lower bound, in metres, on the distance to obstacles in the part of a motion that `keeps` and
+/// `exactly` examine, for both interpolations of the motion. `None` if it is not proven free. `keeps` is true if a
+/// distance is quickly proven; `exactly` finds the bound.
+pub(super) fn clearance_of_both(
+    motion: &TimedMotion,
+    [cubic, quartic]: &[&Recording; 2],
+    keeps: impl Fn(&Recording, f64) -> bool,
+    exactly: impl Fn(&Recording) -> Option<f64>,
+) -> Option<f64> {
+    // Usually the strokes keep as far from obstacles as the raised tool, which is quick to prove.
+    let of_motion = motion.curve.clearance();
+    let clearance = |recording: &Recording| {
+        if of_motion.is_finite() && keeps(recording, of_motion) {
+            return Some(of_motion);
+        }
+        exactly(recording)
+    };
+    // Without blends, both interpolations are the same motion.
+    let is_curved = motion.curve.curve().radii().iter().any(|radius| *radius > 0.0);
+    let of_cubic = clearance(cubic)?;
+    if is_curved { Some(of_cubic.min(clearance(quartic)?)) } else { Some(of_cubic) }
 }

@@ -50,6 +50,7 @@
 mod among_movers;
 mod answer;
 mod arch;
+mod end_sequence;
 mod failed_step;
 mod motion_cache;
 mod least_time;

@@ -2,7 +2,7 @@
 
 use super::arch::{Overlap, overlap};
 use super::least_time::rest_to_rest;
-use super::state::{Candidate, State};
+use super::state::{Candidate, State, turns_on_the_way};
 use super::stroke::{ToolStroke, stroke};
 use cplan_core::check::{CertifiedPath, CheckedProof, certify};
 use cplan_core::model::{Grip, MotionProblem, Outcome, Scene};
@@ -73,15 +73,20 @@ pub(super) struct Motion {
     pub overlap: Overlap,
     /// Proven bound on the distance of the tip from the line, in metres, if the motion follows one.
     pub deviation: Option<f64>,
+    /// Duration of the turn after the step before, in seconds, if the motion may begin during it. It counts for this
+    /// motion, since it may be hidden in it.
+    pub turning_before: f64,
+    /// Duration of the own turn, in seconds, unless it counts for the next motion.
+    turning: f64,
 }
 
 impl Motion {
     /// Returns the time from the end of the step before to the end of this one, without its dwell, in seconds. A step
-    /// ends when the tool is raised. If the arm departs earlier, the time is shorter than that of the motion.
+    /// ends when the tool is raised. If the arm departs earlier, the time is shorter than that of the motion. A turn
+    /// after a pick that may overlap with the next motion counts for that motion.
     pub fn seconds(&self) -> f64 {
-        let turn = self.turn.map_or(0.0, |(_, seconds)| seconds);
         let stroke = self.stroke.map_or(0.0, |stroke| 2.0 * stroke.seconds);
-        self.timed.trajectory.duration() - self.overlap.seconds() + turn + stroke
+        self.timed.trajectory.duration() - self.overlap.seconds() + self.turning_before + self.turning + stroke
     }
 }
 
@@ -167,7 +172,10 @@ impl MotionCache {
     pub fn motion(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<Motion, Refusal> {
         if let Action::Follow(line) = &candidate.step.action {
             let (timed, deviation) = self.line(task, from, candidate, line)?;
-            return Ok(Motion { timed, turn: None, stroke: None, overlap: Overlap::NONE, deviation: Some(deviation) });
+            let turning_before = from.turning.map_or(0.0, |(_, seconds)| seconds);
+            let overlap = Overlap::NONE;
+            let deviation = Some(deviation);
+            return Ok(Motion { timed, turn: None, stroke: None, overlap, deviation, turning_before, turning: 0.0 });
         }
         let key = self.checked_path_key(task, from, candidate)?;
         let speed = candidate.step.speed;
@@ -177,10 +185,20 @@ impl MotionCache {
             self.motions.insert((key, speed.to_bits()), planned.clone());
             planned
         })?;
-        let turn = candidate.turn.map(|turn| self.turn(task, from, candidate, turn)).transpose()?;
+        let mut turn = candidate.turn.map(|turn| self.turn(task, from, candidate, turn)).transpose()?;
         let stroke = stroke(task, from, candidate)?;
-        let overlap = self.overlap(task, from, candidate, (&timed, stroke.as_ref()));
-        Ok(Motion { timed, turn, stroke, overlap, deviation: None })
+        let own_turn = turn.filter(|_| candidate.turns_before_stroke());
+        let overlap = self.overlap(task, from, candidate, (&timed, stroke.as_ref(), own_turn));
+        if let (Some((_, seconds)), Some(stretched)) = (&mut turn, overlap.turn_seconds.filter(|_| own_turn.is_some()))
+        {
+            *seconds = stretched;
+        }
+        let counts = own_turn.is_some() || !turns_on_the_way(task);
+        let turning = turn.filter(|_| counts).map_or(0.0, |(_, seconds)| seconds);
+        let turning_before = from
+            .turning
+            .map_or(0.0, |(_, seconds)| overlap.turn_seconds.filter(|_| own_turn.is_none()).unwrap_or(seconds));
+        Ok(Motion { timed, turn, stroke, overlap, deviation: None, turning_before, turning })
     }
 
     /// Returns the motion along a line, and a bound on its distance from the line, in metres.
@@ -218,20 +236,21 @@ impl MotionCache {
         planned
     }
 
-    /// Returns the overlap of strokes with a motion.
+    /// Returns the overlap of strokes and turns with a motion.
     fn overlap(
         &mut self,
         task: &Task,
         from: &State,
         candidate: &Candidate,
-        (timed, stroke): (&TimedMotion, Option<&ToolStroke>),
+        (timed, stroke, turn): (&TimedMotion, Option<&ToolStroke>, Option<(WristTurn, f64)>),
     ) -> Overlap {
         let mut key = scene_key(from, candidate.step, |_| true);
         let object = |object: Option<usize>| object.map_or(u64::MAX, |object| object as u64);
         let sinks_to = candidate.event.map(|event| event.object());
         key.extend([object(from.rising), object(sinks_to), u64::from(candidate.turns_before_stroke())]);
         key.extend([from.q[0], from.q[1], candidate.to[0], candidate.to[1], candidate.step.speed].map(f64::to_bits));
-        *self.overlaps.entry(key).or_insert_with(|| overlap(task, from, candidate, timed, stroke))
+        key.extend(turn.iter().chain(&from.turning).flat_map(|(turn, _)| [turn.from, turn.to]).map(f64::to_bits));
+        *self.overlaps.entry(key).or_insert_with(|| overlap(task, from, candidate, timed, (stroke, turn)))
     }
 
     fn planned_motion(

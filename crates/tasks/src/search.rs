@@ -8,7 +8,7 @@ use super::failed_step::{FailedStep, RefusedStep, farthest};
 use super::heuristic::Heuristic;
 use super::least_time::{least_line_time, least_time};
 use super::motion_cache::{Motion, MotionCache, Refusal};
-use super::state::{Candidate, State};
+use super::state::{Candidate, State, turns_on_the_way};
 use super::stroke::{least_rest, least_without_strokes, most_overlap};
 use cplan_geometry::OpenList;
 use cplan_handling::{Action, Task};
@@ -194,7 +194,9 @@ impl<'a, 'l> Search<'a, 'l> {
         match self.legs.motion(self.task, from, &candidate) {
             Ok(motion) => {
                 let seconds = motion.seconds() + candidate.step.dwell;
-                let state = from.after(self.task, &candidate, motion.timed.curve.curve().path().goal());
+                let mut state = from.after(self.task, &candidate, motion.timed.curve.curve().path().goal());
+                let may_depart = candidate.turns_after_stroke() && turns_on_the_way(self.task);
+                state.turning = motion.turn.filter(|_| may_depart);
                 let seconds = self.nodes[parent].seconds + seconds;
                 let node = &mut self.nodes[index];
                 (node.seconds, node.stage) = (seconds, Stage::Reached(Box::new(state), Some((candidate, motion))));
@@ -213,7 +215,9 @@ impl<'a, 'l> Search<'a, 'l> {
     fn expand(&mut self, index: usize) {
         let Node { stage: Stage::Reached(state, _), depth, seconds, .. } = &self.nodes[index] else { return };
         let (depth, seconds, from) = (*depth, *seconds, state.q);
-        let rising = most_overlap(self.task, state.rising);
+        let on_the_way = turns_on_the_way(self.task);
+        let turning = state.turning.map_or(0.0, |(_, seconds)| seconds);
+        let rising = most_overlap(self.task, state.rising) + turning;
         for candidates in state.candidates(self.task) {
             self.complete &= candidates.all;
             if candidates.ways.is_empty() {
@@ -230,13 +234,19 @@ impl<'a, 'l> Search<'a, 'l> {
                 });
             }
             for candidate in candidates.ways {
-                let turn = candidate.turn.map_or(0.0, |turn| MotionCache::min_turn_seconds(self.task, turn));
+                // A turn after a pick counts for the next motion, in which it may be hidden.
+                let own_turn = candidate.turn.filter(|_| !on_the_way || candidate.turns_before_stroke());
+                let turn = own_turn.map_or(0.0, |turn| MotionCache::min_turn_seconds(self.task, turn));
                 let object = candidate.event.map(|event| event.object());
-                let sinking = most_overlap(self.task, object.filter(|_| !candidate.turns_before_stroke()));
+                let sinking = match candidate.turns_before_stroke() {
+                    false => most_overlap(self.task, object),
+                    true if on_the_way => most_overlap(self.task, object) + turn,
+                    true => 0.0,
+                };
                 let travel = least_time(&self.task.arm, from, candidate.to, candidate.step.speed);
                 let travel = travel.max(least_line_time(candidate.step));
                 let travel = least_without_strokes(travel, [rising, sinking]);
-                let least = travel + turn + least_rest(self.task, candidate.step, object);
+                let least = travel + turning + turn + least_rest(self.task, candidate.step, object);
                 let stage = Stage::Pending(candidate);
                 self.push(Node { parent: Some(index), depth: depth + 1, seconds: seconds + least, stage });
             }
@@ -246,6 +256,8 @@ impl<'a, 'l> Search<'a, 'l> {
     /// Returns the legs up to a node.
     pub fn legs(&mut self, index: usize) -> Vec<Leg> {
         let mut legs = Vec::new();
+        // The duration of a leg's turn after its pick, which the next leg determines.
+        let mut turned_before = None;
         let mut at = Some(index);
         while let Some(node) = at.map(|index| &self.nodes[index]) {
             let before = node.parent.map(|parent| &self.nodes[parent]);
@@ -254,19 +266,24 @@ impl<'a, 'l> Search<'a, 'l> {
                 Stage::Reached(_, Some((candidate, motion))),
             ) = (before, &node.stage)
             {
+                let mut turn = motion.turn;
+                if let (Some((_, seconds)), Some(turning)) = (&mut turn, turned_before.take()) {
+                    *seconds = turning;
+                }
                 legs.push(Leg {
                     step: candidate.step.clone(),
                     scene: self.legs.scene(self.task, from, candidate.step),
                     moving: from.moving.clone(),
                     carried: from.held.as_ref().map(|held| held.object),
                     timed: motion.timed.clone(),
-                    turn: motion.turn,
+                    turn,
                     stroke: motion.stroke,
                     overlap: motion.overlap,
                     deviation: motion.deviation,
                     event: candidate.event,
-                    begin: *seconds - motion.overlap.raising,
+                    begin: *seconds + motion.turning_before - motion.overlap.departure(),
                 });
+                turned_before = from.turning.map(|_| motion.turning_before);
             }
             at = node.parent;
         }

@@ -23,7 +23,7 @@ impl Sequence {
         let mut rest = 0.0;
         for leg in legs {
             let motion = &leg.timed.trajectory;
-            sequence.trajectory.then(rest - leg.overlap.raising, motion);
+            sequence.trajectory.then(rest - leg.overlap.departure(), motion);
             let end = sequence.trajectory.time.len();
             sequence.samples.push(end - motion.time.len()..=end - 1);
             rest = leg.rest();

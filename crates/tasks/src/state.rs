@@ -6,6 +6,7 @@ use cplan_core::model::{Grip, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
 use cplan_handling::{Action, Holding, Item, Object, Payload, Step, Task};
+use cplan_motion::recorded::WristTurn;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -35,6 +36,9 @@ pub(super) struct State {
     pub released: Option<usize>,
     /// The object for which the tool is still lowered when the next motion may begin. `None` if the tool is raised.
     pub rising: Option<usize>,
+    /// The turn after the last step during which the next motion may begin, and its duration at rest, in seconds. `None`
+    /// if the wrist does not turn, or only while the arm is at rest.
+    pub turning: Option<(WristTurn, f64)>,
 }
 
 /// A candidate for the next step: one possible configuration at its target, and one orientation of the object.
@@ -93,6 +97,7 @@ impl State {
             held: None,
             released: None,
             rising: None,
+            turning: None,
         };
         state.renewed(task)
     }
@@ -120,6 +125,7 @@ impl State {
         }
         key.extend(self.held.iter().map(|held| held.object as i64));
         key.extend(self.released.iter().map(|&object| object as i64));
+        key.extend(self.turning.iter().flat_map(|(turn, _)| [turn.from, turn.to]).map(grains));
         key
     }
 
@@ -245,11 +251,13 @@ impl State {
         self.after_step(task, candidate, q).renewed(task)
     }
 
-    /// Returns the state directly after a candidate's step, with the arm at `q`, before any renewals.
+    /// Returns the state directly after a candidate's step, with the arm at `q`, before any renewals. The turn at the end
+    /// of the step is not known here.
     pub fn after_step(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
         let mut poses = self.poses.clone();
-        let rising = candidate.event.filter(|_| !candidate.turns_after_stroke()).map(|event| event.object());
-        let mut after = Self { progress: candidate.progress, q, released: None, rising, ..self.clone() };
+        let may_depart = !candidate.turns_after_stroke() || turns_on_the_way(task);
+        let rising = candidate.event.filter(|_| may_depart).map(|event| event.object());
+        let mut after = Self { progress: candidate.progress, q, released: None, rising, turning: None, ..self.clone() };
         match candidate.event {
             Some(Event::Grasp { object }) => {
                 Arc::make_mut(&mut poses)[object] = None;
@@ -304,6 +312,11 @@ impl Progress {
         let all = matches!(&task.items[self.item], Item::AnyOrder(pairs) if done.count_ones() as usize == pairs.len());
         if all { next } else { Self { done, carried_pair: None, ..self } }
     }
+}
+
+/// Returns true if the wrist may turn objects while the arm moves. Among moving obstacles it turns only at rest.
+pub(super) fn turns_on_the_way(task: &Task) -> bool {
+    task.wrist.is_some_and(|wrist| wrist.turns_on_the_way) && !task.has_moving_obstacles()
 }
 
 /// Returns the indices of the obstacles that an object may touch from its pick to its place, in ascending order.

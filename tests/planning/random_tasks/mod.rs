@@ -87,6 +87,54 @@ fn planned_arches_are_feasible() {
     assert!(found.done > 20 && overlaps > 50 && partial > 5, "{found:?}, {overlaps} overlaps, {partial} partial");
 }
 
+/// Checks tasks in which the wrist turns objects while the arm moves: free at the heights and angles of each moment,
+/// within the limits of the wrist, and never slower than with turns at rest.
+#[test]
+fn turns_during_motions_are_feasible() {
+    let (mut found, mut departures, mut arrivals, mut stretched, mut partial, mut saved) =
+        (Count::default(), 0, 0, 0, 0, 0.0);
+    for seed in seeds(120) {
+        let task = task::with_turns(seed);
+        let answer = plan(&task, &options(), &mut |_| {});
+        match &answer.outcome {
+            Outcome::Found(_) => found.done += 1,
+            Outcome::Infeasible(_) => found.infeasible += 1,
+            Outcome::Unknown(_) => found.unknown += 1,
+        }
+        found.legs += answer.legs.len();
+        let all = answer.failed().is_none();
+        if let Err(violation) = replay::replay(&task, &answer, all) {
+            panic!("seed {seed}: {violation}");
+        }
+        assert!(!all || answer.lower_bound <= answer.duration(), "seed {seed}: faster than the bound");
+        let mut resting = task.clone();
+        resting.wrist.iter_mut().for_each(|wrist| wrist.turns_on_the_way = false);
+        for leg in &answer.legs {
+            departures += usize::from(leg.overlap.turn_after_departure > 0.0);
+            arrivals += usize::from(leg.overlap.turn_before_arrival > 0.0);
+            partial += usize::from(leg.overlap.turn_seconds.is_some_and(|seconds| {
+                leg.overlap.turn_after_departure.max(leg.overlap.turn_before_arrival) < 0.9 * seconds
+            }));
+            if let Some((turn, seconds)) = leg.turn {
+                let wrist = task.wrist.unwrap();
+                let least =
+                    cplan::engine::task::rest_to_rest((turn.to - turn.from).abs(), wrist.velocity, wrist.acceleration);
+                stretched += usize::from(seconds > 1.01 * least);
+            }
+        }
+        let slower = plan(&resting, &options(), &mut |_| {});
+        assert_eq!(answer.outcome.status(), slower.outcome.status(), "seed {seed}");
+        assert!(!all || answer.duration() < slower.duration() + 1e-6, "seed {seed}: slower than with turns at rest");
+        saved += if all { slower.duration() - answer.duration() } else { 0.0 };
+    }
+    println!(
+        "{found:?}, {departures} turns after departures and {arrivals} before arrivals, {partial} partial, \
+         {stretched} stretched, {saved} s saved"
+    );
+    assert!(found.done > 20 && departures > 5 && arrivals > 50, "{found:?}, {departures}, {arrivals}");
+    assert!(partial > 3 && stretched > 3, "{partial} partial, {stretched} stretched");
+}
+
 /// Checks that the oracle sees collisions during strokes: a tool that is lowered earlier than planned hits something.
 #[test]
 fn a_tool_that_is_lowered_too_early_is_refused() {

@@ -67,6 +67,8 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
     let mut clock = 0.0;
     // Depth from which the tool rises when the next motion may begin, and that time.
     let mut risen_from = 0.0;
+    // The turn after the step before.
+    let mut turned_before = None;
     for (index, leg) in answer.legs.iter().enumerate() {
         for &object in &renewed[index] {
             let (sin, cos) = task.objects[object].at.rotation.angle().sin_cos();
@@ -79,7 +81,9 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
             return Err(say("does not begin where the arm is"));
         }
         let [raising, lowering] = [leg.overlap.raising, leg.overlap.lowering];
-        if (leg.begin - (clock - raising)).abs() > 1e-9 {
+        let turns = MotionTurns::new(leg, turned_before);
+        let [departure, arrival] = turns.ends([raising, lowering], t.duration()).map_err(|what| say(&what))?;
+        if (leg.begin - (clock - departure)).abs() > 1e-9 {
             return Err(say("does not begin when the step before ends"));
         }
         let sinks_to = depth_of(task, leg);
@@ -102,6 +106,8 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
             let sinks = stroke_height(task, sinks_to, stroke_time(task, sinks_to) - (at - (t.duration() - lowering)));
             world.tool = (rises - risen_from).min(sinks - sinks_to).min(0.0);
             world.arm_moves = true;
+            turns.hold(&mut world, at);
+            turns.limits(task, t, at).map_err(|what| say(&format!("at {at} s: {what}")))?;
             world.check(position, target, keep).map_err(|what| say(&format!("at {at} s: {what}")))?;
         }
         for k in 0..t.time.len() {
@@ -114,9 +120,16 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
         }
         q = *t.position.last().ok_or_else(|| say("has no samples"))?;
         let strokes = leg.stroke.map_or(0.0, |stroke| 2.0 * stroke.seconds);
-        clock +=
-            t.duration() - raising - lowering + leg.step.dwell + leg.turn.map_or(0.0, |(_, seconds)| seconds) + strokes;
+        clock += t.duration() - departure - arrival
+            + leg.step.dwell
+            + leg.turn.map_or(0.0, |(_, seconds)| seconds)
+            + strokes;
         (world.tool, world.arm_moves) = (0.0, false);
+        turns.hold_at_rest(&mut world);
+        turned_before = leg
+            .turn
+            .map(|(turn, seconds)| ([turn.from, turn.to], seconds))
+            .filter(|_| matches!(leg.step.action, Action::Pick { .. }));
         risen_from = sinks_to;
         let then = next_supports(task, answer, index);
         world
@@ -124,6 +137,123 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
             .map_err(|what| say(&what))?;
     }
     Ok(())
+}
+
+/// A turn: its angles and its duration.
+type Turn = ([f64; 2], f64);
+
+/// The turns of the wrist that a motion may overlap with: the one after the step before, and its own.
+struct MotionTurns {
+    /// The turn, and the time from the departure to its end.
+    before: Option<(Turn, f64)>,
+    /// The turn, and the time from its beginning to the arrival.
+    own: Option<(Turn, f64)>,
+    seconds: f64,
+}
+
+impl MotionTurns {
+    fn new(leg: &Leg, before: Option<Turn>) -> Self {
+        let places = matches!(leg.step.action, Action::Place { .. });
+        let own = leg.turn.filter(|_| places).map(|(turn, seconds)| ([turn.from, turn.to], seconds));
+        Self {
+            before: before.map(|turn| (turn, leg.overlap.turn_after_departure)),
+            own: own.map(|turn| (turn, leg.overlap.turn_before_arrival)),
+            seconds: leg.timed.trajectory.duration(),
+        }
+    }
+
+    /// Returns the times by which strokes and turns overlap with both ends of the motion, seconds.
+    fn ends(&self, [raising, lowering]: [f64; 2], seconds: f64) -> Result<[f64; 2], String> {
+        let both = [(self.before, raising), (self.own, lowering)].map(|(turn, stroke)| match turn {
+            // The tool turns only while it is raised.
+            Some(((_, duration), overlap)) => {
+                if stroke > 0.0 && (stroke - (overlap - duration)).abs() > 1e-9 {
+                    Err(())
+                } else {
+                    Ok(overlap)
+                }
+            }
+            None => Ok(stroke),
+        });
+        let [Ok(departure), Ok(arrival)] = both else { return Err("the tool turns while it is lowered".into()) };
+        if departure < 0.0 || arrival < 0.0 || departure + arrival > seconds + 1e-9 {
+            return Err(format!("turns and strokes overlap for {departure} and {arrival} s"));
+        }
+        Ok([departure, arrival])
+    }
+
+    /// Iterates over the turns, each with the time of the motion at which it begins.
+    fn begins(&self) -> impl Iterator<Item = (Turn, f64)> {
+        let before = self.before.map(|(turn, overlap)| (turn, overlap - turn.1));
+        before.into_iter().chain(self.own.map(|(turn, overlap)| (turn, self.seconds - overlap)))
+    }
+
+    /// Gives the payload the orientation that it has at a time of the motion.
+    fn hold(&self, world: &mut World, at: f64) {
+        for (([from, to], seconds), begin) in self.begins() {
+            let share = world.turned_share(([from, to], seconds), at - begin);
+            world.hold(from + (to - from) * share);
+        }
+    }
+
+    /// Gives the payload the orientation before its own turn, which is checked at rest, too.
+    fn hold_at_rest(&self, world: &mut World) {
+        if let Some((([from, _], _), _)) = self.own {
+            world.hold(from);
+        }
+    }
+
+    /// Checks the limits of the wrist at a time of a turn. The wrist also compensates the rotation of link 2.
+    fn limits(&self, task: &Task, t: &cplan::motion::Trajectory, at: f64) -> Result<(), String> {
+        const STEP: f64 = 1e-5;
+        let wrist = task.wrist.ok_or("there is no wrist")?;
+        for (([from, to], seconds), begin) in self.begins() {
+            // Numeric derivatives need a neighbourhood without changes of acceleration, so they have a wide tolerance.
+            if at - begin < 2.0 * STEP || at - begin > seconds - 2.0 * STEP || at < STEP || at > self.seconds - STEP {
+                continue;
+            }
+            let rate = |time: f64| {
+                let (_, velocity) = state(t, time);
+                let link = |k: usize| match task.arm.joints[k].joint_type {
+                    JointType::Revolute { sign } => sign * velocity[k],
+                    JointType::Prismatic { .. } => 0.0,
+                };
+                let share = |time: f64| turned_share(task, ([from, to], seconds), time - begin);
+                (to - from) * (share(time + STEP) - share(time - STEP)) / (2.0 * STEP) - link(0) - link(1)
+            };
+            if rate(at).abs() > wrist.velocity * 1.001 + 1e-3 {
+                return Err(format!("the wrist turns at {} rad/s", rate(at)));
+            }
+            let acceleration = (rate(at + STEP) - rate(at - STEP)) / (2.0 * STEP);
+            let before = (rate(at) - rate(at - STEP)) / STEP;
+            let after = (rate(at + STEP) - rate(at)) / STEP;
+            // At a change of the acceleration, this is a mean of both sides.
+            if before.abs().min(after.abs()).min(acceleration.abs()) > wrist.acceleration * 1.001 + 1e-2 {
+                return Err(format!("the wrist accelerates at {acceleration} rad/s2"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Returns the share of a turn that is done some seconds after its beginning: the fastest motion, stretched in time.
+fn turned_share(task: &Task, ([from, to], seconds): Turn, since: f64) -> f64 {
+    let distance = (to - from).abs();
+    let Some(wrist) = &task.wrist else { return 0.0 };
+    let (v, a) = (wrist.velocity, wrist.acceleration);
+    let least = if distance <= v * v / a { 2.0 * (distance / a).sqrt() } else { distance / v + v / a };
+    let stretch = seconds / least;
+    let (v, a) = (v / stretch, a / stretch / stretch);
+    let since = since.clamp(0.0, seconds);
+    let ramp = (v / a).min(seconds / 2.0);
+    let done = if since < ramp {
+        a * since * since / 2.0
+    } else if since > seconds - ramp {
+        distance - a * (seconds - since).powi(2) / 2.0
+    } else {
+        a * ramp * ramp / 2.0 + a * ramp * (since - ramp)
+    };
+    (done / distance).clamp(0.0, 1.0)
 }
 
 /// Returns the depth to which the tool is lowered at the end of a leg, metres.
@@ -476,6 +606,18 @@ impl<'a> World<'a> {
         Ok(())
     }
 
+    fn turned_share(&self, turn: Turn, since: f64) -> f64 {
+        turned_share(self.task, turn, since)
+    }
+
+    /// Gives the level payload an orientation.
+    fn hold(&mut self, angle: f64) {
+        if let Some(held) = self.held.as_mut() {
+            let direction = [angle.cos(), angle.sin()];
+            held.frame = (direction, rotate([-held.grasp[0], -held.grasp[1]], direction));
+        }
+    }
+
     /// Checks dense samples of a turn of the wrist.
     fn turn(&mut self, q: V, turn: Option<[f64; 2]>, keep: f64) -> Result<(), String> {
         let Some([from, to]) = turn else { return Ok(()) };
@@ -485,10 +627,7 @@ impl<'a> World<'a> {
         }
         for look in 0..=LOOKS {
             let angle = from + (to - from) * look as f64 / LOOKS as f64;
-            if let Some(held) = self.held.as_mut() {
-                let direction = [angle.cos(), angle.sin()];
-                held.frame = (direction, rotate([-held.grasp[0], -held.grasp[1]], direction));
-            }
+            self.hold(angle);
             self.check(q, None, keep).map_err(|what| format!("while it turns, {what}"))?;
         }
         Ok(())

@@ -64,7 +64,7 @@ pub fn task(seed: u64) -> Task {
         objects,
         start: Configuration::zeros(),
         items: Vec::new(),
-        wrist: Some(Wrist { velocity: 3.0, acceleration: 12.0 }),
+        wrist: Some(Wrist { velocity: 3.0, acceleration: 12.0, turns_on_the_way: false }),
         stroke: None,
     };
     let scene = task.scene(&all, &[], None, []);
@@ -159,6 +159,29 @@ pub fn with_arches(seed: u64) -> Task {
     // With another travel than the lift, the load's height during strokes is known only within bounds.
     let travel = dice.chance(0.3).then_some(0.8 * DEPTH);
     task.stroke = Some(Stroke { joint, travel, velocity, acceleration, bodies, arch: Some(arch) });
+    task
+}
+
+/// Returns a task in which the wrist turns objects while the arm moves, with or without strokes. All objects are level,
+/// and are placed at angles.
+pub fn with_turns(seed: u64) -> Task {
+    let mut task = if seed % 3 == 0 { task(seed) } else { with_arches(seed) };
+    let mut dice = Dice::new(seed.wrapping_mul(0xD1B5_4A32_D192_ED03));
+    let mut turn = |step: &mut Step| {
+        if let Action::Place { angle, .. } = &mut step.action {
+            *angle = angle.or(dice.chance(0.8).then(|| dice.within(-TAU, TAU)));
+        }
+    };
+    for item in &mut task.items {
+        match item {
+            Item::Step(step) => turn(step),
+            Item::AnyOrder(pairs) => pairs.iter_mut().flatten().for_each(&mut turn),
+            Item::Renew(_) => {}
+        }
+    }
+    task.objects.iter_mut().for_each(|object| object.holding = Holding::Level);
+    let quick = dice.within(1.0, 6.0);
+    task.wrist = Some(Wrist { velocity: 3.0 * quick, acceleration: 12.0 * quick, turns_on_the_way: true });
     task
 }
 

@@ -184,8 +184,17 @@ impl Scene {
     /// Returns the scene with its attachment at other heights.
     #[must_use]
     pub fn with_attached_heights(&self, heights: Heights) -> Self {
+        self.with_attachment(|attachment| attachment.heights = heights)
+    }
+
+    /// Returns the scene after `change` has changed its attachment. Nothing is checked.
+    #[must_use]
+    #[doc(hidden)]
+    pub fn with_attachment(&self, change: impl FnOnce(&mut Attachment)) -> Self {
         let mut scene = self.clone();
-        scene.additions.attachment.iter_mut().for_each(|attachment| attachment.heights = heights);
+        if let Some(attachment) = &mut scene.additions.attachment {
+            change(attachment);
+        }
         scene.changed(|_, _| ())
     }
 

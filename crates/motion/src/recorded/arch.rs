@@ -8,7 +8,7 @@ use cplan_handling::{ArchScene, HeldEffect, HeldJoint, HeldMotion, Recording, St
 
 /// Least time between two samples at which a motion and a stroke are joined, seconds. A stroke changes its acceleration
 /// at most this long after a sample, so it deviates from its profile by less than rounding.
-const MIN_GAP: f64 = 1e-7;
+pub(super) const MIN_GAP: f64 = 1e-7;
 
 /// A stroke that begins or ends during a motion of the arm.
 #[derive(Debug, Clone)]
@@ -48,15 +48,7 @@ impl StrokeDuringMotion<'_> {
         if to - from < MIN_GAP {
             return None;
         }
-        let mut times: Vec<f64> =
-            of_arm.iter().chain(of_tool).copied().filter(|time| from < *time && *time < to).collect();
-        times.push(from);
-        times.sort_by(f64::total_cmp);
-        times.dedup_by(|next, kept| *next - *kept < MIN_GAP);
-        if times.len() > 1 && to - times[times.len() - 1] < MIN_GAP {
-            times.pop();
-        }
-        times.push(to);
+        let times = times_between(of_arm.iter().chain(of_tool), [from, to]);
         let joint = &self.stroke.joint;
         let joint = HeldJoint {
             name: joint.name.clone(),
@@ -82,6 +74,19 @@ impl StrokeDuringMotion<'_> {
         let (motion, held) = self.overlap(motion)?;
         Some(check_stroke(self.scene, &motion, &held, self.scene.raised.workspace().clearance))
     }
+}
+
+/// Returns both ends of a span and the times within it, in ascending order. Times that nearly coincide count once.
+pub(super) fn times_between<'a>(times: impl Iterator<Item = &'a f64>, [from, to]: [f64; 2]) -> Vec<f64> {
+    let mut times: Vec<f64> = times.copied().filter(|time| from < *time && *time < to).collect();
+    times.push(from);
+    times.sort_by(f64::total_cmp);
+    times.dedup_by(|next, kept| *next - *kept < MIN_GAP);
+    if times.len() > 1 && to - times[times.len() - 1] < MIN_GAP {
+        times.pop();
+    }
+    times.push(to);
+    times
 }
 
 /// Returns the time, in seconds, in which a stroke of length `depth` rises by `height` from its lowest position, both in

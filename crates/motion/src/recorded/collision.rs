@@ -3,7 +3,7 @@
 use super::tool::ToolMotion;
 use crate::{Place, Span};
 use cplan_core::check::{Deviation, Drift, Posture, SeparationBound};
-use cplan_core::model::{Contact, Pair};
+use cplan_core::model::{Contact, Pair, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::Separation;
 use cplan_handling::{ArchScene, HeldMotion, Piece, Recording, TimedScene};
@@ -157,6 +157,20 @@ pub(super) fn keeps_during_stroke(scene: &ArchScene, recording: &Recording, held
     (search.tool, search.tightness, search.budget, search.is_trial) = (Some(&tool), 0.0, TRIAL_EVALUATIONS, true);
     search.run();
     matches!(search.verdict(), CollisionCheck::Free { .. })
+}
+
+/// Returns a proven lower bound on the distance of all pairs of a scene along a motion, if it is at least `clearance`
+/// metres and positive. `None` if that is not proven with this number of checks of pairs, or at the first contact.
+pub(super) fn proven_clearance(scene: &Scene, recording: &Recording, clearance: f64, budget: usize) -> Option<f64> {
+    let pieces = recording.pieces();
+    let timed = TimedScene { scene, trajectories: &[] };
+    let mut search = Search::new(timed, scene.pairs(), &pieces, clearance);
+    (search.tightness, search.budget, search.is_trial) = (0.0, budget, true);
+    search.run();
+    match search.verdict() {
+        CollisionCheck::Free { clearance, .. } => Some(clearance),
+        _ => None,
+    }
 }
 
 /// Returns the pairs with static obstacles, and if the recording has times, also the pairs with moving obstacles.

@@ -16,6 +16,7 @@ mod collision;
 mod replay;
 mod tool;
 mod torque;
+mod turning;
 mod wrist;
 
 pub use arch::{StrokeDuringMotion, seconds_to_rise};
@@ -26,4 +27,5 @@ pub use ends::{END_TOLERANCE, EndpointError, endpoint_errors};
 pub use limits::{Limit, LimitViolation, limit_violations, torque_violations};
 pub use replay::{Fault, GripperEvent, OrderDeviation, Replay, ReplayedStep, ReplayedTurn, replay};
 pub use torque::torque_samples;
+pub use turning::{TurnCover, TurnDuringMotion, turn_angle, turn_profile};
 pub use wrist::{TurnContact, WristTurn, judge_given_turn, wrist_turn};

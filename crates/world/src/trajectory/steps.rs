@@ -85,7 +85,7 @@ impl StepMember {
                     let help = "a turn of the wrist has two angles in radians, and takes seconds";
                     return refuse(format!("the turn's {what} is {value}"), help);
                 }
-                Some(RecordedTurn { from: *from, to: *to, seconds: *seconds })
+                Some(RecordedTurn { from: *from, to: *to, seconds: *seconds, overlap: RecordedOverlap::default() })
             }
         };
         let overlap = match self.stroke {

@@ -71,17 +71,31 @@ pub enum Fault {
         /// The longest overlap at the heights that the world requires, seconds.
         most: f64,
     },
-    /// The tool is lowered again before it is raised completely.
-    #[error("strokes overlap with the motion for {shared:.6} s, but it takes only {seconds:.6} s")]
+    /// The tool is turned or lowered again before it is raised and turned completely.
+    #[error("strokes and turns overlap with the motion for {shared:.6} s, but it takes only {seconds:.6} s")]
     NotRaised {
-        /// Sum of both overlaps, seconds.
+        /// Sum of the overlaps at both ends, seconds.
         shared: f64,
         /// Duration of the motion, seconds.
         seconds: f64,
     },
-    /// A stroke overlaps with a motion although the wrist turns in between, or the task ends.
-    #[error("a stroke overlaps with a motion, although the arm must rest there with the tool raised")]
+    /// A stroke or a turn overlaps with the next motion, although the task ends.
+    #[error("a stroke or a turn overlaps with the next motion, but the task ends")]
     MustRest,
+    /// The wrist turns before the tool is raised, or after it begins to go down.
+    #[error("the wrist turns while the tool is not raised completely")]
+    TurnsLowered,
+    /// The arm moves during a turn of the wrist, but the world forbids that.
+    #[error("the arm moves while the wrist turns, which the world forbids")]
+    NoTurnOnTheWay,
+    /// The arm moves during a turn of the wrist that is not after a pick or before a place.
+    #[error("the arm moves while the wrist turns, but the turn is neither after a pick nor before a place")]
+    TurnElsewhere,
+    /// The wrist exceeds its limits, because it also compensates the rotation of link 2.
+    #[error(
+        "the wrist exceeds its limits while the arm moves: it turns the object and compensates the rotation of link 2"
+    )]
+    WristLimits,
     /// The recorded turn of the wrist begins at an orientation that the object does not have.
     #[error("the recorded turn of the wrist begins {off:.6} rad away from the object's orientation")]
     Turn {

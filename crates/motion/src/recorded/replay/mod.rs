@@ -20,7 +20,7 @@ use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::{Interval, Point, Pose};
 use cplan_handling::{Action, ObstacleTrajectory, RecordedStep, RecordedTurn, Recording, Step, Task, TimedScene};
 use order::{MatchedStep, match_steps};
-use overlap::{Overlaps, PartialStroke};
+use overlap::{Overlaps, PartialStroke, turn_faults, turning_at_rest};
 use state::{State, lowering_seconds};
 
 /// Largest difference between an actual and a required place, metres or radians. It is a thousand times the error of
@@ -101,8 +101,8 @@ pub struct Replay<'a> {
     departure: Option<OrderDeviation>,
     next: usize,
     state: State,
-    /// The raising of the tool that overlaps with the next motion.
-    raising: Option<PartialStroke>,
+    /// The raising of the tool and the turn of the wrist that overlap with the next motion.
+    before: (Option<PartialStroke>, Option<RecordedTurn>),
 }
 
 /// Matches the steps of a record with those of the task. Steps must come in the task's order, except that pairs of a
@@ -114,6 +114,8 @@ pub struct Replay<'a> {
 ///   after the last step is checked as well.
 /// - Strokes that overlap with motions, at the heights of each moment. The tool must be raised completely in between, and
 ///   be as high as the world requires while the arm moves.
+/// - Turns that overlap with motions, at the angles of each moment. The wrist turns only while the tool is raised, and
+///   keeps its limits while it also compensates the rotation of link 2.
 /// - Moving obstacles, which move on the clock of the record from its first sample on. Moving objects must be picked
 ///   within their windows of time, and the resting arm must stay free between motions.
 /// - Motions along a line, which must be within its tolerance.
@@ -126,7 +128,7 @@ pub struct Replay<'a> {
 #[must_use]
 pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [RecordedStep]) -> Replay<'a> {
     let (matched, departure) = match_steps(task, recording, recorded);
-    Replay { task, recording, recorded, matched, departure, next: 0, state: State::initial(task), raising: None }
+    Replay { task, recording, recorded, matched, departure, next: 0, state: State::initial(task), before: (None, None) }
 }
 
 impl Replay<'_> {
@@ -182,7 +184,7 @@ impl<'a> Iterator for Replay<'a> {
         broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
         let mut object = carried;
         let handled = picked.or(carried.filter(|_| matches!(step.action, Action::Place { .. })));
-        let overlaps = Overlaps::new(self.raising.take(), recorded, handled);
+        let overlaps = Overlaps::new(std::mem::take(&mut self.before), recorded, handled);
         faults.extend(overlaps.faults(task, motion.duration().unwrap_or(0.0)));
         if let CollisionCheck::Free { clearance, .. } = collision_check
             && let Some((at_heights, found)) = overlaps.check(task, &self.state, &motion, picked, clearance)
@@ -193,6 +195,17 @@ impl<'a> Iterator for Replay<'a> {
                     *clearance = clearance.min(least);
                 }
                 (_, found) => (scene, collision_check) = (at_heights, found),
+            }
+        }
+        if let CollisionCheck::Free { clearance, .. } = collision_check
+            && let Some((turned, found)) =
+                overlaps.check_turns(task, &scene, &motion, (task.workspace.fixed.clearance, clearance), &mut faults)
+        {
+            match (&mut collision_check, shifted(found, *recorded.samples.start())) {
+                (CollisionCheck::Free { clearance, .. }, CollisionCheck::Free { clearance: least, .. }) => {
+                    *clearance = clearance.min(least);
+                }
+                (_, found) => (scene, collision_check) = (turned, found),
             }
         }
         let (turn, lowered);
@@ -232,7 +245,7 @@ impl<'a> Iterator for Replay<'a> {
             }
         }
         let asked = step.dwell
-            + recorded.turn.map_or(0.0, |turn| turn.seconds)
+            + recorded.turn.as_ref().map_or(0.0, turning_at_rest)
             + handled.map_or(0.0, |object| 2.0 * lowering_seconds(task, object))
             - overlaps.lowering.map_or(0.0, |lowering| lowering.overlap)
             - recorded.overlap.after_departure;
@@ -285,22 +298,21 @@ impl<'a> Iterator for Replay<'a> {
             }
         }
         let is_picked = matches!(step.action, Action::Pick { .. });
-        if let Some(object) = handled.filter(|_| recorded.overlap.after_departure > 0.0) {
-            self.raising = Some(PartialStroke { object, overlap: recorded.overlap.after_departure });
-            if is_last || (turn.is_some() && is_picked) {
-                faults.push(Fault::MustRest);
-            }
-        }
-        if turn.is_some() && !is_picked && overlaps.lowering.is_some() {
+        let raising = handled.filter(|_| recorded.overlap.after_departure > 0.0);
+        let turn_after = recorded.turn.filter(|turn| turn.overlap.after_departure > 0.0);
+        self.before =
+            (raising.map(|object| PartialStroke { object, overlap: recorded.overlap.after_departure }), turn_after);
+        if is_last && (raising.is_some() || turn_after.is_some()) {
             faults.push(Fault::MustRest);
         }
+        faults.extend(turn_faults(recorded, is_picked, matches!(step.action, Action::Place { .. })));
         if let Some(stood) = matched.rest.filter(|stood| *stood < asked - TIME_TOLERANCE) {
             faults.push(Fault::Rest { stood, asked });
         }
         let seconds = motion.duration().unwrap_or(0.0);
         let event = object.map(|object| {
             let pose = self.state.pose(object);
-            let turning = pose.and(recorded.turn).map_or(0.0, |turn| turn.seconds);
+            let turning = pose.and(recorded.turn.as_ref()).map_or(0.0, turning_at_rest);
             let lowering = lowering_seconds(task, object) - overlaps.lowering.map_or(0.0, |lowering| lowering.overlap);
             let (number, cycle, tip) = (step.number, step.cycle, task.arm.tip_at(to));
             GripperEvent { step: number, cycle, object, time: (times[1] + turning + lowering).min(times[2]), tip, pose }

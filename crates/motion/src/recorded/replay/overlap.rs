@@ -1,10 +1,10 @@
-//! Strokes of the tool that overlap with a recorded motion.
+//! Strokes of the tool and turns of the wrist that overlap with a recorded motion.
 
 use super::state::{State, lowering_seconds};
 use super::{CollisionCheck, Fault, TIME_TOLERANCE};
-use crate::recorded::{StrokeDuringMotion, seconds_to_rise};
+use crate::recorded::{StrokeDuringMotion, TurnCover, TurnDuringMotion, seconds_to_rise};
 use cplan_core::model::Scene;
-use cplan_handling::{RecordedStep, Recording, Task};
+use cplan_handling::{RecordedOverlap, RecordedStep, RecordedTurn, Recording, Task, Wrist};
 
 /// A stroke that overlaps with a motion, and by how many seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,36 +15,57 @@ pub(super) struct PartialStroke {
     pub overlap: f64,
 }
 
-/// The overlaps of a motion with the raising of the tool before it, and with its lowering at the end.
+/// The overlaps of a motion with the raising and the turn before it, and with the turn and the lowering at its end.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Overlaps {
     pub raising: Option<PartialStroke>,
     pub lowering: Option<PartialStroke>,
+    /// The turn after the step before, which ends during the motion.
+    pub turn_before: Option<RecordedTurn>,
+    /// The turn at the end of the motion, which begins during it.
+    pub turn_at_end: Option<RecordedTurn>,
 }
 
 impl Overlaps {
-    /// Creates the overlaps of a step's motion. `raising` is that of the step before.
-    pub fn new(raising: Option<PartialStroke>, recorded: &RecordedStep, object: Option<usize>) -> Self {
+    /// Creates the overlaps of a step's motion. `raising` and `turn_before` are those of the step before.
+    pub fn new(
+        (raising, turn_before): (Option<PartialStroke>, Option<RecordedTurn>),
+        recorded: &RecordedStep,
+        object: Option<usize>,
+    ) -> Self {
         let overlap = recorded.overlap.before_arrival;
         let lowering = object.filter(|_| overlap > 0.0).map(|object| PartialStroke { object, overlap });
-        Self { raising, lowering }
+        let turn_at_end = recorded.turn.filter(|turn| turn.overlap.before_arrival > 0.0);
+        Self { raising, lowering, turn_before, turn_at_end }
     }
 
-    fn all(&self) -> impl Iterator<Item = PartialStroke> {
+    fn strokes(&self) -> impl Iterator<Item = PartialStroke> {
         self.raising.into_iter().chain(self.lowering)
     }
 
+    fn turns(&self) -> impl Iterator<Item = RecordedTurn> {
+        self.turn_before.into_iter().chain(self.turn_at_end)
+    }
+
     /// Returns the faults of the overlaps: the world forbids them, the tool is lower than the world allows, or it is not
-    /// raised completely during the motion.
+    /// raised and turned completely during the motion.
     pub fn faults(&self, task: &Task, seconds: f64) -> Vec<Fault> {
-        let Some(arch) = task.stroke.as_ref().and_then(|stroke| stroke.arch) else {
-            return if self.all().next().is_some() { vec![Fault::NoArch] } else { Vec::new() };
-        };
-        let shared: f64 = self.all().map(|stroke| stroke.overlap).sum();
         let mut faults = Vec::new();
+        let of = |stroke: Option<PartialStroke>| stroke.map_or(0.0, |stroke| stroke.overlap);
+        let departure = self.turn_before.map_or(0.0, |turn| turn.overlap.after_departure).max(of(self.raising));
+        let arrival = self.turn_at_end.map_or(0.0, |turn| turn.overlap.before_arrival).max(of(self.lowering));
+        let shared = departure + arrival;
         if shared > seconds + TIME_TOLERANCE {
             faults.push(Fault::NotRaised { shared, seconds });
         }
+        let may_turn = wrist_on_the_way(task).is_some();
+        if self.turns().next().is_some() && !may_turn {
+            faults.push(Fault::NoTurnOnTheWay);
+        }
+        let Some(arch) = task.stroke.as_ref().and_then(|stroke| stroke.arch) else {
+            faults.extend(self.strokes().next().map(|_| Fault::NoArch));
+            return faults;
+        };
         for (stroke, height) in [(self.raising, arch.rise), (self.lowering, arch.fall)] {
             let (Some(PartialStroke { object, overlap }), Some(tool)) = (stroke, &task.stroke) else { continue };
             let depth = tool.depth(&task.objects[object]);
@@ -54,6 +75,53 @@ impl Overlaps {
             }
         }
         faults
+    }
+
+    /// Returns the turns during a motion, each with the payload's covers. `None` if the wrist cannot turn it.
+    fn turns_during<'a>(
+        &self,
+        task: &Task,
+        cover: &'a TurnCover,
+        [departure, arrival]: [f64; 2],
+    ) -> Option<Vec<TurnDuringMotion<'a>>> {
+        let wrist = wrist_on_the_way(task)?;
+        let during = |RecordedTurn { from, to, seconds, overlap }: RecordedTurn, is_before_place: bool| {
+            let begin = match is_before_place {
+                true => arrival - overlap.before_arrival,
+                false => departure + overlap.after_departure - seconds,
+            };
+            TurnDuringMotion { cover, wrist, ends: [from, to], seconds, begin, is_before_place }
+        };
+        let before = self.turn_before.map(|turn| during(turn, false));
+        Some(before.into_iter().chain(self.turn_at_end.map(|turn| during(turn, true))).collect())
+    }
+
+    /// Checks the turns during a motion: the limits of the wrist, and collisions of the payload. Returns the first check
+    /// that does not find the motion free, with its scene, or else the least clearance. `None` if no turn overlaps.
+    /// `sought` is a clearance up to which the bound is improved.
+    pub fn check_turns(
+        &self,
+        task: &Task,
+        scene: &Scene,
+        motion: &Recording,
+        (required, sought): (f64, f64),
+        faults: &mut Vec<Fault>,
+    ) -> Option<(Scene, CollisionCheck)> {
+        self.turns().next()?;
+        let times = motion.times()?;
+        let cover = TurnCover::new(scene)?;
+        let turns = self.turns_during(task, &cover, [times[0], times[times.len() - 1]])?;
+        if turns.iter().any(|turn| !turn.keeps_limits(&task.arm, motion)) {
+            faults.push(Fault::WristLimits);
+        }
+        let worse = |a: (Scene, CollisionCheck), b: (Scene, CollisionCheck)| match (&a.1, &b.1) {
+            (CollisionCheck::Free { clearance: least, .. }, CollisionCheck::Free { clearance, .. }) => {
+                if least <= clearance { a } else { b }
+            }
+            (CollisionCheck::Free { .. }, _) => b,
+            _ => a,
+        };
+        turns.iter().map(|turn| turn.check(motion, required, sought)).reduce(worse)
     }
 
     /// Checks a motion while the tool is raised or lowered during it. Returns the first check that does not find the
@@ -70,8 +138,10 @@ impl Overlaps {
         let tool = task.stroke.as_ref()?;
         let times = motion.times()?;
         let depth = |stroke: PartialStroke| tool.depth(&task.objects[stroke.object]);
-        let deepest = self.all().map(depth).fold(0.0, f64::max);
-        let scene = state.arch_scene(task, (tool, deepest), picked);
+        let deepest = self.strokes().map(depth).fold(0.0, f64::max);
+        // Before a turn after a pick, and after a turn before a place, the payload has another orientation.
+        let scenes = [self.turn_before.map(|turn| turn.from), self.turn_at_end.map(|turn| turn.to)]
+            .map(|angle| state.arch_scene(task, (tool, deepest), picked, angle));
         let during = |stroke: PartialStroke, is_raising: bool| {
             let lowered = tool.lowered(depth(stroke));
             let seconds = lowering_seconds(task, stroke.object);
@@ -79,7 +149,8 @@ impl Overlaps {
                 true => ([lowered, tool.joint.rest], times[0] + stroke.overlap - seconds),
                 false => ([tool.joint.rest, lowered], times[times.len() - 1] - stroke.overlap),
             };
-            let stroke = StrokeDuringMotion { scene: &scene, stroke: tool, ends, begin };
+            let scene = &scenes[usize::from(!is_raising)];
+            let stroke = StrokeDuringMotion { scene, stroke: tool, ends, begin };
             let keeps = clearance.is_finite() && stroke.keeps(motion, clearance);
             if keeps { None } else { stroke.check(motion) }
         };
@@ -103,6 +174,34 @@ impl Overlaps {
             CollisionCheck::Collision { first, deepest, .. } => [first, deepest].into_iter().for_each(renumber),
             CollisionCheck::Undecided(nearest) => renumber(nearest),
         }
+        let [scene, _] = scenes;
         Some((scene.swept, check))
     }
+}
+
+/// Returns the wrist, if it may turn objects while the arm moves.
+fn wrist_on_the_way(task: &Task) -> Option<Wrist> {
+    task.wrist.filter(|wrist| wrist.turns_on_the_way && !task.has_moving_obstacles())
+}
+
+/// Returns the faults of a step's own turn and strokes: the wrist turns during a motion that is not the one before a place
+/// or after a pick, or while the tool is not raised.
+pub(super) fn turn_faults(recorded: &RecordedStep, is_pick: bool, is_place: bool) -> Vec<Fault> {
+    let Some(RecordedTurn { seconds, overlap: turn, .. }) = recorded.turn else { return Vec::new() };
+    let RecordedOverlap { before_arrival, after_departure } = recorded.overlap;
+    let mut faults = Vec::new();
+    if (turn.before_arrival > 0.0 && !is_place) || (turn.after_departure > 0.0 && !is_pick) {
+        faults.push(Fault::TurnElsewhere);
+    }
+    let (stroke, turn) =
+        if is_pick { (after_departure, turn.after_departure) } else { (before_arrival, turn.before_arrival) };
+    if stroke > 0.0 && stroke > turn - seconds + TIME_TOLERANCE {
+        faults.push(Fault::TurnsLowered);
+    }
+    faults
+}
+
+/// Returns the part of a turn during which the arm rests, seconds.
+pub(super) fn turning_at_rest(turn: &RecordedTurn) -> f64 {
+    (turn.seconds - turn.overlap.before_arrival.max(turn.overlap.after_departure)).max(0.0)
 }

@@ -1,12 +1,12 @@
 //! The places of all objects between the steps of a record.
 
-use super::super::judge_given_turn;
+use super::super::{WristTurn, judge_given_turn, turn_angle, turn_profile};
 use super::{Fault, PLACE_TOLERANCE, ReplayedTurn, TIME_TOLERANCE, angle_between};
 use cplan_core::model::{Grip, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{
-    Action, ArchScene, Holding, Object, ObstacleTrajectory, Payload, RecordedTurn, Step, Stroke, Task,
+    Action, ArchScene, Holding, Object, ObstacleTrajectory, Payload, RecordedOverlap, RecordedTurn, Step, Stroke, Task,
 };
 
 /// The places of the objects, and the load.
@@ -112,9 +112,20 @@ impl State {
         task.lowered_scene(payload.object, is_placed, &self.poses, Some(payload), self.released)
     }
 
-    /// Returns the scenes for strokes down to a depth during a motion: see [`Task::arch_scene`].
-    pub fn arch_scene(&self, task: &Task, stroke: (&Stroke, f64), touched: Option<usize>) -> ArchScene {
-        task.arch_scene(stroke, &self.poses, self.held.as_ref(), self.released.into_iter().chain(touched))
+    /// Returns the scenes for strokes down to a depth during a motion: see [`Task::arch_scene`]. `angle` is the
+    /// orientation of a level payload, if it differs from the present one.
+    pub fn arch_scene(
+        &self,
+        task: &Task,
+        stroke: (&Stroke, f64),
+        touched: Option<usize>,
+        angle: Option<f64>,
+    ) -> ArchScene {
+        let mut held = self.held.clone();
+        if let (Some(Payload { grip: Grip::Level { angle: own, .. }, .. }), Some(angle)) = (&mut held, angle) {
+            *own = angle;
+        }
+        task.arch_scene(stroke, &self.poses, held.as_ref(), self.released.into_iter().chain(touched))
     }
 
     /// Forgets the object that was released last, since the arm has moved.
@@ -150,13 +161,30 @@ impl State {
             faults.push(Fault::Nothing);
             return None;
         };
-        let verdict = judge_given_turn(task, &workspace.fixed, payload, point, q, [turn.from, turn.to]);
+        let verdict = match angles_at_rest(task, &turn) {
+            [a, b] if a == b => Ok(WristTurn { from: turn.from, to: turn.to, clearance: f64::INFINITY }),
+            angles => {
+                let judged = judge_given_turn(task, &workspace.fixed, payload, point, q, angles);
+                judged.map(|free| WristTurn { from: turn.from, to: turn.to, ..free })
+            }
+        };
         let off = angle_between(turn.from, angle);
         if off > PLACE_TOLERANCE {
             faults.push(Fault::Turn { off });
         }
         payload.grip = Grip::Level { angle: angle + (turn.to - turn.from), point };
         Some(ReplayedTurn { turn, verdict })
+    }
+}
+
+/// Returns the orientations between which a payload is turned while the arm rests, radians.
+fn angles_at_rest(task: &Task, turn: &RecordedTurn) -> [f64; 2] {
+    let RecordedTurn { from, to, seconds, overlap } = *turn;
+    let Some(wrist) = task.wrist.filter(|_| overlap != RecordedOverlap::default()) else { return [from, to] };
+    let angle = |since: f64| turn_angle(&turn_profile(&wrist, (to - from).abs(), seconds), [from, to], since);
+    match overlap.after_departure > 0.0 {
+        true => [from, angle(seconds - overlap.after_departure)],
+        false => [angle(overlap.before_arrival), to],
     }
 }
 
