@@ -113,3 +113,21 @@ def test_the_height_of_the_tool_is_shown_in_time(program, show_file):
     # A task without strokes has no strip of heights.
     page, _ = program.plan("rrbot_vertical", "tasks/tower")
     assert show_file(page).page.locator(".height").is_hidden()
+
+
+def test_the_turns_of_the_wrist_are_shown_in_time(program, show_file):
+    page, plan = program.plan("gantry", "tasks/board_turned")
+    seen = show_file(page)
+    turns = seen.do("cplan.model.turns")
+    canvas = seen.page.locator(".turns canvas")
+    assert canvas.is_visible() and "from 0 to 90 \u00b0" in canvas.get_attribute("aria-label")
+    # The board has the angle of the pick when it is grasped, and that of the place when it is released.
+    pick = next(step for step in plan["steps"] if step["turn"])
+    begin = pick["end"] + pick["turn"]["after_departure"] - pick["turn"]["seconds"]
+    angle = lambda time: seen.do("(time) => { cplan.seek(time); return Height.turnedTo(cplan) ?? null; }", time)
+    middle = begin + pick["turn"]["seconds"] / 2
+    assert math.isclose(angle(begin), 0, abs_tol=1e-3) and math.isclose(angle(middle), math.pi / 4, abs_tol=1e-2)
+    assert angle(middle + pick["turn"]["seconds"]) is None and len(turns["turns"]) == 1
+    # A task without turns has no strip of turns.
+    page, _ = program.plan("rrbot_vertical", "tasks/tower")
+    assert show_file(page).page.locator(".turns").is_hidden()

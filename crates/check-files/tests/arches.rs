@@ -274,8 +274,14 @@ fn the_least_heights_of_the_world_are_kept() {
     assert_refused(with("arch = { rise = -0.1 }", strokes), "negative");
     assert_refused(with("arch = { fall = -1e-9 }", [""; 3]), "negative");
     assert_refused(with("arch = { height = 0.1 }", strokes), "does not know [robot] arch, height");
-    let without = world("arch = true", &block(0.05)).replace("stroke = { joint = \"z\" }\n", "");
-    assert_refused(judge_in(GANTRY, &without, &[""; 3]), "needs a joint that lowers the tool");
+    // Without a stroke there are no heights. A switch says whether the wrist turns during motions.
+    let without = |arch: &str| {
+        let world = world(arch, &block(0.05)).replace("stroke = { joint = \"z\" }\n", "");
+        [judge_in(GANTRY, &world, &[""; 3]), judge_in(GANTRY, &world.replace("wrist =", "# "), &[""; 3])]
+    };
+    assert_holds(without("arch = true")[0].clone());
+    assert_refused(without("arch = true")[1].clone(), "needs a joint that lowers the tool");
+    assert_refused(without("arch = { rise = 0.1 }")[0].clone(), "needs a joint that lowers the tool");
 }
 
 #[test]

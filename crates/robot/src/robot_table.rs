@@ -69,7 +69,7 @@ pub struct RobotTable {
     /// Motion of the tool down and up at picks and places; by default it does not move.
     #[schemars(with = "Option<StrokeTable>")]
     pub stroke: Option<StrokeTable>,
-    /// Overlap of strokes with motions of the arm.
+    /// Overlap of strokes and turns of the wrist with motions of the arm.
     #[schemars(with = "Option<ArchValue>")]
     pub(crate) arch: Option<Spanned<ArchValue>>,
     /// How objects are held unless they say otherwise; by default "rigid".
@@ -88,6 +88,12 @@ impl RobotTable {
     #[must_use]
     pub fn wrist_joint(&self) -> Option<&Spanned<String>> {
         self.wrist.as_ref()?.joint.as_ref()
+    }
+
+    /// Returns true if strokes and turns of the wrist may overlap with motions of the arm, which is the default.
+    #[must_use]
+    pub fn allows_arches(&self) -> bool {
+        !matches!(self.arch.as_ref().map(Spanned::get_ref), Some(ArchValue::Switch(false)))
     }
 
     /// Returns true if links of the robot are obstacles to its other links, which is the default.

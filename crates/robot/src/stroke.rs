@@ -30,11 +30,11 @@ pub struct StrokeTable {
 }
 
 /// Least heights that the tool rises before the arm moves, and below which the tool moves only while the arm is at rest; by
-/// default both 0. With false, the arm is at rest during strokes.
+/// default both 0. With false, the arm is at rest during strokes and turns of the wrist.
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(inline, untagged)]
 pub enum ArchValue {
-    /// False if the arm is at rest during strokes; true for the default heights.
+    /// False if the arm is at rest during strokes and turns of the wrist; true for the default heights.
     Switch(bool),
     /// Least heights.
     Heights(ArchTable),

@@ -11,7 +11,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// The wrist's limits.
+/// The wrist's limits. It keeps the orientation of objects that are carried level, and turns them before a place with
+/// another angle. It turns while the arm moves, as far as that is free and both motions together are within these limits;
+/// with `arch = false`, while the arm is at rest.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "wrist")]
@@ -28,15 +30,16 @@ pub struct WristTable {
 }
 
 impl WristTable {
-    /// Reads the wrist's limits. `source` is the file with the table.
+    /// Reads the wrist's limits. `source` is the file with the table. The wrist may turn objects while the arm moves if
+    /// `turns_on_the_way` is true.
     ///
     /// # Errors
     /// A limit that is not positive or not finite.
-    pub fn read(&self, source: &Source) -> Result<Wrist, Diagnostic> {
+    pub fn read(&self, source: &Source, turns_on_the_way: bool) -> Result<Wrist, Diagnostic> {
         let velocity = positive(source, &self.velocity, "velocity")?;
         let acceleration = self.acceleration.as_ref().map(|a| positive(source, a, "acceleration")).transpose()?;
         let acceleration = acceleration.unwrap_or(assumed_acceleration(velocity));
-        Ok(Wrist { velocity, acceleration, turns_on_the_way: false })
+        Ok(Wrist { velocity, acceleration, turns_on_the_way })
     }
 
     /// Returns a note about the acceleration limit. `None` if the file states the limit.

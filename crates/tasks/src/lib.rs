@@ -64,6 +64,7 @@ mod search;
 mod sequence;
 mod state;
 mod stroke;
+mod timed_turn;
 
 pub use answer::{Event, Leg, TaskAnswer, TaskMotion};
 pub use arch::Overlap;
@@ -73,3 +74,4 @@ pub use plan::plan;
 pub use replay::{MotionReplay, TaskReplay};
 pub use sequence::Sequence;
 pub use stroke::ToolStroke;
+pub use timed_turn::TimedTurn;

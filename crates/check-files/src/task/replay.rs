@@ -2,13 +2,13 @@
 
 mod arch;
 mod held;
+mod turning;
 
 use super::order::MatchedStep;
-use super::stroke::StrokeCurve;
 use crate::robot::Robot;
 use crate::robot::tool::{LiftAxis, displaced, penetration_depth_allowed, swept_heights};
 use crate::world::task::{Action, RESTING_DECIMALS, Step, Task};
-use arch::Overlaps;
+use arch::EndCurves;
 use cplan_check::CheckError;
 use cplan_check::arm::Arm;
 use cplan_check::certificate::Motion;
@@ -62,8 +62,8 @@ pub(super) struct Replay<'a> {
     held: Option<HeldObject>,
     /// The joint that lowers the tool.
     lift: Option<LiftAxis>,
-    /// The stroke after the previous step, if it ends during the motion of the next one.
-    raising: Option<StrokeCurve>,
+    /// The stroke and the turn after the previous step, if they end during the motion of the next one.
+    before: EndCurves,
     /// Index among the obstacles of the object that was released last. `None` if it must not be touched any more.
     released: Option<usize>,
     /// Greatest deviation so far of an object or the tip from its required place.
@@ -119,7 +119,7 @@ impl<'a> Replay<'a> {
             knot: 0,
             held: None,
             lift: task.stroke.as_ref().map(|stroke| robot.lift_axis(&stroke.joint)).transpose()?,
-            raising: None,
+            before: EndCurves::default(),
             released: None,
             off: BigInt::ZERO,
         })
@@ -146,7 +146,9 @@ impl<'a> Replay<'a> {
             self.free(&self.pieces(self.knot..done.knots[0])?, &at, None, ToolHeights::Raised)?;
             // While the tool still rises, these objects count at both places.
             let pieces = self.pieces(done.knots[0]..done.knots[1])?;
-            self.free_during_strokes(self.raising.as_ref(), None, &pieces, None)?;
+            let before = std::mem::take(&mut self.before);
+            self.free_during_overlaps([&before, &EndCurves::default()], &pieces, None)?;
+            self.before = before;
         }
         for object in renewed {
             let number = self.task.first + object;
@@ -172,10 +174,10 @@ impl<'a> Replay<'a> {
             _ => None,
         };
         self.free(&pieces, &from, target, ToolHeights::Raised)?;
-        let Overlaps { lowering, raising } = self.overlaps(matched, after.first())?;
-        let raising_before = std::mem::replace(&mut self.raising, raising);
+        let [own, next] = self.overlaps(matched, after.first())?;
+        let before = std::mem::replace(&mut self.before, next);
         let moving = self.pieces(done.knots[0]..last)?;
-        self.free_during_strokes(raising_before.as_ref(), lowering.as_ref(), &moving, target)?;
+        self.free_during_overlaps([&before, &own], &moving, target)?;
         match &step.action {
             Action::Pick { object, grasp, supports, passing } => {
                 let places = |step: &&Step| matches!(step.action, Action::Place { .. });

@@ -1,4 +1,5 @@
-//! Strokes that overlap with motions of the arm: the height of the tool as a function of time.
+//! Strokes and turns that overlap with motions of the arm: the height of the tool, or the angle of the carried object,
+//! as a function of time.
 
 use crate::robot::tool::LiftAxis;
 use cplan_check::CheckError;
@@ -6,15 +7,17 @@ use cplan_check::decimal::Decimal;
 use cplan_check::interval::Interval;
 use num_bigint::{BigInt, Sign};
 
-/// Number of decimals of the tolerance of heights in strokes: `10^-9` m, for rounding in certificates.
+/// Number of decimals of the tolerance of heights in strokes and of angles in turns: `10^-9` m or radians, for rounding in
+/// certificates.
 const HEIGHT_TOLERANCE_DECIMALS: u32 = 9;
 
-/// A stroke: cubic curves of the tool's height that never turn back. Heights are relative to the raised tool.
+/// A stroke: cubic curves of the tool's height that never turn back. Heights are relative to the raised tool. Or a turn:
+/// its angles take the place of heights.
 pub(super) struct StrokeCurve {
     /// Times of the knots, seconds after the start of the motion.
     times: Vec<Decimal>,
     heights: Vec<Interval>,
-    /// Velocities along the plane's normal.
+    /// Velocities along the plane's normal, or angular velocities.
     rates: Vec<Interval>,
 }
 
@@ -39,10 +42,38 @@ impl StrokeCurve {
         axis: &LiftAxis,
         ends: [&Interval; 2],
     ) -> Result<Self, CheckError> {
+        let curve = Self::of_knots(knots, start, |value| axis.height(value), |rate| axis.upward(rate))?;
+        let [first, last] = ends;
+        if !are_equal(&curve.heights[0], first) || !are_equal(&curve.heights[knots.len() - 1], last) {
+            return CheckError::fails("it does not lead from the raised to the lowered height, or back");
+        }
+        Ok(curve)
+    }
+
+    /// Makes a turn from its knots, whose clock shows `start` when the motion starts. Angles are relative to the beginning
+    /// of the turn. It must end at the angle `by`.
+    ///
+    /// # Errors
+    /// Same as for [`StrokeCurve::new`].
+    pub(super) fn turn(knots: &[[Decimal; 3]], start: &Decimal, by: &Decimal) -> Result<Self, CheckError> {
+        let curve = Self::of_knots(knots, start, |angle| Interval::from(angle), |rate| rate.clone())?;
+        let ends = [Interval::whole(0), Interval::from(by)];
+        if !are_equal(&curve.heights[0], &ends[0]) || !are_equal(&curve.heights[knots.len() - 1], &ends[1]) {
+            return CheckError::fails("it does not lead from angle 0 to the angle of the turn");
+        }
+        Ok(curve)
+    }
+
+    fn of_knots(
+        knots: &[[Decimal; 3]],
+        start: &Decimal,
+        height: impl Fn(&Decimal) -> Interval,
+        upward: impl Fn(&Interval) -> Interval,
+    ) -> Result<Self, CheckError> {
         let [[_, first, v], .., [_, last, w]] = knots else { return CheckError::fails("it has fewer than two knots") };
         let along = last - first;
         if [v, w].iter().any(|rate| rate.sign() != Sign::NoSign) || along.sign() == Sign::NoSign {
-            return CheckError::fails("it does not lead from rest to rest at another height");
+            return CheckError::fails("it does not lead from rest to rest at another value");
         }
         let goes_back = |rate: &Decimal| (rate * &along).sign() == Sign::Minus;
         for (k, pair) in knots.windows(2).enumerate() {
@@ -57,16 +88,11 @@ impl StrokeCurve {
                 return CheckError::fails(format!("it turns back after its knot {k}"));
             }
         }
-        let curve = Self {
+        Ok(Self {
             times: knots.iter().map(|[time, ..]| time - start).collect(),
-            heights: knots.iter().map(|[_, value, _]| axis.height(value)).collect(),
-            rates: knots.iter().map(|[.., rate]| axis.upward(&Interval::from(rate))).collect(),
-        };
-        let [first, last] = ends;
-        if !are_equal(&curve.heights[0], first) || !are_equal(&curve.heights[knots.len() - 1], last) {
-            return CheckError::fails("it does not lead from the raised to the lowered height, or back");
-        }
-        Ok(curve)
+            heights: knots.iter().map(|[_, value, _]| height(value)).collect(),
+            rates: knots.iter().map(|[.., rate]| upward(&Interval::from(rate))).collect(),
+        })
     }
 
     pub(super) fn begin(&self) -> &Decimal {

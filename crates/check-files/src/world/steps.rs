@@ -79,11 +79,13 @@ impl Reader<'_> {
         }
         let steps = reading.group(steps, manner, &dwell)?;
         let stroke = own("stroke").map(|value| self.stroke(value, own("arch"))).transpose()?;
-        if let (None, Some(arch)) = (&stroke, own("arch")) {
+        let switch = own("arch").map(|arch| arch.get_ref().as_bool());
+        if let (None, Some(arch), true) = (&stroke, own("arch"), own("wrist").is_none() || switch == Some(None)) {
             return self.error(arch, "[robot] arch needs a joint that lowers the tool");
         }
+        let turns_on_the_way = switch != Some(Some(false));
         let joint = |value| self.table(value)?.get("joint").map(|name| self.text(name)).transpose();
-        let wrist = own("wrist").map(|value| Ok(Wrist { joint: joint(value)? })).transpose()?;
+        let wrist = own("wrist").map(|value| Ok(Wrist { joint: joint(value)?, turns_on_the_way })).transpose()?;
         Ok(Some(Task { first, objects, steps, wrist, stroke }))
     }
 

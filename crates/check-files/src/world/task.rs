@@ -38,6 +38,8 @@ pub struct Object {
 /// The wrist that keeps the orientation of level objects and turns them, with its joint if the world names one.
 pub struct Wrist {
     pub joint: Option<String>,
+    /// True if the wrist may turn objects while the arm moves.
+    pub turns_on_the_way: bool,
 }
 
 /// The joint that lowers the tool, and the distance by which it does. If the distance is `None`, it is the distance by
@@ -110,6 +112,7 @@ pub enum Action {
 }
 
 /// Rules that apply from a pick to the next place step.
+#[derive(Clone)]
 pub struct CarryRules {
     /// Obstacles that the object may touch.
     pub supports: Vec<usize>,

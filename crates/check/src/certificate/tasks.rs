@@ -11,8 +11,10 @@ pub struct ExecutedStep {
     pub step: usize,
     /// Indices of the first and the last knot of the step's motion.
     pub knots: [usize; 2],
-    /// Angle, radians, by which the wrist turns the load to the left after the motion, while the arm is at rest.
+    /// Angle, radians, by which the wrist turns the load to the left, before a place or after a pick.
     pub turn: Option<Decimal>,
+    /// Knots of the turn: time, angle so far and angular velocity. `None` if the arm rests during the turn.
+    pub turning: Option<Vec<[Decimal; 3]>>,
     /// Knots of the stroke that lowers the tool: time, value and velocity of the stroke's joint. `None` if the arm rests
     /// during this stroke.
     pub lowering: Option<Vec<[Decimal; 3]>>,

@@ -5,6 +5,7 @@ use super::{NoCertificate, lines};
 use crate::result::StepReport;
 use cplan_geometry::can_inset_union;
 use cplan_handling::{Action, Object, Payload, RecordedStep, Step, Stroke, Task};
+use cplan_motion::recorded::turn_profile;
 use cplan_motion::single;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -13,7 +14,15 @@ use std::collections::BTreeSet;
 /// result.
 pub(super) fn steps(task: &Task, steps: &[StepReport]) -> (&'static str, String) {
     let step = |step: &StepReport| {
-        let turn = step.turn.as_ref().map(|turn| turn.to - turn.from);
+        let turn = step.turn.as_ref().map(|turn| Turn {
+            by: turn.to - turn.from,
+            seconds: turn.seconds,
+            begin: match (turn.before_arrival > 0.0, turn.after_departure > 0.0) {
+                (true, _) => Some(step.arrival - turn.before_arrival),
+                (_, true) => Some(step.end + turn.after_departure - turn.seconds),
+                _ => None,
+            },
+        });
         let knots = [step.first_sample, step.last_sample].map(Option::unwrap_or_default);
         let overlaps = step.stroke.map(|stroke| Overlaps {
             lowered: stroke.lowered,
@@ -40,7 +49,16 @@ pub(super) fn steps_of_recording(task: &Task, steps: &[RecordedStep], times: &[f
             lowering: Some(times[knots[1]] - overlap.before_arrival).filter(|_| overlap.before_arrival > 0.0),
             raised_at: Some(times[departure] + overlap.after_departure).filter(|_| overlap.after_departure > 0.0),
         });
-        done(task, (step.number, knots), step.turn.map(|turn| turn.to - turn.from), overlaps)
+        let turn = step.turn.map(|turn| Turn {
+            by: turn.to - turn.from,
+            seconds: turn.seconds,
+            begin: match (turn.overlap.before_arrival > 0.0, turn.overlap.after_departure > 0.0) {
+                (true, _) => Some(times[knots[1]] - turn.overlap.before_arrival),
+                (_, true) => Some(times[departure] + turn.overlap.after_departure - turn.seconds),
+                _ => None,
+            },
+        });
+        done(task, (step.number, knots), turn, overlaps)
     };
     ("steps", lines(&steps.iter().enumerate().map(&mut step).collect::<Vec<_>>()))
 }
@@ -55,10 +73,24 @@ struct Overlaps {
     raised_at: Option<f64>,
 }
 
-fn done(task: &Task, (step, knots): (usize, [usize; 2]), turn: Option<f64>, overlaps: Option<Overlaps>) -> Value {
+/// A turn of the wrist.
+struct Turn {
+    /// Signed angle, radians.
+    by: f64,
+    /// Duration, in seconds.
+    seconds: f64,
+    /// Time at which it begins, in seconds. `None` if the arm rests during the whole turn.
+    begin: Option<f64>,
+}
+
+fn done(task: &Task, (step, knots): (usize, [usize; 2]), turn: Option<Turn>, overlaps: Option<Overlaps>) -> Value {
     let mut done = json!({ "step": step, "knots": knots });
-    if let Some(turn) = turn {
-        done["turn"] = json!(turn);
+    if let Some(Turn { by, seconds, begin }) = turn {
+        done["turn"] = json!(by);
+        if let Some((begin, wrist)) = begin.zip(task.wrist) {
+            let profile = turn_profile(&wrist, by.abs(), seconds);
+            done["turning"] = json!(knots_of(profile, begin, [0.0, by]));
+        }
     }
     if let (Some(stroke), Some(Overlaps { lowered, lowering, raised_at })) = (&task.stroke, overlaps) {
         let raised = stroke.joint.rest;
@@ -76,8 +108,14 @@ fn done(task: &Task, (step, knots): (usize, [usize; 2]), turn: Option<f64>, over
 /// Returns the knots of a stroke between two values of its joint: time in seconds, value, and velocity. Cubics join
 /// them.
 fn stroke_knots(stroke: &Stroke, [from, to]: [f64; 2], begin: f64) -> Vec<[f64; 3]> {
+    knots_of(single((to - from).abs(), stroke.velocity, stroke.acceleration), begin, [from, to])
+}
+
+/// Returns the knots of a motion of one joint between two values: time in seconds, value, and velocity. `phases` are
+/// seconds since the beginning, distance and speed at the ends of its phases.
+fn knots_of(phases: Vec<[f64; 3]>, begin: f64, [from, to]: [f64; 2]) -> Vec<[f64; 3]> {
     let sign = (to - from).signum();
-    let mut knots: Vec<[f64; 3]> = single((to - from).abs(), stroke.velocity, stroke.acceleration)
+    let mut knots: Vec<[f64; 3]> = phases
         .into_iter()
         .map(|[time, distance, speed]| [begin + time, from + sign * distance, sign * speed + 0.0])
         .collect();

@@ -1,7 +1,7 @@
 //! Motions of all joints of the robot during a task, for messages that name them.
 //!
-//! The arm moves with the tool raised, except where a stroke overlaps with the motion. While the arm stands still, the
-//! wrist turns, and the tool is lowered and raised.
+//! The arm moves with the tool raised, and the wrist does not turn the payload, except where a stroke or a turn overlaps
+//! with the motion. While the arm stands still, the wrist turns, and the tool is lowered and raised.
 //! If the world names the wrist's joint, that joint compensates the rotation of link 2, so that level payloads keep
 //! their orientation. Without a payload, it returns towards its rest position during the motion, as far as its limits
 //! allow.
@@ -9,6 +9,7 @@
 use cplan_core::model::JointType;
 use cplan_core::space::JointRange;
 use cplan_handling::{Derivative, Driver, Drives, Holding, Piece, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
+use cplan_motion::recorded::turn_profile;
 use cplan_motion::{AccelerationJump, JointMotion, nanoseconds, seconds, single, whole_nanoseconds};
 use cplan_tasks::{Event, Leg, Sequence};
 use thiserror::Error;
@@ -51,7 +52,8 @@ pub struct Messages {
     /// The motion of the whole task, including the times at which the arm stands still.
     pub whole: JointMotion,
     /// For each step, the time in seconds at which it begins, and its motion until all of the joints are at rest. If the
-    /// arm departs while the tool is still raised for the step before, the motion begins with that raising.
+    /// arm departs while the tool is still raised or turned for the step before, the motion begins with that raising or
+    /// turn.
     pub steps: Vec<(f64, JointMotion)>,
 }
 
@@ -62,16 +64,19 @@ impl Messages {
     /// Creates the messages for the steps of a sequence. They have accelerations of the arm, but none of the tool.
     pub fn new(robot: &RobotJoints, task: &Task, legs: &[Leg], sequence: &Sequence) -> Result<Self, MessageError> {
         let wrist = robot.wrist.as_ref().map_or(0.0, |joint| joint.rest);
-        let mut tool = Tool { robot, task, wrist, strokes: Vec::new() };
+        let mut tool = Tool { robot, task, wrist, turned: 0.0, strokes: Vec::new(), turns: Vec::new() };
         let mut rows = Rows::default();
         let mut begins = Vec::new();
         for (index, leg) in legs.iter().enumerate() {
             let times = sequence.times(index).map(nanoseconds);
             let raising = tool.strokes.last().filter(|_| leg.overlap.raising > 0.0);
-            begins.push(raising.map_or(times[0], |raising| raising.begin));
+            let turning = tool.turns.last().filter(|_| leg.overlap.turn_after_departure > 0.0);
+            begins.push(raising.or(turning).map_or(times[0], |before| before.begin));
             tool.rows(leg, times).0.iter().for_each(|row| rows.push(*row));
         }
+        rows.add_changes(tool.strokes.iter().chain(&tool.turns));
         rows.add_strokes(&tool.strokes);
+        rows.add_turns(&tool.turns);
         tool.check(&rows)?;
         let step = |index: usize| {
             let end = begins.get(index + 1).copied().unwrap_or(u64::MAX);
@@ -86,12 +91,12 @@ impl Messages {
 /// this time, the stroke between rows deviates from its profile by less than a nanometre.
 const MIN_ROW_GAP: u64 = 1_000;
 
-/// A stroke of the tool, down or up.
+/// A stroke of the tool, down or up, or a turn of the wrist.
 #[derive(Debug, Clone)]
 struct TimedStroke {
     /// Time at which it begins, nanoseconds.
     begin: u64,
-    /// The joint's values at both ends, metres.
+    /// The joint's values at both ends, metres or radians. For a turn, they count from its beginning.
     ends: [f64; 2],
     /// Seconds since the beginning, distance and speed at the ends of phases of constant acceleration.
     phases: Vec<[f64; 3]>,
@@ -190,10 +195,9 @@ impl Rows {
         self.0.push(row);
     }
 
-    /// Adds strokes to rows in which the tool is at rest: values in all rows, and further rows where a stroke's
-    /// acceleration changes.
-    fn add_strokes(&mut self, strokes: &[TimedStroke]) {
-        for change in strokes.iter().flat_map(TimedStroke::changes) {
+    /// Adds further rows where the acceleration of a stroke or a turn changes.
+    fn add_changes<'a>(&mut self, strokes: impl Iterator<Item = &'a TimedStroke>) {
+        for change in strokes.flat_map(TimedStroke::changes) {
             let next = self.0.partition_point(|row| row.at < change);
             let (Some(before), Some(after)) = (next.checked_sub(1), self.0.get(next)) else { continue };
             if change - self.0[before].at > MIN_ROW_GAP && after.at - change > MIN_ROW_GAP {
@@ -201,10 +205,30 @@ impl Rows {
                 self.0.insert(next, row);
             }
         }
+    }
+
+    /// Adds strokes to rows in which the tool is raised.
+    fn add_strokes(&mut self, strokes: &[TimedStroke]) {
         for row in &mut self.0 {
             let begun = strokes.partition_point(|stroke| stroke.begin <= row.at);
             if let Some(stroke) = begun.checked_sub(1).map(|last| &strokes[last]) {
                 [row.value.stroke, row.rate.stroke] = stroke.at(row.at);
+            }
+        }
+    }
+
+    /// Adds turns to rows in which the wrist only compensates the rotation of link 2.
+    fn add_turns(&mut self, turns: &[TimedStroke]) {
+        let (mut done, mut turned) = (0, 0.0);
+        for row in &mut self.0 {
+            while turns.get(done + 1).is_some_and(|next| next.begin <= row.at) {
+                turned += turns[done].ends[1];
+                done += 1;
+            }
+            if let Some(turn) = turns.get(done).filter(|turn| turn.begin <= row.at) {
+                let [angle, rate] = turn.at(row.at);
+                row.value.wrist += turned + angle;
+                row.rate.wrist += rate;
             }
         }
     }
@@ -232,10 +256,14 @@ impl Rows {
 struct Tool<'a> {
     robot: &'a RobotJoints,
     task: &'a Task,
-    /// The value of the wrist's joint.
+    /// The value of the wrist's joint without the turns so far, radians.
     wrist: f64,
+    /// Sum of the turns so far, radians.
+    turned: f64,
     /// The strokes so far, in chronological order.
     strokes: Vec<TimedStroke>,
+    /// The turns so far, in chronological order.
+    turns: Vec<TimedStroke>,
 }
 
 impl Tool<'_> {
@@ -256,23 +284,22 @@ impl Tool<'_> {
         }
         let Some(&Row { value, .. }) = rows.0.last() else { return rows };
         self.wrist = value.wrist;
-        let mut still = Row { at: arrival, value, rate: Drives::default(), acceleration: [0.0; 2] };
         // In a place step, the wrist turns before the tool is lowered. In a pick, it turns after the tool has been
         // raised.
         let places = matches!(leg.event, Some(Event::Release { .. }));
+        let mut at = arrival - nanoseconds(leg.overlap.arrival());
         if places {
-            self.turn(leg, &mut still, &mut rows);
+            self.turn(leg, &mut at);
         }
-        still.at -= nanoseconds(leg.overlap.lowering);
-        self.stroke(leg, false, &mut still);
-        still.at += nanoseconds(whole_nanoseconds(leg.step.dwell));
-        self.stroke(leg, true, &mut still);
+        self.stroke(leg, false, &mut at);
+        at += nanoseconds(whole_nanoseconds(leg.step.dwell));
+        self.stroke(leg, true, &mut at);
         if !places {
-            self.turn(leg, &mut still, &mut rows);
+            self.turn(leg, &mut at);
         }
         // The whole motion ends with the sequence, in the same nanosecond.
         rows.0.pop_if(|last| last.at >= end);
-        rows.push(Row { at: end, ..still });
+        rows.push(Row { at: end, value, rate: Drives::default(), acceleration: [0.0; 2] });
         rows
     }
 
@@ -291,7 +318,7 @@ impl Tool<'_> {
                 if duration == 0.0 {
                     return [self.wrist, 0.0];
                 }
-                let distance = reachable_part(joint.rest - self.wrist, duration, limits);
+                let distance = reachable_part(joint.rest - self.wrist - self.turned, duration, limits);
                 let u = trajectory.time[k] / duration;
                 [self.wrist + distance * u * u * (3.0 - 2.0 * u), distance * 6.0 * u * (1.0 - u) / duration]
             }
@@ -307,32 +334,30 @@ impl Tool<'_> {
         of(0) + of(1)
     }
 
-    /// Adds rows in which the wrist turns and everything else stands still.
-    fn turn(&mut self, leg: &Leg, still: &mut Row, rows: &mut Rows) {
+    /// Records that the wrist turns the payload, and advances the time to the end of the turn.
+    fn turn(&mut self, leg: &Leg, at: &mut u64) {
         let (Some((turn, seconds)), Some(limits)) = (leg.turn, self.task.wrist) else { return };
-        let Some(joint) = &self.robot.wrist else {
-            still.at += nanoseconds(seconds);
-            return;
-        };
-        let sign = joint.sign * (turn.to - turn.from).signum();
-        let from = *still;
-        for [time, distance, speed] in single((turn.to - turn.from).abs(), limits.velocity, limits.acceleration) {
-            still.at = from.at + nanoseconds(time);
-            still.value.wrist = from.value.wrist + sign * distance;
-            rows.push(Row { rate: Drives { wrist: sign * speed, ..Drives::default() }, ..*still });
+        if let Some(joint) = &self.robot.wrist {
+            let by = joint.sign * (turn.to - turn.from);
+            self.turns.push(TimedStroke {
+                begin: *at,
+                ends: [0.0, by],
+                phases: turn_profile(&limits, by.abs(), seconds),
+            });
+            self.turned += by;
         }
-        self.wrist = still.value.wrist;
+        *at += nanoseconds(seconds);
     }
 
     /// Records that the tool is lowered or raised, and advances the time to the end of the stroke.
-    fn stroke(&mut self, leg: &Leg, up: bool, still: &mut Row) {
+    fn stroke(&mut self, leg: &Leg, up: bool, at: &mut u64) {
         let (Some(stroke), Some(limits)) = (leg.stroke, &self.task.stroke) else { return };
         let ends = if up { [stroke.lowered, stroke.raised] } else { [stroke.raised, stroke.lowered] };
         if self.robot.stroke.is_some() {
             let phases = single((ends[1] - ends[0]).abs(), limits.velocity, limits.acceleration);
-            self.strokes.push(TimedStroke { begin: still.at, ends, phases });
+            self.strokes.push(TimedStroke { begin: *at, ends, phases });
         }
-        still.at += nanoseconds(stroke.seconds);
+        *at += nanoseconds(stroke.seconds);
     }
 
     /// Checks that the wrist's joint stays within its range and below its top speed.

@@ -34,7 +34,7 @@ impl From<&Action> for ActionName {
     }
 }
 
-/// A turn of the wrist while the arm stands still.
+/// A turn of the wrist. The arm stands still, except in the overlaps.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TurnReport {
     /// Orientation of the object at the beginning, radians.
@@ -42,11 +42,26 @@ pub struct TurnReport {
     /// Orientation of the object at the end, in radians. The sign of its difference from `from` is the direction of the
     /// turn.
     pub to: f64,
-    /// Duration of the turn, in seconds.
+    /// Duration of the turn, in seconds. The wrist turns with its fastest motion, or with that motion stretched evenly in
+    /// time.
     pub seconds: f64,
-    /// Proven lower bound on the distance between the object and obstacles, metres. `None` if no obstacle is within
+    /// Time from the beginning of the turn before a place to the arrival of the arm, in seconds. 0 if the arm arrives
+    /// first.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub before_arrival: f64,
+    /// Time from the beginning of the next motion to the end of the turn after a pick, in seconds. 0 if the arm departs
+    /// later.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub after_departure: f64,
+    /// Proven lower bound on the distance between the object and obstacles while the arm stands still, metres. `None` if no obstacle is within
     /// reach.
     pub clearance: Option<f64>,
+}
+
+/// Returns true for an overlap of no time, which is omitted.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_zero(seconds: &f64) -> bool {
+    *seconds == 0.0
 }
 
 /// The stroke of the tool. The tool is lowered, the gripper acts, and the tool is raised. The arm stands still, except in
@@ -102,7 +117,7 @@ pub struct StepReport {
     /// line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deviation: Option<f64>,
-    /// The turn of the wrist after the motion.
+    /// The turn of the wrist after a pick or before a place.
     pub turn: Option<TurnReport>,
     /// The stroke of the tool at the end of the motion. `None` if the world has no stroke.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -143,6 +158,8 @@ impl StepReport {
                 from,
                 to,
                 seconds,
+                before_arrival: leg.overlap.turn_before_arrival,
+                after_departure: legs.get(index + 1).map_or(0.0, |next| next.overlap.turn_after_departure),
                 clearance: finite(clearance),
             }),
             stroke: leg.stroke.map(|ToolStroke { raised, lowered, seconds, clearance }| StrokeReport {

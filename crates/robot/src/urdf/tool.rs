@@ -46,7 +46,12 @@ impl Reduction<'_> {
     pub fn robot_joints(&self, plane: &Plane) -> Result<RobotJoints, Diagnostic> {
         let chooser = Chooser { document: self.document, tree: self.tree, settings: self.settings };
         let robot = &self.settings.table;
-        if let Some(arch) = robot.arch.as_ref().filter(|_| robot.stroke.is_none()) {
+        // A switch also says whether the wrist turns during motions.
+        let is_needless = |arch: &&Spanned<ArchValue>| {
+            let is_switch = matches!(arch.get_ref(), ArchValue::Switch(_));
+            robot.stroke.is_none() && !(is_switch && robot.wrist.is_some())
+        };
+        if let Some(arch) = robot.arch.as_ref().filter(is_needless) {
             let message = "[robot] arch needs a joint that lowers the tool";
             let help = "add stroke = { joint = \"NAME\" }, or remove arch";
             return Err(self.settings.source.diagnostic_at(arch.span(), message).help(help));

@@ -1,12 +1,12 @@
 //! The scene of a recording: the arm's links, obstacles and objects, and their places over time.
 
-use cplan_core::model::{Obstacle, Part};
+use cplan_core::model::{Grip, Obstacle, Part};
 use cplan_core::space::Configuration;
 use cplan_engine::{Detail, Plan};
 use cplan_geometry::Pose;
 use cplan_handling::{ObstacleTrajectory, Task};
 use cplan_motion::{Body, Solid, Stage};
-use cplan_tasks::{Event, Leg, TaskAnswer};
+use cplan_tasks::{Event, Leg, TaskAnswer, TimedTurn};
 use cplan_theme::{GRAY, INK, Rgb, obstacle as obstacle_color};
 
 /// Index of the first link among the bodies of the recording. The workspace has index 0.
@@ -92,12 +92,19 @@ fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f6
             stage.poses.extend(moves.map(|&time| (time, FIRST_OBJECT + number, trajectory.pose(time), 0.0)));
         }
     }
+    let turns = TimedTurn::all(task, &answer.legs);
     for leg in &answer.legs {
         if let (Some(object), Some(payload)) = (leg.carried, leg.scene.attachment()) {
             let lift = task.objects[object].lift;
             let motion = &leg.timed.trajectory;
             stage.poses.extend(motion.time.iter().zip(&motion.position).map(|(&time, &q)| {
-                (leg.begin + time, FIRST_OBJECT + object, payload.grip.pose(&task.arm, Configuration::from(q)), lift)
+                let mut grip = payload.grip;
+                if let (Grip::Level { angle, .. }, Some(turned)) =
+                    (&mut grip, TimedTurn::angle_of(&turns, object, leg.begin + time))
+                {
+                    *angle = turned;
+                }
+                (leg.begin + time, FIRST_OBJECT + object, grip.pose(&task.arm, Configuration::from(q)), lift)
             }));
         }
         if let (Some(Event::Release { object, pose }), Some(time)) = (leg.event, leg.event_time()) {

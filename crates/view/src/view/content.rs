@@ -1,7 +1,7 @@
 //! The content of pictures and pages.
 
 use super::arm;
-use super::height::HeightView;
+use super::height::{HeightView, TurnsView};
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::Chain;
 use super::phase::{MotionReplayView, PhaseView};
@@ -87,6 +87,9 @@ pub struct View {
     /// The strip of the tool's height. `None` unless the tool is lowered.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) height: Option<HeightView>,
+    /// The strip of the wrist's turns. `None` unless it turns.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) turns: Option<TurnsView>,
     /// The phases of the planner's search, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) replay: Vec<PhaseView>,
@@ -217,6 +220,10 @@ impl View {
             self.motions.iter().take_while(|motion| motion.from <= time).last().map_or(0, |motion| motion.world);
         view.still.time = time;
         view.still.now = self.clock.as_ref().map(|clock| (clock.at(time).into(), world));
+        let payload = view.worlds.get_mut(world).and_then(|world| world.payload.as_mut());
+        if let (Some(payload), Some(turned)) = (payload, self.turns.as_ref().and_then(|turns| turns.angle_at(time))) {
+            payload.turn_to(turned);
+        }
         view
     }
 

@@ -1,10 +1,10 @@
-//! The strip of the tool's height against time.
+//! The strips of the tool's height and of the wrist's turns against time.
 
 use super::numbers::{Chain, number};
 use cplan_core::space::Configuration;
 use cplan_handling::Task;
 use cplan_motion::single;
-use cplan_tasks::Leg;
+use cplan_tasks::{Event, Leg, TimedTurn};
 use serde::Serialize;
 
 /// Number of lines that show a phase of constant acceleration.
@@ -51,4 +51,66 @@ impl HeightView {
         let motion = Chain(corners.into_iter().map(rounded).collect());
         (motion.0.len() > 2).then(|| Self { joint: tool.joint.name.clone(), duration: number(duration), motion })
     }
+}
+
+/// The turns of the wrist against time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TurnsView {
+    /// Duration of the task, in seconds.
+    pub duration: f64,
+    /// Times in seconds, and angles in degrees by which the carried object is turned since its pick.
+    pub motion: Chain,
+    /// For each turn, times in seconds and orientations of the object in radians. During these times it does not have
+    /// the orientation in its world.
+    pub turns: Vec<Chain>,
+}
+
+impl TurnsView {
+    /// Creates the strip of a task. `None` if the wrist never turns.
+    #[must_use]
+    pub fn of_task(task: &Task, legs: &[Leg]) -> Option<Self> {
+        let duration = legs.last()?.end();
+        let all = TimedTurn::all(task, legs);
+        let (mut motion, mut turns) = (vec![[0.0, 0.0]], Vec::new());
+        for turn in &all {
+            let mut corners = vec![[turn.span[0], turn.ends[0]]];
+            for phase in turn.phases.windows(2) {
+                let [since, until] = [phase[0][0], phase[1][0]];
+                let time =
+                    |line: u32| turn.begin + since + (until - since) * f64::from(line) / f64::from(LINES_PER_PHASE);
+                corners.extend((0..=LINES_PER_PHASE).map(time).map(|time| [time, turn.angle(time)]));
+            }
+            corners.push([turn.span[1], turn.ends[1]]);
+            let released = legs.iter().find_map(|leg| {
+                let places = matches!(leg.event, Some(Event::Release { object, .. }) if object == turn.object);
+                leg.event_time().filter(|time| places && *time >= turn.begin)
+            });
+            motion.extend(corners.iter().map(|[time, angle]| [*time, (angle - turn.ends[0]).to_degrees()]));
+            let end = released.unwrap_or(duration);
+            motion.extend([[end, (turn.ends[1] - turn.ends[0]).to_degrees()], [end, 0.0]]);
+            turns.push(rounded(&corners, 1e4));
+        }
+        motion.push([duration, 0.0]);
+        (!all.is_empty()).then(|| Self { duration: number(duration), motion: rounded(&motion, 1e2), turns })
+    }
+}
+
+impl TurnsView {
+    /// Returns the orientation of the carried object at a time during a turn, in radians. Between two corners it
+    /// interpolates linearly. `None` at other times.
+    pub fn angle_at(&self, time: f64) -> Option<f64> {
+        let lasts = |turn: &&Chain| turn.0[0][0] <= time && time <= turn.0[turn.0.len() - 1][0];
+        let Chain(corners) = self.turns.iter().find(lasts)?;
+        let next = corners.partition_point(|corner| corner[0] <= time).clamp(1, corners.len() - 1);
+        let [from, to] = [corners[next - 1], corners[next]];
+        let share = ((time - from[0]) / (to[0] - from[0]).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        Some(from[1] + (to[1] - from[1]) * share)
+    }
+}
+
+/// Returns times rounded to a tenth of a millisecond, with values rounded to the inverse of `steps`.
+fn rounded(corners: &[[f64; 2]], steps: f64) -> Chain {
+    let round =
+        |[time, value]: &[f64; 2]| Configuration::new((time * 1e4).round() / 1e4, (value * steps).round() / steps);
+    Chain(corners.iter().map(round).collect())
 }

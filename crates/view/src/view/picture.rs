@@ -146,6 +146,7 @@ impl View {
             frames: Vec::new(),
             strip: picture.strip(&world),
             height: None,
+            turns: None,
             replay: Vec::new(),
             replays: Vec::new(),
             still: StillContent {

@@ -3,7 +3,7 @@
 use super::arm;
 use super::content::{KeyFigures, PanelView, StillContent, View};
 use super::extent;
-use super::height::HeightView;
+use super::height::{HeightView, TurnsView};
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::RoundingSteps;
 use super::states::{PayloadGroup, PayloadState, describe, grouped, hand, payload_states};
@@ -109,6 +109,7 @@ impl View {
             frames: Vec::new(),
             strip,
             height: HeightView::of_task(task, legs),
+            turns: TurnsView::of_task(task, legs),
             replay: Vec::new(),
             replays: Vec::new(),
             still,

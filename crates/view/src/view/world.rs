@@ -128,6 +128,15 @@ pub struct PayloadView {
     parts: Vec<ShapeView>,
 }
 
+impl PayloadView {
+    /// Turns a level payload to an angle, in radians. A rigid one stays as it is.
+    pub fn turn_to(&mut self, turned: f64) {
+        if let Grip::Level { angle, .. } = &mut self.grip {
+            *angle = turned;
+        }
+    }
+}
+
 /// Serialises a grip. A rigid grip has the payload's coordinates and angle in the frame of link 2. A level grip has the
 /// payload's angle in the plane, and the point of the payload at the tip.
 fn grip<S: Serializer>(grip: &Grip, serializer: S) -> Result<S::Ok, S::Error> {

@@ -39,6 +39,10 @@ struct TurnMember {
     from: f64,
     to: f64,
     seconds: f64,
+    #[serde(default)]
+    before_arrival: f64,
+    #[serde(default)]
+    after_departure: f64,
 }
 
 /// Reads the steps of a JSON file. `None` if it has none.
@@ -75,9 +79,18 @@ impl StepMember {
             let help = "the first and the last sample of the motion, counted from 0";
             return refuse(format!("its samples are {first} to {last}, but the trajectory has {count}"), help);
         }
+        let overlap = |of: &str, before_arrival: f64, after_departure: f64| {
+            let parts = [("before_arrival", before_arrival), ("after_departure", after_departure)];
+            match parts.into_iter().find(|(_, value)| !(0.0..=MAX_NUMBER).contains(value)) {
+                Some((what, value)) => Err(source
+                    .diagnostic(format!("steps[{index}]: the {of}'s {what} is {value}"))
+                    .help(format!("a {of} overlaps by seconds from 0"))),
+                None => Ok(RecordedOverlap { before_arrival, after_departure }),
+            }
+        };
         let turn = match &self.turn {
             None => None,
-            Some(TurnMember { from, to, seconds }) => {
+            Some(TurnMember { from, to, seconds, before_arrival, after_departure }) => {
                 let wrong = [("from", *from), ("to", *to), ("seconds", *seconds)];
                 if let Some((what, value)) =
                     wrong.into_iter().find(|(_, value)| value.is_nan() || value.abs() > MAX_NUMBER)
@@ -85,17 +98,14 @@ impl StepMember {
                     let help = "a turn of the wrist has two angles in radians, and takes seconds";
                     return refuse(format!("the turn's {what} is {value}"), help);
                 }
-                Some(RecordedTurn { from: *from, to: *to, seconds: *seconds, overlap: RecordedOverlap::default() })
+                let overlap = overlap("turn", *before_arrival, *after_departure)?;
+                Some(RecordedTurn { from: *from, to: *to, seconds: *seconds, overlap })
             }
         };
         let overlap = match self.stroke {
             None => RecordedOverlap::default(),
             Some(StrokeMember { before_arrival, after_departure }) => {
-                let parts = [("before_arrival", before_arrival), ("after_departure", after_departure)];
-                if let Some((what, value)) = parts.into_iter().find(|(_, value)| !(0.0..=MAX_NUMBER).contains(value)) {
-                    return refuse(format!("the stroke's {what} is {value}"), "a stroke overlaps by seconds from 0");
-                }
-                RecordedOverlap { before_arrival, after_departure }
+                overlap("stroke", before_arrival, after_departure)?
             }
         };
         Ok(RecordedStep { number: self.step, cycle: self.cycle, samples: first..=last, turn, overlap })

@@ -11,25 +11,31 @@ use cplan_check::decimal::Decimal;
 use cplan_check::interval::{BITS, Interval};
 use num_bigint::BigInt;
 
-/// The strokes of a step that overlap with motions of the arm.
+/// The stroke and the turn at one end of a motion that overlap with it.
 #[derive(Default)]
-pub(super) struct Overlaps {
-    /// The stroke that begins during the step's motion.
-    pub(super) lowering: Option<StrokeCurve>,
-    /// The stroke that ends during the motion of the next step.
-    pub(super) raising: Option<StrokeCurve>,
+pub(super) struct EndCurves {
+    /// The stroke that begins or ends during the motion.
+    pub(super) stroke: Option<StrokeCurve>,
+    /// The turn that begins or ends during the motion, and its angle.
+    pub(super) turn: Option<(StrokeCurve, Interval)>,
 }
 
 impl Replay<'_> {
-    /// Reads the strokes of a step that overlap with motions. Checks that the world allows them, and that the tool
-    /// stays lowered for the step's dwell.
-    pub(super) fn overlaps(&self, matched: &MatchedStep, next: Option<&MatchedStep>) -> Result<Overlaps, CheckError> {
+    /// Reads the strokes and the turn of a step that overlap with motions: those that begin during its own motion, and
+    /// those that end during the next one. Checks that the world allows them, and that the tool stays lowered for the
+    /// step's dwell.
+    pub(super) fn overlaps(
+        &self,
+        matched: &MatchedStep,
+        next: Option<&MatchedStep>,
+    ) -> Result<[EndCurves; 2], CheckError> {
         let MatchedStep { step, done, .. } = matched;
+        let turn = self.turn_on_the_way(matched, next)?;
         let given = [&done.lowering, &done.raising];
         if given.iter().all(|knots| knots.is_none()) {
-            return Ok(Overlaps::default());
+            return self.with_turn(matched, [None, None], turn);
         }
-        let (object, after_turn) = match (&step.action, &self.held) {
+        let (object, is_place) = match (&step.action, &self.held) {
             (Action::Pick { object, .. }, _) => (*object, false),
             (Action::Place { .. }, Some(held)) => (held.object, true),
             _ => return CheckError::fails("it has a stroke, but neither picks nor places an object"),
@@ -40,7 +46,7 @@ impl Replay<'_> {
         let Some(arch) = self.task.stroke.as_ref().and_then(|stroke| stroke.arch.as_ref()) else {
             return CheckError::fails("the arm must rest during strokes, but one of them overlaps with a motion");
         };
-        if done.turn.is_some() && given[usize::from(!after_turn)].is_some() {
+        if done.turn.is_some() && turn.is_none() && given[usize::from(!is_place)].is_some() {
             return CheckError::fails("a stroke overlaps with a motion, but the wrist turns in between");
         }
         if done.raising.is_some() && next.is_none() {
@@ -60,8 +66,13 @@ impl Replay<'_> {
         // The arm rests from its arrival to its departure. The tool must be lowered for a part of this time.
         let arrival = self.time(done.knots[1]);
         let departure = self.time(next.map_or(self.motion.knots.len() - 1, |next| next.done.knots[0]));
-        let down = lowering.as_ref().map_or(&arrival, |lowering| lowering.end()).max(&arrival);
-        let up = raising.as_ref().map_or(&departure, |raising| raising.begin()).min(&departure);
+        let mut down = lowering.as_ref().map_or(&arrival, |lowering| lowering.end()).max(&arrival);
+        let mut up = raising.as_ref().map_or(&departure, |raising| raising.begin()).min(&departure);
+        match &turn {
+            Some((turn, _)) if is_place => down = down.max(turn.end()),
+            Some((turn, _)) => up = up.min(turn.begin()),
+            None => {}
+        }
         let tolerance = Decimal::power_of_ten(REST_TOLERANCE_DECIMALS);
         if &(up - down) + &tolerance < step.dwell {
             return CheckError::fails(format!("the tool is not lowered for {} s", step.dwell));
@@ -82,18 +93,20 @@ impl Replay<'_> {
                 return CheckError::fails(format!("the arm departs before the tool has risen by {} m", arch.rise));
             }
         }
-        Ok(Overlaps { lowering, raising })
+        self.with_turn(matched, [lowering, raising], turn)
     }
 
-    /// Checks the motion of a step at the heights of the strokes that overlap with it. `pieces` are the motion from the
-    /// departure to the arrival. The second link may touch the obstacle with the index `also`.
-    pub(super) fn free_during_strokes(
-        &self,
-        raising: Option<&StrokeCurve>,
-        lowering: Option<&StrokeCurve>,
+    /// Checks the motion of a step at the heights and angles of the strokes and turns that overlap with its beginning and
+    /// its end. `pieces` are the motion from the departure to the arrival. The second link may touch the obstacle with
+    /// the index `also`.
+    pub(super) fn free_during_overlaps(
+        &mut self,
+        [before, own]: [&EndCurves; 2],
         pieces: &[Piece],
         also: Option<usize>,
     ) -> Result<(), CheckError> {
+        self.free_during_turns([before, own], pieces)?;
+        let (raising, lowering) = (before.stroke.as_ref(), own.stroke.as_ref());
         if raising.is_none() && lowering.is_none() {
             return Ok(());
         }
@@ -109,8 +122,18 @@ impl Replay<'_> {
         let first = raising.map_or(0, |raising| pieces.partition_point(|piece| piece.time[0] < *raising.end()));
         let last = lowering
             .map_or(pieces.len(), |lowering| pieces.partition_point(|piece| piece.time[1] <= *lowering.begin()));
-        raising.map_or(Ok(()), |stroke| self.free_at_heights(stroke, &pieces[..first], also, 0))?;
-        lowering.map_or(Ok(()), |stroke| self.free_at_heights(stroke, &pieces[last..], also, 0))
+        // Before a turn after a pick, and after a turn before a place, the object has another orientation.
+        if let Some(stroke) = raising {
+            let angle = before.turn.as_ref().map(|(_, angle)| -angle);
+            self.with_object_turned(angle.as_ref(), |replay| {
+                replay.free_at_heights(stroke, &pieces[..first], also, 0)
+            })?;
+        }
+        if let Some(stroke) = lowering {
+            let angle = own.turn.as_ref().map(|(_, angle)| angle);
+            self.with_object_turned(angle, |replay| replay.free_at_heights(stroke, &pieces[last..], also, 0))?;
+        }
+        Ok(())
     }
 
     /// Checks pieces of motion at the heights of a stroke. Checks all its heights on these pieces first. If that fails,

@@ -132,7 +132,8 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Turns the carried object about the tip by the step's angle, while the arm is at rest.
+    /// Turns the carried object about the tip by the step's angle, while the arm is at rest. A turn that overlaps with a
+    /// motion must be free there, too.
     pub(super) fn turn(&mut self, done: &ExecutedStep, at: &Point) -> Result<(), CheckError> {
         let Some(by) = &done.turn else { return Ok(()) };
         self.require_static("a turn of the wrist")?;
@@ -160,13 +161,34 @@ impl Replay<'_> {
         let parts = self.hanging(&held, &solids, ToolHeights::Raised);
         self.require_outside(&held, at, &swept.time[0], ToolHeights::Raised)?;
         check_parts_clear(&wrist, &[swept], &[0, 0].map(Interval::whole), &parts, &present)?;
-        let angle = Interval::from(by).sin_cos();
+        self.turn_object(&mut held, &Interval::from(by))?;
+        self.held = Some(held);
+        Ok(())
+    }
+
+    /// Returns a carried object turned about the tip by an angle, radians.
+    pub(super) fn turned_copy(&self, held: &HeldObject, by: &Interval) -> Result<HeldObject, CheckError> {
+        let mut turned = HeldObject {
+            object: held.object,
+            on: held.on.clone(),
+            hanging: held.hanging.clone(),
+            pressed: held.pressed.clone(),
+            solids: [Vec::new(), Vec::new()],
+            round: held.round.as_ref().map(|_| self.round(&held.hanging)).transpose()?,
+            carrying: held.carrying.clone(),
+        };
+        self.turn_object(&mut turned, by)?;
+        Ok(turned)
+    }
+
+    /// Turns a carried object about the tip by an angle, radians, without any check.
+    pub(super) fn turn_object(&self, held: &mut HeldObject, by: &Interval) -> Result<(), CheckError> {
+        let angle = by.sin_cos();
         for own in iter::once(&mut held.hanging).chain(&mut held.pressed) {
             own.at = turned(&own.at, &angle);
             own.turn = both_turns(&own.turn, &angle);
         }
         held.solids = self.attached_shapes(&self.chain, &held.on, &held.hanging, held.pressed.as_ref())?;
-        self.held = Some(held);
         Ok(())
     }
 }

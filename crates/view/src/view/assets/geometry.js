@@ -35,15 +35,15 @@ const Geometry = (() => {
   const tipAt = (arm, q) => apply(poses(arm, q)[1], arm.tip[0], arm.tip[1]);
   const elbowAt = (arm, q) => apply(poses(arm, q)[0], arm.offset[0], arm.offset[1]);
 
-  /** Returns the pose of the payload. */
-  function payloadPose(arm, payload, q) {
+  /** Returns the pose of the payload. A level one may be turned to another angle than in its world. */
+  function payloadPose(arm, payload, q, turnedTo = undefined) {
     if (payload.grip.rigid) {
       const [x, y, angle] = payload.grip.rigid;
       return compose(poses(arm, q)[1], turned(x, y, angle));
     }
     const [angle, x, y] = payload.grip.level;
     const tip = tipAt(arm, q);
-    return compose(turned(tip[0], tip[1], angle), [-x, -y, 1, 0]);
+    return compose(turned(tip[0], tip[1], turnedTo ?? angle), [-x, -y, 1, 0]);
   }
 
   /**

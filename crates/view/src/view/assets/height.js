@@ -1,14 +1,21 @@
-// The strip below the pictures of a task whose tool is lowered and raised: the value of the tool's joint against time.
+// The strips below the pictures of a task: the value of the joint that lowers the tool, and the angle by which the wrist turns
+// the carried object, against time.
 'use strict';
 
 const Height = (() => {
   /** Room above and below the line, as a share of the stroke. */
   const ROOM = 0.15;
 
+  /** What the strips show: the member of the model, the unit, and words for the caption and for screen readers. */
+  const KINDS = {
+    height: { unit: 'mm', title: 'Height of the tool', caption: ({ joint }) => `Height of the tool: joint \u201c${joint}\u201d` },
+    turns: { unit: '\u00b0', title: 'Turns of the wrist', caption: () => 'Angle by which the wrist has turned the object' },
+  };
+
   /**
    * @param {CanvasRenderingContext2D} context
    * @param {Panel} panel
-   * @param {HeightModel} height
+   * @param {{ motion: Chain }} strip
    */
   function draw(context, panel, { motion }) {
     [context.lineWidth, context.strokeStyle] = [2, panel.theme.ink];
@@ -16,46 +23,59 @@ const Height = (() => {
   }
 
   /**
-   * Creates the strip of a view.
+   * Creates a strip of a view.
    * @param {View} view
+   * @param {'height' | 'turns'} kind
    * @returns {{ root: HTMLElement, panel: Panel, fit: () => void, show: () => void }}
    */
-  function mount(view) {
-    const canvas = element('canvas', { role: 'img', 'aria-label': 'Height of the tool against time' });
-    const caption = element('figcaption', {}, 'Height of the tool');
-    const root = element('figure', { class: 'height', hidden: true }, caption, canvas);
+  function mount(view, kind) {
+    const { unit, title, caption: words } = KINDS[kind];
+    const canvas = element('canvas', { role: 'img', 'aria-label': `${title} against time` });
+    const caption = element('figcaption', {}, title);
+    const root = element('figure', { class: `height ${kind}`, hidden: true }, caption, canvas);
     const panel = new Panel(canvas, {
       x: [0, 1],
       y: [-1, 0],
-      titles: ['time (s)', 'mm'],
+      titles: ['time (s)', unit],
       margins: [58, 12, 6, 40],
-      still: (context, panel) => view.model.height && draw(context, panel, view.model.height),
-      moving: (context, panel) => view.model.height && Timeline.dot(context, panel, view, view.model.height.motion),
+      still: (context, panel) => view.model[kind] && draw(context, panel, view.model[kind]),
+      moving: (context, panel) => view.model[kind] && Timeline.dot(context, panel, view, view.model[kind].motion),
     });
     Timeline.scrub(canvas, panel, view);
 
     /** Shows the strip of the current model. */
     function fit() {
-      const { height } = view.model;
+      const strip = view.model[kind];
       show();
-      if (!height) return;
-      const values = height.motion.filter((_, index) => index % 2 === 1);
+      if (!strip) return;
+      const values = strip.motion.filter((_, index) => index % 2 === 1);
       const [low, high] = [Math.min(...values), Math.max(...values)];
       const room = ROOM * (high - low || 1);
-      [panel.x, panel.y] = [[0, Math.max(height.duration, 1e-6)], [low - room, high + room]];
-      caption.textContent = `Height of the tool: joint \u201c${height.joint}\u201d`;
-      canvas.setAttribute('aria-label', `Height of the tool against time, joint ${height.joint} from ${low} to ${high} mm`);
+      [panel.x, panel.y] = [[0, Math.max(strip.duration, 1e-6)], [low - room, high + room]];
+      caption.textContent = words(strip);
+      const of = strip.joint ? `, joint ${strip.joint}` : ',';
+      canvas.setAttribute('aria-label', `${title} against time${of} from ${low} to ${high} ${unit}`);
       panel.layout();
       panel.dirty = true;
     }
 
     /** Hides the strip unless the motion is played. */
     function show() {
-      root.hidden = !view.model.height || view.mode !== 'move';
+      root.hidden = !view.model[kind] || view.mode !== 'move';
     }
 
     return { root, panel, fit, show };
   }
 
-  return { mount };
+  /**
+   * Returns the orientation that the carried object has because of a turn, radians. Undefined if it has that of its world.
+   * @param {View} view
+   */
+  function turnedTo({ model, mode, time }) {
+    if (mode !== 'move') return undefined;
+    const turn = model.turns?.turns.find((chain) => chain[0] <= time && time <= chain[chain.length - 2]);
+    return turn && Timeline.valueAt(turn, time);
+  }
+
+  return { mount, turnedTo };
 })();

@@ -50,7 +50,8 @@ function buildPage(view) {
   view.tabs = buildTabs(view);
   view.tour = new Tour(view);
   view.strip = Strip.mount(view);
-  view.height = Height.mount(view);
+  view.height = Height.mount(view, 'height');
+  view.turns = Height.mount(view, 'turns');
   view.root.append(
     element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
     parts.cards,
@@ -58,7 +59,7 @@ function buildPage(view) {
     element(
       'div',
       { class: 'stage' },
-      element('div', { class: 'pictures' }, view.learn.head, parts.panels, view.learn.pair.root, parts.description, parts.measure, parts.transport, view.strip.root, view.height.root, view.learn.foot, view.learn.steps, view.learn.details),
+      element('div', { class: 'pictures' }, view.learn.head, parts.panels, view.learn.pair.root, parts.description, parts.measure, parts.transport, view.strip.root, view.height.root, view.turns.root, view.learn.foot, view.learn.steps, view.learn.details),
       element('div', { class: 'below' }, view.tabs.root, ...view.tabs.entries.filter(({ isAside }) => !isAside).map(({ panel }) => panel)),
       element('aside', { class: 'side', 'aria-label': 'Steps and layers' }, view.steps.root, view.layers.root),
     ),
@@ -81,7 +82,7 @@ function buildPage(view) {
   view.explain.watch(view.panels);
   // Texts on canvases follow the text size of the page.
   new ResizeObserver(() => view.model && view.recolor()).observe(parts.measure);
-  view.plots = [...Plots.mount(parts.plots, view), view.strip, view.height];
+  view.plots = [...Plots.mount(parts.plots, view), view.strip, view.height, view.turns];
 }
 
 /** Creates the tabs. Steps and layers stand beside the pictures if there is room. */

@@ -98,6 +98,9 @@ interface StripModel {
 /** The height of the tool in millimetres against time. */
 interface HeightModel { joint: string; duration: number; motion: Chain }
 
+/** The angle in degrees by which the wrist has turned the carried object against time, and for each turn the orientations in radians. */
+interface TurnsModel { joint?: string; duration: number; motion: Chain; turns: Chain[] }
+
 /** Key figures of a result. */
 interface FiguresModel { duration?: number; gap?: number; fastest?: boolean; clearance?: number }
 
@@ -176,6 +179,7 @@ interface Model {
   frames: any[];
   strip?: StripModel;
   height?: HeightModel;
+  turns?: TurnsModel;
   replay?: PhaseModel[];
   replays?: { phases: PhaseModel[]; trace?: any; scale?: any }[];
   legend: any[];

@@ -36,6 +36,7 @@ class View {
     /** Progress against time. @type {ReturnType<typeof Strip.mount>} */
     this.strip = null;
     this.height = null;
+    this.turns = null;
     /** True if obstacles are written with their names; otherwise with numbers. */
     this.named = true;
     /** True if names appear only under the pointer. */
@@ -185,6 +186,7 @@ class View {
     this.strip.show();
     this.height.show();
     this.followed?.show();
+    this.turns.show();
     parts.panels.hidden = this.drawn === 'pair';
     // Room for a scale of colours beside the panel.
     const { scale } = this;

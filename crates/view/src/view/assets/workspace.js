@@ -165,7 +165,7 @@ const Workspace = (() => {
       context.fill();
     });
     if (world.payload) {
-      const pose = payloadPose(model, world.payload, q);
+      const pose = payloadPose(model, world.payload, q, look.turned);
       const { fill, line: edge } = panel.theme.obstacle(world.payload.color);
       context.beginPath();
       for (const piece of world.payload.pieces) {
@@ -348,7 +348,8 @@ const Workspace = (() => {
     const { examined } = view;
     // While another arm is examined, this one steps back.
     const alpha = view.probe ? 0.45 : 1;
-    arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, alpha, joints: true, blocks: true });
+    const turned = Height.turnedTo(view);
+    arm(context, panel, view, view.world, view.q, { turned, fill: theme.paper, line: theme.accent, width: 1.6, alpha, joints: true, blocks: true });
     if (examined) tried(context, panel, view, examined);
     if (view.model.checked?.nearest && !view.probe) distance(context, panel, view.model.checked.nearest);
     view.reachMap?.aboveArm(context, panel);

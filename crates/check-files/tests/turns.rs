@@ -1,0 +1,199 @@
+//! Certificates of tasks in which the wrist turns the load while the arm moves.
+
+use cplan_cases as random;
+use cplan_cases::dice::Dice;
+use cplan_check_files::{CheckError, check};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// URDF of a gantry with the tip at the joints' values. Its quill has a ball at height 0.5; all else is above it.
+const GANTRY: &str = r#"<robot name="g">
+  <link name="base"/>
+  <joint name="x" type="prismatic">
+    <parent link="base"/> <child link="bridge"/> <axis xyz="1 0 0"/> <limit lower="-9" upper="9"/>
+  </joint>
+  <link name="bridge"/>
+  <joint name="y" type="prismatic">
+    <parent link="bridge"/> <child link="head"/> <axis xyz="0 1 0"/> <limit lower="-9" upper="9"/>
+  </joint>
+  <link name="head"/>
+  <joint name="z" type="prismatic">
+    <parent link="head"/> <child link="quill"/> <origin xyz="0 0 0.5"/> <axis xyz="0 0 -1"/> <limit lower="0" upper="1"/>
+  </joint>
+  <link name="quill"> <collision> <geometry> <sphere radius="0.01"/> </geometry> </collision> </link>
+</robot>"#;
+
+/// The arm picks the block at 1 s, departs at 2 s, places the block at 3 s, departs at 4 s, and stops at 5 s.
+const KNOTS: &str = "[0, 0, 1], [1, 1, 1], [2, 1, 1], [3, 3, 1], [4, 3, 1], [5, 5, 1]";
+
+/// Half the sides of the block, which is carried at its own height. The grasp is its middle.
+const HALF: [f64; 2] = [0.2, 0.1];
+
+/// Duration of turns and strokes, seconds.
+const DURATION: f64 = 0.4;
+
+/// The world with obstacles, with the block to be placed at an angle.
+fn world(robot: &str, content: &str) -> String {
+    let [a, b] = HALF;
+    format!(
+        "[robot]\njoints = [\"x\", \"y\"]\npayload = \"level\"\nwrist = {{ velocity = 1 }}\n{robot}\n[start]\njoints = [0, 1]\n\
+         [[object]]\nname = \"block\"\nat = [1, 1]\nheight = [0, 0.05]\nlift = 0.3\n\
+         polygon = [[-{a}, -{b}], [{a}, -{b}], [{a}, {b}], [-{a}, {b}]]\n{content}\
+         [[step]]\npick = \"block\"\n[[step]]\nplace = {{ at = [3, 1], angle = 1.5707963267948966 }}\n\
+         [[step]]\nmove = {{ joints = [5, 1] }}\n"
+    )
+}
+
+const STROKE: &str = "stroke = { joint = \"z\" }";
+
+fn post([x, y]: [f64; 2], radius: f64) -> String {
+    format!("[[obstacle]]\nheight = [0.3, 0.34]\ncircle = {{ center = [{x}, {y}], radius = {radius} }}\n")
+}
+
+fn judge(world: &str, more: [&str; 3]) -> (i32, String) {
+    let step = |k: usize| format!("{{\"step\": {}, \"knots\": [{}, {}]{}}}", k + 1, 2 * k, 2 * k + 1, more[k]);
+    let steps: Vec<String> = (0..3).map(step).collect();
+    let steps = steps.join(", ");
+    let certificate = format!(
+        r#"{{"format": "cplan certificate 1", "answer": "found", "steps": [{steps}],
+        "motion": {{"interpolation": ["linear"], "knots": [{KNOTS}]}}}}"#
+    );
+    match check(GANTRY, world, &certificate) {
+        Ok(report) => (0, report),
+        Err(CheckError::Fails(why)) => (3, why),
+        Err(CheckError::Input { message, .. }) => (1, message),
+    }
+}
+
+/// A turn by an angle that begins at a time, in a single cubic.
+fn turning(begin: f64, by: f64) -> String {
+    format!(", \"turn\": {by:?}, \"turning\": [[{begin}, 0, 0], [{}, {by:?}, 0]]", begin + DURATION)
+}
+
+#[track_caller]
+fn assert_holds((code, report): (i32, String)) {
+    assert_eq!(code, 0, "{report}");
+}
+
+#[track_caller]
+fn assert_fails((code, report): (i32, String), part: &str) {
+    assert!(code == 3 && report.contains(part), "{code} {report}");
+}
+
+#[test]
+fn turns_may_overlap_with_motions() {
+    for robot in ["", STROKE] {
+        let world = world(robot, "");
+        assert_holds(judge(&world, ["", ", \"turn\": 1.5707963267948966", ""]));
+        assert_holds(judge(&world, ["", &turning(2.8, FRAC_PI_2), ""]));
+        assert_holds(judge(&world, ["", &turning(2.0, FRAC_PI_2), ""]));
+        assert_holds(judge(&world, [&turning(1.7, FRAC_PI_2), "", ""]));
+        assert_holds(judge(&world, [&turning(2.6, FRAC_PI_2), "", ""]));
+        // In the other direction, with another end.
+        assert_fails(judge(&world, ["", &turning(2.8, -FRAC_PI_2), ""]), "target");
+    }
+}
+
+#[test]
+fn a_turn_is_in_the_motion_to_a_place_or_from_a_pick() {
+    let world = world(STROKE, "");
+    let by = FRAC_PI_2;
+    for (more, part) in [
+        (["", &*turning(1.9, by), ""], "begins before the motion"),
+        (["", &*turning(3.7, by), ""], "ends after the departure"),
+        ([&*turning(0.9, by), "", ""], "begins before the arrival"),
+        ([&*turning(2.7, by), "", ""], "ends after the motion"),
+        (["", ", \"turn\": 1.5707963267948966", &*turning(4.5, by)], "neither before a place nor after a pick"),
+        (["", ", \"turning\": [[2.8, 0, 0], [3.1, 1.5, 0]]", ""], "no turn"),
+        (["", ", \"turn\": 1.5707963267948966, \"turning\": [[2.8, 0, 0], [3.1, 1.5, 0]]", ""], "angle of the turn"),
+        (["", ", \"turn\": 1.5, \"turning\": [[2.8, 0, 0], [3.1, 1.5, 0.1]]", ""], "from rest to rest"),
+        (["", ", \"turn\": 1.5, \"turning\": [[2.8, 0, 0], [2.9, 1.6, 0], [3.1, 1.5, 0]]", ""], "turns back"),
+        (["", ", \"turn\": 8, \"turning\": [[2.8, 0, 0], [3.1, 8, 0]]", ""], "more than one revolution"),
+    ] {
+        assert_fails(judge(&world, more), part);
+    }
+}
+
+#[test]
+fn the_world_can_forbid_turns_on_the_way() {
+    for robot in ["arch = false", "stroke = { joint = \"z\" }\narch = false"] {
+        let world = world(robot, "");
+        assert_holds(judge(&world, ["", ", \"turn\": 1.5707963267948966", ""]));
+        assert_fails(judge(&world, ["", &turning(2.8, FRAC_PI_2), ""]), "the arm must rest while the wrist turns");
+    }
+}
+
+#[test]
+fn the_tool_is_raised_during_turns() {
+    let world = world(STROKE, "");
+    let lowering = |begin: f64| format!(", \"lowering\": [[{begin}, 0, 0], [{}, 0.3, 0]]", begin + DURATION);
+    let raising = |begin: f64| format!(", \"raising\": [[{begin}, 0.3, 0], [{}, 0, 0]]", begin + DURATION);
+    let place =
+        |turn: f64, down: f64| judge(&world, ["", &format!("{}{}", turning(turn, FRAC_PI_2), lowering(down)), ""]);
+    assert_holds(place(2.4, 2.8));
+    assert_holds(place(2.2, 2.8));
+    assert_fails(place(2.41, 2.8), "while the tool is not raised");
+    let pick = |up: f64, turn: f64| judge(&world, [&format!("{}{}", raising(up), turning(turn, FRAC_PI_2)), "", ""]);
+    assert_holds(pick(1.8, 2.2));
+    assert_fails(pick(1.8, 2.19), "while the tool is not raised");
+    // The turn after the pick ends before the lowering for the place begins.
+    let both = |down: f64| judge(&world, [&turning(2.3, FRAC_PI_2), &lowering(down), ""]);
+    assert_holds(both(2.7));
+    assert_fails(both(2.69), "while the tool is not raised");
+}
+
+/// Tests a post beside the path that the turned block touches, and the block at rest does not.
+#[test]
+fn the_load_has_the_angles_of_each_moment() {
+    // The long side passes the post below it while the block has not turned far, or once the block is past it.
+    let world = world(STROKE, &post([2.5, 0.83], 0.01));
+    assert_holds(judge(&world, ["", ", \"turn\": 1.5707963267948966", ""]));
+    // The block passes the post from 2.65 to 2.85 s, so it must not turn far before it has passed.
+    assert_holds(judge(&world, ["", &turning(2.86, FRAC_PI_2), ""]));
+    assert_fails(judge(&world, ["", &turning(2.5, FRAC_PI_2), ""]), "during a turn of the wrist, ");
+    // After the pick, a turn at the beginning of the motion leaves the block turned for the rest of it.
+    assert_fails(judge(&world, [&turning(1.9, FRAC_PI_2), "", ""]), "from knot 2");
+}
+
+/// Compares verdicts on random turns past random posts with dense samples.
+#[test]
+fn verdicts_agree_with_dense_samples() {
+    let (mut held, mut refused) = (0, 0);
+    for seed in 0..random::times(60) {
+        let mut dice = Dice::new(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 7);
+        let center = [dice.within(1.3, 2.9), 1.0 + dice.within(0.1, 0.3) * if dice.chance(0.5) { 1.0 } else { -1.0 }];
+        let radius = dice.within(0.005, 0.03);
+        let begin = dice.within(2.0, 2.9);
+        let by = if dice.chance(0.5) { FRAC_PI_2 } else { FRAC_PI_2 - 2.0 * PI };
+        let world = world(STROKE, &post(center, radius));
+        let distance = |x: f64, angle: f64| {
+            let (sin, cos) = angle.sin_cos();
+            let off = [center[0] - x, center[1] - 1.0];
+            let own = [cos * off[0] + sin * off[1], cos * off[1] - sin * off[0]];
+            let beyond = [own[0].abs() - HALF[0], own[1].abs() - HALF[1]];
+            let outside = beyond[0].max(0.0).hypot(beyond[1].max(0.0));
+            outside + beyond[0].max(beyond[1]).min(0.0) - radius
+        };
+        // The motion at the first angle, the turn at rest, and the turn during the motion.
+        let mut least = f64::INFINITY;
+        for look in 0..=4000 {
+            let share = f64::from(look) / 4000.0;
+            let time = 2.0 + share;
+            let done = ((time - begin) / DURATION).clamp(0.0, 1.0);
+            let x = 1.0 + 2.0 * share;
+            for at in [distance(x, 0.0), distance(3.0, by * share), distance(x, by * done * done * (3.0 - 2.0 * done))]
+            {
+                least = least.min(at);
+            }
+        }
+        let (code, report) = judge(&world, ["", &turning(begin, by), ""]);
+        if least > 1e-3 {
+            assert_eq!(code, 0, "seed {seed}: {least} {report}");
+            held += 1;
+        } else if least < 0.0 {
+            assert_eq!(code, 3, "seed {seed}: {least} {report}");
+            refused += 1;
+        }
+    }
+    println!("{held} hold, {refused} are refused");
+    assert!(held > 10 && refused > 10, "{held} hold, {refused} are refused");
+}
