@@ -63,7 +63,7 @@ fn joint_state_at(message: &Message, joint: &str, time: f64) -> [f64; 2] {
 fn a_stroke_takes_its_time_in_the_task_and_in_its_bound() {
     let (with, verified) = plan_and_check(&CELL.replace("STROKE", STROKE), &[]);
     assert_eq!(verified.expect("done").0, 0);
-    let (without, _) = plan_and_check(&CELL.replace("STROKE", ""), &[]);
+    let (without, _) = plan_and_check(&CELL.replace("STROKE", "arch = false"), &[]);
     let (with, without) = (with.json(), without.json());
     // Two strokes down and two up. Each is 0.12 m at 5 m/s2, which does not reach the top speed of 1 m/s.
     let way = 2.0 * (0.12_f64 / 5.0).sqrt();
@@ -131,6 +131,55 @@ fn the_quill_goes_down_at_picks_and_places_and_nowhere_else() {
                 "{raised} {lowered} {end}"
             );
         }
+    }
+}
+
+/// Checks turns that overlap with motions as a controller plays them, with and without a stroke: the wrist keeps its
+/// limits, and the part has the old orientation until the turn begins, and the new one when it is released.
+#[test]
+fn the_wrist_turns_while_the_arm_moves() {
+    for stroke in ["", ARCH] {
+        let (resting, _) = plan_and_check(&CELL.replace("STROKE", &format!("{stroke}\narch = false")), &[]);
+        let (run, verified) = plan_and_check(&CELL.replace("STROKE", stroke), &[]);
+        assert_eq!(verified.expect("done").0, 0, "{stroke}");
+        let (message, result) = (files::yaml(&run.text("yaml")), run.json());
+        let saved = number(&resting.json()["duration"]) - number(&result["duration"]);
+        assert!(saved > 0.1 && number(&result["lower_bound"]) <= number(&result["duration"]), "{saved} s saved");
+        let (steps, events) = (&result["steps"], &result["events"]);
+        let index = usize::from(steps[0]["turn"].is_null());
+        let (step, turn) = (&steps[index], &steps[index]["turn"]);
+        let seconds_of = |key: &str| turn.get(key).map_or(0.0, number);
+        let begin = match seconds_of("before_arrival") {
+            0.0 => number(&step["end"]) + seconds_of("after_departure") - number(&turn["seconds"]),
+            before => number(&step["arrival"]) - before,
+        };
+        let orientation = |time: f64| {
+            ["axis_1", "axis_2", "axis_4"].map(|joint| joint_state_at(&message, joint, time)[0]).iter().sum::<f64>()
+        };
+        let [grasp, release] = [0, 1].map(|event| number(&events[event]["time"]));
+        let first = orientation(grasp);
+        assert!((orientation(begin) - first).abs() < 1e-6, "{stroke}");
+        let by = number(&turn["to"]) - number(&turn["from"]);
+        let middle = orientation(begin + number(&turn["seconds"]) / 2.0) - first;
+        assert!((middle - by / 2.0).abs() < 1e-3, "{middle} of {by}");
+        for time in [begin + number(&turn["seconds"]), release] {
+            assert!((orientation(time) - first - by).abs() < 1e-5, "{stroke}, at {time}");
+        }
+        // The wrist compensates and turns at once. Its limits hold during the turn.
+        let wrist = message.joints.iter().position(|name| name == "axis_4").unwrap();
+        let (mut checked, mut fastest) = (0, 0.0_f64);
+        for k in 0..message.since.len() - 1 {
+            let [from, to] = [k, k + 1].map(|k| seconds(0, message.since[k]));
+            if from < begin - 1e-9 || to > begin + number(&turn["seconds"]) + 1e-9 || to - from < 2e-6 {
+                continue;
+            }
+            for share in 0..=8 {
+                let [_, v, a] = played(&message, k, wrist, (to - from) * f64::from(share) / 8.0);
+                assert!(v.abs() <= 30.0 * (1.0 + 1e-6) && a.abs() <= 200.0 * (1.0 + 1e-3), "{v} {a} after sample {k}");
+                (checked, fastest) = (checked + 1, fastest.max(v.abs()));
+            }
+        }
+        assert!(checked > 20 && fastest > 1.0, "{checked} {fastest}");
     }
 }
 
@@ -259,7 +308,7 @@ fn strokes_that_cannot_be_are_refused() {
         ("stroke = { joint = \"axis_3\", velocity = -1.0 }", ["velocity", "positive"]),
         ("stroke = { joint = \"axis_3\", travel = 0.3 }", ["part", "-0.18"]),
         ("stroke = { speed = 1.0 }", ["speed", "joint"]),
-        ("arch = true", ["arch", "stroke"]),
+        ("arch = { rise = 0.1 }", ["arch", "stroke"]),
         ("stroke = { joint = \"axis_3\" }\narch = { rise = -0.1 }", ["rise", "negative"]),
         ("stroke = { joint = \"axis_3\" }\narch = { raise = 0.1 }", ["raise", "fall"]),
         ("stroke = { joint = \"axis_3\" }\narch = 3", ["rise", "false"]),

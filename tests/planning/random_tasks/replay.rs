@@ -206,8 +206,8 @@ impl MotionTurns {
     /// Checks the limits of the wrist at a time of a turn. The wrist also compensates the rotation of link 2.
     fn limits(&self, task: &Task, t: &cplan::motion::Trajectory, at: f64) -> Result<(), String> {
         const STEP: f64 = 1e-5;
-        let wrist = task.wrist.ok_or("there is no wrist")?;
         for (([from, to], seconds), begin) in self.begins() {
+            let wrist = task.wrist.ok_or("there is no wrist")?;
             // Numeric derivatives need a neighbourhood without changes of acceleration, so they have a wide tolerance.
             if at - begin < 2.0 * STEP || at - begin > seconds - 2.0 * STEP || at < STEP || at > self.seconds - STEP {
                 continue;

@@ -26,6 +26,15 @@ fn run(folder: &Path, arguments: &[&str]) -> Said {
     (status.code().expect("no signal"), text(stdout), text(stderr))
 }
 
+/// Plans a shipped task with turns of the wrist at rest.
+fn resting_task(name: &str) -> Shipped {
+    let task = shipped_task(name).in_world("[robot]", "[robot]\narch = false");
+    let folder = tempfile::tempdir().unwrap();
+    let [world, _] = task.written(folder.path());
+    let result = plan_result(&task.robot, &world, "");
+    Shipped { result, ..task }
+}
+
 fn shipped_task(name: &str) -> Shipped {
     let file = root(&format!("workspaces/tasks/{name}.toml"));
     let world = std::fs::read_to_string(&file).unwrap();
@@ -119,7 +128,11 @@ fn our_own_tasks_are_free_and_their_clearances_agree() {
                 assert_eq!(ours[key], theirs[key], "{name}, {key}");
             }
             let turn = [&ours["turn"], &theirs["turn"]].map(|turn| number(&turn["clearance"]));
-            assert_eq!(turn[0], turn[1], "{name}");
+            // A part of a turn on the way has no clearance at rest.
+            let overlaps = ["before_arrival", "after_departure"].iter().any(|key| theirs["turn"].get(key).is_some());
+            assert!(
+                turn[0] == turn[1] || (overlaps && turn[0].is_none_or(|least| turn[1].is_some_and(|t| least >= t)))
+            );
             let bound = turn[0].into_iter().chain(number(&ours["clearance"])).reduce(f64::min);
             // Both are at least 0.9 of the same distance: one is of the curve, the other of the cubics between samples.
             match (bound, number(&theirs["clearance"])) {
@@ -264,12 +277,12 @@ fn a_step_that_is_too_fast_is_found() {
 #[test]
 fn a_different_turn_is_found() {
     let reversed = |from: f64, to: f64| {
-        let mut task = shipped_task("board_turned");
+        let mut task = resting_task("board_turned");
         task.result["steps"][1]["turn"]["from"] = json!(from);
         task.result["steps"][1]["turn"]["to"] = json!(to);
         task
     };
-    let to = number(&shipped_task("board_turned").result["steps"][1]["turn"]["to"]).unwrap();
+    let to = number(&resting_task("board_turned").result["steps"][1]["turn"]["to"]).unwrap();
     let found = reversed(to, 0.0).refuted("task", &[1, 2]);
     assert_eq!(
         found["steps"][1]["faults"],
@@ -279,12 +292,12 @@ fn a_different_turn_is_found() {
     let found = reversed(0.0, to - std::f64::consts::TAU).refuted("task", &[1]);
     assert!(found["steps"][1]["faults"][0].as_str().unwrap().starts_with("the wrist turns in"), "{found:#}");
     // Without the turn, the board does not pass in its first orientation.
-    let mut task = shipped_task("board_turned");
+    let mut task = resting_task("board_turned");
     task.result["steps"][1]["turn"] = Value::Null;
     task.refuted("collision", &[2]);
     // The post blocks only the turn.
     let post = "[[obstacle]]\nname = \"post\"\ncircle = { center = [0.52, 1.1], radius = 0.01 }\nheight = [0.0, 0.04]\n\n[[object]]";
-    let found = shipped_task("board_turned").in_world("[[object]]", post).findings();
+    let found = resting_task("board_turned").in_world("[[object]]", post).findings();
     let turn = &found["steps"][1]["turn"];
     assert_eq!((&found["steps"][1]["verdict"], &turn["contact"]["obstacle"]), (&json!("collision"), &json!("post")));
     // The post's centre is 0.12 from the tip, and the board's long side 0.06. They touch when the centre is 0.07 from
@@ -294,6 +307,38 @@ fn a_different_turn_is_found() {
     assert!((angle(turn) - expected).abs() < 1e-6, "{turn:#}");
     let back = reversed(0.0, to - std::f64::consts::TAU).in_world("[[object]]", post).findings();
     assert!((angle(&back["steps"][1]["turn"]) + expected).abs() < 1e-6, "{back:#}");
+}
+
+/// Checks turns that overlap with a motion: in the other direction, at other times, and past a post that only the turning
+/// board meets.
+#[test]
+fn a_different_turn_on_the_way_is_found() {
+    let changed = |key: &str, value: f64| {
+        let mut task = shipped_task("board_turned");
+        task.result["steps"][1]["turn"][key] = json!(value);
+        task
+    };
+    let turn = shipped_task("board_turned").result["steps"][1]["turn"].clone();
+    let [to, seconds] = ["to", "seconds"].map(|key| number(&turn[key]).unwrap());
+    assert_eq!(number(&turn["after_departure"]), Some(seconds));
+    let found = changed("to", to - std::f64::consts::TAU).findings();
+    let of_motion = found["steps"][2]["faults"].to_string();
+    assert!(of_motion.contains("the wrist exceeds its limits while the arm moves"), "{found:#}");
+    // The arm must rest for the part that is not on the way.
+    let found = changed("after_departure", seconds / 2.0).refuted("task", &[1]);
+    assert!(found["steps"][1]["faults"].to_string().contains("the arm stands still for"), "{found:#}");
+    // The board turns too late to pass the gate.
+    let found = changed("after_departure", 2.0 * seconds).findings();
+    assert_eq!(found["steps"][2]["verdict"], "collision", "{found:#}");
+    let found = changed("before_arrival", 0.1).findings();
+    assert!(found["steps"][1]["faults"].to_string().contains("neither after a pick nor before a place"), "{found:#}");
+    let found = changed("after_departure", 9.0).findings();
+    assert!(found["steps"][2]["faults"].to_string().contains("overlap with the motion for"), "{found:#}");
+    let world = "[robot]\narch = false";
+    let found = shipped_task("board_turned").in_world("[robot]", world).findings();
+    assert!(found["steps"][2]["faults"].to_string().contains("which the world forbids"), "{found:#}");
+    let (code, _, errors) = changed("after_departure", -1.0).report(&[]);
+    assert!(code == 1 && errors.contains("the turn's after_departure is -1"), "{code} {errors}");
 }
 
 #[test]

@@ -33,7 +33,7 @@ pub struct StepFinding {
     /// Collisions and clearance along the step's motion.
     #[serde(flatten)]
     pub collisions: CollisionFinding,
-    /// The turn of the wrist at the end of the step's motion.
+    /// The turn of the wrist after a pick or before a place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn: Option<TurnFinding>,
     /// Violated limits, each listed once.
@@ -45,7 +45,7 @@ pub struct StepFinding {
     pub faults: Vec<String>,
 }
 
-/// A turn of the wrist while the arm stands still.
+/// A turn of the wrist.
 #[derive(Debug, Clone, Serialize)]
 pub struct TurnFinding {
     /// Orientation of the object at the beginning, radians.
