@@ -64,7 +64,7 @@ impl<'a> EndSequence<'a> {
         Self { task, end, seconds, stroke, turn }
     }
 
-    /// Returns the duration of the turn, in seconds. `None` if there is none.
+    /// Returns the duration of the turn, in seconds. `None` without a turn.
     pub fn turn_seconds(&self) -> Option<f64> {
         self.turn.as_ref().map(|turn| turn.seconds)
     }

@@ -143,7 +143,7 @@ impl TurnDuringMotion<'_> {
     }
 
     /// Returns the span of a motion in which the payload does not have the orientation of the rest of the motion. `None`
-    /// if there is none.
+    /// if it always has it.
     fn window(&self, motion: &Recording) -> Option<[f64; 2]> {
         let times = motion.times()?;
         let [first, last] = [times[0], times[times.len() - 1]];

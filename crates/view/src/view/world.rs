@@ -129,7 +129,7 @@ pub struct PayloadView {
 }
 
 impl PayloadView {
-    /// Turns a level payload to an angle, in radians. A rigid one stays as it is.
+    /// Turns a level payload to an angle, in radians. Does nothing to a rigid one.
     pub fn turn_to(&mut self, turned: f64) {
         if let Grip::Level { angle, .. } = &mut self.grip {
             *angle = turned;
