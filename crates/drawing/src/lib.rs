@@ -48,8 +48,8 @@ mod sheet;
 mod stroke;
 mod strokes;
 mod svg;
-mod unit;
 
+pub use cplan_text::{Unit, UnknownUnit};
 pub use error::Error;
 pub use fill::{FillRule, filled};
 pub use notes::{Note, Notes};
@@ -57,7 +57,6 @@ pub use settings::{MIN_TOLERANCE, Settings};
 pub use shapes::{Drawing, Frame, Geometry, Point, Ring, Shape};
 pub use sheet::MAX_POINTS;
 pub use strokes::{Stroke, StrokeCurve, Strokes, strokes};
-pub use unit::{Unit, UnknownUnit};
 
 use std::path::Path;
 

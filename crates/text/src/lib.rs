@@ -1,4 +1,5 @@
-//! Formats text for people: safe names, markup, numbers, counts, long lists, columns and wrapped lines. Also reads and
+//! Formats text for people: safe names, markup, numbers, counts, long lists, columns, wrapped lines and units of
+//! length. Also reads and
 //! writes infinite numbers in data. This crate uses no other crate of the workspace.
 
 mod base64;
@@ -8,6 +9,7 @@ pub mod number;
 mod plain;
 mod rounded;
 mod shell;
+mod unit;
 mod wrapped;
 
 pub use base64::base64;
@@ -18,6 +20,7 @@ pub use plain::{plain, plain_line};
 pub use rounded::{chosen_length, headline_length, headline_number, length_down, length_unlike, length_up};
 pub use rounded::{fixed, format_distinct, length, nonzero, percent, round_down, round_up, short};
 pub use shell::for_a_shell;
+pub use unit::{Unit, UnknownUnit};
 pub use wrapped::wrapped;
 
 /// Formats a count with its noun: `1 obstacle`, `3 obstacles`, `2 boxes`.

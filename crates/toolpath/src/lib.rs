@@ -39,9 +39,10 @@ mod gcode;
 mod path;
 mod placement;
 mod shapes;
+#[cfg(feature = "svg")]
 mod svg;
 
-pub use cplan_drawing::Unit;
+pub use cplan_text::Unit;
 pub use curve::{Curve, Point};
 pub use error::Error;
 pub use path::{MAX_PIECES, Piece, Source, Toolpath};
@@ -78,7 +79,10 @@ impl Format {
 pub fn read(bytes: &[u8], format: Format, placement: &Placement) -> Result<Toolpath, Error> {
     match format {
         Format::GCode => gcode::read(text(bytes)?, placement),
+        #[cfg(feature = "svg")]
         Format::Svg => svg::read(bytes, placement),
+        #[cfg(not(feature = "svg"))]
+        Format::Svg => Err(Error::new(None, None, "this program reads no SVG", "use G-code, or list the points")),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The place of a line in the plane of the robot.
 
 use crate::{Curve, Point};
-use cplan_drawing::Unit;
+use cplan_text::Unit;
 
 /// The place of a line in the plane: it is scaled about its origin, then turned about it, then moved.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,9 +7,9 @@ use crate::cli::theme::ThemeArgs;
 use crate::cli::values::{clearance, displacement, turn};
 use crate::grammar::{number_in, positive};
 use clap::{Args, ValueHint};
-use cplan_drawing::Unit;
 use cplan_follow::{MIN_TOLERANCE, Settings};
 use cplan_toolpath::Placement;
+use cplan_toolpath::Unit;
 use std::path::PathBuf;
 
 /// Move the tip along a line: G-code, SVG or TOML.

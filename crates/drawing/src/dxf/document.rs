@@ -126,7 +126,7 @@ fn unit<'a>(header: &[Tag<'a>]) -> Result<(Option<Unit>, Option<Tag<'a>>), Error
     let at = header.iter().position(|tag| tag.code == 9 && tag.value == "$INSUNITS");
     let value = at.and_then(|at| header[at + 1..].iter().find(|tag| tag.code == 70));
     let code = value.map(Tag::number).transpose()?.unwrap_or(0.0);
-    let unit = Unit::of_dxf(code as i64);
+    let unit = super::unit::of_code(code as i64);
     Ok((unit, value.copied().filter(|_| unit.is_none() && code != 0.0)))
 }
 

@@ -4,6 +4,7 @@ mod binary;
 mod document;
 mod entity;
 mod tags;
+mod unit;
 
 use crate::map::Map;
 use crate::sheet::{Origin, Sheet};

@@ -4,7 +4,7 @@ use super::words::Word;
 use crate::arc;
 use crate::path::{Piece, Toolpath};
 use crate::{Curve, Error, Placement, Point};
-use cplan_drawing::Unit;
+use cplan_text::Unit;
 
 const INCH: f64 = 0.0254;
 const SECONDS_PER_MINUTE: f64 = 60.0;
