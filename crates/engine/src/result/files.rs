@@ -2,6 +2,7 @@
 
 use super::Messages;
 use crate::plan::{Detail, Plan, joints_in_messages};
+use cplan_handling::{Driver, RobotJoint};
 use cplan_motion::{Format, JointMotion, Trajectory, csv, csv_of_joints, ros_yaml};
 #[cfg(feature = "mcap")]
 use cplan_motion::{Stage, mcap};
@@ -63,6 +64,15 @@ impl Plan {
             _ => return None,
         };
         Some(text.into_iter().map(String::into_bytes).collect())
+    }
+
+    /// Returns the motion of all joints, if a joint of the tool moves too, without accelerations.
+    pub(super) fn motion_with_tool(&self) -> Option<JointMotion> {
+        let is_tool = |joint: &RobotJoint| matches!(joint.driver, Driver::Stroke | Driver::Wrist);
+        if self.task().is_none() || !self.problem().robot().joints.joints.iter().any(is_tool) {
+            return None;
+        }
+        Some(self.messages()?.whole.without_accelerations())
     }
 
     /// Returns true if strokes of the tool overlap with motions of the arm.

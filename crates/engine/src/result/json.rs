@@ -11,7 +11,7 @@ use crate::motion::Motion;
 use crate::plan::{Detail, Plan};
 use cplan_core::model::{Joint, MotionProblem};
 use cplan_handling::Task;
-use cplan_motion::{BlendReport, Trajectory, field_per_line, interpolation};
+use cplan_motion::{BlendReport, JointMotion, Trajectory, field_per_line, interpolation};
 use cplan_robot::AssumedLimits;
 use cplan_solver::{Answer, GridSpace};
 use cplan_tasks::{TaskAnswer, TaskMotion};
@@ -48,6 +48,22 @@ struct Samples<'a> {
     trajectory: &'a Trajectory,
     #[serde(skip_serializing_if = "Option::is_none")]
     step: Option<Vec<usize>>,
+}
+
+/// The samples of all joints of the robot, joined by cubics.
+#[derive(Serialize)]
+struct AllJoints {
+    joints: Vec<String>,
+    time: Vec<f64>,
+    position: Vec<Vec<f64>>,
+    velocity: Vec<Vec<f64>>,
+}
+
+impl From<JointMotion> for AllJoints {
+    fn from(motion: JointMotion) -> Self {
+        let JointMotion { joints, time, position, velocity, .. } = motion;
+        Self { joints, time, position, velocity }
+    }
 }
 
 /// Descriptions of the assumed limits, by joint, and in one text.
@@ -171,7 +187,8 @@ impl PlanResult<'_> {
             trajectory: &sequence.trajectory,
             step: Some(sequence.steps()),
         });
-        self.trajectory(fields, samples)
+        self.trajectory(fields, samples)?;
+        fields.add_optional("all_joints", plan.motion_with_tool().map(AllJoints::from))
     }
 
     fn timings<M: SerializeMap>(&self, fields: &mut Fields<M>) -> Result<(), M::Error> {
@@ -196,7 +213,7 @@ fn free_joints(problem: &MotionProblem) -> Vec<&str> {
 
 impl Plan {
     /// The names of all fields that results can have.
-    pub const FIELD_NAMES: [&str; 35] = [
+    pub const FIELD_NAMES: [&str; 36] = [
         "status",
         "name",
         "planner",
@@ -232,6 +249,7 @@ impl Plan {
         "blends",
         "interpolation",
         "trajectory",
+        "all_joints",
     ];
 
     /// Returns the result with these fields only, in their usual order. If the list is empty, returns all fields.
