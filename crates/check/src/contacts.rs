@@ -33,7 +33,7 @@ pub struct Pair<'a> {
     pub body: &'a Body,
     /// The part, grown by the clearance.
     pub part: &'a Shape,
-    /// The link, if the part belongs to the robot. Overlap is then tested in the box that [`Cell::beside`] returns.
+    /// The link, if the part belongs to the robot. Overlap is then tested in the box that [`Cell::for_link`] returns.
     pub beside: Option<&'a Owner>,
 }
 

@@ -165,7 +165,7 @@ pub fn with_arches(seed: u64) -> Task {
 /// Returns a task in which the wrist turns objects while the arm moves, with or without strokes. All objects are level,
 /// and are placed at angles.
 pub fn with_turns(seed: u64) -> Task {
-    let mut task = if seed % 3 == 0 { task(seed) } else { with_arches(seed) };
+    let mut task = if seed.is_multiple_of(3) { task(seed) } else { with_arches(seed) };
     let mut dice = Dice::new(seed.wrapping_mul(0xD1B5_4A32_D192_ED03));
     let mut turn = |step: &mut Step| {
         if let Action::Place { angle, .. } = &mut step.action {

@@ -97,7 +97,7 @@ fn a_task_follows_lines_of_all_kinds() {
     let sample = (steps[1]["first_sample"].as_u64().unwrap() + steps[1]["last_sample"].as_u64().unwrap()) / 2;
     let value = &mut moved["trajectory"]["position"][sample as usize][0];
     *value = (number(value) + 1e-4).into();
-    place.write("moved.json", &moved.to_string());
+    place.write("moved.json", moved.to_string());
     let refused = place.run(&["verify", &files[0], &files[1], "moved.json"], "");
     assert!(refused.code != 0 && refused.stdout.contains("leave the line"), "{} {}", refused.code, refused.stdout);
 }
