@@ -15,7 +15,7 @@ use crate::engine::explain::{Explanation, MotionQuestion, TIME_LIMIT, explain};
 use crate::engine::task::FailedStep;
 use crate::engine::{Options, Plan, Problem, plan};
 use crate::input::{self, DiagnosticKind, LoadedEnds, LoadedScene, Overrides};
-use crate::model::Status;
+use crate::model::{Action, Status};
 use crate::output::PlanOutput as _;
 use crate::output::explained;
 use crate::space::{GoalSet, Segment};
@@ -130,6 +130,12 @@ impl ExplanationResult {
             match Problem::of_scene(loaded.clone(), overrides) {
                 Ok(problem) => {
                     let plan = plan(&problem, &Options::default())?;
+                    if let Some(number) = failed_line(&plan) {
+                        return Err(Failure::Option(format!(
+                            "step {number} follows a line, and an explanation is about a motion between two \
+                             configurations; `cplan follow` names the place where the line cannot be followed"
+                        )));
+                    }
                     match failed_step(&plan) {
                         Some((question, note)) => (question, vec![note]),
                         None => return Ok(Self::Done(Box::new(plan))),
@@ -187,6 +193,12 @@ impl ExplanationResult {
             Self::Done(plan) => plan.view(),
         }
     }
+}
+
+/// Returns the number of the failed step if it follows a line.
+fn failed_line(plan: &Plan) -> Option<usize> {
+    let step = &plan.task()?.1.failed()?.step;
+    matches!(step.action, Action::Follow(_)).then_some(step.number)
 }
 
 /// Returns the motion of the failed step, with objects and payload as they are then, and the description of the step.

@@ -21,7 +21,12 @@ const BARS: Bars = Bars { lengths: [1.0, 0.8], width: 0.06 };
 
 /// Returns the task of a world for `robots/planar_2r.urdf`.
 fn load(world: &str) -> Result<Task, InputError> {
-    let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/robots/planar_2r.urdf");
+    load_for("planar_2r", world)
+}
+
+/// Returns the task of a world for a shipped robot.
+fn load_for(robot: &str, world: &str) -> Result<Task, InputError> {
+    let urdf = format!("{}/robots/{robot}.urdf", env!("CARGO_MANIFEST_DIR"));
     let scene = scene_from(Source::read(urdf.as_ref())?, Source::in_memory("world.toml", world))?;
     Ok(scene.task(&Overrides::default())?.task)
 }
@@ -209,4 +214,26 @@ fn lines_among_moving_obstacles_are_refused() {
                  motion = { velocity = [0.1, 0] }\n[[step]]\nfollow = { points = [[1.2, 0], [1.3, 0]] }\n";
     let error = load(world).unwrap_err().to_string();
     assert!(error.contains("\"cart\" moves, and a line is followed among obstacles at rest"), "{error}");
+}
+
+/// The line is straight in joint space too, and both of its ends are free.
+#[test]
+fn a_straight_line_that_is_blocked_in_its_middle_is_infeasible() {
+    let world = "[start]\njoints = [0.4, 0.7]\n[[step]]\nfollow = { points = [[0.5, 0.9], [1.2, 0.9]] }\n[[obstacle]]\n\
+                 polygon = [[0.8, 0.6], [1.0, 0.6], [1.0, 0.7], [0.8, 0.7]]\n";
+    let task = load_for("gantry", world).unwrap_or_else(|error| panic!("{error}"));
+    let answer = plan(&task, &options(), &mut |_| {});
+    let Outcome::Infeasible(failed) = &answer.outcome else { panic!("{:?}", answer.outcome.status()) };
+    assert!(failed.reasons.iter().any(|reason| reason.contains("no IK solution is possible")), "{:?}", failed.reasons);
+}
+
+/// The whole line is shorter than a hundred times its tolerance.
+#[test]
+fn a_wide_tolerance_does_not_hide_a_motion() {
+    let world = "[start]\njoints = [1.07, 0.03]\n[[step]]\nfollow = { spline = [[0.250785, 0.462893], [0.250249, 0.463919], \
+                 [0.249853, 0.46374], [0.250415, 0.464009], [0.249739, 0.463134]], speed = 0.001, tolerance = 1e-3 }\n";
+    let task = load_for("polar", world).unwrap_or_else(|error| panic!("{error}"));
+    let answer = plan(&task, &options(), &mut |_| {});
+    assert!(answer.outcome.found().is_some(), "{:?}", answer.failed());
+    assert!(answer.legs[1].deviation.is_some_and(|deviation| deviation <= 1e-3));
 }

@@ -70,6 +70,9 @@ impl Line {
         };
         let line =
             Self { tolerance, pieces: pieces.iter().map(curve).collect(), travels: travels.len(), places, stretch };
+        if Interval::from(&line.tolerance).lower <= BigInt::ZERO {
+            return Err(wrong("\"line\": its tolerance must be above 0".into()));
+        }
         if line.pieces.is_empty() {
             return Err(wrong("\"line\": it has no pieces".into()));
         }

@@ -76,6 +76,12 @@ const SLACK_SHARE: f64 = 0.25;
 /// nodes grows with its root.
 const PROOF_FINENESS: f64 = 64.0;
 
+/// Number of parts of each piece for a proof, if that does not make too many. Long parts may be blocked in the middle.
+const PROOF_PARTS: usize = 64;
+
+/// Factor by which the tolerance is lowered if no motion is proven to be within it.
+const TOLERANCE_FACTOR: f64 = 0.1;
+
 /// Greatest number of nodes before the line is divided more finely for a proof.
 const MAX_COARSE_NODES: usize = 20_000;
 
@@ -180,7 +186,8 @@ pub fn follow_between(
     let prove = |prover: &Prover, search: &Search| {
         let sheet = |end: usize| (0..prover.sheets.sheets.len()).find(|sheet| search.is_end(end, *sheet));
         let between = sheet(0).zip(sheet(1)).and_then(|(from, to)| prover.prove_between([from, to]));
-        between.or_else(|| prover.prove().map(|infeasible| infeasible.describe()))
+        let whole = || prover.prove().or_else(|| follower.prove_finely(prover));
+        between.or_else(|| whole().map(|infeasible| infeasible.describe()))
     };
     follower.run(&prove, &|infeasible: Infeasible| infeasible.describe())
 }
@@ -206,7 +213,7 @@ impl Follower<'_> {
         let tolerance = settings.tolerance;
         let mut share = INITIAL_SHARE;
         for attempt in 0..ATTEMPTS {
-            let division = Division { deviation: share * tolerance, slack: SLACK_SHARE * tolerance };
+            let division = Division { deviation: share * tolerance, slack: SLACK_SHARE * tolerance, least_parts: 1 };
             let Ok(nodes) = Nodes::new(kinematics, line, division) else {
                 return Ok(Outcome::Unknown(format!(
                     "the line needs more than {MAX_NODES} parts; split it, or raise the tolerance"
@@ -237,8 +244,17 @@ impl Follower<'_> {
             }
             share *= SHARE_FACTOR;
         }
+        // A motion within a smaller tolerance is one within this.
+        let smaller = Settings { tolerance: TOLERANCE_FACTOR * tolerance, ..*settings };
+        if smaller.tolerance >= MIN_TOLERANCE {
+            let finer = Follower { scene, kinematics, line, settings: &smaller, ends }
+                .run(&|_: &Prover, _: &Search| None::<P>, proof)?;
+            if matches!(finer, Outcome::Found(_)) {
+                return Ok(finer);
+            }
+        }
         Ok(Outcome::Unknown(
-            "a motion was found, but not proven to be within the tolerance; raise the tolerance".into(),
+            "a motion was found, but not proven to be within the tolerance; try another tolerance".into(),
         ))
     }
 
@@ -249,7 +265,8 @@ impl Follower<'_> {
         }
         let tolerance = self.settings.tolerance;
         let (deviation, slack) = (INITIAL_SHARE * tolerance / PROOF_FINENESS, SLACK_SHARE * tolerance);
-        let nodes = &Nodes::new(self.kinematics, self.line, Division { deviation, slack }).ok()?;
+        let least_parts = (MAX_COARSE_NODES / self.line.pieces.len()).clamp(1, PROOF_PARTS) as u32;
+        let nodes = &Nodes::new(self.kinematics, self.line, Division { deviation, slack, least_parts }).ok()?;
         let sheets = &Sheets::new(self.kinematics, nodes);
         let finer = Prover { nodes, sheets, ..*prover };
         proof::out_of_reach(self.kinematics, nodes, tolerance).or_else(|| finer.prove())

@@ -51,6 +51,8 @@ pub(crate) struct Division {
     pub deviation: f64,
     /// Distance from the reach up to which a place is replaced by the nearest one in reach, metres.
     pub slack: f64,
+    /// Least number of parts of each piece.
+    pub least_parts: u32,
 }
 
 /// The reason why a line cannot be divided.
@@ -69,6 +71,7 @@ impl Nodes {
                 Curve::Arc { by, .. } => (by.abs() / FRAC_PI_2).ceil().max(1.0) as u32,
                 Curve::Cubic(_) => CUBIC_PARTS,
             };
+            let count = count.max(division.least_parts);
             let share = |k: u32| f64::from(k) / f64::from(count);
             (0..count).try_for_each(|k| divider.divide(piece, [share(k), share(k + 1)]))?;
         }

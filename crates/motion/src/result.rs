@@ -58,8 +58,12 @@ impl BlendReport {
     /// Summarises the blends of a curve.
     #[must_use]
     pub fn of(curve: &CertifiedCurve) -> Self {
-        let radii = || curve.radii().iter().copied().filter(|radius| *radius > 0.0);
-        Self { count: radii().count(), largest_radius: radii().fold(0.0, f64::max) }
+        // A blend does not extend beyond the next corners.
+        let q = curve.curve().path().waypoints();
+        let room = |w: usize| (q[w] - q[w - 1]).norm().min((q[w + 1] - q[w]).norm());
+        let rounded = curve.radii().iter().enumerate().filter(|(_, radius)| **radius > 0.0);
+        let radii: Vec<f64> = rounded.map(|(w, radius)| radius.min(room(w))).collect();
+        Self { count: radii.len(), largest_radius: radii.into_iter().fold(0.0, f64::max) }
     }
 }
 

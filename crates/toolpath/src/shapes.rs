@@ -7,6 +7,9 @@ use crate::{Curve, Error, Point, arc};
 /// count as lying on a straight line. The arc's radius would be above 10 km for each metre.
 const STRAIGHT: f64 = 1e-5;
 
+/// Share by which rounding may make arcs too long for the lines between them.
+const FIT_ROUNDING: f64 = 1e-9;
+
 /// Unit to which the greatest radius is rounded down in messages, metres.
 const RADIUS_UNIT: f64 = 1e-6;
 
@@ -27,7 +30,7 @@ pub fn polyline(points: &[Point], radius: f64) -> Result<Vec<Leg>, Error> {
     let lengths: Vec<f64> = points.windows(2).map(|pair| norm(minus(pair[1], pair[0]))).collect();
     // With the radius 0, nothing is cut.
     let fit = |i: usize| if radius > 0.0 { lengths[i - 1] / (cuts[i - 1] + cuts[i]) } else { f64::INFINITY };
-    if let Some(i) = (1..=last).min_by(|a, b| fit(*a).total_cmp(&fit(*b))).filter(|i| fit(*i) < 1.0) {
+    if let Some(i) = (1..=last).min_by(|a, b| fit(*a).total_cmp(&fit(*b))).filter(|i| fit(*i) < 1.0 - FIT_ROUNDING) {
         let message = format!("corners rounded by {radius} m do not fit between points {i} and {}", i + 1);
         let greatest = (radius * fit(i) / RADIUS_UNIT).floor() * RADIUS_UNIT;
         let hint = match greatest > 0.0 {

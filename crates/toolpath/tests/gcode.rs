@@ -177,3 +177,12 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn travels_at_both_ends_are_left_out_with_a_note() {
+    let text = "G21 G0 X0 Y0\nG0 X10\nG1 X20\nG0 X0\nG0 Y5\n";
+    let path = read(text.as_bytes(), Format::GCode, &Placement::default()).unwrap();
+    assert_eq!(path.pieces().len(), 1);
+    let notes = ["1 travel (G0) before the first piece left out", "2 travels (G0) after the last piece left out"];
+    assert_eq!(path.notes(), notes);
+}

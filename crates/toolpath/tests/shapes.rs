@@ -30,6 +30,8 @@ fn radii_that_do_not_fit_are_refused_with_the_greatest_one() {
     assert!(error.message.contains("between points 2 and 3"), "{error}");
     assert!(error.hint.contains("0.150000 m"), "{}", error.hint);
     assert!(polyline(&points, 0.1499).is_ok());
+    // Arcs that fill the line between them.
+    assert!(polyline(&[[0.2, 0.0], [0.0, 0.0], [0.0, 0.2], [0.2, 0.2]], 0.1).is_ok());
     // A line that returns on itself has no arc.
     assert!(polyline(&[[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]], 0.01).is_err());
     assert_eq!(polyline(&[[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]], 0.0).unwrap().len(), 2);

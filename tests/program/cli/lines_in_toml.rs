@@ -110,3 +110,70 @@ fn a_task_with_a_line_says_that_it_has_no_certificate() {
     assert!(done.stderr.contains("a task with a line has no certificate"), "{}", done.stderr);
     assert!(!place.path("c.json").exists());
 }
+
+/// Runs a task for a shipped robot, and returns its files.
+fn task(place: &Place, robot: &str, world: &str) -> [String; 2] {
+    place.write("world.toml", world);
+    let files = [shipped(&format!("robots/{robot}.urdf")), "world.toml".to_owned()];
+    let done = place.run(&files, "--output result.json --quiet");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    files
+}
+
+#[test]
+fn results_with_limited_jerks_are_verified() {
+    let place = Place::new();
+    let world = "[robot]\njerk = { turret = 133.78, ram_slide = 73.4 }\n[start]\njoints = [0.38, 0.03]\n[[step]]\n\
+                 follow = { points = [[-0.6437, -0.5701], [-0.6062, -0.6006], [-0.6348, -0.5798], [-0.6064, -0.5662]], \
+                 tolerance = 1e-4, speed = 0.5 }\n";
+    let [robot, world] = task(&place, "polar", world);
+    let verified = place.run(&["verify", &robot, &world, "result.json"], "");
+    assert!(verified.code == 0 && verified.stdout.contains("free: the whole task, 2 steps"), "{}", verified.stdout);
+    assert!(verified.stdout.contains("steps[..].deviation"), "{}", verified.stdout);
+}
+
+#[test]
+fn a_tip_faster_than_its_line_is_refused() {
+    let place = Place::new();
+    let world =
+        "[start]\njoints = [-0.9, 1.6]\n[[step]]\nfollow = { points = [[1.1, -0.15], [1.4, -0.15]], speed = 0.3 }\n";
+    let [robot, _] = task(&place, "planar_2r", world);
+    place.write("slow.toml", &world.replace("0.3", "0.1"));
+    let refused = place.run(&["verify", &robot, "slow.toml", "result.json"], "");
+    assert!(refused.code != 0 && refused.stdout.contains("faster than 0.1 m/s"), "{}", refused.stdout);
+}
+
+#[test]
+fn a_line_that_fails_is_not_explained_as_a_free_motion() {
+    let place = Place::new();
+    place.write(
+        "far.toml",
+        "[start]\njoints = [0.3, 1.2]\n[[step]]\nfollow = { arc = [[1.2, -1.2], [1.9, 0], [1.2, 1.2]] }\n",
+    );
+    let refused = place.run(&["explain", &shipped("robots/planar_2r.urdf"), "far.toml"], "");
+    assert!(
+        refused.code == 1 && refused.stderr.contains("step 2 follows a line"),
+        "{} {}",
+        refused.code,
+        refused.stderr
+    );
+}
+
+#[test]
+fn a_certificate_with_a_negative_tolerance_is_refused() {
+    let place = Place::new();
+    let done = follow(&place, "points = [[1.5, 0], [1.9, 0]]", "--certificate c.json --quiet");
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/engraving.toml")];
+    assert_eq!(place.run(&["recheck", &files[0], &files[1]], "--proof c.json").code, 0);
+    let mut certificate: Value = serde_json::from_str(&place.read("c.json")).unwrap();
+    certificate["line"]["tolerance"] = (-0.5).into();
+    place.write("negative.json", certificate.to_string());
+    let refused = place.run(&["recheck", &files[0], &files[1]], "--proof negative.json");
+    assert!(
+        refused.code == 1 && refused.stderr.contains("tolerance must be above 0"),
+        "{} {}",
+        refused.code,
+        refused.stderr
+    );
+}

@@ -4,7 +4,7 @@ use super::words::Word;
 use crate::arc;
 use crate::path::{Piece, Toolpath};
 use crate::{Curve, Error, Placement, Point};
-use cplan_text::Unit;
+use cplan_text::{Unit, counted};
 
 const INCH: f64 = 0.0254;
 const SECONDS_PER_MINUTE: f64 = 60.0;
@@ -187,14 +187,24 @@ impl<'p> Machine<'p> {
         let placed = |piece: Piece| Piece { curve: self.placement.place(&piece.curve), ..piece };
         // Where a travel leads to nothing, the tip would only leave the line.
         let mut pieces = self.pieces;
+        let count = pieces.len();
         while pieces.last().is_some_and(|piece| piece.is_travel) {
             pieces.pop();
         }
+        let after = count - pieces.len();
         let drawn = pieces.iter().position(|piece| !piece.is_travel).unwrap_or(pieces.len());
         let path = Toolpath::new(pieces.into_iter().skip(drawn).map(placed).collect())?;
         let assumed = !self.says_unit && self.placement.unit.is_none();
-        let note = "the file states no unit (G20 or G21): read as mm";
-        Ok(path.with_notes(assumed.then(|| note.to_owned()).into_iter().collect()))
+        let mut notes = Vec::new();
+        if assumed {
+            notes.push("the file states no unit (G20 or G21): read as mm".to_owned());
+        }
+        for (left_out, place) in [(drawn, "before the first piece"), (after, "after the last piece")] {
+            if left_out > 0 {
+                notes.push(format!("{} (G0) {place} left out", counted(left_out, "travel")));
+            }
+        }
+        Ok(path.with_notes(notes))
     }
 }
 

@@ -135,6 +135,10 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
             unjudged.push(inner.into());
         }
     }
+    let steps = members.get("steps").and_then(|steps| steps.as_array());
+    if steps.is_some_and(|steps| steps.iter().any(|step| step.get("deviation").is_some())) {
+        unjudged.push("steps[..].deviation".into());
+    }
     let width = document.joints.as_ref().map_or(2, Vec::len);
     if let Some(units) = document.units.as_ref().filter(|units| units.len() != width) {
         let diagnostic = source.diagnostic(format!("units are {units:?}, but {width} joints are named"));

@@ -34,6 +34,14 @@ pub enum Fault {
         /// Index of the sample before the part of the motion with this bound, from the step's first sample.
         piece: usize,
     },
+    /// The tip is faster than the line allows.
+    #[error("the tip moves along the line at {speed:.6} m/s, faster than {most} m/s")]
+    LineSpeed {
+        /// The greatest speed that was seen, metres per second.
+        speed: f64,
+        /// The greatest allowed speed.
+        most: f64,
+    },
     /// A moving object is picked at a time outside its window.
     #[error("the object is picked at {time:.6} s, outside the required times")]
     When {

@@ -2,7 +2,33 @@
 
 use super::Fault;
 use cplan_deviation::{Deviation, Foot, Kinematics, Line};
-use cplan_handling::{FollowedLine, Recording, Task};
+use cplan_handling::{Derivative, FollowedLine, Piece, Recording, Task};
+
+/// Allowance for rounding in comparisons of speeds, as a share.
+const SPEED_ROUNDING: f64 = 1e-6;
+
+/// Number of intervals of each piece of a motion between which the speed of the tip is looked at.
+const SPEED_PARTS: u32 = 4;
+
+/// Returns a fault if the tip is seen to be faster than everywhere allowed on the line. A line with a travel has no such
+/// speed, unless it has one as a whole.
+pub(super) fn speed_fault(task: &Task, motion: &Recording, followed: &FollowedLine) -> Option<Fault> {
+    let pieces = followed.path.pieces();
+    let stated = || pieces.iter().map(|piece| piece.speed.filter(|_| !piece.is_travel)).collect::<Option<Vec<f64>>>();
+    let without_travel = || pieces.iter().all(|piece| !piece.is_travel);
+    let most = match followed.speed.filter(|_| without_travel()) {
+        Some(speed) => speed,
+        None => stated()?.into_iter().fold(0.0, f64::max),
+    };
+    let kinematics = Kinematics::new(&task.arm);
+    let speed = |piece: &Piece, part: u32| {
+        let u = f64::from(part) / f64::from(SPEED_PARTS);
+        kinematics.velocity(piece.at(u), piece.derivative(Derivative::Velocity, u)).norm()
+    };
+    let pieces = motion.pieces();
+    let fastest = pieces.iter().flat_map(|piece| (0..=SPEED_PARTS).map(|part| speed(piece, part))).fold(0.0, f64::max);
+    (fastest > most * (1.0 + SPEED_ROUNDING)).then_some(Fault::LineSpeed { speed: fastest, most })
+}
 
 /// Returns a fault if a motion is not proven to stay within the tolerance of a line, in the order of the line. It begins
 /// and ends where the line does.

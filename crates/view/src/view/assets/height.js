@@ -6,7 +6,10 @@ const Height = (() => {
   /** Room above and below the line, as a share of the stroke. */
   const ROOM = 0.15;
 
-  /** What the strips show: the member of the model, the unit, and words for the caption and for screen readers. */
+  /**
+   * What the strips show: the member of the model, the unit, and words for the caption and for screen readers.
+   * @type {Record<'height' | 'turns', { unit: string, title: string, caption: (strip: { joint?: string }) => string }>}
+   */
   const KINDS = {
     height: { unit: 'mm', title: 'Height of the tool', caption: ({ joint }) => `Height of the tool: joint \u201c${joint}\u201d` },
     turns: { unit: '\u00b0', title: 'Turns of the wrist', caption: () => 'Angle by which the wrist has turned the object' },
