@@ -163,7 +163,7 @@ fn pair(value: &Value) -> Option<V> {
     Some([value.get(0)?.as_f64()?, value.get(1)?.as_f64()?].map(|x| x.clamp(-1e100, 1e100)))
 }
 
-/// Describes a false statement of a certificate. Returns `None` if there is none. The certificate must have the form
+/// Describes a false statement of a certificate. Returns `None` for a true certificate. The certificate must have the form
 /// that the checker accepts.
 pub fn false_claim(drawn: &Drawn, certificate: &Value) -> Option<String> {
     let clearance = certificate["clearance"].as_f64().unwrap_or(drawn.clearance);
@@ -258,7 +258,7 @@ fn part_of(drawn: &Drawn, part: &Value) -> Result<(Vec<V>, f64), &'static str> {
     }
 }
 
-/// Describes how a path leads past the boxes from the start to a goal. Returns `None` if there is none.
+/// Describes how a path leads past the boxes from the start to a goal. Returns `None` if the boxes block all paths.
 fn connection(drawn: &Drawn, certificate: &Value, boxes: &[[V; 2]]) -> Option<String> {
     let domain = drawn.joints.map(|joint| joint.domain());
     let ends = [0, 1].map(|k| {

@@ -96,7 +96,7 @@ impl Run {
     }
 }
 
-/// Describes a false statement of an answer. Returns `None` if there is none.
+/// Describes a false statement of an answer. Returns `None` for a true answer.
 fn false_answer(problem: &MotionProblem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Option<String> {
     match &answer.outcome {
         Outcome::Unknown(_) => None,

@@ -7,19 +7,18 @@ use cplan_handling::{Derivative, FollowedLine, Piece, Recording, Task};
 /// Allowance for rounding in comparisons of speeds, as a share.
 const SPEED_ROUNDING: f64 = 1e-6;
 
-/// Number of intervals of each piece of a motion between which the speed of the tip is looked at.
+/// Number of intervals in each piece of a motion. The check evaluates the speed of the tip at their ends.
 const SPEED_PARTS: u32 = 4;
 
-/// Returns a fault if the tip is seen to be faster than everywhere allowed on the line. A line with a travel has no such
-/// speed, unless it has one as a whole.
+/// Returns a fault if the tip exceeds the greatest speed of the line. Travels have no such limit, so a line with a travel
+/// has no fault.
 pub(super) fn speed_fault(task: &Task, motion: &Recording, followed: &FollowedLine) -> Option<Fault> {
     let pieces = followed.path.pieces();
-    let stated = || pieces.iter().map(|piece| piece.speed.filter(|_| !piece.is_travel)).collect::<Option<Vec<f64>>>();
-    let without_travel = || pieces.iter().all(|piece| !piece.is_travel);
-    let most = match followed.speed.filter(|_| without_travel()) {
-        Some(speed) => speed,
-        None => stated()?.into_iter().fold(0.0, f64::max),
-    };
+    if pieces.iter().any(|piece| piece.is_travel) {
+        return None;
+    }
+    let speeds: Option<Vec<f64>> = pieces.iter().map(|piece| followed.speed.or(piece.speed)).collect();
+    let most = speeds?.into_iter().fold(0.0, f64::max);
     let kinematics = Kinematics::new(&task.arm);
     let speed = |piece: &Piece, part: u32| {
         let u = f64::from(part) / f64::from(SPEED_PARTS);
