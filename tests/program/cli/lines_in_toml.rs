@@ -138,7 +138,7 @@ fn a_tip_faster_than_its_line_is_refused() {
     let world =
         "[start]\njoints = [-0.9, 1.6]\n[[step]]\nfollow = { points = [[1.1, -0.15], [1.4, -0.15]], speed = 0.3 }\n";
     let [robot, _] = task(&place, "planar_2r", world);
-    place.write("slow.toml", &world.replace("0.3", "0.1"));
+    place.write("slow.toml", world.replace("0.3", "0.1"));
     let refused = place.run(&["verify", &robot, "slow.toml", "result.json"], "");
     assert!(refused.code != 0 && refused.stdout.contains("faster than 0.1 m/s"), "{}", refused.stdout);
 }
