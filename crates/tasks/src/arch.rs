@@ -78,18 +78,38 @@ pub(super) fn overlap(
     from: &State,
     candidate: &Candidate,
     motion: &TimedMotion,
+    at_target: (Option<&ToolStroke>, Option<(WristTurn, f64)>),
+) -> Overlap {
+    let of = |with_turns| overlap_of(task, from, candidate, motion, at_target, with_turns);
+    let turn = from.turning.or(at_target.1).filter(|_| turns_on_the_way(task));
+    let Some((_, at_rest)) = turn else { return of(false) };
+    // In a short motion, the other stroke alone may save more than the turn.
+    let saved = |overlap: &Overlap| overlap.seconds() - overlap.turn_seconds.map_or(0.0, |seconds| seconds - at_rest);
+    let [with, without] = [true, false].map(of);
+    if saved(&without) > saved(&with) { without } else { with }
+}
+
+/// Returns the overlap of strokes with a motion, and of turns if `with_turns`. Otherwise the arm rests during turns.
+fn overlap_of(
+    task: &Task,
+    from: &State,
+    candidate: &Candidate,
+    motion: &TimedMotion,
     (stroke, turn): (Option<&ToolStroke>, Option<(WristTurn, f64)>),
+    with_turns: bool,
 ) -> Overlap {
     let arch = task.stroke.as_ref().filter(|tool| tool.arch.is_some());
-    let on_the_way = turns_on_the_way(task);
-    if arch.is_none() && !on_the_way {
+    if arch.is_none() && !with_turns {
         return Overlap::NONE;
     }
-    let may_lower = stroke.is_some() && (turn.is_none() || on_the_way);
+    let may_rise = from.turning.is_none() || with_turns;
+    let may_lower = stroke.is_some() && (turn.is_none() || with_turns);
     let depth = |object: usize| arch.map(|tool| tool.depth(&task.objects[object]));
-    let depths =
-        [from.rising.and_then(depth), candidate.event.filter(|_| may_lower).and_then(|event| depth(event.object()))];
-    let turns = [from.turning, turn.filter(|_| on_the_way)];
+    let depths = [
+        from.rising.filter(|_| may_rise).and_then(depth),
+        candidate.event.filter(|_| may_lower).and_then(|event| depth(event.object())),
+    ];
+    let turns = [from.turning, turn].map(|turn| turn.filter(|_| with_turns));
     if depths.iter().all(Option::is_none) && turns.iter().all(Option::is_none) {
         return Overlap::NONE;
     }
