@@ -291,7 +291,7 @@ impl<'a> StepReader<'a> {
         let pace = self.read_pace(pace, step.speed.as_ref(), step.dwell.as_ref())?;
         self.require_fitting_keys(step)?;
         let one = |at, action| Ok(vec![(at, action)]);
-        if step.actions() != 1 {
+        let wrong_count = || {
             let message = format!(
                 "a step needs exactly one of `pick`, `place`, `move`, `follow`, `transfer` and `steps`, but has {}",
                 step.actions()
@@ -299,7 +299,10 @@ impl<'a> StepReader<'a> {
             let help = "pick = \"NAME\", place = { at = [x, y] }, move = { joints = [q1, q2] }, \
                         follow = { points = [[x, y], [x, y]] }, transfer = { objects = \"NAME\", to = \"PALLET\" }, \
                         or [[step.steps]]";
-            return Err(self.reader.source.diagnostic_at(table.span(), message).help(help));
+            self.reader.source.diagnostic_at(table.span(), message).help(help)
+        };
+        if step.actions() != 1 {
+            return Err(wrong_count());
         }
         if let Some(follow) = &step.follow {
             return self.follow(follow, pace, table.span());
@@ -318,8 +321,7 @@ impl<'a> StepReader<'a> {
                 one(at, LeafAction::Move(goal))
             }
             (None, None, None, Some(Table(transfer)), None) => self.transfer(transfer),
-            // The table has exactly one action.
-            _ => Ok(Vec::new()),
+            _ => return Err(wrong_count()),
         }?;
         Ok(actions.into_iter().map(|(at, action)| self.leaf(at, action, pace, table.span())).collect())
     }
