@@ -16,8 +16,12 @@ NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 
 
 def executed(notebook: Path) -> NotebookNode:
-    """Returns the notebook with the outputs of its cells, executed in a new kernel."""
-    return NotebookClient(nbformat.read(notebook, as_version=4), timeout=120, kernel_name="python3").execute()
+    """Returns the notebook with the outputs of its cells, executed in a new kernel.
+
+    The kernel sends the lines of a cell in one piece or several, as time allows; they are joined.
+    """
+    cells = nbformat.read(notebook, as_version=4)
+    return NotebookClient(cells, timeout=120, kernel_name="python3", coalesce_streams=True).execute()
 
 
 def page(name: str, notebook: NotebookNode) -> tuple[str, dict[str, bytes]]:
