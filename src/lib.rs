@@ -79,8 +79,9 @@ pub mod model {
     pub use cplan_handling::{
         Action, Arch, BlendsClaim, Claims, Driver, Drives, EventClaim, FollowedLine, HeldEffect, HeldJoint, HeldMotion,
         Holding, Item, Leg, MAX_STOP_TIME, MovingObstacle, Object, ObstacleTrajectory, ObstacleTrajectoryError,
-        OptimumClaim, Payload, RecordedOverlap, RecordedStep, RecordedTurn, RobotJoint, RobotJoints, Step, StepClaims,
-        Stop, Stroke, Task, TaskClaims, TaskError, TimedScene, TimedWorkspace, ToolJoint, Wrist,
+        OptimumClaim, Payload, RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist, RobotJoint, RobotJoints,
+        Step, StepClaims, Stop, Stroke, Task, TaskClaims, TaskError, TimedScene, TimedWorkspace, ToolJoint, ToolValues,
+        Wrist,
     };
     pub use cplan_robot::AssumedLimits;
     pub use cplan_world::{Mount, Sensor};

@@ -100,7 +100,7 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
 pub fn hint(files: &Files, query: &QueryArgs) -> Option<String> {
     let loaded = input::load_scene(files.robot(), &files.world).ok()?;
     let overrides = query.overrides();
-    let has_ends = match loaded.has_steps() {
+    let has_ends = match loaded.is_task() {
         true => loaded.clone().start_alone(&overrides).is_ok(),
         false => loaded.clone().query(&overrides).is_ok(),
     };
@@ -126,7 +126,7 @@ impl ExplanationResult {
     /// Overrides that do not suit the world, and an invalid task.
     pub fn of(loaded: LoadedScene, overrides: &Overrides, limit: Duration) -> Result<Self, Failure> {
         loaded.require_static_obstacles("explanations are for worlds without moving obstacles")?;
-        let (question, notes) = if loaded.has_steps() {
+        let (question, notes) = if loaded.is_task() {
             match Problem::of_scene(loaded.clone(), overrides) {
                 Ok(problem) => {
                     let plan = plan(&problem, &Options::default())?;

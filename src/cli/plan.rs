@@ -151,7 +151,7 @@ pub fn answer(
     let certified = given.filter(|_| certificate.is_some());
     let about = certified.map(|files| Digests::of(&files.robot(), &files.world, &inputs)).transpose()?;
     sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path), &inputs)?;
-    if args.per_step && !loaded.has_steps() {
+    if args.per_step && !loaded.is_task() {
         return Err(Failure::Usage("--per-step needs a world with steps ([[step]])".into()));
     }
     let asked = args.query.overrides();

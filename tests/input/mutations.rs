@@ -58,7 +58,7 @@ fn slips_in_worlds_and_robots_are_read_or_refused() {
             _ => (slipped(&mut dice, ARM), WORLD.to_owned()),
         };
         let scene = scene_from(Source::in_memory("arm.urdf", &*urdf), Source::in_memory("world.toml", &*world));
-        let loaded = scene.and_then(|scene| match scene.has_steps() {
+        let loaded = scene.and_then(|scene| match scene.is_task() {
             true => Ok(0),
             false => scene.problem(&Overrides::default()).map(|loaded| {
                 let obstacles = &loaded.problem.scene().workspace().obstacles;

@@ -87,8 +87,12 @@ stroke = { joint = "c", travel = 0.1, velocity = 1.0, acceleration = 4.0 }
 arch = { rise = 0.02, fall = 0.03 }
 [start]
 joints = [0, 0.5]
+stroke = -0.05
+wrist = "10deg"
 [goal]
 tip = [0.3, 0.4]
+stroke = -0.05
+wrist = 0.5
 [map]
 file = "room.map"
 preferences = "wishes.map"

@@ -8,7 +8,7 @@ use super::common::{all_kinds, arm, dice, joint, link, rectangle, scene};
 use cplan::check::certify;
 use cplan::geometry::{Point, Pose, Vector};
 use cplan::model::{
-    Arm, Body, Dynamics, Grip, Heights, Holding, JointType, Object, Payload, Scene, Shape, Task, Torques,
+    Arm, Body, Dynamics, Grip, Heights, Holding, JointType, Object, Payload, Scene, Shape, Task, ToolValues, Torques,
 };
 use cplan::motion::{Drive, Objective, TimingError, Trajectory};
 use cplan::space::{Configuration, JointRange, Path};
@@ -306,6 +306,7 @@ fn payload_mass_counts() {
             items: vec![],
             wrist: None,
             stroke: None,
+            start_tool: ToolValues::default(),
         };
         task.scene(&[None], &[], Some(&Payload { object: 0, grip, supports: vec![] }), [])
     };

@@ -10,7 +10,8 @@ use crate::world::KINDS;
 use cplan::engine::task::plan;
 use cplan::geometry::{Point, Vector};
 use cplan::model::{
-    Action, Arm, Heights, Holding, Item, Object, Obstacle, ObstacleTrajectory, Outcome, Shape, Step, Task, Workspace,
+    Action, Arm, Heights, Holding, Item, Object, Obstacle, ObstacleTrajectory, Outcome, Shape, Step, Task, ToolValues,
+    Workspace,
 };
 use cplan::space::Configuration;
 use cplan::{Options, Status};
@@ -91,10 +92,20 @@ fn single_pick(seed: u64) -> Task {
         mass: 0.0,
     };
     let action = Action::Pick { object: 0, grasp: Point::zeros(), supports: Vec::new(), when: Vec::new() };
-    let step = Step { action, number: 1, cycle: 1, place: String::new(), speed: 1.0, dwell: 0.0 };
+    let step =
+        Step { action, number: 1, cycle: 1, place: String::new(), speed: 1.0, dwell: 0.0, tool: ToolValues::default() };
     let start = Configuration::new(dice.within(-PI, PI), dice.within(-PI, PI));
     let workspace = workspace.into();
-    Task { arm, workspace, objects: vec![object], start, items: vec![Item::Step(step)], wrist: None, stroke: None }
+    Task {
+        arm,
+        workspace,
+        objects: vec![object],
+        start,
+        items: vec![Item::Step(step)],
+        wrist: None,
+        stroke: None,
+        start_tool: ToolValues::default(),
+    }
 }
 
 #[test]

@@ -121,6 +121,8 @@ fn record(answer: &TaskAnswer) -> (Recording, Vec<RecordedStep>) {
         samples: samples.clone(),
         turn: None,
         overlap: Default::default(),
+        raising: 0.0,
+        wrist: None,
     });
     (recording, steps.collect())
 }

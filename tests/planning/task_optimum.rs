@@ -5,8 +5,8 @@ use cplan::engine::task::{TaskAnswer, plan, rest_to_rest};
 use cplan::engine::{Method, Options};
 use cplan::geometry::{Point, Pose, Vector};
 use cplan::model::{
-    Action, Arm, Goal, Heights, Holding, Item, JointType, Object, Shape, Step, Task, Workspace, equivalent_values,
-    inverse,
+    Action, Arm, Goal, Heights, Holding, Item, JointType, Object, Shape, Step, Task, ToolValues, Workspace,
+    equivalent_values, inverse,
 };
 use cplan::motion::Drive;
 use cplan::space::{Configuration, JointRange};
@@ -52,7 +52,7 @@ fn distant_object(name: &str, at: Point) -> Object {
 }
 
 fn step(action: Action, number: usize) -> Step {
-    Step { action, number, cycle: 1, place: String::new(), speed: 1.0, dwell: 0.25 }
+    Step { action, number, cycle: 1, place: String::new(), speed: 1.0, dwell: 0.25, tool: ToolValues::default() }
 }
 
 /// Returns a task without obstacles at the height of its objects, with pairs of picks and places in fixed or free
@@ -72,7 +72,7 @@ fn task(limits: [[f64; 2]; 2], spots: &[[Point; 2]], free: bool) -> Task {
     let home = q(0.0, 0.3);
     items.push(Item::Step(step(Action::Move(Goal::Joints(home)), 2 * spots.len() + 1)));
     let workspace = workspace.into();
-    Task { arm, workspace, objects, start: home, items, wrist: None, stroke: None }
+    Task { arm, workspace, objects, start: home, items, wrist: None, stroke: None, start_tool: ToolValues::default() }
 }
 
 /// Returns all IK solutions within the limits that put the tip somewhere.

@@ -73,7 +73,7 @@ impl Problem {
     /// # Errors
     /// A start or goal that is missing, out of reach or not free, and a step that an arm of this kind cannot do.
     pub fn of_scene(loaded: LoadedScene, overrides: &Overrides) -> Result<Self, InputError> {
-        Ok(if loaded.has_steps() { loaded.task(overrides)?.into() } else { loaded.problem(overrides)?.into() })
+        Ok(if loaded.is_task() { loaded.task(overrides)?.into() } else { loaded.problem(overrides)?.into() })
     }
 
     /// Creates the problem of moving an arm in a workspace from `start` to any of `goals`. Moving obstacles are at

@@ -27,6 +27,19 @@ pub struct RecordedOverlap {
     pub after_departure: f64,
 }
 
+/// A recorded turn of the wrist to a value of its joint.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct RecordedWrist {
+    /// The joint's value at the beginning, radians.
+    pub from: f64,
+    /// The joint's value at the end, radians.
+    pub to: f64,
+    /// Time from the beginning of the recording to that of the turn, seconds.
+    pub begin: f64,
+    /// Duration, seconds.
+    pub seconds: f64,
+}
+
 /// A recorded step of a task. Its action is that of the step with this number in the task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedStep {
@@ -40,6 +53,11 @@ pub struct RecordedStep {
     pub turn: Option<RecordedTurn>,
     /// The parts of the step's stroke during which the arm moves. Zero if the arm rests during the whole stroke.
     pub overlap: RecordedOverlap,
+    /// Time from the departure of the arm to the end of the raising with which the step begins, if the tool is lowered
+    /// there, seconds. Zero if the arm rests during that raising.
+    pub raising: f64,
+    /// The turn of the wrist to the value of its joint that the step states.
+    pub wrist: Option<RecordedWrist>,
 }
 
 /// The statements of a result about its motion, in addition to the samples. A statement that the file does not make is

@@ -26,7 +26,8 @@ mod task_error;
 mod timed;
 
 pub use claims::{
-    BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedOverlap, RecordedStep, RecordedTurn, StepClaims, TaskClaims,
+    BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist,
+    StepClaims, TaskClaims,
 };
 pub use followed_line::{DEFAULT_TOLERANCE, FollowedLine, MIN_TOLERANCE};
 pub use held::{HeldEffect, HeldJoint, HeldMotion};
@@ -36,7 +37,7 @@ pub use payload::{ArchScene, Payload};
 pub use piece::{Derivative, Piece, State};
 pub use recording::{Recording, RecordingError};
 pub use robot_joints::{Driver, Drives, RobotJoint, RobotJoints};
-pub use stroke::{Arch, Stroke, ToolJoint};
+pub use stroke::{Arch, Stroke, ToolJoint, ToolValues};
 pub use task::{Action, Holding, Item, Object, Step, Task, Wrist};
 pub use task_error::TaskError;
 pub use timed::{TimedScene, TimedWorkspace};

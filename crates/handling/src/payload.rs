@@ -114,7 +114,7 @@ impl Task {
         let (arm, heights) = match &self.stroke {
             Some(stroke) => {
                 let depth = Some(stroke.depth(lowered)).filter(|depth| *depth != 0.0)?;
-                (stroke.swept(&self.arm, depth), lowered.handled_heights())
+                (stroke.swept(&self.arm, &[depth]), lowered.handled_heights())
             }
             None if is_placed && lowered.lift != 0.0 => (self.arm.clone(), lowered.heights),
             None => return None,
@@ -124,12 +124,26 @@ impl Task {
         Some(self.scene_of(arm, self.obstacles(poses), payload, allowed_contacts))
     }
 
-    /// Returns the scenes for strokes down to a depth, in metres, during a motion of the arm. Link 2 may touch those of the
+    /// Returns the scene while the empty tool is between its raised position and a depth, in metres. `None` if the world
+    /// has no stroke.
+    #[must_use]
+    pub fn empty_lowered_scene(
+        &self,
+        depth: f64,
+        poses: &[Option<Pose>],
+        touched: impl IntoIterator<Item = usize>,
+    ) -> Option<Scene> {
+        let arm = self.stroke.as_ref()?.swept(&self.arm, &[depth]);
+        let allowed_contacts: Vec<usize> = touched.into_iter().map(|object| self.obstacle_number(object)).collect();
+        Some(self.scene_of(arm, self.obstacles(poses), None, allowed_contacts))
+    }
+
+    /// Returns the scenes for strokes to these depths, in metres, during a motion of the arm. Link 2 may touch those of the
     /// objects `touched` that it meets with the raised tool, too: others must be free whenever the arm moves.
     #[must_use]
     pub fn arch_scene(
         &self,
-        (stroke, depth): (&Stroke, f64),
+        (stroke, depths): (&Stroke, &[f64]),
         poses: &[Option<Pose>],
         payload: Option<&Payload>,
         touched: impl IntoIterator<Item = usize>,
@@ -149,7 +163,7 @@ impl Task {
             let payload = payload.map(|payload| (payload, heights(&self.objects[payload.object])));
             self.scene_of(arm, obstacles.clone(), payload, allowed.clone())
         };
-        let swept = scene(stroke.swept(&self.arm, depth), Object::handled_heights);
+        let swept = scene(stroke.swept(&self.arm, depths), Object::handled_heights);
         let raised = scene(self.arm.clone(), Object::carried_heights);
         let known: BTreeSet<Pair> = raised.pairs().iter().copied().collect();
         let lowered_pairs = swept.pairs().iter().copied().filter(|pair| !known.contains(pair)).collect();

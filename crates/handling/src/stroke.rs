@@ -30,6 +30,32 @@ impl ToolJoint {
     }
 }
 
+/// Values of the tool's joints at the beginning of a task or at the end of a move.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ToolValues {
+    /// Distance by which the tool is lowered against the plane's normal, metres. 0 if it is raised.
+    #[serde(default)]
+    pub depth: f64,
+    /// Value of the wrist's joint, radians. `None` if it is not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wrist: Option<f64>,
+}
+
+impl ToolValues {
+    /// Returns true if the tool is raised and the wrist's value is not given.
+    #[must_use]
+    pub fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Returns the distance by which the tool is lowered, metres. `None` if it is raised.
+    #[must_use]
+    pub fn lowered_by(&self) -> Option<f64> {
+        Some(self.depth).filter(|depth| *depth != 0.0)
+    }
+}
+
 /// Least heights for the overlap of strokes with motions of the arm, metres.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -87,17 +113,25 @@ impl Stroke {
         self.joint.rest - self.joint.sign * depth
     }
 
-    /// Returns the arm with taller shapes: each shape that the stroke moves gets all heights that it has during the
-    /// stroke. This includes a bar on link 2, because the bar ends at the tip.
+    /// Returns the distance by which the tool is lowered at a value of the joint, metres.
     #[must_use]
-    pub fn swept(&self, arm: &Arm, depth: f64) -> Arm {
+    pub fn depth_at(&self, value: f64) -> f64 {
+        (self.joint.rest - value) * self.joint.sign
+    }
+
+    /// Returns the arm with taller shapes: each shape that the stroke moves gets all heights that it has during strokes
+    /// to these depths, in metres. This includes a bar on link 2, because the bar ends at the tip.
+    #[must_use]
+    pub fn swept(&self, arm: &Arm, depths: &[f64]) -> Arm {
+        let lowest = depths.iter().copied().fold(0.0, f64::max);
+        let highest = depths.iter().copied().fold(0.0, f64::min);
         let mut arm = arm.clone();
         let link = &mut arm.links[1];
         let bar = if link.source == OutlineSource::Bar { link.parts.len() - 1 } else { usize::MAX };
         let parts = link.parts.iter_mut().enumerate();
         for (_, part) in parts.filter(|(k, part)| *k == bar || self.bodies.contains(&part.body)) {
             let Heights { lower, upper } = part.heights;
-            part.heights = Heights { lower: lower.min(lower - depth), upper: upper.max(upper - depth) };
+            part.heights = Heights { lower: lower - lowest, upper: upper - highest };
         }
         arm
     }

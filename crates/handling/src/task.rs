@@ -1,6 +1,6 @@
 //! Tasks: objects, and the steps to execute with them.
 
-use super::{FollowedLine, MovingObstacle, ObstacleTrajectory, Payload, Stroke, TimedWorkspace};
+use super::{FollowedLine, MovingObstacle, ObstacleTrajectory, Payload, Stroke, TimedWorkspace, ToolValues};
 use cplan_core::model::{Arm, Goal, Heights, Obstacle, Shape};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Interval, Point, Pose};
@@ -102,6 +102,9 @@ pub struct Step {
     pub speed: f64,
     /// Time that the arm rests at the end, seconds.
     pub dwell: f64,
+    /// Values of the tool's joints at the end of a move. The tool stays lowered until the next motion.
+    #[serde(default, skip_serializing_if = "ToolValues::is_default")]
+    pub tool: ToolValues,
 }
 
 /// A part of a task.
@@ -142,6 +145,9 @@ pub struct Task {
     pub objects: Vec<Object>,
     /// Start configuration, within the joint limits and free.
     pub start: Configuration,
+    /// Values of the tool's joints at the start. A lowered tool is raised first.
+    #[serde(default, skip_serializing_if = "ToolValues::is_default")]
+    pub start_tool: ToolValues,
     /// The steps, with repetitions written out.
     pub items: Vec<Item>,
     /// The wrist, if it must turn objects.
@@ -221,6 +227,13 @@ impl Task {
     pub fn restrict_shapes(&mut self) {
         self.workspace.restrict_shapes();
         self.objects.iter_mut().for_each(|object| object.shape.restrict_to(&object.pieces));
+    }
+
+    /// Returns the angle by which the wrist's joint turns from the start to the end of a move, radians. `None` unless the
+    /// move states a value.
+    #[must_use]
+    pub fn wrist_turn(&self, step: &Step) -> Option<f64> {
+        Some(step.tool.wrist? - self.start_tool.wrist?)
     }
 
     /// Iterates over all steps. The steps of a group that may be executed in any order come in the order of the file.

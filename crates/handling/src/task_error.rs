@@ -1,6 +1,6 @@
 //! Checks that an arm, objects and steps form a task.
 
-use super::{Action, Holding, Item, MAX_STOP_TIME, Object, Step, Stroke, Task, TimedScene};
+use super::{Action, Holding, Item, MAX_STOP_TIME, Object, Step, Stroke, Task, TimedScene, ToolValues};
 use cplan_core::model::{
     Goal, MAX_COORDINATE, MotionProblem, MotionProblemError, Scene, SceneError, are_small, is_pose, is_small,
 };
@@ -122,14 +122,26 @@ impl Task {
         if self.wrist.is_some() && self.steps().any(turns) {
             return Some(((*first).clone(), "a wrist that turns objects needs static obstacles"));
         }
+        if self.steps().any(|step| step.tool.wrist.is_some()) {
+            return Some(((*first).clone(), "a wrist that turns to a value needs static obstacles"));
+        }
         let (turning, _) = trajectories.iter().find(|(_, trajectory)| trajectory.turns())?;
         let is_level = self.objects.iter().any(|object| object.holding == Holding::Level);
         is_level.then(|| ((*turning).clone(), "objects that are held level need moving obstacles that do not turn"))
     }
 
     fn check_tool(&self) -> Result<(), TaskError> {
-        let wrist = self.wrist.iter().map(|wrist| (wrist.velocity, wrist.acceleration, TAU));
-        let farthest = |stroke: &Stroke| self.objects.iter().map(|object| stroke.depth(object)).fold(0.0, f64::max);
+        let tools = || self.steps().map(|step| step.tool).chain([self.start_tool]);
+        let turned = self.steps().filter_map(|step| self.wrist_turn(step)).map(f64::abs).fold(TAU, f64::max);
+        let wrist = self.wrist.iter().map(|wrist| (wrist.velocity, wrist.acceleration, turned));
+        let farthest = |stroke: &Stroke| {
+            let depths = self.objects.iter().map(|object| stroke.depth(object));
+            depths.chain(tools().map(|tool| tool.depth.abs())).fold(0.0, f64::max)
+        };
+        let is_reached = |tool: ToolValues| {
+            let Some(depth) = tool.lowered_by() else { return true };
+            self.stroke.as_ref().is_some_and(|stroke| stroke.joint.range.contains(stroke.lowered(depth)))
+        };
         let stroke = self.stroke.iter().map(|stroke| (stroke.velocity, stroke.acceleration, farthest(stroke)));
         let why = if !wrist
             .chain(stroke)
@@ -144,6 +156,10 @@ impl Task {
             "the heights of its arch must be finite and not negative"
         } else if self.stroke.iter().any(|stroke| !self.objects.iter().all(|object| stroke.reaches(object))) {
             "an object lies too deep for the stroke"
+        } else if !tools().all(is_reached) {
+            "it is lowered beyond its range, or without a stroke"
+        } else if !tools().filter_map(|tool| tool.wrist).all(f64::is_finite) {
+            "the value of its wrist must be finite"
         } else {
             return Ok(());
         };
@@ -225,6 +241,15 @@ impl Gripper<'_> {
                 step,
                 "its speed must be greater than 0 and at most 1, and its dwell from 0 to a million seconds",
             ));
+        }
+        if !step.tool.is_default() {
+            let is_alone = self.task.steps().count() == 1 && self.carried.is_none();
+            if !(is_alone && matches!(step.action, Action::Move(_))) {
+                return Err(wrong(step, "only the move of a task with a single step has values of the tool's joints"));
+            }
+            if step.tool.wrist.is_some() && (self.task.start_tool.wrist.is_none() || self.task.wrist.is_none()) {
+                return Err(wrong(step, "its wrist turns from an unknown value, or there is no wrist"));
+            }
         }
         let tip = if let Action::Move(Goal::Tip(tip)) = step.action { Some(tip) } else { None };
         let before = std::mem::replace(&mut self.tip, tip);

@@ -14,7 +14,7 @@ use std::time::Duration;
 /// # Errors
 /// The reason why this world cannot be explained.
 pub fn explanation(loaded: LoadedScene, limit: Duration) -> Result<Box<RawValue>, String> {
-    if loaded.has_steps() || !loaded.trajectories.is_empty() {
+    if loaded.is_task() || !loaded.trajectories.is_empty() {
         return Err("Worlds with steps or moving obstacles are explained only by `cplan explain`.".into());
     }
     let query = loaded.query(&Overrides::default()).map_err(|error| blocked::without_places(&error))?;

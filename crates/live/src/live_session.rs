@@ -118,7 +118,7 @@ impl LiveSession {
             start: self.document.start(),
             goal: self.document.goal(),
             clearance: self.scene.scene.workspace().clearance,
-            has_steps: self.scene.has_steps(),
+            has_steps: self.scene.is_task(),
             joints: [0, 1].map(joint),
             reach: arm.reach(),
             planners: Method::ALL.iter().map(|method| method.name()).collect(),
@@ -223,7 +223,7 @@ impl LiveSession {
         let toml = ask.is_final.then_some(text);
         let (contours, think) = (&self.contours, ask.think);
         let answering = Answering { options, contours, deadlines: &deadlines, think, toml };
-        if loaded.has_steps() {
+        if loaded.is_task() {
             return answering.task(loaded);
         }
         match loaded.clone().problem(&Overrides::default()) {
@@ -290,7 +290,7 @@ impl LiveSession {
         }
         match &ask.state {
             None => Ok(self.document.text().to_owned()),
-            Some(_) if self.scene.has_steps() => Err("a world with steps cannot be changed here; edit its text".into()),
+            Some(_) if self.scene.is_task() => Err("a world with steps cannot be changed here; edit its text".into()),
             Some(state) => self.document.changed(state, self.begin(state.start)),
         }
     }

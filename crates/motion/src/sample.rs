@@ -4,8 +4,10 @@ use super::clock::{self, NANOSECONDS_PER_SECOND, nanoseconds, round_up, whole_na
 use super::limits::Limits;
 use super::profile::Phase;
 use super::schedule::{TimedTrack, Track, schedule};
+use super::torque::TorqueLimit;
 use crate::BlendedPath;
 use crate::CertifiedCurve;
+use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
 use cplan_handling::Piece;
 use serde::Serialize;
@@ -110,6 +112,17 @@ impl Trajectory {
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.time.last().copied().unwrap_or(0.0)
+    }
+
+    /// Returns a single sample at time 0, at which the arm of a scene rests at `q`.
+    #[must_use]
+    pub fn at_rest(scene: &Scene, q: Configuration) -> Self {
+        let mut trajectory = Self::with_capacity(1);
+        trajectory.push(0, [q, Configuration::zeros(), Configuration::zeros()]);
+        if let Some(torque) = TorqueLimit::of(scene) {
+            trajectory.torque = torque.along_trajectory(&trajectory);
+        }
+        trajectory
     }
 
     /// Appends a motion that begins where this one ends, after a rest of `pause` seconds, rounded up to whole

@@ -81,10 +81,10 @@ pub(super) fn read(source: &Source, read_options: ReadOptions, open: OpenFile) -
     let design = reader.design(&file, &parameters, seed)?;
     let [world, urdf] = reader.templates(&file.parameter, world, urdf)?;
     let base = scene_from(urdf.source().clone(), world.source().clone())?;
-    if let (Some(why), Some(words)) = (options.error(base.has_steps()), &file.options) {
+    if let (Some(why), Some(words)) = (options.error(base.is_task()), &file.options) {
         return Err(reader.wrong(words.span(), format!("options: {why}"), "leave the option out").into());
     }
-    let Goals { measures, conditions, objective } = reader.goals(&file, base.has_steps())?;
+    let Goals { measures, conditions, objective } = reader.goals(&file, base.is_task())?;
     let searched =
         file.search.as_ref().map(|table| reader.search(&table.layouts, &parameters, objective)).transpose()?;
     let stem = source.stem().unwrap_or_else(|| "study".to_owned());

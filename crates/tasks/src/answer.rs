@@ -4,6 +4,7 @@ use super::arch::Overlap;
 use super::failed_step::FailedStep;
 use super::sequence::Sequence;
 use super::stroke::ToolStroke;
+use super::wrist::WristMotion;
 use cplan_core::model::{Outcome, Scene};
 use cplan_core::space::Path;
 use cplan_geometry::Pose;
@@ -45,7 +46,7 @@ impl Event {
 ///
 /// - Pick: motion, stroke down, grasp, dwell, stroke up, turn.
 /// - Place: motion, turn, stroke down, release, dwell, stroke up.
-/// - Move: motion, dwell.
+/// - Move: stroke up if the tool is lowered, motion, stroke down if the step asks for it, dwell.
 ///
 /// A turn or a stroke down may begin before the motion ends, and the next motion may begin before a stroke up or a turn
 /// ends: see [`Overlap`].
@@ -63,8 +64,12 @@ pub struct Leg {
     pub timed: Arc<TimedMotion>,
     /// Turn of the wrist, and its duration in seconds.
     pub turn: Option<(WristTurn, f64)>,
-    /// Lowering and raising of the tool. `None` if the world has no stroke, or the step has no event.
+    /// Raising of the tool before the motion. `None` unless the tool is lowered where the task or the step before ends.
+    pub raising: Option<ToolStroke>,
+    /// Lowering of the tool, and raising after an event. `None` if the tool stays raised.
     pub stroke: Option<ToolStroke>,
+    /// The turn of the wrist to the value of its joint that the step states.
+    pub wrist: Option<WristMotion>,
     /// The parts of the motion during which the tool is raised or turned after the step before, or turned or lowered for
     /// this step.
     pub overlap: Overlap,
@@ -93,7 +98,9 @@ impl Leg {
     /// The next motion may begin earlier: see [`Overlap::departure`].
     #[must_use]
     pub fn rest(&self) -> f64 {
-        self.step.dwell + self.turning() + 2.0 * self.lowering() - self.overlap.arrival()
+        let strokes = if self.event.is_some() { 2.0 } else { 1.0 };
+        let waiting = self.wrist.map_or(0.0, |wrist| wrist.waiting);
+        self.step.dwell + self.turning() + strokes * self.lowering() - self.overlap.arrival() + waiting
     }
 
     /// Returns the time from the beginning of the task at which the wrist begins to turn, in seconds. `None` if it does
@@ -111,14 +118,30 @@ impl Leg {
         self.turn.map_or(0.0, |(_, seconds)| seconds)
     }
 
-    /// Returns the times from the beginning of the task at which the lowering and the raising of the tool begin, in
-    /// seconds. `None` if the tool is not lowered.
+    /// Returns the strokes of the step in chronological order: for each, the time from the beginning of the task at which it
+    /// begins, in seconds, and the joint's values at both ends, in metres.
     #[must_use]
-    pub fn stroke_begins(&self) -> Option<[f64; 2]> {
-        let stroke = self.stroke?;
-        let turned = if matches!(self.event, Some(Event::Release { .. })) { self.turning() } else { 0.0 };
-        let lowering = self.arrival() + turned - self.overlap.arrival();
-        Some([lowering, lowering + stroke.seconds + self.step.dwell])
+    pub fn strokes(&self) -> Vec<(f64, [f64; 2])> {
+        let mut strokes = Vec::new();
+        if let Some(ToolStroke { raised, lowered, seconds, .. }) = self.raising {
+            strokes.push((self.begin + self.overlap.raising - seconds, [lowered, raised]));
+        }
+        if let Some(ToolStroke { raised, lowered, seconds, .. }) = self.stroke {
+            let turned = if matches!(self.event, Some(Event::Release { .. })) { self.turning() } else { 0.0 };
+            let begin = self.arrival() + turned - self.overlap.arrival();
+            strokes.push((begin, [raised, lowered]));
+            if self.event.is_some() {
+                strokes.push((begin + seconds + self.step.dwell, [lowered, raised]));
+            }
+        }
+        strokes
+    }
+
+    /// Returns the time from the beginning of the motion back to that of the raising before it, in seconds. 0 if the tool is
+    /// raised, or if it is raised while the arm already moves.
+    #[must_use]
+    pub fn raising_at_rest(&self) -> f64 {
+        self.raising.map_or(0.0, |raising| raising.seconds - self.overlap.raising)
     }
 
     /// Returns how long the tool takes to go down, in seconds. It takes as long to go up.
@@ -153,7 +176,8 @@ impl Leg {
     #[must_use]
     pub fn clearance(&self) -> f64 {
         let turn = self.turn.map_or(f64::INFINITY, |(turn, _)| turn.clearance);
-        let stroke = self.stroke.map_or(f64::INFINITY, |stroke| stroke.clearance);
+        let stroke =
+            self.stroke.iter().chain(&self.raising).map(|stroke| stroke.clearance).fold(f64::INFINITY, f64::min);
         turn.min(stroke).min(self.overlap.clearance).min(self.timed.curve.clearance())
     }
 }

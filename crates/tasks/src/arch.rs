@@ -104,19 +104,17 @@ fn overlap_of(
     }
     let may_rise = from.turning.is_none() || with_turns;
     let may_lower = stroke.is_some() && (turn.is_none() || with_turns);
-    let depth = |object: usize| arch.map(|tool| tool.depth(&task.objects[object]));
-    let depths = [
-        from.rising.filter(|_| may_rise).and_then(depth),
-        candidate.event.filter(|_| may_lower).and_then(|event| depth(event.object())),
-    ];
+    let depths = [from.rising.filter(|_| may_rise), candidate.depth(task).filter(|_| may_lower)]
+        .map(|depth| depth.filter(|_| arch.is_some()));
     let turns = [from.turning, turn].map(|turn| turn.filter(|_| with_turns));
     if depths.iter().all(Option::is_none) && turns.iter().all(Option::is_none) {
         return Overlap::NONE;
     }
-    let deepest = depths.into_iter().flatten().fold(0.0, f64::max);
+    let all_depths: Vec<f64> = depths.into_iter().flatten().collect();
     let touched = || from.released.into_iter().chain(candidate.step.action.picked());
-    let scene =
-        |payload: Option<&Payload>| arch.map(|tool| task.arch_scene((tool, deepest), &from.poses, payload, touched()));
+    let scene = |payload: Option<&Payload>| {
+        arch.map(|tool| task.arch_scene((tool, &all_depths), &from.poses, payload, touched()))
+    };
     // The payload at an orientation that it does not have during the rest of the motion.
     let turned = |angle: f64| {
         let mut payload = from.held.clone()?;

@@ -3,7 +3,7 @@
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
 use super::least_time::{least_line_time, least_time};
 use super::state::Progress;
-use super::stroke::{least_rest, least_without_strokes, most_overlap};
+use super::stroke::{least_rest, least_without_strokes, most_overlap, stroke_depth};
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
@@ -235,7 +235,7 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
     let mut lies: Vec<Option<KnownPose>> = task.objects.iter().map(lies).collect();
     let mut held = None;
     // The longest overlap at the beginning of the next motion.
-    let mut rising = 0.0;
+    let mut rising = most_overlap(task, task.start_tool.lowered_by());
     let mut stop = |step: &Step, rising: &mut f64, lies: &mut [Option<KnownPose>]| {
         let object = match step.action {
             Action::Pick { object, .. } => Some(object),
@@ -243,7 +243,7 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
             Action::Move(_) | Action::Follow(_) => None,
         };
         let dwell = least_rest(task, step, object);
-        let sinking = most_overlap(task, object);
+        let sinking = most_overlap(task, stroke_depth(task, step, object));
         let overlaps = [std::mem::replace(rising, sinking), sinking];
         let least_travel = least_line_time(step);
         Stop { ik_solutions: targets(task, step, lies, &mut held), speed: step.speed, least_travel, overlaps, dwell }
@@ -252,7 +252,8 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
         Item::Step(step) => Stops::One(stop(step, &mut rising, &mut lies)),
         Item::AnyOrder(pairs) => {
             // Any of the pairs may come before another, or before the next item.
-            let objects = pairs.iter().map(|[pick, _]| most_overlap(task, pick.action.picked()));
+            let objects =
+                pairs.iter().map(|[pick, _]| most_overlap(task, stroke_depth(task, pick, pick.action.picked())));
             let most = objects.fold(rising, f64::max);
             let mut stops = |[pick, place]: &[Step; 2]| {
                 let mut before = most;

@@ -65,6 +65,7 @@ mod sequence;
 mod state;
 mod stroke;
 mod timed_turn;
+mod wrist;
 
 pub use answer::{Event, Leg, TaskAnswer, TaskMotion};
 pub use arch::Overlap;
@@ -75,3 +76,4 @@ pub use replay::{MotionReplay, TaskReplay};
 pub use sequence::Sequence;
 pub use stroke::ToolStroke;
 pub use timed_turn::TimedTurn;
+pub use wrist::WristMotion;

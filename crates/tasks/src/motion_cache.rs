@@ -3,7 +3,8 @@
 use super::arch::{Overlap, overlap};
 use super::least_time::rest_to_rest;
 use super::state::{Candidate, State, turns_on_the_way};
-use super::stroke::{ToolStroke, stroke};
+use super::stroke::{ToolStroke, raising_first, stroke};
+use super::wrist::WristMotion;
 use cplan_core::check::{CertifiedPath, CheckedProof, certify};
 use cplan_core::model::{Grip, MotionProblem, Outcome, Scene};
 use cplan_core::space::{Configuration, Path};
@@ -69,7 +70,13 @@ fn distinct(numbers: impl Iterator<Item = usize>) -> Vec<usize> {
 pub(super) struct Motion {
     pub timed: Arc<TimedMotion>,
     pub turn: Option<(WristTurn, f64)>,
+    /// The stroke with which it begins, if the tool is lowered there.
+    pub raising: Option<ToolStroke>,
     pub stroke: Option<ToolStroke>,
+    /// The turn of the wrist from one value of its joint to another.
+    pub wrist: Option<WristMotion>,
+    /// True if the tool is raised again at the end of the motion, because the gripper has acted.
+    raises_again: bool,
     pub overlap: Overlap,
     /// Proven bound on the distance of the tip from the line, in metres, if the motion follows one.
     pub deviation: Option<f64>,
@@ -85,8 +92,20 @@ impl Motion {
     /// ends when the tool is raised. If the arm departs earlier, the time is shorter than that of the motion. A turn
     /// after a pick that may overlap with the next motion counts for that motion.
     pub fn seconds(&self) -> f64 {
-        let stroke = self.stroke.map_or(0.0, |stroke| 2.0 * stroke.seconds);
-        self.timed.trajectory.duration() - self.overlap.seconds() + self.turning_before + self.turning + stroke
+        let strokes = if self.raises_again { 2.0 } else { 1.0 };
+        let stroke = self.stroke.map_or(0.0, |stroke| strokes * stroke.seconds);
+        let waiting = self.wrist.map_or(0.0, |wrist| wrist.waiting);
+        self.timed.trajectory.duration() - self.overlap.seconds()
+            + self.before_departure()
+            + self.turning
+            + stroke
+            + waiting
+    }
+
+    /// Returns the time of the turn and the stroke before the departure that count for this motion, in seconds. A part of
+    /// it may overlap with the motion.
+    pub fn before_departure(&self) -> f64 {
+        self.turning_before + self.raising.map_or(0.0, |raising| raising.seconds)
     }
 }
 
@@ -175,7 +194,18 @@ impl MotionCache {
             let turning_before = from.turning.map_or(0.0, |(_, seconds)| seconds);
             let overlap = Overlap::NONE;
             let deviation = Some(deviation);
-            return Ok(Motion { timed, turn: None, stroke: None, overlap, deviation, turning_before, turning: 0.0 });
+            return Ok(Motion {
+                timed,
+                turn: None,
+                raising: None,
+                stroke: None,
+                wrist: None,
+                raises_again: false,
+                overlap,
+                deviation,
+                turning_before,
+                turning: 0.0,
+            });
         }
         let key = self.checked_path_key(task, from, candidate)?;
         let speed = candidate.step.speed;
@@ -186,6 +216,7 @@ impl MotionCache {
             planned
         })?;
         let mut turn = candidate.turn.map(|turn| self.turn(task, from, candidate, turn)).transpose()?;
+        let raising = raising_first(task, from)?;
         let stroke = stroke(task, from, candidate)?;
         let own_turn = turn.filter(|_| candidate.turns_before_stroke());
         let overlap = self.overlap(task, from, candidate, (&timed, stroke.as_ref(), own_turn));
@@ -198,7 +229,25 @@ impl MotionCache {
         let turning_before = from
             .turning
             .map_or(0.0, |(_, seconds)| overlap.turn_seconds.filter(|_| own_turn.is_none()).unwrap_or(seconds));
-        Ok(Motion { timed, turn, stroke, overlap, deviation: None, turning_before, turning })
+        let raises_again = candidate.event.is_some();
+        let motion = Motion {
+            timed,
+            turn,
+            raising,
+            stroke,
+            wrist: None,
+            raises_again,
+            overlap,
+            deviation: None,
+            turning_before,
+            turning,
+        };
+        let departure = motion.before_departure() - motion.overlap.departure();
+        let wrist = task.wrist_turn(candidate.step).zip(task.wrist).map(|(angle, limits)| {
+            let ends = [departure + motion.timed.trajectory.duration(), motion.seconds() + candidate.step.dwell];
+            WristMotion::new(&limits, angle, departure, ends)
+        });
+        Ok(Motion { wrist, ..motion })
     }
 
     /// Returns the motion along a line, and a bound on its distance from the line, in metres.
@@ -245,9 +294,8 @@ impl MotionCache {
         (timed, stroke, turn): (&TimedMotion, Option<&ToolStroke>, Option<(WristTurn, f64)>),
     ) -> Overlap {
         let mut key = scene_key(from, candidate.step, |_| true);
-        let object = |object: Option<usize>| object.map_or(u64::MAX, |object| object as u64);
-        let sinks_to = candidate.event.map(|event| event.object());
-        key.extend([object(from.rising), object(sinks_to), u64::from(candidate.turns_before_stroke())]);
+        let bits = |depth: Option<f64>| depth.map_or(u64::MAX, f64::to_bits);
+        key.extend([bits(from.rising), bits(candidate.depth(task)), u64::from(candidate.turns_before_stroke())]);
         key.extend([from.q[0], from.q[1], candidate.to[0], candidate.to[1], candidate.step.speed].map(f64::to_bits));
         key.extend(turn.iter().chain(&from.turning).flat_map(|(turn, _)| [turn.from, turn.to]).map(f64::to_bits));
         *self.overlaps.entry(key).or_insert_with(|| overlap(task, from, candidate, timed, (stroke, turn)))
@@ -305,6 +353,7 @@ impl MotionCache {
         if let Some(Err(refusal)) = self.motions.get(&(key, candidate.step.speed.to_bits())) {
             return Err(refusal.clone());
         }
+        raising_first(task, from)?;
         stroke(task, from, candidate)?;
         candidate.turn.map_or(Ok(()), |turn| self.turn(task, from, candidate, turn).map(|_| ()))
     }

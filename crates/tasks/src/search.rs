@@ -9,7 +9,7 @@ use super::heuristic::Heuristic;
 use super::least_time::{least_line_time, least_time};
 use super::motion_cache::{Motion, MotionCache, Refusal};
 use super::state::{Candidate, State, turns_on_the_way};
-use super::stroke::{least_rest, least_without_strokes, most_overlap};
+use super::stroke::{least_rest, least_stroke, least_without_strokes, most_overlap};
 use cplan_geometry::OpenList;
 use cplan_handling::{Action, Task};
 use cplan_interrupt::checkpoint;
@@ -59,7 +59,7 @@ enum Stage<'a> {
     /// The motion is not planned yet.
     Pending(Candidate<'a>),
     /// The motion is planned. The start node has no motion.
-    Reached(Box<State>, Option<(Candidate<'a>, Motion)>),
+    Reached(Box<State>, Option<Box<(Candidate<'a>, Motion)>>),
 }
 
 /// A search over all IK solutions at the targets, turns of the wrist and orders that a task leaves free.
@@ -199,7 +199,8 @@ impl<'a, 'l> Search<'a, 'l> {
                 state.turning = motion.turn.filter(|_| may_depart);
                 let seconds = self.nodes[parent].seconds + seconds;
                 let node = &mut self.nodes[index];
-                (node.seconds, node.stage) = (seconds, Stage::Reached(Box::new(state), Some((candidate, motion))));
+                (node.seconds, node.stage) =
+                    (seconds, Stage::Reached(Box::new(state), Some(Box::new((candidate, motion)))));
                 self.open(index);
             }
             Err(refusal) => self.refused.push(RefusedStep {
@@ -218,6 +219,7 @@ impl<'a, 'l> Search<'a, 'l> {
         let on_the_way = turns_on_the_way(self.task);
         let turning = state.turning.map_or(0.0, |(_, seconds)| seconds);
         let rising = most_overlap(self.task, state.rising) + turning;
+        let raising = state.rising.filter(|_| state.is_lowered).map_or(0.0, |depth| least_stroke(self.task, depth));
         for candidates in state.candidates(self.task) {
             self.complete &= candidates.all;
             if candidates.ways.is_empty() {
@@ -239,14 +241,16 @@ impl<'a, 'l> Search<'a, 'l> {
                 let turn = own_turn.map_or(0.0, |turn| MotionCache::min_turn_seconds(self.task, turn));
                 let object = candidate.event.map(|event| event.object());
                 let sinking = match candidate.turns_before_stroke() {
-                    false => most_overlap(self.task, object),
-                    true if on_the_way => most_overlap(self.task, object) + turn,
-                    true => 0.0,
+                    true if !on_the_way => 0.0,
+                    is_turned_first => {
+                        let turn = if is_turned_first { turn } else { 0.0 };
+                        most_overlap(self.task, candidate.depth(self.task)) + turn
+                    }
                 };
                 let travel = least_time(&self.task.arm, from, candidate.to, candidate.step.speed);
                 let travel = travel.max(least_line_time(candidate.step));
                 let travel = least_without_strokes(travel, [rising, sinking]);
-                let least = travel + turning + turn + least_rest(self.task, candidate.step, object);
+                let least = raising + travel + turning + turn + least_rest(self.task, candidate.step, object);
                 let stage = Stage::Pending(candidate);
                 self.push(Node { parent: Some(index), depth: depth + 1, seconds: seconds + least, stage });
             }
@@ -261,11 +265,10 @@ impl<'a, 'l> Search<'a, 'l> {
         let mut at = Some(index);
         while let Some(node) = at.map(|index| &self.nodes[index]) {
             let before = node.parent.map(|parent| &self.nodes[parent]);
-            if let (
-                Some(Node { stage: Stage::Reached(from, _), seconds, .. }),
-                Stage::Reached(_, Some((candidate, motion))),
-            ) = (before, &node.stage)
+            if let (Some(Node { stage: Stage::Reached(from, _), seconds, .. }), Stage::Reached(_, Some(done))) =
+                (before, &node.stage)
             {
+                let (candidate, motion) = &**done;
                 let mut turn = motion.turn;
                 if let (Some((_, seconds)), Some(turning)) = (&mut turn, turned_before.take()) {
                     *seconds = turning;
@@ -277,11 +280,13 @@ impl<'a, 'l> Search<'a, 'l> {
                     carried: from.held.as_ref().map(|held| held.object),
                     timed: motion.timed.clone(),
                     turn,
+                    raising: motion.raising,
                     stroke: motion.stroke,
+                    wrist: motion.wrist,
                     overlap: motion.overlap,
                     deviation: motion.deviation,
                     event: candidate.event,
-                    begin: *seconds + motion.turning_before - motion.overlap.departure(),
+                    begin: *seconds + motion.before_departure() - motion.overlap.departure(),
                 });
                 turned_before = from.turning.map(|_| motion.turning_before);
             }

@@ -4,7 +4,7 @@ use super::answer::Leg;
 use cplan_motion::Trajectory;
 use std::ops::RangeInclusive;
 
-/// The whole motion of a task, including the rests at the ends of steps.
+/// The whole motion of a task, including the rests at the ends of steps and before the first one.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sequence {
     /// All motions in sequence.
@@ -23,7 +23,11 @@ impl Sequence {
         let mut rest = 0.0;
         for leg in legs {
             let motion = &leg.timed.trajectory;
-            sequence.trajectory.then(rest - leg.overlap.departure(), motion);
+            let raising = leg.raising.map_or(0.0, |raising| raising.seconds);
+            if sequence.samples.is_empty() && raising > 0.0 {
+                sequence.trajectory = Trajectory::at_rest(&leg.scene, leg.path().start());
+            }
+            sequence.trajectory.then(rest + raising - leg.overlap.departure(), motion);
             let end = sequence.trajectory.time.len();
             sequence.samples.push(end - motion.time.len()..=end - 1);
             rest = leg.rest();

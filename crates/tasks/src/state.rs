@@ -34,8 +34,10 @@ pub(super) struct State {
     pub held: Option<Payload>,
     /// The object that the last step released. `None` if the last step released none.
     pub released: Option<usize>,
-    /// The object for which the tool is still lowered when the next motion may begin. `None` if the tool is raised.
-    pub rising: Option<usize>,
+    /// Depth in metres from which the tool is still raised when the next motion may begin. `None` if the tool is raised.
+    pub rising: Option<f64>,
+    /// True if the next motion begins with that raising. Otherwise, the raising belongs to the last step.
+    pub is_lowered: bool,
     /// The turn after the last step during which the next motion may begin, and its duration at rest, in seconds. `None`
     /// if the wrist does not turn, or only while the arm is at rest.
     pub turning: Option<(WristTurn, f64)>,
@@ -57,6 +59,14 @@ pub(super) struct Candidate<'a> {
 }
 
 impl Candidate<'_> {
+    /// Returns the depth to which the tool is lowered at the target, in metres. `None` if it stays raised.
+    pub fn depth(&self, task: &Task) -> Option<f64> {
+        match self.event {
+            Some(event) => task.stroke.as_ref().map(|stroke| stroke.depth(&task.objects[event.object()])),
+            None => self.step.tool.lowered_by(),
+        }
+    }
+
     /// Returns true if the wrist turns at the target before the tool is lowered.
     pub fn turns_before_stroke(&self) -> bool {
         self.turn.is_some() && matches!(self.event, Some(Event::Release { .. }))
@@ -96,7 +106,8 @@ impl State {
             moving: task.initially_moving().collect(),
             held: None,
             released: None,
-            rising: None,
+            rising: task.start_tool.lowered_by(),
+            is_lowered: task.start_tool.lowered_by().is_some(),
             turning: None,
         };
         state.renewed(task)
@@ -256,8 +267,16 @@ impl State {
     pub fn after_step(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
         let mut poses = self.poses.clone();
         let may_depart = !candidate.turns_after_stroke() || turns_on_the_way(task);
-        let rising = candidate.event.filter(|_| may_depart).map(|event| event.object());
-        let mut after = Self { progress: candidate.progress, q, released: None, rising, turning: None, ..self.clone() };
+        let rising = candidate.depth(task).filter(|_| may_depart);
+        let mut after = Self {
+            progress: candidate.progress,
+            q,
+            released: None,
+            rising,
+            is_lowered: rising.is_some() && candidate.event.is_none(),
+            turning: None,
+            ..self.clone()
+        };
         match candidate.event {
             Some(Event::Grasp { object }) => {
                 Arc::make_mut(&mut poses)[object] = None;

@@ -6,11 +6,12 @@ use super::motion_cache::{Refusal, require_unobstructed};
 use super::state::{Candidate, State};
 use cplan_core::check::certify;
 use cplan_core::model::{Grip, Scene};
-use cplan_core::space::Path;
+use cplan_core::space::{Configuration, Path};
 use cplan_handling::{Step, Stroke, Task};
 use cplan_motion::single;
 
-/// The stroke of the tool: the tool is lowered, the gripper acts, and the tool is raised.
+/// A stroke of the tool. At a pick or a place, the tool is lowered, the gripper acts, and the tool is raised. At the end of
+/// a move it is only lowered, and at the beginning of a motion only raised.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToolStroke {
     /// The joint's value while the tool is raised, in metres.
@@ -24,20 +25,30 @@ pub struct ToolStroke {
     pub clearance: f64,
 }
 
-/// Returns a lower bound, in seconds, on the dwell of a step and the stroke for its object, if it has one. Turns of the
-/// wrist are not included. A part of the stroke may overlap with motions: see [`overlapped`].
+/// Returns a lower bound, in seconds, on the dwell of a step and its stroke: down and up for its object, if it has one, or
+/// only down at the end of a move. Turns of the wrist are not included. A part of the stroke may overlap with motions: see
+/// [`most_overlap`].
 pub(super) fn least_rest(task: &Task, step: &Step, object: Option<usize>) -> f64 {
-    let down = |(stroke, object): (&Stroke, usize)| {
-        rest_to_rest(stroke.depth(&task.objects[object]).abs(), stroke.velocity, stroke.acceleration)
-    };
-    step.dwell + 2.0 * task.stroke.as_ref().zip(object).map_or(0.0, down)
+    let strokes = if object.is_some() { 2.0 } else { 1.0 };
+    step.dwell + strokes * stroke_depth(task, step, object).map_or(0.0, |depth| least_stroke(task, depth))
 }
 
-/// Returns the time, in seconds, by which the stroke to an object may overlap with a motion at most: its whole duration
-/// down or up, or zero if the arm is at rest during strokes.
-pub(super) fn most_overlap(task: &Task, object: Option<usize>) -> f64 {
+/// Returns a lower bound, in seconds, on the duration of a stroke down to a depth, or up from there.
+pub(super) fn least_stroke(task: &Task, depth: f64) -> f64 {
+    task.stroke.as_ref().map_or(0.0, |stroke| rest_to_rest(depth.abs(), stroke.velocity, stroke.acceleration))
+}
+
+/// Returns the depth in metres to which a step lowers the tool for its object, or at the end of a move.
+pub(super) fn stroke_depth(task: &Task, step: &Step, object: Option<usize>) -> Option<f64> {
+    let of_object = |object: usize| task.stroke.as_ref().map(|stroke| stroke.depth(&task.objects[object]));
+    object.map_or(step.tool.lowered_by(), of_object)
+}
+
+/// Returns the time, in seconds, by which a stroke to a depth may overlap with a motion at most: its whole duration down
+/// or up, or zero if the arm is at rest during strokes.
+pub(super) fn most_overlap(task: &Task, depth: Option<f64>) -> f64 {
     let stroke = task.stroke.as_ref().filter(|stroke| stroke.arch.is_some());
-    stroke.zip(object).map_or(0.0, |(stroke, object)| stroke_seconds(stroke, stroke.depth(&task.objects[object])))
+    stroke.zip(depth).map_or(0.0, |(stroke, depth)| stroke_seconds(stroke, depth))
 }
 
 /// Returns the time, in seconds, in which the tool is lowered by a depth, or raised again.
@@ -55,18 +66,48 @@ pub(super) fn least_without_strokes(travel: f64, overlaps: [f64; 2]) -> f64 {
 /// Returns the stroke at a candidate's target. `None` if the tool is not lowered. Without a stroke, still checks that
 /// an object is free at the place where it is put.
 pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result<Option<ToolStroke>, Refusal> {
-    let Some(event) = candidate.event else { return Ok(None) };
+    let Some(event) = candidate.event else {
+        let after = from.after_step(task, candidate, candidate.to);
+        return candidate.depth(task).map_or(Ok(None), |depth| empty_stroke(task, &after, depth).map(Some));
+    };
     let Some(scene) = lowered(task, from, candidate, event) else { return Ok(None) };
     let when = if task.stroke.is_some() { "while the tool is lowered" } else { "lying there" };
-    require_unobstructed(&scene, candidate.to, when)?;
-    let there = Path::new(vec![candidate.to, candidate.to]);
-    let certified = certify(&scene, there, scene.workspace().clearance);
+    let clearance = clearance_at(&scene, candidate.to, when)?;
+    Ok(task.stroke.as_ref().map(|stroke| {
+        let depth = stroke.depth(&task.objects[event.object()]);
+        ToolStroke::new(stroke, depth, clearance)
+    }))
+}
+
+impl ToolStroke {
+    fn new(stroke: &Stroke, depth: f64, clearance: f64) -> Self {
+        let (raised, lowered) = (stroke.joint.rest, stroke.lowered(depth));
+        Self { raised, lowered, seconds: stroke_seconds(stroke, depth), clearance }
+    }
+}
+
+/// Returns the stroke with which the motion from a state begins, because the tool is lowered there. `None` if it is raised.
+pub(super) fn raising_first(task: &Task, from: &State) -> Result<Option<ToolStroke>, Refusal> {
+    from.rising.filter(|_| from.is_lowered).map(|depth| empty_stroke(task, from, depth)).transpose()
+}
+
+/// Returns the stroke of the empty tool in a state, down to a depth or up from there.
+fn empty_stroke(task: &Task, state: &State, depth: f64) -> Result<ToolStroke, Refusal> {
+    let scene = task.empty_lowered_scene(depth, &state.poses, state.released);
+    let Some((stroke, scene)) = task.stroke.as_ref().zip(scene) else {
+        return Err(Refusal::new("the arm has no joint that lowers the tool", false));
+    };
+    let clearance = clearance_at(&scene, state.q, "while the tool is lowered")?;
+    Ok(ToolStroke::new(stroke, depth, clearance))
+}
+
+/// Returns a proven lower bound, in metres, on the distance to obstacles in a configuration. `when` says when the arm is
+/// there, for messages.
+fn clearance_at(scene: &Scene, q: Configuration, when: &str) -> Result<f64, Refusal> {
+    require_unobstructed(scene, q, when)?;
+    let certified = certify(scene, Path::new(vec![q, q]), scene.workspace().clearance);
     let certified = certified.map_err(|_| Refusal::new(format!("no proof that it is free {when} was found"), false))?;
-    let Some(stroke) = &task.stroke else { return Ok(None) };
-    let depth = stroke.depth(&task.objects[event.object()]);
-    let seconds = stroke_seconds(stroke, depth);
-    let (raised, lowered) = (stroke.joint.rest, stroke.lowered(depth));
-    Ok(Some(ToolStroke { raised, lowered, seconds, clearance: certified.clearance() }))
+    Ok(certified.clearance())
 }
 
 /// Returns the scene with the lowered tool and its payload. `None` if the tool is not lowered. After a pick the tool

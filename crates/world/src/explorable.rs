@@ -32,7 +32,7 @@ impl LoadedScene {
         self.require_static_obstacles("explorations are for worlds without moving obstacles")?;
         let sensor = self.sensor();
         let has_goal = self.world.goals.is_some() || overrides.goal.is_some() || overrides.goal_tip.is_some();
-        if has_goal || self.has_steps() {
+        if has_goal || self.is_task() {
             let loaded = self.problem(overrides)?;
             let (start, goals) = (loaded.problem.start(), Some(loaded.problem.goals().clone()));
             let scene = loaded.problem.into_scene();

@@ -1,6 +1,6 @@
 //! The world file's `[goal]`.
 
-use cplan_robot::{AngleOrLength, NumberPair, Numbers, Written};
+use cplan_robot::{AngleOrLength, Number, NumberPair, Numbers, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -20,4 +20,10 @@ pub(super) struct GoalTable {
     /// counts as its middle. Not in steps.
     #[schemars(with = "Option<Vec<[NumberPair; 2]>>")]
     pub areas: Option<Spanned<Vec<Spanned<Vec<Numbers>>>>>,
+    /// Value of the joint that lowers the tool, m; by default it is raised. Not in steps.
+    #[schemars(with = "Option<f64>")]
+    pub stroke: Option<Number>,
+    /// Value of the wrist's joint, rad; by default anything. Not in steps.
+    #[schemars(with = "Option<AngleOrLength>")]
+    pub wrist: Option<Written>,
 }

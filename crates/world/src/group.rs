@@ -3,7 +3,7 @@
 use super::object::Supports;
 use cplan_core::model::Goal;
 use cplan_geometry::{Interval, Point};
-use cplan_handling::FollowedLine;
+use cplan_handling::{FollowedLine, ToolValues};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -45,6 +45,7 @@ pub(super) struct Leaf {
     pub action: LeafAction,
     pub speed: f64,
     pub dwell: f64,
+    pub tool: ToolValues,
 }
 
 /// The action of a step, as the file states it.

@@ -52,6 +52,7 @@ mod step;
 mod suite;
 mod table;
 mod task;
+mod tool_values;
 mod trajectory;
 mod values;
 mod world;
@@ -254,7 +255,7 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
             LoadedScene { scene, trajectories, world: file, arm, robot: RobotReport::default() }
         });
         let overrides = Overrides::default();
-        let query = loaded.and_then(|l| match l.has_steps() {
+        let query = loaded.and_then(|l| match l.is_task() {
             true => l.task(&overrides).err().map(|e| ("task", e)),
             false => l.problem(&overrides).err().map(|e| ("start and goal", e)),
         });

@@ -36,7 +36,7 @@ impl LoadedScene {
     /// nearer to one than the clearance. A goal of the tip that no IK solution reaches. The message states which link
     /// hits which obstacle, and how deep.
     pub fn problem(self, overrides: &Overrides) -> Result<LoadedProblem, InputError> {
-        if self.has_steps() {
+        if self.is_task() {
             return Err(self.has_no_goal(overrides).into());
         }
         let loaded = self.with_clearance(overrides.clearance)?;
@@ -141,6 +141,12 @@ impl LoadedScene {
 
     /// Returns the diagnostic that a world with steps has no goal.
     pub(super) fn has_no_goal(&self, overrides: &Overrides) -> Diagnostic {
+        if self.world.steps.is_none() {
+            let message =
+                "this world gives values of the tool's joints, which only `cplan plan` and `cplan verify` use";
+            let help = "for other commands remove `stroke` and `wrist` from [start] and [goal]";
+            return self.world.source.diagnostic(message).help(help);
+        }
         let message = "this world has steps, not a goal";
         let option = match (&overrides.goal, &overrides.goal_tip) {
             (Some(_), _) => "--goal",

@@ -27,7 +27,7 @@ impl LoadedScene {
     /// A world with steps, a missing start or goal, and a start given by the tip that does not have exactly one IK
     /// solution.
     pub fn query(self, overrides: &Overrides) -> Result<LoadedEnds, InputError> {
-        if self.has_steps() {
+        if self.is_task() {
             return Err(self.has_no_goal(overrides).into());
         }
         let loaded = self.with_clearance(overrides.clearance)?;

@@ -119,6 +119,12 @@ impl Reader<'_> {
             let diagnostic = self.source.diagnostic_at(areas.span(), format!("{what}: a step cannot have areas"));
             return Err(diagnostic.help("joints = [q1, q2], or tip = [x, y]"));
         }
+        let of_tool = [goal.stroke.as_ref().map(Spanned::span), goal.wrist.as_ref().map(Spanned::span)];
+        if let (Some(at), true) = (of_tool.into_iter().flatten().next(), what != "goal") {
+            let message = format!("{what}: a step has no values of the tool's joints");
+            let help = "only [start] and [goal] of a world without steps have `stroke` and `wrist`";
+            return Err(self.source.diagnostic_at(at, message).help(help));
+        }
         self.place(goal.joints.as_ref(), goal.tip.as_ref(), at, what)
     }
 

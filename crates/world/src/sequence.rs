@@ -195,6 +195,7 @@ impl Writer<'_> {
             place: leaf.place.clone(),
             speed: leaf.speed,
             dwell: leaf.dwell,
+            tool: leaf.tool,
         })
     }
 

@@ -10,7 +10,7 @@ use super::schema::{DoneIn, NotNegative, Share};
 use super::table::Table;
 use cplan_core::model::Goal;
 use cplan_geometry::Pose;
-use cplan_handling::{MAX_STOP_TIME, Object};
+use cplan_handling::{MAX_STOP_TIME, Object, ToolValues};
 use cplan_robot::{AngleOrLength, Cursor, Diagnostic, Number, NumberPair, Numbers, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -332,7 +332,7 @@ impl<'a> StepReader<'a> {
         let place = format!("{}:{}:{}", self.file, position.line, position.column);
         self.count += 1;
         let (speed, dwell) = (pace.speed, pace.dwell);
-        Node::Step(Leaf { number: self.count, place, at, action, speed, dwell })
+        Node::Step(Leaf { number: self.count, place, at, action, speed, dwell, tool: ToolValues::default() })
     }
 
     /// Returns the steps of a line: a move to where it begins, and the line.

@@ -178,7 +178,10 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<RefusedProblem>) -> Res
         let scene = load_scene(&robot, &world);
         files.extend(scene.iter().flat_map(LoadedScene::files));
         match scene {
-            Ok(scene) if scene.has_steps() => left_out.push(ExcludedWorld { world, why: "it has steps, not a goal" }),
+            Ok(scene) if scene.is_task() => {
+                let why = if scene.has_steps() { "it has steps, not a goal" } else { "it moves the tool" };
+                left_out.push(ExcludedWorld { world, why });
+            }
             Ok(scene) if scene.has_moving_obstacles() => {
                 left_out.push(ExcludedWorld { world, why: "it has moving obstacles or objects" })
             }

@@ -4,8 +4,9 @@ use super::reasons::{
     HELP_FOR_LIMITS, HELP_FOR_TIP, beyond_limits, describe_out_of_reach, help_for_reach, within_limits,
 };
 use super::requirement::{Required, Requirement};
+use super::tool_values::require_free_lowered;
 use super::{LoadedScene, Overrides, World};
-use cplan_core::model::{Scene, inverse};
+use cplan_core::model::{Goal, Scene, inverse};
 use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
 use cplan_handling::{Payload, Stroke, Task};
@@ -26,16 +27,24 @@ pub struct LoadedTask {
 }
 
 impl LoadedScene {
+    /// Returns true if the world is a task: it has steps, or its start or goal states values of the tool's joints. Then the
+    /// task is a move to the goal.
+    #[must_use]
+    pub fn is_task(&self) -> bool {
+        self.world.is_task()
+    }
+
     /// Returns true if the world has steps. Such a world has no goal.
     #[must_use]
     pub fn has_steps(&self) -> bool {
         self.world.steps.is_some()
     }
 
-    /// Returns the task of the world's steps. A start on the command line overrides that of the world.
+    /// Returns the task of the world's steps, or of its move from the start to the goal. A start on the command line overrides that of the world.
     ///
     /// # Errors
-    /// - A world without steps, or a goal on the command line.
+    /// - A world that is no task, or a goal on the command line for a world with steps.
+    /// - Values of the tool's joints that are outside their limits, or of joints that the world does not name.
     /// - A start that is missing, outside the limits or blocked.
     /// - A step that requires joint values outside the limits, or a point out of the tip's reach.
     /// - A step that requires that an object rests on something, although the object is too thin.
@@ -53,11 +62,11 @@ impl LoadedScene {
     }
 
     fn task_from(self, overrides: &Overrides, is_checked: bool) -> Result<LoadedTask, InputError> {
-        if !self.has_steps() {
+        if !self.is_task() {
             let diagnostic = self.world.source.diagnostic("there are no steps");
             return Err(diagnostic.help("[[step]] pick = \"NAME\", and so on").into());
         }
-        if overrides.goal.is_some() || overrides.goal_tip.is_some() {
+        if self.world.steps.is_some() && (overrides.goal.is_some() || overrides.goal_tip.is_some()) {
             return Err(self.has_no_goal(overrides).into());
         }
         let loaded = self.with_clearance(overrides.clearance)?;
@@ -67,6 +76,25 @@ impl LoadedScene {
             let is_free = loaded.require("the start", start, &place).and_then(|()| loaded.require_clear(start, &place));
             is_free.map_err(|diagnostic| diagnostic.with_kind(DiagnosticKind::Start))?;
         }
+        let [start_tool, goal_tool] = loaded.tool_values()?;
+        let start_refused = place.diagnostic(String::new()).with_kind(DiagnosticKind::Start);
+        let own_move = if loaded.world.steps.is_none() {
+            let (goals, place) = loaded.goals(overrides).map_err(|error| error.with_kind(DiagnosticKind::Goal))?;
+            let step = LoadedScene::move_to_goal(&goals, &place, goal_tool)?;
+            if let [Goal::Joints(q)] = goals[..] {
+                let outside = beyond_limits(&loaded.scene, q);
+                let message = format!("the goal is outside the joint limits: {}", outside.join("; "));
+                InputError::check(
+                    (!outside.is_empty())
+                        .then(|| place.diagnostic(message).help(HELP_FOR_LIMITS))
+                        .into_iter()
+                        .collect(),
+                )?;
+            }
+            Some(step)
+        } else {
+            None
+        };
         let requirements = loaded.world.steps.iter().flat_map(|steps| &steps.requirements);
         InputError::check(requirements.filter_map(|r| loaded.unmet_requirement(r, start)).collect())?;
         let Self { scene, world, robot, .. } = loaded;
@@ -76,13 +104,25 @@ impl LoadedScene {
         }
         let mut workspace = world.workspace;
         workspace.fixed.clearance = scene.workspace().clearance;
-        let items = world.steps.map(|steps| steps.items).unwrap_or_default();
+        let items = world.steps.map_or_else(|| own_move.into_iter().collect(), |steps| steps.items);
         let (wrist, note) = world.wrist.unzip();
         notes.extend(note.flatten());
-        let task = Task { arm: scene.arm().clone(), workspace, objects: world.objects, start, items, wrist, stroke };
+        let task = Task {
+            arm: scene.arm().clone(),
+            workspace,
+            objects: world.objects,
+            start,
+            items,
+            wrist,
+            stroke,
+            start_tool,
+        };
         if let Some((mover, why)) = task.static_only_feature() {
             let help = "remove its motion, or the feature that needs static obstacles";
             return Err(world.source.diagnostic(format!("\"{mover}\" moves, and {why}")).help(help).into());
+        }
+        if is_checked {
+            require_free_lowered(&task, start_refused)?;
         }
         Ok(LoadedTask { task, scene, robot, notes })
     }

@@ -13,6 +13,7 @@ use super::sensor::{SensorTable, SensorWishes};
 use super::sequence::{Sequence, write_out};
 use super::step::{StepReader, StepTable, TaskTable};
 use super::table::Table;
+use super::tool_values::StatedTool;
 use super::world_map::{self, MapTable};
 use cplan_core::model::{Goal, Workspace};
 use cplan_geometry::Pose;
@@ -48,6 +49,8 @@ pub struct World {
     /// The alternative goals, at least one, and their position in the file. `None` if the file states no goal.
     pub(super) goals: Option<(Vec<Goal>, Range<usize>)>,
     pub(super) steps: Option<Sequence>,
+    /// Values of the tool's joints that the start and the goal state.
+    pub(super) tool: [StatedTool; 2],
     pub(super) sensor: SensorWishes,
     /// The wrist, with a note about its limits if any is assumed.
     pub(super) wrist: Option<(Wrist, Option<String>)>,
@@ -68,6 +71,7 @@ impl World {
             in_degrees: Vec::new(),
             goals: None,
             steps: None,
+            tool: [StatedTool::default(), StatedTool::default()],
             sensor: SensorWishes::default(),
             wrist: None,
         }
@@ -78,9 +82,14 @@ impl World {
         self.source.files().into_iter().chain(self.named_files.iter().cloned())
     }
 
+    /// Returns true if there are steps, or values of the tool's joints at the start or the goal.
+    pub(super) fn is_task(&self) -> bool {
+        self.steps.is_some() || self.tool.iter().any(|tool| !tool.is_empty())
+    }
+
     /// Returns the settings for reading the robot.
     pub(super) fn robot_settings(&self) -> RobotSettings<'_> {
-        RobotSettings { table: &self.robot, source: &self.source, has_steps: self.steps.is_some() }
+        RobotSettings { table: &self.robot, source: &self.source, is_task: self.is_task() }
     }
 
     /// Returns the workspace with all objects after the static obstacles. Each object is at its initial place, or moves
@@ -150,6 +159,12 @@ struct StartTable {
     /// Coordinates of the tip, m. Exactly one IK solution must be within the limits and free.
     #[schemars(with = "Option<NumberPair>")]
     tip: Option<Numbers>,
+    /// Value of the joint that lowers the tool, m; by default it is raised.
+    #[schemars(with = "Option<f64>")]
+    stroke: Option<Number>,
+    /// Value of the wrist's joint, rad; by default its `fixed` value.
+    #[schemars(with = "Option<AngleOrLength>")]
+    wrist: Option<Written>,
 }
 
 /// Returns the schema of world files, in JSON Schema draft 7, which editors of TOML support. It has every key with its
@@ -183,10 +198,18 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let reader = Reader::new(&source);
     let clearance = file.clearance.as_ref().map(|c| reader.not_negative(c, "clearance")).transpose()?.unwrap_or(0.0);
     let start = file.start.as_ref().map(|s| {
-        let Table(StartTable { joints, tip }) = s.get_ref();
+        let Table(StartTable { joints, tip, .. }) = s.get_ref();
         reader.place(joints.as_ref(), tip.as_ref(), s.span(), "start")
     });
     let start = start.transpose()?;
+    let start_table = file.start.as_ref().map(|s| &s.get_ref().0);
+    let goal_table = file.goal.as_ref().map(|g| &g.get_ref().0);
+    let tool = [
+        start_table.map(|s| StatedTool::read(&reader, s.stroke.as_ref(), s.wrist.as_ref(), "start")),
+        goal_table.map(|g| StatedTool::read(&reader, g.stroke.as_ref(), g.wrist.as_ref(), "goal")),
+    ];
+    let [start_tool, goal_tool] = tool.map(|read| read.transpose().map(Option::unwrap_or_default));
+    let tool = [start_tool?, goal_tool?];
     let goals = file.goal.as_ref().map(|g| reader.goals(&g.get_ref().0, g.span())).transpose()?;
     let (mut obstacles, mut movers) = (Vec::new(), Vec::new());
     for (index, table) in file.obstacle.iter().enumerate() {
@@ -229,6 +252,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         goals: goals.or(map.goals.filter(|_| steps.is_none())),
         objects: movables.into_iter().map(|movable| movable.object).collect(),
         steps,
+        tool,
         sensor,
         wrist,
         place,

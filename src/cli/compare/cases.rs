@@ -177,7 +177,7 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure
     let scene = |member: input::Member| {
         // Only a world that the command line names can have steps here. The request for its goal then reports the
         // error.
-        if member.scene.has_steps() {
+        if member.scene.is_task() {
             member.scene.clone().problem(overrides)?;
         }
         let scene = member.scene.with_clearance(overrides.clearance)?.scene;

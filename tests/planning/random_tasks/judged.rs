@@ -34,6 +34,8 @@ fn record(answer: &TaskAnswer, TaskMotion { sequence, .. }: &TaskMotion) -> (Rec
             before_arrival: leg.overlap.lowering,
             after_departure: answer.legs.get(index + 1).map_or(0.0, |next| next.overlap.raising),
         },
+        raising: 0.0,
+        wrist: None,
     });
     (recording, steps.collect())
 }

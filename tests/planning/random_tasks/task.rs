@@ -5,7 +5,7 @@ use crate::common::{all_kinds, clutter, convex, disc, obstacle, placed};
 use cplan::geometry::{Convex, Point, Pose, Vector, hull};
 use cplan::model::{
     Action, Arch, Goal, Heights, Holding, Item, Object, Obstacle, Part, Shape, Step, Stroke, Task, ToolJoint,
-    Workspace, Wrist,
+    ToolValues, Workspace, Wrist,
 };
 use cplan::space::{Configuration, JointRange};
 use std::f64::consts::{PI, TAU};
@@ -66,6 +66,7 @@ pub fn task(seed: u64) -> Task {
         items: Vec::new(),
         wrist: Some(Wrist { velocity: 3.0, acceleration: 12.0, turns_on_the_way: false }),
         stroke: None,
+        start_tool: ToolValues::default(),
     };
     let scene = task.scene(&all, &[], None, []);
     task.start = (0..500).map(|_| anywhere(&mut dice)).find(|q| scene.obstructions(*q).is_empty()).unwrap_or_default();
@@ -84,6 +85,7 @@ pub fn task(seed: u64) -> Task {
             place: String::new(),
             speed: if dice.chance(0.2) { dice.within(0.2, 1.0) } else { 1.0 },
             dwell: if dice.chance(0.5) { dice.within(0.0, 0.5) } else { 0.0 },
+            tool: ToolValues::default(),
         }
     };
     let mut pairs = Vec::new();

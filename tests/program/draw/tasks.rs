@@ -10,7 +10,7 @@ use cplan::engine::Method;
 use cplan::engine::task::{Event, TaskAnswer, plan};
 use cplan::geometry::{Point, Pose};
 use cplan::model::{
-    Action, Goal, Heights, Holding, Item, Object, Obstacle, Scene, Shape, Step, Task, Workspace, Wrist,
+    Action, Goal, Heights, Holding, Item, Object, Obstacle, Scene, Shape, Step, Task, ToolValues, Workspace, Wrist,
 };
 use cplan::space::Configuration;
 use std::collections::BTreeSet;
@@ -65,7 +65,15 @@ fn task(objects: Vec<Object>, obstacles: Vec<Obstacle>, steps: &[Action], rounds
         }
         let step = |(i, action): (usize, &Action)| {
             let action = action.clone();
-            Item::Step(Step { action, number: i + 1, cycle, place: String::new(), speed: 1.0, dwell: 0.25 })
+            Item::Step(Step {
+                action,
+                number: i + 1,
+                cycle,
+                place: String::new(),
+                speed: 1.0,
+                dwell: 0.25,
+                tool: ToolValues::default(),
+            })
         };
         items.extend(steps.iter().enumerate().map(step));
     }
@@ -83,6 +91,7 @@ fn task(objects: Vec<Object>, obstacles: Vec<Obstacle>, steps: &[Action], rounds
         items,
         wrist: Some(Wrist { velocity: 3.0, acceleration: 10.0, turns_on_the_way: false }),
         stroke: None,
+        start_tool: ToolValues::default(),
     }
 }
 

@@ -12,3 +12,4 @@ mod limits;
 mod motion;
 mod recordings;
 mod tasks;
+mod tool_values;

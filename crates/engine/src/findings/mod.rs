@@ -52,6 +52,13 @@ fn judge_motion(
     anywhere: bool,
     mut notes: Vec<String>,
 ) -> Result<MotionFindings, InputError> {
+    if loaded.is_task() && !loaded.has_steps() {
+        notes.push(
+            "the world gives values of the tool's joints, but the file has no steps: only the recorded motion is judged, not \
+             these values; to judge them, too, verify a result in .json"
+                .into(),
+        );
+    }
     if loaded.has_steps() {
         notes.push(
             "the world has steps, but the file has none: it is judged as one motion without a payload, with all \

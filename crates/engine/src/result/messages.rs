@@ -4,14 +4,14 @@
 //! with the motion. While the arm stands still, the wrist turns, and the tool is lowered and raised.
 //! If the world names the wrist's joint, that joint compensates the rotation of link 2, so that level payloads keep
 //! their orientation. Without a payload, it returns towards its rest position during the motion, as far as its limits
-//! allow.
+//! allow, or turns to the value that the step states.
 
 use cplan_core::model::JointType;
 use cplan_core::space::JointRange;
 use cplan_handling::{Derivative, Driver, Drives, Holding, Piece, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
 use cplan_motion::recorded::turn_profile;
 use cplan_motion::{AccelerationJump, JointMotion, nanoseconds, seconds, single, whole_nanoseconds};
-use cplan_tasks::{Event, Leg, Sequence};
+use cplan_tasks::{Event, Leg, Sequence, ToolStroke, WristMotion};
 use thiserror::Error;
 
 /// Reason why messages cannot name all joints as requested.
@@ -63,15 +63,20 @@ const ROUNDING: f64 = 1e-6;
 impl Messages {
     /// Creates the messages for the steps of a sequence. They have accelerations of the arm, but none of the tool.
     pub fn new(robot: &RobotJoints, task: &Task, legs: &[Leg], sequence: &Sequence) -> Result<Self, MessageError> {
-        let wrist = robot.wrist.as_ref().map_or(0.0, |joint| joint.rest);
+        let rest = robot.wrist.as_ref().map_or(0.0, |joint| joint.rest);
+        let wrist = task.start_tool.wrist.unwrap_or(rest);
         let mut tool = Tool { robot, task, wrist, turned: 0.0, strokes: Vec::new(), turns: Vec::new() };
         let mut rows = Rows::default();
+        rows.0.extend(legs.first().and_then(|leg| tool.first_row(leg, sequence)));
         let mut begins = Vec::new();
         for (index, leg) in legs.iter().enumerate() {
             let times = sequence.times(index).map(nanoseconds);
+            let before = tool.strokes.len();
+            tool.raise_first(leg, times[0]);
+            let own = tool.strokes.get(before).map(|raising| raising.begin);
             let raising = tool.strokes.last().filter(|_| leg.overlap.raising > 0.0);
             let turning = tool.turns.last().filter(|_| leg.overlap.turn_after_departure > 0.0);
-            begins.push(raising.or(turning).map_or(times[0], |before| before.begin));
+            begins.push(own.or(raising.or(turning).map(|before| before.begin)).unwrap_or(times[0]));
             tool.rows(leg, times).0.iter().for_each(|row| rows.push(*row));
         }
         rows.add_changes(tool.strokes.iter().chain(&tool.turns));
@@ -112,14 +117,13 @@ impl TimedStroke {
     fn at(&self, time: u64) -> [f64; 2] {
         let [from, to] = self.ends;
         let since = seconds(time - self.begin);
-        let Some(phase) =
-            self.phases.windows(2).find(|phase| nanoseconds(phase[1][0]) > nanoseconds(since) + MIN_ROW_GAP)
-        else {
-            return [to, 0.0];
-        };
+        let end = self.phases.last().map_or(0.0, |[time, ..]| *time);
+        let phase = self.phases.windows(2).find(|phase| phase[1][0] > since);
+        // A row may stand for the end of the stroke shortly after it.
+        let is_over = nanoseconds(end) <= nanoseconds(since) + MIN_ROW_GAP;
+        let Some(phase) = phase.filter(|_| !is_over) else { return [to, 0.0] };
         let [[begin, distance, speed], [end, _, later]] = [phase[0], phase[1]];
-        // A row may stand for a change of the acceleration shortly before or after it.
-        let into = (since - begin).max(0.0);
+        let into = since - begin;
         let rate = speed + (later - speed) * into / (end - begin);
         let sign = (to - from).signum();
         [from + sign * (distance + into * (speed + rate) / 2.0), sign * rate]
@@ -207,7 +211,7 @@ impl Rows {
         }
     }
 
-    /// Adds strokes to rows in which the tool is raised.
+    /// Adds strokes to rows in which the tool is as it is before the first stroke.
     fn add_strokes(&mut self, strokes: &[TimedStroke]) {
         for row in &mut self.0 {
             let begun = strokes.partition_point(|stroke| stroke.begin <= row.at);
@@ -267,17 +271,37 @@ struct Tool<'a> {
 }
 
 impl Tool<'_> {
-    /// Returns the rows of a step, with the tool raised, and records its strokes. `begin`, `arrival` and `end` are its
+    /// Returns the row at the beginning of a task in which the arm rests first. `None` if it departs at once.
+    fn first_row(&self, leg: &Leg, sequence: &Sequence) -> Option<Row> {
+        let [begin, ..] = sequence.times(0);
+        let planned = *leg.timed.trajectory.position.first()?;
+        let value = Drives { planned, stroke: self.initial_stroke(), wrist: self.wrist };
+        (begin > 0.0).then(|| Row { at: 0, value, rate: Drives::default(), acceleration: [0.0; 2] })
+    }
+
+    /// Returns the value of the stroke's joint before the first stroke.
+    fn initial_stroke(&self) -> f64 {
+        self.robot.stroke.as_ref().map_or(0.0, |stroke| stroke.lowered(self.task.start_tool.depth))
+    }
+
+    /// Records the raising with which a motion begins. `departure` is the time at which the arm departs, in nanoseconds.
+    fn raise_first(&mut self, leg: &Leg, departure: u64) {
+        let Some(raising) = leg.raising else { return };
+        let mut at = (departure + nanoseconds(leg.overlap.raising)).saturating_sub(nanoseconds(raising.seconds));
+        self.stroke(Some(raising), true, &mut at);
+    }
+
+    /// Returns the rows of a step, with the tool as it is initially, and records its strokes. `begin`, `arrival` and `end` are its
     /// times in nanoseconds.
     fn rows(&mut self, leg: &Leg, [begin, arrival, end]: [u64; 3]) -> Rows {
         let mut rows = Rows::default();
         let trajectory = &leg.timed.trajectory;
-        let raised = self.robot.stroke.as_ref().map_or(0.0, |stroke| stroke.joint.rest);
+        let stroke = self.initial_stroke();
         for (k, time) in trajectory.time.iter().enumerate() {
             let [wrist, turning] = self.wrist_state(leg, k);
             rows.push(Row {
                 at: begin + nanoseconds(*time),
-                value: Drives { planned: trajectory.position[k], stroke: raised, wrist },
+                value: Drives { planned: trajectory.position[k], stroke, wrist },
                 rate: Drives { planned: trajectory.velocity[k], stroke: 0.0, wrist: turning },
                 acceleration: trajectory.acceleration[k],
             });
@@ -291,12 +315,14 @@ impl Tool<'_> {
         if places {
             self.turn(leg, &mut at);
         }
-        self.stroke(leg, false, &mut at);
+        self.stroke(leg.stroke, false, &mut at);
         at += nanoseconds(whole_nanoseconds(leg.step.dwell));
-        self.stroke(leg, true, &mut at);
+        // After a move, the tool stays lowered.
+        self.stroke(leg.stroke.filter(|_| leg.event.is_some()), true, &mut at);
         if !places {
             self.turn(leg, &mut at);
         }
+        self.wrist_motion(leg);
         // The whole motion ends with the sequence, in the same nanosecond.
         rows.0.pop_if(|last| last.at >= end);
         rows.push(Row { at: end, value, rate: Drives::default(), acceleration: [0.0; 2] });
@@ -313,6 +339,7 @@ impl Tool<'_> {
                 let turned = self.link_2_angle(trajectory.position[k]) - self.link_2_angle(trajectory.position[0]);
                 [self.wrist - joint.sign * turned, -joint.sign * self.link_2_angle(trajectory.velocity[k])]
             }
+            None if leg.wrist.is_some() => [self.wrist, 0.0],
             None => {
                 let duration = trajectory.duration();
                 if duration == 0.0 {
@@ -349,9 +376,21 @@ impl Tool<'_> {
         *at += nanoseconds(seconds);
     }
 
+    /// Records that the wrist turns to the value that the step states.
+    fn wrist_motion(&mut self, leg: &Leg) {
+        let (Some(WristMotion { angle, begin, seconds, .. }), Some(limits)) = (leg.wrist, self.task.wrist) else {
+            return;
+        };
+        if angle != 0.0 {
+            let phases = turn_profile(&limits, angle.abs(), seconds);
+            self.turns.push(TimedStroke { begin: nanoseconds(begin), ends: [0.0, angle], phases });
+            self.turned += angle;
+        }
+    }
+
     /// Records that the tool is lowered or raised, and advances the time to the end of the stroke.
-    fn stroke(&mut self, leg: &Leg, up: bool, at: &mut u64) {
-        let (Some(stroke), Some(limits)) = (leg.stroke, &self.task.stroke) else { return };
+    fn stroke(&mut self, stroke: Option<ToolStroke>, up: bool, at: &mut u64) {
+        let (Some(stroke), Some(limits)) = (stroke, &self.task.stroke) else { return };
         let ends = if up { [stroke.lowered, stroke.raised] } else { [stroke.raised, stroke.lowered] };
         if self.robot.stroke.is_some() {
             let phases = single((ends[1] - ends[0]).abs(), limits.velocity, limits.acceleration);

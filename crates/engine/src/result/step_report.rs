@@ -5,7 +5,7 @@ use cplan_core::check::CheckedProof;
 use cplan_handling::{Action, Task};
 use cplan_motion::BlendReport;
 use cplan_motion::recorded::WristTurn;
-use cplan_tasks::{Event, FailedStep, Leg, RefusedIkSolution, Sequence, TaskAnswer, ToolStroke};
+use cplan_tasks::{Event, FailedStep, Leg, RefusedIkSolution, Sequence, TaskAnswer, ToolStroke, WristMotion};
 use serde::Serialize;
 use std::borrow::Cow;
 
@@ -83,6 +83,20 @@ pub struct StrokeReport {
     pub clearance: Option<f64>,
 }
 
+/// A turn of the wrist with an empty gripper, to the value that the step states. The wrist turns with its fastest motion, or
+/// with that motion stretched evenly in time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct WristReport {
+    /// The joint's value at the beginning, radians.
+    pub from: f64,
+    /// The joint's value at the end, radians.
+    pub to: f64,
+    /// Time from the beginning of the task to that of the turn, in seconds.
+    pub begin: f64,
+    /// Duration, in seconds.
+    pub seconds: f64,
+}
+
 /// A step of the answer: a motion that begins and ends at rest, and a rest after it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StepReport {
@@ -119,9 +133,16 @@ pub struct StepReport {
     pub deviation: Option<f64>,
     /// The turn of the wrist after a pick or before a place.
     pub turn: Option<TurnReport>,
-    /// The stroke of the tool at the end of the motion. `None` if the world has no stroke.
+    /// The stroke with which the step begins, because the tool is lowered there. `None` if it is raised.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub raising: Option<StrokeReport>,
+    /// The stroke of the tool at the end of the motion. At the end of a move, the tool stays lowered. `None` if the tool
+    /// stays raised.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stroke: Option<StrokeReport>,
+    /// The turn of the wrist to the value that the step states. `None` if it states none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wrist: Option<WristReport>,
     /// Index of the motion's first sample in the whole trajectory, from 0. `None` if the result has no whole
     /// trajectory.
     pub first_sample: Option<usize>,
@@ -162,17 +183,25 @@ impl StepReport {
                 after_departure: legs.get(index + 1).map_or(0.0, |next| next.overlap.turn_after_departure),
                 clearance: finite(clearance),
             }),
-            stroke: leg.stroke.map(|ToolStroke { raised, lowered, seconds, clearance }| StrokeReport {
-                raised,
-                lowered,
-                seconds,
-                before_arrival: leg.overlap.lowering,
-                after_departure: legs.get(index + 1).map_or(0.0, |next| next.overlap.raising),
-                clearance: finite(clearance),
+            raising: leg.raising.map(|stroke| StrokeReport::new(stroke, [0.0, leg.overlap.raising])),
+            stroke: leg.stroke.map(|stroke| {
+                let next = legs.get(index + 1).filter(|_| leg.event.is_some());
+                StrokeReport::new(stroke, [leg.overlap.lowering, next.map_or(0.0, |next| next.overlap.raising)])
+            }),
+            wrist: leg.wrist.zip(task.start_tool.wrist).map(|(WristMotion { angle, begin, seconds, .. }, from)| {
+                let to = leg.step.tool.wrist.unwrap_or(from + angle);
+                WristReport { from, to, begin, seconds }
             }),
             first_sample: is_whole.then_some(*samples.start()),
             last_sample: is_whole.then_some(*samples.end()),
         }
+    }
+}
+
+impl StrokeReport {
+    fn new(stroke: ToolStroke, [before_arrival, after_departure]: [f64; 2]) -> Self {
+        let ToolStroke { raised, lowered, seconds, clearance } = stroke;
+        Self { raised, lowered, seconds, before_arrival, after_departure, clearance: finite(clearance) }
     }
 }
 

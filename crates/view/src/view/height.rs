@@ -27,11 +27,9 @@ impl HeightView {
     pub fn of_task(task: &Task, legs: &[Leg]) -> Option<Self> {
         let tool = task.stroke.as_ref()?;
         let duration = legs.last()?.end();
-        let mut corners = vec![[0.0, tool.joint.rest]];
+        let mut corners = vec![[0.0, tool.lowered(task.start_tool.depth)]];
         for leg in legs {
-            let Some((stroke, begins)) = leg.stroke.zip(leg.stroke_begins()) else { continue };
-            let ends = [[stroke.raised, stroke.lowered], [stroke.lowered, stroke.raised]];
-            for (begin, [from, to]) in begins.into_iter().zip(ends) {
+            for (begin, [from, to]) in leg.strokes() {
                 let sign = (to - from).signum();
                 let phases = single((to - from).abs(), tool.velocity, tool.acceleration);
                 corners.push([begin, from]);
@@ -45,7 +43,8 @@ impl HeightView {
                 }
             }
         }
-        corners.push([duration, tool.joint.rest]);
+        let last = corners.last().map_or(tool.joint.rest, |[_, value]| *value);
+        corners.push([duration, last]);
         let rounded =
             |[time, value]: [f64; 2]| Configuration::new((time * 1e4).round() / 1e4, (value * 1e6).round() / 1e3);
         let motion = Chain(corners.into_iter().map(rounded).collect());

@@ -104,7 +104,7 @@ pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedReco
         Some("yaml" | "yml") => (document::yaml(source)?, None, None),
         _ => {
             let samples = document::json(source)?;
-            let steps = if scene.has_steps() { steps::json(source, &samples)? } else { None };
+            let steps = if scene.is_task() { steps::json(source, &samples)? } else { None };
             (samples, steps, claims::json(source, names.arm)?)
         }
     };

@@ -2,7 +2,7 @@
 
 use super::samples::Samples;
 use crate::parsers::json_diagnostic;
-use cplan_handling::{RecordedOverlap, RecordedStep, RecordedTurn};
+use cplan_handling::{RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist};
 use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 
@@ -23,7 +23,9 @@ struct StepMember {
     first_sample: Option<usize>,
     last_sample: Option<usize>,
     turn: Option<TurnMember>,
+    raising: Option<StrokeMember>,
     stroke: Option<StrokeMember>,
+    wrist: Option<WristMember>,
 }
 
 #[derive(Deserialize)]
@@ -32,6 +34,14 @@ struct StrokeMember {
     before_arrival: f64,
     #[serde(default)]
     after_departure: f64,
+}
+
+#[derive(Deserialize)]
+struct WristMember {
+    from: f64,
+    to: f64,
+    begin: f64,
+    seconds: f64,
 }
 
 #[derive(Deserialize)]
@@ -102,12 +112,30 @@ impl StepMember {
                 Some(RecordedTurn { from: *from, to: *to, seconds: *seconds, overlap })
             }
         };
+        let raising = match &self.raising {
+            None => 0.0,
+            Some(StrokeMember { after_departure, .. }) => overlap("raising", 0.0, *after_departure)?.after_departure,
+        };
         let overlap = match self.stroke {
             None => RecordedOverlap::default(),
             Some(StrokeMember { before_arrival, after_departure }) => {
                 overlap("stroke", before_arrival, after_departure)?
             }
         };
-        Ok(RecordedStep { number: self.step, cycle: self.cycle, samples: first..=last, turn, overlap })
+        let wrist = match &self.wrist {
+            None => None,
+            Some(WristMember { from, to, begin, seconds }) => {
+                let numbers = [("from", *from), ("to", *to), ("begin", *begin), ("seconds", *seconds)];
+                if let Some((what, value)) =
+                    numbers.into_iter().find(|(_, value)| value.is_nan() || value.abs() > MAX_NUMBER)
+                {
+                    let help =
+                        "a turn of the wrist has two values of its joint in radians, and begins and takes seconds";
+                    return refuse(format!("the wrist's {what} is {value}"), help);
+                }
+                Some(RecordedWrist { from: *from, to: *to, begin: *begin, seconds: *seconds })
+            }
+        };
+        Ok(RecordedStep { number: self.step, cycle: self.cycle, samples: first..=last, turn, overlap, raising, wrist })
     }
 }

@@ -86,7 +86,12 @@ pub fn false_task_claims(
         ledger.number("length", claims.length, sum, super::NUMBER_TOLERANCE * (1.0 + sum));
     }
     if let Some(stated) = &claims.task.step_of_sample {
-        let first = |step: usize| recorded.get(step).map_or(recording.positions().len(), |step| *step.samples.start());
+        // The rest before the first motion belongs to the first step.
+        let first = |step: usize| match recorded.get(step) {
+            _ if step == 0 => 0,
+            Some(step) => *step.samples.start(),
+            None => recording.positions().len(),
+        };
         let is: Vec<usize> =
             (0..recorded.len()).flat_map(|step| std::iter::repeat_n(step, first(step + 1) - first(step))).collect();
         if *stated != is {

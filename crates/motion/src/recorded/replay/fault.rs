@@ -68,6 +68,44 @@ pub enum Fault {
         /// The required rest: for the step's dwell, the turn of the wrist and the stroke of the tool.
         asked: f64,
     },
+    /// The arm does not rest for long enough before the step, while the tool is raised.
+    #[error("the arm stands still for {stood:.6} s before it, but the tool is raised for {asked:.6} s")]
+    RestBefore {
+        /// The recorded rest, seconds.
+        stood: f64,
+        /// The required rest, seconds.
+        asked: f64,
+    },
+    /// The tool is raised during the beginning of the motion, but it was not lowered.
+    #[error("the tool is raised during the motion, but it is not lowered before")]
+    NotLowered,
+    /// The wrist turns to a value of its joint, but the step states none.
+    #[error("the wrist turns to a value of its joint that the step does not state")]
+    WristElsewhere,
+    /// The wrist does not turn to its value.
+    #[error("the wrist does not turn to {to} rad")]
+    WristStays {
+        /// The required value, radians.
+        to: f64,
+    },
+    /// The wrist turns between other values.
+    #[error("the wrist turns from {} to {} rad, not from {} to {} rad", is[0], is[1], asked[0], asked[1])]
+    WristEnds {
+        /// The recorded values.
+        is: [f64; 2],
+        /// The required values.
+        asked: [f64; 2],
+    },
+    /// The wrist turns before the record begins, or after the step ends.
+    #[error("the wrist turns from {begin:.6} s to {until:.6} s, but the step ends at {end:.6} s")]
+    WristOutside {
+        /// The recorded beginning of the turn, seconds.
+        begin: f64,
+        /// The recorded end of the turn, seconds.
+        until: f64,
+        /// The end of the step, seconds.
+        end: f64,
+    },
     /// The arm moves during a stroke, but the world has no arch motions.
     #[error("the arm moves while the tool is lowered or raised, which the world forbids")]
     NoArch,

@@ -21,7 +21,7 @@ use cplan_geometry::{Interval, Point, Pose};
 use cplan_handling::{Action, ObstacleTrajectory, RecordedStep, RecordedTurn, Recording, Step, Task, TimedScene};
 use order::{MatchedStep, match_steps};
 use overlap::{Overlaps, PartialStroke, turn_faults, turning_at_rest};
-use state::{State, lowering_seconds};
+use state::{State, lowering_seconds, wrist_faults};
 
 /// Largest difference between an actual and a required place, metres or radians. It is a thousand times the error of
 /// inverse kinematics, and below the repeatability of any arm.
@@ -123,6 +123,8 @@ pub struct Replay<'a> {
 ///   A turn must start at the object's orientation, last at least as long as the wrist needs, and be free
 ///   ([`super::judge_given_turn`]). The arm must rest for the dwell, the turn, and the stroke of the tool. The stroke
 ///   must be free at all its heights.
+/// - The values of the tool's joints at the start and at the end of a move. The arm rests while the tool is raised and
+///   lowered there, except in overlaps, and the wrist turns from one value to the other within its limits.
 ///
 /// Takes `O(n)` for `n` samples, plus the checks of motions.
 #[must_use]
@@ -184,7 +186,24 @@ impl<'a> Iterator for Replay<'a> {
         broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
         let mut object = carried;
         let handled = picked.or(carried.filter(|_| matches!(step.action, Action::Place { .. })));
-        let overlaps = Overlaps::new(std::mem::take(&mut self.before), recorded, handled);
+        let depth = match handled {
+            Some(object) => task.stroke.as_ref().map(|stroke| stroke.depth(&task.objects[object])),
+            None => step.tool.lowered_by(),
+        };
+        let raised_first = self.state.raise(task);
+        let mut before = std::mem::take(&mut self.before);
+        match &raised_first {
+            Some((depth, _)) => {
+                let (depth, overlap) = (*depth, recorded.raising);
+                before.0 = Some(PartialStroke { depth, overlap }).filter(|_| overlap > 0.0);
+                let (stood, asked) = (times[0], lowering_seconds(task, depth) - overlap);
+                if index == 0 && stood < asked - TIME_TOLERANCE {
+                    faults.push(Fault::RestBefore { stood, asked });
+                }
+            }
+            None => faults.extend((recorded.raising > 0.0).then_some(Fault::NotLowered)),
+        }
+        let overlaps = Overlaps::new(before, recorded, depth);
         faults.extend(overlaps.faults(task, motion.duration().unwrap_or(0.0)));
         if let CollisionCheck::Free { clearance, .. } = collision_check
             && let Some((at_heights, found)) = overlaps.check(task, &self.state, &motion, picked, clearance)
@@ -232,7 +251,7 @@ impl<'a> Iterator for Replay<'a> {
                 faults.extend(self.state.release(task, to, *at, *angle));
             }
             Action::Move(goal) => {
-                (object, lowered) = (None, None);
+                (object, lowered) = (None, self.state.lower(task, step));
                 faults.extend(distance_from_goal(task, to, goal));
                 turn = self.state.turn(task, to, recorded.turn, &mut faults);
                 self.state.moved();
@@ -247,9 +266,9 @@ impl<'a> Iterator for Replay<'a> {
         }
         let asked = step.dwell
             + recorded.turn.as_ref().map_or(0.0, turning_at_rest)
-            + handled.map_or(0.0, |object| 2.0 * lowering_seconds(task, object))
+            + depth.map_or(0.0, |depth| lowering_seconds(task, depth) * if handled.is_some() { 2.0 } else { 1.0 })
             - overlaps.lowering.map_or(0.0, |lowering| lowering.overlap)
-            - recorded.overlap.after_departure;
+            - handled.map_or(0.0, |_| recorded.overlap.after_departure);
         let standing = || self.recording.part(*recorded.samples.end()..=*recorded.samples.end());
         // A moving obstacle may hit the resting arm.
         if task.has_moving_obstacles()
@@ -263,7 +282,10 @@ impl<'a> Iterator for Replay<'a> {
                 (scene, trajectories, collision_check) = (stays, then, shifted(found, *recorded.samples.end()));
             }
         }
-        if let (Some(below), Some(standing)) = (lowered, standing()) {
+        let [first, last] = [*recorded.samples.start(), *recorded.samples.end()];
+        let below = [raised_first.map(|(_, scene)| (scene, first)), lowered.map(|scene| (scene, last))];
+        for (below, sample) in below.into_iter().flatten() {
+            let Some(standing) = self.recording.part(sample..=sample) else { continue };
             let then = task.workspace.trajectories();
             let timed = TimedScene { scene: &below, trajectories: &then };
             let found = super::check_collision(timed, &standing, task.workspace.fixed.clearance);
@@ -272,7 +294,7 @@ impl<'a> Iterator for Replay<'a> {
                     *clearance = clearance.min(least);
                 }
                 (CollisionCheck::Free { .. }, found) => {
-                    (scene, trajectories, collision_check) = (below, then, shifted(found, *recorded.samples.end()));
+                    (scene, trajectories, collision_check) = (below, then, shifted(found, sample));
                 }
                 _ => {}
             }
@@ -299,10 +321,10 @@ impl<'a> Iterator for Replay<'a> {
             }
         }
         let is_picked = matches!(step.action, Action::Pick { .. });
-        let raising = handled.filter(|_| recorded.overlap.after_departure > 0.0);
+        let raising = depth.filter(|_| handled.is_some() && recorded.overlap.after_departure > 0.0);
         let turn_after = recorded.turn.filter(|turn| turn.overlap.after_departure > 0.0);
         self.before =
-            (raising.map(|object| PartialStroke { object, overlap: recorded.overlap.after_departure }), turn_after);
+            (raising.map(|depth| PartialStroke { depth, overlap: recorded.overlap.after_departure }), turn_after);
         if is_last && (raising.is_some() || turn_after.is_some()) {
             faults.push(Fault::MustRest);
         }
@@ -310,11 +332,13 @@ impl<'a> Iterator for Replay<'a> {
         if let Some(stood) = matched.rest.filter(|stood| *stood < asked - TIME_TOLERANCE) {
             faults.push(Fault::Rest { stood, asked });
         }
+        faults.extend(wrist_faults(task, step, recorded.wrist, times[2]));
         let seconds = motion.duration().unwrap_or(0.0);
         let event = object.map(|object| {
             let pose = self.state.pose(object);
             let turning = pose.and(recorded.turn.as_ref()).map_or(0.0, turning_at_rest);
-            let lowering = lowering_seconds(task, object) - overlaps.lowering.map_or(0.0, |lowering| lowering.overlap);
+            let lowering = depth.map_or(0.0, |depth| lowering_seconds(task, depth))
+                - overlaps.lowering.map_or(0.0, |lowering| lowering.overlap);
             let (number, cycle, tip) = (step.number, step.cycle, task.arm.tip_at(to));
             GripperEvent { step: number, cycle, object, time: (times[1] + turning + lowering).min(times[2]), tip, pose }
         });

@@ -9,8 +9,8 @@ use cplan_handling::{RecordedOverlap, RecordedStep, RecordedTurn, Recording, Tas
 /// A stroke that overlaps with a motion, and by how many seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PartialStroke {
-    /// The object for which the tool is lowered.
-    pub object: usize,
+    /// Depth to or from which the tool moves, metres.
+    pub depth: f64,
     /// Time that the stroke and the motion share, seconds.
     pub overlap: f64,
 }
@@ -27,14 +27,15 @@ pub(super) struct Overlaps {
 }
 
 impl Overlaps {
-    /// Creates the overlaps of a step's motion. `raising` and `turn_before` are those of the step before.
+    /// Creates the overlaps of a step's motion. `raising` and `turn_before` are those before it, and `depth` is that of the
+    /// stroke at its end, in metres.
     pub fn new(
         (raising, turn_before): (Option<PartialStroke>, Option<RecordedTurn>),
         recorded: &RecordedStep,
-        object: Option<usize>,
+        depth: Option<f64>,
     ) -> Self {
         let overlap = recorded.overlap.before_arrival;
-        let lowering = object.filter(|_| overlap > 0.0).map(|object| PartialStroke { object, overlap });
+        let lowering = depth.filter(|_| overlap > 0.0).map(|depth| PartialStroke { depth, overlap });
         let turn_at_end = recorded.turn.filter(|turn| turn.overlap.before_arrival > 0.0);
         Self { raising, lowering, turn_before, turn_at_end }
     }
@@ -67,9 +68,8 @@ impl Overlaps {
             return faults;
         };
         for (stroke, height) in [(self.raising, arch.rise), (self.lowering, arch.fall)] {
-            let (Some(PartialStroke { object, overlap }), Some(tool)) = (stroke, &task.stroke) else { continue };
-            let depth = tool.depth(&task.objects[object]);
-            let most = lowering_seconds(task, object) - seconds_to_rise(tool, depth, height);
+            let (Some(PartialStroke { depth, overlap }), Some(tool)) = (stroke, &task.stroke) else { continue };
+            let most = lowering_seconds(task, depth) - seconds_to_rise(tool, depth, height);
             if overlap > most + TIME_TOLERANCE {
                 faults.push(Fault::TooLow { overlap, most: most.max(0.0) });
             }
@@ -137,14 +137,13 @@ impl Overlaps {
     ) -> Option<(Scene, CollisionCheck)> {
         let tool = task.stroke.as_ref()?;
         let times = motion.times()?;
-        let depth = |stroke: PartialStroke| tool.depth(&task.objects[stroke.object]);
-        let deepest = self.strokes().map(depth).fold(0.0, f64::max);
+        let depths: Vec<f64> = self.strokes().map(|stroke| stroke.depth).collect();
         // Before a turn after a pick, and after a turn before a place, the payload has another orientation.
         let scenes = [self.turn_before.map(|turn| turn.from), self.turn_at_end.map(|turn| turn.to)]
-            .map(|angle| state.arch_scene(task, (tool, deepest), picked, angle));
+            .map(|angle| state.arch_scene(task, (tool, &depths), picked, angle));
         let during = |stroke: PartialStroke, is_raising: bool| {
-            let lowered = tool.lowered(depth(stroke));
-            let seconds = lowering_seconds(task, stroke.object);
+            let lowered = tool.lowered(stroke.depth);
+            let seconds = lowering_seconds(task, stroke.depth);
             let (ends, begin) = match is_raising {
                 true => ([lowered, tool.joint.rest], times[0] + stroke.overlap - seconds),
                 false => ([tool.joint.rest, lowered], times[times.len() - 1] - stroke.overlap),

@@ -6,7 +6,8 @@ use cplan_core::model::{Grip, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{
-    Action, ArchScene, Holding, Object, ObstacleTrajectory, Payload, RecordedOverlap, RecordedTurn, Step, Stroke, Task,
+    Action, ArchScene, Holding, Object, ObstacleTrajectory, Payload, RecordedOverlap, RecordedTurn, RecordedWrist,
+    Step, Stroke, Task,
 };
 
 /// The places of the objects, and the load.
@@ -19,12 +20,28 @@ pub(super) struct State {
     held: Option<Payload>,
     /// The object that was released last. Link 2 may touch it during the next motion.
     released: Option<usize>,
+    /// Depth from which the tool is raised before the next motion, metres. `None` if it is raised.
+    lowered: Option<f64>,
 }
 
 impl State {
     pub fn initial(task: &Task) -> Self {
         let poses = task.objects.iter().map(Object::initial_static_pose).collect();
-        Self { poses, moving: task.initially_moving().collect(), held: None, released: None }
+        let lowered = task.start_tool.lowered_by();
+        Self { poses, moving: task.initially_moving().collect(), held: None, released: None, lowered }
+    }
+
+    /// Returns the depth from which the tool is raised before the next motion, and the scene while it is lowered there.
+    /// Afterwards it is raised.
+    pub fn raise(&mut self, task: &Task) -> Option<(f64, Scene)> {
+        let depth = self.lowered.take()?;
+        Some((depth, task.empty_lowered_scene(depth, &self.poses, self.released)?))
+    }
+
+    /// Lowers the tool at the end of a move, if the step asks for it. Returns the scene while it is lowered.
+    pub fn lower(&mut self, task: &Task, step: &Step) -> Option<Scene> {
+        self.lowered = step.tool.lowered_by();
+        task.empty_lowered_scene(self.lowered?, &self.poses, None)
     }
 
     pub fn renew(&mut self, task: &Task, objects: &[usize]) {
@@ -112,12 +129,12 @@ impl State {
         task.lowered_scene(payload.object, is_placed, &self.poses, Some(payload), self.released)
     }
 
-    /// Returns the scenes for strokes down to a depth during a motion: see [`Task::arch_scene`]. `angle` is the
+    /// Returns the scenes for strokes to these depths during a motion: see [`Task::arch_scene`]. `angle` is the
     /// orientation of a level payload, if it differs from the present one.
     pub fn arch_scene(
         &self,
         task: &Task,
-        stroke: (&Stroke, f64),
+        stroke: (&Stroke, &[f64]),
         touched: Option<usize>,
         angle: Option<f64>,
     ) -> ArchScene {
@@ -188,12 +205,31 @@ fn angles_at_rest(task: &Task, turn: &RecordedTurn) -> [f64; 2] {
     }
 }
 
-/// Returns the least time, in seconds, in which the tool moves down to an object. It moves up in the same time.
-pub(super) fn lowering_seconds(task: &Task, object: usize) -> f64 {
-    task.stroke.as_ref().map_or(0.0, |stroke| {
-        let depth = stroke.depth(&task.objects[object]).abs();
-        least_seconds(depth, stroke.velocity, stroke.acceleration)
-    })
+/// Returns the least time, in seconds, in which the tool moves down to a depth. It moves up in the same time.
+pub(super) fn lowering_seconds(task: &Task, depth: f64) -> f64 {
+    let stroke = task.stroke.as_ref();
+    stroke.map_or(0.0, |stroke| least_seconds(depth.abs(), stroke.velocity, stroke.acceleration))
+}
+
+/// Returns the faults of a step's turn of the wrist to a value of its joint. `end` is the time at which the step ends, in
+/// seconds from the beginning of the record.
+pub(super) fn wrist_faults(task: &Task, step: &Step, turn: Option<RecordedWrist>, end: f64) -> Vec<Fault> {
+    let Some(((to, from), wrist)) = step.tool.wrist.zip(task.start_tool.wrist).zip(task.wrist) else {
+        return turn.map(|_| Fault::WristElsewhere).into_iter().collect();
+    };
+    let Some(turn) = turn else { return vec![Fault::WristStays { to }] };
+    let mut faults = Vec::new();
+    if (turn.from - from).abs().max((turn.to - to).abs()) > PLACE_TOLERANCE {
+        faults.push(Fault::WristEnds { is: [turn.from, turn.to], asked: [from, to] });
+    }
+    let least = least_seconds((to - from).abs(), wrist.velocity, wrist.acceleration);
+    if turn.seconds < least - TIME_TOLERANCE {
+        faults.push(Fault::TooFast { seconds: turn.seconds, least });
+    }
+    if turn.begin < -TIME_TOLERANCE || turn.begin + turn.seconds > end + TIME_TOLERANCE {
+        faults.push(Fault::WristOutside { begin: turn.begin, until: turn.begin + turn.seconds, end });
+    }
+    faults
 }
 
 /// Returns the least time, in seconds, for a distance from rest to rest. The motion speeds up, moves at top speed, and

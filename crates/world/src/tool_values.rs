@@ -1,0 +1,120 @@
+//! Values of the tool's joints in the world file's `[start]` and `[goal]`.
+
+use super::LoadedScene;
+use super::problem::Place;
+use super::reader::Reader;
+use super::reasons::describe;
+use cplan_core::model::Goal;
+use cplan_core::space::JointRange;
+use cplan_handling::{Action, Item, Object, Step, Task, ToolJoint, ToolValues};
+use cplan_robot::{Diagnostic, Number, Written};
+use cplan_text::listed;
+use std::ops::Range;
+
+/// Values of the tool's joints as the file states them, each with its position.
+#[derive(Debug, Clone, Default)]
+pub(super) struct StatedTool {
+    /// The value of the stroke's joint, metres.
+    stroke: Option<(f64, Range<usize>)>,
+    /// The value of the wrist's joint, radians.
+    wrist: Option<(f64, Range<usize>)>,
+}
+
+impl StatedTool {
+    /// Reads the keys `stroke` and `wrist` of a table.
+    pub fn read(
+        reader: &Reader,
+        stroke: Option<&Number>,
+        wrist: Option<&Written>,
+        what: &str,
+    ) -> Result<Self, Diagnostic> {
+        let stroke = stroke.map(|n| Ok((reader.source.finite(n, &format!("{what}, stroke"))?, n.span())));
+        let wrist = wrist.map(|w| Ok((reader.quantity(w, &format!("{what}, wrist"))?, w.span())));
+        Ok(Self { stroke: stroke.transpose()?, wrist: wrist.transpose()? })
+    }
+
+    /// Returns true if the file states no value.
+    pub fn is_empty(&self) -> bool {
+        self.stroke.is_none() && self.wrist.is_none()
+    }
+}
+
+impl LoadedScene {
+    /// Returns the values of the tool's joints at the start and the goal. If the goal states a value of the wrist, the start
+    /// has one, too.
+    ///
+    /// # Errors
+    /// Values of joints that the world does not name, and values outside the joints' limits.
+    pub(super) fn tool_values(&self) -> Result<[ToolValues; 2], Diagnostic> {
+        let [start, goal] = &self.world.tool;
+        let (start, goal) = (self.values_of("the start", start)?, self.values_of("the goal", goal)?);
+        let rest = self.robot.joints.wrist.as_ref().map(|joint| joint.rest);
+        let from = start.wrist.or(rest.filter(|_| goal.wrist.is_some()));
+        Ok([ToolValues { wrist: from, ..start }, goal])
+    }
+
+    fn values_of(&self, what: &str, stated: &StatedTool) -> Result<ToolValues, Diagnostic> {
+        let joints = &self.robot.joints;
+        let stroke = joints.stroke.as_ref();
+        let lowered = self.value_of(what, "stroke", &stated.stroke, stroke.map(|stroke| &stroke.joint))?;
+        let depth = lowered.zip(stroke).map_or(0.0, |(value, stroke)| stroke.depth_at(value));
+        Ok(ToolValues { depth, wrist: self.value_of(what, "wrist", &stated.wrist, joints.wrist.as_ref())? })
+    }
+
+    /// Returns a stated value of a joint of the tool, if it is within the joint's limits.
+    fn value_of(
+        &self,
+        what: &str,
+        key: &str,
+        stated: &Option<(f64, Range<usize>)>,
+        joint: Option<&ToolJoint>,
+    ) -> Result<Option<f64>, Diagnostic> {
+        let Some((value, at)) = stated else { return Ok(None) };
+        let refuse =
+            |message: String, help: String| Err(self.world.source.diagnostic_at(at.clone(), message).help(help));
+        let (moves, table) = match key {
+            "stroke" => ("lowers the tool", "[robot] stroke = { joint = \"NAME\" }"),
+            _ => ("turns the tool", "[robot] wrist = { joint = \"NAME\", velocity = 6.0 }"),
+        };
+        let Some(joint) = joint else {
+            let message = format!("{what} has a value `{key}`, but the world names no joint that {moves}");
+            return refuse(message, format!("add {table}, or remove the key"));
+        };
+        match joint.range {
+            JointRange::Interval { lower, upper } if !joint.range.contains(*value) => {
+                let message = format!(
+                    "{what}, {key}: joint \"{}\" at {value} is outside its limits [{lower}, {upper}]",
+                    joint.name
+                );
+                refuse(message, format!("choose a value from {lower} to {upper}"))
+            }
+            _ => Ok(Some(*value)),
+        }
+    }
+
+    /// Returns the only item of the task of a world whose start or goal states values of the tool's joints: a move to the
+    /// goal.
+    pub(super) fn move_to_goal(goals: &[Goal], place: &Place, tool: ToolValues) -> Result<Item, Diagnostic> {
+        let &[goal @ (Goal::Joints(_) | Goal::Tip(_))] = goals else {
+            let message = "a goal of areas has no values of the tool's joints, and neither has its start";
+            return Err(place.diagnostic(message.to_owned()).help("joints = [q1, q2], or tip = [x, y]"));
+        };
+        let Diagnostic { origin, position, .. } = place.diagnostic(String::new());
+        let place = position.map_or(origin.clone(), |at| format!("{origin}:{}:{}", at.line, at.column));
+        Ok(Item::Step(Step { action: Action::Move(goal), number: 1, cycle: 1, place, speed: 1.0, dwell: 0.0, tool }))
+    }
+}
+
+/// Checks that the arm is free at the start while the tool is lowered there. `refused` is a diagnostic about the start.
+pub(super) fn require_free_lowered(task: &Task, refused: Diagnostic) -> Result<(), Diagnostic> {
+    let poses: Vec<_> = task.objects.iter().map(Object::initial_static_pose).collect();
+    let lowered = task.start_tool.lowered_by().and_then(|depth| task.empty_lowered_scene(depth, &poses, []));
+    let Some(scene) = lowered else { return Ok(()) };
+    let hits: Vec<String> = scene.obstructions(task.start).iter().map(|hit| scene.explain(hit)).collect();
+    if hits.is_empty() {
+        return Ok(());
+    }
+    let at = describe(&scene, task.start);
+    let message = format!("the start ({at}) is not free while the tool is lowered: {}", listed(&hits));
+    Err(Diagnostic { message, ..refused }.help("raise the tool there, choose another start, or move the obstacle"))
+}

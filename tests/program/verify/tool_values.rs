@@ -1,0 +1,342 @@
+//! Motions with values of the tool's joints at start and goal, compared with dense samples of all four joints.
+
+use super::judged::{Question, judge, plan_result};
+use cplan::input::{Overrides, load_scene};
+use cplan_cases::dice::Dice;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Lengths of both links, metres.
+const LENGTHS: [f64; 2] = [0.3, 0.25];
+/// Half the width of both links, metres.
+const HALF_WIDTH: f64 = 0.03;
+/// Heights of both links, metres.
+const LINKS: [[f64; 2]; 2] = [[0.3, 0.35], [0.4, 0.45]];
+/// Radius of the quill, metres.
+const QUILL: f64 = 0.02;
+/// Heights of the raised quill, metres.
+const RAISED: [f64; 2] = [0.25, 0.5];
+/// Top speeds of the four joints, rad/s and m/s.
+const SPEEDS: [f64; 4] = [4.0, 6.0, 0.8, 12.0];
+/// Accelerations of the four joints, rad/s2 and m/s2.
+const ACCELERATIONS: [f64; 4] = [16.0, 24.0, 8.0, 60.0];
+
+/// Returns the URDF of a SCARA whose shapes are boxes and a cylinder.
+fn robot() -> String {
+    let joint = |name: &str, kind: &str, parent: &str, child: &str, x: f64, range: [f64; 2], speed: f64| {
+        format!(
+            "<joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/>\
+             <origin xyz=\"{x} 0 0\"/><axis xyz=\"0 0 1\"/>\
+             <limit lower=\"{}\" upper=\"{}\" effort=\"50\" velocity=\"{speed}\"/></joint>",
+            range[0], range[1]
+        )
+    };
+    let bar = |name: &str, length: f64, [low, high]: [f64; 2]| {
+        format!(
+            "<link name=\"{name}\"><collision><origin xyz=\"{} 0 {}\"/><geometry><box size=\"{length} {} {}\"/></geometry>\
+             </collision></link>",
+            length / 2.0,
+            (low + high) / 2.0,
+            2.0 * HALF_WIDTH,
+            high - low
+        )
+    };
+    let quill = format!(
+        "<link name=\"quill\"><collision><origin xyz=\"0 0 {}\"/><geometry><cylinder radius=\"{QUILL}\" length=\"{}\"/>\
+         </geometry></collision></link>",
+        (RAISED[0] + RAISED[1]) / 2.0,
+        RAISED[1] - RAISED[0]
+    );
+    [
+        "<robot name=\"four\"><link name=\"base\"/>".to_owned(),
+        bar("inner", LENGTHS[0], LINKS[0]),
+        bar("outer", LENGTHS[1], LINKS[1]),
+        quill,
+        "<link name=\"flange\"/>".to_owned(),
+        joint("one", "revolute", "base", "inner", 0.0, [-2.8, 2.8], SPEEDS[0]),
+        joint("two", "revolute", "inner", "outer", LENGTHS[0], [-2.6, 2.6], SPEEDS[1]),
+        joint("three", "prismatic", "outer", "quill", LENGTHS[1], [-0.3, 0.05], SPEEDS[2]),
+        joint("four", "revolute", "quill", "flange", 0.0, [-6.0, 6.0], SPEEDS[3]),
+        "</robot>".to_owned(),
+    ]
+    .concat()
+}
+
+/// Returns the position of the tip.
+fn tip([one, two, ..]: [f64; 4]) -> [f64; 2] {
+    let at = |of: fn(f64) -> f64| LENGTHS[0] * of(one) + LENGTHS[1] * of(one + two);
+    [at(f64::cos), at(f64::sin)]
+}
+
+/// A post on the floor.
+struct Post {
+    at: [f64; 2],
+    radius: f64,
+    height: [f64; 2],
+}
+
+/// A motion from rest to rest: values of the four joints at both ends, among posts.
+struct Query {
+    posts: Vec<Post>,
+    ends: [[f64; 4]; 2],
+    arch: &'static str,
+}
+
+impl Query {
+    fn random(dice: &mut Dice) -> Self {
+        let post = |dice: &mut Dice| {
+            let (distance, angle) = (dice.within(0.15, 0.55), dice.within(-3.1, 3.1));
+            let low = if dice.chance(0.3) { dice.within(0.0, 0.3) } else { 0.0 };
+            Post {
+                at: [distance * angle.cos(), distance * angle.sin()],
+                radius: dice.within(0.02, 0.06),
+                height: [low, low + dice.within(0.05, 0.3)],
+            }
+        };
+        let mut posts: Vec<Post> = (0..1 + dice.below(6_u64)).map(|_| post(dice)).collect();
+        let mut end = || {
+            let depth = if dice.chance(0.8) { -dice.within(0.01, 0.25) } else { 0.0 };
+            [dice.within(-2.7, 2.7), dice.within(-2.5, 2.5), depth, dice.within(-5.0, 5.0)]
+        };
+        let ends = [end(), end()];
+        // A post below the raised tool.
+        let below = dice.below(8_u64);
+        if below < 2 {
+            posts.push(Post { at: tip(ends[below as usize]), radius: 0.02, height: [0.0, 0.2] });
+        }
+        let arch = match dice.below(4_u64) {
+            0 => "arch = false",
+            1 => "arch = { rise = 0.02, fall = 0.03 }",
+            _ => "",
+        };
+        Self { posts, ends, arch }
+    }
+
+    fn world(&self) -> String {
+        let end = |name: &str, [one, two, stroke, wrist]: [f64; 4]| {
+            format!("[{name}]\njoints = [{one}, {two}]\nstroke = {stroke}\nwrist = {wrist}\n")
+        };
+        let mut text = format!(
+            "[robot]\njoints = [\"one\", \"two\"]\n{}\nacceleration = {{ one = {}, two = {} }}\n\
+             stroke = {{ joint = \"three\", acceleration = {} }}\n\
+             wrist = {{ joint = \"four\", velocity = {}, acceleration = {} }}\n",
+            self.arch, ACCELERATIONS[0], ACCELERATIONS[1], ACCELERATIONS[2], SPEEDS[3], ACCELERATIONS[3]
+        );
+        text += &end("start", self.ends[0]);
+        text += &end("goal", self.ends[1]);
+        for Post { at: [x, y], radius, height: [low, high] } in &self.posts {
+            writeln!(
+                text,
+                "[[obstacle]]\ncircle = {{ center = [{x}, {y}], radius = {radius} }}\nheight = [{low}, {high}]"
+            )
+            .unwrap();
+        }
+        text
+    }
+
+    /// Returns the distance between the arm and the nearest post at its height. Negative if they overlap.
+    fn distance(&self, [one, two, stroke, _]: [f64; 4]) -> f64 {
+        let elbow = [LENGTHS[0] * one.cos(), LENGTHS[0] * one.sin()];
+        let tip = tip([one, two, stroke, 0.0]);
+        let mut least = f64::INFINITY;
+        for Post { at, radius, height } in &self.posts {
+            let meets = |[low, high]: [f64; 2]| low <= height[1] && height[0] <= high;
+            let bars = [([0.0; 2], one, LENGTHS[0], LINKS[0]), (elbow, one + two, LENGTHS[1], LINKS[1])];
+            for (from, angle, length, heights) in bars {
+                let [x, y] = [at[0] - from[0], at[1] - from[1]];
+                let (along, across) = (x * angle.cos() + y * angle.sin(), y * angle.cos() - x * angle.sin());
+                let outside = [(-along).max(along - length), across.abs() - HALF_WIDTH];
+                let beyond = outside.map(|value| value.max(0.0));
+                if meets(heights) {
+                    let inside = outside[0].max(outside[1]).min(0.0);
+                    least = least.min(beyond[0].hypot(beyond[1]) + inside - radius);
+                }
+            }
+            if meets(RAISED.map(|height| height + stroke)) {
+                least = least.min((at[0] - tip[0]).hypot(at[1] - tip[1]) - QUILL - radius);
+            }
+        }
+        least
+    }
+}
+
+/// The four joints over time: times in seconds, values and velocities.
+struct Played {
+    time: Vec<f64>,
+    rows: Vec<[[f64; 4]; 2]>,
+}
+
+impl Played {
+    fn of(result: &Value) -> Self {
+        let all = &result["all_joints"];
+        assert_eq!(all["joints"], json!(["one", "two", "three", "four"]));
+        let rows = |of: &str| -> Vec<[f64; 4]> { serde_json::from_value(all[of].clone()).unwrap() };
+        let rows = rows("position").into_iter().zip(rows("velocity")).map(|(q, v)| [q, v]).collect();
+        Self { time: serde_json::from_value(all["time"].clone()).unwrap(), rows }
+    }
+
+    /// Returns the values, velocities and accelerations at dense times, joined by cubics.
+    fn dense(&self) -> Vec<[[f64; 4]; 3]> {
+        let mut all = Vec::new();
+        for k in 1..self.time.len() {
+            let span = self.time[k] - self.time[k - 1];
+            let [[p, v], [q, w]] = [self.rows[k - 1], self.rows[k]];
+            for step in 0..=8 {
+                let u = f64::from(step) / 8.0;
+                let of = |j: usize| {
+                    let (a, b) = (span * v[j], span * w[j]);
+                    // Coefficients of the cubic in the share of the span.
+                    let c = [p[j], a, 3.0 * (q[j] - p[j]) - 2.0 * a - b, 2.0 * (p[j] - q[j]) + a + b];
+                    let value = ((c[3] * u + c[2]) * u + c[1]) * u + c[0];
+                    let rate = (3.0 * c[3] * u + 2.0 * c[2]) * u + c[1];
+                    [value, rate / span, (6.0 * c[3] * u + 2.0 * c[2]) / (span * span)]
+                };
+                let columns = [of(0), of(1), of(2), of(3)];
+                all.push([0, 1, 2].map(|row| columns.map(|column| column[row])));
+            }
+        }
+        all
+    }
+}
+
+/// Checks a found motion. Returns its duration.
+fn check_found(query: &Query, result: &Value, seed: u64) -> f64 {
+    let played = Played::of(result);
+    let dense = played.dense();
+    let [first, last] = [played.rows[0], played.rows[played.rows.len() - 1]];
+    for (is, asked) in [(first, query.ends[0]), (last, query.ends[1])] {
+        assert!(is[1] == [0.0; 4], "seed {seed}: {is:?}");
+        assert!((0..4).all(|j| (is[0][j] - asked[j]).abs() < 1e-9), "seed {seed}: {is:?} {asked:?}");
+    }
+    for [q, v, a] in &dense {
+        assert!(query.distance(*q) > -1e-9, "seed {seed}: {q:?} {}", query.distance(*q));
+        for j in 0..4 {
+            assert!(v[j].abs() <= SPEEDS[j] * (1.0 + 1e-6), "seed {seed}: joint {j}: {v:?}");
+            assert!(a[j].abs() <= ACCELERATIONS[j] * (1.0 + 1e-3), "seed {seed}: joint {j}: {a:?}");
+        }
+    }
+    assert!(dense.iter().any(|[q, ..]| q[2].abs() < 1e-9), "seed {seed}: the tool is never raised");
+    let duration = result["duration"].as_f64().unwrap();
+    assert!((duration - played.time[played.time.len() - 1]).abs() < 1e-9, "seed {seed}");
+    // Each joint needs at least its own least time.
+    let least = |distance: f64, speed: f64, acceleration: f64| match speed * speed / acceleration < distance {
+        true => distance / speed + speed / acceleration,
+        false => 2.0 * (distance / acceleration).sqrt(),
+    };
+    let [from, to] = query.ends;
+    let own = |j: usize| least((to[j] - from[j]).abs(), SPEEDS[j], ACCELERATIONS[j]);
+    let strokes: f64 = [from, to].map(|end| least(end[2].abs(), SPEEDS[2], ACCELERATIONS[2])).iter().sum();
+    let bound = own(0).max(own(1)).max(own(3)).max(strokes);
+    let stated = result["lower_bound"].as_f64().unwrap();
+    assert!(stated <= duration + 1e-9 && stated >= bound - 1e-6, "seed {seed}: {bound} {stated} {duration}");
+    duration
+}
+
+/// Files of a query in a folder.
+struct Files {
+    robot: PathBuf,
+    world: PathBuf,
+    result: PathBuf,
+}
+
+impl Files {
+    fn new(folder: &Path) -> Self {
+        let [robot, world, result] = ["four.urdf", "world.toml", "result.json"].map(|file| folder.join(file));
+        std::fs::write(&robot, self::robot()).unwrap();
+        Self { robot, world, result }
+    }
+
+    /// Returns the result of a world. `None` if its start is refused.
+    fn plan(&self, query: &Query, seed: u64) -> Option<Value> {
+        std::fs::write(&self.world, query.world()).unwrap();
+        match load_scene(&self.robot, &self.world).and_then(|scene| scene.task(&Overrides::default())) {
+            Ok(_) => Some(plan_result(&self.robot, &self.world, "")),
+            Err(error) => {
+                let [one, two, stroke, wrist] = query.ends[0];
+                let swept = (0..=100).map(|k| query.distance([one, two, stroke * f64::from(k) / 100.0, wrist]));
+                let least = swept.fold(f64::INFINITY, f64::min);
+                assert!(least < 1e-3, "seed {seed}: {least}: {error}");
+                assert!(error.to_string().contains("is not free"), "seed {seed}: {error}");
+                None
+            }
+        }
+    }
+
+    fn findings(&self, result: &Value) -> Value {
+        std::fs::write(&self.result, result.to_string()).unwrap();
+        judge(&self.robot, &self.world, &self.result, &Question::default()).unwrap_or_else(|error| panic!("{error}"))
+    }
+}
+
+#[test]
+fn motions_of_four_joints_have_no_false_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = Files::new(folder.path());
+    let (mut found, mut faster, mut lowered, mut refused) = (0, 0, 0, 0);
+    for seed in cplan_cases::seeds(150) {
+        let query = Query::random(&mut cplan_cases::dice(seed));
+        let Some(result) = files.plan(&query, seed) else {
+            refused += 1;
+            continue;
+        };
+        if result["status"] == "found" {
+            found += 1;
+            let duration = check_found(&query, &result, seed);
+            let findings = files.findings(&result);
+            assert_eq!(findings["verdict"], "free", "seed {seed}: {findings:#}");
+            let resting = Query { arch: "arch = false", posts: query.posts, ends: query.ends };
+            let other = files.plan(&resting, seed).unwrap();
+            let resting = other["duration"].as_f64().unwrap();
+            assert!(duration <= resting + 1e-6, "seed {seed}: {duration} {resting}");
+            faster += u32::from(duration < resting - 1e-6);
+        } else if result.to_string().contains("while the tool is lowered") {
+            lowered += 1;
+            let [one, two, stroke, wrist] = query.ends[1];
+            let swept = (0..=100).map(|k| query.distance([one, two, stroke * f64::from(k) / 100.0, wrist]));
+            assert!(swept.fold(f64::INFINITY, f64::min) < 1e-3, "seed {seed}: {result:#}");
+        }
+    }
+    assert!(found > 20 && faster > 5 && lowered > 2 && refused > 2, "{found} {faster} {lowered} {refused}");
+}
+
+/// Between two lowered places, with a post below the raised tool.
+fn example() -> Query {
+    let post = Post { at: [0.5, 0.0], radius: 0.05, height: [0.0, 0.2] };
+    Query { posts: vec![post], ends: [[0.4, 0.3, -0.1, 0.5], [-0.6, -0.3, -0.15, -1.0]], arch: "" }
+}
+
+#[test]
+fn tampered_results_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = Files::new(folder.path());
+    let result = files.plan(&example(), 0).unwrap();
+    assert_eq!(files.findings(&result)["verdict"], "free");
+    let step = &result["steps"][0];
+    let number = |value: &Value| value.as_f64().unwrap();
+    let (raising, lowering) = (number(&step["raising"]["after_departure"]), number(&step["stroke"]["before_arrival"]));
+    assert!(raising > 0.0 && lowering > 0.0, "{step:#}");
+    let changes: [(&str, Value, &str); 7] = [
+        ("/raising/after_departure", json!(raising - 0.02), "stands still"),
+        ("/stroke/before_arrival", json!(lowering - 0.02), "stands still"),
+        ("/wrist/from", json!(0.4), "the wrist turns from 0.4"),
+        ("/wrist/to", json!(-0.9), "to -0.9 rad"),
+        ("/wrist/seconds", json!(0.1), "needs"),
+        ("/wrist/begin", json!(0.5), "the step ends"),
+        ("/wrist", Value::Null, "the wrist does not turn to -1 rad"),
+    ];
+    for (member, value, words) in changes {
+        let mut changed = result.clone();
+        *changed.pointer_mut(&format!("/steps/0{member}")).unwrap() = value;
+        let findings = files.findings(&changed);
+        assert!(findings["verdict"] != "free" && findings.to_string().contains(words), "{member}: {findings:#}");
+    }
+    // A post that only the lowered tool meets, at the start and at the goal.
+    for end in example().ends {
+        let post = Post { at: tip(end), radius: 0.01, height: [0.0, 0.2] };
+        let blocked = Query { posts: vec![post], ..example() };
+        std::fs::write(&files.world, blocked.world()).unwrap();
+        let findings = files.findings(&result);
+        assert_eq!(findings["verdict"], "collision", "{findings:#}");
+    }
+}
