@@ -61,9 +61,9 @@ pub fn check_motion(
     }
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
     let within = missed("target", &replay.off)?;
+    let count = if steps.len() == 1 { "the step".to_owned() } else { format!("all {} steps", steps.len()) };
     Ok(format!(
-        "a motion of \"{first}\" and \"{second}\" does all {} steps from the start{start} on{within} with clearance {clearance} ({})",
-        steps.len(),
+        "a motion of \"{first}\" and \"{second}\" does {count} from the start{start} on{within} with clearance {clearance} ({})",
         motion.in_words()
     ))
 }

@@ -157,9 +157,10 @@ impl Reader<'_> {
         self.table(value)?.iter().map(|(name, value)| Ok((name.get_ref().to_string(), read(value)?))).collect()
     }
 
-    /// Reads `[start]` or `[goal]`.
+    /// Reads `[start]` or `[goal]`, without the keys of the tool.
     fn place(&self, value: &Value) -> ReadResult<Goal> {
-        let table = self.table(value)?;
+        let mut table = self.table(value)?.clone();
+        TOOL_KEYS.iter().for_each(|key| drop(table.remove(*key)));
         if let (Some(areas), 1) = (table.get("areas"), table.len()) {
             let area = |corners: &Value| self.pair(corners, |corner| self.pair(corner, |n| self.number(n)));
             return self.list(areas)?.into_iter().map(area).collect::<ReadResult<Vec<_>>>().map(Goal::Areas);
@@ -282,6 +283,9 @@ impl Reader<'_> {
         Ok(())
     }
 }
+
+/// Keys of `[start]` and `[goal]` with values of the tool's joints. They make a motion a task.
+const TOOL_KEYS: [&str; 2] = ["stroke", "wrist"];
 
 fn origin() -> Corner {
     [Decimal::whole(0), Decimal::whole(0)]

@@ -1,35 +1,18 @@
 //! Certificates of tasks in which the tool is lowered and raised while the arm moves.
 
+#[allow(dead_code, reason = "other tests use more of it")]
+#[path = "common/gantry.rs"]
+mod gantry;
+
 use cplan_cases as random;
 use cplan_cases::dice::Dice;
-use cplan_check_files::{CheckError, check};
-
-/// URDF of a gantry with the tip at the joints' values. Its quill has a ball at height 0.5, and greater values of its
-/// joint are lower. All other shapes are above it.
-const GANTRY: &str = r#"<robot name="g">
-  <link name="base"/>
-  <joint name="x" type="prismatic">
-    <parent link="base"/> <child link="bridge"/> <axis xyz="1 0 0"/> <limit lower="-9" upper="9"/>
-  </joint>
-  <link name="bridge"/>
-  <joint name="y" type="prismatic">
-    <parent link="bridge"/> <child link="head"/> <axis xyz="0 1 0"/> <limit lower="-9" upper="9"/>
-  </joint>
-  <link name="head"> <collision> <origin xyz="0 0 1"/> <geometry> <box size="0.1 0.1 0.1"/> </geometry> </collision> </link>
-  <joint name="z" type="prismatic">
-    <parent link="head"/> <child link="quill"/> <origin xyz="0 0 0.5"/> <axis xyz="0 0 -1"/> <limit lower="0" upper="1"/>
-  </joint>
-  <link name="quill"> <collision> <geometry> <sphere radius="0.01"/> </geometry> </collision> </link>
-</robot>"#;
+use gantry::{GANTRY, KNOTS, assert_fails, assert_holds, assert_refused, judge_steps};
 
 /// Depth of the strokes, which is the lift of the block.
 const DEPTH: f64 = 0.3;
 
 /// Duration of the strokes, seconds.
 const DURATION: f64 = 0.4;
-
-/// The arm picks the block at 1 s, departs at 2 s, places the block at 3 s, departs at 4 s, and stops at 5 s.
-const KNOTS: &str = "[0, 0, 1], [1, 1, 1], [2, 1, 1], [3, 3, 1], [4, 3, 1], [5, 5, 1]";
 
 /// The block at (1, 1). It is 0.4 m by 0.2 m, and reaches from the ground to a height.
 fn block(height: f64) -> String {
@@ -76,37 +59,9 @@ fn judge_in(urdf: &str, world: &str, more: &[&str]) -> (i32, String) {
     judge_steps(urdf, world, knots, &steps.join(", "))
 }
 
-/// Checks a certificate with these knots and steps.
-fn judge_steps(urdf: &str, world: &str, knots: &str, steps: &str) -> (i32, String) {
-    let certificate = format!(
-        r#"{{"format": "cplan certificate 1", "answer": "found", "steps": [{steps}],
-        "motion": {{"interpolation": ["linear"], "knots": [{knots}]}}}}"#
-    );
-    match check(urdf, world, &certificate) {
-        Ok(report) => (0, report),
-        Err(CheckError::Fails(why)) => (3, why),
-        Err(CheckError::Input { message, .. }) => (1, message),
-    }
-}
-
 /// Checks a certificate for the low block among obstacles.
 fn judge(content: &str, more: [&str; 3]) -> (i32, String) {
     judge_in(GANTRY, &world("", &format!("{}{content}", block(0.05))), &more)
-}
-
-#[track_caller]
-fn assert_holds((code, report): (i32, String)) {
-    assert_eq!(code, 0, "{report}");
-}
-
-#[track_caller]
-fn assert_fails((code, report): (i32, String), part: &str) {
-    assert!(code == 3 && report.contains(part), "{code} {report}");
-}
-
-#[track_caller]
-fn assert_refused((code, report): (i32, String), part: &str) {
-    assert!(code == 1 && report.contains(part), "{code} {report}");
 }
 
 /// Returns the share of a stroke's duration after which it has gone a share of its length.

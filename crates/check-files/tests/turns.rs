@@ -1,29 +1,13 @@
 //! Certificates of tasks in which the wrist turns the load while the arm moves.
 
+#[allow(dead_code, reason = "other tests use more of it")]
+#[path = "common/gantry.rs"]
+mod gantry;
+
 use cplan_cases as random;
 use cplan_cases::dice::Dice;
-use cplan_check_files::{CheckError, check};
+use gantry::{GANTRY, KNOTS, assert_fails, assert_holds, judge_steps};
 use std::f64::consts::{FRAC_PI_2, PI};
-
-/// URDF of a gantry with the tip at the joints' values. Its quill has a ball at height 0.5; all else is above it.
-const GANTRY: &str = r#"<robot name="g">
-  <link name="base"/>
-  <joint name="x" type="prismatic">
-    <parent link="base"/> <child link="bridge"/> <axis xyz="1 0 0"/> <limit lower="-9" upper="9"/>
-  </joint>
-  <link name="bridge"/>
-  <joint name="y" type="prismatic">
-    <parent link="bridge"/> <child link="head"/> <axis xyz="0 1 0"/> <limit lower="-9" upper="9"/>
-  </joint>
-  <link name="head"/>
-  <joint name="z" type="prismatic">
-    <parent link="head"/> <child link="quill"/> <origin xyz="0 0 0.5"/> <axis xyz="0 0 -1"/> <limit lower="0" upper="1"/>
-  </joint>
-  <link name="quill"> <collision> <geometry> <sphere radius="0.01"/> </geometry> </collision> </link>
-</robot>"#;
-
-/// The arm picks the block at 1 s, departs at 2 s, places the block at 3 s, departs at 4 s, and stops at 5 s.
-const KNOTS: &str = "[0, 0, 1], [1, 1, 1], [2, 1, 1], [3, 3, 1], [4, 3, 1], [5, 5, 1]";
 
 /// Half the sides of the block, which is carried at its own height. The grasp is its middle.
 const HALF: [f64; 2] = [0.2, 0.1];
@@ -52,31 +36,12 @@ fn post([x, y]: [f64; 2], radius: f64) -> String {
 fn judge(world: &str, more: [&str; 3]) -> (i32, String) {
     let step = |k: usize| format!("{{\"step\": {}, \"knots\": [{}, {}]{}}}", k + 1, 2 * k, 2 * k + 1, more[k]);
     let steps: Vec<String> = (0..3).map(step).collect();
-    let steps = steps.join(", ");
-    let certificate = format!(
-        r#"{{"format": "cplan certificate 1", "answer": "found", "steps": [{steps}],
-        "motion": {{"interpolation": ["linear"], "knots": [{KNOTS}]}}}}"#
-    );
-    match check(GANTRY, world, &certificate) {
-        Ok(report) => (0, report),
-        Err(CheckError::Fails(why)) => (3, why),
-        Err(CheckError::Input { message, .. }) => (1, message),
-    }
+    judge_steps(GANTRY, world, KNOTS, &steps.join(", "))
 }
 
 /// A turn by an angle that begins at a time, in a single cubic.
 fn turning(begin: f64, by: f64) -> String {
     format!(", \"turn\": {by:?}, \"turning\": [[{begin}, 0, 0], [{}, {by:?}, 0]]", begin + DURATION)
-}
-
-#[track_caller]
-fn assert_holds((code, report): (i32, String)) {
-    assert_eq!(code, 0, "{report}");
-}
-
-#[track_caller]
-fn assert_fails((code, report): (i32, String), part: &str) {
-    assert!(code == 3 && report.contains(part), "{code} {report}");
 }
 
 #[test]

@@ -178,6 +178,12 @@ pub fn swept_heights(by: &Decimal) -> [Decimal; 2] {
     if lowered < raised { [lowered, raised] } else { [raised, lowered] }
 }
 
+/// Returns the least and the greatest height of a tool between its raised position and a height above it.
+pub fn heights_to(height: &Interval) -> [Decimal; 2] {
+    let zero = BigInt::ZERO;
+    Interval { lower: height.lower.clone().min(zero.clone()), upper: height.upper.clone().max(zero) }.ends()
+}
+
 /// Extends a shape's heights to all heights that it has while the tool is in a range above its raised position. A bar
 /// ends at a height that stays the same, so it also keeps its own heights.
 pub fn displaced(shape: &CollisionShape, [least, most]: &[Decimal; 2]) -> Body {

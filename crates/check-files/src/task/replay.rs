@@ -6,10 +6,9 @@ mod turning;
 
 use super::order::MatchedStep;
 use crate::robot::Robot;
-use crate::robot::tool::{LiftAxis, displaced, penetration_depth_allowed, swept_heights};
+use crate::robot::tool::{LiftAxis, displaced, heights_to, penetration_depth_allowed, swept_heights};
 use crate::world::task::{Action, RESTING_DECIMALS, Step, Task};
 use arch::EndCurves;
-use cplan_check::CheckError;
 use cplan_check::arm::Arm;
 use cplan_check::certificate::Motion;
 use cplan_check::curve::Piece;
@@ -22,6 +21,7 @@ use cplan_check::obstacle::Obstacle;
 use cplan_check::scene::{Part, PlacedObstacle, check_parts_clear};
 use cplan_check::shapes::CollisionShape;
 use cplan_check::world::World;
+use cplan_check::{CheckError, Input};
 use held::HeldObject;
 use num_bigint::BigInt;
 use std::iter;
@@ -64,6 +64,9 @@ pub(super) struct Replay<'a> {
     lift: Option<LiftAxis>,
     /// The stroke and the turn after the previous step, if they end during the motion of the next one.
     before: EndCurves,
+    /// Heights of the lowered tool at the start and at the goal, relative to the raised one. `None` if it is raised there,
+    /// or has been raised.
+    lowered: [Option<Interval>; 2],
     /// Index among the obstacles of the object that was released last. `None` if it must not be touched any more.
     released: Option<usize>,
     /// Greatest deviation so far of an object or the tip from its required place.
@@ -104,6 +107,12 @@ impl<'a> Replay<'a> {
         let present =
             world.all().chain(&arm.own).map(|obstacle| PlacedObstacle::new(&chain, obstacle.clone()).map(Some));
         let present = present.collect::<Result<_, _>>()?;
+        let lift = task.stroke.as_ref().map(|stroke| robot.lift_axis(&stroke.joint)).transpose()?;
+        let height = |value: &Decimal| match &lift {
+            Some(lift) => Ok(lift.height(value)),
+            None => Err(CheckError::in_file(Input::World, "the tool is lowered, but [robot] has no stroke")),
+        };
+        let [start, goal] = task.lowered.each_ref().map(|value| value.as_ref().map(height).transpose());
         Ok(Self {
             arm,
             task,
@@ -118,8 +127,9 @@ impl<'a> Replay<'a> {
             all: world.all().chain(&arm.own).collect(),
             knot: 0,
             held: None,
-            lift: task.stroke.as_ref().map(|stroke| robot.lift_axis(&stroke.joint)).transpose()?,
+            lift,
             before: EndCurves::default(),
+            lowered: [start?, goal?],
             released: None,
             off: BigInt::ZERO,
         })
@@ -174,6 +184,7 @@ impl<'a> Replay<'a> {
             _ => None,
         };
         self.free(&pieces, &from, target, ToolHeights::Raised)?;
+        self.raise_first(done, &from)?;
         let [own, next] = self.overlaps(matched, after.first())?;
         let before = std::mem::replace(&mut self.before, next);
         let moving = self.pieces(done.knots[0]..last)?;
@@ -196,6 +207,10 @@ impl<'a> Replay<'a> {
             Action::Move(goal) => {
                 self.misses(self.arm.error_bound(&motion.knots[last], goal))?;
                 self.turn(done, &to)?;
+                if let Some(height) = self.lowered[1].as_ref().filter(|_| after.is_empty()) {
+                    self.require_static("a stroke of the tool")?;
+                    self.free(&still, &to, None, ToolHeights::At(&heights_to(height)))?;
+                }
                 self.released = None;
             }
         }

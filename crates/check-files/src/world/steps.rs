@@ -1,7 +1,7 @@
 //! Reads objects, pallets and steps of the world file.
 
 use super::task::{Action, Arch, Group, MovingPick, Node, Object, Step, Stroke, Task, Wrist};
-use super::{ReadResult, Reader, Value};
+use super::{ReadResult, Reader, TOOL_KEYS, Value};
 use cplan_check::decimal::Decimal;
 use cplan_check::interval::{Interval, Point, both_turns, sum, turned};
 use cplan_check::obstacle::{Obstacle, point};
@@ -67,17 +67,30 @@ impl Reader<'_> {
                 objects[object].supports = self.supports(list, world, first, &objects)?;
             }
         }
-        let Some(steps) = table.get("step") else { return Ok(None) };
+        let lowered = [self.lowered(table, "start")?, self.lowered(table, "goal")?];
+        let moves_tool = |end: &&str| {
+            let keys = table.get(*end).and_then(|end| end.get_ref().as_table());
+            keys.is_some_and(|keys| TOOL_KEYS.iter().any(|key| keys.contains_key(*key)))
+        };
+        let no_steps = match table.get("step") {
+            None if ["start", "goal"].iter().any(moves_tool) => Some(world.goal.clone()),
+            None => return Ok(None),
+            Some(_) => None,
+        };
         let manner = table.get("task").map_or(Ok(None), |task| self.table(task).map(Some))?;
         let mut reading = Steps { reader: self, world, first, objects: &objects, pallets: &pallets, count: 0 };
         let dwell = manner.and_then(|task| task.get("dwell"));
         let dwell = dwell.map_or(Ok(Decimal::whole(0)), |dwell| self.number(dwell))?;
-        if let Some((key, _)) =
-            manner.and_then(|task| task.iter().find(|(key, _)| !SHARED_STEP_KEYS.contains(&&**key.get_ref())))
-        {
-            return self.error(steps, &format!("the checker does not know [task] {}", key.get_ref()));
+        let unknown =
+            manner.and_then(|task| task.iter().find(|(key, _)| !SHARED_STEP_KEYS.contains(&&**key.get_ref())));
+        if let Some((key, value)) = unknown {
+            return self.error(value, &format!("the checker does not know [task] {}", key.get_ref()));
         }
-        let steps = reading.group(steps, manner, &dwell)?;
+        let steps = match (no_steps, table.get("step")) {
+            (Some(goal), _) => Group::single(goal),
+            (None, Some(steps)) => reading.group(steps, manner, &dwell)?,
+            (None, None) => return Ok(None),
+        };
         let stroke = own("stroke").map(|value| self.stroke(value, own("arch"))).transpose()?;
         let switch = own("arch").map(|arch| arch.get_ref().as_bool());
         if let (None, Some(arch), true) = (&stroke, own("arch"), own("wrist").is_none() || switch == Some(None)) {
@@ -86,7 +99,13 @@ impl Reader<'_> {
         let turns_on_the_way = switch != Some(Some(false));
         let joint = |value| self.table(value)?.get("joint").map(|name| self.text(name)).transpose();
         let wrist = own("wrist").map(|value| Ok(Wrist { joint: joint(value)?, turns_on_the_way })).transpose()?;
-        Ok(Some(Task { first, objects, steps, wrist, stroke }))
+        Ok(Some(Task { first, objects, steps, wrist, stroke, lowered }))
+    }
+
+    /// Reads the value of the stroke's joint at an end of the motion.
+    fn lowered(&self, table: &DeTable, end: &str) -> ReadResult<Option<Decimal>> {
+        let Some(end) = table.get(end) else { return Ok(None) };
+        self.table(end)?.get("stroke").map(|value| self.number(value)).transpose()
     }
 
     /// Reads a whole number from 1 on.

@@ -18,6 +18,8 @@ pub struct Task {
     pub steps: Group,
     pub wrist: Option<Wrist>,
     pub stroke: Option<Stroke>,
+    /// Values of the stroke's joint at the start and the goal, metres. `None` if the tool is raised there.
+    pub lowered: [Option<Decimal>; 2],
 }
 
 /// Properties of an object beyond its initial pose.
@@ -67,6 +69,14 @@ pub struct Group {
     pub is_free: bool,
     /// Objects that return to their initial poses when the group is repeated.
     pub renewed: Vec<usize>,
+}
+
+impl Group {
+    /// Makes a group of a single move, to a goal of the world or of the certificate.
+    pub(super) fn single(goal: Option<Goal>) -> Self {
+        let step = goal.map(|goal| Step { number: 1, action: Action::Move(goal), dwell: Decimal::whole(0) });
+        Self { nodes: step.map(Node::Step).into_iter().collect(), repeat: 1, is_free: false, renewed: Vec::new() }
+    }
 }
 
 /// A step or a group.

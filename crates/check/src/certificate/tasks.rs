@@ -20,4 +20,6 @@ pub struct ExecutedStep {
     pub lowering: Option<Vec<[Decimal; 3]>>,
     /// Knots of the stroke that raises the tool after the step. `None` if the arm rests during this stroke.
     pub raising: Option<Vec<[Decimal; 3]>>,
+    /// Knots of the stroke that raises the tool before the first step. `None` if the arm rests during it.
+    pub raising_first: Option<Vec<[Decimal; 3]>>,
 }

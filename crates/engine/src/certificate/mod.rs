@@ -41,6 +41,9 @@ pub enum NoCertificate {
     /// The answer is that a task is infeasible.
     #[error("an infeasible task has no certificate: the result states the step that fails, and why")]
     Task,
+    /// The goal of a task is on the command line.
+    #[error("a certificate that includes the tool's joints needs the goal in the world file, not on the command line")]
+    Goal,
     /// A step of the task follows a line.
     #[error("a task with a line has no certificate; `cplan follow` with --certificate certifies the line by itself")]
     LineInTask,
@@ -105,6 +108,9 @@ fn certificate_of_task(
         return Err(NoCertificate::Task);
     }
     task::checkable(task)?;
+    if asked.goal.is_some() || asked.goal_tip.is_some() {
+        return Err(NoCertificate::Goal);
+    }
     let Outcome::Found(motion) = &answer.outcome else { return Err(NoCertificate::Answer(Status::Unknown)) };
     let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
     let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));

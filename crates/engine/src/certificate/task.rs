@@ -29,7 +29,9 @@ pub(super) fn steps(task: &Task, steps: &[StepReport]) -> (&'static str, String)
             lowering: Some(step.arrival - stroke.before_arrival).filter(|_| stroke.before_arrival > 0.0),
             raised_at: Some(step.end + stroke.after_departure).filter(|_| stroke.after_departure > 0.0),
         });
-        done(task, (step.step, knots), turn, overlaps)
+        let first = step.raising.filter(|raising| raising.after_departure > 0.0);
+        let first = first.map(|raising| [raising.lowered, step.begin + raising.after_departure]);
+        done(task, (step.step, knots), turn, (first, overlaps))
     };
     ("steps", lines(&steps.iter().map(step).collect::<Vec<_>>()))
 }
@@ -40,12 +42,16 @@ pub(super) fn steps_of_recording(task: &Task, steps: &[RecordedStep], times: &[f
     let mut held = None;
     let mut step = |(index, step): (usize, &RecordedStep)| {
         let knots = [*step.samples.start(), *step.samples.end()];
-        let action = task.steps().find(|asked| asked.number == step.number).map(|asked| &asked.action);
-        held = action.and_then(Action::picked).or(held);
+        let asked = task.steps().find(|asked| asked.number == step.number);
+        held = asked.and_then(|asked| asked.action.picked()).or(held);
+        let depth = match held {
+            Some(object) => task.stroke.as_ref().map(|stroke| stroke.depth(&task.objects[object])),
+            None => asked.and_then(|asked| asked.tool.lowered_by()),
+        };
         let departure = steps.get(index + 1).map_or(times.len() - 1, |next| *next.samples.start());
         let overlap = step.overlap;
-        let overlaps = held.zip(task.stroke.as_ref()).map(|(object, stroke)| Overlaps {
-            lowered: stroke.lowered(stroke.depth(&task.objects[object])),
+        let overlaps = depth.zip(task.stroke.as_ref()).map(|(depth, stroke)| Overlaps {
+            lowered: stroke.lowered(depth),
             lowering: Some(times[knots[1]] - overlap.before_arrival).filter(|_| overlap.before_arrival > 0.0),
             raised_at: Some(times[departure] + overlap.after_departure).filter(|_| overlap.after_departure > 0.0),
         });
@@ -58,7 +64,10 @@ pub(super) fn steps_of_recording(task: &Task, steps: &[RecordedStep], times: &[f
                 _ => None,
             },
         });
-        done(task, (step.number, knots), turn, overlaps)
+        let lowered =
+            task.start_tool.lowered_by().zip(task.stroke.as_ref()).map(|(depth, stroke)| stroke.lowered(depth));
+        let first = lowered.filter(|_| step.raising > 0.0).map(|lowered| [lowered, times[knots[0]] + step.raising]);
+        done(task, (step.number, knots), turn, (first, overlaps))
     };
     ("steps", lines(&steps.iter().enumerate().map(&mut step).collect::<Vec<_>>()))
 }
@@ -83,7 +92,14 @@ struct Turn {
     begin: Option<f64>,
 }
 
-fn done(task: &Task, (step, knots): (usize, [usize; 2]), turn: Option<Turn>, overlaps: Option<Overlaps>) -> Value {
+/// Returns a step's entry. `first` is the joint's value in metres at which the tool begins to rise before the first step,
+/// and the time in seconds at which it is raised, if that is during the motion.
+fn done(
+    task: &Task,
+    (step, knots): (usize, [usize; 2]),
+    turn: Option<Turn>,
+    (first, overlaps): (Option<[f64; 2]>, Option<Overlaps>),
+) -> Value {
     let mut done = json!({ "step": step, "knots": knots });
     if let Some(Turn { by, seconds, begin }) = turn {
         done["turn"] = json!(by);
@@ -92,14 +108,21 @@ fn done(task: &Task, (step, knots): (usize, [usize; 2]), turn: Option<Turn>, ove
             done["turning"] = json!(knots_of(profile, begin, [0.0, by]));
         }
     }
-    if let (Some(stroke), Some(Overlaps { lowered, lowering, raised_at })) = (&task.stroke, overlaps) {
-        let raised = stroke.joint.rest;
+    let Some(stroke) = &task.stroke else { return done };
+    let raised = stroke.joint.rest;
+    let raising = |lowered: f64, end: f64| {
+        let seconds = stroke_knots(stroke, [lowered, raised], 0.0).last().map_or(0.0, |[time, ..]| *time);
+        json!(stroke_knots(stroke, [lowered, raised], end - seconds))
+    };
+    if let Some([lowered, end]) = first {
+        done["raising_first"] = raising(lowered, end);
+    }
+    if let Some(Overlaps { lowered, lowering, raised_at }) = overlaps {
         if let Some(begin) = lowering {
             done["lowering"] = json!(stroke_knots(stroke, [raised, lowered], begin));
         }
         if let Some(end) = raised_at {
-            let seconds = stroke_knots(stroke, [lowered, raised], 0.0).last().map_or(0.0, |[time, ..]| *time);
-            done["raising"] = json!(stroke_knots(stroke, [lowered, raised], end - seconds));
+            done["raising"] = raising(lowered, end);
         }
     }
     done

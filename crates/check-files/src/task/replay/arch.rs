@@ -1,14 +1,16 @@
 //! Arch motions: the tool is lowered or raised while the arm moves.
 
 use super::{Replay, ToolHeights};
+use crate::robot::tool::{LiftAxis, heights_to};
 use crate::task::REST_TOLERANCE_DECIMALS;
 use crate::task::order::MatchedStep;
 use crate::task::stroke::StrokeCurve;
-use crate::world::task::Action;
+use crate::world::task::{Action, Arch};
 use cplan_check::CheckError;
+use cplan_check::certificate::ExecutedStep;
 use cplan_check::curve::{FRACTION_BITS, MAX_PRIOR_HALVINGS, Piece};
 use cplan_check::decimal::Decimal;
-use cplan_check::interval::{BITS, Interval};
+use cplan_check::interval::{BITS, Interval, Point};
 use num_bigint::BigInt;
 
 /// The stroke and the turn at one end of a motion that overlap with it.
@@ -38,6 +40,10 @@ impl Replay<'_> {
         let (object, is_place) = match (&step.action, &self.held) {
             (Action::Pick { object, .. }, _) => (*object, false),
             (Action::Place { .. }, Some(held)) => (held.object, true),
+            (Action::Move(_), _) => {
+                let stroke = self.lowering_at_goal(done, next)?;
+                return self.with_turn(matched, [Some(stroke), None], turn);
+            }
             _ => return CheckError::fails("it has a stroke, but neither picks nor places an object"),
         };
         let (Some(axis), Some(depth)) = (&self.lift, self.task.depth(object)) else {
@@ -94,6 +100,60 @@ impl Replay<'_> {
             }
         }
         self.with_turn(matched, [lowering, raising], turn)
+    }
+
+    /// Checks the raising before the first step, if the tool is lowered at the start. `from` is the configuration there.
+    pub(super) fn raise_first(&mut self, done: &ExecutedStep, from: &Point) -> Result<(), CheckError> {
+        let lowered = self.lowered[0].take();
+        let (Some(height), knot) = (lowered, done.knots[0]) else {
+            return match done.raising_first {
+                Some(_) => CheckError::fails("it has a raising_first, but the tool is raised already"),
+                None => Ok(()),
+            };
+        };
+        self.require_static("a stroke of the tool")?;
+        let still = self.pieces(knot..knot)?;
+        self.free(&still, from, None, ToolHeights::At(&heights_to(&height)))?;
+        let Some(knots) = &done.raising_first else { return Ok(()) };
+        let (axis, arch) = self.axis_and_arch()?;
+        let curve = StrokeCurve::new(knots, &self.motion.knots[0][0], axis, [&height, &Interval::whole(0)])?;
+        let tolerance = Decimal::power_of_ten(REST_TOLERANCE_DECIMALS);
+        let departure = self.time(knot);
+        if curve.begin() + &tolerance < Decimal::whole(0) || *curve.begin() > &departure + &tolerance {
+            return CheckError::fails("its raising_first does not begin between the start and the departure");
+        }
+        if !curve.is_away(&departure, &height, &arch.rise) {
+            return CheckError::fails(format!("the arm departs before the tool has risen by {} m", arch.rise));
+        }
+        self.before.stroke = Some(curve);
+        Ok(())
+    }
+
+    /// Returns the lowering at the end of the motion to the goal.
+    fn lowering_at_goal(&self, done: &ExecutedStep, next: Option<&MatchedStep>) -> Result<StrokeCurve, CheckError> {
+        let (Some(knots), Some(height), None, None) = (&done.lowering, &self.lowered[1], &done.raising, next) else {
+            return CheckError::fails("it has a stroke, but neither picks nor places an object");
+        };
+        let (axis, arch) = self.axis_and_arch()?;
+        let curve = StrokeCurve::new(knots, &self.motion.knots[0][0], axis, [&Interval::whole(0), height])?;
+        let tolerance = Decimal::power_of_ten(REST_TOLERANCE_DECIMALS);
+        let (arrival, end) = (self.time(done.knots[1]), self.time(self.motion.knots.len() - 1));
+        if curve.end() + &tolerance < arrival || *curve.end() > &end + &tolerance {
+            return CheckError::fails("its lowering does not end between the arrival of the arm and the end");
+        }
+        if !curve.is_away(&arrival, height, &arch.fall) {
+            return CheckError::fails(format!("the arm arrives with the tool lower than {} m", arch.fall));
+        }
+        Ok(curve)
+    }
+
+    /// Returns the joint that lowers the tool, and the least heights for strokes during motions.
+    fn axis_and_arch(&self) -> Result<(&LiftAxis, &Arch), CheckError> {
+        let arch = self.task.stroke.as_ref().and_then(|stroke| stroke.arch.as_ref());
+        match (&self.lift, arch) {
+            (Some(axis), Some(arch)) => Ok((axis, arch)),
+            _ => CheckError::fails("the arm must rest during strokes, but one of them overlaps with a motion"),
+        }
     }
 
     /// Checks the motion of a step at the heights and angles of the strokes and turns that overlap with its beginning and
