@@ -3,12 +3,14 @@
 use crate::deviation::bounds;
 use crate::nodes::Nodes;
 use crate::search::Route;
+use crate::smooth::Stretch;
 use crate::{FollowError, Settings};
-use cplan_core::check::certify;
+use cplan_core::check::{CertifiedPath, certify};
 use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, Path};
 use cplan_deviation::{Deviation, Foot, Kinematics, Line};
-use cplan_motion::{CertifiedCurve, CurveDrive, TimedMotion, TipSpeed, along_curve, blend_up_to};
+use cplan_interrupt::checkpoint;
+use cplan_motion::{CurveDrive, TimedMotion, TipSpeed, along_curve, blend_up_to};
 
 /// Cosine of the angle between two legs beyond which the motion stops between them: it almost returns on itself.
 const REVERSAL_COSINE: f64 = -0.95;
@@ -34,23 +36,12 @@ impl Driver<'_> {
         let is_smooth = joints.iter().any(|joint| joint.jerk.is_some());
         let speeds = self.leg_speeds(route);
         let q = route.path.path().waypoints();
-        let radii: Vec<f64> = (0..q.len()).map(|w| self.radius(q, route, w, is_smooth)).collect();
-        // With limits on jerks, one motion has one limit on the tip's speed.
-        let cut = |w: &usize| is_smooth && speeds[*w] != speeds[*w - 1];
-        let mut ends: Vec<usize> = (1..q.len().saturating_sub(1)).filter(cut).collect();
-        ends.insert(0, 0);
-        ends.push(q.len() - 1);
-        let mut whole: Option<TimedMotion> = None;
-        for pair in ends.windows(2) {
-            let part = self.part(route, [pair[0], pair[1]], &radii, &speeds, is_smooth)?;
-            whole = Some(match whole {
-                None => part,
-                Some(mut before) => {
-                    before.trajectory.then(0.0, &part.trajectory);
-                    TimedMotion { curve: before.curve.then(&part.curve), ..before }
-                }
-            });
-        }
+        let parts = if is_smooth { self.smooth_parts(route, &speeds)? } else { vec![self.blended(route, &speeds)?] };
+        let joined = |mut before: TimedMotion, next: TimedMotion| {
+            before.trajectory.then(0.0, &next.trajectory);
+            TimedMotion { curve: before.curve.then(&next.curve), ..before }
+        };
+        let whole = parts.into_iter().reduce(joined);
         let timed = whole.expect("at least one part");
         let deviation = self.deviation(route, [0, q.len() - 1]);
         let greatest = bounds(&deviation, &timed.trajectory, is_smooth).into_iter().reduce(f64::max);
@@ -58,45 +49,63 @@ impl Driver<'_> {
         Ok((timed, bound))
     }
 
-    /// Returns the motion between two waypoints of a route.
-    fn part(
-        &self,
-        route: &Route,
-        ends: [usize; 2],
-        radii: &[f64],
-        speeds: &[f64],
-        is_smooth: bool,
-    ) -> Result<TimedMotion, FollowError> {
-        let [from, to] = ends;
-        let clearance = self.scene.workspace().clearance;
-        let path = if to - from + 1 == route.path.path().waypoints().len() {
-            route.path.clone()
-        } else {
-            let waypoints = route.path.path().waypoints()[from..=to].to_vec();
-            // The whole path is certified, so the part is as well, unless the search takes another course.
-            certify(self.scene, Path::new(waypoints), clearance).map_err(|_| FollowError::Uncertified)?
-        };
-        let greatest = speeds.get(from..to).unwrap_or_default().iter().copied().fold(0.0, f64::max);
-        let shares: Vec<f64> = speeds[from..to].iter().map(|speed| speed / greatest).collect();
-        let is_limited = greatest.is_finite() && greatest > 0.0;
-        let tip = is_limited.then(|| TipSpeed { legs: &shares, ..TipSpeed::new(self.scene.arm(), greatest) });
-        let drive = CurveDrive { tip, share: self.settings.share, period: self.settings.period };
-        let deviation = self.deviation(route, ends);
-        let tolerance = self.settings.tolerance;
-        let too_far = |pieces: &[cplan_handling::Piece]| {
-            let bounds = deviation.of_pieces(pieces);
-            (0..bounds.len()).filter(|&i| bounds[i] > tolerance).collect::<Vec<_>>()
-        };
-        let curve = blend_up_to(self.scene, &path, &radii[from..=to], clearance);
-        let timed = along_curve(self.scene, curve, drive, &too_far)?;
-        if is_smooth && !too_far(&timed.trajectory.pieces()).is_empty() {
-            // Stopping everywhere stays on the path.
-            return Ok(along_curve(self.scene, CertifiedCurve::from(path), drive, &too_far)?);
-        }
-        Ok(timed)
+    /// Returns the motion along a whole route with blends.
+    fn blended(&self, route: &Route, speeds: &[f64]) -> Result<TimedMotion, FollowError> {
+        let q = route.path.path().waypoints();
+        let radii: Vec<f64> = (0..q.len()).map(|w| self.radius(q, route, w)).collect();
+        let greatest = speeds.iter().copied().fold(0.0, f64::max);
+        let shares: Vec<f64> = speeds.iter().map(|speed| speed / greatest).collect();
+        let drive = self.drive(greatest, &shares);
+        let curve = blend_up_to(self.scene, &route.path, &radii, self.scene.workspace().clearance);
+        Ok(along_curve(self.scene, curve, drive)?)
     }
 
-    fn deviation(&self, route: &Route, waypoints: [usize; 2]) -> Deviation<'_> {
+    /// Returns the motions with limits on jerks from each stop of a route to the next one. The arm stops where it must,
+    /// at corners of the line, and where the limit on the tip's speed changes.
+    fn smooth_parts(&self, route: &Route, speeds: &[f64]) -> Result<Vec<TimedMotion>, FollowError> {
+        let q = route.path.path().waypoints();
+        let last = q.len() - 1;
+        let is_corner = |w: usize| self.is_corner(route.nodes[w]) || speeds[w] != speeds[w - 1];
+        let is_stop = |w: &usize| self.must_stop(q, route, *w) || is_corner(*w);
+        let stops: Vec<usize> = [0].into_iter().chain((1..last).filter(is_stop)).chain([last]).collect();
+        // A stretch without a motion is halved, with a stop between the halves.
+        let mut open: Vec<[usize; 2]> = stops.windows(2).rev().map(|pair| [pair[0], pair[1]]).collect();
+        let mut parts = Vec::new();
+        while let Some([from, to]) = open.pop() {
+            checkpoint();
+            let path = self.part_of_path(route, [from, to])?;
+            let drive = self.drive(speeds.get(from).copied().unwrap_or(0.0), &[]);
+            match Stretch::new(self, route, [from, to], &path, drive).motion()? {
+                Some(part) => parts.push(part),
+                None => {
+                    let middle = from.midpoint(to);
+                    open.extend([[middle, to], [from, middle]]);
+                }
+            }
+        }
+        Ok(parts)
+    }
+
+    /// Returns the certified path between two waypoints of a route.
+    fn part_of_path(&self, route: &Route, [from, to]: [usize; 2]) -> Result<CertifiedPath, FollowError> {
+        let waypoints = &route.path.path().waypoints()[from..=to];
+        if waypoints.len() == route.path.path().waypoints().len() {
+            return Ok(route.path.clone());
+        }
+        // The whole path is certified, so the part is as well, unless the search takes another course.
+        let clearance = self.scene.workspace().clearance;
+        certify(self.scene, Path::new(waypoints.to_vec()), clearance).map_err(|_| FollowError::Uncertified)
+    }
+
+    /// Returns the options of a motion with a limit on the tip's speed, which legs use in shares.
+    fn drive<'b>(&'b self, speed: f64, legs: &'b [f64]) -> CurveDrive<'b> {
+        let is_limited = speed.is_finite() && speed > 0.0;
+        let tip = is_limited.then(|| TipSpeed { legs, ..TipSpeed::new(self.scene.arm(), speed) });
+        CurveDrive { tip, share: self.settings.share, period: self.settings.period }
+    }
+
+    /// Returns the check of the distance between the line and a motion from one waypoint to another.
+    pub(crate) fn deviation(&self, route: &Route, waypoints: [usize; 2]) -> Deviation<'_> {
         let parts = &self.nodes.parts;
         let foot = |node: usize| match node.checked_sub(1) {
             Some(part) => Foot { piece: parts[part].piece, u: parts[part].ends[1] },
@@ -136,21 +145,33 @@ impl Driver<'_> {
     }
 
     /// Returns the greatest radius of the blend at a waypoint: the tip's path stays within the allowed distance.
-    fn radius(&self, q: &[Configuration], route: &Route, w: usize, is_smooth: bool) -> f64 {
-        if w == 0 || w + 1 >= q.len() || self.is_stop(route.nodes[w]) {
+    fn radius(&self, q: &[Configuration], route: &Route, w: usize) -> f64 {
+        if w == 0 || w + 1 >= q.len() || self.must_stop(q, route, w) {
             return 0.0;
         }
-        let [before, after] = [q[w] - q[w - 1], q[w + 1] - q[w]].map(|leg| leg / leg.norm());
-        if before.dot(&after) < REVERSAL_COSINE {
-            return 0.0;
-        }
-        let tips = [before, after].map(|d| self.kinematics.velocity(q[w], d));
-        if is_smooth && tips[0].dot(&tips[1]) < SMOOTH_CORNER_COSINE * tips[0].norm() * tips[1].norm() {
-            return 0.0;
-        }
+        let tips = legs(q, w).map(|d| self.kinematics.velocity(q[w], d));
         // The middle of a blend is at a quarter of this times the radius from the corner.
         let off = (tips[1] - tips[0]).norm();
         if off > 0.0 { 4.0 * self.blend / off } else { f64::INFINITY }
+    }
+
+    /// Returns true if every motion stops at an inner waypoint: a travel begins or ends there, or the joints turn back.
+    fn must_stop(&self, q: &[Configuration], route: &Route, w: usize) -> bool {
+        let [before, after] = legs(q, w);
+        self.is_stop(route.nodes[w]) || before.dot(&after) < REVERSAL_COSINE
+    }
+
+    /// Returns true if two pieces of the line meet at a node, and their directions differ too much for a motion with
+    /// limited jerk.
+    fn is_corner(&self, node: usize) -> bool {
+        let parts = &self.nodes.parts;
+        let Some((before, after)) = node.checked_sub(1).and_then(|part| parts.get(part).zip(parts.get(node))) else {
+            return false;
+        };
+        let ends = [(before.piece, 1.0), (after.piece, 0.0)];
+        let directions = ends.map(|(piece, end)| self.line.curve(piece).direction(end));
+        let [Some(a), Some(b)] = directions else { return true };
+        before.piece != after.piece && a[0] * b[0] + a[1] * b[1] < SMOOTH_CORNER_COSINE
     }
 
     /// Returns true if the tip stops at a node because a travel begins or ends there.
@@ -158,4 +179,9 @@ impl Driver<'_> {
         let is_travel = |part: usize| self.nodes.parts.get(part).map(|part| self.line.pieces[part.piece].is_travel);
         node > 0 && is_travel(node - 1) != is_travel(node)
     }
+}
+
+/// Returns the unit directions of the legs before and after an inner waypoint.
+fn legs(q: &[Configuration], w: usize) -> [Configuration; 2] {
+    [q[w] - q[w - 1], q[w + 1] - q[w]].map(|leg| leg / leg.norm())
 }

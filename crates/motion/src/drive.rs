@@ -2,12 +2,11 @@
 
 use super::schedule::duration_bound;
 use super::shape::ShapeSearch;
-use super::smooth::{smoothed, time_smoothly};
+use super::smooth::smoothed;
 use super::{Limits, TimedMotion, TimingError, TipSpeed, TorqueLimit, time};
 use crate::{CertifiedCurve, blend};
 use cplan_core::check::CertifiedPath;
 use cplan_core::model::Scene;
-use cplan_handling::Piece;
 use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 
@@ -144,11 +143,7 @@ pub struct CurveDrive<'a> {
 }
 
 /// Returns the fastest motion along a given curve, whose blends must not change. Compared with [`Drive::along`], no
-/// corner is moved.
-///
-/// With limits on jerks, the motion leaves the curve at its corners. `too_far` receives the pieces of such a motion, and
-/// returns the indices of those that are too far from the curve. The motion then passes the corners there more slowly.
-/// If that does not help, or without a blend, it stops at every corner.
+/// corner is moved. With limits on jerks, the motion stops at every corner; see [`super::along_joint_curve`].
 ///
 /// # Errors
 /// Same as for [`Drive::along`].
@@ -156,23 +151,16 @@ pub fn along_curve(
     scene: &Scene,
     curve: CertifiedCurve,
     CurveDrive { tip, share, period }: CurveDrive,
-    too_far: &dyn Fn(&[Piece]) -> Vec<usize>,
 ) -> Result<TimedMotion, TimingError> {
     let torque = TorqueLimit::of(scene);
     if let Some(torque) = &torque {
         torque.check_holding_along(curve.straight().path())?;
     }
     let limits = Limits { tip, torque, ..Limits::from(&scene.arm().joints).scaled(share) };
-    let smooth = || time_smoothly(scene, &curve, limits, period, too_far);
-    let is_blended = curve.radii().iter().any(|radius| *radius > 0.0);
-    let found = (limits.stops_at_corners() && is_blended).then(smooth).flatten();
-    let mut best = match found {
-        Some(timed) => timed,
-        None => time(curve, &limits, period)?,
-    };
+    let mut timed = time(curve, &limits, period)?;
     if let Some(torque) = torque {
-        torque.check(&best.trajectory.pieces())?;
-        best.trajectory.torque = torque.along_trajectory(&best.trajectory);
+        torque.check(&timed.trajectory.pieces())?;
+        timed.trajectory.torque = torque.along_trajectory(&timed.trajectory);
     }
-    Ok(best)
+    Ok(timed)
 }

@@ -44,7 +44,8 @@
 //! With a limit on jerks, `smooth` converts that motion to a cubic B-spline (`spline`): the mean over a window of time
 //! that is long enough for the jerk. If the result is not shown to be free at a corner, that corner is passed more
 //! slowly.
-//! `retime` then computes the fastest motion along the resulting curve.
+//! `retime` then computes the fastest motion along the resulting curve. If the curve is given, as for lines that the tip
+//! follows, `joint_curve` finds the fastest motion along it directly.
 //!
 //! The motion along a single straight piece from rest to rest comes from `jerk`. It takes Ruckig's times of the seven
 //! phases, and adapts them to the least interval between samples. It then computes the phases from these times and the
@@ -70,6 +71,7 @@ mod drive;
 mod field;
 mod format;
 mod jerk;
+mod joint_curve;
 mod json;
 mod least;
 mod limits;
@@ -106,6 +108,7 @@ pub use csv::{csv, csv_of_joints};
 pub use drive::{CurveDrive, Drive, Objective, along_curve};
 pub use field::FieldReport;
 pub use format::{Format, FormatError};
+pub use joint_curve::{JointCurve, along_joint_curve};
 pub use json::field_per_line;
 pub use least::least_duration;
 pub use limits::Limits;

@@ -12,6 +12,8 @@
 //! not convex: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, *Time-optimal path tracking for robots: a convex
 //! optimization approach*, 2009.)
 
+use cplan_interrupt::checkpoint;
+
 /// Positions in each interval at which conditions are imposed.
 pub(super) const CONDITION_POSITIONS: [f64; 3] = [0.0, 0.5, 1.0];
 
@@ -37,6 +39,12 @@ const MIN_ROUND_GAIN: f64 = 1e-5;
 /// Least fraction of the predicted decrease that a step must achieve. Otherwise the step is halved.
 const MIN_STEP_GAIN: f64 = 0.05;
 const MAX_STEP_HALVINGS: u32 = 20;
+
+/// Share of the greatest constant squared rate with which a search without a known rate begins.
+const INITIAL_RATE_SHARE: f64 = 0.9;
+
+/// Ratio of two durations above which they count as the same, so that the weights of the barriers need no change.
+const SHARE_OF_SAME_DURATION: f64 = 0.8;
 
 /// Range of a product of slacks. A product that leaves this range is replaced by its logarithm, so that doubles neither
 /// overflow nor underflow.
@@ -73,6 +81,12 @@ pub(super) struct Rate {
 }
 
 impl Condition {
+    /// Returns the least upper bound on the constant squared rates that satisfy the condition.
+    fn greatest_constant(&self) -> f64 {
+        let most = 1.0 / self.factors[0].max(0.0);
+        if self.has_root { most.powf(2.0 / 3.0) } else { most }
+    }
+
     /// Returns the slack of the condition, and its derivatives by `z`, `z'` and `z''`.
     fn slack(&self, [z, rising, bend]: [f64; 3]) -> (f64, [f64; 3]) {
         let [a, b, c] = self.factors;
@@ -119,7 +133,49 @@ struct Problem<'a> {
     basis: [[[f64; 3]; 3]; CONDITION_POSITIONS.len()],
 }
 
-impl Problem<'_> {
+impl<'c> Problem<'c> {
+    fn new(conditions: &'c [Vec<Condition>], step: f64) -> Self {
+        Self { conditions, step, basis: CONDITION_POSITIONS.map(|u| basis(u, step)) }
+    }
+
+    /// Returns the duration.
+    fn time(&self, coefficients: &[f64]) -> f64 {
+        self.places(coefficients).map(|place| place.time).sum()
+    }
+
+    /// Returns better coefficients: the barriers' weight decreases from the first one to the last one. All weights are
+    /// those of all barriers together, seconds. A step that gains less than `least_gain` seconds ends a round. Returns
+    /// `None` if the given coefficients violate a condition.
+    fn descended(&self, mut coefficients: Vec<f64>, weights: [f64; 2], least_gain: f64) -> Option<Vec<f64>> {
+        let count: usize = self.conditions.iter().map(Vec::len).sum();
+        let [mut height, last] = weights.map(|weight| weight / count as f64);
+        if !self.merit(&coefficients, height).is_finite() {
+            return None;
+        }
+        loop {
+            let mut now = self.merit(&coefficients, height);
+            for _ in 0..MAX_NEWTON_STEPS {
+                checkpoint();
+                let Some((step, promised)) = self.newton(&coefficients, height) else { break };
+                if promised < least_gain {
+                    break;
+                }
+                let mut shares = (0..MAX_STEP_HALVINGS).map(|n| 0.5_f64.powi(n as i32));
+                let better = shares.find_map(|share| {
+                    let moved: Vec<f64> = coefficients.iter().zip(&step).map(|(c, step)| c + share * step).collect();
+                    let merit = self.merit(&moved, height);
+                    (merit <= now - MIN_STEP_GAIN * share * promised).then_some((moved, merit))
+                });
+                let Some(better) = better else { break };
+                (coefficients, now) = better;
+            }
+            if height <= last {
+                return Some(coefficients);
+            }
+            height = (height / BARRIER_REDUCTION).max(last);
+        }
+    }
+
     /// Iterates over all positions, in order, for the given coefficients.
     fn places(&self, coefficients: &[f64]) -> impl Iterator<Item = Place<'_>> {
         self.conditions.iter().enumerate().map(move |(place, conditions)| {
@@ -221,35 +277,38 @@ impl Rate {
     /// conditions at all positions. `begin` is a constant squared rate that satisfies them with some slack. Returns
     /// `None` if it does not.
     pub fn fastest(conditions: &[Vec<Condition>], step: f64, begin: f64) -> Option<Self> {
-        let problem = Problem { conditions, step, basis: CONDITION_POSITIONS.map(|u| basis(u, step)) };
+        let problem = Problem::new(conditions, step);
+        let coefficients = vec![begin; conditions.len() / CONDITION_POSITIONS.len() + 2];
+        let time = problem.time(&coefficients);
+        let weights = [FIRST_BARRIER_WEIGHT, LAST_BARRIER_WEIGHT].map(|share| share * time);
+        Self::of_coefficients(step, problem.descended(coefficients, weights, MIN_ROUND_GAIN * time)?)
+    }
+
+    /// Returns the rate with the shortest duration, as [`Rate::fastest`], without a known rate to begin with. It begins
+    /// with the greatest constant rate, which may be slower by orders of magnitude.
+    pub fn fastest_of_all(conditions: &[Vec<Condition>], step: f64) -> Option<Self> {
+        let problem = Problem::new(conditions, step);
+        let greatest = conditions.iter().flatten().map(Condition::greatest_constant).fold(f64::INFINITY, f64::min);
+        let begin = INITIAL_RATE_SHARE * greatest;
         let mut coefficients = vec![begin; conditions.len() / CONDITION_POSITIONS.len() + 2];
-        let time: f64 = problem.places(&coefficients).map(|place| place.time).sum();
-        let count: usize = conditions.iter().map(Vec::len).sum();
-        let [mut height, last] = [FIRST_BARRIER_WEIGHT, LAST_BARRIER_WEIGHT].map(|share| share * time / count as f64);
-        if !problem.merit(&coefficients, height).is_finite() {
+        let mut time = problem.time(&coefficients);
+        if !(time.is_finite() && time > 0.0) {
             return None;
         }
+        // The weights are shares of the duration, which is known only in the end.
+        let mut first = FIRST_BARRIER_WEIGHT * time;
         loop {
-            let mut now = problem.merit(&coefficients, height);
-            for _ in 0..MAX_NEWTON_STEPS {
-                let Some((step, promised)) = problem.newton(&coefficients, height) else { break };
-                if promised < MIN_ROUND_GAIN * time {
-                    break;
-                }
-                let mut shares = (0..MAX_STEP_HALVINGS).map(|n| 0.5_f64.powi(n as i32));
-                let better = shares.find_map(|share| {
-                    let moved: Vec<f64> = coefficients.iter().zip(&step).map(|(c, step)| c + share * step).collect();
-                    let merit = problem.merit(&moved, height);
-                    (merit <= now - MIN_STEP_GAIN * share * promised).then_some((moved, merit))
-                });
-                let Some(better) = better else { break };
-                (coefficients, now) = better;
+            let weights = [first, LAST_BARRIER_WEIGHT * time];
+            coefficients = problem.descended(coefficients, weights, MIN_ROUND_GAIN * time)?;
+            let shorter = problem.time(&coefficients);
+            if shorter > SHARE_OF_SAME_DURATION * time {
+                return Self::of_coefficients(step, coefficients);
             }
-            if height <= last {
-                break;
-            }
-            height = (height / BARRIER_REDUCTION).max(last);
+            (first, time) = (weights[1] / BARRIER_REDUCTION, shorter);
         }
+    }
+
+    fn of_coefficients(step: f64, coefficients: Vec<f64>) -> Option<Self> {
         let mut rate = Self { step, coefficients, times: vec![0.0] };
         for interval in 0..rate.coefficients.len() - 2 {
             let until = rate.times[interval] + rate.time_within_interval(interval, 1.0);

@@ -10,7 +10,7 @@ use super::sample::{TimedMotion, Trajectory};
 use super::schedule::{TimedTrack, schedule, stopping_at};
 use super::spline::Spline;
 use crate::BlendedPath;
-use crate::{CertifiedCurve, Rounding, blend};
+use crate::{Rounding, blend};
 use cplan_core::check::CertifiedPath;
 use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
@@ -73,46 +73,9 @@ pub(super) fn smoothed(
     below: f64,
     retimes: bool,
 ) -> Option<TimedMotion> {
-    let curve = blend(scene, path, greatest, scene.workspace().clearance);
     // The extent of a rounding is never greater than the longest leg.
     let most = path.path().segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max).min(greatest);
-    let required = Requirements { most, below, retimes, too_far: &|_| Vec::new() };
-    smoothed_along(scene, &curve, (limits, period), &required)
-}
-
-/// Returns the fastest motion found along a curve within the limits on jerks. Every corner whose pieces are among the
-/// indices that `too_far` returns for the pieces of a motion is passed more slowly, and finally with a stop. Returns
-/// `None` if no motion is found that is free and has no such piece.
-pub(super) fn time_smoothly(
-    scene: &Scene,
-    curve: &CertifiedCurve,
-    limits: Limits,
-    period: f64,
-    too_far: &dyn Fn(&[Piece]) -> Vec<usize>,
-) -> Option<TimedMotion> {
-    let required = Requirements { most: f64::INFINITY, below: f64::INFINITY, retimes: true, too_far };
-    smoothed_along(scene, curve, (limits, period), &required)
-}
-
-/// Requirements for a smooth motion.
-struct Requirements<'a> {
-    /// Greatest extent of a rounding.
-    most: f64,
-    /// The motion must be shorter than this, in seconds.
-    below: f64,
-    /// True if the motion is finally driven along its own curve in the least time.
-    retimes: bool,
-    /// Returns the indices of the pieces whose corners must be passed more slowly.
-    too_far: &'a dyn Fn(&[Piece]) -> Vec<usize>,
-}
-
-/// Does the work of [`smoothed`] and [`time_smoothly`].
-fn smoothed_along(
-    scene: &Scene,
-    blended: &CertifiedCurve,
-    (limits, period): (Limits, f64),
-    &Requirements { most, below, retimes, too_far }: &Requirements,
-) -> Option<TimedMotion> {
+    let blended = blend(scene, path, greatest, scene.workspace().clearance);
     let mut curve = blended.curve().clone();
     let rounding = Rounding::new(scene, blended.straight(), scene.workspace().clearance);
     let mut smoothing = Smoothing::new(&curve, limits, period)?;
@@ -138,8 +101,7 @@ fn smoothed_along(
         }
         let radii = reaches(&curve, &smooth, &pieces);
         let far = (0..radii.len()).filter(|&w| radii[w] > most);
-        let mut open = rounding.uncertified_pieces(&pieces);
-        open.extend(too_far(&pieces));
+        let open = rounding.uncertified_pieces(&pieces);
         let slower: BTreeSet<usize> = open.iter().filter_map(|&i| smooth.corner(&pieces[i])).chain(far).collect();
         if slower.is_empty() {
             let certified = rounding.certified(radii, &pieces);

@@ -20,6 +20,7 @@ use super::sample::{MIN_INTERVAL, MIN_PERIODIC_INTERVAL, Trajectory};
 use super::schedule::{TimedTrack, duration, places};
 use super::torque::TorqueLimit;
 use cplan_core::space::Configuration;
+use cplan_handling::Piece;
 
 /// Number of time steps in a smoothing window. The motion takes one step longer than the window, so with more and
 /// shorter steps it is faster.
@@ -63,6 +64,26 @@ pub(super) struct Spline {
 }
 
 impl Spline {
+    /// Creates a curve that passes a knot per second. It starts at the first point and ends at the last one, with zero
+    /// velocity and acceleration. The points between them are its control points.
+    pub fn of_curve(points: &[Configuration]) -> Self {
+        Self::between(
+            nanoseconds(1.0),
+            points[0],
+            points[1..points.len() - 1].iter().copied(),
+            points[points.len() - 1],
+        )
+    }
+
+    fn between(
+        step: u64,
+        start: Configuration,
+        inner: impl Iterator<Item = Configuration>,
+        goal: Configuration,
+    ) -> Self {
+        Self { step, window: 1, control: [start; 3].into_iter().chain(inner).chain([goal; 3]).collect() }
+    }
+
     /// Smooths a run from rest to rest as far as the limits on jerks require. `acceleration` has the limits on
     /// acceleration that the run keeps.
     pub fn smoothed(run: &[TimedTrack], acceleration: [f64; 2], limits: &Limits, period: f64) -> Self {
@@ -92,31 +113,54 @@ impl Spline {
             return None;
         }
         let interval = seconds(self.step) / parts as f64;
-        let intervals = (0..parts * pieces)
-            .flat_map(|i| CONDITION_POSITIONS.map(|u| (i / parts, ((i % parts) as f64 + u) / parts as f64)));
-        let asked: Vec<Vec<Condition>> =
-            intervals.map(|(piece, u)| conditions_at(self.derivatives_within(piece, u), limits)).collect();
+        let asked = self.conditions(limits, parts);
         let rate = Rate::fastest(&asked, interval, INITIAL_SPEED_SHARE * INITIAL_SPEED_SHARE)?;
         let shortest = (MIN_STEP_SHARE * period).max(MIN_INTERVAL);
         let step = nanoseconds((rate.duration() / RETIMED_STEPS).min(seconds(self.step)).max(shortest));
-        let [start, goal] = [self.control[0], self.control[self.control.len() - 1]];
-        let times = (1..).map(|k| seconds(k * step)).take_while(|time| *time < rate.duration());
-        let places = times.map(|time| self.at_seconds(rate.at(time))[0]);
-        let control = [start; 3].into_iter().chain(places).chain([goal; 3]).collect();
-        let spline = Self { step, window: 1, control };
+        let spline = self.passed(&rate, step);
         // Between the places the limits may be exceeded slightly.
-        let step = (step as f64 * spline.excess(limits)).ceil() as u64;
-        let slower = step as f64 / spline.step as f64;
-        let spline = Self { step, ..spline };
+        let (slower, spline) = spline.slowed(spline.excess(limits));
         (spline.duration() < self.duration()).then(|| {
             let delay = spline.delay();
             (spline, move |time: f64| delay + nanoseconds(slower * rate.time_at(time)))
         })
     }
 
+    /// Returns the conditions that the limits impose on the rate along the curve, with several intervals per piece.
+    pub fn conditions(&self, limits: &Limits, parts: usize) -> Vec<Vec<Condition>> {
+        (0..parts * (self.last() + 1))
+            .flat_map(|i| CONDITION_POSITIONS.map(|u| (i / parts, ((i % parts) as f64 + u) / parts as f64)))
+            .map(|(piece, u)| conditions_at(self.derivatives_within(piece, u), limits))
+            .collect()
+    }
+
+    /// Returns the motion along the curve at a rate, with knots at the multiples of a step in nanoseconds.
+    pub fn passed(&self, rate: &Rate, step: u64) -> Self {
+        let [start, goal] = [self.control[0], self.control[self.control.len() - 1]];
+        let times = (1..).map(|k| seconds(k * step)).take_while(|time| *time < rate.duration());
+        Self::between(step, start, times.map(|time| self.at_seconds(rate.at(time))[0]), goal)
+    }
+
+    /// Returns the motion slowed down by at least a factor, and the factor that is used.
+    pub fn slowed(&self, factor: f64) -> (f64, Self) {
+        let step = (self.step as f64 * factor).ceil() as u64;
+        (step as f64 / self.step as f64, Self { step, ..self.clone() })
+    }
+
+    /// Returns the curve as one cubic per piece.
+    pub fn pieces(&self) -> Vec<Piece> {
+        let end = |k: usize| {
+            let [position, velocity, ..] =
+                self.derivatives_within(k.min(self.last()), if k > self.last() { 1.0 } else { 0.0 });
+            [position, velocity]
+        };
+        let time = |k: usize| seconds(k as u64 * self.step);
+        (0..=self.last()).map(|k| Piece::hermite(time(k), time(k + 1), end(k), end(k + 1))).collect()
+    }
+
     /// Returns the factor by which the motion must be slowed down to be within the limits on velocities, accelerations
     /// and jerks; 1 if it is within them.
-    fn excess(&self, limits: &Limits) -> f64 {
+    pub fn excess(&self, limits: &Limits) -> f64 {
         let h = seconds(self.step);
         let mut excess = 1.0_f64;
         for four in self.control.windows(4) {
@@ -171,7 +215,7 @@ impl Spline {
     }
 
     /// Returns position, velocity, acceleration and jerk this many seconds after the beginning.
-    fn at_seconds(&self, time: f64) -> [Configuration; 4] {
+    pub fn at_seconds(&self, time: f64) -> [Configuration; 4] {
         let steps = time / seconds(self.step);
         let piece = (steps as usize).min(self.last());
         self.derivatives_within(piece, steps - piece as f64)

@@ -2,6 +2,7 @@
 
 mod oracle;
 mod random;
+mod smooth;
 
 use cplan_core::model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
 use cplan_core::space::Configuration;

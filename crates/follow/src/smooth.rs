@@ -1,0 +1,218 @@
+//! Motions with limits on jerks: along smooth curves in joint space, near the line.
+//!
+//! Between two stops, control points of a cubic B-spline are placed on the line's own IK solution. Each is moved outwards
+//! by a sixth of the second difference of its neighbours, so that the spline passes almost through the line's points, and
+//! rounds corners. Where the spline is too far from the line, the control points are placed more densely. The crate
+//! `cplan-motion` finds the fastest motion along the spline.
+
+use crate::motion::Driver;
+use crate::search::Route;
+use crate::spacing::Spacing;
+use crate::{FollowError, SLACK_SHARE};
+use cplan_core::check::CertifiedPath;
+use cplan_core::space::{Configuration, JointRange};
+use cplan_handling::Piece;
+use cplan_interrupt::checkpoint;
+use cplan_motion::{CertifiedCurve, CurveDrive, JointCurve, TimedMotion, along_curve, along_joint_curve};
+use std::f64::consts::TAU;
+
+/// Share of the tolerance that the curve may use. The motion along it needs the rest, because it cuts bends as well.
+const CURVE_SHARE: f64 = 0.6;
+
+/// Distance of a waypoint from the chord of its neighbourhood, as a multiple of the tolerance, that determines how large
+/// this neighbourhood is. The first spacing of the control points is proportional to its size. So it depends on the
+/// line's bends, and not on the number of pieces by which the file writes them.
+const BULGE_TOLERANCES: f64 = 3.0;
+
+/// First spacing of the control points, as a multiple of half the size of a waypoint's neighbourhood.
+const FIRST_SPACING: f64 = 3.0;
+
+/// Least number of spacings on a stretch. With more of them, the motion would begin more slowly, because it passes the
+/// first ones in a fixed sequence of jerks.
+const MIN_SPACINGS: f64 = 16.0;
+
+/// Number of times that control points are placed more densely.
+const MAX_ROUNDS: usize = 24;
+
+/// Greatest number of control points of a stretch.
+const MAX_POINTS: usize = 50_000;
+
+/// Number of steps of the search for the point of a line beside a leg of the path.
+const FOOT_STEPS: u32 = 3;
+
+/// A part of a route between two stops.
+pub(crate) struct Stretch<'a> {
+    pub driver: &'a Driver<'a>,
+    pub route: &'a Route,
+    /// The first and the last waypoint.
+    pub ends: [usize; 2],
+    pub path: &'a CertifiedPath,
+    pub drive: CurveDrive<'a>,
+    /// Distance along the path in joint space of each waypoint from the first one on.
+    distances: Vec<f64>,
+}
+
+impl<'a> Stretch<'a> {
+    pub fn new(
+        driver: &'a Driver<'a>,
+        route: &'a Route,
+        ends: [usize; 2],
+        path: &'a CertifiedPath,
+        drive: CurveDrive<'a>,
+    ) -> Self {
+        let mut distances = vec![0.0];
+        for (a, b) in path.path().segments() {
+            distances.push(distances[distances.len() - 1] + (b - a).norm());
+        }
+        Self { driver, route, ends, path, drive, distances }
+    }
+
+    /// Returns the fastest motion that is found, from rest to rest without a stop between. Returns `None` if no motion is
+    /// found.
+    pub fn motion(&self) -> Result<Option<TimedMotion>, FollowError> {
+        let scene = self.driver.scene;
+        let too_far = |pieces: &[Piece]| self.too_far(pieces, 1.0);
+        if self.ends[1] - self.ends[0] <= 1 {
+            let curve = CertifiedCurve::from(self.path.clone());
+            return Ok(Some(along_curve(scene, curve, self.drive)?));
+        }
+        let motion = |curve: JointCurve| along_joint_curve(scene, self.path, &curve, self.drive, &too_far);
+        Ok(self.curve().and_then(motion))
+    }
+
+    /// Returns the indices of the pieces that are farther from the line than a share of the tolerance.
+    fn too_far(&self, pieces: &[Piece], share: f64) -> Vec<usize> {
+        let tolerance = share * self.driver.settings.tolerance;
+        let mut deviation = self.driver.deviation(self.route, self.ends);
+        deviation.tolerance = tolerance;
+        let bounds = deviation.of_pieces(pieces);
+        (0..bounds.len()).filter(|&i| bounds[i] > tolerance).collect()
+    }
+
+    /// Returns a smooth curve that is near the line and within the limits of the joints. Returns `None` if none is found.
+    fn curve(&self) -> Option<JointCurve> {
+        let mut spacing = self.first_spacing();
+        for _ in 0..MAX_ROUNDS {
+            checkpoint();
+            let distances = spacing.distances();
+            if distances.len() > MAX_POINTS {
+                return None;
+            }
+            let curve = JointCurve::new(&self.control(&distances));
+            let far = self.too_far(&curve.pieces(), CURVE_SHARE);
+            if far.is_empty() {
+                return Some(curve);
+            }
+            let mut is_marked = vec![false; distances.len()];
+            for piece in far {
+                // A piece is between two points, and depends on their neighbours too.
+                let until = (piece + 2).min(distances.len());
+                is_marked[piece.saturating_sub(2)..until].fill(true);
+            }
+            spacing = spacing.finer(&distances, &is_marked);
+        }
+        None
+    }
+
+    /// Returns the spacing that the bends at the waypoints suggest.
+    fn first_spacing(&self) -> Spacing {
+        let length = self.distances[self.distances.len() - 1];
+        let widest = length / MIN_SPACINGS;
+        let last = self.distances.len() - 1;
+        let end = |distance: f64| [distance, widest];
+        let inner = (1..last).map(|w| [self.distances[w], widest.min(FIRST_SPACING * self.half_neighborhood(w))]);
+        let mut places: Vec<[f64; 2]> = [end(0.0)].into_iter().chain(inner).chain([end(length)]).collect();
+        // Legs may be shorter than the rounding of distances.
+        places.dedup_by(|next, place| next[0] <= place[0]);
+        Spacing::new(places)
+    }
+
+    /// Returns half the size of the neighbourhood of an inner waypoint in which the path is almost straight.
+    fn half_neighborhood(&self, w: usize) -> f64 {
+        let (q, d) = (self.path.path().waypoints(), &self.distances);
+        let most = BULGE_TOLERANCES * self.driver.settings.tolerance;
+        let (mut half, mut around) = (0.0, 1);
+        loop {
+            let [from, to] = [w.saturating_sub(around), (w + around).min(d.len() - 1)];
+            let share = (d[w] - d[from]) / (d[to] - d[from]);
+            let off = q[w] - (q[from] + (q[to] - q[from]) * share);
+            let off = self.driver.kinematics.velocity(q[w], off).norm();
+            let own = (d[w] - d[from]).min(d[to] - d[w]);
+            if off > most {
+                // On a bend, the distance from the chord grows with the square of the size.
+                return f64::max(half, own * (most / off).sqrt());
+            }
+            half = own;
+            if from == 0 || to + 1 == d.len() {
+                // Beside an end, the neighbourhood is as large as the distance from it, at least.
+                return half;
+            }
+            around *= 2;
+        }
+    }
+
+    /// Returns the points of a spline near the line, for points of the line at these distances.
+    fn control(&self, distances: &[f64]) -> Vec<Configuration> {
+        let mut leg = 0;
+        let on_line = |&distance: &f64| {
+            while leg + 2 < self.distances.len() && self.distances[leg + 1] < distance {
+                leg += 1;
+            }
+            self.at(leg, distance)
+        };
+        let points: Vec<Configuration> = distances.iter().map(on_line).collect();
+        let mut control = points.clone();
+        for (own, three) in control[1..].iter_mut().zip(points.windows(3)) {
+            *own = self.within_limits(three[1] - (three[0] - three[1] * 2.0 + three[2]) / 6.0);
+        }
+        control
+    }
+
+    /// Returns the configuration that puts the tip on the line, at a distance along the path.
+    fn at(&self, leg: usize, distance: f64) -> Configuration {
+        let q = self.path.path().waypoints();
+        let (from, along) = (q[leg], q[leg + 1] - q[leg]);
+        let length = self.distances[leg + 1] - self.distances[leg];
+        let share = if length > 0.0 { (distance - self.distances[leg]) / length } else { 1.0 };
+        let straight = if share >= 1.0 { q[leg + 1] } else { from + along * share };
+        let nodes = [0, 1].map(|k| self.route.nodes[self.ends[0] + leg + k]);
+        if share <= 0.0 || share >= 1.0 || nodes[0] + 1 != nodes[1] {
+            return straight;
+        }
+        let part = &self.driver.nodes.parts[nodes[0]];
+        let on_line = |u: f64| self.solution_near(straight, part.piece, u);
+        // A configuration of the line beside the straight one. The distance along the leg increases with the parameter.
+        let [mut low, mut high] = [(part.ends[0], -share), (part.ends[1], 1.0 - share)];
+        let mut found = straight;
+        for _ in 0..FOOT_STEPS {
+            let u = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+            let Some(near) = on_line(u) else { return straight };
+            found = near;
+            let ahead = (near - straight).dot(&along) / along.norm_squared();
+            *(if ahead < 0.0 { &mut low } else { &mut high }) = (u, ahead);
+        }
+        self.within_limits(found)
+    }
+
+    /// Returns the IK solution at a place of the line that is near a configuration.
+    fn solution_near(&self, near: Configuration, piece: usize, u: f64) -> Option<Configuration> {
+        let kinematics = self.driver.kinematics;
+        let slack = SLACK_SHARE * self.driver.settings.tolerance;
+        let target = kinematics.reachable(self.driver.line.curve(piece).at(u).into(), slack)?;
+        let lifted = |q: Configuration| {
+            Configuration::from_fn(|k, _| {
+                let is_turning = kinematics.arm.joints[k].joint_type.is_revolute();
+                q[k] + if is_turning { ((near[k] - q[k]) / TAU).round() * TAU } else { 0.0 }
+            })
+        };
+        let off = |q: &Configuration| (q - near).norm_squared();
+        kinematics.solutions(target)?.into_iter().map(lifted).min_by(|a, b| off(a).total_cmp(&off(b)))
+    }
+
+    fn within_limits(&self, q: Configuration) -> Configuration {
+        Configuration::from_fn(|k, _| match self.driver.scene.arm().joints[k].range {
+            JointRange::Circle => q[k],
+            JointRange::Interval { lower, upper } => q[k].clamp(lower, upper),
+        })
+    }
+}

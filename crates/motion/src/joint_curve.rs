@@ -1,0 +1,180 @@
+//! Motions with limits on jerks along given smooth curves in joint space.
+//!
+//! Compared with `smooth`, the curve is known before the motion, so its distance from anything can be checked first. The
+//! motion along it is found directly in the least time (`retime`), and sampled as a uniform cubic B-spline in time. Such
+//! a spline moves a little inwards, by `h^2 / 6` times the acceleration for a step `h`. So the step is halved until the
+//! motion is near enough.
+
+use super::clock::NANOSECONDS_PER_SECOND;
+use super::limits::Limits;
+use super::retime::Rate;
+use super::sample::{TimedMotion, Trajectory};
+use super::spline::Spline;
+use super::{CurveDrive, Rounding, TorqueLimit};
+use cplan_core::check::CertifiedPath;
+use cplan_core::model::Scene;
+use cplan_core::space::{Configuration, Path};
+use cplan_handling::Piece;
+use cplan_interrupt::checkpoint;
+
+/// Least number of intervals of the rate along a curve. On curves with fewer pieces, a piece has several intervals.
+const MIN_INTERVALS: usize = 192;
+
+/// Factor by which a motion may be slowed down because it exceeds limits between the positions at which they are imposed.
+/// With a greater factor, the intervals are divided further.
+const MAX_SLOWDOWN: f64 = 1.003;
+
+/// Least number of intervals in the time in which an acceleration grows to its limit, on average. With fewer intervals,
+/// they are divided further.
+const INTERVALS_PER_GROWTH: f64 = 12.0;
+
+/// Greatest number of parts into which intervals are divided further.
+const MAX_FINER: f64 = 4.0;
+
+/// Number of divisions into intervals that are tried.
+const MAX_DIVISIONS: usize = 2;
+
+/// Greatest number of steps of a motion.
+const MAX_STEPS: f64 = 1e6;
+
+/// Number of times that torques are reduced if they exceed the efforts between the positions at which they are limited.
+const MAX_TORQUE_ROUNDS: usize = 6;
+
+/// A smooth curve in joint space: a uniform cubic B-spline. Its second derivative is continuous.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointCurve {
+    spline: Spline,
+}
+
+impl JointCurve {
+    /// Creates the curve from the first to the last one of at least two points. Those between them are control points, so
+    /// the curve stays in the hull of all points. At both ends its first two derivatives are zero, so a motion can begin
+    /// and end there at rest.
+    ///
+    /// # Panics
+    /// If there are fewer than two points.
+    #[must_use]
+    pub fn new(points: &[Configuration]) -> Self {
+        assert!(points.len() > 1, "a curve needs two points");
+        Self { spline: Spline::of_curve(points) }
+    }
+
+    /// Returns the pieces of the curve, one unit of its parameter each: for `n` points, there are `n + 1` pieces. Piece
+    /// `i` is near the points `i - 1` and `i`.
+    #[must_use]
+    pub fn pieces(&self) -> Vec<Piece> {
+        self.spline.pieces()
+    }
+}
+
+/// Returns the fastest motion along a curve from rest to rest that is found. It is within the limits on jerks. `path` is a
+/// certified path near the curve. Joint limits are not checked: the motion stays in the hull of the curve's points.
+/// `too_far` receives the pieces of a motion, and returns the indices of those that are
+/// too far from the curve.
+///
+/// Returns `None` if no motion is found that is certified to be free and has no piece that is too far. It takes time
+/// linear in the number of points of the curve and of samples.
+#[must_use]
+pub fn along_joint_curve(
+    scene: &Scene,
+    path: &CertifiedPath,
+    curve: &JointCurve,
+    drive: CurveDrive,
+    too_far: &dyn Fn(&[Piece]) -> Vec<usize>,
+) -> Option<TimedMotion> {
+    let torque = TorqueLimit::of(scene);
+    if torque.is_some_and(|torque| torque.check_holding_along(path.path()).is_err()) {
+        return None;
+    }
+    let own = Limits::from(&scene.arm().joints).scaled(drive.share);
+    let limits = Limits { tip: drive.tip, torque, ..own };
+    let mut used = limits;
+    for _ in 0..MAX_TORQUE_ROUNDS {
+        let spline = motion(&curve.spline, &used, drive.period, too_far)?;
+        let mut trajectory = Trajectory::default();
+        spline.sample(0, drive.period, &mut trajectory);
+        let rest = [path.path().goal(), Configuration::zeros(), Configuration::zeros()];
+        trajectory.push(spline.duration(), rest);
+        let pieces = trajectory.pieces();
+        if let (Some(limit), Some(used)) = (limits.torque, &mut used.torque)
+            && let Some(excess) = limit.excess(&pieces)
+        {
+            used.share /= excess;
+            continue;
+        }
+        if !too_far(&pieces).is_empty() {
+            return None;
+        }
+        let rounding = Rounding::new(scene, path, scene.workspace().clearance);
+        let curve = rounding.certified(extents(path.path(), &pieces), &pieces)?;
+        if let Some(torque) = torque {
+            trajectory.torque = torque.along_trajectory(&trajectory);
+        }
+        return Some(TimedMotion { curve, trajectory });
+    }
+    None
+}
+
+/// Returns the fastest motion along a curve whose pieces are all near enough, within all limits except those on torques.
+/// `None` if no motion is near enough.
+fn motion(curve: &Spline, limits: &Limits, period: f64, too_far: &dyn Fn(&[Piece]) -> Vec<usize>) -> Option<Spline> {
+    let pieces = curve.pieces().len();
+    let mut parts = MIN_INTERVALS.div_ceil(pieces);
+    let growth = |k: usize| limits.jerk[k].map_or(f64::INFINITY, |jerk| limits.acceleration[k] / jerk);
+    let coarsest = growth(0).min(growth(1)) / INTERVALS_PER_GROWTH;
+    let mut best: Option<Spline> = None;
+    for _ in 0..MAX_DIVISIONS {
+        let rate = Rate::fastest_of_all(&curve.conditions(limits, parts), 1.0 / parts as f64)?;
+        let near = near_motion(curve, &rate, (rate.duration() / (parts * pieces) as f64).min(period), too_far)?;
+        let excess = near.excess(limits);
+        let (_, slower) = near.slowed(excess);
+        let tip = limits.tip.and_then(|tip| tip.excess(&slower.pieces()));
+        let (_, slower) = slower.slowed(tip.unwrap_or(1.0));
+        if best.as_ref().is_none_or(|best| slower.duration() < best.duration()) {
+            best = Some(slower);
+        }
+        let finer = rate.duration() / (coarsest * (parts * pieces) as f64);
+        if excess <= MAX_SLOWDOWN && finer <= 1.0 {
+            break;
+        }
+        parts *= finer.ceil().clamp(2.0, MAX_FINER) as usize;
+    }
+    best
+}
+
+/// Returns the motion along a curve at a rate, with the longest steps for which all pieces are near enough. Steps are
+/// at most `longest` seconds.
+fn near_motion(curve: &Spline, rate: &Rate, longest: f64, too_far: &dyn Fn(&[Piece]) -> Vec<usize>) -> Option<Spline> {
+    let mut count = (rate.duration() / longest).ceil();
+    while count <= MAX_STEPS {
+        checkpoint();
+        let spline = curve.passed(rate, (rate.duration() / count * NANOSECONDS_PER_SECOND as f64).ceil() as u64);
+        if too_far(&spline.pieces()).is_empty() {
+            return Some(spline);
+        }
+        count *= 2.0;
+    }
+    None
+}
+
+/// Returns the extent of a motion at each waypoint of a path: the radius of a parabola that deviates from the path as far
+/// as the motion does near the waypoint. It is positive at all inner waypoints.
+fn extents(path: &Path, pieces: &[Piece]) -> Vec<f64> {
+    let q = path.waypoints();
+    let mut extents = vec![0.0; q.len()];
+    let mut leg = 0;
+    for at in pieces.iter().map(|piece| piece.at(0.5)) {
+        let share = |leg: usize| (at - q[leg]).dot(&(q[leg + 1] - q[leg])) / (q[leg + 1] - q[leg]).norm_squared();
+        while leg + 2 < q.len() && share(leg) > 1.0 {
+            leg += 1;
+        }
+        let along = share(leg).clamp(0.0, 1.0);
+        let off = (at - q[leg] - (q[leg + 1] - q[leg]) * along).norm();
+        let nearest = if along < 0.5 { leg } else { leg + 1 };
+        extents[nearest] = f64::max(extents[nearest], 2.0 * off);
+    }
+    let last = q.len() - 1;
+    extents.iter_mut().take(last).skip(1).for_each(|extent| *extent = extent.max(f64::MIN_POSITIVE));
+    (extents[0], extents[last]) = (0.0, 0.0);
+    extents
+}
