@@ -13,4 +13,5 @@ mod pairs;
 mod places;
 mod real_urdfs;
 mod tasks;
+mod tool_values;
 mod world_schema;

@@ -211,7 +211,7 @@ impl Rows {
         }
     }
 
-    /// Adds strokes to rows in which the tool is as it is before the first stroke.
+    /// Adds strokes to rows that have the initial value of the stroke.
     fn add_strokes(&mut self, strokes: &[TimedStroke]) {
         for row in &mut self.0 {
             let begun = strokes.partition_point(|stroke| stroke.begin <= row.at);
@@ -291,7 +291,7 @@ impl Tool<'_> {
         self.stroke(Some(raising), true, &mut at);
     }
 
-    /// Returns the rows of a step, with the tool as it is initially, and records its strokes. `begin`, `arrival` and `end` are its
+    /// Returns the rows of a step, with the initial value of the stroke, and records its strokes. `begin`, `arrival` and `end` are its
     /// times in nanoseconds.
     fn rows(&mut self, leg: &Leg, [begin, arrival, end]: [u64; 3]) -> Rows {
         let mut rows = Rows::default();

@@ -8,7 +8,7 @@ use cplan_core::model::Outcome;
 use cplan_engine::Plan;
 use cplan_handling::Task;
 use cplan_tasks::{FailedStep, Leg, TaskAnswer, TaskMotion};
-use cplan_text::{counted, length_down, percent, round_down};
+use cplan_text::{counted, length_down, percent, round_down, short};
 
 /// Returns the results of the steps, and the task.
 pub(super) fn summary_lines(plan: &Plan, task: &Task, answer: &TaskAnswer) -> SummaryLines {
@@ -47,12 +47,22 @@ fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
     let carried = leg.carried.map_or("empty-handed".into(), |object| format!("carrying \"{}\"", objects[object].name));
     let seconds = leg.timed.trajectory.duration();
     let turn = leg.turn.map_or(String::new(), |(_, seconds)| format!(", turn in {seconds:.3} s"));
+    let wrist = leg.wrist.map_or(String::new(), |turn| format!(", wrist turned by {} rad", short(turn.angle)));
+    let turn = turn + &strokes(leg) + &wrist;
     let clearance = match leg.clearance() {
         clearance if clearance.is_finite() => format!("clearance {}", length_down(clearance)),
         _ => "no obstacle within reach".into(),
     };
     let number = format!("{}{cycle}", leg.step.number);
     [number, leg.step.action.describe(objects), carried, format!("{seconds:.3} s{turn}, {clearance}")]
+}
+
+/// Describes the strokes with which a motion begins and ends, if the tool is lowered there.
+fn strokes(leg: &Leg) -> String {
+    let raising = leg.raising.map(|stroke| format!(", tool raised from {} m", short(stroke.lowered)));
+    let lowered = leg.stroke.filter(|_| leg.event.is_none());
+    let lowering = lowered.map(|stroke| format!(", tool lowered to {} m", short(stroke.lowered)));
+    raising.into_iter().chain(lowering).collect()
 }
 
 /// Returns the step that fails, and why.
@@ -70,7 +80,7 @@ fn motion_lines(task: &Task, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Li
     let count = counted(answer.legs.len(), "step");
     let trajectory = &motion.sequence.trajectory;
     let samples = trajectory.time.len();
-    let still: f64 = answer.legs.iter().map(Leg::rest).sum();
+    let still: f64 = answer.legs.iter().map(|leg| leg.rest() + leg.raising_at_rest()).sum();
     let still = if still > 0.0 { format!(", {still:.3} s of it at rest") } else { String::new() };
     let proven = match answer.gap() {
         Some(gap) => format!(

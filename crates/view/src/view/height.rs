@@ -3,6 +3,7 @@
 use super::numbers::{Chain, number};
 use cplan_core::space::Configuration;
 use cplan_handling::Task;
+use cplan_motion::recorded::{turn_angle, turn_profile};
 use cplan_motion::single;
 use cplan_tasks::{Event, Leg, TimedTurn};
 use serde::Serialize;
@@ -62,6 +63,9 @@ pub struct TurnsView {
     /// For each turn, times in seconds and orientations of the object in radians. During these times it does not have
     /// the orientation in its world.
     pub turns: Vec<Chain>,
+    /// True if the gripper is empty. Then the angles are values of the wrist's joint.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub is_empty: bool,
 }
 
 impl TurnsView {
@@ -69,6 +73,9 @@ impl TurnsView {
     #[must_use]
     pub fn of_task(task: &Task, legs: &[Leg]) -> Option<Self> {
         let duration = legs.last()?.end();
+        if let Some(strip) = Self::of_empty_gripper(task, legs, duration) {
+            return Some(strip);
+        }
         let all = TimedTurn::all(task, legs);
         let (mut motion, mut turns) = (vec![[0.0, 0.0]], Vec::new());
         for turn in &all {
@@ -90,7 +97,26 @@ impl TurnsView {
             turns.push(rounded(&corners, 1e4));
         }
         motion.push([duration, 0.0]);
-        (!all.is_empty()).then(|| Self { duration: number(duration), motion: rounded(&motion, 1e2), turns })
+        let motion = rounded(&motion, 1e2);
+        (!all.is_empty()).then(|| Self { duration: number(duration), motion, turns, is_empty: false })
+    }
+
+    /// Creates the strip of the turn to a value of the wrist's joint. `None` if there is no such turn.
+    fn of_empty_gripper(task: &Task, legs: &[Leg], duration: f64) -> Option<Self> {
+        let turn = legs.iter().find_map(|leg| leg.wrist).filter(|turn| turn.angle != 0.0)?;
+        let (from, wrist) = (task.start_tool.wrist?, task.wrist?);
+        let phases = turn_profile(&wrist, turn.angle.abs(), turn.seconds);
+        let mut corners = vec![[0.0, from]];
+        for phase in phases.windows(2) {
+            let [since, until] = [phase[0][0], phase[1][0]];
+            let time = |line: u32| since + (until - since) * f64::from(line) / f64::from(LINES_PER_PHASE);
+            let angle = |since: f64| turn_angle(&phases, [from, from + turn.angle], since);
+            corners.extend((0..=LINES_PER_PHASE).map(time).map(|since| [turn.begin + since, angle(since)]));
+        }
+        corners.push([duration, from + turn.angle]);
+        let degrees: Vec<[f64; 2]> = corners.iter().map(|[time, angle]| [*time, angle.to_degrees()]).collect();
+        let motion = rounded(&degrees, 1e2);
+        Some(Self { duration: number(duration), motion, turns: Vec::new(), is_empty: true })
     }
 }
 

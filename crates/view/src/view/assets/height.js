@@ -8,11 +8,16 @@ const Height = (() => {
 
   /**
    * What the strips show: the member of the model, the unit, and words for the caption and for screen readers.
-   * @type {Record<'height' | 'turns', { unit: string, title: string, caption: (strip: { joint?: string }) => string }>}
+   * @type {Record<'height' | 'turns', { unit: string, title: string, caption: (strip: { joint?: string, is_empty?: boolean }) => string }>}
    */
   const KINDS = {
     height: { unit: 'mm', title: 'Height of the tool', caption: ({ joint }) => `Height of the tool: joint \u201c${joint}\u201d` },
-    turns: { unit: '\u00b0', title: 'Turns of the wrist', caption: () => 'Angle by which the wrist has turned the object' },
+    turns: {
+      unit: '\u00b0',
+      title: 'Turns of the wrist',
+      caption: ({ is_empty }) =>
+        (is_empty ? 'Angle of the wrist' : 'Angle by which the wrist has turned the object'),
+    },
   };
 
   /**

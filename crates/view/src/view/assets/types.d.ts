@@ -99,7 +99,7 @@ interface StripModel {
 interface HeightModel { joint: string; duration: number; motion: Chain }
 
 /** The angle in degrees by which the wrist has turned the carried object against time, and for each turn the orientations in radians. */
-interface TurnsModel { joint?: string; duration: number; motion: Chain; turns: Chain[] }
+interface TurnsModel { joint?: string; is_empty?: boolean; duration: number; motion: Chain; turns: Chain[] }
 
 /** Key figures of a result. */
 interface FiguresModel { duration?: number; gap?: number; fastest?: boolean; clearance?: number }

@@ -1,0 +1,126 @@
+//! Values of the tool's joints in `[start]` and `[goal]`: how they are read, and which are refused.
+
+use cplan::engine::Options;
+use cplan::input::{InputError, LoadedTask, Overrides, Source, load_recording, scene_from};
+use cplan::model::{Action, Goal};
+use cplan::{Outcome, Problem, plan};
+use std::path::Path;
+
+const ROBOT: &str = "[robot]\njoints = [\"axis_1\", \"axis_2\"]\nstroke = { joint = \"axis_3\" }\n\
+                     wrist = { joint = \"axis_4\", velocity = 20 }\n";
+const START: &str = "[start]\njoints = [0.5, 1.0]\nstroke = -0.05\n";
+const GOAL: &str = "[goal]\njoints = [-0.8, -0.9]\nstroke = -0.06\nwrist = \"90deg\"\n";
+
+fn scara() -> Source {
+    Source::read(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/robots/scara.urdf"))).unwrap()
+}
+
+fn task(world: &str, overrides: &Overrides) -> Result<LoadedTask, InputError> {
+    scene_from(scara(), Source::in_memory("world.toml", world))?.task(overrides)
+}
+
+#[track_caller]
+fn refused(world: &str, parts: &[&str]) {
+    let error = task(world, &Overrides::default()).expect_err("should be refused").to_string();
+    assert!(parts.iter().chain(&["hint: "]).all(|part| error.contains(part)), "{error}");
+}
+
+#[test]
+fn values_make_the_motion_a_task_of_one_move() {
+    let world = [ROBOT, START, GOAL].concat();
+    let task = task(&world, &Overrides::default()).unwrap().task;
+    let steps: Vec<_> = task.steps().collect();
+    let [step] = steps[..] else { panic!("{steps:?}") };
+    assert!(matches!(step.action, Action::Move(Goal::Joints(q)) if [q[0], q[1]] == [-0.8, -0.9]), "{step:?}");
+    assert_eq!((task.start_tool.depth, task.start_tool.wrist), (0.05, Some(0.0)));
+    assert_eq!((step.tool.depth, step.tool.wrist), (0.06, Some(std::f64::consts::FRAC_PI_2)));
+    assert_eq!(step.place, "world.toml:9:10");
+    assert!(task.check().is_ok());
+}
+
+#[test]
+fn a_goal_on_the_command_line_keeps_the_values() {
+    let world = [ROBOT, START, GOAL].concat();
+    let overrides = Overrides { goal: Some("0.1,0.2".parse().unwrap()), ..Overrides::default() };
+    let task = task(&world, &overrides).unwrap().task;
+    let step = task.steps().next().unwrap();
+    assert!(matches!(step.action, Action::Move(Goal::Joints(q)) if [q[0], q[1]] == [0.1, 0.2]), "{step:?}");
+    assert_eq!(step.tool.depth, 0.06);
+    let scene = scene_from(scara(), Source::in_memory("world.toml", world)).unwrap();
+    let plan = plan(&Problem::of_scene(scene, &overrides).unwrap(), &Options::default()).unwrap();
+    let error = plan.certificate(&overrides, None).unwrap_err().to_string();
+    assert!(error.contains("needs the goal in the world file"), "{error}");
+}
+
+/// Tests a value of the wrist alone: the tool stays raised, and the wrist takes longer than the arm.
+#[test]
+fn the_wrist_alone_is_a_task_and_may_take_longest() {
+    let urdf = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/robots/scara.urdf"));
+    let folder = tempfile::tempdir().unwrap();
+    let world = folder.path().join("world.toml");
+    let robot = "[robot]\njoints = [\"axis_1\", \"axis_2\"]\n\
+                 wrist = { joint = \"axis_4\", velocity = 1, acceleration = 4 }\n";
+    let ends = "[start]\njoints = [0.5, 1.0]\nwrist = -1\n[goal]\njoints = [0.6, 1.0]\nwrist = 2\n";
+    std::fs::write(&world, format!("{robot}{ends}")).unwrap();
+    let problem = Problem::load(urdf, &world).unwrap();
+    let plan = plan(&problem, &Options::default()).unwrap();
+    let (_, answer) = plan.task().unwrap();
+    let Outcome::Found(motion) = &answer.outcome else { panic!("{:?}", answer.failed()) };
+    // Three radians at 1 rad/s, with 0.25 s for each ramp.
+    assert!((motion.seconds() - 3.25).abs() < 1e-6, "{}", motion.seconds());
+    assert!(answer.gap().is_some_and(|gap| gap < 1e-6), "{:?}", answer.gap());
+}
+
+#[test]
+fn invalid_values_are_refused() {
+    let with = |start: &str, goal: &str| [ROBOT, start, goal].concat();
+    refused(&with(&START.replace("-0.05", "-0.5"), GOAL), &["world.toml: line 7, column 10", "axis_3", "[-0.18, 0]"]);
+    refused(&with(START, &GOAL.replace("90deg", "900deg")), &["line 11, column 9", "axis_4", "outside its limits"]);
+    refused(&with(START, &GOAL.replace("-0.06", "nan")), &["line 10", "stroke"]);
+    refused(&with(START, &GOAL.replace("-0.06", "\"10deg\"")), &["line 10, column 10"]);
+    refused(&with(START, &GOAL.replace("[-0.8, -0.9]", "[-8, -0.9]")), &["the goal is outside the joint limits"]);
+    refused(&with(START, ""), &["there is no goal"]);
+    refused(&with(START, "[goal]\nareas = [[[0.2, 0.2], [0.3, 0.3]]]\n"), &["goal of areas", "hint: joints"]);
+    let without = |key: &str| {
+        let kept: Vec<&str> = ROBOT.lines().filter(|line| !line.starts_with(key)).collect();
+        format!("{}\n{START}{GOAL}", kept.join("\n"))
+    };
+    refused(&without("stroke"), &["the start has a value `stroke`", "names no joint that lowers the tool"]);
+    refused(&without("wrist"), &["the goal has a value `wrist`", "names no joint that turns the tool"]);
+    let step = "[[step]]\nmove = { joints = [0.1, 0.2], stroke = -0.05 }\n";
+    refused(&with(START, step), &["line 9", "move: a step has no values of the tool's joints"]);
+    let hut = "[[obstacle]]\nname = \"hut\"\ncircle = { center = [0.28, 0.39], radius = 0.03 }\nheight = [0, 0.16]\n";
+    refused(&with(START, &[GOAL, hut].concat()), &["line 6", "not free while the tool is lowered", "hut"]);
+    let cart =
+        "[[obstacle]]\nname = \"cart\"\ncircle = { center = [1, 1], radius = 0.1 }\nmotion = { velocity = [0.1, 0] }\n";
+    refused(&with(START, &[GOAL, cart].concat()), &["\"cart\" moves", "needs static obstacles"]);
+}
+
+#[test]
+fn other_commands_refuse_such_worlds() {
+    let scene = scene_from(scara(), Source::in_memory("world.toml", [ROBOT, START, GOAL].concat())).unwrap();
+    assert!(scene.is_task() && !scene.has_steps());
+    let error = scene.problem(&Overrides::default()).unwrap_err().to_string();
+    assert!(error.contains("only `cplan plan` and `cplan verify`") && error.contains("hint: "), "{error}");
+}
+
+/// Tests that results with damaged values of the tool are refused.
+#[test]
+fn damaged_results_are_refused() {
+    let world = [ROBOT, START, GOAL].concat();
+    let scene = scene_from(scara(), Source::in_memory("world.toml", world)).unwrap();
+    let problem = Problem::of_scene(scene.clone(), &Overrides::default()).unwrap();
+    let json = plan(&problem, &Options::default()).unwrap().to_json();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("result.json");
+    let mut value: serde_json::Value = serde_json::from_str(&json).unwrap();
+    for (member, wrong, part) in
+        [("/steps/0/wrist/begin", 1e9, "the wrist's begin is"), ("/steps/0/raising/after_departure", -1.0, "raising's")]
+    {
+        let right = std::mem::replace(value.pointer_mut(member).unwrap(), wrong.into());
+        std::fs::write(&file, value.to_string()).unwrap();
+        let error = load_recording(&file, &scene).unwrap_err().to_string();
+        assert!(error.contains(part), "{error}");
+        *value.pointer_mut(member).unwrap() = right;
+    }
+}
