@@ -59,6 +59,7 @@ impl<'a> Robot<'a> {
         if stated.is_some() && implied.is_some() && *stated != implied {
             return CheckError::fails("it is for other joints than those that the world names");
         }
+        let is_implied = implied.is_some();
         let own = || movable.iter().map(|name| (*name).to_owned()).collect();
         let chosen: Vec<String> = stated.clone().or(implied).unwrap_or_else(own);
         let [first, second] = &chosen[..] else {
@@ -79,6 +80,9 @@ impl<'a> Robot<'a> {
             if world.robot.joints.is_some() {
                 let message = "[robot] joints: the second joint carries the first; swap them";
                 return Err(CheckError::in_file(Input::World, message));
+            }
+            if is_implied {
+                return CheckError::fails("its \"joints\" are in reverse order: the second joint carries the first");
             }
             joints.swap(0, 1);
         }

@@ -433,6 +433,47 @@ fn excluded_places_hold_only_if_they_are_true() {
     assert!(held * 4 > count && refused * 2 > count, "{held}, {refused} of {count}");
 }
 
+/// An arc about the first joint, near full reach: at its beginning a disc excludes one solution, and at its end another
+/// disc excludes the other one. Between them the solutions stay apart, which a checker with square cells cannot show.
+#[test]
+fn solutions_that_cannot_be_changed_near_full_reach_are_excluded() {
+    let [from, by] = [0.35, 1.4];
+    for radius in [1.2, 1.7, 1.79, 1.798] {
+        let at = |angle: f64| [radius * angle.cos(), radius * angle.sin()];
+        // The solution with the second joint on the right of the tip, and the one with it on the left.
+        let right = solutions(at(from)).into_iter().find(|q| q[1] > 0.0).expect("a solution");
+        let left = solutions(at(from + by)).into_iter().find(|q| q[1] < 0.0).expect("a solution");
+        // The discs are beside the first bar, on the outer sides.
+        let disc = |angle: f64| {
+            format!("[[obstacle]]\ncircle = {{ center = [{:?}, {:?}], radius = 0.02 }}\n", angle.cos(), angle.sin())
+        };
+        let world = disc(right[0] - 0.04) + &disc(left[0] + 0.04);
+        let of = |q: P, part: usize| {
+            let [lower, upper] = [-1e-3, 1e-3].map(|off| q.map(|value| value + off));
+            format!(r#"{{"lower": {lower:?}, "upper": {upper:?}, "shape": 0, "part": {part}}}"#)
+        };
+        let text = |boxes: &[String]| {
+            format!(
+                r#"{{"format": "cplan certificate 1", "answer": "infeasible",
+                    "line": {{"tolerance": 0.00001, "pieces": [{}], "stretch": [0, 1]}},
+                    "shapes": [{{"link": "upper", "collision": 0}}],
+                    "parts": [{{"obstacle": 0}}, {{"obstacle": 1}}], "boxes": [{}]}}"#,
+                Piece::Arc([0.0; 2], [radius, from, by]).text(),
+                boxes.join(", ")
+            )
+        };
+        let boxes = [of(right, 0), of(left, 1)];
+        assert!(holds(&world, &text(&boxes)), "{radius}");
+        for only in &boxes {
+            assert!(!holds(&world, &text(std::slice::from_ref(only))), "{radius}: one solution is left");
+        }
+        // Both boxes exclude the same solution.
+        let again = solutions(at(from + by)).into_iter().find(|q| q[1] > 0.0).expect("a solution");
+        let same = disc(right[0] - 0.04) + &disc(again[0] + 0.04);
+        assert!(!holds(&same, &text(&[of(right, 0), of(again, 1)])), "{radius}: the other solution is left");
+    }
+}
+
 /// A line straight away from the first joint: the tip reaches 1.8 m, and not less than 0.2 m.
 #[test]
 fn places_out_of_reach_need_no_boxes() {
@@ -494,6 +535,7 @@ fn malformed_lines_are_refused_with_a_reason() {
         assert!(matches!(&error, CheckError::Input { message, .. } if message.contains(why)), "{to}: {error}");
     }
     for (from, to, why) in [
+        (r#""motion""#, r#""joints": ["b", "a"], "motion""#, "in reverse order"),
         ("[1, 1]]", "[1, 0.9]]", "do not begin and end"),
         ("[[0, 0], ", "[[0, 0.1], ", "do not begin and end"),
         ("[1, 1]]", "[0.6, 0.5], [0.5, 0.6], [1, 1]]", "places[2] returns"),
@@ -508,6 +550,7 @@ fn malformed_lines_are_refused_with_a_reason() {
         let error = simple(&[(from, to)]).unwrap_err();
         assert!(matches!(&error, CheckError::Fails(message) if message.contains(why)), "{to}: {error}");
     }
+    simple(&[(r#""motion""#, r#""joints": ["a", "b"], "motion""#)]).unwrap();
     // A rest of the tip and one of the line are allowed if both are within the tolerance.
     simple(&[("0.0001", "0.0006"), ("[1, 1]]", "[0.5, 0], [0.5, 1], [1, 1]]")]).unwrap();
 }

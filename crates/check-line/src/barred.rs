@@ -2,6 +2,7 @@
 
 use crate::cells::{Cell, MAX_LEVEL, groups};
 use crate::chords::{Chord, of_stretch};
+use crate::measure::Measure;
 use crate::reach::is_out_of_reach;
 use crate::text::{Line, index, parameter};
 use crate::tip;
@@ -46,7 +47,10 @@ pub fn no_motion(arm: &Arm, world: &World, certificate: &Certificate, line: &Lin
     }
     let stuck = certificate.boxes.as_deref().unwrap_or_default();
     let boxes = rectangles(stuck)?;
-    let search = Search { arm, boxes: &boxes, chords: of_stretch(line, &[from.clone(), to.clone()])?, ends, tolerance };
+    let (chords, measure) = (of_stretch(line, &[from.clone(), to.clone()])?, Measure::new(arm));
+    let near = Interval::from(tolerance).upper;
+    let measures = chords.iter().map(|chord| chord.measures(&measure, &near)).collect();
+    let search = Search { arm, boxes: &boxes, chords, measure, measures, ends, tolerance };
     search.check_separated()?;
     Contacts::new(arm, world, certificate, clearance)?.check_boxes(arm, stuck, &boxes)?;
     Ok(format!(
@@ -65,6 +69,9 @@ struct Search<'a> {
     arm: &'a Arm,
     boxes: &'a [Rectangle],
     chords: Vec<Chord>,
+    measure: Measure<'a>,
+    /// For each chord, the measures of the points within the tolerance of its part of the line.
+    measures: Vec<Interval>,
     /// The places where the stretch begins and ends.
     ends: [Point; 2],
     tolerance: &'a Decimal,
@@ -121,7 +128,11 @@ impl Search<'_> {
         let at = tip::at(self.arm, &middle.each_ref().map(Interval::from));
         let tolerance = Interval::from(self.tolerance);
         let near: BigInt = &tolerance.upper + tip.farthest(&mover::Cell::from(&ranges));
-        if self.chords.iter().all(|chord| chord.is_farther(&at, &near)) {
+        let measure = self.measure.of_tip(&Interval::enclosing(&ranges[1]));
+        let is_near = |(chord, own): (&Chord, &Interval)| {
+            own.lower <= measure.upper && measure.lower <= own.upper && !chord.is_farther(&at, &near)
+        };
+        if !self.chords.iter().zip(&self.measures).any(is_near) {
             return None;
         }
         let distances = self.ends.each_ref().map(|end| length(&minus(&at, end)));

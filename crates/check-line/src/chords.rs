@@ -1,6 +1,7 @@
 //! A stretch of the line as straight chords, and distances from it.
 
 use crate::curve::Curve;
+use crate::measure::Measure;
 use crate::text::{Line, parameter};
 use cplan_check::CheckError;
 use cplan_check::decimal::Decimal;
@@ -67,6 +68,12 @@ impl Chord {
         let size = length(&along);
         let direction = (size.lower.sign() == Sign::Plus).then(|| along.map(|c| c.divided(&size)));
         Self { middle: sum(&a, &b).map(|c| c.half()), direction, half: size.half(), sag }
+    }
+
+    /// Returns the measures of all points within `distance` of the part of the line.
+    pub fn measures(&self, measure: &Measure, distance: &BigInt) -> Interval {
+        let own = measure.of_segment(&self.middle, self.direction.as_ref(), &self.half);
+        own.widened(&(distance + &self.sag))
     }
 
     /// Returns true if a point is certainly farther than `distance` from the part of the line.

@@ -10,7 +10,7 @@
 //! | `text`, `bezier`, `curve` | the line |
 //! | `tip` | positions of the tip, and their second derivatives |
 //! | `near` | the tip stays near the line, in the order of the line |
-//! | `reach`, `chords`, `cells`, `barred` | no motion follows the line |
+//! | `reach`, `chords`, `measure`, `cells`, `barred` | no motion follows the line |
 #![forbid(unsafe_code)]
 
 mod barred;
@@ -18,6 +18,7 @@ mod bezier;
 mod cells;
 mod chords;
 mod curve;
+mod measure;
 mod near;
 mod reach;
 mod text;
