@@ -83,7 +83,7 @@ impl Toolpath {
             return Err(Error::new(None, None, format!("the line has more than {MAX_PIECES} pieces"), hint));
         }
         if kept.is_empty() {
-            return Err(Error::new(None, None, "the file has no line", "add at least one move (G1) or one path"));
+            return Err(Error::new(None, None, "the file has no line", "add at least one piece with a length"));
         }
         Ok(Self { pieces: kept, notes: Vec::new() })
     }

@@ -22,7 +22,7 @@ pub type Leg = (Curve, usize);
 /// # Errors
 /// Fewer than two points, two equal points in sequence, or arcs that do not fit between the points.
 pub fn polyline(points: &[Point], radius: f64) -> Result<Vec<Leg>, Error> {
-    require_different(points)?;
+    require_different(points, "points")?;
     let last = points.len() - 1;
     // For each point: the length that its arc takes of both lines there.
     let cut = |i: usize| if i == 0 || i == last { 0.0 } else { radius * half_turn(points, i).tan() };
@@ -74,7 +74,7 @@ fn half_turn(points: &[Point], i: usize) -> f64 {
 /// # Errors
 /// Points that are equal, or on a straight line.
 pub fn arc_through([from, through, to]: [Point; 3]) -> Result<Leg, Error> {
-    require_different(&[from, through, to])?;
+    require_different(&[from, through, to], "arc")?;
     let [a, b] = [minus(through, from), minus(to, from)];
     let cross = a[0] * b[1] - a[1] * b[0];
     if cross.abs() <= STRAIGHT * dot(b, b).max(dot(a, a)) {
@@ -98,7 +98,7 @@ pub fn arc_through([from, through, to]: [Point; 3]) -> Result<Leg, Error> {
 /// # Errors
 /// Fewer than two points, or two equal points in sequence.
 pub fn spline(points: &[Point]) -> Result<Vec<Leg>, Error> {
-    require_different(points)?;
+    require_different(points, "spline")?;
     let steps: Vec<f64> = points.windows(2).map(|pair| norm(minus(pair[1], pair[0]))).collect();
     let slopes: Vec<Point> = {
         let [x, y] = [0, 1].map(|k| {
@@ -173,10 +173,12 @@ fn tridiagonal(rows: &[[f64; 4]]) -> Vec<f64> {
     solution
 }
 
-fn require_different(points: &[Point]) -> Result<(), Error> {
+/// Returns an error if there are fewer than two points, or two equal ones in sequence. `key` is the key of the points in
+/// TOML.
+fn require_different(points: &[Point], key: &str) -> Result<(), Error> {
     if points.len() < 2 {
         let message = format!("a line needs two points or more, not {}", points.len());
-        return Err(Error::new(None, None, message, "points = [[x, y], [x, y]]"));
+        return Err(Error::new(None, None, message, format!("{key} = [[x, y], [x, y]]")));
     }
     match points.windows(2).position(|pair| pair[0] == pair[1]) {
         None => Ok(()),

@@ -31,6 +31,10 @@ pub(crate) fn read(bytes: &[u8], placement: &Placement) -> Result<Toolpath, Erro
             pieces.push(piece(curve, false));
         }
     }
+    if pieces.iter().all(|piece| piece.is_travel || piece.curve.length() == 0.0) {
+        let hint = "add at least one visible path or shape, such as <path d=\"M 0 0 H 10\"/>";
+        return Err(Error::new(None, None, "the file has no line", hint));
+    }
     let placed = pieces.into_iter().map(|piece| Piece { curve: placement.place(&piece.curve), ..piece }).collect();
     let notes = drawing.notes.all().iter().map(ToString::to_string).collect();
     Toolpath::new(placed).map(|path| path.with_notes(notes))

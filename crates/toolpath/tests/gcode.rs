@@ -125,7 +125,9 @@ fn unknown_words_are_refused_by_name_with_their_place() {
 #[test]
 fn files_without_a_line_are_refused() {
     for text in ["", "G0 X0 Y0", "G0 X0 Y0\nG1 X0", "G0 X0 Y0\nG0 X5"] {
-        assert_eq!(refused(text).to_string(), "the file has no line", "{text}");
+        let error = refused(text);
+        assert_eq!(error.to_string(), "the file has no line", "{text}");
+        assert!(error.hint.contains("G1"), "{error:?}");
     }
     assert_eq!(refused("G0 X0 Y0\nG1 X1e3").to_string(), "E3 is not a word that cplan follows");
     let far = refused("G0 X0 Y0\nG1 X99999999999");

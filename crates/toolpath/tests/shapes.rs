@@ -144,3 +144,10 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn hints_about_missing_points_name_the_key() {
+    let single = [[1.0, 0.0]];
+    let hints = [polyline(&single, 0.0), spline(&single)].map(|refused| refused.expect_err("an error").hint);
+    assert_eq!(hints, ["points = [[x, y], [x, y]]", "spline = [[x, y], [x, y]]"]);
+}

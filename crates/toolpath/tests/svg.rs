@@ -75,7 +75,9 @@ fn outlines_have_a_stretch_for_each_element() {
 #[test]
 fn broken_and_empty_drawings_are_refused() {
     let refuse = |text: &str| read(text.as_bytes(), Format::Svg, &Placement::default()).expect_err("an error");
-    assert_eq!(refuse("<svg xmlns=\"http://www.w3.org/2000/svg\"/>").to_string(), "the file has no line");
+    let empty = refuse("<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
+    assert_eq!(empty.to_string(), "the file has no line");
+    assert!(empty.hint.contains("<path") && !empty.hint.contains("G1"), "{empty:?}");
     let error = refuse("<svg xmlns=\"http://www.w3.org/2000/svg\">\n<path d=\"M 0 0 L 1 nonsense\"/></svg>");
     assert!(error.line == Some(2) && error.to_string().starts_with("path data:"), "{error:?}");
     assert_eq!(refuse("G0 X0").line, Some(1));

@@ -193,6 +193,9 @@ impl<'p> Machine<'p> {
         }
         let after = count - pieces.len();
         let drawn = pieces.iter().position(|piece| !piece.is_travel).unwrap_or(pieces.len());
+        if pieces.iter().all(|piece| piece.curve.length() == 0.0) {
+            return Err(Error::new(None, None, "the file has no line", "add at least one move (G1)"));
+        }
         let path = Toolpath::new(pieces.into_iter().skip(drawn).map(placed).collect())?;
         let assumed = !self.says_unit && self.placement.unit.is_none();
         let mut notes = Vec::new();
