@@ -82,8 +82,8 @@ dynamics = true
 gravity = [0, 0, -9.81]
 bar = 0.02
 payload = "level"
-wrist = { velocity = 6.0, acceleration = 60.0 }
-stroke = { joint = "c", travel = 0.1, velocity = 1.0, acceleration = 4.0 }
+wrist = { velocity = 6.0, acceleration = 60.0, jerk = 900.0 }
+stroke = { joint = "c", travel = 0.1, velocity = 1.0, acceleration = 4.0, jerk = 50.0 }
 arch = { rise = 0.02, fall = 0.03 }
 [start]
 joints = [0, 0.5]

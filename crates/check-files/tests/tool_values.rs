@@ -91,7 +91,8 @@ fn the_lowered_tool_meets_what_is_below() {
         assert_holds(judge(&world("", &post(x, 0.05, [0.0, height - 0.03])), ""));
     }
     // Beside the path's ends, a post of a height that only the lowered tool meets.
-    for (x, height, early, late) in [(0.4, 0.4, raising(0.9), raising(0.6)), (3.6, 0.4, lowering(2.7), lowering(2.95))]
+    for (x, height, early, late) in
+        [(0.4, 0.47, raising(1.0), raising(0.6)), (3.6, 0.47, lowering(2.7), lowering(2.95))]
     {
         let world = world("", &post(x, 0.1, [0.0, height]));
         assert_holds(judge(&world, &late));
@@ -110,8 +111,9 @@ fn random_strokes_hold_only_if_samples_are_free() {
     let (mut held, mut failed) = (0, 0);
     for seed in random::seeds(120) {
         let mut dice = random::dice(seed);
-        let (x, radius) = (dice.within(-0.3, 4.3), dice.within(0.02, 0.2));
-        let height = dice.within(0.1, 0.48);
+        let beside = dice.within(0.0, 0.7);
+        let (x, radius) = (if dice.chance(0.5) { beside } else { 4.0 - beside }, dice.within(0.02, 0.2));
+        let height = dice.within(0.2, 0.485);
         let (up, down) = (dice.within(0.55, 1.0), dice.within(2.65, 3.0));
         // Height of the ball's lower end.
         let lowest = |time: f64| {

@@ -37,7 +37,7 @@ pub use payload::{ArchScene, Payload};
 pub use piece::{Derivative, Piece, State};
 pub use recording::{Recording, RecordingError};
 pub use robot_joints::{Driver, Drives, RobotJoint, RobotJoints};
-pub use stroke::{Arch, Stroke, ToolJoint, ToolValues};
+pub use stroke::{Arch, Stroke, ToolJoint, ToolLimits, ToolValues};
 pub use task::{Action, Holding, Item, Object, Step, Task, Wrist};
 pub use task_error::TaskError;
 pub use timed::{TimedScene, TimedWorkspace};

@@ -30,6 +30,17 @@ impl ToolJoint {
     }
 }
 
+/// Limits of a joint of the tool. All are positive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ToolLimits {
+    /// Top speed, rad/s or m/s.
+    pub velocity: f64,
+    /// Greatest acceleration, rad/s2 or m/s2.
+    pub acceleration: f64,
+    /// Greatest jerk, rad/s3 or m/s3. `None` if it is not limited.
+    pub jerk: Option<f64>,
+}
+
 /// Values of the tool's joints at the beginning of a task or at the end of a move.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -87,6 +98,9 @@ pub struct Stroke {
     pub velocity: f64,
     /// Greatest acceleration, m/s2, positive.
     pub acceleration: f64,
+    /// Greatest jerk, m/s3, positive. `None` if it is not limited.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub jerk: Option<f64>,
     /// Names of the URDF links that the joint moves.
     pub bodies: Vec<String>,
     /// Least heights for an overlap with motions of the arm. With `None`, the arm is at rest during strokes.
@@ -95,6 +109,12 @@ pub struct Stroke {
 }
 
 impl Stroke {
+    /// Returns the limits of its joint.
+    #[must_use]
+    pub fn limits(&self) -> ToolLimits {
+        ToolLimits { velocity: self.velocity, acceleration: self.acceleration, jerk: self.jerk }
+    }
+
     /// Returns the distance by which the tool is lowered for an object, metres.
     #[must_use]
     pub fn depth(&self, object: &Object) -> f64 {

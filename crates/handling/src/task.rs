@@ -1,6 +1,8 @@
 //! Tasks: objects, and the steps to execute with them.
 
-use super::{FollowedLine, MovingObstacle, ObstacleTrajectory, Payload, Stroke, TimedWorkspace, ToolValues};
+use super::{
+    FollowedLine, MovingObstacle, ObstacleTrajectory, Payload, Stroke, TimedWorkspace, ToolLimits, ToolValues,
+};
 use cplan_core::model::{Arm, Goal, Heights, Obstacle, Shape};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Interval, Point, Pose};
@@ -127,9 +129,20 @@ pub struct Wrist {
     pub velocity: f64,
     /// Greatest acceleration, radians per second squared.
     pub acceleration: f64,
+    /// Greatest jerk of its turns, radians per second cubed. `None` if it is not limited.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub jerk: Option<f64>,
     /// True if the wrist may turn objects while the arm moves. Otherwise the arm is at rest during turns.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub turns_on_the_way: bool,
+}
+
+impl Wrist {
+    /// Returns the limits of its turns.
+    #[must_use]
+    pub fn limits(&self) -> ToolLimits {
+        ToolLimits { velocity: self.velocity, acceleration: self.acceleration, jerk: self.jerk }
+    }
 }
 
 /// A task of an arm. In a valid task, an object that is picked lies somewhere, each place step follows a pick, and all

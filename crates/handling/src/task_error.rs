@@ -1,6 +1,8 @@
 //! Checks that an arm, objects and steps form a task.
 
-use super::{Action, Holding, Item, MAX_STOP_TIME, Object, Step, Stroke, Task, TimedScene, ToolValues};
+use super::{
+    Action, Holding, Item, MAX_STOP_TIME, Object, Step, Stroke, Task, TimedScene, ToolLimits, ToolValues, Wrist,
+};
 use cplan_core::model::{
     Goal, MAX_COORDINATE, MotionProblem, MotionProblemError, Scene, SceneError, are_small, is_pose, is_small,
 };
@@ -148,6 +150,9 @@ impl Task {
             .all(|(velocity, acceleration, distance)| is_drive(velocity, acceleration, distance))
         {
             "speeds and accelerations must be positive, finite, and large enough for at most a million seconds"
+        } else if self.stroke.iter().map(Stroke::limits).chain(self.wrist.iter().map(Wrist::limits)).any(has_wrong_jerk)
+        {
+            "jerks must be positive, finite, and large enough for at most a million seconds"
         } else if self.stroke.iter().any(|s| !s.joint.is_sound() || s.joint.range.is_circle()) {
             "its joint needs a sign of 1 or -1, a range, and a rest value within the range"
         } else if self.stroke.iter().filter_map(|s| s.travel).any(|travel| !travel.is_finite() || travel < 0.0) {
@@ -171,6 +176,11 @@ impl Task {
 fn is_drive(velocity: f64, acceleration: f64, distance: f64) -> bool {
     let is_limit = |limit: f64| limit.is_finite() && limit > 0.0;
     is_limit(velocity) && is_limit(acceleration) && distance / velocity + velocity / acceleration <= MAX_PART_DURATION
+}
+
+/// Returns true if the top speed is not reached in a plausible time, because of the jerk.
+fn has_wrong_jerk(limits: ToolLimits) -> bool {
+    limits.jerk.is_some_and(|jerk| !(jerk.is_finite() && jerk > 0.0 && limits.acceleration / jerk <= MAX_PART_DURATION))
 }
 
 fn angle_at_first(object: &Object) -> f64 {

@@ -118,7 +118,7 @@ pub use result::{BlendReport, DurationOptimality, LengthOptimality, SearchReport
 pub use ros::ros_yaml;
 pub use sample::after_pause;
 pub use sample::{MAX_DURATION, MAX_SAMPLES, MIN_INTERVAL, TimedMotion, TimingError, Trajectory, time};
-pub use single::single;
+pub use single::{phase_at, single};
 pub use span::{Place, Span};
 pub use tip::TipSpeed;
 pub use torque::TorqueLimit;

@@ -29,6 +29,11 @@ pub type Numbers = Spanned<Vec<Number>>;
 /// Values by joint name, with the position of both.
 pub type PerJoint<T> = BTreeMap<Spanned<String>, T>;
 
+/// Returns a joint's entry in one of the world's tables.
+pub(crate) fn find<'a, T>(table: &'a PerJoint<T>, name: &str) -> Option<&'a T> {
+    table.iter().find(|(k, _)| k.get_ref() == name).map(|(_, v)| v)
+}
+
 /// Greatest length or coordinate, in metres. Beyond it, products of coordinates lose the last micrometre. No arm is
 /// that large.
 pub const MAX_LENGTH: f64 = 1e6;

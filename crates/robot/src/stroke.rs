@@ -27,6 +27,9 @@ pub struct StrokeTable {
     /// Greatest acceleration, m/s2; by default the joint's, or else top speed is reached in 0.25 s.
     #[schemars(with = "Option<Positive>")]
     pub acceleration: Option<Number>,
+    /// Greatest jerk, m/s3; by default the joint's, or else without limit.
+    #[schemars(with = "Option<Positive>")]
+    pub jerk: Option<Number>,
 }
 
 /// Least heights that the tool rises before the arm moves, and below which the tool moves only while the arm is at rest; by

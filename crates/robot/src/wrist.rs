@@ -2,7 +2,7 @@
 
 use super::assumed::assumed_acceleration_note;
 use super::error::Diagnostic;
-use super::quantity::Number;
+use super::quantity::{Number, PerJoint, find};
 use super::schema::Positive;
 use super::source::Source;
 use cplan_core::model::assumed_acceleration;
@@ -27,19 +27,24 @@ pub struct WristTable {
     /// Greatest acceleration, rad/s2; by default top speed is reached in 0.25 s.
     #[schemars(with = "Option<Positive>")]
     pub acceleration: Option<Number>,
+    /// Greatest jerk of its turns, rad/s3; by default the joint's, or else without limit.
+    #[schemars(with = "Option<Positive>")]
+    pub jerk: Option<Number>,
 }
 
 impl WristTable {
-    /// Reads the wrist's limits. `source` is the file with the table. The wrist may turn objects while the arm moves if
-    /// `turns_on_the_way` is true.
+    /// Reads the wrist's limits. `source` is the file with the table, and `jerks` are the limits on the jerks of joints. The
+    /// wrist may turn objects while the arm moves if `turns_on_the_way` is true.
     ///
     /// # Errors
     /// A limit that is not positive or not finite.
-    pub fn read(&self, source: &Source, turns_on_the_way: bool) -> Result<Wrist, Diagnostic> {
+    pub fn read(&self, source: &Source, jerks: &PerJoint<Number>, turns_on_the_way: bool) -> Result<Wrist, Diagnostic> {
         let velocity = positive(source, &self.velocity, "velocity")?;
         let acceleration = self.acceleration.as_ref().map(|a| positive(source, a, "acceleration")).transpose()?;
         let acceleration = acceleration.unwrap_or(assumed_acceleration(velocity));
-        Ok(Wrist { velocity, acceleration, turns_on_the_way })
+        let own = self.joint.as_ref().and_then(|name| find(jerks, name.get_ref()));
+        let jerk = self.jerk.as_ref().or(own).map(|jerk| positive(source, jerk, "jerk")).transpose()?;
+        Ok(Wrist { velocity, acceleration, jerk, turns_on_the_way })
     }
 
     /// Returns a note about the acceleration limit. `None` if the file states the limit.

@@ -2,7 +2,7 @@
 
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
-use cplan_handling::{Action, Step};
+use cplan_handling::{Action, Step, ToolLimits};
 
 /// Returns the time that a joint takes for a distance from rest to rest, in seconds. It accelerates constantly until it
 /// reaches its top speed.
@@ -13,6 +13,28 @@ pub fn rest_to_rest(distance: f64, velocity: f64, acceleration: f64) -> f64 {
     } else {
         distance / velocity + velocity / acceleration
     }
+}
+
+/// Returns a lower bound, in seconds, on the duration of every motion of a joint of the tool over a distance, from rest to
+/// rest.
+pub(super) fn least_of_tool(distance: f64, limits: &ToolLimits) -> f64 {
+    let ToolLimits { velocity, acceleration, jerk } = *limits;
+    let Some(jerk) = jerk else { return rest_to_rest(distance, velocity, acceleration) };
+    // In each half, the acceleration grows for a time and shrinks for as long. It is constant in between, and so is the
+    // speed between the halves. The limits are reached one after the other as the distance grows.
+    let grow = (velocity / jerk).sqrt().min(acceleration / jerk);
+    let hold = (velocity / (jerk * grow) - grow).max(0.0);
+    let speeding = 2.0 * grow + hold;
+    let seconds = if distance >= velocity * speeding {
+        distance / velocity + speeding
+    } else if distance <= 2.0 * jerk * grow.powi(3) {
+        4.0 * (distance / (2.0 * jerk)).cbrt()
+    } else {
+        // With `h` between growing and shrinking, the distance is `j g (g + h) (2 g + h)`.
+        let held = (grow * grow / 4.0 + distance / (jerk * grow)).sqrt() - 1.5 * grow;
+        2.0 * (2.0 * grow + held)
+    };
+    seconds * (1.0 - ROUNDING)
 }
 
 /// Fraction by which the time of a motion is lowered. So rounding cannot make the bound exceed the time of the straight
@@ -37,4 +59,26 @@ pub(super) fn least_time(arm: &Arm, from: Configuration, to: Configuration, spee
 #[must_use]
 pub(super) fn least_line_time(step: &Step) -> f64 {
     if let Action::Follow(line) = &step.action { line.least_seconds() * (1.0 - ROUNDING) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_motion::single;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(256))]
+
+        /// Compares the bound with the fastest motions, whose phases are rounded up to whole nanoseconds.
+        #[test]
+        fn the_bound_of_the_tool_is_close(
+            distance in 1e-3..6.0_f64, velocity in 0.1..9.0_f64, acceleration in 1.0..90.0_f64,
+            jerk in proptest::option::of(1.0..5000.0_f64),
+        ) {
+            let limits = ToolLimits { velocity, acceleration, jerk };
+            let (least, is) = (least_of_tool(distance, &limits), single(distance, &limits).last().unwrap()[0]);
+            prop_assert!(least <= is && is <= least * (1.0 + 1e-4) + 1e-4, "{least} {is}");
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! The motions of a task, each planned once.
 
 use super::arch::{Overlap, overlap};
-use super::least_time::rest_to_rest;
+use super::least_time::least_of_tool;
 use super::state::{Candidate, State, turns_on_the_way};
 use super::stroke::{ToolStroke, raising_first, stroke};
 use super::wrist::WristMotion;
@@ -397,7 +397,7 @@ impl MotionCache {
         };
         let found = wrist_turn(task, &task.obstacles(&with.poses).fixed, held, *point, candidate.to, turn);
         let found = found.ok_or_else(|| unproven("the object cannot be turned there, in either direction"))?;
-        let turning = single((found.to - found.from).abs(), wrist.velocity, wrist.acceleration);
+        let turning = single((found.to - found.from).abs(), &wrist.limits());
         Ok((found, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
     }
 
@@ -405,7 +405,7 @@ impl MotionCache {
     pub fn min_turn_seconds(task: &Task, [from, to]: [f64; 2]) -> f64 {
         let ahead = (to - from).rem_euclid(std::f64::consts::TAU);
         let least = ahead.min(std::f64::consts::TAU - ahead);
-        task.wrist.map_or(0.0, |wrist| rest_to_rest(least, wrist.velocity, wrist.acceleration))
+        task.wrist.map_or(0.0, |wrist| least_of_tool(least, &wrist.limits()))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The stroke that lowers the tool at picks and places.
 
 use super::answer::Event;
-use super::least_time::rest_to_rest;
+use super::least_time::least_of_tool;
 use super::motion_cache::{Refusal, require_unobstructed};
 use super::state::{Candidate, State};
 use cplan_core::check::certify;
@@ -35,7 +35,7 @@ pub(super) fn least_rest(task: &Task, step: &Step, object: Option<usize>) -> f64
 
 /// Returns a lower bound, in seconds, on the duration of a stroke down to a depth, or up from there.
 pub(super) fn least_stroke(task: &Task, depth: f64) -> f64 {
-    task.stroke.as_ref().map_or(0.0, |stroke| rest_to_rest(depth.abs(), stroke.velocity, stroke.acceleration))
+    task.stroke.as_ref().map_or(0.0, |stroke| least_of_tool(depth.abs(), &stroke.limits()))
 }
 
 /// Returns the depth in metres to which a step lowers the tool for its object, or at the end of a move.
@@ -53,7 +53,7 @@ pub(super) fn most_overlap(task: &Task, depth: Option<f64>) -> f64 {
 
 /// Returns the time, in seconds, in which the tool is lowered by a depth, or raised again.
 pub(super) fn stroke_seconds(stroke: &Stroke, depth: f64) -> f64 {
-    let motion = single(depth.abs(), stroke.velocity, stroke.acceleration);
+    let motion = single(depth.abs(), &stroke.limits());
     motion.last().map_or(0.0, |[seconds, ..]| *seconds)
 }
 

@@ -16,7 +16,7 @@ pub struct TimedTurn {
     pub begin: f64,
     /// The object's orientations at both ends, in radians, without wrapping.
     pub ends: [f64; 2],
-    /// Seconds since the beginning, angle so far and speed at the ends of phases of constant acceleration.
+    /// Seconds since the beginning, angle so far and speed at the ends of phases of constant jerk.
     pub phases: Vec<[f64; 3]>,
 }
 

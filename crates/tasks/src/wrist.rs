@@ -1,6 +1,6 @@
 //! The turn of the wrist to a value of its joint, with an empty gripper.
 
-use super::least_time::rest_to_rest;
+use super::least_time::least_of_tool;
 use cplan_handling::Wrist;
 use cplan_motion::single;
 
@@ -22,7 +22,7 @@ impl WristMotion {
     /// Creates the turn for an arm that moves from `departure` to `arrival`, and a tool that is at rest from `end` on, all
     /// in seconds. The wrist turns while the arm moves. If it needs longer, it begins earlier, and then also ends later.
     pub(super) fn new(wrist: &Wrist, angle: f64, departure: f64, [arrival, end]: [f64; 2]) -> Self {
-        let fastest = single(angle.abs(), wrist.velocity, wrist.acceleration);
+        let fastest = single(angle.abs(), &wrist.limits());
         let least = fastest.last().map_or(0.0, |[seconds, ..]| *seconds);
         let begin = (arrival - least).clamp(0.0, departure);
         let seconds = if angle == 0.0 { 0.0 } else { least.max(arrival - begin) };
@@ -32,5 +32,5 @@ impl WristMotion {
 
 /// Returns a lower bound on the duration of a turn, in seconds.
 pub(super) fn least_turn(wrist: &Wrist, angle: f64) -> f64 {
-    rest_to_rest(angle.abs(), wrist.velocity, wrist.acceleration)
+    least_of_tool(angle.abs(), &wrist.limits())
 }

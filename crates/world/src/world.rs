@@ -224,7 +224,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let mut preferences = preferences.collect::<Result<Vec<_>, _>>()?;
     preferences.extend(map.preferences);
     let wrist = file.robot.wrist.as_ref().map(|table| {
-        let wrist = table.read(&source, file.robot.allows_arches())?;
+        let wrist = table.read(&source, &file.robot.jerk, file.robot.allows_arches())?;
         Ok::<_, Diagnostic>((wrist, table.note(&wrist)))
     });
     let wrist = wrist.transpose()?;

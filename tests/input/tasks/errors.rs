@@ -103,7 +103,8 @@ fn invalid_wrists_are_refused() {
         &["line 3", "[robot] wrist: velocity must be positive, is 0", "hint: "],
     );
     check_refused("acceleration = 60.0", "acceleration = -1", &["line 3", "acceleration must be positive"]);
-    check_refused("acceleration = 60.0", "jerk = 60.0", &["line 3", "unknown key `jerk`"]);
+    check_refused("acceleration = 60.0", "jerk = -1", &["line 3", "jerk must be positive"]);
+    check_refused("acceleration = 60.0", "snap = 60.0", &["line 3", "unknown key `snap`"]);
     check_refused("velocity = 6.0, ", "", &["line 3", "missing key `velocity`"]);
 }
 

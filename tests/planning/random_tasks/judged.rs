@@ -50,11 +50,15 @@ fn planned_tasks_are_judged_free() {
     let options = Options { drive: Drive::default(), ..options() };
     let (mut done, mut turns, mut on_the_way, mut refuted) = (0_u64, 0_u64, 0_u64, 0_u64);
     for seed in seeds(100) {
-        let task = match seed % 4 {
+        let mut task = match seed % 4 {
             0 => task::with_arches(seed),
             1 => task::with_turns(seed),
             _ => task::task(seed),
         };
+        if seed % 3 == 0 {
+            task.stroke.iter_mut().for_each(|stroke| stroke.jerk = Some(10.0 * stroke.acceleration));
+            task.wrist.iter_mut().for_each(|wrist| wrist.jerk = Some(20.0 * wrist.acceleration));
+        }
         let answer = plan(&task, &options, &mut |_| {});
         let Some(motion) = answer.outcome.found() else { continue };
         done += 1;

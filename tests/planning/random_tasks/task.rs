@@ -64,7 +64,7 @@ pub fn task(seed: u64) -> Task {
         objects,
         start: Configuration::zeros(),
         items: Vec::new(),
-        wrist: Some(Wrist { velocity: 3.0, acceleration: 12.0, turns_on_the_way: false }),
+        wrist: Some(Wrist { velocity: 3.0, acceleration: 12.0, jerk: None, turns_on_the_way: false }),
         stroke: None,
         start_tool: ToolValues::default(),
     };
@@ -160,7 +160,7 @@ pub fn with_arches(seed: u64) -> Task {
     let (velocity, acceleration, bodies) = (0.6, 4.0, vec!["tool".into()]);
     // With another travel than the lift, the load's height during strokes is known only within bounds.
     let travel = dice.chance(0.3).then_some(0.8 * DEPTH);
-    task.stroke = Some(Stroke { joint, travel, velocity, acceleration, bodies, arch: Some(arch) });
+    task.stroke = Some(Stroke { joint, travel, velocity, acceleration, jerk: None, bodies, arch: Some(arch) });
     task
 }
 
@@ -183,7 +183,7 @@ pub fn with_turns(seed: u64) -> Task {
     }
     task.objects.iter_mut().for_each(|object| object.holding = Holding::Level);
     let quick = dice.within(1.0, 6.0);
-    task.wrist = Some(Wrist { velocity: 3.0 * quick, acceleration: 12.0 * quick, turns_on_the_way: true });
+    task.wrist = Some(Wrist { velocity: 3.0 * quick, acceleration: 12.0 * quick, jerk: None, turns_on_the_way: true });
     task
 }
 

@@ -24,6 +24,9 @@ const RAISED: [f64; 2] = [0.25, 0.5];
 const SPEEDS: [f64; 4] = [4.0, 6.0, 0.8, 12.0];
 /// Accelerations of the four joints, rad/s2 and m/s2.
 const ACCELERATIONS: [f64; 4] = [16.0, 24.0, 8.0, 60.0];
+/// Jerks of the quill and the wrist if they are limited, m/s3 and rad/s3. At the first one, the quill never reaches its
+/// acceleration.
+const JERKS: [[f64; 2]; 2] = [[60.0, 300.0], [400.0, 2000.0]];
 
 /// Returns the URDF of a SCARA whose shapes are boxes and a cylinder.
 fn robot() -> String {
@@ -84,6 +87,8 @@ struct Query {
     posts: Vec<Post>,
     ends: [[f64; 4]; 2],
     arch: &'static str,
+    /// Limits on the jerks of the quill and the wrist.
+    jerks: Option<[f64; 2]>,
 }
 
 impl Query {
@@ -113,7 +118,8 @@ impl Query {
             1 => "arch = { rise = 0.02, fall = 0.03 }",
             _ => "",
         };
-        Self { posts, ends, arch }
+        let jerks = JERKS.get(dice.below(5_u64) as usize).copied();
+        Self { posts, ends, arch, jerks }
     }
 
     fn world(&self) -> String {
@@ -126,6 +132,9 @@ impl Query {
              wrist = {{ joint = \"four\", velocity = {}, acceleration = {} }}\n",
             self.arch, ACCELERATIONS[0], ACCELERATIONS[1], ACCELERATIONS[2], SPEEDS[3], ACCELERATIONS[3]
         );
+        if let Some([quill, wrist]) = self.jerks {
+            writeln!(text, "jerk = {{ three = {quill}, four = {wrist} }}").unwrap();
+        }
         text += &end("start", self.ends[0]);
         text += &end("goal", self.ends[1]);
         for Post { at: [x, y], radius, height: [low, high] } in &self.posts {
@@ -171,6 +180,11 @@ struct Played {
 }
 
 impl Played {
+    /// Returns the longest time between two samples, seconds.
+    fn longest(&self) -> f64 {
+        self.time.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+    }
+
     fn of(result: &Value) -> Self {
         let all = &result["all_joints"];
         assert_eq!(all["joints"], json!(["one", "two", "three", "four"]));
@@ -222,6 +236,19 @@ fn check_found(query: &Query, result: &Value, seed: u64) -> f64 {
     assert!(dense.iter().any(|[q, ..]| q[2].abs() < 1e-9), "seed {seed}: the tool is never raised");
     let duration = result["duration"].as_f64().unwrap();
     assert!((duration - played.time[played.time.len() - 1]).abs() < 1e-9, "seed {seed}");
+    if let Some(jerks) = query.jerks {
+        for pair in dense.windows(2).filter(|pair| pair[0] != pair[1]) {
+            // Between dense samples, the acceleration changes by at most the jerk times the time.
+            let span = played.longest() / 8.0;
+            for (j, jerk) in [2, 3].into_iter().zip(jerks) {
+                let change = (pair[1][2][j] - pair[0][2][j]).abs();
+                assert!(
+                    change <= jerk * span * (1.0 + 1e-3) + 1e-2 * ACCELERATIONS[j],
+                    "seed {seed}: joint {j}: {change}"
+                );
+            }
+        }
+    }
     // Each joint needs at least its own least time.
     let least = |distance: f64, speed: f64, acceleration: f64| match speed * speed / acceleration < distance {
         true => distance / speed + speed / acceleration,
@@ -286,7 +313,7 @@ impl Files {
 fn motions_of_four_joints_have_no_false_answer() {
     let folder = tempfile::tempdir().unwrap();
     let files = Files::new(folder.path());
-    let (mut found, mut faster, mut lowered, mut refused) = (0, 0, 0, 0);
+    let (mut found, mut limited, mut faster, mut lowered, mut refused) = (0, 0, 0, 0, 0);
     for seed in cplan_cases::seeds(150) {
         let query = Query::random(&mut cplan_cases::dice(seed));
         let Some(result) = files.plan(&query, seed) else {
@@ -295,13 +322,14 @@ fn motions_of_four_joints_have_no_false_answer() {
         };
         if result["status"] == "found" {
             found += 1;
+            limited += u32::from(query.jerks.is_some());
             let duration = check_found(&query, &result, seed);
             let findings = files.findings(&result);
             assert_eq!(findings["verdict"], "free", "seed {seed}: {findings:#}");
             if found % 4 == 0 {
                 files.check_certificate(seed);
             }
-            let resting = Query { arch: "arch = false", posts: query.posts, ends: query.ends };
+            let resting = Query { arch: "arch = false", ..query };
             let other = files.plan(&resting, seed).unwrap();
             let resting = other["duration"].as_f64().unwrap();
             assert!(duration <= resting + 1e-6, "seed {seed}: {duration} {resting}");
@@ -313,13 +341,14 @@ fn motions_of_four_joints_have_no_false_answer() {
             assert!(swept.fold(f64::INFINITY, f64::min) < 1e-3, "seed {seed}: {result:#}");
         }
     }
-    assert!(found > 20 && faster > 5 && lowered > 2 && refused > 2, "{found} {faster} {lowered} {refused}");
+    let counts = [found, limited, faster, lowered, refused];
+    assert!(found > 20 && limited > 10 && faster > 5 && lowered > 2 && refused > 2, "{counts:?}");
 }
 
 /// Between two lowered places, with a post below the raised tool.
 fn example() -> Query {
     let post = Post { at: [0.5, 0.0], radius: 0.05, height: [0.0, 0.2] };
-    Query { posts: vec![post], ends: [[0.4, 0.3, -0.1, 0.5], [-0.6, -0.3, -0.15, -1.0]], arch: "" }
+    Query { posts: vec![post], ends: [[0.4, 0.3, -0.1, 0.5], [-0.6, -0.3, -0.15, -1.0]], arch: "", jerks: None }
 }
 
 #[test]

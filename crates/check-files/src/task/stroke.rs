@@ -11,6 +11,10 @@ use num_bigint::{BigInt, Sign};
 /// certificates.
 const HEIGHT_TOLERANCE_DECIMALS: u32 = 9;
 
+/// Number of decimals of a distance that a stroke may turn back: `10^-12` m or radians, for rounding in certificates. With
+/// constant jerk from rest, the control point in the middle of the velocity is 0.
+const ROUNDING_DECIMALS: u32 = 12;
+
 /// A stroke: cubic curves of the tool's height that never turn back. Heights are relative to the raised tool. Or a turn:
 /// its angles take the place of heights.
 pub(super) struct StrokeCurve {
@@ -35,7 +39,7 @@ impl StrokeCurve {
     /// the stroke must begin and end.
     ///
     /// # Errors
-    /// If times do not increase, if the stroke turns back or moves at an end, or if an end is elsewhere.
+    /// If times do not increase, if the stroke turns back by more than rounding or moves at an end, or if an end is elsewhere.
     pub(super) fn new(
         knots: &[[Decimal; 3]],
         start: &Decimal,
@@ -76,6 +80,7 @@ impl StrokeCurve {
             return CheckError::fails("it does not lead from rest to rest at another value");
         }
         let goes_back = |rate: &Decimal| (rate * &along).sign() == Sign::Minus;
+        let rounding = Decimal::power_of_ten(ROUNDING_DECIMALS);
         for (k, pair) in knots.windows(2).enumerate() {
             let [[from, p, v], [to, q, w]] = [&pair[0], &pair[1]];
             let span = to - from;
@@ -84,7 +89,8 @@ impl StrokeCurve {
             }
             // Control points of the cubic's derivative, times positive numbers.
             let middle = &(&(q - p) * &Decimal::whole(3)) - &(&span * &(v + w));
-            if [v, &middle, w].into_iter().any(goes_back) {
+            let is_rounding = middle < rounding && -&middle < rounding;
+            if [v, w].into_iter().any(goes_back) || (goes_back(&middle) && !is_rounding) {
                 return CheckError::fails(format!("it turns back after its knot {k}"));
             }
         }

@@ -131,7 +131,7 @@ fn done(
 /// Returns the knots of a stroke between two values of its joint: time in seconds, value, and velocity. Cubics join
 /// them.
 fn stroke_knots(stroke: &Stroke, [from, to]: [f64; 2], begin: f64) -> Vec<[f64; 3]> {
-    knots_of(single((to - from).abs(), stroke.velocity, stroke.acceleration), begin, [from, to])
+    knots_of(single((to - from).abs(), &stroke.limits()), begin, [from, to])
 }
 
 /// Returns the knots of a motion of one joint between two values: time in seconds, value, and velocity. `phases` are

@@ -10,7 +10,7 @@ use cplan_core::model::JointType;
 use cplan_core::space::JointRange;
 use cplan_handling::{Derivative, Driver, Drives, Holding, Piece, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
 use cplan_motion::recorded::turn_profile;
-use cplan_motion::{AccelerationJump, JointMotion, nanoseconds, seconds, single, whole_nanoseconds};
+use cplan_motion::{AccelerationJump, JointMotion, nanoseconds, phase_at, seconds, single, whole_nanoseconds};
 use cplan_tasks::{Event, Leg, Sequence, ToolStroke, WristMotion};
 use thiserror::Error;
 
@@ -103,12 +103,12 @@ struct TimedStroke {
     begin: u64,
     /// The joint's values at both ends, metres or radians. For a turn, they count from its beginning.
     ends: [f64; 2],
-    /// Seconds since the beginning, distance and speed at the ends of phases of constant acceleration.
+    /// Seconds since the beginning, distance and speed at the ends of phases of constant jerk.
     phases: Vec<[f64; 3]>,
 }
 
 impl TimedStroke {
-    /// Iterates over the times at which the acceleration changes, in nanoseconds.
+    /// Iterates over the times at which the acceleration or the jerk changes, in nanoseconds.
     fn changes(&self) -> impl Iterator<Item = u64> {
         self.phases.iter().map(|[time, ..]| self.begin + nanoseconds(*time))
     }
@@ -122,11 +122,9 @@ impl TimedStroke {
         // A row may stand for the end of the stroke shortly after it.
         let is_over = nanoseconds(end) <= nanoseconds(since) + MIN_ROW_GAP;
         let Some(phase) = phase.filter(|_| !is_over) else { return [to, 0.0] };
-        let [[begin, distance, speed], [end, _, later]] = [phase[0], phase[1]];
-        let into = since - begin;
-        let rate = speed + (later - speed) * into / (end - begin);
+        let [distance, speed, _] = phase_at([phase[0], phase[1]], since);
         let sign = (to - from).signum();
-        [from + sign * (distance + into * (speed + rate) / 2.0), sign * rate]
+        [from + sign * distance, sign * speed]
     }
 }
 
@@ -393,7 +391,7 @@ impl Tool<'_> {
         let (Some(stroke), Some(limits)) = (stroke, &self.task.stroke) else { return };
         let ends = if up { [stroke.lowered, stroke.raised] } else { [stroke.raised, stroke.lowered] };
         if self.robot.stroke.is_some() {
-            let phases = single((ends[1] - ends[0]).abs(), limits.velocity, limits.acceleration);
+            let phases = single((ends[1] - ends[0]).abs(), &limits.limits());
             self.strokes.push(TimedStroke { begin: *at, ends, phases });
         }
         *at += nanoseconds(stroke.seconds);

@@ -2,13 +2,16 @@
 
 use super::CollisionCheck;
 use super::collision::{check_stroke, keeps_during_stroke};
-use crate::single;
+use crate::{phase_at, single};
 use cplan_core::space::Configuration;
 use cplan_handling::{ArchScene, HeldEffect, HeldJoint, HeldMotion, Recording, Stroke};
 
 /// Least time between two samples at which a motion and a stroke are joined, seconds. A stroke changes its acceleration
 /// at most this long after a sample, so it deviates from its profile by less than rounding.
 pub(super) const MIN_GAP: f64 = 1e-7;
+
+/// Number of halvings with which the time of a height is found. It is then exact but for rounding.
+const RISE_HALVINGS: u32 = 60;
 
 /// A stroke that begins or ends during a motion of the arm.
 #[derive(Debug, Clone)]
@@ -28,7 +31,7 @@ impl StrokeDuringMotion<'_> {
     fn profile(&self) -> Option<Recording> {
         let [from, to] = self.ends;
         let sign = (to - from).signum();
-        let samples = single((to - from).abs(), self.stroke.velocity, self.stroke.acceleration);
+        let samples = single((to - from).abs(), &self.stroke.limits());
         let value = |x: f64| Configuration::new(x, 0.0);
         Recording::new(
             samples.iter().map(|[_, distance, _]| value(from + sign * distance)).collect(),
@@ -94,15 +97,18 @@ pub(super) fn times_between<'a>(times: impl Iterator<Item = &'a f64>, [from, to]
 /// longer than `height`.
 #[must_use]
 pub fn seconds_to_rise(stroke: &Stroke, depth: f64, height: f64) -> f64 {
-    let samples = single(depth.abs(), stroke.velocity, stroke.acceleration);
+    let samples = single(depth.abs(), &stroke.limits());
     let end = samples.last().map_or(0.0, |[seconds, ..]| *seconds);
     let reached = samples.windows(2).find(|phase| phase[1][1] >= height);
-    let Some(&[[begin, distance, speed], [until, _, later]]) = reached else { return end };
+    let Some(&[first @ [begin, distance, _], last @ [until, ..]]) = reached else { return end };
     if height <= distance {
         return begin;
     }
-    // Within a phase the acceleration is constant, so the squared speed is linear in the distance.
-    let acceleration = (later - speed) / (until - begin);
-    let reached = (speed * speed + 2.0 * acceleration * (height - distance)).max(0.0).sqrt();
-    (begin + 2.0 * (height - distance) / (speed + reached)).min(until)
+    // The distance grows all the time.
+    let (mut low, mut high) = (begin, until);
+    for _ in 0..RISE_HALVINGS {
+        let middle = (low + high) / 2.0;
+        if phase_at([first, last], middle)[0] < height { low = middle } else { high = middle }
+    }
+    high
 }

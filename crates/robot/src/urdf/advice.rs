@@ -1,7 +1,8 @@
 //! Warnings about properties that are probably unintended, with hints: wrong units, placeholders, missing axes.
 
-use super::limits::{find, key};
+use super::limits::key;
 use super::reduction::Reduction;
+use crate::quantity::find;
 use cplan_core::model::{Arm, Joint};
 use cplan_core::space::JointRange;
 use cplan_geometry::Point;

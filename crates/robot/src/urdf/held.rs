@@ -1,9 +1,10 @@
 //! Values of the joints that do not move: the world states them, they are at rest, or a mimic rule determines them.
 
 use super::chain::{Chooser, is_movable, unit};
-use super::limits::{Limits, Range, find};
+use super::limits::{Limits, Range};
 use crate::error::{Diagnostic, InputError};
 use crate::quantity::Quantity;
+use crate::quantity::find;
 use cplan_core::space::JointRange;
 use urdf_rs::{JointType, Mimic};
 

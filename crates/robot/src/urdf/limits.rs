@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use crate::error::Diagnostic;
-use crate::quantity::{MAX_LENGTH, PerJoint, Written};
+use crate::quantity::{MAX_LENGTH, PerJoint, Written, find};
 use crate::settings::RobotSettings;
 use cplan_core::model::{DEFAULT_SLIDING_SPEED, DEFAULT_TURNING_SPEED, MAX_TURN_RANGE, assumed_acceleration};
 use cplan_core::space::JointRange;
@@ -239,11 +239,6 @@ fn are_degrees(lower: f64, upper: f64) -> bool {
     let farthest = lower.abs().max(upper.abs());
     (MIN_LIMIT_LIKE_DEGREES..=MAX_LIMIT_LIKE_DEGREES).contains(&farthest)
         && !(is_half_turns(lower) && is_half_turns(upper))
-}
-
-/// Returns a joint's entry in one of the world's tables.
-pub(super) fn find<'a, T>(table: &'a PerJoint<T>, name: &str) -> Option<&'a T> {
-    table.iter().find(|(k, _)| k.get_ref() == name).map(|(_, v)| v)
 }
 
 /// Formats a name as a TOML key.

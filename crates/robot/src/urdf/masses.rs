@@ -1,10 +1,11 @@
 //! Masses of the two arm links, and efforts of their joints.
 
 use super::bodies::Bodies;
-use super::limits::{find, key};
+use super::limits::key;
 use super::plane::project;
 use super::tree::isometry;
 use crate::error::Diagnostic;
+use crate::quantity::find;
 use crate::settings::RobotSettings;
 use cplan_core::model::{Arm, Body, Dynamics};
 use cplan_dynamics::{Torques, joined};

@@ -6,7 +6,7 @@ use super::chain::{self, Chain, is_movable};
 use super::document::Document;
 use super::help;
 use super::ignored;
-use super::limits::{Limits, MissingRates, Range, Rates, find};
+use super::limits::{Limits, MissingRates, Range, Rates};
 use super::plane;
 use super::reduction::{Bounds, Reduction};
 use super::tree::{self, Tree};
@@ -15,6 +15,7 @@ use crate::inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
     RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry, source_name,
 };
+use crate::quantity::find;
 use crate::robot_file::RobotFile;
 use crate::robot_table::RobotTable;
 use crate::settings::RobotSettings;

@@ -93,18 +93,17 @@ impl Reduction<'_> {
         let travel = given(&table.travel, "travel", |x| x != 0.0, "other than 0")?;
         let velocity = given(&table.velocity, "velocity", |x| x > 0.0, "positive")?;
         let acceleration = given(&table.acceleration, "acceleration", |x| x > 0.0, "positive")?;
+        let jerk = given(&table.jerk, "jerk", |x| x > 0.0, "positive")?;
         let index = chooser.named(&table.joint, Tool::Stroke.table())?;
+        let rates = Limits { document: self.document, settings: self.settings }.rates(index)?;
         let (velocity, own) = match velocity {
             Some(velocity) => (velocity, assumed_acceleration(velocity)),
-            None => {
-                let rates = Limits { document: self.document, settings: self.settings }.rates(index)?;
-                (rates.velocity, rates.acceleration)
-            }
+            None => (rates.velocity, rates.acceleration),
         };
         let below = |link: &usize| self.tree.carries(index, *link);
         let bodies = (0..self.tree.links.len()).filter(below).map(|link| self.tree.links[link].clone()).collect();
         let (acceleration, arch) = (acceleration.unwrap_or(own), self.arch()?);
-        Ok(Stroke { joint, travel, velocity, acceleration, bodies, arch })
+        Ok(Stroke { joint, travel, velocity, acceleration, jerk: jerk.or(rates.jerk), bodies, arch })
     }
 
     /// Returns the least heights for overlaps of strokes with motions. `None` if the arm is at rest during strokes.

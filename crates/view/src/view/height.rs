@@ -4,11 +4,11 @@ use super::numbers::{Chain, number};
 use cplan_core::space::Configuration;
 use cplan_handling::Task;
 use cplan_motion::recorded::{turn_angle, turn_profile};
-use cplan_motion::single;
+use cplan_motion::{phase_at, single};
 use cplan_tasks::{Event, Leg, TimedTurn};
 use serde::Serialize;
 
-/// Number of lines that show a phase of constant acceleration.
+/// Number of lines that show a phase of constant jerk.
 const LINES_PER_PHASE: u32 = 8;
 
 /// The height of the tool against time.
@@ -32,14 +32,13 @@ impl HeightView {
         for leg in legs {
             for (begin, [from, to]) in leg.strokes() {
                 let sign = (to - from).signum();
-                let phases = single((to - from).abs(), tool.velocity, tool.acceleration);
+                let phases = single((to - from).abs(), &tool.limits());
                 corners.push([begin, from]);
                 for phase in phases.windows(2) {
-                    let [[since, distance, speed], [until, _, later]] = [phase[0], phase[1]];
+                    let [since, until] = [phase[0][0], phase[1][0]];
                     corners.extend((1..=LINES_PER_PHASE).map(|line| {
-                        let into = (until - since) * f64::from(line) / f64::from(LINES_PER_PHASE);
-                        let rate = speed + (later - speed) * into / (until - since);
-                        [begin + since + into, from + sign * (distance + into * (speed + rate) / 2.0)]
+                        let time = since + (until - since) * f64::from(line) / f64::from(LINES_PER_PHASE);
+                        [begin + time, from + sign * phase_at([phase[0], phase[1]], time)[0]]
                     }));
                 }
             }

@@ -7,7 +7,7 @@ use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{
     Action, ArchScene, Holding, Object, ObstacleTrajectory, Payload, RecordedOverlap, RecordedTurn, RecordedWrist,
-    Step, Stroke, Task,
+    Step, Stroke, Task, ToolLimits,
 };
 
 /// The places of the objects, and the load.
@@ -162,7 +162,7 @@ impl State {
         let turn = turn?;
         match task.wrist {
             Some(wrist) => {
-                let least = least_seconds((turn.to - turn.from).abs(), wrist.velocity, wrist.acceleration);
+                let least = least_seconds((turn.to - turn.from).abs(), &wrist.limits());
                 if turn.seconds < least - TIME_TOLERANCE {
                     faults.push(Fault::TooFast { seconds: turn.seconds, least });
                 }
@@ -208,7 +208,7 @@ fn angles_at_rest(task: &Task, turn: &RecordedTurn) -> [f64; 2] {
 /// Returns the least time, in seconds, in which the tool moves down to a depth. It moves up in the same time.
 pub(super) fn lowering_seconds(task: &Task, depth: f64) -> f64 {
     let stroke = task.stroke.as_ref();
-    stroke.map_or(0.0, |stroke| least_seconds(depth.abs(), stroke.velocity, stroke.acceleration))
+    stroke.map_or(0.0, |stroke| least_seconds(depth.abs(), &stroke.limits()))
 }
 
 /// Returns the faults of a step's turn of the wrist to a value of its joint. `end` is the time at which the step ends, in
@@ -222,7 +222,7 @@ pub(super) fn wrist_faults(task: &Task, step: &Step, turn: Option<RecordedWrist>
     if (turn.from - from).abs().max((turn.to - to).abs()) > PLACE_TOLERANCE {
         faults.push(Fault::WristEnds { is: [turn.from, turn.to], asked: [from, to] });
     }
-    let least = least_seconds((to - from).abs(), wrist.velocity, wrist.acceleration);
+    let least = least_seconds((to - from).abs(), &wrist.limits());
     if turn.seconds < least - TIME_TOLERANCE {
         faults.push(Fault::TooFast { seconds: turn.seconds, least });
     }
@@ -233,8 +233,26 @@ pub(super) fn wrist_faults(task: &Task, step: &Step, turn: Option<RecordedWrist>
 }
 
 /// Returns the least time, in seconds, for a distance from rest to rest. The motion speeds up, moves at top speed, and
-/// slows down. If the distance is too short for the top speed, it only speeds up and slows down.
-fn least_seconds(distance: f64, velocity: f64, acceleration: f64) -> f64 {
+/// slows down. If the distance is too short for the top speed, it only speeds up and slows down. With a limit on the jerk,
+/// the acceleration grows to its limit and shrinks again while the joint speeds up, or it does not reach the limit.
+fn least_seconds(distance: f64, limits: &ToolLimits) -> f64 {
+    let ToolLimits { velocity, acceleration, jerk } = *limits;
+    if let Some(jerk) = jerk {
+        // Duration of the change from rest to a speed.
+        let to_speed = |speed: f64| match speed * jerk >= acceleration * acceleration {
+            true => speed / acceleration + acceleration / jerk,
+            false => 2.0 * (speed / jerk).sqrt(),
+        };
+        if distance >= velocity * to_speed(velocity) {
+            return distance / velocity + to_speed(velocity);
+        }
+        let grown = acceleration * acceleration / jerk;
+        return match distance >= 2.0 * grown * acceleration / jerk {
+            // The peak speed `v` satisfies v (v / a + a / j) = d.
+            true => 2.0 * to_speed(((grown * grown + 4.0 * acceleration * distance).sqrt() - grown) / 2.0),
+            false => 4.0 * (distance / (2.0 * jerk)).cbrt(),
+        };
+    }
     let ramps = velocity * velocity / acceleration;
     if distance > ramps {
         2.0 * velocity / acceleration + (distance - ramps) / velocity
