@@ -27,8 +27,9 @@
 //! The line is divided into parts (`nodes`) so short that the tip stays near each part while the joints move straight
 //! from its beginning to its end. A search (`search`) chooses the IK solution on each part, and where to change it. The
 //! corners of the resulting path in joint space are blended, each as far as the tolerance allows (`motion`), and the crate
-//! `cplan-motion` times it. With limits on jerks, a smooth curve near the line replaces the blended path between two stops
-//! (`smooth`), with control points whose spacing changes gradually (`spacing`). Finally the motion is judged from its samples alone (`deviation`).
+//! `cplan-motion` times it. With limits on jerks, a smooth curve near the line replaces the blended path between two
+//! stops (`smooth`), with control points whose spacing changes gradually (`spacing`). Finally the motion is judged from
+//! its samples alone (`deviation`).
 //!
 //! With two joints, the tip's position leaves only the choice between two IK solutions. They meet where the arm is
 //! straight or folded. There the arm can change between them; near such places the joints are fast, so the limits on

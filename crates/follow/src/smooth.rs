@@ -31,6 +31,9 @@ const FIRST_SPACING: f64 = 3.0;
 /// first ones in a fixed sequence of jerks.
 const MIN_SPACINGS: f64 = 16.0;
 
+/// Least spacing at the ends of a stretch, as a share of the greatest one.
+const MIN_END_SHARE: f64 = 0.01;
+
 /// Number of times that control points are placed more densely.
 const MAX_ROUNDS: usize = 24;
 
@@ -119,12 +122,27 @@ impl<'a> Stretch<'a> {
         let length = self.distances[self.distances.len() - 1];
         let widest = length / MIN_SPACINGS;
         let last = self.distances.len() - 1;
-        let end = |distance: f64| [distance, widest];
+        let end = |leg: usize| self.start_distance(leg).clamp(MIN_END_SHARE * widest, widest);
         let inner = (1..last).map(|w| [self.distances[w], widest.min(FIRST_SPACING * self.half_neighborhood(w))]);
-        let mut places: Vec<[f64; 2]> = [end(0.0)].into_iter().chain(inner).chain([end(length)]).collect();
+        let mut places: Vec<[f64; 2]> =
+            [[0.0, end(0)]].into_iter().chain(inner).chain([[length, end(last - 1)]]).collect();
         // Legs may be shorter than the rounding of distances.
         places.dedup_by(|next, place| next[0] <= place[0]);
         Spacing::new(places)
+    }
+
+    /// Returns about the distance in which a motion along a leg reaches its top speed from rest, with the limited jerk. Over
+    /// the first spacing from a stop, the motion passes one fixed sequence of jerks.
+    fn start_distance(&self, leg: usize) -> f64 {
+        let (q, joints) = (self.path.path().waypoints(), &self.driver.scene.arm().joints);
+        let direction = (q[leg + 1] - q[leg]) / (q[leg + 1] - q[leg]).norm();
+        let along = |limits: [f64; 2]| (limits[0] / direction[0].abs()).min(limits[1] / direction[1].abs());
+        let tip = self.driver.kinematics.velocity(q[leg], direction).norm();
+        let tip_speed = self.drive.tip.map_or(f64::INFINITY, |limit| limit.speed / tip);
+        let share = self.drive.share;
+        let speed = (share * along([0, 1].map(|k| joints[k].velocity))).min(tip_speed);
+        let jerk = share.powi(3) * along([0, 1].map(|k| joints[k].jerk.unwrap_or(f64::INFINITY)));
+        if jerk.is_finite() { speed * (speed / jerk).sqrt() } else { f64::INFINITY }
     }
 
     /// Returns half the size of the neighbourhood of an inner waypoint in which the path is almost straight.
