@@ -133,30 +133,14 @@ impl Deviation<'_> {
     }
 
     fn gap(&self, piece: usize, u: f64, tip: Point) -> f64 {
-        (Point::from(self.curve(piece).at(u)) - tip).norm()
+        gap(self.line, piece, u, tip)
     }
 
     /// Returns the place of the line for the next position of the tip, which is `step` metres away. Counts the corners
     /// between both places.
     fn advance(&self, from: Foot, tip: Point, step: f64, corners: &mut usize) -> Foot {
-        let near = |piece: usize, least: f64| self.curve(piece).nearest([tip.x, tip.y], least);
-        let mut foot = Foot { u: near(from.piece, from.u), ..from };
-        let ahead = 2.0 * step + LOOKAHEAD_TOLERANCES * self.tolerance;
-        while foot.piece < self.ends[1].piece {
-            let curve = self.curve(foot.piece);
-            let left = if foot.u >= 1.0 { 0.0 } else { curve.length() - curve.length_to(foot.u) };
-            if left > ahead {
-                break;
-            }
-            let next = Foot { piece: foot.piece + 1, u: near(foot.piece + 1, 0.0) };
-            let [here, there] = [foot, next].map(|f| self.gap(f.piece, f.u, tip));
-            let is_ahead = there < here - SWITCH_SHARE * self.tolerance || (foot.u >= 1.0 && there <= here);
-            if !is_ahead || self.curve(next.piece).length_to(next.u) > ahead {
-                break;
-            }
-            *corners += 1;
-            foot = next;
-        }
+        let foot = advance(self.line, self.tolerance, [from, self.ends[1]], tip, step);
+        *corners += foot.piece - from.piece;
         foot
     }
 
@@ -252,6 +236,35 @@ impl Deviation<'_> {
         let is_forward = along.dot(&kinematics.velocity(q, slope)) >= lengthwise / 2.0;
         sideways / 8.0 + if is_forward { 0.0 } else { lengthwise / 8.0 }
     }
+}
+
+fn gap(line: &Line, piece: usize, u: f64, tip: Point) -> f64 {
+    (Point::from(line.curve(piece).at(u)) - tip).norm()
+}
+
+/// Returns the place of a line that is near the next position of the tip, which is `step` metres away. It is between the
+/// places `from` and `last`, so that it never returns. The tip deviates from the line by at most `tolerance`, metres. It
+/// takes `O(1)` if no piece is passed.
+#[must_use]
+pub fn advance(line: &Line, tolerance: f64, [from, last]: [Foot; 2], tip: Point, step: f64) -> Foot {
+    let near = |piece: usize, least: f64| line.curve(piece).nearest([tip.x, tip.y], least);
+    let mut foot = Foot { u: near(from.piece, from.u), ..from };
+    let ahead = 2.0 * step + LOOKAHEAD_TOLERANCES * tolerance;
+    while foot.piece < last.piece {
+        let curve = line.curve(foot.piece);
+        let left = if foot.u >= 1.0 { 0.0 } else { curve.length() - curve.length_to(foot.u) };
+        if left > ahead {
+            break;
+        }
+        let next = Foot { piece: foot.piece + 1, u: near(foot.piece + 1, 0.0) };
+        let [here, there] = [foot, next].map(|f| gap(line, f.piece, f.u, tip));
+        let is_ahead = there < here - SWITCH_SHARE * tolerance || (foot.u >= 1.0 && there <= here);
+        if !is_ahead || line.curve(next.piece).length_to(next.u) > ahead {
+            break;
+        }
+        foot = next;
+    }
+    foot
 }
 
 /// Returns a bound on the distance of a part of a curve from its chord, at equal shares of the parameter, metres.

@@ -8,6 +8,6 @@ mod deviation;
 mod kinematics;
 mod line;
 
-pub use deviation::{Deviation, Foot, sag};
+pub use deviation::{Deviation, Foot, advance, sag};
 pub use kinematics::{Kinematics, SolutionBox};
 pub use line::{Line, Place};

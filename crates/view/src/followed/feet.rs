@@ -1,14 +1,7 @@
 //! The places of a line that are nearest to a moving tip, in the order of the line.
 
+use cplan_deviation::{Line, advance};
 use cplan_toolpath::{Curve, Toolpath};
-
-/// Remaining length of a piece from which the next piece is considered, as a multiple of the tolerance. The tip cuts a
-/// corner of a few degrees this far before it.
-const LOOKAHEAD_TOLERANCES: f64 = 100.0;
-
-/// Least distance by which the next piece must be nearer than the present one, as a share of the tolerance. Where the
-/// line returns on itself, both are equally near up to the deviation of the tip.
-const SWITCH_SHARE: f64 = 0.1;
 
 /// The place of the line that is nearest to the tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,12 +15,11 @@ pub struct Foot {
 }
 
 /// Follows the nearest place of a line while the tip moves along it. It never returns.
-#[derive(Debug, Clone)]
 pub struct Tracker<'a> {
-    line: &'a Toolpath,
+    line: Line<'a>,
     tolerance: f64,
-    piece: usize,
-    u: f64,
+    /// The place now, and the end of the line.
+    feet: [cplan_deviation::Foot; 2],
     last: [f64; 2],
 }
 
@@ -35,34 +27,19 @@ impl<'a> Tracker<'a> {
     /// Begins at the start of a line. `tolerance` is the greatest distance of the tip from it, metres.
     #[must_use]
     pub fn new(line: &'a Toolpath, tolerance: f64) -> Self {
-        Self { line, tolerance, piece: 0, u: 0.0, last: line.start() }
+        let end = cplan_deviation::Foot { piece: line.pieces().len() - 1, u: 1.0 };
+        let feet = [cplan_deviation::Foot { piece: 0, u: 0.0 }, end];
+        Self { line: Line::new(line), tolerance, feet, last: line.start() }
     }
 
     /// Advances to the next place of the tip. It takes `O(1)` if no piece is passed.
     pub fn advance(&mut self, tip: [f64; 2]) -> Foot {
         let step = distance(tip, self.last);
         self.last = tip;
-        let lookahead = (LOOKAHEAD_TOLERANCES * self.tolerance).max(2.0 * step);
-        self.u = self.curve().nearest(tip, self.u);
-        while let Some(next) = self.line.pieces().get(self.piece + 1) {
-            let own = self.curve();
-            if own.length() - own.length_to(self.u) > lookahead {
-                break;
-            }
-            let u = next.curve.nearest(tip, 0.0);
-            let nearer = distance(own.at(self.u), tip) - distance(next.curve.at(u), tip);
-            let is_past = self.u >= 1.0 && u > 0.0 && nearer >= 0.0;
-            if !is_past && nearer <= SWITCH_SHARE * self.tolerance {
-                break;
-            }
-            (self.piece, self.u) = (self.piece + 1, u);
-        }
-        let (at, curve) = (self.curve().at(self.u), self.curve());
-        Foot { piece: self.piece, u: self.u, offset: left(curve, self.u, at, tip) }
-    }
-
-    fn curve(&self) -> &'a Curve {
-        &self.line.pieces()[self.piece].curve
+        let foot = advance(&self.line, self.tolerance, self.feet, tip.into(), step);
+        self.feet[0] = foot;
+        let curve = self.line.curve(foot.piece);
+        Foot { piece: foot.piece, u: foot.u, offset: left(curve, foot.u, curve.at(foot.u), tip) }
     }
 }
 
