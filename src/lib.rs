@@ -80,8 +80,8 @@ pub mod model {
         Action, Arch, BlendsClaim, Claims, Driver, Drives, EventClaim, FollowedLine, HeldEffect, HeldJoint, HeldMotion,
         Holding, Item, Leg, MAX_STOP_TIME, MovingObstacle, Object, ObstacleTrajectory, ObstacleTrajectoryError,
         OptimumClaim, Payload, RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist, RobotJoint, RobotJoints,
-        Step, StepClaims, Stop, Stroke, Task, TaskClaims, TaskError, TimedScene, TimedWorkspace, ToolJoint, ToolValues,
-        Wrist,
+        Step, StepClaims, Stop, Stroke, Task, TaskClaims, TaskError, TimedScene, TimedWorkspace, ToolAngle, ToolJoint,
+        ToolValues, Wrist, WristGuide, WristJoint,
     };
     pub use cplan_robot::AssumedLimits;
     pub use cplan_world::{Mount, Sensor};

@@ -104,7 +104,7 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
     let kind = args.kind;
     let code = match kind {
         DemoKind::Scara | DemoKind::Arch => plan::answer(&args.plan, None, || kind.load())?,
-        DemoKind::Follow => follow::answer(&follow_args(&mut args.plan)?, || kind.load(), |_| built_in_line())?,
+        DemoKind::Follow => follow::answer(&follow_args(&mut args.plan)?, |_| kind.load(), |_| built_in_line())?,
     };
     if code == DONE && !args.plan.print.quiet && !args.plan.print.json {
         sinks::sum_up(&next(&picture), code)?;

@@ -82,7 +82,7 @@ dynamics = true
 gravity = [0, 0, -9.81]
 bar = 0.02
 payload = "level"
-wrist = { velocity = 6.0, acceleration = 60.0, jerk = 900.0 }
+wrist = { joint = "axis_4", velocity = 6.0, acceleration = 60.0, jerk = 900.0 }
 stroke = { joint = "c", travel = 0.1, velocity = 1.0, acceleration = 4.0, jerk = 50.0 }
 arch = { rise = 0.02, fall = 0.03 }
 [start]
@@ -176,7 +176,13 @@ follow = { arc = [[0.9, 0], [1, 0.1], [0.9, 0.2]], scale = 1.1, turn = "10deg", 
 [[step]]
 follow = { spline = [[0.9, 0], [1, 0.1]], turn = 0.1 }
 [[step]]
-follow = { file = "plate.gcode", unit = "mm" }
+follow = { file = "plate.gcode", unit = "mm", wrist = "tangent", wrist_tolerance = 0.02 }
+[[step]]
+follow = { spline = [[0.9, 0], [1, 0.1]], wrist = { tangent = "90deg" }, wrist_tolerance = "1deg" }
+[[step]]
+follow = { spline = [[0.9, 0], [1, 0.1]], wrist = 0.3 }
+[[step]]
+follow = { spline = [[0.9, 0], [1, 0.1]], wrist = "-30deg" }
 [[step]]
 repeat = 100
 order = "free"
@@ -352,6 +358,9 @@ fn broken_worlds_are_not_valid() {
         "[[step]]\nfollow = { arc = [[0, 0], [1, 1]] }",
         "[[step]]\nfollow = { points = [[0, 0], [1, 1]], spline = [[0, 0], [1, 1]] }",
         "[[step]]\nfollow = { spline = [[0, 0], [1, 1]], radius = 1 }",
+        "[[step]]\nfollow = { spline = [[0, 0], [1, 1]], wrist = \"along\" }",
+        "[[step]]\nfollow = { spline = [[0, 0], [1, 1]], wrist = { tangents = 1 } }",
+        "[[step]]\nfollow = { spline = [[0, 0], [1, 1]], wrist_tolerance = 0.1 }",
         "[[step]]\nplace = { at = [0, 0] }\ngrasp = [0, 0]",
         "[[step]]\npick = \"a\"\nrepeat = 2",
         "[[step]]\nmove = { joints = [0, 0] }\nwindow = [1, 2]",

@@ -9,7 +9,8 @@ use cplan::Outcome;
 use cplan::engine::task::{TaskAnswer, plan};
 use cplan::engine::{Method, Options};
 use cplan::input::{InputError, Overrides, Source, scene_from};
-use cplan::model::{Action, RecordedStep, Task};
+use cplan::model::{Action, FollowedLine, RecordedOverlap, RecordedStep, RecordedTurn, Task, ToolAngle};
+use cplan::motion::Trajectory;
 use cplan::space::{Configuration, Recording};
 use cplan_cases::dice::Dice;
 use oracle::{Bars, Point, pass_together, played, points};
@@ -123,6 +124,7 @@ fn record(answer: &TaskAnswer) -> (Recording, Vec<RecordedStep>) {
         overlap: Default::default(),
         raising: 0.0,
         wrist: None,
+        wrist_motion: leg.tool_deviation.map(|_| leg.timed.trajectory.wrist.clone()),
     });
     (recording, steps.collect())
 }
@@ -238,4 +240,128 @@ fn a_wide_tolerance_does_not_hide_a_motion() {
     let answer = plan(&task, &options(), &mut |_| {});
     assert!(answer.outcome.found().is_some(), "{:?}", answer.failed());
     assert!(answer.legs[1].deviation.is_some_and(|deviation| deviation <= 1e-3));
+}
+
+/// Returns a task for `robots/scara.urdf` with lines along which the tool has an angle, perhaps after an object was placed.
+fn wrist_world(dice: &mut Dice) -> String {
+    let mut text = String::from(
+        "[robot]\njoints = [\"axis_1\", \"axis_2\"]\ntip = \"flange\"\nfixed = { axis_3 = -0.05 }\npayload = \"level\"\n\
+         wrist = { joint = \"axis_4\", velocity = 15, acceleration = 150 }\n[start]\njoints = [-0.9, 1.6]\n",
+    );
+    if dice.chance(0.5) {
+        let angle = dice.within(-3.0, 3.0);
+        writeln!(
+            text,
+            "[[object]]\nname = \"pin\"\ncircle = {{ center = [0, 0], radius = 0.01 }}\nheight = [0, 0.02]\nlift = 0.05\n\
+             at = [0.1, -0.3]\n[[step]]\npick = \"pin\"\n[[step]]\nplace = {{ at = [0.0, -0.35], angle = {angle} }}"
+        )
+        .unwrap();
+    }
+    for _ in 0..1 + dice.within(0.0, 2.0) as usize {
+        let (distance, angle) = (dice.within(0.3, 0.45), dice.within(-0.5, 1.5));
+        let middle = [distance * angle.cos(), distance * angle.sin()];
+        let (count, size, turn) = (3 + dice.within(0.0, 3.0) as u32, dice.within(0.02, 0.06), dice.within(0.0, TAU));
+        let corner = |k: u32| {
+            let angle = turn + f64::from(k) * TAU / 6.0;
+            format!("[{}, {}]", middle[0] + size * angle.cos(), middle[1] + size * angle.sin())
+        };
+        let corners = (0..count).map(corner).collect::<Vec<_>>().join(", ");
+        let line = match dice.within(0.0, 4.0) as u32 {
+            0 => format!("points = [{corners}], radius = {}", size / 5.0),
+            1 => format!("points = [{corners}]"),
+            2 => format!("arc = [{}, {}, {}]", corner(0), corner(1), corner(3)),
+            _ => format!("spline = [{corners}]"),
+        };
+        let angle = dice.within(-3.0, 3.0);
+        let wrist = if dice.chance(0.3) { angle.to_string() } else { format!("{{ tangent = {angle} }}") };
+        let speed = dice.within(0.4, 1.0);
+        writeln!(text, "[[step]]\nfollow = {{ {line}, tolerance = 5e-5, wrist = {wrist} }}\nspeed = {speed}").unwrap();
+    }
+    text
+}
+
+/// Checks by dense samples of the played motion that the tool has its angle at a place of the line near the tip, while the
+/// arm moves.
+fn check_tool(line: &FollowedLine, trajectory: &Trajectory, seed: u64) {
+    let bars = Bars { lengths: [0.3, 0.25], width: 0.0 };
+    let guide = line.wrist.expect("an angle of the tool");
+    let marks: Vec<(Point, f64)> = line
+        .path
+        .pieces()
+        .iter()
+        .flat_map(|piece| {
+            let count = (piece.curve.length() / 2e-5).ceil();
+            (0..=count as usize).map(move |k| {
+                let u = k as f64 / count;
+                let [a, b] = [(u - 1e-5).max(0.0), (u + 1e-5).min(1.0)].map(|u| piece.curve.at(u));
+                (piece.curve.at(u), (b[1] - a[1]).atan2(b[0] - a[0]))
+            })
+        })
+        .collect();
+    for k in (1..trajectory.time.len()).step_by(7) {
+        let [a, b] = [k - 1, k];
+        if trajectory.position[a] == trajectory.position[b] {
+            continue;
+        }
+        let h = trajectory.time[b] - trajectory.time[a];
+        // The middle of a cubic through values and velocities.
+        let middle = |p: f64, q: f64, v: f64, w: f64| (p + q) / 2.0 + (v - w) * h / 8.0;
+        let q = [0, 1].map(|j| {
+            let (position, velocity) = (&trajectory.position, &trajectory.velocity);
+            middle(position[a][j], position[b][j], velocity[a][j], velocity[b][j])
+        });
+        let [from, to] = [trajectory.wrist[a], trajectory.wrist[b]];
+        let angle = q[0] + q[1] + middle(from[0], to[0], from[1], to[1]);
+        let off = |wanted: f64| ((angle - wanted + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0).abs();
+        let tip = bars.tip(q);
+        let near = marks.iter().filter(|(point, _)| (point[0] - tip[0]).hypot(point[1] - tip[1]) < 8e-5);
+        let least = match guide.angle {
+            ToolAngle::Fixed(fixed) => off(fixed),
+            ToolAngle::Tangent(offset) => near.map(|(_, heading)| off(heading + offset)).fold(f64::INFINITY, f64::min),
+        };
+        assert!(least <= guide.tolerance + 1e-3, "seed {seed}: {least} at {tip:?}");
+    }
+}
+
+#[test]
+fn tools_turn_along_the_lines_of_tasks() {
+    let (mut found, mut lines) = (0_u64, 0);
+    let total = cplan_cases::seeds(30).count() as u64;
+    for seed in cplan_cases::seeds(30) {
+        let world = wrist_world(&mut cplan_cases::dice(seed));
+        let task = load_for("scara", &world).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+        let answer = plan(&task, &options(), &mut |_| {});
+        if answer.outcome.found().is_none() {
+            continue;
+        }
+        found += 1;
+        let (recording, mut steps) = record(&answer);
+        for (leg, step) in answer.legs.iter().zip(&mut steps) {
+            if let (Some((turn, seconds)), overlap) = (leg.turn, &leg.overlap) {
+                let overlap = RecordedOverlap { before_arrival: overlap.turn_before_arrival, after_departure: 0.0 };
+                step.turn = Some(RecordedTurn { from: turn.from, to: turn.to, seconds, overlap });
+            }
+        }
+        for (step, leg) in cplan::check::replay(&task, &recording, &steps).zip(&answer.legs) {
+            let Action::Follow(line) = &leg.step.action else { continue };
+            lines += 1;
+            assert!(
+                step.faults.is_empty() && step.broken.is_empty(),
+                "seed {seed}: {:?} {:?}",
+                step.faults,
+                step.broken
+            );
+            check_tool(line, &leg.timed.trajectory, seed);
+            let index = answer.legs.iter().position(|other| std::ptr::eq(other, leg)).unwrap();
+            let mut changed = steps.clone();
+            let rows = changed[index].wrist_motion.as_mut().expect("the wrist's motion");
+            let middle = rows.len() - 3;
+            rows[middle][0] += 0.03;
+            let refused = cplan::check::replay(&task, &recording, &changed).nth(index).expect("the same step");
+            let words: Vec<String> = refused.faults.iter().map(ToString::to_string).collect();
+            assert!(words.iter().any(|text| text.contains("rad from the angle")), "seed {seed}: {words:?}");
+        }
+    }
+    println!("found {found} of {total} with {lines} lines");
+    assert!(3 * found > 2 * total, "{found}");
 }

@@ -124,11 +124,11 @@ impl Deviation<'_> {
         self.of_pieces(&[Piece::line(0.0, 1.0, q, q)]).into_iter().fold(0.0, f64::max)
     }
 
-    fn tip(&self, piece: &Piece, u: f64) -> Point {
+    pub(crate) fn tip(&self, piece: &Piece, u: f64) -> Point {
         self.kinematics.arm.tip_at(piece.at(u))
     }
 
-    fn curve(&self, piece: usize) -> &Curve {
+    pub(crate) fn curve(&self, piece: usize) -> &Curve {
         self.line.curve(piece)
     }
 

@@ -1,13 +1,16 @@
 //! Proven bounds on the distance between the path of the tip and a line that it follows.
 //!
 //! [`Deviation`] bounds the distance for a motion in polynomial pieces, in the order of the line and between samples. The
-//! planner of motions along lines and the judge of recorded motions both use it.
+//! planner of motions along lines and the judge of recorded motions both use it. [`ToolDeviation`] does the same for the
+//! angle of a tool that a wrist turns along the line.
 #![forbid(unsafe_code)]
 
 mod deviation;
 mod kinematics;
 mod line;
+mod tool_angle;
 
 pub use deviation::{Deviation, Foot, advance, sag};
 pub use kinematics::{Kinematics, SolutionBox};
 pub use line::{Line, Place};
+pub use tool_angle::{ToolDeviation, is_sharp};

@@ -4,8 +4,8 @@
 //! differences of the others from these cubics are added.
 
 use cplan_core::space::Configuration;
-use cplan_deviation::{Deviation, Kinematics};
-use cplan_handling::{Derivative, Piece};
+use cplan_deviation::{Deviation, Kinematics, ToolDeviation};
+use cplan_handling::{Derivative, Piece, WristJoint};
 use cplan_motion::Trajectory;
 
 /// Returns an upper bound on the distance between a line and each piece of a motion, metres. Every motion counts that
@@ -36,4 +36,30 @@ fn difference(kinematics: &Kinematics, trajectory: &Trajectory, index: usize, pi
         piece.control().iter().map(|c| (c[k] - q[k]).abs()).fold(0.0, f64::max) + greatest[k]
     });
     kinematics.motion_within(q, beside, greatest) / 16.0
+}
+
+/// Returns an upper bound on the difference between the angle of the tool and the required one, radians, for the same
+/// motions as [`bounds`]. The trajectory has a wrist with this joint.
+pub(crate) fn tool_bound(tool: &ToolDeviation, joint: &WristJoint, trajectory: &Trajectory, quintics: bool) -> f64 {
+    let arm = tool.deviation.kinematics.arm;
+    let rate = |planned: [f64; 2], turning: f64| WristJoint::link_2_angle(arm, planned) + joint.sign * turning;
+    let end = |k: usize| {
+        let [value, turning, _] = trajectory.wrist[k];
+        let angle = joint.tool_angle(arm, trajectory.position[k], value);
+        [angle, rate(trajectory.velocity[k], turning)].map(|x| Configuration::new(x, 0.0))
+    };
+    let time = &trajectory.time;
+    let angles: Vec<Piece> =
+        (1..time.len()).map(|k| Piece::hermite(time[k - 1], time[k], end(k - 1), end(k))).collect();
+    let bounds = tool.of_pieces(&trajectory.pieces(), &angles);
+    let difference = |index: usize| {
+        let duration = time[index + 1] - time[index];
+        let off = |sample: usize, u: f64| {
+            let stated = rate(trajectory.acceleration[sample], trajectory.wrist[sample][2]);
+            (stated - angles[index].derivative(Derivative::Acceleration, u)[0]).abs() * (duration * duration / 2.0)
+        };
+        let first = off(index, 0.0);
+        (if quintics { first.max(off(index + 1, 1.0)) } else { first }) / 16.0
+    };
+    bounds.into_iter().enumerate().map(|(index, bound)| bound + difference(index)).fold(0.0, f64::max)
 }

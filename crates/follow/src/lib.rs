@@ -40,28 +40,35 @@
 #![forbid(unsafe_code)]
 
 mod deviation;
+mod fixed_angle;
 mod motion;
 mod nodes;
 mod proof;
+mod proof_wrist;
 mod search;
 mod sheets;
 mod smooth;
 mod spacing;
+mod wrist;
 
 pub use cplan_deviation::Place;
 pub use cplan_handling::{DEFAULT_TOLERANCE, MIN_TOLERANCE};
 pub use proof::{Cause, Exclusion, Infeasible, Obstacle};
+pub use proof_wrist::WristExcess;
+pub use wrist::WristAlong;
 
 use cplan_core::model::{Outcome, Scene};
 use cplan_core::space::Configuration;
 use cplan_deviation::{Kinematics, Line};
+use cplan_handling::{MAX_WRIST_TOLERANCE, MIN_WRIST_TOLERANCE, ToolAngle};
 use cplan_motion::{TimedMotion, TimingError};
 use cplan_toolpath::Toolpath;
-use motion::Driver;
+use motion::{Driver, Motion};
 use nodes::{Division, MAX_NODES, Nodes};
 use proof::Prover;
-use search::Search;
+use search::{Route, Search};
 use sheets::Sheets;
+use wrist::{OutOfRange, Turns};
 
 /// Share of the tolerance that the straight motions in joint space and the blends may use each. Their deviations have
 /// the same direction where the line is smooth, so they do not add up there.
@@ -86,6 +93,13 @@ const PROOF_PARTS: usize = 64;
 /// Factor by which the tolerance is lowered if no motion is proven to be within it.
 const TOLERANCE_FACTOR: f64 = 0.1;
 
+/// Number of routes on which the wrist's range is tried.
+const WRIST_ROUTES: u32 = 8;
+
+/// Greatest turn of the line's direction between two nodes, as a multiple of the tool's tolerance. The tool turns evenly
+/// between them, so its angle deviates by far less.
+const TURN_TOLERANCES: f64 = 10.0;
+
 /// Greatest number of nodes before the line is divided more finely for a proof.
 const MAX_COARSE_NODES: usize = 20_000;
 
@@ -102,21 +116,34 @@ pub struct Settings {
     pub share: f64,
     /// Time between two samples, seconds.
     pub period: f64,
+    /// The wrist that turns the tool; `None` if the angle of the tool does not matter.
+    pub wrist: Option<WristAlong>,
 }
 
 impl Default for Settings {
     /// Returns a tolerance of a hundredth of a millimetre, the speeds of the file, and a sample every hundredth of a
     /// second.
     fn default() -> Self {
-        Self { tolerance: DEFAULT_TOLERANCE, speed: None, tip_speed: None, share: 1.0, period: 0.01 }
+        Self { tolerance: DEFAULT_TOLERANCE, speed: None, tip_speed: None, share: 1.0, period: 0.01, wrist: None }
     }
 }
 
 impl Settings {
+    /// Returns the greatest turn of the line's direction between two nodes, radians; infinite if it does not matter.
+    fn greatest_turn(&self) -> f64 {
+        self.wrist.map_or(f64::INFINITY, |wrist| match wrist.guide.angle {
+            ToolAngle::Fixed(_) => f64::INFINITY,
+            ToolAngle::Tangent(_) => TURN_TOLERANCES * wrist.guide.tolerance,
+        })
+    }
+
     fn check(&self) -> Result<(), FollowError> {
         let Self { tolerance, .. } = *self;
         if !(tolerance.is_finite() && tolerance >= MIN_TOLERANCE) {
             return Err(FollowError::Tolerance(tolerance));
+        }
+        if self.wrist.is_some_and(|wrist| !wrist.is_valid()) {
+            return Err(FollowError::Wrist);
         }
         match self.speed.filter(|speed| !(speed.is_finite() && *speed > 0.0)) {
             Some(speed) => Err(FollowError::Speed(speed)),
@@ -134,6 +161,20 @@ pub enum FollowError {
     /// The speed is not a positive number.
     #[error("the speed is {0} m/s; it must be a finite number above 0")]
     Speed(f64),
+    /// The requirement on the tool's angle, or a number of the wrist, is not valid.
+    #[error(
+        "the wrist's numbers must be finite, its limits positive, and its tolerance from {MIN_WRIST_TOLERANCE} to \
+         {MAX_WRIST_TOLERANCE} rad"
+    )]
+    Wrist,
+    /// A tool that must follow the direction of the line although jerks are limited.
+    #[error(
+        "with limits on jerks, the tool cannot follow the line's direction; give it a fixed angle, or remove `jerk` from [robot]"
+    )]
+    TangentWithJerk,
+    /// A motion with limited jerks that stays too fast for the wrist.
+    #[error("no motion with limited jerks is slow enough for the wrist; give the wrist a higher acceleration")]
+    WristTooSlow,
     /// The motion cannot be timed.
     #[error(transparent)]
     Timing(#[from] TimingError),
@@ -153,6 +194,9 @@ pub struct Found {
     pub changes: Vec<Place>,
     /// Number of waypoints of the path in joint space.
     pub waypoints: usize,
+    /// Proven upper bound on the difference between the tool's angle and the required one, radians; `None` without a
+    /// wrist.
+    pub tool_deviation: Option<f64>,
 }
 
 /// The answer about a line.
@@ -215,36 +259,58 @@ impl Follower<'_> {
     ) -> Result<Outcome<Found, P>, FollowError> {
         let Self { scene, kinematics, line, settings, ends } = *self;
         let tolerance = settings.tolerance;
+        let is_smooth = scene.arm().joints.iter().any(|joint| joint.jerk.is_some());
+        let is_tangent = |wrist: WristAlong| matches!(wrist.guide.angle, ToolAngle::Tangent(_));
+        if is_smooth && settings.wrist.is_some_and(is_tangent) {
+            return Err(FollowError::TangentWithJerk);
+        }
         let mut share = INITIAL_SHARE;
         for attempt in 0..ATTEMPTS {
-            let division = Division { deviation: share * tolerance, slack: SLACK_SHARE * tolerance, least_parts: 1 };
-            let Ok(nodes) = Nodes::new(kinematics, line, division) else {
+            let division = Division {
+                deviation: share * tolerance,
+                slack: SLACK_SHARE * tolerance,
+                least_parts: 1,
+                turn: share * settings.greatest_turn(),
+            };
+            let Ok(nodes) = &Nodes::new(kinematics, line, division) else {
                 return Ok(Outcome::Unknown(format!(
                     "the line needs more than {MAX_NODES} parts; split it, or raise the tolerance"
                 )));
             };
-            if let Some(infeasible) = proof::out_of_reach(kinematics, &nodes, tolerance) {
+            if let Some(infeasible) = proof::out_of_reach(kinematics, nodes, tolerance) {
                 return Ok(Outcome::Infeasible(proof(infeasible)));
             }
-            let sheets = Sheets::new(kinematics, &nodes);
-            let mut search = Search::new(scene, (kinematics, line), &nodes, &sheets, division, ends);
-            let Some(route) = search.route() else {
-                let (inner, nodes, sheets) = (&*scene.inner(), &nodes, &sheets);
-                let prover = Prover { scene, inner, kinematics, line, nodes, sheets, tolerance };
-                if attempt == 0
-                    && let Some(proven) = prove(&prover, &search)
-                {
-                    return Ok(Outcome::Infeasible(proven));
+            let sheets = Sheets::new(kinematics, nodes);
+            let mut search = Search::new(scene, (kinematics, line), nodes, &sheets, division, ends);
+            let (route, turns) = match self.route(&mut search, nodes) {
+                Ok(found) => found,
+                Err(out_of_range) => {
+                    let (inner, sheets) = (&*scene.inner(), &sheets);
+                    let prover =
+                        Prover { scene, inner, kinematics, line, nodes, sheets, tolerance, wrist: settings.wrist };
+                    if attempt == 0
+                        && let Some(proven) = prove(&prover, &search)
+                    {
+                        return Ok(Outcome::Infeasible(proven));
+                    }
+                    return Ok(Outcome::Unknown(match out_of_range {
+                        Some(place) => format!(
+                            "the wrist would leave its range at {place}; no other motion was found, and no proof"
+                        ),
+                        None => {
+                            let stuck = nodes.nodes[search.furthest.get()].place;
+                            format!("no free motion was found past {stuck}, and no proof")
+                        }
+                    }));
                 }
-                let stuck = nodes.nodes[search.furthest.get()].place;
-                return Ok(Outcome::Unknown(format!("no free motion was found past {stuck}, and no proof")));
             };
-            let driver = Driver { scene, kinematics, line, nodes: &nodes, settings, blend: share * tolerance };
-            let (timed, deviation) = driver.motion(&route)?;
-            if deviation <= tolerance {
+            let driver = Driver { scene, kinematics, line, nodes, settings, blend: share * tolerance };
+            let Motion { timed, deviation, tool } = driver.motion(&route, turns.as_ref())?;
+            let keeps_angle = tool.zip(settings.wrist).is_none_or(|(off, wrist)| off <= wrist.guide.tolerance);
+            if deviation <= tolerance && keeps_angle {
                 let changes = route.changes.iter().map(|&w| nodes.nodes[route.nodes[w]].place).collect();
                 let waypoints = route.nodes.len();
-                return Ok(Outcome::Found(Found { timed, deviation, changes, waypoints }));
+                return Ok(Outcome::Found(Found { timed, deviation, changes, waypoints, tool_deviation: tool }));
             }
             share *= SHARE_FACTOR;
         }
@@ -262,6 +328,28 @@ impl Follower<'_> {
         ))
     }
 
+    /// Returns the cheapest certified route on which the wrist's joint stays within its range, with its values.
+    ///
+    /// # Errors
+    /// No such route was found. If the wrist is the reason: the first place where it would leave its range.
+    fn route(&self, search: &mut Search, nodes: &Nodes) -> Result<(Route, Option<Turns>), Option<Place>> {
+        let mut stuck = None;
+        for _ in 0..WRIST_ROUTES {
+            let Some(route) = search.route() else { break };
+            let Some(wrist) = self.settings.wrist else { return Ok((route, None)) };
+            match wrist.turns(self.scene.arm(), self.line, nodes, &route) {
+                Ok(turns) => return Ok((route, Some(turns))),
+                Err(OutOfRange { waypoint }) => {
+                    stuck = stuck.or(Some(nodes.nodes[route.nodes[waypoint]].place));
+                    if !search.close_before(&route, waypoint) {
+                        break;
+                    }
+                }
+            }
+        }
+        Err(stuck)
+    }
+
     /// Searches for a proof at a finer division of the line.
     fn prove_finely(&self, prover: &Prover) -> Option<Infeasible> {
         if prover.nodes.nodes.len() > MAX_COARSE_NODES {
@@ -270,7 +358,12 @@ impl Follower<'_> {
         let tolerance = self.settings.tolerance;
         let (deviation, slack) = (INITIAL_SHARE * tolerance / PROOF_FINENESS, SLACK_SHARE * tolerance);
         let least_parts = (MAX_COARSE_NODES / self.line.pieces.len()).clamp(1, PROOF_PARTS) as u32;
-        let nodes = &Nodes::new(self.kinematics, self.line, Division { deviation, slack, least_parts }).ok()?;
+        let nodes = &Nodes::new(
+            self.kinematics,
+            self.line,
+            Division { deviation, slack, least_parts, turn: self.settings.greatest_turn() },
+        )
+        .ok()?;
         let sheets = &Sheets::new(self.kinematics, nodes);
         let finer = Prover { nodes, sheets, ..*prover };
         proof::out_of_reach(self.kinematics, nodes, tolerance).or_else(|| finer.prove())

@@ -1,22 +1,42 @@
 //! The motion in time along a sequence of configurations.
 
-use crate::deviation::bounds;
+use crate::deviation::{bounds, tool_bound};
+use crate::fixed_angle;
 use crate::nodes::Nodes;
 use crate::search::Route;
 use crate::smooth::Stretch;
+use crate::wrist::{Turns, WristAlong};
 use crate::{FollowError, Settings};
 use cplan_core::check::{CertifiedPath, certify};
 use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, Path};
-use cplan_deviation::{Deviation, Foot, Kinematics, Line};
+use cplan_deviation::{Deviation, Foot, Kinematics, Line, ToolDeviation};
 use cplan_interrupt::checkpoint;
-use cplan_motion::{CurveDrive, TimedMotion, TipSpeed, along_curve, blend_up_to};
+use cplan_motion::{CurveDrive, TimedMotion, TipSpeed, WristLimit, along_curve, blend_up_to};
 
 /// Cosine of the angle between two legs beyond which the motion stops between them: it almost returns on itself.
 const REVERSAL_COSINE: f64 = -0.95;
 
 /// Cosine of the angle by which the tip may turn at a corner that a motion with limited jerk passes without a stop.
 const SMOOTH_CORNER_COSINE: f64 = 0.985;
+
+/// Share of the tool's tolerance by which blends may change its angle.
+const BLEND_TOOL_SHARE: f64 = 0.2;
+
+/// Number of times that a motion with limited jerks is slowed down for the wrist.
+const SLOWDOWNS: u32 = 8;
+
+/// Factor by which such a motion is slowed down further than the excess of the wrist demands.
+const SLOWDOWN_MARGIN: f64 = 1.01;
+
+/// A motion along a route, with proven bounds.
+pub(crate) struct Motion {
+    pub timed: TimedMotion,
+    /// Bound on the distance of the tip from the line, metres.
+    pub deviation: f64,
+    /// Bound on the difference between the tool's angle and the required one, radians; `None` without a wrist.
+    pub tool: Option<f64>,
+}
 
 /// The input of a motion.
 pub(crate) struct Driver<'a> {
@@ -30,39 +50,92 @@ pub(crate) struct Driver<'a> {
 }
 
 impl Driver<'_> {
-    /// Returns the fastest motion along a route that is found, with a bound on its distance from the line, metres.
-    pub fn motion(&self, route: &Route) -> Result<(TimedMotion, f64), FollowError> {
+    /// Returns the fastest motion along a route that is found, with a wrist that turns as given.
+    pub fn motion(&self, route: &Route, turns: Option<&Turns>) -> Result<Motion, FollowError> {
         let joints = &self.scene.arm().joints;
         let is_smooth = joints.iter().any(|joint| joint.jerk.is_some());
         let speeds = self.leg_speeds(route);
-        let q = route.path.path().waypoints();
-        let parts = if is_smooth { self.smooth_parts(route, &speeds)? } else { vec![self.blended(route, &speeds)?] };
-        let joined = |mut before: TimedMotion, next: TimedMotion| {
-            before.trajectory.then(0.0, &next.trajectory);
-            TimedMotion { curve: before.curve.then(&next.curve), ..before }
-        };
-        let whole = parts.into_iter().reduce(joined);
-        let timed = whole.expect("at least one part");
-        let deviation = self.deviation(route, [0, q.len() - 1]);
-        let greatest = bounds(&deviation, &timed.trajectory, is_smooth).into_iter().reduce(f64::max);
-        let bound = greatest.unwrap_or_else(|| deviation.at_rest(timed.curve.straight().path().start()));
-        Ok((timed, bound))
+        let wrist = self.settings.wrist.zip(turns);
+        let mut share = self.settings.share;
+        if !is_smooth {
+            return Ok(self.judged(route, self.blended(route, &speeds, wrist)?, is_smooth));
+        }
+        for _ in 0..SLOWDOWNS {
+            let parts = self.smooth_parts(route, &speeds, share)?;
+            let mut timed = parts.into_iter().reduce(joined).expect("at least one part");
+            let Some((wrist, turns)) = wrist else { return Ok(self.judged(route, timed, is_smooth)) };
+            fixed_angle::add_wrist(self.scene.arm(), &wrist, turns.values[0][1], &mut timed.trajectory);
+            let excess = fixed_angle::excess(&wrist, self.settings.share, &timed.trajectory);
+            if excess <= 1.0 {
+                return Ok(self.judged(route, timed, is_smooth));
+            }
+            share /= excess * SLOWDOWN_MARGIN;
+        }
+        Err(FollowError::WristTooSlow)
     }
 
-    /// Returns the motion along a whole route with blends.
-    fn blended(&self, route: &Route, speeds: &[f64]) -> Result<TimedMotion, FollowError> {
+    /// Returns a motion with proven bounds.
+    fn judged(&self, route: &Route, timed: TimedMotion, is_smooth: bool) -> Motion {
+        let deviation = self.deviation(route, [0, route.nodes.len() - 1]);
+        let greatest = bounds(&deviation, &timed.trajectory, is_smooth).into_iter().reduce(f64::max);
+        let bound = greatest.unwrap_or_else(|| deviation.at_rest(timed.curve.straight().path().start()));
+        let tool = self.settings.wrist.map(|WristAlong { guide, joint, .. }| {
+            tool_bound(&ToolDeviation { deviation, guide }, &joint, &timed.trajectory, is_smooth)
+        });
+        Motion { timed, deviation: bound, tool }
+    }
+
+    /// Returns the motion along a whole route with blends. Where the wrist turns at rest, the arm stops.
+    fn blended(
+        &self,
+        route: &Route,
+        speeds: &[f64],
+        wrist: Option<(WristAlong, &Turns)>,
+    ) -> Result<TimedMotion, FollowError> {
         let q = route.path.path().waypoints();
-        let radii: Vec<f64> = (0..q.len()).map(|w| self.radius(q, route, w)).collect();
-        let greatest = speeds.iter().copied().fold(0.0, f64::max);
-        let shares: Vec<f64> = speeds.iter().map(|speed| speed / greatest).collect();
-        let drive = self.drive(greatest, &shares);
-        let curve = blend_up_to(self.scene, &route.path, &radii, self.scene.workspace().clearance);
-        Ok(along_curve(self.scene, curve, drive)?)
+        let radius = |w: usize| {
+            let tool = wrist.map_or(f64::INFINITY, |(wrist, turns)| self.tool_radius(q, &wrist, turns, w));
+            self.radius(q, route, w).min(tool)
+        };
+        let radii: Vec<f64> = (0..q.len()).map(radius).collect();
+        let turn_at = |w: usize| wrist.map(|(_, turns)| turns.values[w]).filter(|[from, to]| from != to);
+        let last = q.len() - 1;
+        let stops = (1..last.max(1)).filter(|w| turn_at(*w).is_some());
+        let stops: Vec<usize> = [0].into_iter().chain(stops).chain([last]).collect();
+        let share = self.settings.share;
+        let mut whole: Option<TimedMotion> = None;
+        for pair in stops.windows(2) {
+            let [from, to] = [pair[0], pair[1]];
+            let own = &speeds[from..to];
+            let greatest = own.iter().copied().fold(0.0, f64::max);
+            let shares: Vec<f64> = own.iter().map(|speed| speed / greatest).collect();
+            let values = wrist.map(|(wrist, turns)| (wrist, turns.between(from, to)));
+            let limit = values.as_ref().map(|(WristAlong { velocity, acceleration, .. }, values)| WristLimit {
+                values,
+                velocity: *velocity,
+                acceleration: *acceleration,
+            });
+            let drive = CurveDrive { wrist: limit, ..self.drive(greatest, &shares, share) };
+            let path = self.part_of_path(route, [from, to])?;
+            let curve = blend_up_to(self.scene, &path, &radii[from..=to], self.scene.workspace().clearance);
+            let part = along_curve(self.scene, curve, drive)?;
+            whole = Some(match whole {
+                None => part,
+                Some(mut before) => {
+                    if let Some(([_, to], (wrist, _))) = turn_at(from).zip(wrist) {
+                        before.trajectory.append_turn(to, share * wrist.velocity, share * share * wrist.acceleration);
+                    }
+                    joined(before, part)
+                }
+            });
+        }
+        Ok(whole.expect("at least one part"))
     }
 
     /// Returns the motions with limits on jerks from each stop of a route to the next one. The arm stops where it must,
-    /// at corners of the line, and where the limit on the tip's speed changes.
-    fn smooth_parts(&self, route: &Route, speeds: &[f64]) -> Result<Vec<TimedMotion>, FollowError> {
+    /// at corners of the line, and where the limit on the tip's speed changes. `share` is the share of the joints' top
+    /// speeds to use.
+    fn smooth_parts(&self, route: &Route, speeds: &[f64], share: f64) -> Result<Vec<TimedMotion>, FollowError> {
         let q = route.path.path().waypoints();
         let last = q.len() - 1;
         let is_corner = |w: usize| self.is_corner(route.nodes[w]) || speeds[w] != speeds[w - 1];
@@ -74,7 +147,7 @@ impl Driver<'_> {
         while let Some([from, to]) = open.pop() {
             checkpoint();
             let path = self.part_of_path(route, [from, to])?;
-            let drive = self.drive(speeds.get(from).copied().unwrap_or(0.0), &[]);
+            let drive = self.drive(speeds.get(from).copied().unwrap_or(0.0), &[], share);
             match Stretch::new(self, route, [from, to], &path, drive).motion()? {
                 Some(part) => parts.push(part),
                 None => {
@@ -98,10 +171,10 @@ impl Driver<'_> {
     }
 
     /// Returns the options of a motion with a limit on the tip's speed, which legs use in shares.
-    fn drive<'b>(&'b self, speed: f64, legs: &'b [f64]) -> CurveDrive<'b> {
+    fn drive<'b>(&'b self, speed: f64, legs: &'b [f64], share: f64) -> CurveDrive<'b> {
         let is_limited = speed.is_finite() && speed > 0.0;
         let tip = is_limited.then(|| TipSpeed { legs, ..TipSpeed::new(self.scene.arm(), speed) });
-        CurveDrive { tip, share: self.settings.share, period: self.settings.period }
+        CurveDrive { tip, share, period: self.settings.period, wrist: None }
     }
 
     /// Returns the check of the distance between the line and a motion from one waypoint to another.
@@ -155,6 +228,18 @@ impl Driver<'_> {
         if off > 0.0 { 4.0 * self.blend / off } else { f64::INFINITY }
     }
 
+    /// Returns the greatest radius of the blend at a waypoint at which the tool keeps its angle.
+    fn tool_radius(&self, q: &[Configuration], wrist: &WristAlong, turns: &Turns, w: usize) -> f64 {
+        if w == 0 || w + 1 >= q.len() {
+            return 0.0;
+        }
+        let angle = |w: usize, end: usize| wrist.joint.tool_angle(self.scene.arm(), q[w].into(), turns.values[w][end]);
+        let slope = |from: usize| (angle(from + 1, 0) - angle(from, 1)) / (q[from + 1] - q[from]).norm();
+        // The middle of a blend is at a quarter of this times the radius from the corner.
+        let off = (slope(w) - slope(w - 1)).abs();
+        if off > 0.0 { 4.0 * BLEND_TOOL_SHARE * wrist.guide.tolerance / off } else { f64::INFINITY }
+    }
+
     /// Returns true if every motion stops at an inner waypoint: a travel begins or ends there, or the joints turn back.
     fn must_stop(&self, q: &[Configuration], route: &Route, w: usize) -> bool {
         let [before, after] = legs(q, w);
@@ -179,6 +264,12 @@ impl Driver<'_> {
         let is_travel = |part: usize| self.nodes.parts.get(part).map(|part| self.line.pieces[part.piece].is_travel);
         node > 0 && is_travel(node - 1) != is_travel(node)
     }
+}
+
+/// Joins a motion and the next one.
+fn joined(mut before: TimedMotion, next: TimedMotion) -> TimedMotion {
+    before.trajectory.then(0.0, &next.trajectory);
+    TimedMotion { curve: before.curve.then(&next.curve), ..before }
 }
 
 /// Returns the unit directions of the legs before and after an inner waypoint.

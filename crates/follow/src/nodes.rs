@@ -53,6 +53,8 @@ pub(crate) struct Division {
     pub slack: f64,
     /// Least number of parts of each piece.
     pub least_parts: u32,
+    /// Greatest turn of the line's direction between two nodes of a piece, radians; infinite if it does not matter.
+    pub turn: f64,
 }
 
 /// The reason why a line cannot be divided.
@@ -117,7 +119,8 @@ impl Divider<'_, '_> {
                 continue;
             };
             let middle = from + (to - from) / 2.0;
-            if deviation <= self.division.deviation || halvings >= MAX_HALVINGS || middle <= from || middle >= to {
+            let is_fine = deviation <= self.division.deviation && self.turns_little(piece, [from, to]);
+            if is_fine || halvings >= MAX_HALVINGS || middle <= from || middle >= to {
                 (next.solutions, next.is_continued) = (Some(solutions), true);
                 self.accept(next, piece, [from, to])?;
                 from = to;
@@ -128,6 +131,11 @@ impl Divider<'_, '_> {
             }
         }
         Ok(())
+    }
+
+    fn turns_little(&self, piece: usize, ends: [f64; 2]) -> bool {
+        self.division.turn.is_infinite()
+            || self.line.curve(piece).headings(ends).is_none_or(|headings| 2.0 * headings.half <= self.division.turn)
     }
 
     fn accept(&mut self, node: Node, piece: usize, ends: [f64; 2]) -> Result<(), TooManyNodes> {

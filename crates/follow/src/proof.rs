@@ -6,10 +6,12 @@
 //!
 //! Where the line stays farther than the tolerance from all singular places, the boxes of a stretch form separate bands.
 //! A motion cannot change from one band to another there. So there is no motion either if each band has some place that
-//! is excluded, not necessarily the same one.
+//! is excluded, not necessarily the same one. The range of a wrist excludes solutions as well (`proof_wrist`).
 
 use crate::nodes::{Nodes, chord};
+use crate::proof_wrist::{self, Winding, WristExcess};
 use crate::sheets::{LISTED_BEYOND_LIMITS, Sheets};
+use crate::wrist::WristAlong;
 use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::{Pair, Scene};
 use cplan_core::space::{Configuration, JointRange};
@@ -73,6 +75,8 @@ pub enum Obstacle {
     Limit(usize),
     /// These shapes collide, or are nearer than the clearance.
     Collision(Pair),
+    /// The wrist cannot give the tool its angle.
+    Wrist(WristExcess),
 }
 
 /// The input of a search for a proof.
@@ -85,6 +89,7 @@ pub(crate) struct Prover<'a> {
     pub nodes: &'a Nodes,
     pub sheets: &'a Sheets<'a>,
     pub tolerance: f64,
+    pub wrist: Option<WristAlong>,
 }
 
 /// Returns a proof that the tip cannot reach a node, if there is one.
@@ -122,7 +127,9 @@ impl Prover<'_> {
         if from != to {
             return Some("the IK solution cannot change along the line".into());
         }
-        let excluded = (0..self.nodes.nodes.len()).find_map(|node| self.exclusion(node, from))?;
+        let mut winding = Winding::new(self.sheets.sheets.len());
+        let excluded = |node: usize| self.exclusion(node, from).or_else(|| winding.add(self, node, from));
+        let excluded = (0..self.nodes.nodes.len()).find_map(excluded)?;
         Some(format!("{} at {}", excluded.describe(self.scene), excluded.place))
     }
 
@@ -143,13 +150,16 @@ impl Prover<'_> {
     fn on_a_stretch(&self, excluded: &[Vec<Option<Exclusion>>]) -> Option<Infeasible> {
         let count = self.sheets.sheets.len();
         let mut found: Vec<Option<Exclusion>> = vec![None; count];
+        let mut winding = Winding::new(count);
         for (node, here) in excluded.iter().enumerate() {
             if node > 0 && !self.is_separate(node - 1) {
                 found = vec![None; count];
+                winding.forget();
             }
-            for (known, new) in found.iter_mut().zip(here) {
+            for (sheet, (known, new)) in found.iter_mut().zip(here).enumerate() {
+                let wound = winding.add(self, node, sheet);
                 // The last place where a sheet is excluded is nearest to where the next one is.
-                *known = new.clone().or(known.take());
+                *known = new.clone().or(wound).or(known.take());
             }
             if count > 0 && found.iter().all(Option::is_some) {
                 let mut list: Vec<Exclusion> = found.into_iter().flatten().collect();
@@ -195,22 +205,32 @@ impl Prover<'_> {
     /// Returns the reason why a sheet is excluded at a node, if it is proven.
     fn exclusion(&self, node: usize, sheet: usize) -> Option<Exclusion> {
         checkpoint();
-        let own = self.sheets.sheets[sheet];
+        let (middle, half) = self.solution_box(node, sheet)?;
+        if let Some(joint) = (0..2).find(|&k| self.is_outside(k, middle[k], half[k])) {
+            return self.exclusion_at(node, sheet, Obstacle::Limit(joint));
+        }
+        let collision = self.collision(middle, half).map(Obstacle::Collision);
+        let by = collision.or_else(|| proof_wrist::outside(self, node, middle, half).map(Obstacle::Wrist))?;
+        self.exclusion_at(node, sheet, by)
+    }
+
+    /// Returns the exclusion of a sheet at a node for a reason.
+    pub fn exclusion_at(&self, node: usize, sheet: usize, by: Obstacle) -> Option<Exclusion> {
         let q = self.sheets.unlimited(node, sheet)?;
-        let (point, place) = (self.place(node).point, self.place(node));
-        let known = self.kinematics.solution_box(point, own.solution, self.tolerance)?;
+        Some(Exclusion { solution: self.sheets.sheets[sheet].solution, place: self.place(node), q: [q[0], q[1]], by })
+    }
+
+    /// Returns the middle of the box of a sheet at a node, and half of its size. `None` if it is not known.
+    pub fn solution_box(&self, node: usize, sheet: usize) -> Option<(Configuration, [f64; 2])> {
+        let q = self.sheets.unlimited(node, sheet)?;
+        let solution = self.sheets.sheets[sheet].solution;
+        let known = self.kinematics.solution_box(self.place(node).point, solution, self.tolerance)?;
         // The box is known up to whole turns, and its middle is near the solution.
         let middle = Configuration::from_fn(|k, _| self.near(k, known.middle[k], q[k]));
         let is_near = (0..2).all(|k| (middle[k] - q[k]).abs() <= known.half[k] + 1e-6);
-        let exclusion = |by: Obstacle| Exclusion { solution: own.solution, place, q: [q[0], q[1]], by };
         // Sheets that are not listed must be outside the limits with the whole box.
-        if !is_near || known.half[0].max(known.half[1]) >= LISTED_BEYOND_LIMITS {
-            return None;
-        }
-        if let Some(joint) = (0..2).find(|&k| self.is_outside(k, middle[k], known.half[k])) {
-            return Some(exclusion(Obstacle::Limit(joint)));
-        }
-        self.collision(middle, known.half).map(|pair| exclusion(Obstacle::Collision(pair)))
+        let is_known = is_near && known.half[0].max(known.half[1]) < LISTED_BEYOND_LIMITS;
+        is_known.then_some((middle, known.half))
     }
 
     fn near(&self, joint: usize, value: f64, near: f64) -> f64 {
@@ -284,6 +304,9 @@ impl Infeasible {
         match &self.cause {
             Cause::OutOfReach { by } => format!("the line is {} out of reach at {at}", length_down(*by)),
             Cause::Excluded(_) => format!("no IK solution is possible at {at}"),
+            Cause::NoChange(list) if list.iter().all(|e| matches!(e.by, Obstacle::Wrist(WristExcess::Turn(..)))) => {
+                format!("the wrist cannot turn as far as the tool needs before {at}")
+            }
             Cause::NoChange(list) => {
                 let last = list.last().map_or(at, |exclusion| exclusion.place);
                 format!("the IK solution must change between {at} and {last}, and cannot")
@@ -308,6 +331,7 @@ impl Exclusion {
                 let value = own.format_value(self.q[*joint]);
                 format!("joint \"{}\" would be at {value}, outside its limits{range}", own.name)
             }
+            Obstacle::Wrist(excess) => excess.describe(),
             Obstacle::Collision(pair) => {
                 let (part, obstacle) = (scene.describe_part(*pair), scene.describe_obstacle(pair.obstacle));
                 match scene.workspace().clearance {

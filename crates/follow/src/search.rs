@@ -27,6 +27,8 @@ pub(crate) struct Route {
     pub path: CertifiedPath,
     /// For each waypoint: the index of its node.
     pub nodes: Vec<usize>,
+    /// For each waypoint: the number of its IK solution.
+    pub solutions: Vec<usize>,
     /// The waypoints at which the arm changes its IK solution.
     pub changes: Vec<usize>,
 }
@@ -117,10 +119,10 @@ impl<'a> Search<'a> {
 
     /// Returns the cheapest sequence that is certified. Returns `None` if no considered sequence is certified.
     pub fn route(&mut self) -> Option<Route> {
-        let (path, nodes, _, changes) = self.cheapest()?;
+        let (path, nodes, solutions, changes) = self.cheapest()?;
         let clearance = self.scene.workspace().clearance;
         if let Ok(path) = certify(self.scene, path, clearance) {
-            return Some(Route { path, nodes, changes });
+            return Some(Route { path, nodes, solutions, changes });
         }
         self.check_all();
         // Changes are checked here, and a change that collides closes its node.
@@ -128,7 +130,7 @@ impl<'a> Search<'a> {
             checkpoint();
             let (path, nodes, solutions, changes) = self.cheapest()?;
             match certify(self.scene, path.clone(), clearance) {
-                Ok(path) => return Some(Route { path, nodes, changes }),
+                Ok(path) => return Some(Route { path, nodes, solutions, changes }),
                 Err(_) if !self.close_first_blocked(&path, &nodes, &solutions) => return None,
                 Err(_) => {}
             }
@@ -167,6 +169,17 @@ impl<'a> Search<'a> {
             for sheet in (0..count).filter(|s| self.sheets.sheets[*s].solution == solutions[leg]) {
                 closed |= std::mem::take(&mut self.open[part * count + sheet]);
             }
+        }
+        closed
+    }
+
+    /// Closes the part of the line before a waypoint of a route for the IK solution of that waypoint, so that further
+    /// routes avoid it. Returns false if it is closed already.
+    pub fn close_before(&mut self, route: &Route, waypoint: usize) -> bool {
+        let (part, count) = (route.nodes[waypoint].saturating_sub(1), self.count());
+        let mut closed = false;
+        for sheet in (0..count).filter(|s| self.sheets.sheets[*s].solution == route.solutions[waypoint]) {
+            closed |= self.open.get_mut(part * count + sheet).is_some_and(std::mem::take);
         }
         closed
     }

@@ -58,6 +58,9 @@ pub struct RecordedStep {
     pub raising: f64,
     /// The turn of the wrist to the value of its joint that the step states.
     pub wrist: Option<RecordedWrist>,
+    /// Along a line for which the tool has an angle: value, velocity and acceleration of the wrist's joint at the motion's
+    /// samples, radians and seconds. `None` if the file does not state them.
+    pub wrist_motion: Option<Vec<[f64; 3]>>,
 }
 
 /// The statements of a result about its motion, in addition to the samples. A statement that the file does not make is

@@ -1,5 +1,6 @@
 //! A line that the tip follows.
 
+use super::WristGuide;
 use cplan_toolpath::{Curve, Piece, Point, Toolpath};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -14,6 +15,9 @@ pub struct FollowedLine {
     pub tolerance: f64,
     /// Greatest speed of the tip, metres per second, instead of the speeds of the line's pieces.
     pub speed: Option<f64>,
+    /// The angle of the tool along the line; `None` if it does not matter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wrist: Option<WristGuide>,
 }
 
 /// Tolerance of lines that state none, metres: a hundredth of a millimetre.
@@ -25,7 +29,7 @@ pub const MIN_TOLERANCE: f64 = 1e-6;
 impl From<Toolpath> for FollowedLine {
     /// Returns the line with the default tolerance and the speeds of its pieces.
     fn from(path: Toolpath) -> Self {
-        Self { path: Arc::new(path), tolerance: DEFAULT_TOLERANCE, speed: None }
+        Self { path: Arc::new(path), tolerance: DEFAULT_TOLERANCE, speed: None, wrist: None }
     }
 }
 
@@ -33,11 +37,15 @@ impl From<Toolpath> for FollowedLine {
 const CHORDS: u32 = 16;
 
 impl FollowedLine {
-    /// Returns true if the tolerance is finite and at least [`MIN_TOLERANCE`], and the speed is finite and positive.
+    /// Returns true if the tolerance is finite and at least [`MIN_TOLERANCE`], the speed is finite and positive, and the
+    /// angle of the tool is valid.
     #[must_use]
     pub fn is_valid(&self) -> bool {
         let is_positive = |speed: f64| speed.is_finite() && speed > 0.0;
-        self.tolerance.is_finite() && self.tolerance >= MIN_TOLERANCE && self.speed.is_none_or(is_positive)
+        self.tolerance.is_finite()
+            && self.tolerance >= MIN_TOLERANCE
+            && self.speed.is_none_or(is_positive)
+            && self.wrist.is_none_or(|wrist| wrist.is_valid())
     }
 
     /// Returns a lower bound on the duration of a motion along the line, from the speeds of the tip alone, seconds.

@@ -24,6 +24,7 @@ mod stroke;
 mod task;
 mod task_error;
 mod timed;
+mod wrist_guide;
 
 pub use claims::{
     BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist,
@@ -41,3 +42,6 @@ pub use stroke::{Arch, Stroke, ToolJoint, ToolLimits, ToolValues};
 pub use task::{Action, Holding, Item, Object, Step, Task, Wrist};
 pub use task_error::TaskError;
 pub use timed::{TimedScene, TimedWorkspace};
+pub use wrist_guide::{
+    DEFAULT_WRIST_TOLERANCE, MAX_WRIST_TOLERANCE, MIN_WRIST_TOLERANCE, ToolAngle, WristGuide, WristJoint,
+};

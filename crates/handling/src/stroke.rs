@@ -18,6 +18,10 @@ pub struct ToolJoint {
     pub sign: f64,
     /// Range of the joint's values, radians or metres.
     pub range: JointRange,
+    /// Direction of the tip frame's x axis in the plane, radians, with the planned joints at zero and this joint at its
+    /// default value. If that axis is parallel to the normal, the frame's y axis counts. Only a wrist has one.
+    #[serde(default)]
+    pub direction: f64,
 }
 
 impl ToolJoint {

@@ -2,6 +2,7 @@
 
 use super::{
     FollowedLine, MovingObstacle, ObstacleTrajectory, Payload, Stroke, TimedWorkspace, ToolLimits, ToolValues,
+    WristJoint,
 };
 use cplan_core::model::{Arm, Goal, Heights, Obstacle, Shape};
 use cplan_core::space::Configuration;
@@ -135,6 +136,9 @@ pub struct Wrist {
     /// True if the wrist may turn objects while the arm moves. Otherwise the arm is at rest during turns.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub turns_on_the_way: bool,
+    /// The joint, for the angle of the tool along lines; `None` if the world does not name it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint: Option<WristJoint>,
 }
 
 impl Wrist {
@@ -170,6 +174,13 @@ pub struct Task {
 }
 
 impl Task {
+    /// Returns true if a line of the task asks for an angle of the tool.
+    #[must_use]
+    pub fn turns_tool_along_lines(&self) -> bool {
+        let asks = |step: &Step| matches!(&step.action, Action::Follow(line) if line.wrist.is_some());
+        self.items.iter().any(|item| matches!(item, Item::Step(step) if asks(step)))
+    }
+
     /// Returns the index of an object as an obstacle: objects follow the workspace's own obstacles.
     #[must_use]
     pub fn obstacle_number(&self, object: usize) -> usize {

@@ -48,6 +48,9 @@ const MAX_SPEED_STEP: f64 = 0.1;
 /// velocities of samples; because of this fraction, the cubics are also within the limits. [`reserve`] adds a little.
 const LIMIT_RESERVE: f64 = 1e-3;
 
+/// Greatest deviation of a wrist's joint from a blend's parabola, radians. It is far below the tolerance of a tool's angle.
+const WRIST_TOLERANCE: f64 = 1e-6;
+
 /// Largest number of spans if torques are limited.
 const MAX_TORQUE_SPANS: usize = 1024;
 
@@ -65,6 +68,8 @@ pub(super) struct Corner {
     share: f64,
     /// Share of the tip's speed limit that applies.
     tip_share: f64,
+    /// Values of the wrist's joint at the blend's beginning, corner and end, radians; 0 without a wrist.
+    wrist: [f64; 3],
 }
 
 /// Returns the least duration, seconds, of a blend that is cut into this many spans. Each span must last at least the
@@ -76,26 +81,35 @@ fn shortest(spans: usize) -> f64 {
 impl Corner {
     /// Prepares a blend. Returns `None` if it is so small that it would be passed in little more than the interval
     /// between samples.
-    pub(super) fn new(blend: Blend, limits: &Limits, share: f64) -> Option<Self> {
+    pub(super) fn new(blend: Blend, wrist: [f64; 3], limits: &Limits, share: f64) -> Option<Self> {
         let limits = &limits.scaled(share);
         let directions = [blend.corner - blend.from, blend.to - blend.corner].map(|leg| leg / leg[0].hypot(leg[1]));
         let (radius, fastest) = (blend.radius(), f64::INFINITY);
-        let corner = Self { blend, radius, directions, spans: INITIAL_SPANS, fastest, share, tip_share: 1.0 };
+        let corner = Self { blend, radius, directions, spans: INITIAL_SPANS, fastest, share, tip_share: 1.0, wrist };
         let bend = corner.second_derivative();
-        let turning = (0..2).map(|k| limits.acceleration[k] / bend[k].abs()).fold(f64::INFINITY, f64::min).sqrt();
+        let turning = (0..2).map(|k| limits.acceleration[k] / bend[k].abs()).fold(f64::INFINITY, f64::min);
+        let turning = turning.min(limits.wrist_along(corner.wrist_bend())[1]).sqrt();
         let fastest = directions.map(|d| limits.speed_along(d)).into_iter().fold(turning, f64::min);
+        let fastest =
+            corner.wrist_slopes().into_iter().map(|slope| limits.wrist_along(slope)[0]).fold(fastest, f64::min);
         (corner.length() / fastest >= shortest(INITIAL_SPANS)).then_some(Self { fastest, ..corner })
     }
 
     /// Prepares a straight stretch. Returns `None` if it is too small.
-    pub(super) fn straight(from: Configuration, to: Configuration, limits: &Limits) -> Option<Self> {
+    pub(super) fn straight(
+        from: Configuration,
+        to: Configuration,
+        [begin, end]: [f64; 2],
+        limits: &Limits,
+    ) -> Option<Self> {
         let blend = Blend { from, corner: (from + to) / 2.0, to };
         let offset = to - from;
         let length = offset[0].hypot(offset[1]);
         let directions = [offset / length; 2];
-        let fastest = limits.speed_along(directions[0]);
+        let fastest = limits.speed_along(directions[0]).min(limits.wrist_along((end - begin) / length)[0]);
+        let wrist = [begin, (begin + end) / 2.0, end];
         let (radius, spans) = (length / 2.0, INITIAL_LINE_SPANS);
-        let corner = Self { blend, radius, directions, spans, fastest, share: 1.0, tip_share: 1.0 };
+        let corner = Self { blend, radius, directions, spans, fastest, share: 1.0, tip_share: 1.0, wrist };
         (length / fastest >= shortest(INITIAL_LINE_SPANS)).then_some(corner)
     }
 
@@ -114,11 +128,13 @@ impl Corner {
     /// speeds at their ends, or cannot be cut.
     pub(super) fn finer(&self, squared_speeds: &[f64], limits: &Limits) -> Option<Self> {
         let (bend, limits) = (self.second_derivative(), &limits.with_tip_share(self.tip_share));
+        let turning = limits.wrist.map(|wrist| (self.wrist_bend(), wrist.acceleration));
         let coarse = squared_speeds.windows(2).enumerate().any(|(i, z)| {
             let step = (z[1] - z[0]).abs();
             // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by three halves of q''
             // times the change of z.
-            (0..2).any(|k| 1.5 * bend[k].abs() * step > MAX_ACCELERATION_STEP * limits.acceleration[k])
+            let joints = (0..2).map(|k| (bend[k], limits.acceleration[k])).chain(turning);
+            joints.into_iter().any(|(bend, limit)| 1.5 * bend.abs() * step > MAX_ACCELERATION_STEP * limit)
                 || (!self.is_straight() && step > 2.0 * MAX_SPEED_STEP * z[0].max(z[1]))
                 || limits
                     .tip
@@ -161,6 +177,31 @@ impl Corner {
         self.directions[0] * (1.0 - u) + self.directions[1] * u
     }
 
+    /// Returns the derivatives of the wrist's value by the parameter at both ends.
+    fn wrist_slopes(&self) -> [f64; 2] {
+        let [from, corner, to] = self.wrist;
+        [corner - from, to - corner].map(|by| by / self.radius)
+    }
+
+    /// Returns the second derivative of the wrist's value by the parameter.
+    fn wrist_bend(&self) -> f64 {
+        let [before, after] = self.wrist_slopes();
+        (after - before) / self.length()
+    }
+
+    /// Returns value, velocity and acceleration of the wrist's joint in a state.
+    pub(super) fn wrist_at(&self, state: State) -> [f64; 3] {
+        let State { distance, speed, acceleration } = state;
+        let u = (distance / self.length()).clamp(0.0, 1.0);
+        let [from, corner, to] = self.wrist;
+        let mix = |a: f64, b: f64| a * (1.0 - u) + b * u;
+        let [before, after] = self.wrist_slopes();
+        let slope = mix(before, after);
+        let value = mix(mix(from, corner), mix(corner, to));
+        let value = value.clamp(from.min(corner).min(to), from.max(corner).max(to));
+        [value, slope * speed, self.wrist_bend() * speed * speed + slope * acceleration]
+    }
+
     /// Returns a span as a part of a curve, for the limits on the tip and on torques.
     fn part(&self, span: usize) -> Part {
         let middle = (span as f64 + 0.5) / self.spans as f64;
@@ -181,12 +222,17 @@ impl Corner {
         let span = |i: usize| {
             let ends = [share(i), share(i + 1)].map(|u| self.first_derivative(u));
             let mut bounds = Bounds::default();
-            for k in 0..2 {
-                let (acceleration, velocity) = (left * limits.acceleration[k], (left * limits.velocity[k]).powi(2));
-                let [p, q] = ends.map(|end| end[k]);
+            let arm = (0..2).map(|k| (ends.map(|end| end[k]), bend[k], limits.velocity[k], limits.acceleration[k]));
+            let turning = limits.wrist.map(|wrist| {
+                let [before, after] = self.wrist_slopes();
+                let ends = [share(i), share(i + 1)].map(|u| before * (1.0 - u) + after * u);
+                (ends, self.wrist_bend(), wrist.velocity, wrist.acceleration)
+            });
+            for ([p, q], bend, velocity, acceleration) in arm.chain(turning) {
+                let (acceleration, velocity) = (left * acceleration, (left * velocity).powi(2));
                 // q'' z + q' (z1 - z0) / (2 step) at the first end and at the second, in both directions.
                 let [at_first, at_second] = [p, q].map(|slope| slope / (2.0 * step));
-                for row in [[bend[k] - at_first, at_first], [-at_second, bend[k] + at_second]] {
+                for row in [[bend - at_first, at_first], [-at_second, bend + at_second]] {
                     let row = row.map(|c| c / acceleration);
                     bounds.extend([row, row.map(|c| -c)]);
                 }
@@ -223,14 +269,18 @@ impl Corner {
     pub(super) fn interval(&self, phase: &Phase, limits: &Limits) -> f64 {
         let bend = self.second_derivative();
         let torque = limits.torque.map_or([f64::INFINITY; 2], |torque| torque.accelerations());
-        let longest = |k: usize| {
-            let fourth = 3.0 * bend[k].abs() * phase.acceleration * phase.acceleration;
-            let acceleration = (12.0 * LIMIT_RESERVE * limits.acceleration[k].min(torque[k]) / fourth).sqrt();
-            let velocity = (72.0 * 3f64.sqrt() * LIMIT_RESERVE * limits.velocity[k] / fourth).cbrt();
-            let position = (384.0 * BLEND_TOLERANCE * self.radius / fourth).sqrt().sqrt();
+        let longest = |(bend, velocity, acceleration, off): (f64, f64, f64, f64)| {
+            let fourth = 3.0 * bend.abs() * phase.acceleration * phase.acceleration;
+            let acceleration = (12.0 * LIMIT_RESERVE * acceleration / fourth).sqrt();
+            let velocity = (72.0 * 3f64.sqrt() * LIMIT_RESERVE * velocity / fourth).cbrt();
+            let position = (384.0 * off / fourth).sqrt().sqrt();
             acceleration.min(velocity).min(position)
         };
-        longest(0).min(longest(1)).max(2.0 * MIN_INTERVAL)
+        let beside = BLEND_TOLERANCE * self.radius;
+        let arm = (0..2).map(|k| (bend[k], limits.velocity[k], limits.acceleration[k].min(torque[k]), beside));
+        let turning =
+            limits.wrist.map(|wrist| (self.wrist_bend(), wrist.velocity, wrist.acceleration, WRIST_TOLERANCE));
+        arm.chain(turning).map(longest).fold(f64::INFINITY, f64::min).max(2.0 * MIN_INTERVAL)
     }
 
     /// Returns the joints' position, velocity and acceleration in a state.

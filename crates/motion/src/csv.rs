@@ -45,9 +45,10 @@ pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, s
 }
 
 /// Returns a motion of all joints as CSV, in the format of [`csv`]: a value and a velocity of each joint, with their
-/// accelerations if the motion has them, and the step of each sample.
+/// accelerations if the motion has them, and the step of each sample if it
+/// is given.
 #[must_use]
-pub fn csv_of_joints(motion: &JointMotion, steps: &[usize]) -> String {
+pub fn csv_of_joints(motion: &JointMotion, steps: Option<&[usize]>) -> String {
     let columns = [("", Some(&motion.position)), ("_velocity", Some(&motion.velocity))];
     let columns = columns.into_iter().chain([("_acceleration", motion.acceleration.as_ref())]);
     let columns: Vec<_> = columns.filter_map(|(suffix, rows)| rows.map(|rows| (suffix, rows))).collect();
@@ -58,13 +59,16 @@ pub fn csv_of_joints(motion: &JointMotion, steps: &[usize]) -> String {
             text.push_str(&quoted(&format!("{joint}{suffix}")));
         });
     }
-    text.push_str(",step\n");
-    for (k, (time, step)) in motion.time.iter().zip(steps).enumerate() {
+    text.push_str(if steps.is_some() { ",step\n" } else { "\n" });
+    for (k, time) in motion.time.iter().enumerate() {
         write!(text, "{time:?}").expect("a string takes all");
         for value in columns.iter().flat_map(|(_, rows)| &rows[k]) {
             write!(text, ",{value:?}").expect("a string takes all");
         }
-        writeln!(text, ",{step}").expect("a string takes all");
+        if let Some(step) = steps.and_then(|steps| steps.get(k)) {
+            write!(text, ",{step}").expect("a string takes all");
+        }
+        text.push('\n');
     }
     text
 }

@@ -3,7 +3,7 @@
 use super::schedule::duration_bound;
 use super::shape::ShapeSearch;
 use super::smooth::smoothed;
-use super::{Limits, TimedMotion, TimingError, TipSpeed, TorqueLimit, time};
+use super::{Limits, TimedMotion, TimingError, TipSpeed, TorqueLimit, WristLimit, time};
 use crate::{CertifiedCurve, blend};
 use cplan_core::check::CertifiedPath;
 use cplan_core::model::Scene;
@@ -140,6 +140,9 @@ pub struct CurveDrive<'a> {
     pub share: f64,
     /// Time between two samples, seconds.
     pub period: f64,
+    /// A wrist that turns along the curve, with its full limits, of which the same share is used. `None` without one. A
+    /// motion with limited jerks ignores it.
+    pub wrist: Option<WristLimit<'a>>,
 }
 
 /// Returns the fastest motion along a given curve, whose blends must not change. Compared with [`Drive::along`], no
@@ -150,13 +153,15 @@ pub struct CurveDrive<'a> {
 pub fn along_curve(
     scene: &Scene,
     curve: CertifiedCurve,
-    CurveDrive { tip, share, period }: CurveDrive,
+    CurveDrive { tip, share, period, wrist }: CurveDrive,
 ) -> Result<TimedMotion, TimingError> {
     let torque = TorqueLimit::of(scene);
     if let Some(torque) = &torque {
         torque.check_holding_along(curve.straight().path())?;
     }
-    let limits = Limits { tip, torque, ..Limits::from(&scene.arm().joints).scaled(share) };
+    let limits = Limits { wrist, ..Limits::from(&scene.arm().joints) }.scaled(share);
+    let wrist = limits.wrist.filter(|_| !limits.stops_at_corners());
+    let limits = Limits { tip, torque, wrist, ..limits };
     let mut timed = time(curve, &limits, period)?;
     if let Some(torque) = torque {
         torque.check(&timed.trajectory.pieces())?;

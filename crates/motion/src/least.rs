@@ -49,7 +49,14 @@ mod tests {
     use super::*;
 
     fn limits(velocity: f64, acceleration: f64, jerk: Option<f64>) -> Limits<'static> {
-        Limits { velocity: [velocity; 2], acceleration: [acceleration; 2], jerk: [jerk; 2], tip: None, torque: None }
+        Limits {
+            velocity: [velocity; 2],
+            acceleration: [acceleration; 2],
+            jerk: [jerk; 2],
+            tip: None,
+            torque: None,
+            wrist: None,
+        }
     }
 
     #[test]

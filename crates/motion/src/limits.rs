@@ -18,6 +18,20 @@ pub struct Limits<'a> {
     pub tip: Option<TipSpeed<'a>>,
     /// Greatest torques of the joints; `None` for no limits.
     pub torque: Option<TorqueLimit<'a>>,
+    /// Limits of a wrist that turns along the path; `None` without such a wrist. Motions with limited jerks ignore them.
+    pub wrist: Option<WristLimit<'a>>,
+}
+
+/// A wrist that turns while the arm moves along a path, and its limits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WristLimit<'a> {
+    /// Value of the wrist's joint at each waypoint of the path, radians. Along a leg it is linear, and along a blend
+    /// quadratic.
+    pub values: &'a [f64],
+    /// Top speed, radians per second, positive.
+    pub velocity: f64,
+    /// Greatest acceleration, radians per second squared, positive.
+    pub acceleration: f64,
 }
 
 impl From<&[Joint; 2]> for Limits<'_> {
@@ -29,6 +43,7 @@ impl From<&[Joint; 2]> for Limits<'_> {
             jerk: joints.each_ref().map(|joint| joint.jerk),
             tip: None,
             torque: None,
+            wrist: None,
         }
     }
 }
@@ -44,7 +59,28 @@ impl Limits<'_> {
             jerk: self.jerk.map(|jerk| jerk.map(|j| j * share * share * share)),
             tip: self.tip.map(|tip| TipSpeed { speed: tip.speed * share, ..tip }),
             torque: self.torque,
+            wrist: self.wrist.map(|wrist| WristLimit {
+                velocity: wrist.velocity * share,
+                acceleration: wrist.acceleration * share * share,
+                ..wrist
+            }),
         }
+    }
+
+    /// Returns the greatest speed and acceleration along a stretch on which the wrist turns by `slope` radians per unit of
+    /// length; infinite without a wrist.
+    pub(super) fn wrist_along(&self, slope: f64) -> [f64; 2] {
+        let limits = self.wrist.map_or([f64::INFINITY; 2], |wrist| [wrist.velocity, wrist.acceleration]);
+        limits.map(|limit| limit / slope.abs())
+    }
+
+    /// Returns the value of the wrist's joint at a distance, radians or metres in joint space, from waypoint `from` towards
+    /// a neighbouring one, which is `length` away; 0 without a wrist.
+    pub(super) fn wrist_at(&self, from: usize, toward: usize, distance: f64, length: f64) -> f64 {
+        self.wrist.map_or(0.0, |wrist| {
+            let [a, b] = [wrist.values[from], wrist.values[toward]];
+            a + (b - a) * (distance / length)
+        })
     }
 
     /// Returns the limits with a share of the tip's speed.

@@ -40,20 +40,27 @@ const ACCELERATION_TOLERANCE: f64 = 1e-6;
 const ULPS: f64 = 256.0;
 
 impl JointMotion {
-    /// Creates a motion of the planned joints, with the others at rest.
+    /// Creates a motion of the planned joints, and of the wrist if it turns in the trajectory, with the others at rest.
     #[must_use]
     pub fn new(robot: &RobotJoints, trajectory: &Trajectory, accelerations: bool) -> Self {
-        let positions = trajectory.position.iter().map(|&planned| robot.values(&robot.at_rest(planned)));
-        let rates = |rows: &[[f64; 2]]| {
-            let rate = |&planned: &[f64; 2]| robot.rates(&Drives { planned, ..Drives::default() });
-            rows.iter().map(rate).collect::<Vec<_>>()
+        let turned = |k: usize, of: usize| trajectory.wrist.get(k).map(|row| row[of]);
+        let position = |(k, &planned): (usize, &[f64; 2])| {
+            let at_rest = robot.at_rest(planned);
+            robot.values(&Drives { wrist: turned(k, 0).unwrap_or(at_rest.wrist), ..at_rest })
+        };
+        let positions = trajectory.position.iter().enumerate().map(position);
+        let rates = |rows: &[[f64; 2]], of: usize| {
+            let rate = |(k, &planned): (usize, &[f64; 2])| {
+                robot.rates(&Drives { planned, wrist: turned(k, of).unwrap_or(0.0), ..Drives::default() })
+            };
+            rows.iter().enumerate().map(rate).collect::<Vec<_>>()
         };
         Self {
             joints: robot.names().map(str::to_owned).collect(),
             time: trajectory.time.clone(),
             position: positions.collect(),
-            velocity: rates(&trajectory.velocity),
-            acceleration: accelerations.then(|| rates(&trajectory.acceleration)),
+            velocity: rates(&trajectory.velocity, 1),
+            acceleration: accelerations.then(|| rates(&trajectory.acceleration, 2)),
         }
     }
 }

@@ -4,13 +4,15 @@ use super::clock::{self, NANOSECONDS_PER_SECOND, nanoseconds, round_up, whole_na
 use super::limits::Limits;
 use super::profile::Phase;
 use super::schedule::{TimedTrack, Track, schedule};
+use super::single::single;
 use super::torque::TorqueLimit;
 use crate::BlendedPath;
 use crate::CertifiedCurve;
 use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
-use cplan_handling::Piece;
-use serde::Serialize;
+use cplan_handling::{Piece, ToolLimits};
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
 use thiserror::Error;
 
 /// Approximate least time between two samples, seconds. It is a thousandth of the fastest servo cycle in use (1 ms), so
@@ -58,6 +60,19 @@ pub struct Trajectory {
     /// sample. Empty if they are not requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub torque: Vec<[f64; 2]>,
+    /// Value, velocity and acceleration of a wrist's joint, radians and seconds. Readers join them like those of the arm.
+    /// Empty if no wrist turns along the path.
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "wrist_columns")]
+    pub wrist: Vec<[f64; 3]>,
+}
+
+/// Writes the motion of a wrist in the form of those of the arm: positions, velocities and accelerations.
+fn wrist_columns<S: Serializer>(rows: &[[f64; 3]], serializer: S) -> Result<S::Ok, S::Error> {
+    let mut columns = serializer.serialize_struct("wrist", 3)?;
+    for (name, k) in [("position", 0), ("velocity", 1), ("acceleration", 2)] {
+        columns.serialize_field(name, &rows.iter().map(|row| row[k]).collect::<Vec<_>>())?;
+    }
+    columns.end()
 }
 
 /// The reason why a path cannot be timed.
@@ -136,12 +151,14 @@ impl Trajectory {
             self.velocity.pop();
             self.acceleration.pop();
             self.torque.pop();
+            self.wrist.pop();
         }
         self.time.extend(next.time.iter().map(|time| clock::seconds(begin + nanoseconds(*time))));
         self.position.extend(&next.position);
         self.velocity.extend(&next.velocity);
         self.acceleration.extend(&next.acceleration);
         self.torque.extend(&next.torque);
+        self.wrist.extend(&next.wrist);
     }
 
     /// Appends a rest of `pause` seconds, rounded up to whole nanoseconds. A rest shorter than [`MIN_INTERVAL`] is
@@ -149,6 +166,28 @@ impl Trajectory {
     pub fn append_rest(&mut self, pause: f64) {
         if pause_length(pause) > 0.0 {
             self.append_rest_to(nanoseconds(self.duration() + pause_length(pause)));
+        }
+    }
+
+    /// Appends a turn of the wrist to a joint value, from rest to rest, as fast as its limits allow, while the arm rests.
+    /// Both limits are positive. Does nothing if the wrist is there already, or if there is no wrist.
+    pub fn append_turn(&mut self, to: f64, velocity: f64, acceleration: f64) {
+        let Some(&[from, ..]) = self.wrist.last() else { return };
+        let begin = nanoseconds(self.duration());
+        let sign = (to - from).signum();
+        let ends = single((to - from).abs(), &ToolLimits { velocity, acceleration, jerk: None });
+        for (k, [time, distance, speed]) in ends.iter().enumerate() {
+            let gain = ends.get(k + 1).map_or(0.0, |[end, _, later]| sign * (later - speed) / (end - time));
+            let is_last = k + 1 == ends.len() && k > 0;
+            let row = [if is_last { to } else { from + sign * distance }, sign * speed + 0.0, gain + 0.0];
+            if k > 0 {
+                self.append_rest_to(begin + nanoseconds(*time));
+            } else if let Some(last) = self.acceleration.last_mut() {
+                *last = [0.0; 2];
+            }
+            if let Some(last) = self.wrist.last_mut() {
+                *last = row;
+            }
         }
     }
 
@@ -166,6 +205,7 @@ impl Trajectory {
             self.push(end, [position.into(), Configuration::zeros(), Configuration::zeros()]);
             // At rest, the last torques are those that hold the arm.
             self.torque.extend(self.torque.last().copied());
+            self.wrist.extend(self.wrist.last().map(|[value, ..]| [*value, 0.0, 0.0]));
         }
     }
 
@@ -175,6 +215,13 @@ impl Trajectory {
         (1..self.time.len()).map(|i| Piece::hermite(self.time[i - 1], self.time[i], end(i - 1), end(i))).collect()
     }
 
+    /// Returns the cubics through positions and velocities of the wrist's joint, as first components. Empty if there is no
+    /// wrist.
+    pub fn wrist_pieces(&self) -> Vec<Piece> {
+        let end = |i: usize| [0, 1].map(|k| Configuration::new(self.wrist[i][k], 0.0));
+        (1..self.wrist.len()).map(|i| Piece::hermite(self.time[i - 1], self.time[i], end(i - 1), end(i))).collect()
+    }
+
     fn with_capacity(samples: usize) -> Self {
         Self {
             time: Vec::with_capacity(samples),
@@ -182,6 +229,7 @@ impl Trajectory {
             velocity: Vec::with_capacity(samples),
             acceleration: Vec::with_capacity(samples),
             torque: Vec::new(),
+            wrist: Vec::new(),
         }
     }
 
@@ -274,6 +322,7 @@ pub(super) fn time_curve(
     let mut trajectory = Trajectory::with_capacity(samples as usize + 1);
     let end = runs.iter().fold(0, |begin, run| sample(run, begin, limits, period, &mut trajectory));
     trajectory.push(end, [curve.path().goal(), Configuration::zeros(), Configuration::zeros()]);
+    trajectory.wrist.extend(limits.wrist.and_then(|wrist| Some([*wrist.values.last()?, 0.0, 0.0])));
     Ok((used, trajectory))
 }
 
@@ -290,13 +339,23 @@ pub(super) fn sample(run: &[TimedTrack], begin: u64, limits: &Limits, period: f6
         let (first, last) = (begin + nanoseconds(since), begin + nanoseconds(since + phase.duration));
         // Seconds from the beginning of the phase.
         let into = |at: u64| clock::seconds(at - begin) - since;
-        let state = |at: u64| match before {
-            Some((track, phase)) if into(at) < 0.0 => track.at(phase.at(phase.duration + into(at))),
-            _ => track.at(phase.at(into(at))),
+        let place = |at: u64| match before {
+            Some((track, phase)) if into(at) < 0.0 => (track, phase.at(phase.duration + into(at))),
+            _ => (track, phase.at(into(at))),
         };
-        let [position, velocity, _] = state(first);
-        let [.., acceleration] = track.at(phase.at(0.0));
-        trajectory.push(first, [position, velocity, acceleration]);
+        let state = |at: u64| {
+            let (track, state) = place(at);
+            (track.at(state), limits.wrist.map(|_| track.wrist_at(state)))
+        };
+        let mut push = |at: u64, (arm, wrist): ([Configuration; 3], Option<[f64; 3]>)| {
+            trajectory.push(at, arm);
+            trajectory.wrist.extend(wrist.map(|row| row.map(|x| x + 0.0)));
+        };
+        let ([position, velocity, _], turn) = state(first);
+        let begins = phase.at(0.0);
+        let [.., acceleration] = track.at(begins);
+        let turn = turn.map(|[value, rate, _]| [value, rate, track.wrist_at(begins)[2]]);
+        push(first, ([position, velocity, acceleration], turn));
         let interval = track.interval(phase, limits);
         let mut left = first;
         let count = (clock::seconds(first) / period) as u64;
@@ -306,10 +365,10 @@ pub(super) fn sample(run: &[TimedTrack], begin: u64, limits: &Limits, period: f6
             let parts = (gap / NANOSECONDS_PER_SECOND as f64 / interval).ceil().max(1.0);
             for part in 1..parts as u64 {
                 let at = left + (gap * (part as f64 / parts)) as u64;
-                trajectory.push(at, state(at));
+                push(at, state(at));
             }
             if next < last {
-                trajectory.push(next, state(next));
+                push(next, state(next));
             }
             left = next;
         }

@@ -47,21 +47,25 @@ pub(super) struct Line {
     acceleration: f64,
     /// The greatest jerk along the line; infinite without a limit.
     jerk: f64,
+    /// Values of the wrist's joint at both ends, radians; 0 without a wrist.
+    wrist: [f64; 2],
 }
 
 impl Line {
     /// Creates a line. If torques are limited, the line's acceleration may exceed that limit: see [`Line::safe`].
-    fn new(from: Configuration, to: Configuration, limits: &Limits) -> Self {
+    fn new(from: Configuration, to: Configuration, wrist: [f64; 2], limits: &Limits) -> Self {
         let offset = to - from;
         // Unlike the root of the sum of squares, this does not vanish for very short offsets.
         let length = offset[0].hypot(offset[1]);
         let direction = offset / length;
-        let (speed, acceleration) = (limits.speed_along(direction), limits.acceleration_along(direction));
+        let [turning, gaining] = limits.wrist_along((wrist[1] - wrist[0]) / length);
+        let speed = limits.speed_along(direction).min(turning);
+        let acceleration = limits.acceleration_along(direction).min(gaining);
         let jerk = limits.jerk_along(direction);
         let part =
             Part { middle: from + offset / 2.0, slope: direction, bend: Configuration::zeros(), half: length / 2.0 };
         let speed = limits.tip.map_or(speed, |tip| speed.min(tip.speed_within_limit(&part)));
-        Self { from, to, length, direction, speed, acceleration, jerk }
+        Self { from, to, length, direction, speed, acceleration, jerk, wrist }
     }
 
     /// Returns the line with a speed and an acceleration that the torques allow everywhere on it.
@@ -71,9 +75,9 @@ impl Line {
     }
 
     /// Splits a straight stretch into parts with separate top speeds; several if the tip's limit requires it.
-    fn parts(from: Configuration, to: Configuration, limits: &Limits) -> Vec<Self> {
-        let whole = Self::new(from, to, limits);
-        let own = limits.speed_along(whole.direction);
+    fn parts(from: Configuration, to: Configuration, wrist: [f64; 2], limits: &Limits) -> Vec<Self> {
+        let whole = Self::new(from, to, wrist, limits);
+        let own = Self::new(from, to, wrist, &Limits { tip: None, ..*limits }).speed;
         let Some(tip) = limits.tip.filter(|_| whole.speed < own) else { return vec![whole] };
         let part = Part {
             middle: from + (to - from) / 2.0,
@@ -85,7 +89,9 @@ impl Line {
         let off = TIP_SPEED_STEP * tip.speed / own;
         let count = (tip.slack(&part) / off).ceil().clamp(1.0, MAX_LINE_PARTS);
         let end = |i: f64| if i == count { to } else { from + (to - from) * (i / count) };
-        (0..count as u32).map(|i| Self::new(end(f64::from(i)), end(f64::from(i) + 1.0), limits)).collect()
+        let turned = |i: f64| if i == count { wrist[1] } else { wrist[0] + (wrist[1] - wrist[0]) * (i / count) };
+        let part = |i: f64| Self::new(end(i), end(i + 1.0), [turned(i), turned(i + 1.0)], limits);
+        (0..count as u32).map(|i| part(f64::from(i))).collect()
     }
 
     /// Returns the least duration of a phase on the line, seconds.
@@ -111,17 +117,27 @@ impl Line {
         let position = Configuration::new(between(0), between(1));
         [position, self.direction * speed, self.direction * acceleration]
     }
+
+    /// Returns value, velocity and acceleration of the wrist's joint.
+    fn wrist_at(&self, state: State) -> [f64; 3] {
+        let State { distance, speed, acceleration } = state;
+        let [from, to] = self.wrist;
+        let slope = (to - from) / self.length;
+        let value = (from + (to - from) * (distance / self.length)).clamp(from.min(to), from.max(to));
+        [value, slope * speed, slope * acceleration]
+    }
 }
 
 impl Track {
     /// Splits a straight stretch into as many tracks as its limits require.
-    fn straight(from: Configuration, to: Configuration, limits: &Limits, tip_share: f64) -> Vec<Self> {
+    fn straight([from, to]: [Configuration; 2], wrist: [f64; 2], limits: &Limits, tip_share: f64) -> Vec<Self> {
         let limits = &limits.with_tip_share(tip_share);
         if limits.torque.is_none() {
-            return Line::parts(from, to, limits).into_iter().map(Track::Line).collect();
+            return Line::parts(from, to, wrist, limits).into_iter().map(Track::Line).collect();
         }
-        let corner = Corner::straight(from, to, limits).map(|corner| Track::Corner(corner.with_tip_share(tip_share)));
-        vec![corner.unwrap_or_else(|| Track::Line(Line::new(from, to, limits).safe(limits)))]
+        let corner = Corner::straight(from, to, wrist, limits);
+        let corner = corner.map(|corner| Track::Corner(corner.with_tip_share(tip_share)));
+        vec![corner.unwrap_or_else(|| Track::Line(Line::new(from, to, wrist, limits).safe(limits)))]
     }
 
     /// Returns position, velocity and acceleration of the joints.
@@ -129,6 +145,14 @@ impl Track {
         match self {
             Track::Line(line) => line.at(state),
             Track::Corner(corner) => corner.at(state),
+        }
+    }
+
+    /// Returns value, velocity and acceleration of the wrist's joint, radians and seconds; 0 without a wrist.
+    pub(super) fn wrist_at(&self, state: State) -> [f64; 3] {
+        match self {
+            Track::Line(line) => line.wrist_at(state),
+            Track::Corner(corner) => corner.wrist_at(state),
         }
     }
 
@@ -189,7 +213,8 @@ fn scheduled(
 ) -> (BlendedPath, Vec<Vec<TimedTrack>>) {
     let corner = |waypoint: usize| {
         let blend = curve.blend(waypoint).filter(|_| !limits.stops_at_corners());
-        blend.and_then(|blend: Blend| Corner::new(blend, limits, shares[waypoint]))
+        blend
+            .and_then(|blend: Blend| Corner::new(blend, blend_wrist(curve, waypoint, limits), limits, shares[waypoint]))
     };
     let count = curve.radii().len();
     let mut used = curve.clone();
@@ -258,21 +283,22 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans
     let timed_tracks = |(number, leg): (usize, &[Configuration])| {
         let tip_share = limits.tip_share(number);
         let whole_limits = limits;
+        let wrist = limits.wrist.map_or([0.0; 2], |wrist| [wrist.values[number], wrist.values[number + 1]]);
         let limits = &limits.with_tip_share(tip_share);
         let whole = || {
-            let line = Line::new(leg[0], leg[1], limits).safe(limits);
+            let line = Line::new(leg[0], leg[1], wrist, limits).safe(limits);
             let phases = rest_to_rest(line.length, line.speed, line.acceleration, MIN_INTERVAL);
             vec![(Track::Line(line), phases)]
         };
-        if Line::new(leg[0], leg[1], limits).jerk.is_finite() {
+        if Line::new(leg[0], leg[1], wrist, limits).jerk.is_finite() {
             // One top speed for all parts avoids jumps between them.
-            let parts = Line::parts(leg[0], leg[1], limits);
+            let parts = Line::parts(leg[0], leg[1], wrist, limits);
             let speed = parts.iter().map(|part| part.speed).fold(f64::INFINITY, f64::min);
-            let line = Line { speed, ..Line::new(leg[0], leg[1], limits) }.safe(limits);
+            let line = Line { speed, ..Line::new(leg[0], leg[1], wrist, limits) }.safe(limits);
             let phases = jerk::rest_to_rest(line.length, line.speed, line.acceleration, line.jerk, MIN_INTERVAL);
             return vec![(Track::Line(line), phases)];
         }
-        let tracks = Track::straight(leg[0], leg[1], whole_limits, tip_share);
+        let tracks = Track::straight([leg[0], leg[1]], wrist, whole_limits, tip_share);
         let is_more = tracks.len() > 1 || matches!(tracks[0], Track::Corner(_));
         is_more.then(|| driven(tracks, whole_limits, 0.0, spans)).flatten().unwrap_or_else(whole)
     };
@@ -417,16 +443,29 @@ fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
 fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, shares: &[f64]) -> Option<Vec<Track>> {
     let q = curve.path().waypoints();
     let mut from = q[waypoints.start];
+    let mut turned = limits.wrist.map_or(0.0, |wrist| wrist.values[waypoints.start]);
     let mut tracks = Vec::new();
     for (waypoint, &corner) in q.iter().enumerate().take(waypoints.end + 1).skip(waypoints.start + 1) {
         let blend = curve.blend(waypoint);
         let tip_share = limits.tip_share(waypoint - 1);
-        tracks.extend(Track::straight(from, blend.map_or(corner, |b| b.from), limits, tip_share));
+        let wrist = match blend {
+            Some(_) => blend_wrist(curve, waypoint, limits),
+            None => [limits.wrist.map_or(0.0, |wrist| wrist.values[waypoint]); 3],
+        };
+        let ends = [from, blend.map_or(corner, |b| b.from)];
+        tracks.extend(Track::straight(ends, [turned, wrist[0]], limits, tip_share));
         if let Some(blend) = blend {
-            let corner = Corner::new(blend, limits, shares[waypoint])?;
+            let corner = Corner::new(blend, wrist, limits, shares[waypoint])?;
             tracks.push(Track::Corner(corner.with_tip_share(tip_share.min(limits.tip_share(waypoint)))));
-            from = blend.to;
+            (from, turned) = (blend.to, wrist[2]);
         }
     }
     Some(tracks)
+}
+
+/// Returns the values of the wrist's joint at the beginning of a blend, at its corner, and at its end; 0 without a wrist.
+fn blend_wrist(curve: &BlendedPath, waypoint: usize, limits: &Limits) -> [f64; 3] {
+    let (q, radius) = (curve.path().waypoints(), curve.radii()[waypoint]);
+    let toward = |other: usize| limits.wrist_at(waypoint, other, radius, (q[other] - q[waypoint]).norm());
+    [toward(waypoint - 1), limits.wrist.map_or(0.0, |wrist| wrist.values[waypoint]), toward(waypoint + 1)]
 }

@@ -322,7 +322,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn limits(velocity: f64, acceleration: f64, jerk: [Option<f64>; 2]) -> Limits<'static> {
-        Limits { velocity: [velocity; 2], acceleration: [acceleration; 2], jerk, tip: None, torque: None }
+        Limits { velocity: [velocity; 2], acceleration: [acceleration; 2], jerk, tip: None, torque: None, wrist: None }
     }
 
     /// Returns a path with a blend at each corner, timed without limits on jerks, and its smoothed motion.

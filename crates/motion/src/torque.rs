@@ -210,7 +210,8 @@ impl<'a> TorqueLimit<'a> {
     }
 
     /// Returns the torques at the samples.
-    pub(super) fn along_trajectory(&self, trajectory: &Trajectory) -> Vec<[f64; 2]> {
+    #[must_use]
+    pub fn along_trajectory(&self, trajectory: &Trajectory) -> Vec<[f64; 2]> {
         let at = |i: usize| {
             let [q, v, a] =
                 [&trajectory.position, &trajectory.velocity, &trajectory.acceleration].map(|row| row[i].into());

@@ -10,6 +10,6 @@ pub struct RobotSettings<'a> {
     pub table: &'a RobotTable,
     /// The world file. Messages quote its lines.
     pub source: &'a Source,
-    /// True if the world is a task, during which the wrist turns.
-    pub is_task: bool,
+    /// True if the wrist turns during motions, as it may in steps and along lines.
+    pub wrist_turns: bool,
 }

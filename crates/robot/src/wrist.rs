@@ -18,7 +18,8 @@ use toml::Spanned;
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "wrist")]
 pub struct WristTable {
-    /// The joint that it is, so that ROS 2 files have its values; without it they hold it still.
+    /// The joint that it is, so that ROS 2 files have its values; without it they hold it still. Lines along which the tool
+    /// has an angle need it.
     #[schemars(with = "Option<String>")]
     pub joint: Option<Spanned<String>>,
     /// Top speed, rad/s.
@@ -44,7 +45,7 @@ impl WristTable {
         let acceleration = acceleration.unwrap_or(assumed_acceleration(velocity));
         let own = self.joint.as_ref().and_then(|name| find(jerks, name.get_ref()));
         let jerk = self.jerk.as_ref().or(own).map(|jerk| positive(source, jerk, "jerk")).transpose()?;
-        Ok(Wrist { velocity, acceleration, jerk, turns_on_the_way })
+        Ok(Wrist { velocity, acceleration, jerk, turns_on_the_way, joint: None })
     }
 
     /// Returns a note about the acceleration limit. `None` if the file states the limit.

@@ -75,6 +75,9 @@ pub struct Leg {
     pub overlap: Overlap,
     /// Proven upper bound on the distance between the tip's path and the line, in metres, if the step follows one.
     pub deviation: Option<f64>,
+    /// Proven upper bound on the difference between the tool's angle and the one that the line asks for, in radians.
+    /// `None` if the step follows no such line.
+    pub tool_deviation: Option<f64>,
     /// The event while the tool is lowered.
     pub event: Option<Event>,
     /// Time from the beginning of the task to that of the motion, in seconds.

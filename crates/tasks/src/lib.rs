@@ -65,6 +65,7 @@ mod sequence;
 mod state;
 mod stroke;
 mod timed_turn;
+mod tool_turn;
 mod wrist;
 
 pub use answer::{Event, Leg, TaskAnswer, TaskMotion};
@@ -76,4 +77,5 @@ pub use replay::{MotionReplay, TaskReplay};
 pub use sequence::Sequence;
 pub use stroke::ToolStroke;
 pub use timed_turn::TimedTurn;
+pub use tool_turn::wrist_state;
 pub use wrist::WristMotion;

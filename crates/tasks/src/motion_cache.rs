@@ -4,13 +4,14 @@ use super::arch::{Overlap, overlap};
 use super::least_time::least_of_tool;
 use super::state::{Candidate, State, turns_on_the_way};
 use super::stroke::{ToolStroke, raising_first, stroke};
+use super::tool_turn::turned_first;
 use super::wrist::WristMotion;
 use cplan_core::check::{CertifiedPath, CheckedProof, certify};
 use cplan_core::model::{Grip, MotionProblem, Outcome, Scene};
 use cplan_core::space::{Configuration, Path};
-use cplan_follow::{Settings, follow_between};
+use cplan_follow::{Found, Settings, WristAlong, follow_between};
 use cplan_geometry::Pose;
-use cplan_handling::{Action, FollowedLine, Payload, Step, Task};
+use cplan_handling::{Action, FollowedLine, Payload, Step, Task, WristGuide};
 use cplan_motion::recorded::{WristTurn, wrist_turn};
 use cplan_motion::{TimedMotion, TorqueLimit, single};
 use cplan_proofs::{Connectivity, slab_connectivity};
@@ -80,6 +81,8 @@ pub(super) struct Motion {
     pub overlap: Overlap,
     /// Proven bound on the distance of the tip from the line, in metres, if the motion follows one.
     pub deviation: Option<f64>,
+    /// Proven bound on the difference between the tool's angle and the one that the line asks for, in radians.
+    pub tool_deviation: Option<f64>,
     /// Duration of the turn after the step before, in seconds, if the motion may begin during it. It counts for this
     /// motion, since it may be hidden in it.
     pub turning_before: f64,
@@ -107,6 +110,16 @@ impl Motion {
     pub fn before_departure(&self) -> f64 {
         self.turning_before + self.raising.map_or(0.0, |raising| raising.seconds)
     }
+}
+
+/// A motion along a line, with proven bounds.
+#[derive(Debug, Clone)]
+struct LineMotion {
+    timed: Arc<TimedMotion>,
+    /// Bound on the distance of the tip from the line, in metres.
+    deviation: f64,
+    /// Bound on the difference between the tool's angle and the one that the line asks for, in radians.
+    tool_deviation: Option<f64>,
 }
 
 /// What is known about a motion's path before it is planned.
@@ -150,7 +163,7 @@ pub(super) struct MotionCache {
     /// Motions by path and speed.
     motions: BTreeMap<(PathKey, u64), Result<Arc<TimedMotion>, Refusal>>,
     /// Motions along lines, by scene, ends and number of the step.
-    lines: BTreeMap<SceneKey, Result<(Arc<TimedMotion>, f64), Refusal>>,
+    lines: BTreeMap<SceneKey, Result<LineMotion, Refusal>>,
     /// Scenes with all objects, for answers.
     scenes: BTreeMap<SceneKey, Arc<Scene>>,
     /// Overlaps by scene, objects of the strokes, ends and speed.
@@ -190,7 +203,10 @@ impl MotionCache {
     /// Returns the motion to a candidate's target with the turn and the stroke there.
     pub fn motion(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<Motion, Refusal> {
         if let Action::Follow(line) = &candidate.step.action {
-            let (timed, deviation) = self.line(task, from, candidate, line)?;
+            let LineMotion { mut timed, deviation, tool_deviation } = self.line(task, from, candidate, line)?;
+            if let Some((begin, wrist)) = from.wrist.zip(task.wrist) {
+                timed = turned_first(&from.scene(task, None), &timed, begin, &wrist, candidate.step.speed);
+            }
             let turning_before = from.turning.map_or(0.0, |(_, seconds)| seconds);
             let overlap = Overlap::NONE;
             let deviation = Some(deviation);
@@ -203,6 +219,7 @@ impl MotionCache {
                 raises_again: false,
                 overlap,
                 deviation,
+                tool_deviation,
                 turning_before,
                 turning: 0.0,
             });
@@ -239,6 +256,7 @@ impl MotionCache {
             raises_again,
             overlap,
             deviation: None,
+            tool_deviation: None,
             turning_before,
             turning,
         };
@@ -250,14 +268,14 @@ impl MotionCache {
         Ok(Motion { wrist, ..motion })
     }
 
-    /// Returns the motion along a line, and a bound on its distance from the line, in metres.
+    /// Returns the motion along a line, with proven bounds.
     fn line(
         &mut self,
         task: &Task,
         from: &State,
         candidate: &Candidate,
         line: &FollowedLine,
-    ) -> Result<(Arc<TimedMotion>, f64), Refusal> {
+    ) -> Result<LineMotion, Refusal> {
         require_free_after(task, from, candidate)?;
         let step = candidate.step;
         let mut key = scene_key(from, step, |_| true);
@@ -273,10 +291,13 @@ impl MotionCache {
             tip_speed: drive.tip_speed,
             share: step.speed,
             period: drive.period,
+            wrist: line.wrist.map(|guide| wrist_along(task, guide)).transpose()?,
         };
         let scene = from.scene(task, None);
         let planned = match follow_between(&scene, &line.path, &settings, [from.q, candidate.to]) {
-            Ok(Outcome::Found(found)) => Ok((Arc::new(found.timed), found.deviation)),
+            Ok(Outcome::Found(Found { timed, deviation, tool_deviation, .. })) => {
+                Ok(LineMotion { timed: Arc::new(timed), deviation, tool_deviation })
+            }
             Ok(Outcome::Infeasible(why)) => Err(Refusal::new(why, true)),
             Ok(Outcome::Unknown(why)) => Err(Refusal::new(why, false)),
             Err(error) => Err(Refusal::new(error.to_string(), false)),
@@ -424,6 +445,15 @@ fn require_free_after(task: &Task, from: &State, candidate: &Candidate) -> Resul
         require_unobstructed(&left.scene(task, None), candidate.to, "after it")?;
     }
     Ok(())
+}
+
+/// Returns the wrist that turns the tool along a line.
+fn wrist_along(task: &Task, guide: WristGuide) -> Result<WristAlong, Refusal> {
+    let along = task.wrist.and_then(|wrist| {
+        let (velocity, acceleration) = (wrist.velocity, wrist.acceleration);
+        Some(WristAlong { guide, joint: wrist.joint?, velocity, acceleration })
+    });
+    along.ok_or_else(|| Refusal::new("the line asks for an angle of the tool, but the arm has no known wrist", false))
 }
 
 /// Returns the options for planning the motions of a task. A task minimises duration, not length, and a slightly longer

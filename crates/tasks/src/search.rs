@@ -10,6 +10,7 @@ use super::least_time::{least_line_time, least_time};
 use super::motion_cache::{Motion, MotionCache, Refusal};
 use super::state::{Candidate, State, turns_on_the_way};
 use super::stroke::{least_rest, least_stroke, least_without_strokes, most_overlap};
+use super::tool_turn::wrist_after;
 use cplan_geometry::OpenList;
 use cplan_handling::{Action, Task};
 use cplan_interrupt::checkpoint;
@@ -197,6 +198,7 @@ impl<'a, 'l> Search<'a, 'l> {
                 let mut state = from.after(self.task, &candidate, motion.timed.curve.curve().path().goal());
                 let may_depart = candidate.turns_after_stroke() && turns_on_the_way(self.task);
                 state.turning = motion.turn.filter(|_| may_depart);
+                state.wrist = wrist_after(self.task, from, &motion.timed.trajectory, motion.turn.map(|(turn, _)| turn));
                 let seconds = self.nodes[parent].seconds + seconds;
                 let node = &mut self.nodes[index];
                 (node.seconds, node.stage) =
@@ -285,6 +287,7 @@ impl<'a, 'l> Search<'a, 'l> {
                     wrist: motion.wrist,
                     overlap: motion.overlap,
                     deviation: motion.deviation,
+                    tool_deviation: motion.tool_deviation,
                     event: candidate.event,
                     begin: *seconds + motion.before_departure() - motion.overlap.departure(),
                 });

@@ -33,6 +33,8 @@ impl Sequence {
             rest = leg.rest();
         }
         sequence.trajectory.append_rest(rest);
+        // Only some motions have the values of a wrist; messages and steps have them.
+        sequence.trajectory.wrist.clear();
         sequence
     }
 

@@ -41,6 +41,9 @@ pub(super) struct State {
     /// The turn after the last step during which the next motion may begin, and its duration at rest, in seconds. `None`
     /// if the wrist does not turn, or only while the arm is at rest.
     pub turning: Option<(WristTurn, f64)>,
+    /// Value of the wrist's joint, radians, after the turn of the last step. `None` unless a line of the task asks for an
+    /// angle of the tool.
+    pub wrist: Option<f64>,
 }
 
 /// A candidate for the next step: one possible configuration at its target, and one orientation of the object.
@@ -109,6 +112,10 @@ impl State {
             rising: task.start_tool.lowered_by(),
             is_lowered: task.start_tool.lowered_by().is_some(),
             turning: None,
+            wrist: task
+                .wrist
+                .filter(|_| task.turns_tool_along_lines())
+                .and_then(|wrist| Some(task.start_tool.wrist.unwrap_or(wrist.joint?.rest))),
         };
         state.renewed(task)
     }
@@ -137,6 +144,7 @@ impl State {
         key.extend(self.held.iter().map(|held| held.object as i64));
         key.extend(self.released.iter().map(|&object| object as i64));
         key.extend(self.turning.iter().flat_map(|(turn, _)| [turn.from, turn.to]).map(grains));
+        key.extend(self.wrist.map(grains));
         key
     }
 

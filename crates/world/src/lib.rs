@@ -26,6 +26,7 @@ mod help;
 mod joint_pair;
 mod line_map;
 mod line_table;
+mod line_wrist;
 mod map_text;
 mod nearness;
 mod notes;
@@ -74,9 +75,19 @@ pub use values::{JointValues, Overrides, TipPoint};
 pub use world::{World, in_toml_words, world_schema};
 
 use cplan_core::model::{Arm, Goal, MotionProblem, Scene};
-use cplan_handling::{ObstacleTrajectory, RobotJoints, TimedScene};
+use cplan_handling::{ObstacleTrajectory, RobotJoints, TimedScene, ToolJoint, Wrist, WristJoint};
 use cplan_robot::{Diagnostic, InputError, Inspection, RobotFile, RobotReport, RobotTable, Source};
 use std::path::{Path, PathBuf};
+
+/// Reason why a line cannot have an angle of the tool in a world with a limit on the wrist's jerk.
+pub(crate) const WRIST_WITH_JERK: &str =
+    "the line asks for an angle of the tool, but lines do not keep limits on the jerk of the wrist";
+
+/// Help for such a line.
+pub(crate) const WITHOUT_JERK: &str = "remove the wrist's `jerk` from [robot], or `wrist` from the line";
+
+/// Help for a line that needs a wrist.
+pub(crate) const NAME_THE_WRIST: &str = "[robot] wrist = { joint = \"NAME\", velocity = 6.0 }, in rad/s";
 
 /// Arm, obstacles and objects of the files, without start, goal and steps.
 #[derive(Debug, Clone)]
@@ -114,6 +125,17 @@ pub struct LoadedProblem {
 /// [`InputError`] with all defects of the files themselves.
 pub fn load_scene(robot: impl Into<RobotFile>, world: &Path) -> Result<LoadedScene, InputError> {
     let world = world::read(Source::read(world)?)?;
+    scene_of_world(world, robot.into().read()?)
+}
+
+/// Does the same as [`load_scene`] for motions during which the wrist turns, as in steps: each link that it carries counts
+/// as the disc that it sweeps about the wrist's axis. This matters only for a world that names the wrist's joint.
+///
+/// # Errors
+/// Same as for [`load_scene`], and a link whose shape is not centred on the wrist's axis.
+pub fn load_scene_with_turning_wrist(robot: impl Into<RobotFile>, world: &Path) -> Result<LoadedScene, InputError> {
+    let mut world = world::read(Source::read(world)?)?;
+    world.wrist_turns = true;
     scene_of_world(world, robot.into().read()?)
 }
 
@@ -163,6 +185,38 @@ impl LoadedScene {
     pub fn stated_ends(&self) -> [Option<Goal>; 2] {
         let goal = self.world.goals.as_ref().and_then(|(goals, _)| goals.first().copied());
         [self.world.start.as_ref().map(|&(start, _)| start), goal]
+    }
+
+    /// Returns the wrist of the world, with its joint if the world names one. `None` if the world has no wrist.
+    #[must_use]
+    pub fn wrist(&self) -> Option<Wrist> {
+        let (wrist, _) = self.world.wrist.as_ref()?;
+        let turn = self.world.place.as_ref().map_or(0.0, |place| place.rotation.angle());
+        let joint = self.robot.joints.wrist.as_ref().map(|ToolJoint { rest, sign, range, direction, .. }| WristJoint {
+            sign: *sign,
+            zero: direction + turn - sign * rest,
+            rest: *rest,
+            range: *range,
+        });
+        Some(Wrist { joint, ..*wrist })
+    }
+
+    /// Returns the wrist for a line along which the tool has an angle, with the name of its joint, and a note about its
+    /// limits if any is assumed.
+    ///
+    /// # Errors
+    /// A world without a wrist, without the name of its joint, or with a limit on its jerk.
+    pub fn wrist_for_line(&self) -> Result<(Wrist, &str, Option<&str>), InputError> {
+        let note = self.world.wrist.as_ref().and_then(|(_, note)| note.as_deref());
+        let joint = self.robot.joints.wrist.as_ref();
+        if self.world.wrist.as_ref().is_some_and(|(wrist, _)| wrist.jerk.is_some()) {
+            return Err(self.world.source.diagnostic(WRIST_WITH_JERK).help(WITHOUT_JERK).into());
+        }
+        let found = self.wrist().zip(joint).map(|(wrist, joint)| (wrist, joint.name.as_str(), note));
+        found.ok_or_else(|| {
+            let message = "the line asks for an angle of the tool, but the world does not name the wrist's joint";
+            self.world.source.diagnostic(message).help(NAME_THE_WRIST).into()
+        })
     }
 
     /// Returns the paths of all files that were read: those of the robot, then those of the world.

@@ -1,5 +1,6 @@
 //! Lines for the tip: the table `follow` of a step, and files of lines in TOML.
 
+use super::line_wrist::{self, WristValue};
 use super::reader::Reader;
 use super::schema::NotNegative;
 use super::world::in_toml_words;
@@ -19,7 +20,7 @@ use toml::Spanned;
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "follow", extend(
     "oneOf" = [{ "required": ["file"] }, { "required": ["points"] }, { "required": ["arc"] }, { "required": ["spline"] }],
-    "dependencies" = { "radius": ["points"], "unit": ["file"] },
+    "dependencies" = { "radius": ["points"], "unit": ["file"], "wrist_tolerance": ["wrist"] },
 ))]
 pub(super) struct LineTable {
     /// G-code (.gcode, .nc, .ngc, .tap) or a drawing (.svg), named relative to this file.
@@ -56,6 +57,13 @@ pub(super) struct LineTable {
     #[serde(rename = "move")]
     #[schemars(with = "Option<NumberPair>")]
     shift: Option<Numbers>,
+    /// Angle of the tool along the line.
+    #[schemars(with = "Option<WristValue>")]
+    wrist: Option<Spanned<WristValue>>,
+    /// Greatest difference from that angle, rad; by default 0.01. The arm rests at corners where the line turns by more,
+    /// while the tool turns.
+    #[schemars(with = "Option<AngleOrLength>")]
+    wrist_tolerance: Option<Written>,
 }
 
 /// A function that returns the curves through points.
@@ -118,7 +126,9 @@ impl LineTable {
         };
         let speed = self.speed.as_ref().map(|speed| positive(reader, speed, "speed")).transpose()?;
         let tolerance = self.tolerance.as_ref().map(|t| positive(reader, t, "tolerance")).transpose()?;
-        let line = FollowedLine { path: Arc::new(path), tolerance: tolerance.unwrap_or(DEFAULT_TOLERANCE), speed };
+        let wrist = line_wrist::read(reader, self.wrist.as_ref(), self.wrist_tolerance.as_ref())?;
+        let line =
+            FollowedLine { path: Arc::new(path), tolerance: tolerance.unwrap_or(DEFAULT_TOLERANCE), speed, wrist };
         match &self.tolerance {
             Some(number) if line.tolerance < MIN_TOLERANCE => {
                 let message = format!("the tolerance is {} m, less than {MIN_TOLERANCE} m", line.tolerance);

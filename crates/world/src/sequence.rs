@@ -5,9 +5,10 @@ use super::object::{MovableObject, Names, Supports, rests_on_itself};
 
 use super::reader::Reader;
 use super::requirement::{Required, Requirement, Requirements};
+use super::{NAME_THE_WRIST, WITHOUT_JERK, WRIST_WITH_JERK};
 use cplan_core::model::Goal;
 use cplan_geometry::Point;
-use cplan_handling::{Action, Holding, Item, Step};
+use cplan_handling::{Action, FollowedLine, Holding, Item, Step, ToolAngle};
 use cplan_robot::Diagnostic;
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;
@@ -36,7 +37,7 @@ pub(super) fn write_out(
     reader: &Reader,
     names: &Names,
     objects: &[MovableObject],
-    has_wrist: bool,
+    wrist: WristOfWorld,
     steps: &Group,
     at: Range<usize>,
 ) -> Result<Sequence, Diagnostic> {
@@ -45,7 +46,7 @@ pub(super) fn write_out(
         reader,
         names,
         objects,
-        has_wrist,
+        wrist,
         carried: None,
         object_places,
         cycles: Vec::new(),
@@ -85,18 +86,33 @@ impl ObjectPlace {
     }
 }
 
+/// What a world states about its wrist.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum WristOfWorld {
+    /// There is no wrist.
+    None,
+    /// There is a wrist whose joint is not known.
+    Nameless,
+    /// There is a wrist with a joint whose jerk is limited.
+    WithJerk,
+    /// There is a wrist with a joint.
+    Named,
+}
+
 /// An object in the gripper.
 #[derive(Clone, Copy)]
 struct CarriedObject {
     object: usize,
     grasp: Point,
+    /// Number of a step since the pick that requires the object to keep its orientation.
+    kept_by: Option<usize>,
 }
 
 struct Writer<'a> {
     reader: &'a Reader<'a>,
     names: &'a Names<'a>,
     objects: &'a [MovableObject],
-    has_wrist: bool,
+    wrist: WristOfWorld,
     carried: Option<CarriedObject>,
     object_places: Vec<ObjectPlace>,
     /// For each step of the file, the number of times that it has been written out.
@@ -181,7 +197,7 @@ impl Writer<'_> {
                 }
                 Action::Move(*goal)
             }
-            LeafAction::Follow(line) => Action::Follow(line.clone()),
+            LeafAction::Follow(line) => Action::Follow(self.line(leaf, line)?),
         };
         if self.cycles.len() < leaf.number {
             self.cycles.resize(leaf.number, 0);
@@ -197,6 +213,49 @@ impl Writer<'_> {
             dwell: leaf.dwell,
             tool: leaf.tool,
         })
+    }
+
+    /// Returns the line of a step. With a level payload, the angle of the tool means that of the payload, which keeps it
+    /// anyway.
+    ///
+    /// # Errors
+    /// An angle of the tool without a known wrist, or one that would turn the payload.
+    fn line(&mut self, leaf: &Leaf, line: &FollowedLine) -> Result<FollowedLine, Diagnostic> {
+        let Some(guide) = line.wrist else { return Ok(line.clone()) };
+        let refuse = |message: String, help: &str| {
+            let message = format!("step {}: {message}", leaf.number);
+            Err(self.reader.source.diagnostic_at(leaf.at.clone(), message).help(help))
+        };
+        if self.wrist == WristOfWorld::WithJerk {
+            return refuse(WRIST_WITH_JERK.into(), WITHOUT_JERK);
+        }
+        if self.wrist != WristOfWorld::Named {
+            let message = "the line asks for an angle of the tool, but the world does not name the wrist's joint";
+            return refuse(message.into(), NAME_THE_WRIST);
+        }
+        let Some(CarriedObject { object, .. }) = self.carried else { return Ok(line.clone()) };
+        let name = self.in_words(Some(object));
+        let holding = self.objects[object].object.holding;
+        match (holding, guide.angle, self.object_places[object].angle) {
+            (Holding::Level, ToolAngle::Fixed(angle), Some(own)) => {
+                let turn = (angle - own).rem_euclid(TAU);
+                if turn.min(TAU - turn) > ANGLE_TOLERANCE {
+                    let message =
+                        format!("object {name} is carried level at {own} rad, but the line asks for {angle} rad");
+                    return refuse(message, "leave `wrist` out, or give the angle of the object");
+                }
+                self.carried = self.carried.map(|carried| CarriedObject { kept_by: Some(leaf.number), ..carried });
+                Ok(FollowedLine { wrist: None, ..line.clone() })
+            }
+            (Holding::Level, ..) => {
+                let message = format!("object {name} is carried level, so the tool cannot turn along the line");
+                refuse(message, "leave `wrist` out, or place the object first")
+            }
+            (Holding::Rigid, ..) => {
+                let message = format!("object {name} is held rigidly, so the wrist must not turn it along the line");
+                refuse(message, "leave `wrist` out, or place the object first")
+            }
+        }
     }
 
     fn pick(
@@ -230,7 +289,7 @@ impl Writer<'_> {
         } else if let Some(tip) = object_places.point(grasp).filter(|tip| object_places.tip != Some(*tip)) {
             self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
         }
-        self.carried = Some(CarriedObject { object, grasp });
+        self.carried = Some(CarriedObject { object, grasp, kept_by: None });
         let when = when.map_or_else(Vec::new, |when| when.times.clone());
         Ok(Action::Pick { object, grasp, supports: supports.numbers.clone(), when })
     }
@@ -242,13 +301,22 @@ impl Writer<'_> {
         angle: Option<&(f64, Range<usize>)>,
         supports: Option<&Supports>,
     ) -> Result<Action, Diagnostic> {
-        let Some(CarriedObject { object, grasp }) = self.carried.take() else {
+        let Some(CarriedObject { object, grasp, kept_by }) = self.carried.take() else {
             let message = format!("step {} places an object, but the tool carries none", leaf.number);
             return Err(self.reader.source.diagnostic_at(leaf.at.clone(), message).help("pick an object first"));
         };
         let supports = supports.unwrap_or(&self.objects[object].supports);
         self.require_rest(leaf, object, supports)?;
         let asked = angle.map(|(angle, place)| self.turned(leaf, object, *angle, place)).transpose()?;
+        if let (Some(kept_by), Some((angle, place))) = (kept_by, angle)
+            && asked != self.object_places[object].angle
+        {
+            let name = self.in_words(Some(object));
+            let message =
+                format!("step {}: object {name} is turned to {angle} rad, but step {kept_by} keeps it", leaf.number);
+            let help = "leave `wrist` out in the line before, or the angle here";
+            return Err(self.reader.source.diagnostic_at(place.clone(), message).help(help));
+        }
         let mut object_places = match self.objects[object].object.holding {
             Holding::Rigid => ObjectPlace { at, angle: None, tip: None, moves: false },
             Holding::Level => {
@@ -285,7 +353,7 @@ impl Writer<'_> {
         if turn.min(TAU - turn) <= ANGLE_TOLERANCE {
             return Ok(before);
         }
-        if !self.has_wrist {
+        if self.wrist == WristOfWorld::None {
             let message = format!("object {name} must be turned from {before} to {angle} rad, but there is no wrist");
             return refuse(message, "[robot] wrist = { velocity = 6.0 }, in rad/s, or leave the angle out");
         }

@@ -97,6 +97,7 @@ impl LoadedScene {
         };
         let requirements = loaded.world.steps.iter().flat_map(|steps| &steps.requirements);
         InputError::check(requirements.filter_map(|r| loaded.unmet_requirement(r, start)).collect())?;
+        let wrist = loaded.wrist();
         let Self { scene, world, robot, .. } = loaded;
         let stroke = robot.joints.stroke.clone();
         if let Some(stroke) = &stroke {
@@ -105,8 +106,7 @@ impl LoadedScene {
         let mut workspace = world.workspace;
         workspace.fixed.clearance = scene.workspace().clearance;
         let items = world.steps.map_or_else(|| own_move.into_iter().collect(), |steps| steps.items);
-        let (wrist, note) = world.wrist.unzip();
-        notes.extend(note.flatten());
+        notes.extend(world.wrist.and_then(|(_, note)| note));
         let task = Task {
             arm: scene.arm().clone(),
             workspace,

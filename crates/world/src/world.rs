@@ -10,7 +10,7 @@ use super::preference::PreferenceTable;
 use super::reader::Reader;
 use super::schema::{NotNegative, toml_schema};
 use super::sensor::{SensorTable, SensorWishes};
-use super::sequence::{Sequence, write_out};
+use super::sequence::{Sequence, WristOfWorld, write_out};
 use super::step::{StepReader, StepTable, TaskTable};
 use super::table::Table;
 use super::tool_values::StatedTool;
@@ -54,6 +54,8 @@ pub struct World {
     pub(super) sensor: SensorWishes,
     /// The wrist, with a note about its limits if any is assumed.
     pub(super) wrist: Option<(Wrist, Option<String>)>,
+    /// True if the wrist turns during motions although the world has no steps.
+    pub(super) wrist_turns: bool,
 }
 
 impl World {
@@ -74,6 +76,7 @@ impl World {
             tool: [StatedTool::default(), StatedTool::default()],
             sensor: SensorWishes::default(),
             wrist: None,
+            wrist_turns: false,
         }
     }
 
@@ -89,7 +92,7 @@ impl World {
 
     /// Returns the settings for reading the robot.
     pub(super) fn robot_settings(&self) -> RobotSettings<'_> {
-        RobotSettings { table: &self.robot, source: &self.source, is_task: self.is_task() }
+        RobotSettings { table: &self.robot, source: &self.source, wrist_turns: self.is_task() || self.wrist_turns }
     }
 
     /// Returns the workspace with all objects after the static obstacles. Each object is at its initial place, or moves
@@ -233,7 +236,13 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let pallets = Pallets::read(&reader, &file.pallet)?;
     let held = payload.unwrap_or(Holding::Rigid);
     let (movables, names) = object::read(&reader, &file.object, &pallets, &obstacles, &movers, held)?;
-    let steps = steps(&reader, &file, &pallets, &names, &movables, wrist.is_some())?;
+    let of_wrist = match &wrist {
+        None => WristOfWorld::None,
+        Some(_) if file.robot.wrist_joint().is_none() => WristOfWorld::Nameless,
+        Some((wrist, _)) if wrist.jerk.is_some() => WristOfWorld::WithJerk,
+        Some(_) => WristOfWorld::Named,
+    };
+    let steps = steps(&reader, &file, &pallets, &names, &movables, of_wrist)?;
     let stem = source.stem().unwrap_or_else(|| "world".to_owned());
     let place = reader.pose(file.robot.at.as_ref(), file.robot.angle.as_ref(), "[robot]")?;
     let mut notes = reader.taken.lines();
@@ -255,6 +264,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         tool,
         sensor,
         wrist,
+        wrist_turns: false,
         place,
         robot: file.robot,
         source,
@@ -268,7 +278,7 @@ fn steps(
     pallets: &Pallets,
     names: &Names,
     movables: &[MovableObject],
-    has_wrist: bool,
+    wrist: WristOfWorld,
 ) -> Result<Option<Sequence>, Diagnostic> {
     if file.step.is_empty() {
         return file.task.as_ref().map_or(Ok(None), |task| {
@@ -283,7 +293,7 @@ fn steps(
     let task = file.task.as_ref().map(Spanned::get_ref);
     let group = StepReader::new(reader, pallets, names, movables).all(&file.step, task)?;
     let at = file.step[0].span();
-    write_out(reader, names, movables, has_wrist, &group, at).map(Some)
+    write_out(reader, names, movables, wrist, &group, at).map(Some)
 }
 
 /// Returns the deserialiser's message in TOML's words for keys and numbers. Rust's words are replaced.

@@ -1,5 +1,6 @@
 //! The arguments of `cplan follow`.
 
+use super::wrist::{tool_angle, tool_tolerance};
 use crate::cli::files::Files;
 use crate::cli::headings::OUTPUT;
 use crate::cli::print_args::PrintArgs;
@@ -8,6 +9,7 @@ use crate::cli::values::{clearance, displacement, turn};
 use crate::grammar::{number_in, positive};
 use clap::{Args, ValueHint};
 use cplan_follow::{MIN_TOLERANCE, Settings};
+use cplan_handling::ToolAngle;
 use cplan_toolpath::Placement;
 use cplan_toolpath::Unit;
 use std::path::PathBuf;
@@ -43,6 +45,13 @@ pub struct FollowArgs {
     /// Greatest speed of the tip, metres per second, instead of the speeds (F) of the file.
     #[arg(long, value_name = "M/S", value_parser = positive)]
     pub speed: Option<f64>,
+    /// Angle of the tool, which the wrist keeps along the line: radians from the x axis, or degrees such as 90deg; tangent
+    /// for the direction of the line; or tangent+ANGLE. It replaces that of a line in TOML.
+    #[arg(long, value_name = "ANGLE", value_parser = tool_angle, allow_hyphen_values = true)]
+    pub wrist: Option<ToolAngle>,
+    /// Greatest difference from that angle, radians; by default that of the line in TOML, or else 0.01.
+    #[arg(long, value_name = "RADIANS", value_parser = tool_tolerance)]
+    pub wrist_tolerance: Option<f64>,
     /// Unit of the line's numbers instead of the unit in the file: mm, cm, dm, m, km, um, mil, in, ft, yd or px.
     #[arg(long, value_name = "UNIT")]
     pub unit: Option<Unit>,

@@ -17,19 +17,22 @@ pub fn text(answered: &Answered, path: &Path) -> Option<String> {
     let text = match answer {
         Outcome::Found(found) => Ok(certified.of_motion(&found.timed.trajectory)),
         Outcome::Infeasible(infeasible) => {
-            let excluded: Vec<ExcludedSolution> = infeasible.evidence.iter().map(excluded).collect();
-            certified.of_exclusions(&infeasible.place, &excluded)
+            let excluded: Option<Vec<ExcludedSolution>> = infeasible.evidence.iter().map(excluded).collect();
+            let of_exclusions = |excluded: Vec<_>| certified.of_exclusions(&infeasible.place, &excluded);
+            excluded.map_or(Err(NoCertificate::Wrist), of_exclusions)
         }
         Outcome::Unknown(_) => Err(NoCertificate::Answer(Status::Unknown)),
     };
     text.map_err(|why| sinks::print_status(&format!("warning: {} is not written: {why}", path.display()))).ok()
 }
 
-fn excluded(exclusion: &Exclusion) -> ExcludedSolution {
+/// Returns the exclusion for a certificate. `None` if the wrist excludes the solution, which a certificate cannot show.
+fn excluded(exclusion: &Exclusion) -> Option<ExcludedSolution> {
     let Exclusion { place, solution, q, by } = exclusion;
     let pair = match by {
         Obstacle::Limit(_) => None,
         Obstacle::Collision(pair) => Some(*pair),
+        Obstacle::Wrist(_) => return None,
     };
-    ExcludedSolution { place: *place, solution: *solution, q: *q, pair }
+    Some(ExcludedSolution { place: *place, solution: *solution, q: *q, pair })
 }

@@ -4,7 +4,7 @@ use super::{Answered, FollowArgs, certificate, json, picture};
 use crate::cli::failure::Failure;
 use crate::cli::sinks;
 use crate::model::Outcome;
-use crate::motion::{JointMotion, check_writable, csv, ros_yaml, write_whole_set};
+use crate::motion::{JointMotion, check_writable, csv, csv_of_joints, ros_yaml, write_whole_set};
 use crate::output::PictureFormat;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -106,7 +106,10 @@ fn text(answered: &Answered, content: Content, certificate: Option<&str>) -> Res
         }
         Content::Csv => {
             let joints = loaded.scene.arm().joints.each_ref().map(|joint| joint.name.clone());
-            trajectory.map(|trajectory| csv(&joints, trajectory, false, None))
+            trajectory.map(|trajectory| match answered.wrist {
+                Some(wrist) => csv_of_joints(&wrist.motion(&joints, trajectory), None),
+                None => csv(&joints, trajectory, false, None),
+            })
         }
         Content::Yaml => {
             trajectory.map(|trajectory| ros_yaml(&JointMotion::new(&loaded.robot.joints, trajectory, false)))

@@ -31,6 +31,7 @@ pub fn object(answered: &Answered) -> Value {
                 "proven_clearance": clearance.is_finite().then_some(clearance),
                 "duration": found.timed.trajectory.duration(),
                 "changes": found.changes.iter().map(place).collect::<Vec<_>>(),
+                "wrist": answered.wrist.map(|wrist| wrist.to_json(found.tool_deviation)),
                 "interpolation": interpolation(&answered.loaded.scene.arm().joints),
                 "trajectory": found.timed.trajectory,
             })
@@ -39,7 +40,7 @@ pub fn object(answered: &Answered) -> Value {
         Outcome::Unknown(why) => json!({ "reason": why }),
     };
     if let (Value::Object(object), Value::Object(more)) = (&mut object, more) {
-        object.extend(more);
+        object.extend(more.into_iter().filter(|(key, value)| key != "wrist" || !value.is_null()));
     }
     object
 }

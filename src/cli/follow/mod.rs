@@ -7,6 +7,7 @@ mod json;
 mod picture;
 mod read;
 mod words;
+mod wrist;
 
 pub use args::FollowArgs;
 
@@ -18,6 +19,7 @@ use crate::model::Status;
 use cplan_follow::{FollowError, Followed, Settings, follow};
 use cplan_handling::FollowedLine;
 use cplan_toolpath::Toolpath;
+use wrist::FollowingWrist;
 
 /// A line with its robot, its world and the answer.
 struct Answered<'a> {
@@ -28,6 +30,8 @@ struct Answered<'a> {
     tolerance: f64,
     /// Greatest speed of the tip, metres per second, instead of the speeds of the line.
     speed: Option<f64>,
+    /// The wrist that turns the tool; `None` if the tool's angle does not matter.
+    wrist: Option<&'a FollowingWrist>,
     answer: &'a Followed,
     /// The digests of the files of robot and world, for a certificate.
     digests: Option<Digests>,
@@ -38,33 +42,40 @@ struct Answered<'a> {
 /// # Errors
 /// Bad input and I/O, and options that do not suit the robot.
 pub fn run(args: &FollowArgs) -> Result<u8, Failure> {
-    answer(args, || input::load_scene(args.files.robot(), &args.files.world), read::line)
+    let load = |wrist_turns: bool| match wrist_turns {
+        true => input::load_scene_with_turning_wrist(args.files.robot(), &args.files.world),
+        false => input::load_scene(args.files.robot(), &args.files.world),
+    };
+    answer(args, load, read::line)
 }
 
-/// Follows the line that `read_line` returns, in the scene that `load` returns.
+/// Follows the line that `read_line` returns, in the scene that `load` returns. Its argument is true if the wrist turns.
 ///
 /// # Errors
 /// Same as for [`run`].
 pub fn answer(
     args: &FollowArgs,
-    load: impl FnOnce() -> Result<LoadedScene, InputError>,
+    load: impl FnOnce(bool) -> Result<LoadedScene, InputError>,
     read_line: impl FnOnce(&FollowArgs) -> Result<FollowedLine, Failure>,
 ) -> Result<u8, Failure> {
     let outputs = files::Outputs::new(args)?;
-    let loaded = load()?.with_clearance(args.clearance)?;
+    let line = read_line(args)?;
+    let loaded = load(line.wrist.is_some())?.with_clearance(args.clearance)?;
     loaded.require_static_obstacles("a line is followed among obstacles at rest")?;
     let read: Vec<_> = loaded.files().into_iter().chain([args.path.clone()]).collect();
     sinks::refuse_to_overwrite_inputs(outputs.paths(), &read)?;
     let digests = || Digests::of(&args.files.robot(), &args.files.world, &loaded.files());
     let digests = args.certificate.as_ref().map(|_| digests()).transpose()?;
-    let line = read_line(args)?;
+    let wrist = FollowingWrist::new(&line, &loaded)?;
     if !args.print.quiet {
         loaded.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     }
-    let FollowedLine { path, tolerance, speed } = line;
-    let settings = Settings { tolerance, speed, period: args.period, ..Settings::default() };
+    let FollowedLine { path, tolerance, speed, .. } = line;
+    let along = wrist.as_ref().map(|wrist| wrist.along);
+    let settings = Settings { tolerance, speed, period: args.period, wrist: along, ..Settings::default() };
     let answer = follow(&loaded.scene, &path, &settings).map_err(refused)?;
-    let answered = Answered { args, loaded: &loaded, line: &path, tolerance, speed, answer: &answer, digests };
+    let wrist = wrist.as_ref();
+    let answered = Answered { args, loaded: &loaded, line: &path, tolerance, speed, wrist, answer: &answer, digests };
     outputs.write(&answered)?;
     let code = match answer.status() {
         Status::Found => DONE,

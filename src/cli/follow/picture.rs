@@ -24,7 +24,11 @@ pub fn view(answered: &Answered) -> View {
         c_obstacles: &contours(scene),
         ..Picture::new(scene, start(answered))
     };
-    View::of_picture(&picture).with_figures(figures(answered)).with_line(line(answered, scene))
+    let view = View::of_picture(&picture).with_figures(figures(answered)).with_line(line(answered, scene));
+    match answered.wrist.zip(found) {
+        Some((wrist, found)) => view.with_tool(scene.arm(), &wrist.along.joint, &found.timed.trajectory),
+        None => view,
+    }
 }
 
 /// Returns a sentence about each IK solution that is excluded.
@@ -42,7 +46,11 @@ fn line(answered: &Answered, scene: &Scene) -> LineView {
     let view = LineView::new(scene, given, answered.tolerance);
     match answered.answer {
         Followed::Found(found) => {
-            let settings = LineSettings { tolerance: answered.tolerance, speed: answered.speed };
+            let settings = LineSettings {
+                tolerance: answered.tolerance,
+                speed: answered.speed,
+                wrist: answered.wrist.map(|wrist| [wrist.along.velocity, wrist.along.acceleration]),
+            };
             let known = (found.deviation, !found.changes.is_empty());
             view.with_motion(scene, given, &found.timed.trajectory, settings, known)
         }

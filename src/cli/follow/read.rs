@@ -1,6 +1,6 @@
 //! Reads the line.
 
-use super::FollowArgs;
+use super::{FollowArgs, wrist};
 use crate::cli::failure::Failure;
 use crate::input::{self, Source, line_diagnostic, read_line};
 use cplan_handling::FollowedLine;
@@ -8,8 +8,8 @@ use cplan_toolpath::{Format, Toolpath};
 use std::ffi::OsStr;
 use std::sync::Arc;
 
-/// Reads the line that the arguments name, and places it. Tolerance and speed on the command line override those of the
-/// file.
+/// Reads the line that the arguments name, and places it. Tolerance, speed and the tool's angle on the command line
+/// override those of the file.
 ///
 /// # Errors
 /// A file that cannot be read, or that has something that the tip cannot follow: with line, column and a hint.
@@ -20,7 +20,8 @@ pub fn line(args: &FollowArgs) -> Result<FollowedLine, Failure> {
         in_other_format(args)?.into()
     };
     let (tolerance, speed) = (args.tolerance.unwrap_or(line.tolerance), args.speed.or(line.speed));
-    Ok(FollowedLine { tolerance, speed, ..line })
+    let wrist = wrist::guide(args, line.wrist)?;
+    Ok(FollowedLine { tolerance, speed, wrist, ..line })
 }
 
 /// Reads a file with the keys of a step's table `follow`. It is placed by its own keys, and then by the arguments.

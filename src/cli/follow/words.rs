@@ -22,7 +22,11 @@ pub fn summary(answered: &Answered) -> String {
     if answered.args.verbose {
         lines.extend(pieces(answered).into_iter().map(|text| ("", text)));
     }
-    let notes = answered.line.notes().iter().chain(&answered.loaded.robot.notes);
+    let wrist = answered.wrist.and_then(|wrist| wrist.note.as_ref());
+    // The robot was read with the wrist at rest.
+    let held = answered.wrist.map(|wrist| format!("joint \"{}\" is held at", wrist.joint));
+    let is_true = |note: &&String| held.as_ref().is_none_or(|held| !note.starts_with(held));
+    let notes = answered.line.notes().iter().chain(answered.loaded.robot.notes.iter().filter(is_true)).chain(wrist);
     lines.extend(notes.map(|note| ("note", note.clone())));
     format!("{}\n{}", title_of(scene), format_columns(&lines))
 }
@@ -97,6 +101,9 @@ pub fn facts(answered: &Answered, found: &Found) -> Vec<(&'static str, String)> 
         }
         _ => ("clearance", "no obstacle within reach".into()),
     });
+    if let Some((wrist, deviation)) = answered.wrist.zip(found.tool_deviation) {
+        facts.push(("wrist", wrist.fact(deviation)));
+    }
     if !found.changes.is_empty() {
         let places: Vec<String> = found.changes.iter().map(Place::to_string).collect();
         let count = counted(found.changes.len(), "change");

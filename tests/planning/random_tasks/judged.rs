@@ -18,6 +18,7 @@ fn record(answer: &TaskAnswer, TaskMotion { sequence, .. }: &TaskMotion) -> (Rec
     let recording = Recording::new(position, Some(trajectory.time.clone()), Some(velocity)).unwrap();
     let legs = answer.legs.iter().enumerate().zip(&sequence.samples);
     let steps = legs.map(|((index, leg), samples)| RecordedStep {
+        wrist_motion: None,
         number: leg.step.number,
         cycle: leg.step.cycle,
         samples: samples.clone(),

@@ -64,7 +64,7 @@ pub fn task(seed: u64) -> Task {
         objects,
         start: Configuration::zeros(),
         items: Vec::new(),
-        wrist: Some(Wrist { velocity: 3.0, acceleration: 12.0, jerk: None, turns_on_the_way: false }),
+        wrist: Some(Wrist { velocity: 3.0, acceleration: 12.0, jerk: None, turns_on_the_way: false, joint: None }),
         stroke: None,
         start_tool: ToolValues::default(),
     };
@@ -154,6 +154,7 @@ pub fn with_arches(seed: u64) -> Task {
         rest: 0.0,
         sign: 1.0,
         range: JointRange::Interval { lower: -DEPTH, upper: 0.0 },
+        direction: 0.0,
     };
     let arch =
         Arch { rise: if dice.chance(0.3) { 0.05 } else { 0.0 }, fall: if dice.chance(0.3) { 0.03 } else { 0.0 } };
@@ -183,7 +184,13 @@ pub fn with_turns(seed: u64) -> Task {
     }
     task.objects.iter_mut().for_each(|object| object.holding = Holding::Level);
     let quick = dice.within(1.0, 6.0);
-    task.wrist = Some(Wrist { velocity: 3.0 * quick, acceleration: 12.0 * quick, jerk: None, turns_on_the_way: true });
+    task.wrist = Some(Wrist {
+        velocity: 3.0 * quick,
+        acceleration: 12.0 * quick,
+        jerk: None,
+        turns_on_the_way: true,
+        joint: None,
+    });
     task
 }
 

@@ -21,6 +21,7 @@ mod fields;
 mod figures;
 mod follow;
 mod followed_pages;
+mod wrist_lines;
 mod free_joint;
 mod grids;
 pub mod help;

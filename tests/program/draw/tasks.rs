@@ -89,7 +89,7 @@ fn task(objects: Vec<Object>, obstacles: Vec<Obstacle>, steps: &[Action], rounds
         objects,
         start: Configuration::new(START[0], START[1]),
         items,
-        wrist: Some(Wrist { velocity: 3.0, acceleration: 10.0, jerk: None, turns_on_the_way: false }),
+        wrist: Some(Wrist { velocity: 3.0, acceleration: 10.0, jerk: None, turns_on_the_way: false, joint: None }),
         stroke: None,
         start_tool: ToolValues::default(),
     }

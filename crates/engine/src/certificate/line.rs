@@ -48,7 +48,7 @@ impl CertifiedLine<'_> {
     #[must_use]
     pub fn of_motion(&self, trajectory: &Trajectory) -> String {
         let arm = self.scene.arm();
-        let Trajectory { time, position, velocity, acceleration, torque: _ } = trajectory;
+        let Trajectory { time, position, velocity, acceleration, torque: _, wrist: _ } = trajectory;
         let position = &written_inward(&arm.topology(), position);
         // Readers of motions with limited jerk may also use the accelerations at both ends.
         let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());

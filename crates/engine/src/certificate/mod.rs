@@ -58,6 +58,9 @@ pub enum NoCertificate {
     /// No box of collisions is found around an IK solution that is excluded at a place of a line.
     #[error("an IK solution collides too slightly for a checker to confirm it; a smaller tolerance may help")]
     Line,
+    /// The range of a wrist excludes an IK solution at a place of a line.
+    #[error("the wrist's range is a part of the proof, and certificates of lines do not judge the wrist")]
+    Wrist,
 }
 
 impl Plan {

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, String) {
     // With limits on jerk, the JSON defines the same cubics.
     let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
-    let Trajectory { time, position, velocity, acceleration, torque: _ } = trajectory;
+    let Trajectory { time, position, velocity, acceleration, torque: _, wrist: _ } = trajectory;
     let position = &written_inward(&arm.topology(), position);
     if is_smooth {
         motion_member(&["cubic"], time, &[position, velocity])

@@ -23,7 +23,7 @@ impl Plan {
                 let Messages { whole, steps } = self.messages()?;
                 let step = |time: &f64| steps.partition_point(|(begin, _)| begin <= time);
                 let steps: Vec<usize> = whole.time.iter().map(step).collect();
-                csv_of_joints(&whole, &steps).into_bytes()
+                csv_of_joints(&whole, Some(&steps)).into_bytes()
             }
             Format::Csv => {
                 let motion = self.task().and_then(|(_, answer)| answer.outcome.found());
@@ -54,7 +54,9 @@ impl Plan {
         let text: Vec<String> = match format {
             Format::Csv if self.has_overlaps() => {
                 let motions = self.messages()?.steps.into_iter().zip(1..);
-                motions.map(|((_, motion), number)| csv_of_joints(&motion, &vec![number; motion.time.len()])).collect()
+                motions
+                    .map(|((_, motion), number)| csv_of_joints(&motion, Some(&vec![number; motion.time.len()])))
+                    .collect()
             }
             Format::Csv => {
                 let motions = answer.legs.iter().map(|leg| &leg.timed.trajectory).zip(1..);

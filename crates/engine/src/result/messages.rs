@@ -4,14 +4,13 @@
 //! with the motion. While the arm stands still, the wrist turns, and the tool is lowered and raised.
 //! If the world names the wrist's joint, that joint compensates the rotation of link 2, so that level payloads keep
 //! their orientation. Without a payload, it returns towards its rest position during the motion, as far as its limits
-//! allow, or turns to the value that the step states.
+//! allow, or turns to the value that the step states. Along a line, it gives the tool its angle.
 
-use cplan_core::model::JointType;
 use cplan_core::space::JointRange;
-use cplan_handling::{Derivative, Driver, Drives, Holding, Piece, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
+use cplan_handling::{Derivative, Driver, Drives, Piece, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
 use cplan_motion::recorded::turn_profile;
 use cplan_motion::{AccelerationJump, JointMotion, nanoseconds, phase_at, seconds, single, whole_nanoseconds};
-use cplan_tasks::{Event, Leg, Sequence, ToolStroke, WristMotion};
+use cplan_tasks::{Event, Leg, Sequence, ToolStroke, WristMotion, wrist_state};
 use thiserror::Error;
 
 /// Reason why messages cannot name all joints as requested.
@@ -330,33 +329,14 @@ impl Tool<'_> {
     /// Returns value and velocity of the wrist's joint at sample `k` of the arm's motion.
     fn wrist_state(&self, leg: &Leg, k: usize) -> [f64; 2] {
         let (Some(joint), Some(limits)) = (&self.robot.wrist, self.task.wrist) else { return [self.wrist, 0.0] };
-        let trajectory = &leg.timed.trajectory;
-        match leg.carried.map(|object| self.task.objects[object].holding) {
-            Some(Holding::Rigid) => [self.wrist, 0.0],
-            Some(Holding::Level) => {
-                let turned = self.link_2_angle(trajectory.position[k]) - self.link_2_angle(trajectory.position[0]);
-                [self.wrist - joint.sign * turned, -joint.sign * self.link_2_angle(trajectory.velocity[k])]
-            }
-            None if leg.wrist.is_some() => [self.wrist, 0.0],
-            None => {
-                let duration = trajectory.duration();
-                if duration == 0.0 {
-                    return [self.wrist, 0.0];
-                }
-                let distance = reachable_part(joint.rest - self.wrist - self.turned, duration, limits);
-                let u = trajectory.time[k] / duration;
-                [self.wrist + distance * u * u * (3.0 - 2.0 * u), distance * 6.0 * u * (1.0 - u) / duration]
-            }
+        if leg.carried.is_none() && leg.wrist.is_some() {
+            return [self.wrist, 0.0];
         }
-    }
-
-    /// Returns the angle of link 2, or its angular velocity if `planned` has velocities.
-    fn link_2_angle(&self, planned: [f64; 2]) -> f64 {
-        let of = |k: usize| match self.task.arm.joints[k].joint_type {
-            JointType::Revolute { sign } => sign * planned[k],
-            JointType::Prismatic { .. } => 0.0,
-        };
-        of(0) + of(1)
+        let held = leg.carried.map(|object| self.task.objects[object].holding);
+        let (of_joint, from) = ((joint.sign, joint.rest), self.wrist + self.turned);
+        let arm = &self.task.arm;
+        let [value, rate] = wrist_state(arm, limits, of_joint, held, &leg.timed.trajectory, (from, k));
+        [value - self.turned, rate]
     }
 
     /// Records that the wrist turns the payload, and advances the time to the end of the turn.
@@ -406,14 +386,6 @@ impl Tool<'_> {
             None => Ok(()),
         }
     }
-}
-
-/// Returns the part of `distance` that the wrist can cover in `duration`, from rest to rest along a cubic. The top
-/// speed of a cubic is 1.5 times the mean speed. Its greatest acceleration is 6 times the distance over the squared
-/// time.
-fn reachable_part(distance: f64, duration: f64, limits: Wrist) -> f64 {
-    let most = (limits.velocity * duration / 1.5).min(limits.acceleration * duration * duration / 6.0);
-    distance.clamp(-most, most)
 }
 
 /// Describes the violation if a joint exceeds its speed or range. `None` otherwise.

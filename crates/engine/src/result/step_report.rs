@@ -97,6 +97,26 @@ pub struct WristReport {
     pub seconds: f64,
 }
 
+/// The motion of the wrist's joint along a line, at the samples of the step.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WristMotionReport {
+    /// Proven upper bound on the difference between the tool's angle and the one that the line asks for, radians.
+    pub deviation: f64,
+    /// Values of the joint, radians.
+    pub position: Vec<f64>,
+    /// Velocities, radians per second.
+    pub velocity: Vec<f64>,
+    /// Accelerations at the beginnings of the intervals after the samples, radians per second squared.
+    pub acceleration: Vec<f64>,
+}
+
+impl WristMotionReport {
+    fn new(deviation: f64, rows: &[[f64; 3]]) -> Self {
+        let [position, velocity, acceleration] = [0, 1, 2].map(|k| rows.iter().map(|row| row[k]).collect());
+        Self { deviation, position, velocity, acceleration }
+    }
+}
+
 /// A step of the answer: a motion that begins and ends at rest, and a rest after it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StepReport {
@@ -131,6 +151,9 @@ pub struct StepReport {
     /// line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deviation: Option<f64>,
+    /// The motion of the wrist's joint along a line for which the tool has an angle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wrist_motion: Option<WristMotionReport>,
     /// The turn of the wrist after a pick or before a place.
     pub turn: Option<TurnReport>,
     /// The stroke with which the step begins, because the tool is lowered there. `None` if it is raised.
@@ -175,6 +198,9 @@ impl StepReport {
             closest: curve.nearest().map(|nearest| leg.scene.describe(nearest.contact.pair)),
             blends: BlendReport::of(curve),
             deviation: leg.deviation,
+            wrist_motion: leg
+                .tool_deviation
+                .map(|deviation| WristMotionReport::new(deviation, &leg.timed.trajectory.wrist)),
             turn: leg.turn.map(|(WristTurn { from, to, clearance }, seconds)| TurnReport {
                 from,
                 to,

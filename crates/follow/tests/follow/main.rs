@@ -3,6 +3,7 @@
 mod oracle;
 mod random;
 mod smooth;
+mod wrist;
 
 use cplan_core::model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
 use cplan_core::space::Configuration;

@@ -136,16 +136,23 @@ pub fn points(line: &Toolpath, step: f64) -> Vec<Point> {
 /// Returns true if both sequences can be passed from the first to the last points together, never farther apart than
 /// `most` (the discrete Fréchet distance).
 pub fn pass_together(first: &[Point], second: &[Point], most: f64) -> bool {
-    let near = |a: &Point, j: usize| (a[0] - second[j][0]).hypot(a[1] - second[j][1]) <= most;
-    let mut reached: Vec<usize> = (0..second.len()).take_while(|&j| near(&first[0], j)).collect();
-    for a in &first[1..] {
+    pass_together_if([first.len(), second.len()], |i, j| {
+        (first[i][0] - second[j][0]).hypot(first[i][1] - second[j][1]) <= most
+    })
+}
+
+/// Returns true if two sequences of these lengths can be passed from the first to the last members together, so that
+/// `near` is true for both indices at all times.
+pub fn pass_together_if([first, second]: [usize; 2], near: impl Fn(usize, usize) -> bool) -> bool {
+    let mut reached: Vec<usize> = (0..second).take_while(|&j| near(0, j)).collect();
+    for i in 1..first {
         let Some(&begin) = reached.first() else { return false };
         let until = reached[reached.len() - 1] + 1;
         let mut next = Vec::new();
         let mut old = reached.iter().peekable();
         let mut before = None;
         let mut j = begin;
-        while j < second.len() && (j <= until || next.last() == Some(&(j - 1))) {
+        while j < second && (j <= until || next.last() == Some(&(j - 1))) {
             while old.next_if(|&&k| k < j).is_some_and(|&k| {
                 before = Some(k);
                 true
@@ -153,12 +160,12 @@ pub fn pass_together(first: &[Point], second: &[Point], most: f64) -> bool {
             let comes = old.peek() == Some(&&j)
                 || before.is_some_and(|k| k + 1 == j)
                 || next.last().is_some_and(|&k| k + 1 == j);
-            if comes && near(a, j) {
+            if comes && near(i, j) {
                 next.push(j);
             }
             j += 1;
         }
         reached = next;
     }
-    reached.last() == Some(&(second.len() - 1))
+    reached.last() == Some(&(second - 1))
 }

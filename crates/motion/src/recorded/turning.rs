@@ -344,7 +344,7 @@ mod tests {
             distance in 0.01..6.0_f64, velocity in 0.5..9.0_f64, acceleration in 1.0..90.0_f64,
             jerk in proptest::option::of(5.0..2000.0_f64), stretch in 1.0..3.0_f64,
         ) {
-            let wrist = Wrist { velocity, acceleration, jerk, turns_on_the_way: true };
+            let wrist = Wrist { velocity, acceleration, jerk, turns_on_the_way: true, joint: None };
             let least = single(distance, &wrist.limits()).last().unwrap()[0];
             let profile = turn_profile(&wrist, distance, least * stretch);
             let mut area = 0.0;

@@ -273,10 +273,10 @@ impl Bodies<'_> {
         }
     }
 
-    /// Returns the position in the plane of the wrist's axis, if a link turns about it during steps. Otherwise returns
+    /// Returns the position in the plane of the wrist's axis, if a link turns about it during motions. Otherwise returns
     /// `None`.
     fn wrist_axis(&self, body: usize) -> Option<Point> {
-        let name = self.settings.table.wrist_joint().filter(|_| self.settings.is_task)?;
+        let name = self.settings.table.wrist_joint().filter(|_| self.settings.wrist_turns)?;
         let joint = self.document.robot.joints.iter().position(|joint| joint.name == *name.get_ref())?;
         self.tree.carries(joint, body).then(|| self.at(self.tree.child[joint]).0)
     }

@@ -2,6 +2,7 @@
 
 use super::chain::{Chooser, is_movable};
 use super::limits::Limits;
+use super::plane::project;
 use super::reduction::Reduction;
 use super::tree;
 use crate::error::Diagnostic;
@@ -9,6 +10,7 @@ use crate::quantity::Number;
 use crate::stroke::{ArchTable, ArchValue, StrokeTable};
 use cplan_core::model::{Plane, assumed_acceleration};
 use cplan_handling::{Arch, Driver, RobotJoint, RobotJoints, Stroke, ToolJoint};
+use nalgebra::Vector3;
 use toml::Spanned;
 use urdf_rs::JointType;
 
@@ -18,6 +20,9 @@ pub(super) const PARALLEL_TOLERANCE: f64 = 1e-9;
 
 /// Largest distance in metres from the wrist's axis at which the tip counts as on the axis. It covers rounding.
 const AXIS_TOLERANCE: f64 = 1e-6;
+
+/// Least length of the projection of a frame's x axis into the plane for which it gives the direction of the tool.
+const LEAST_PROJECTION: f64 = 1e-3;
 
 /// The function of a tool's joint.
 #[derive(Clone, Copy, PartialEq)]
@@ -197,6 +202,14 @@ impl Reduction<'_> {
             return diagnostic(&why, "name a link on the axis: [robot] tip = \"LINK\"");
         }
         let axis = Limits { document: self.document, settings: self.settings }.planned_range(index)?;
-        Ok(ToolJoint { name: joint.name.clone(), rest: self.chain.values[index], sign: along.signum(), range: axis })
+        let [x, y] = [Vector3::x(), Vector3::y()].map(|axis| project(plane, &(self.poses[tip] * axis)));
+        let seen = if x.norm() > LEAST_PROJECTION { x } else { y };
+        Ok(ToolJoint {
+            name: joint.name.clone(),
+            rest: self.chain.values[index],
+            sign: along.signum(),
+            range: axis,
+            direction: if tool == Tool::Wrist { seen.y.atan2(seen.x) } else { 0.0 },
+        })
     }
 }

@@ -441,6 +441,7 @@ impl<'a> Search<'a> {
             stroke: None,
             wrist: None,
             overlap: Overlap::NONE,
+            tool_deviation: None,
             deviation: None,
             event: candidate.event,
             begin: time,

@@ -21,6 +21,10 @@ pub enum ActiveLimit {
     JointAcceleration(usize),
     /// The jerk of the joint with this index.
     JointJerk(usize),
+    /// The speed of the wrist.
+    WristSpeed,
+    /// The acceleration of the wrist.
+    WristAcceleration,
     /// No limit within two per cent.
     None,
 }
@@ -44,6 +48,23 @@ pub struct Stretch {
 #[must_use]
 pub fn active_limits(arm: &Arm, pieces: &[Piece], tip_limits: &[Option<f64>]) -> Vec<ActiveLimit> {
     pieces.iter().zip(tip_limits).map(|(piece, tip)| active_limit(arm, piece, *tip)).collect()
+}
+
+/// Returns the limits of a motion with those of a wrist, whose values are the first components of its pieces. `most` has its
+/// top speed and its greatest acceleration. The order is that of [`active_limits`], with the wrist after the joints.
+#[must_use]
+pub fn with_wrist(limits: Vec<ActiveLimit>, wrist: &[Piece], most: [f64; 2]) -> Vec<ActiveLimit> {
+    let reaches = |piece: &Piece, of: Derivative, most: f64| {
+        piece.critical(of, 0).any(|u| piece.derivative(of, u)[0].abs() >= REACHED_SHARE * most)
+    };
+    let limit = |(known, piece): (ActiveLimit, &Piece)| match known {
+        ActiveLimit::TipSpeed | ActiveLimit::JointSpeed(_) => known,
+        _ if reaches(piece, Derivative::Velocity, most[0]) => ActiveLimit::WristSpeed,
+        ActiveLimit::JointAcceleration(_) => known,
+        _ if reaches(piece, Derivative::Acceleration, most[1]) => ActiveLimit::WristAcceleration,
+        _ => known,
+    };
+    limits.into_iter().zip(wrist).map(limit).collect()
 }
 
 fn active_limit(arm: &Arm, piece: &Piece, tip_limit: Option<f64>) -> ActiveLimit {

@@ -15,7 +15,7 @@ mod view;
 pub use drawing::*;
 pub use feet::{Foot, Tracker};
 pub use limits::Stretch;
-use limits::{active_limits, stops, stretches};
+use limits::{active_limits, stops, stretches, with_wrist};
 pub use played::Played;
 pub use solutions::{SolutionPart, solutions};
 pub use view::{LineDocument, LineView};
@@ -44,6 +44,8 @@ pub struct LineSettings {
     pub tolerance: f64,
     /// Greatest speed of the tip, metres per second, instead of the speeds of the line.
     pub speed: Option<f64>,
+    /// Top speed and greatest acceleration of a wrist that turns the tool, radians and seconds.
+    pub wrist: Option<[f64; 2]>,
 }
 
 /// A place at which the tip is farthest from the line.
@@ -103,6 +105,12 @@ impl FollowedMotion {
             }
         }
         let limits = active_limits(arm, pieces, &tip_limits);
+        let limits = match settings.wrist {
+            Some(most) if trajectory.wrist.len() == pieces.len() + 1 => {
+                with_wrist(limits, &trajectory.wrist_pieces(), most)
+            }
+            _ => limits,
+        };
         Self {
             stretches: stretches(pieces, &limits, SHORTEST_STRETCH * duration),
             stops: stops(trajectory),

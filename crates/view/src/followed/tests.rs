@@ -95,6 +95,7 @@ fn stops_are_samples_at_rest() {
         velocity: vec![[0.0, 0.0], [0.5, 0.0], [0.0, 0.0], [0.0, 0.0]],
         acceleration: vec![[0.0, 0.0]; 4],
         torque: Vec::new(),
+        wrist: Vec::new(),
     };
     assert_eq!(stops(&trajectory), [0.0, 2.0, 3.0]);
     // The cubic from 0 to 0.5 with the velocities 0 and 0.5: 0.5 (3 u^2 - 2 u^3) + 0.5 (u^3 - u^2).

@@ -188,6 +188,8 @@ impl LineView {
     fn name(&self, limit: ActiveLimit) -> String {
         let [kind, joint] = match limit {
             ActiveLimit::TipSpeed => return "speed limit of the tip".to_owned(),
+            ActiveLimit::WristSpeed => return "speed limit of the wrist".to_owned(),
+            ActiveLimit::WristAcceleration => return "acceleration limit of the wrist".to_owned(),
             ActiveLimit::None => return "no limit within 2 %".to_owned(),
             ActiveLimit::JointSpeed(k) => ["speed", &self.names[k]],
             ActiveLimit::JointAcceleration(k) => ["acceleration", &self.names[k]],
@@ -219,6 +221,8 @@ pub fn color(limit: ActiveLimit) -> Rgb {
         ActiveLimit::JointSpeed(_) => path(5),
         ActiveLimit::JointAcceleration(0) => path(1),
         ActiveLimit::JointAcceleration(_) => path(4),
+        ActiveLimit::WristSpeed => path(0).darker(0.45),
+        ActiveLimit::WristAcceleration => path(1).darker(0.4),
         ActiveLimit::JointJerk(0) => path(3),
         ActiveLimit::JointJerk(_) => path(3).darker(0.4),
         ActiveLimit::None => GRAY,

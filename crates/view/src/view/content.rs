@@ -7,6 +7,7 @@ use super::numbers::Chain;
 use super::phase::{MotionReplayView, PhaseView};
 use super::steps::Row;
 use super::strip::StripView;
+use super::tool_angle::ToolAngleView;
 use super::trace::TraceView;
 use super::world::{ObstacleView, WorldView};
 use crate::blocking::BlockingView;
@@ -17,6 +18,8 @@ use crate::followed::LineView;
 use cplan_core::model::{Arm, Status};
 use cplan_core::space::Configuration;
 use cplan_explain::Reach;
+use cplan_handling::WristJoint;
+use cplan_motion::Trajectory;
 use serde::{Serialize, Serializer};
 
 /// Serialises the outcome, from which pages choose colours and symbols. A view without a query (a comparison, or a
@@ -90,6 +93,9 @@ pub struct View {
     /// The strip of the wrist's turns. `None` unless it turns.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) turns: Option<TurnsView>,
+    /// The strip of the tool's angle along lines. `None` unless a wrist turns the tool there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) tool: Option<ToolAngleView>,
     /// The phases of the planner's search, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) replay: Vec<PhaseView>,
@@ -205,6 +211,13 @@ impl View {
         line.focus_within(self.frame, &self.arm);
         self.clock = line.clock.take().or(self.clock);
         self.still.line = Some(line);
+        self
+    }
+
+    /// Returns the view with the angle of a tool that this joint turns during a motion.
+    #[must_use]
+    pub fn with_tool(mut self, arm: &Arm, joint: &WristJoint, trajectory: &Trajectory) -> Self {
+        self.tool = ToolAngleView::of_line(arm, joint, trajectory);
         self
     }
 

@@ -27,6 +27,7 @@ mod slope;
 mod states;
 mod steps;
 mod height;
+mod tool_angle;
 mod strip;
 mod task;
 mod task_picture;

@@ -147,6 +147,7 @@ impl View {
             strip: picture.strip(&world),
             height: None,
             turns: None,
+            tool: None,
             replay: Vec::new(),
             replays: Vec::new(),
             still: StillContent {

@@ -10,6 +10,7 @@ use super::states::{PayloadGroup, PayloadState, describe, grouped, hand, payload
 use super::steps::{Order, rounds, rows, words};
 use super::strip::{StripView, plane_of_task};
 use super::task_picture::TaskPicture;
+use super::tool_angle::ToolAngleView;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use crate::FieldLines;
 use cplan_core::model::{Additions, Obstacle, Outcome, Scene};
@@ -110,6 +111,7 @@ impl View {
             strip,
             height: HeightView::of_task(task, legs),
             turns: TurnsView::of_task(task, legs),
+            tool: ToolAngleView::of_task(task, legs),
             replay: Vec::new(),
             replays: Vec::new(),
             still,

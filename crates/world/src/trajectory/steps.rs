@@ -9,6 +9,9 @@ use serde::Deserialize;
 /// Largest valid angle (radians) or time (seconds), as in recordings. Up to it, doubles resolve a nanoradian.
 const MAX_NUMBER: f64 = 1e6;
 
+/// Largest valid velocity or acceleration of a wrist, radians and seconds.
+const MAX_RATE: f64 = 1e12;
+
 /// The members that are read. Other members are ignored.
 #[derive(Deserialize)]
 struct Document {
@@ -26,6 +29,14 @@ struct StepMember {
     raising: Option<StrokeMember>,
     stroke: Option<StrokeMember>,
     wrist: Option<WristMember>,
+    wrist_motion: Option<WristMotionMember>,
+}
+
+#[derive(Deserialize)]
+struct WristMotionMember {
+    position: Vec<f64>,
+    velocity: Vec<f64>,
+    acceleration: Vec<f64>,
 }
 
 #[derive(Deserialize)]
@@ -136,6 +147,31 @@ impl StepMember {
                 Some(RecordedWrist { from: *from, to: *to, begin: *begin, seconds: *seconds })
             }
         };
-        Ok(RecordedStep { number: self.step, cycle: self.cycle, samples: first..=last, turn, overlap, raising, wrist })
+        let wrist_motion = match &self.wrist_motion {
+            None => None,
+            Some(WristMotionMember { position, velocity, acceleration }) => {
+                let columns = [position, velocity, acceleration];
+                let help = "one position, velocity and acceleration of the wrist's joint per sample of the step";
+                if let Some(column) = columns.into_iter().find(|column| column.len() != last - first + 1) {
+                    let message =
+                        format!("its wrist_motion has {} values for {} samples", column.len(), last - first + 1);
+                    return refuse(message, help);
+                }
+                if let Some(value) = columns.into_iter().flatten().find(|x| x.is_nan() || x.abs() > MAX_RATE) {
+                    return refuse(format!("a value of its wrist_motion is {value}"), help);
+                }
+                Some((0..position.len()).map(|k| columns.map(|column| column[k])).collect())
+            }
+        };
+        Ok(RecordedStep {
+            number: self.step,
+            cycle: self.cycle,
+            samples: first..=last,
+            turn,
+            overlap,
+            raising,
+            wrist,
+            wrist_motion,
+        })
     }
 }

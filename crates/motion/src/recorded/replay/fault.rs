@@ -42,6 +42,34 @@ pub enum Fault {
         /// The greatest allowed speed.
         most: f64,
     },
+    /// The file does not state the wrist's motion along a line for which the tool has an angle.
+    #[error("the line asks for an angle of the tool, but the step does not state the motion of the wrist")]
+    NoWristMotion,
+    /// The tool is not proven to keep the angle that the line asks for.
+    #[error(
+        "the tool may be {off:.6} rad from the angle that the line asks for after sample {piece} of the step, more than \
+         {tolerance} rad"
+    )]
+    ToolAngle {
+        /// Upper bound on the difference from the angle, radians.
+        off: f64,
+        /// The tolerance, radians.
+        tolerance: f64,
+        /// Index of the sample before the part of the motion with this bound, from the step's first sample.
+        piece: usize,
+    },
+    /// The wrist exceeds a limit along a line.
+    #[error("the wrist exceeds its {what} after sample {sample} of the step: {value:.6}, beyond {allowed}")]
+    WristAlongLine {
+        /// The limit, in words.
+        what: &'static str,
+        /// The value that exceeds the limit most, radians and seconds.
+        value: f64,
+        /// The limit.
+        allowed: f64,
+        /// Index of the sample before it, from the step's first sample.
+        sample: usize,
+    },
     /// A moving object is picked at a time outside its window.
     #[error("the object is picked at {time:.6} s, outside the required times")]
     When {

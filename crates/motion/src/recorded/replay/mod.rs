@@ -9,6 +9,7 @@ mod line;
 mod order;
 mod overlap;
 mod state;
+mod tool_angle;
 
 pub use fault::{Fault, OrderDeviation};
 
@@ -118,7 +119,8 @@ pub struct Replay<'a> {
 ///   keeps its limits while it also compensates the rotation of link 2.
 /// - Moving obstacles, which move on the clock of the record from its first sample on. Moving objects must be picked
 ///   within their windows of time, and the resting arm must stay free between motions.
-/// - Motions along a line, which must be within its tolerance, and at most as fast as the line allows.
+/// - Motions along a line, which must be within its tolerance, and at most as fast as the line allows. If the line asks for
+///   an angle of the tool, the wrist must keep it between samples, too, and stay within its limits.
 /// - The end of each step. The tip must be at the grasp, and the object or the arm at its target, within a micrometre.
 ///   A turn must start at the object's orientation, last at least as long as the wrist needs, and be free
 ///   ([`super::judge_given_turn`]). The arm must rest for the dwell, the turn, and the stroke of the tool. The stroke
@@ -260,6 +262,7 @@ impl<'a> Iterator for Replay<'a> {
                 (object, lowered) = (None, None);
                 faults.extend(line::fault(task, &motion, followed));
                 faults.extend(line::speed_fault(task, &motion, followed));
+                faults.extend(tool_angle::faults(task, &motion, followed, recorded.wrist_motion.as_deref()));
                 turn = self.state.turn(task, to, recorded.turn, &mut faults);
                 self.state.moved();
             }

@@ -1,5 +1,5 @@
 // The strips below the pictures of a task: the value of the joint that lowers the tool, and the angle by which the wrist turns
-// the carried object, against time.
+// the carried object, or the angle of the tool along lines, against time.
 'use strict';
 
 const Height = (() => {
@@ -8,7 +8,7 @@ const Height = (() => {
 
   /**
    * What the strips show: the member of the model, the unit, and words for the caption and for screen readers.
-   * @type {Record<'height' | 'turns', { unit: string, title: string, caption: (strip: { joint?: string, is_empty?: boolean }) => string }>}
+   * @type {Record<'height' | 'turns' | 'tool', { unit: string, title: string, caption: (strip: { joint?: string, is_empty?: boolean }) => string }>}
    */
   const KINDS = {
     height: { unit: 'mm', title: 'Height of the tool', caption: ({ joint }) => `Height of the tool: joint \u201c${joint}\u201d` },
@@ -18,22 +18,43 @@ const Height = (() => {
       caption: ({ is_empty }) =>
         (is_empty ? 'Angle of the wrist' : 'Angle by which the wrist has turned the object'),
     },
+    tool: { unit: '\u00b0', title: 'Angle of the tool', caption: () => 'Angle of the tool from the x axis' },
   };
 
   /**
    * @param {CanvasRenderingContext2D} context
    * @param {Panel} panel
-   * @param {{ motion: Chain }} strip
+   * @param {{ motion: Chain, lines?: Chain[] }} strip
    */
-  function draw(context, panel, { motion }) {
+  function draw(context, panel, { motion, lines }) {
     [context.lineWidth, context.strokeStyle] = [2, panel.theme.ink];
-    line(context, [...Geometry.pointsOf(motion)].map((point) => panel.at(point)));
+    for (const chain of lines ?? [motion]) line(context, [...Geometry.pointsOf(chain)].map((point) => panel.at(point)));
+  }
+
+  /**
+   * Returns the chain that has a value at a time.
+   * @param {Chain[] | undefined} chains
+   * @param {number} time
+   */
+  const chainAt = (chains, time) => chains?.find((chain) => chain[0] <= time && time <= chain[chain.length - 2]);
+
+  /**
+   * Draws the current time, and the value at it if there is one.
+   * @param {CanvasRenderingContext2D} context
+   * @param {Panel} panel
+   * @param {View} view
+   * @param {{ motion: Chain, lines?: Chain[] }} strip
+   */
+  function drawTime(context, panel, view, { motion, lines }) {
+    const chain = lines ? chainAt(lines, view.time) : motion;
+    if (chain) Timeline.dot(context, panel, view, chain);
+    else Timeline.cursor(context, panel, view);
   }
 
   /**
    * Creates a strip of a view.
    * @param {View} view
-   * @param {'height' | 'turns'} kind
+   * @param {'height' | 'turns' | 'tool'} kind
    * @returns {{ root: HTMLElement, panel: Panel, fit: () => void, show: () => void }}
    */
   function mount(view, kind) {
@@ -47,7 +68,7 @@ const Height = (() => {
       titles: ['time (s)', unit],
       margins: [58, 12, 6, 40],
       still: (context, panel) => view.model[kind] && draw(context, panel, view.model[kind]),
-      moving: (context, panel) => view.model[kind] && Timeline.dot(context, panel, view, view.model[kind].motion),
+      moving: (context, panel) => view.model[kind] && drawTime(context, panel, view, view.model[kind]),
     });
     Timeline.scrub(canvas, panel, view);
 
@@ -81,9 +102,18 @@ const Height = (() => {
    */
   function turnedTo({ model, mode, time }) {
     if (mode !== 'move') return undefined;
-    const turn = model.turns?.turns.find((chain) => chain[0] <= time && time <= chain[chain.length - 2]);
+    const turn = chainAt(model.turns?.turns, time);
     return turn && Timeline.valueAt(turn, time);
   }
 
-  return { mount, turnedTo };
+  /**
+   * Returns the angle of the tool from the x axis, radians. Undefined outside lines along which it has one.
+   * @param {View} view
+   */
+  function toolAngle({ model, mode, time }) {
+    const chain = mode === 'move' ? chainAt(model.tool?.lines, time) : undefined;
+    return chain && (Timeline.valueAt(chain, time) * Math.PI) / 180;
+  }
+
+  return { mount, turnedTo, toolAngle };
 })();

@@ -52,6 +52,7 @@ function buildPage(view) {
   view.strip = Strip.mount(view);
   view.height = Height.mount(view, 'height');
   view.turns = Height.mount(view, 'turns');
+  view.toolAngle = Height.mount(view, 'tool');
   view.root.append(
     element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
     parts.cards,
@@ -59,7 +60,7 @@ function buildPage(view) {
     element(
       'div',
       { class: 'stage' },
-      element('div', { class: 'pictures' }, view.learn.head, parts.panels, view.learn.pair.root, parts.description, parts.measure, parts.transport, view.strip.root, view.height.root, view.turns.root, view.learn.foot, view.learn.steps, view.learn.details),
+      element('div', { class: 'pictures' }, view.learn.head, parts.panels, view.learn.pair.root, parts.description, parts.measure, parts.transport, view.strip.root, view.height.root, view.turns.root, view.toolAngle.root, view.learn.foot, view.learn.steps, view.learn.details),
       element('div', { class: 'below' }, view.tabs.root, ...view.tabs.entries.filter(({ isAside }) => !isAside).map(({ panel }) => panel)),
       element('aside', { class: 'side', 'aria-label': 'Steps and layers' }, view.steps.root, view.layers.root),
     ),
@@ -82,7 +83,7 @@ function buildPage(view) {
   view.explain.watch(view.panels);
   // Texts on canvases follow the text size of the page.
   new ResizeObserver(() => view.model && view.recolor()).observe(parts.measure);
-  view.plots = [...Plots.mount(parts.plots, view), view.strip, view.height, view.turns];
+  view.plots = [...Plots.mount(parts.plots, view), view.strip, view.height, view.turns, view.toolAngle];
 }
 
 /** Creates the tabs. Steps and layers stand beside the pictures if there is room. */

@@ -101,6 +101,9 @@ interface HeightModel { joint: string; duration: number; motion: Chain }
 /** The angle in degrees by which the wrist has turned the carried object against time, and for each turn the orientations in radians. */
 interface TurnsModel { joint?: string; is_empty?: boolean; duration: number; motion: Chain; turns: Chain[] }
 
+/** The angle of the tool from the x axis in degrees against time, of all lines and of each. */
+interface ToolAngleModel { joint?: string; duration: number; motion: Chain; lines: Chain[] }
+
 /** Key figures of a result. */
 interface FiguresModel { duration?: number; gap?: number; fastest?: boolean; clearance?: number }
 
@@ -180,6 +183,7 @@ interface Model {
   strip?: StripModel;
   height?: HeightModel;
   turns?: TurnsModel;
+  tool?: ToolAngleModel;
   replay?: PhaseModel[];
   replays?: { phases: PhaseModel[]; trace?: any; scale?: any }[];
   legend: any[];

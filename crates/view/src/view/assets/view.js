@@ -37,6 +37,7 @@ class View {
     this.strip = null;
     this.height = null;
     this.turns = null;
+    this.toolAngle = null;
     /** True if obstacles are written with their names; otherwise with numbers. */
     this.named = true;
     /** True if names appear only under the pointer. */
@@ -187,6 +188,7 @@ class View {
     this.height.show();
     this.followed?.show();
     this.turns.show();
+    this.toolAngle.show();
     parts.panels.hidden = this.drawn === 'pair';
     // Room for a scale of colours beside the panel.
     const { scale } = this;

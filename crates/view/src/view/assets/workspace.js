@@ -350,12 +350,28 @@ const Workspace = (() => {
     const alpha = view.probe ? 0.45 : 1;
     const turned = Height.turnedTo(view);
     arm(context, panel, view, view.world, view.q, { turned, fill: theme.paper, line: theme.accent, width: 1.6, alpha, joints: true, blocks: true });
+    tool(context, panel, view);
     if (examined) tried(context, panel, view, examined);
     if (view.model.checked?.nearest && !view.probe) distance(context, panel, view.model.checked.nearest);
     view.reachMap?.aboveArm(context, panel);
     view.followed?.aboveArm(context, panel);
     if (view.shows('names')) names(context, panel, view, view.world);
     if (view.hovered) Labels.write(context, theme, ...view.hovered);
+  }
+
+  /** Length of the line that shows the direction of the tool, in pixels. */
+  const TOOL_LENGTH = 26;
+
+  /** Draws the direction of the tool at the tip, on a line along which a wrist turns it. */
+  function tool(context, panel, view) {
+    const angle = Height.toolAngle(view);
+    if (angle === undefined || view.probe) return;
+    const tip = tipAt(view.model.arm, view.q);
+    const [from, beside] = [tip, [tip[0] + Math.cos(angle), tip[1] + Math.sin(angle)]].map((p) => panel.at(p));
+    const length = Math.hypot(beside[0] - from[0], beside[1] - from[1]) || 1;
+    const to = [0, 1].map((k) => from[k] + ((beside[k] - from[k]) * TOOL_LENGTH) / length);
+    [context.lineWidth, context.strokeStyle] = [3, panel.theme.accent];
+    line(context, [from, to]);
   }
 
   /** Draws the examined arm, and the obstacles that it touches. */

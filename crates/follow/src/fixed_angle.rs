@@ -1,0 +1,35 @@
+//! A wrist that keeps the angle of the tool during a motion with limited jerks.
+//!
+//! With a fixed angle, the joint's value is a linear function of the two planned joints, at all times. So the motion is
+//! computed first, and slowed down if the wrist would be too fast.
+
+use crate::wrist::WristAlong;
+use cplan_core::model::Arm;
+use cplan_handling::{Derivative, WristJoint};
+use cplan_motion::Trajectory;
+
+/// Adds a wrist to a motion that keeps the angle of the tool. `first` is the joint's first value, radians.
+pub(crate) fn add_wrist(arm: &Arm, wrist: &WristAlong, first: f64, trajectory: &mut Trajectory) {
+    let Some(&start) = trajectory.position.first() else { return };
+    let angle = wrist.joint.tool_angle(arm, start, first);
+    let rate = |planned: [f64; 2]| -wrist.joint.sign * WristJoint::link_2_angle(arm, planned) + 0.0;
+    let row = |k: usize| {
+        let value = wrist.joint.value(arm, trajectory.position[k], angle);
+        [value, rate(trajectory.velocity[k]), rate(trajectory.acceleration[k])]
+    };
+    trajectory.wrist = (0..trajectory.time.len()).map(row).collect();
+}
+
+/// Returns the factor by which the motion must be slowed down so that the wrist is within a share of its limits; at most 1
+/// if it is.
+pub(crate) fn excess(wrist: &WristAlong, share: f64, trajectory: &Trajectory) -> f64 {
+    let [velocity, acceleration] = [share * wrist.velocity, share * share * wrist.acceleration];
+    let greatest = |of: Derivative| {
+        let pieces = trajectory.wrist_pieces();
+        let values = pieces.iter().map(|piece| piece.bounds_of_sum(of, [1.0, 0.0], [0.0, 1.0]));
+        values.flatten().map(f64::abs).fold(0.0, f64::max)
+    };
+    let stated = trajectory.wrist.iter().map(|[.., rate]| rate.abs()).fold(0.0, f64::max);
+    let speed = greatest(Derivative::Velocity) / velocity;
+    speed.max((greatest(Derivative::Acceleration).max(stated) / acceleration).sqrt())
+}

@@ -1,0 +1,92 @@
+//! The angle of a tool that a wrist turns along a line.
+
+use cplan_core::model::{Arm, JointType};
+use cplan_core::space::JointRange;
+use serde::{Deserialize, Serialize};
+
+/// Tolerance of the tool's angle for lines that state none, radians: about half a degree.
+pub const DEFAULT_WRIST_TOLERANCE: f64 = 0.01;
+
+/// Least tolerance of the tool's angle, radians. The accuracy of robots is far below it.
+pub const MIN_WRIST_TOLERANCE: f64 = 1e-6;
+
+/// Greatest tolerance of the tool's angle, radians.
+pub const MAX_WRIST_TOLERANCE: f64 = 1.0;
+
+/// The required angle of the tool along a line.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ToolAngle {
+    /// The same angle everywhere, radians from the x axis.
+    Fixed(f64),
+    /// The direction of the line plus this offset, radians.
+    Tangent(f64),
+}
+
+/// A requirement on the angle of the tool along a line.
+///
+/// At all times, the angle differs by at most the tolerance from the required one at the place of the line that the tip
+/// passes then. With [`ToolAngle::Tangent`], the angle is free while the arm rests at a corner of the line where its
+/// direction jumps by more than the tolerance, and during travels. Before and after the line, it is always free.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WristGuide {
+    /// The required angle.
+    pub angle: ToolAngle,
+    /// Greatest difference from it, radians.
+    pub tolerance: f64,
+}
+
+impl WristGuide {
+    /// Returns true if the angle is finite, and the tolerance from [`MIN_WRIST_TOLERANCE`] to [`MAX_WRIST_TOLERANCE`].
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        let (ToolAngle::Fixed(angle) | ToolAngle::Tangent(angle)) = self.angle;
+        angle.is_finite() && (MIN_WRIST_TOLERANCE..=MAX_WRIST_TOLERANCE).contains(&self.tolerance)
+    }
+}
+
+/// The joint of a wrist, for the angle of the tool: that angle is `zero` plus the rotation of link 2 plus `sign` times the
+/// joint's value.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WristJoint {
+    /// 1 if greater values turn the tool counter-clockwise; otherwise -1.
+    pub sign: f64,
+    /// Angle of the tool with all joints at zero, radians: the direction of the tip frame's x axis in the plane.
+    pub zero: f64,
+    /// Value of the joint at rest, radians.
+    pub rest: f64,
+    /// Range of the joint's values, radians.
+    pub range: JointRange,
+}
+
+impl WristJoint {
+    /// Returns the factors of the two joints in the rotation of link 2: 1, -1, or 0 for a joint that slides.
+    #[must_use]
+    pub fn weights(arm: &Arm) -> [f64; 2] {
+        arm.joints.each_ref().map(|joint| match joint.joint_type {
+            JointType::Revolute { sign } => sign,
+            JointType::Prismatic { .. } => 0.0,
+        })
+    }
+
+    /// Returns the rotation of link 2, radians, or its rate if `planned` has velocities.
+    #[must_use]
+    pub fn link_2_angle(arm: &Arm, planned: [f64; 2]) -> f64 {
+        let [first, second] = Self::weights(arm);
+        first * planned[0] + second * planned[1]
+    }
+
+    /// Returns the angle of the tool, radians, for a value of the joint.
+    #[must_use]
+    pub fn tool_angle(&self, arm: &Arm, planned: [f64; 2], value: f64) -> f64 {
+        self.zero + Self::link_2_angle(arm, planned) + self.sign * value
+    }
+
+    /// Returns the value of the joint, radians, for an angle of the tool.
+    #[must_use]
+    pub fn value(&self, arm: &Arm, planned: [f64; 2], angle: f64) -> f64 {
+        self.sign * (angle - self.zero - Self::link_2_angle(arm, planned))
+    }
+}

@@ -1,0 +1,69 @@
+//! The strip of the tool's angle along lines against time.
+
+use super::numbers::{Chain, number};
+use cplan_core::model::Arm;
+use cplan_core::space::Configuration;
+use cplan_handling::{Task, WristJoint};
+use cplan_motion::Trajectory;
+use cplan_tasks::Leg;
+use serde::Serialize;
+
+/// Number of points of a line's strip, besides those at which the tool turns at rest.
+const POINTS: f64 = 1000.0;
+
+/// The angle of the tool against time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ToolAngleView {
+    /// Duration of the whole motion, in seconds.
+    pub duration: f64,
+    /// Times in seconds and angles in degrees from the x axis, of all lines.
+    pub motion: Chain,
+    /// The same for each line.
+    pub lines: Vec<Chain>,
+}
+
+impl ToolAngleView {
+    /// Creates the strip of a motion along a line. `None` if no wrist turns the tool.
+    #[must_use]
+    pub fn of_line(arm: &Arm, joint: &WristJoint, trajectory: &Trajectory) -> Option<Self> {
+        Self::of_lines(arm, joint, trajectory.duration(), [(0.0, trajectory)].into_iter())
+    }
+
+    /// Creates the strip of a task. `None` if no wrist turns the tool along a line.
+    #[must_use]
+    pub fn of_task(task: &Task, legs: &[Leg]) -> Option<Self> {
+        let joint = task.wrist?.joint?;
+        let duration = legs.last()?.end();
+        Self::of_lines(&task.arm, &joint, duration, legs.iter().map(|leg| (leg.begin, &leg.timed.trajectory)))
+    }
+
+    fn of_lines<'a>(
+        arm: &Arm,
+        joint: &WristJoint,
+        duration: f64,
+        motions: impl Iterator<Item = (f64, &'a Trajectory)>,
+    ) -> Option<Self> {
+        let turning = motions.filter(|(_, trajectory)| !trajectory.wrist.is_empty());
+        let lines: Vec<Chain> = turning.map(|(begin, trajectory)| angles(arm, joint, begin, trajectory)).collect();
+        let motion = Chain(lines.iter().flat_map(|line| line.0.iter().copied()).collect());
+        (!lines.is_empty()).then(|| Self { duration: number(duration), motion, lines })
+    }
+}
+
+/// Returns times and angles in degrees, at samples about evenly spaced in time and at all samples at rest.
+fn angles(arm: &Arm, joint: &WristJoint, begin: f64, trajectory: &Trajectory) -> Chain {
+    let (time, q) = (&trajectory.time, &trajectory.position);
+    let step = trajectory.duration() / POINTS;
+    let mut last = f64::NEG_INFINITY;
+    let is_shown = |k: &usize| {
+        let rests = (k.checked_sub(1).is_some_and(|before| q[before] == q[*k])) || q.get(k + 1) == Some(&q[*k]);
+        let shown = rests || *k + 1 == time.len() || time[*k] - last >= step;
+        last = if shown { time[*k] } else { last };
+        shown
+    };
+    let point = |k: usize| {
+        let angle = joint.tool_angle(arm, q[k], trajectory.wrist[k][0]).to_degrees();
+        Configuration::new(((begin + time[k]) * 1e4).round() / 1e4, (angle * 1e2).round() / 1e2)
+    };
+    Chain((0..time.len()).filter(is_shown).map(point).collect())
+}
