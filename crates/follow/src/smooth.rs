@@ -92,7 +92,7 @@ impl<'a> Stretch<'a> {
         (0..bounds.len()).filter(|&i| bounds[i] > tolerance).collect()
     }
 
-    /// Returns a smooth curve that is near the line and within the limits of the joints. Returns `None` if none is found.
+    /// Returns a smooth curve that is near the line and within the limits of the joints. Returns `None` if the search finds no such curve.
     fn curve(&self) -> Option<JointCurve> {
         let mut spacing = self.first_spacing();
         for _ in 0..MAX_ROUNDS {

@@ -295,7 +295,7 @@ impl Rate {
         if !(time.is_finite() && time > 0.0) {
             return None;
         }
-        // The weights are shares of the duration, which is known only in the end.
+        // The weights are shares of the duration, which is known only after all of them are chosen.
         let mut first = FIRST_BARRIER_WEIGHT * time;
         loop {
             let weights = [first, LAST_BARRIER_WEIGHT * time];

@@ -10,7 +10,7 @@ use cplan_handling::{ArchScene, HeldEffect, HeldJoint, HeldMotion, Recording, St
 /// at most this long after a sample, so it deviates from its profile by less than rounding.
 pub(super) const MIN_GAP: f64 = 1e-7;
 
-/// Number of halvings with which the time of a height is found. It is then exact but for rounding.
+/// Number of halvings with which the time of a height is found. Only rounding is left then.
 const RISE_HALVINGS: u32 = 60;
 
 /// A stroke that begins or ends during a motion of the arm.
