@@ -290,7 +290,9 @@ impl LiveSession {
         }
         match &ask.state {
             None => Ok(self.document.text().to_owned()),
-            Some(_) if self.scene.is_task() => Err("a world with steps or values of the tool cannot be changed here; edit its text".into()),
+            Some(_) if self.scene.is_task() => {
+                Err("a world with steps or values of the tool cannot be changed here; edit its text".into())
+            }
             Some(state) => self.document.changed(state, self.begin(state.start)),
         }
     }
