@@ -17,7 +17,7 @@ pub const MAX_WRIST_TOLERANCE: f64 = 1.0;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ToolAngle {
-    /// The same angle everywhere, radians from the x axis.
+    /// An angle for the whole line, radians from the x axis.
     Fixed(f64),
     /// The direction of the line plus this offset, radians.
     Tangent(f64),

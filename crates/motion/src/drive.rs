@@ -140,7 +140,7 @@ pub struct CurveDrive<'a> {
     pub share: f64,
     /// Time between two samples, seconds.
     pub period: f64,
-    /// A wrist that turns along the curve, with its full limits, of which the same share is used. `None` without one. A
+    /// A wrist that turns along the curve, with its full limits. The same share of them is used. `None` without one. A
     /// motion with limited jerks ignores it.
     pub wrist: Option<WristLimit<'a>>,
 }

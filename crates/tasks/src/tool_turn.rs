@@ -64,7 +64,7 @@ pub(super) fn wrist_after(task: &Task, from: &State, trajectory: &Trajectory, tu
 }
 
 /// Returns a motion along a line before which the wrist turns from `begin` to its first value, while the arm rests. `share`
-/// is the share of the wrist's top speed to use. A motion without a wrist stays as it is.
+/// is the share of the wrist's top speed to use. A motion without a wrist is returned as it was given.
 pub(super) fn turned_first(
     scene: &Scene,
     timed: &Arc<TimedMotion>,

@@ -86,7 +86,7 @@ impl ObjectPlace {
     }
 }
 
-/// What a world states about its wrist.
+/// Statements of a world about its wrist.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum WristOfWorld {
     /// There is no wrist.

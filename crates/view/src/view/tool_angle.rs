@@ -8,7 +8,7 @@ use cplan_motion::Trajectory;
 use cplan_tasks::Leg;
 use serde::Serialize;
 
-/// Number of points of a line's strip, besides those at which the tool turns at rest.
+/// Number of points of a line's strip. Points at which the tool turns at rest do not count.
 const POINTS: f64 = 1000.0;
 
 /// The angle of the tool against time.
@@ -18,7 +18,7 @@ pub struct ToolAngleView {
     pub duration: f64,
     /// Times in seconds and angles in degrees from the x axis, of all lines.
     pub motion: Chain,
-    /// The same for each line.
+    /// Times and angles of each line by itself.
     pub lines: Vec<Chain>,
 }
 
