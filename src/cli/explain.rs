@@ -100,6 +100,10 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
 pub fn hint(files: &Files, query: &QueryArgs) -> Option<String> {
     let loaded = input::load_scene(files.robot(), &files.world).ok()?;
     let overrides = query.overrides();
+    if loaded.is_task() && !loaded.has_steps() {
+        // The tool may be the cause, which an explanation does not consider.
+        return None;
+    }
     let has_ends = match loaded.is_task() {
         true => loaded.clone().start_alone(&overrides).is_ok(),
         false => loaded.clone().query(&overrides).is_ok(),

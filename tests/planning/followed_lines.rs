@@ -123,6 +123,7 @@ fn record(answer: &TaskAnswer) -> (Recording, Vec<RecordedStep>) {
         turn: None,
         overlap: Default::default(),
         raising: 0.0,
+        lowered: [None; 2],
         wrist: None,
         wrist_motion: leg.tool_deviation.map(|_| leg.timed.trajectory.wrist.clone()),
     });

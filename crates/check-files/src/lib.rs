@@ -99,6 +99,10 @@ fn check_texts([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2
     let proven = match (&certificate.line, &certificate.steps) {
         (Some(line), _) => cplan_check_line::judge(&robot.arm, &world.world, &certificate, line.get())?,
         (None, Some(steps)) => task::check_motion(&robot, &world, &certificate, steps)?,
+        (None, None) if world.task.as_ref().is_some_and(|task| task.is_move) => {
+            let message = "the world gives values of the tool's joints, so the certificate needs steps";
+            return Err(CheckError::in_file(Input::Certificate, message));
+        }
         (None, None) => cplan_check::judge(&robot.arm, &world.world, &certificate)?,
     };
     Ok(proven + &robot.arm.notes)

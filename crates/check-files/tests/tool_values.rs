@@ -5,6 +5,7 @@
 mod gantry;
 
 use cplan_cases as random;
+use cplan_check_files::{CheckError, check};
 use gantry::{GANTRY, assert_fails, assert_holds, assert_refused, judge_steps};
 
 /// Values of the stroke's joint at the start and the goal, metres. Greater values are lower.
@@ -81,6 +82,16 @@ fn wrong_strokes_are_refuted() {
     assert_fails(judge(&(raised.clone() + "wrist = 1\n"), &lowering(2.8)), "neither picks nor places");
     assert_refused(judge(&raised, ""), "no steps");
     assert_refused(judge(&open.replace("stroke = { joint = \"z\" }", ""), ""), "has no stroke");
+}
+
+#[test]
+fn a_certificate_without_steps_is_refused() {
+    let certificate = format!(
+        r#"{{"format": "cplan certificate 1", "answer": "found",
+        "motion": {{"interpolation": ["linear"], "knots": [{KNOTS}]}}}}"#
+    );
+    let error = check(GANTRY, &world("", ""), &certificate).unwrap_err();
+    assert!(matches!(&error, CheckError::Input { message, .. } if message.contains("needs steps")), "{error:?}");
 }
 
 #[test]

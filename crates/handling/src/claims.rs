@@ -56,6 +56,9 @@ pub struct RecordedStep {
     /// Time from the departure of the arm to the end of the raising with which the step begins, if the tool is lowered
     /// there, seconds. Zero if the arm rests during that raising.
     pub raising: f64,
+    /// Values of the stroke's joint while the tool is lowered before the motion and after it, metres. `None` if the file
+    /// states no such stroke.
+    pub lowered: [Option<f64>; 2],
     /// The turn of the wrist to the value of its joint that the step states.
     pub wrist: Option<RecordedWrist>,
     /// Along a line for which the tool has an angle: value, velocity and acceleration of the wrist's joint at the motion's

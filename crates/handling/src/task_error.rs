@@ -1,8 +1,6 @@
 //! Checks that an arm, objects and steps form a task.
 
-use super::{
-    Action, Holding, Item, MAX_STOP_TIME, Object, Step, Stroke, Task, TimedScene, ToolLimits, ToolValues, Wrist,
-};
+use super::{Action, Holding, Item, MAX_STOP_TIME, Object, Step, Stroke, Task, TimedScene, ToolLimits, ToolValues};
 use cplan_core::model::{
     Goal, MAX_COORDINATE, MotionProblem, MotionProblemError, Scene, SceneError, are_small, is_pose, is_small,
 };
@@ -132,31 +130,29 @@ impl Task {
         is_level.then(|| ((*turning).clone(), "objects that are held level need moving obstacles that do not turn"))
     }
 
-    fn check_tool(&self) -> Result<(), TaskError> {
+    /// Checks the stroke and the wrist: limits, ranges and durations.
+    ///
+    /// # Errors
+    /// [`TaskError::Tool`].
+    pub fn check_tool(&self) -> Result<(), TaskError> {
         let tools = || self.steps().map(|step| step.tool).chain([self.start_tool]);
         let turned = self.steps().filter_map(|step| self.wrist_turn(step)).map(f64::abs).fold(TAU, f64::max);
-        let wrist = self.wrist.iter().map(|wrist| (wrist.velocity, wrist.acceleration, turned));
+        let wrist = self.wrist.iter().map(|wrist| (wrist.limits(), turned));
         let farthest = |stroke: &Stroke| {
-            let depths = self.objects.iter().map(|object| stroke.depth(object));
+            let depths = self.objects.iter().map(|object| stroke.depth(object).abs());
             depths.chain(tools().map(|tool| tool.depth.abs())).fold(0.0, f64::max)
         };
         let is_reached = |tool: ToolValues| {
             let Some(depth) = tool.lowered_by() else { return true };
             self.stroke.as_ref().is_some_and(|stroke| stroke.joint.range.contains(stroke.lowered(depth)))
         };
-        let stroke = self.stroke.iter().map(|stroke| (stroke.velocity, stroke.acceleration, farthest(stroke)));
-        let why = if !wrist
-            .chain(stroke)
-            .all(|(velocity, acceleration, distance)| is_drive(velocity, acceleration, distance))
-        {
-            "speeds and accelerations must be positive, finite, and large enough for at most a million seconds"
-        } else if self.stroke.iter().map(Stroke::limits).chain(self.wrist.iter().map(Wrist::limits)).any(has_wrong_jerk)
-        {
-            "jerks must be positive, finite, and large enough for at most a million seconds"
+        let stroke = self.stroke.iter().map(|stroke| (stroke.limits(), farthest(stroke)));
+        let why = if !wrist.chain(stroke).all(|(limits, distance)| is_drive(limits, distance)) {
+            "speeds, accelerations and jerks must be positive, finite, and large enough for at most a million seconds"
         } else if self.stroke.iter().any(|s| !s.joint.is_sound() || s.joint.range.is_circle()) {
             "its joint needs a sign of 1 or -1, a range, and a rest value within the range"
-        } else if self.stroke.iter().filter_map(|s| s.travel).any(|travel| !travel.is_finite() || travel < 0.0) {
-            "its travel must be finite and not negative"
+        } else if self.stroke.iter().filter_map(|s| s.travel).any(|travel| !travel.is_finite()) {
+            "its travel must be finite"
         } else if self.stroke.iter().filter_map(|s| s.arch).any(|arch| !arch.is_valid()) {
             "the heights of its arch must be finite and not negative"
         } else if self.stroke.iter().any(|stroke| !self.objects.iter().all(|object| stroke.reaches(object))) {
@@ -173,14 +169,17 @@ impl Task {
 }
 
 /// Returns true if a distance takes a finite, plausible time at these limits.
-fn is_drive(velocity: f64, acceleration: f64, distance: f64) -> bool {
+fn is_drive(limits: ToolLimits, distance: f64) -> bool {
+    let ToolLimits { velocity, acceleration, jerk } = limits;
     let is_limit = |limit: f64| limit.is_finite() && limit > 0.0;
-    is_limit(velocity) && is_limit(acceleration) && distance / velocity + velocity / acceleration <= MAX_PART_DURATION
-}
-
-/// Returns true if the top speed is not reached in a plausible time, because of the jerk.
-fn has_wrong_jerk(limits: ToolLimits) -> bool {
-    limits.jerk.is_some_and(|jerk| !(jerk.is_finite() && jerk > 0.0 && limits.acceleration / jerk <= MAX_PART_DURATION))
+    // Each limit by itself.
+    let seconds = [
+        distance / velocity,
+        2.0 * (distance / acceleration).sqrt(),
+        jerk.map_or(0.0, |jerk| 4.0 * (distance / (2.0 * jerk)).cbrt()),
+    ];
+    [velocity, acceleration, jerk.unwrap_or(1.0)].into_iter().all(is_limit)
+        && seconds.into_iter().all(|seconds| seconds <= MAX_PART_DURATION)
 }
 
 fn angle_at_first(object: &Object) -> f64 {

@@ -33,6 +33,8 @@ pub fn wrist_state(
             let turned = angle(trajectory.position[k]) - angle(trajectory.position[0]);
             [from - sign * turned, -sign * angle(trajectory.velocity[k])]
         }
+        // The cubic below begins with a jump of the acceleration.
+        None if limits.jerk.is_some() => [from, 0.0],
         None => {
             let duration = trajectory.duration();
             if duration == 0.0 {

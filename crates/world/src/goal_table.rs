@@ -23,7 +23,7 @@ pub(super) struct GoalTable {
     /// Value of the joint that lowers the tool, m; by default it is raised. Not in steps.
     #[schemars(with = "Option<f64>")]
     pub stroke: Option<Number>,
-    /// Value of the wrist's joint, rad; by default anything. Not in steps.
+    /// Value of the wrist's joint, rad; by default that at the start. Not in steps.
     #[schemars(with = "Option<AngleOrLength>")]
     pub wrist: Option<Written>,
 }

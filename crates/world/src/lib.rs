@@ -310,6 +310,8 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
         });
         let overrides = Overrides::default();
         let query = loaded.and_then(|l| match l.is_task() {
+            // The joints of the tool are not known here.
+            true if !l.has_steps() => None,
             true => l.task(&overrides).err().map(|e| ("task", e)),
             false => l.problem(&overrides).err().map(|e| ("start and goal", e)),
         });

@@ -121,6 +121,10 @@ impl LoadedScene {
             let help = "remove its motion, or the feature that needs static obstacles";
             return Err(world.source.diagnostic(format!("\"{mover}\" moves, and {why}")).help(help).into());
         }
+        if let Err(error) = task.check_tool() {
+            let help = "raise the limits of [robot] stroke and wrist, or of their joints";
+            return Err(world.source.diagnostic(error.to_string()).help(help).into());
+        }
         if is_checked {
             require_free_lowered(&task, start_refused)?;
         }

@@ -7,7 +7,7 @@ use super::reasons::describe;
 use cplan_core::model::Goal;
 use cplan_core::space::JointRange;
 use cplan_handling::{Action, Item, Object, Step, Task, ToolJoint, ToolValues};
-use cplan_robot::{Diagnostic, Number, Written};
+use cplan_robot::{Diagnostic, InputError, Number, Written};
 use cplan_text::listed;
 use std::ops::Range;
 
@@ -45,12 +45,14 @@ impl LoadedScene {
     ///
     /// # Errors
     /// Values of joints that the world does not name, and values outside the joints' limits.
-    pub(super) fn tool_values(&self) -> Result<[ToolValues; 2], Diagnostic> {
+    pub fn tool_values(&self) -> Result<[ToolValues; 2], InputError> {
         let [start, goal] = &self.world.tool;
         let (start, goal) = (self.values_of("the start", start)?, self.values_of("the goal", goal)?);
         let rest = self.robot.joints.wrist.as_ref().map(|joint| joint.rest);
         let from = start.wrist.or(rest.filter(|_| goal.wrist.is_some()));
-        Ok([ToolValues { wrist: from, ..start }, goal])
+        // Without another value, the wrist stays.
+        let to = goal.wrist.or(from.filter(|_| !self.has_steps()));
+        Ok([ToolValues { wrist: from, ..start }, ToolValues { wrist: to, ..goal }])
     }
 
     fn values_of(&self, what: &str, stated: &StatedTool) -> Result<ToolValues, Diagnostic> {

@@ -137,6 +137,11 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
                 let why = format!("joint \"{joint}\" moves, but certificates cover only the arm's two joints");
                 sinks::print_status(&format!("warning: {} is not written: {why}", path.display()));
             }
+            Sink::Certificate(path) if recorded.steps.is_none() && loaded.is_task() && !loaded.has_steps() => {
+                let why =
+                    "the world gives values of the tool's joints, and only a result in .json has the steps for them";
+                sinks::print_status(&format!("warning: {} is not written: {why}", path.display()));
+            }
             Sink::Certificate(path) if matches!(findings.verdict, Judgement::Free) => {
                 let (start, goals) = if args.anywhere { (None, Vec::new()) } else { loaded.ends(&overrides(args))? };
                 let (steps, asked) = (recorded.steps.as_deref(), (&overrides(args), &about));

@@ -36,6 +36,7 @@ fn record(answer: &TaskAnswer, TaskMotion { sequence, .. }: &TaskMotion) -> (Rec
             after_departure: answer.legs.get(index + 1).map_or(0.0, |next| next.overlap.raising),
         },
         raising: 0.0,
+        lowered: [None; 2],
         wrist: None,
     });
     (recording, steps.collect())

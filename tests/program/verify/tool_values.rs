@@ -361,7 +361,10 @@ fn tampered_results_are_refused() {
     let number = |value: &Value| value.as_f64().unwrap();
     let (raising, lowering) = (number(&step["raising"]["after_departure"]), number(&step["stroke"]["before_arrival"]));
     assert!(raising > 0.0 && lowering > 0.0, "{step:#}");
-    let changes: [(&str, Value, &str); 7] = [
+    let changes: [(&str, Value, &str); 10] = [
+        ("/raising/lowered", json!(-0.12), "lowered to -0.12 m before the motion"),
+        ("/stroke/lowered", json!(-0.12), "lowered to -0.12 m after the motion"),
+        ("/raising", Value::Null, "lowered to no value before the motion"),
         ("/raising/after_departure", json!(raising - 0.02), "stands still"),
         ("/stroke/before_arrival", json!(lowering - 0.02), "stands still"),
         ("/wrist/from", json!(0.4), "the wrist turns from 0.4"),

@@ -86,6 +86,7 @@ impl Reader<'_> {
         if let Some((key, value)) = unknown {
             return self.error(value, &format!("the checker does not know [task] {}", key.get_ref()));
         }
+        let is_move = no_steps.is_some();
         let steps = match (no_steps, table.get("step")) {
             (Some(goal), _) => Group::single(goal),
             (None, Some(steps)) => reading.group(steps, manner, &dwell)?,
@@ -99,7 +100,7 @@ impl Reader<'_> {
         let turns_on_the_way = switch != Some(Some(false));
         let joint = |value| self.table(value)?.get("joint").map(|name| self.text(name)).transpose();
         let wrist = own("wrist").map(|value| Ok(Wrist { joint: joint(value)?, turns_on_the_way })).transpose()?;
-        Ok(Some(Task { first, objects, steps, wrist, stroke, lowered }))
+        Ok(Some(Task { first, objects, steps, wrist, stroke, is_move, lowered }))
     }
 
     /// Reads the value of the stroke's joint at an end of the motion.

@@ -18,6 +18,8 @@ pub struct Task {
     pub steps: Group,
     pub wrist: Option<Wrist>,
     pub stroke: Option<Stroke>,
+    /// True if the world has no steps. The only step is then the move to the goal.
+    pub is_move: bool,
     /// Values of the stroke's joint at the start and the goal, metres. `None` if the tool is raised there.
     pub lowered: [Option<Decimal>; 2],
 }

@@ -54,8 +54,8 @@ fn judge_motion(
 ) -> Result<MotionFindings, InputError> {
     if loaded.is_task() && !loaded.has_steps() {
         notes.push(
-            "the world gives values of the tool's joints, but the file has no steps: only the recorded motion is judged, not \
-             these values; to judge them, too, verify a result in .json"
+            "the world gives values of the tool's joints: the motion must begin and end with them; speeds of the tool are not \
+             judged without steps"
                 .into(),
         );
     }
@@ -100,9 +100,33 @@ fn judge_motion(
     let broken = ExceededLimits::new(&scene.arm().joints, &broken, &loaded.robot.assumed);
     let findings = MotionFindings::new(scene, recording, &collision_check, broken, notes);
     let misses = endpoint_errors(scene.arm(), recording, start, &goals);
+    let tool_misses = if anywhere { Vec::new() } else { tool_errors(loaded, recording, held)? };
     let false_claims = false_claims(loaded.timed(), recording, claims, &collision_check);
     let findings = findings.with_faults(Judgement::Undecided, untold.into_iter().flatten().collect());
-    Ok(findings.with_faults(Judgement::Ends, misses).with_faults(Judgement::Claims, false_claims))
+    let findings = findings.with_faults(Judgement::Ends, misses).with_faults(Judgement::Ends, tool_misses);
+    Ok(findings.with_faults(Judgement::Claims, false_claims))
+}
+
+/// Describes the differences between recorded and stated values of the tool's joints at both ends of a motion. A joint that
+/// the file does not have is held at its default value.
+fn tool_errors(loaded: &LoadedScene, recording: &Recording, held: &[HeldMotion]) -> Result<Vec<String>, InputError> {
+    if !loaded.is_task() || loaded.has_steps() {
+        return Ok(Vec::new());
+    }
+    let joints = &loaded.robot.joints;
+    let last = recording.positions().len() - 1;
+    let mut errors = Vec::new();
+    for (tool, (sample, what)) in loaded.tool_values()?.into_iter().zip([(0, "begins"), (last, "ends")]) {
+        let stroke = joints.stroke.as_ref().map(|stroke| (&stroke.joint, stroke.lowered(tool.depth)));
+        for (joint, asked) in stroke.into_iter().chain(joints.wrist.as_ref().zip(tool.wrist)) {
+            let moved = held.iter().find(|moved| moved.joint.name == joint.name);
+            let is = moved.map_or(joint.rest, |moved| moved.values.positions()[sample][0]);
+            if (is - asked).abs() > END_TOLERANCE {
+                errors.push(format!("joint \"{}\" {what} at {is}, not at {asked}", joint.name));
+            }
+        }
+    }
+    Ok(errors)
 }
 
 /// Judges the recording as the world's task.

@@ -19,7 +19,7 @@ impl Plan {
     pub fn encoded(&self, format: Format) -> Option<Vec<u8>> {
         Some(match format {
             Format::Json => self.to_json().into_bytes(),
-            Format::Csv if self.has_overlaps() => {
+            Format::Csv if self.moves_tool_on_the_way() => {
                 let Messages { whole, steps } = self.messages()?;
                 let step = |time: &f64| steps.partition_point(|(begin, _)| begin <= time);
                 let steps: Vec<usize> = whole.time.iter().map(step).collect();
@@ -52,7 +52,7 @@ impl Plan {
     pub fn encoded_per_step(&self, format: Format) -> Option<Vec<Vec<u8>>> {
         let (_, answer) = self.task()?;
         let text: Vec<String> = match format {
-            Format::Csv if self.has_overlaps() => {
+            Format::Csv if self.moves_tool_on_the_way() => {
                 let motions = self.messages()?.steps.into_iter().zip(1..);
                 motions
                     .map(|((_, motion), number)| csv_of_joints(&motion, Some(&vec![number; motion.time.len()])))
@@ -77,9 +77,12 @@ impl Plan {
         Some(self.messages()?.whole.without_accelerations())
     }
 
-    /// Returns true if strokes of the tool overlap with motions of the arm.
-    fn has_overlaps(&self) -> bool {
-        self.task().is_some_and(|(_, answer)| answer.legs.iter().any(|leg| leg.overlap.seconds() > 0.0))
+    /// Returns true if strokes of the tool overlap with motions of the arm, or if the world gives values of the tool's joints.
+    fn moves_tool_on_the_way(&self) -> bool {
+        self.task().is_some_and(|(task, answer)| {
+            let states_values = !task.start_tool.is_default() || task.steps().any(|step| !step.tool.is_default());
+            states_values || answer.legs.iter().any(|leg| leg.overlap.seconds() > 0.0)
+        })
     }
 
     /// Returns a motion as a table. If given, `steps` has the number of each sample's step.

@@ -21,7 +21,7 @@ pub enum MessageError {
     Jump(#[from] AccelerationJump),
     /// A joint of the tool that moves. Its accelerations are unknown.
     #[error(
-        "accelerations cannot be written: the acceleration of the tool's joint \"{joint}\" jumps when it moves at {time:.6} s; \
+        "accelerations cannot be written: those of the tool's joint \"{joint}\", which moves at {time:.6} s, are not computed; \
          write only the two planned joints (--joints planned), or leave out --accelerations"
     )]
     Tool {
@@ -82,6 +82,7 @@ impl Messages {
         rows.add_strokes(&tool.strokes);
         rows.add_turns(&tool.turns);
         tool.check(&rows)?;
+        begins.iter_mut().for_each(|begin| *begin = rows.nearest(*begin));
         let step = |index: usize| {
             let end = begins.get(index + 1).copied().unwrap_or(u64::MAX);
             (seconds(begins[index]), rows.between(begins[index], end).motion(robot, begins[index]).without_rest())
@@ -118,8 +119,11 @@ impl TimedStroke {
         let since = seconds(time - self.begin);
         let end = self.phases.last().map_or(0.0, |[time, ..]| *time);
         let phase = self.phases.windows(2).find(|phase| phase[1][0] > since);
-        // A row may stand for the end of the stroke shortly after it.
+        // A row may stand for the beginning or the end of the stroke shortly before or after it.
         let is_over = nanoseconds(end) <= nanoseconds(since) + MIN_ROW_GAP;
+        if !is_over && nanoseconds(since) <= MIN_ROW_GAP {
+            return [from, 0.0];
+        }
         let Some(phase) = phase.filter(|_| !is_over) else { return [to, 0.0] };
         let [distance, speed, _] = phase_at([phase[0], phase[1]], since);
         let sign = (to - from).signum();
@@ -232,6 +236,14 @@ impl Rows {
                 row.rate.wrist += rate;
             }
         }
+    }
+
+    /// Returns the time of the row that stands for a time: itself, unless there is a row closely before or after it.
+    fn nearest(&self, time: u64) -> u64 {
+        let next = self.0.partition_point(|row| row.at < time);
+        let beside = [next.checked_sub(1), Some(next)].into_iter().flatten().filter_map(|row| self.0.get(row));
+        let closest = beside.map(|row| row.at).min_by_key(|at| at.abs_diff(time));
+        closest.filter(|at| at.abs_diff(time) <= MIN_ROW_GAP).unwrap_or(time)
     }
 
     /// Returns the rows between two times. The last one has no acceleration, since its interval is not included.

@@ -130,7 +130,9 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
     if samples.is_none() && document.duration.is_some() {
         unjudged.push("duration".into());
     }
-    for (name, inner) in [("optimum", "optimum.lower_bound"), ("steps", "steps[..].closest, steps[..].stroke")] {
+    for (name, inner) in
+        [("optimum", "optimum.lower_bound"), ("steps", "steps[..].closest, steps[..].raising, steps[..].stroke")]
+    {
         if members.contains_key(name) {
             unjudged.push(inner.into());
         }

@@ -41,6 +41,7 @@ struct WristMotionMember {
 
 #[derive(Deserialize)]
 struct StrokeMember {
+    lowered: Option<f64>,
     #[serde(default)]
     before_arrival: f64,
     #[serde(default)]
@@ -127,10 +128,10 @@ impl StepMember {
             None => 0.0,
             Some(StrokeMember { after_departure, .. }) => overlap("raising", 0.0, *after_departure)?.after_departure,
         };
-        let overlap = match self.stroke {
+        let overlap = match &self.stroke {
             None => RecordedOverlap::default(),
-            Some(StrokeMember { before_arrival, after_departure }) => {
-                overlap("stroke", before_arrival, after_departure)?
+            Some(StrokeMember { before_arrival, after_departure, .. }) => {
+                overlap("stroke", *before_arrival, *after_departure)?
             }
         };
         let wrist = match &self.wrist {
@@ -163,6 +164,7 @@ impl StepMember {
                 Some((0..position.len()).map(|k| columns.map(|column| column[k])).collect())
             }
         };
+        let lowered = [&self.raising, &self.stroke].map(|stroke| stroke.as_ref().and_then(|stroke| stroke.lowered));
         Ok(RecordedStep {
             number: self.step,
             cycle: self.cycle,
@@ -170,6 +172,7 @@ impl StepMember {
             turn,
             overlap,
             raising,
+            lowered,
             wrist,
             wrist_motion,
         })

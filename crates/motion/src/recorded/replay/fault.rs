@@ -104,6 +104,16 @@ pub enum Fault {
         /// The required rest, seconds.
         asked: f64,
     },
+    /// The file states another value of the stroke's joint for the lowered tool than the world, or none.
+    #[error("the tool is lowered to {} {when} the motion, not to {}", value(*is), value(*asked))]
+    Lowered {
+        /// The stated value, metres; `None` without a stroke.
+        is: Option<f64>,
+        /// The value of the world; `None` without a stroke.
+        asked: Option<f64>,
+        /// `before` or `after`.
+        when: &'static str,
+    },
     /// The tool is raised during the beginning of the motion, but it was not lowered.
     #[error("the tool is raised during the motion, but it is not lowered before")]
     NotLowered,
@@ -190,6 +200,10 @@ pub enum Fault {
     /// No object is carried that a wrist could turn.
     #[error("the wrist turns, but holds no level object")]
     Nothing,
+}
+
+fn value(lowered: Option<f64>) -> String {
+    lowered.map_or_else(|| "no value".to_owned(), |value| format!("{value} m"))
 }
 
 /// The point at which the recorded steps deviate from the sequence of the task.

@@ -193,6 +193,7 @@ impl<'a> Iterator for Replay<'a> {
             None => step.tool.lowered_by(),
         };
         let raised_first = self.state.raise(task);
+        let raised_from = raised_first.as_ref().map(|(depth, _)| *depth);
         let mut before = std::mem::take(&mut self.before);
         match &raised_first {
             Some((depth, _)) => {
@@ -336,6 +337,16 @@ impl<'a> Iterator for Replay<'a> {
             faults.push(Fault::Rest { stood, asked });
         }
         faults.extend(wrist_faults(task, step, recorded.wrist, times[2]));
+        let lowered = |depth: Option<f64>| depth.zip(task.stroke.as_ref()).map(|(depth, stroke)| stroke.lowered(depth));
+        let asked = [lowered(raised_from), lowered(depth)];
+        for ((is, asked), when) in recorded.lowered.into_iter().zip(asked).zip(["before", "after"]) {
+            // Recordings of other programs need not state the strokes at picks and places.
+            let is_optional = is.is_none() && when == "after" && handled.is_some();
+            let differs = is.zip(asked).is_none_or(|(is, asked)| (is - asked).abs() > PLACE_TOLERANCE);
+            if is.is_some() != asked.is_some() && !is_optional || (is.is_some() && differs) {
+                faults.push(Fault::Lowered { is, asked, when });
+            }
+        }
         let seconds = motion.duration().unwrap_or(0.0);
         let event = object.map(|object| {
             let pose = self.state.pose(object);
