@@ -1,5 +1,6 @@
 //! Checks certificates with the answer "found" and steps: a motion executes a task.
 
+mod lines;
 mod order;
 mod replay;
 mod stroke;
@@ -63,7 +64,8 @@ pub fn check_motion(
     let within = missed("target", &replay.off)?;
     let count = if steps.len() == 1 { "the step".to_owned() } else { format!("all {} steps", steps.len()) };
     Ok(format!(
-        "a motion of \"{first}\" and \"{second}\" does {count} from the start{start} on{within} with clearance {clearance} ({})",
-        motion.in_words()
+        "a motion of \"{first}\" and \"{second}\" does {count} from the start{start} on{within} with clearance {clearance} ({}){}",
+        motion.in_words(),
+        lines::in_words(&steps)?
     ))
 }

@@ -19,6 +19,7 @@ use toml::de::{DeTable, DeValue};
 
 pub mod carried_shapes;
 mod cells;
+pub mod lines;
 mod map;
 mod obstacle_trajectory;
 mod picture;

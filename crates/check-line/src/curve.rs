@@ -4,6 +4,7 @@ use crate::bezier;
 use cplan_check::interval::{Interval, Point, sum};
 
 /// A piece of a line.
+#[derive(PartialEq)]
 pub enum Curve {
     /// A Bezier curve with these control points. A straight line has two.
     Bezier(Vec<Point>),
@@ -12,6 +13,7 @@ pub enum Curve {
 }
 
 /// An arc of a circle: from the centre in direction `from + by u` at the parameter `u`.
+#[derive(PartialEq)]
 pub struct Arc {
     pub center: Point,
     pub radius: Interval,

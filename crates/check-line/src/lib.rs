@@ -10,6 +10,7 @@
 //! | `text`, `bezier`, `curve` | the line |
 //! | `tip` | positions of the tip, and their second derivatives |
 //! | `near` | the tip stays near the line, in the order of the line |
+//! | `step` | lines that steps of a task follow |
 //! | `reach`, `chords`, `measure`, `cells`, `barred` | no motion follows the line |
 #![forbid(unsafe_code)]
 
@@ -21,6 +22,7 @@ mod curve;
 mod measure;
 mod near;
 mod reach;
+mod step;
 mod text;
 mod tip;
 
@@ -28,7 +30,9 @@ use cplan_check::arm::Arm;
 use cplan_check::certificate::{Answer, Certificate};
 use cplan_check::world::World;
 use cplan_check::{CheckError, Input};
-use text::Line;
+use text::{Line, LineText};
+
+pub use step::StepLine;
 
 /// Checks a certificate about a line. Returns the proven statement as a sentence.
 ///
@@ -36,7 +40,7 @@ use text::Line;
 /// [`CheckError::Fails`] names the first part of the certificate that does not hold. [`CheckError::Input`] reports
 /// certificates that are incomplete.
 pub fn judge(arm: &Arm, world: &World, certificate: &Certificate, line: &str) -> Result<String, CheckError> {
-    let line = Line::read(line)?;
+    let line = Line::new(LineText::read(line)?)?;
     let Certificate { start, goal, goal_tip, steps, bound, .. } = certificate;
     if start.is_some() || goal.is_some() || goal_tip.is_some() || steps.is_some() || bound.is_some() {
         let message = "a certificate about a line cannot have a start, a goal, steps or a bound";

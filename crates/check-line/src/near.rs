@@ -28,7 +28,7 @@ const GUESS_BITS: u32 = 52;
 
 /// A part of the motion between two knots, and a part of a piece of the line.
 struct Span {
-    /// The knot, and the shares of the time until the next knot, in units of [`Interval`].
+    /// The knot, counted from the first one, and the shares of the time until the next knot, in units of [`Interval`].
     knot: usize,
     shares: [BigInt; 2],
     /// The piece and its parameters, in units of [`Interval`].
@@ -62,13 +62,7 @@ pub fn follows(arm: &Arm, world: &World, certificate: &Certificate, line: &Line)
     check_knots(interpolation, knots)?;
     let pieces = (0..knots.len().max(2) - 1).map(|knot| piece(arm, interpolation, knots, knot));
     let pieces = pieces.collect::<Result<Vec<Piece>, CheckError>>()?;
-    let spans = spans(line, pieces.len())?;
-    for reading in 0..interpolation.len() {
-        let mut follower = Follower { arm, line, tolerance: Interval::from(&line.tolerance).lower, parts: 0 };
-        for span in &spans {
-            follower.check_span(span, &pieces[span.knot].curves[reading])?;
-        }
-    }
+    stays_near(arm, line, &pieces)?;
     check_arm_clear(arm, world, &pieces, [&knots[0][1], &knots[0][2]], clearance)?;
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
     let (tip, tolerance) = (&arm.tip_link, &line.tolerance);
@@ -77,6 +71,19 @@ pub fn follows(arm: &Arm, world: &World, certificate: &Certificate, line: &Line)
          in its order, with clearance {clearance} ({})",
         motion.in_words()
     ))
+}
+
+/// Checks that the tip follows the line within the tolerance, for each reading of a motion.
+///
+/// # Errors
+/// Those of [`spans`], and the first part of the motion for which it is not shown.
+pub fn stays_near(arm: &Arm, line: &Line, pieces: &[Piece]) -> Result<(), CheckError> {
+    let spans = spans(line, pieces.len())?;
+    for reading in 0..pieces[0].curves.len() {
+        let mut follower = Follower { arm, line, tolerance: Interval::from(&line.tolerance).lower, parts: 0 };
+        spans.iter().try_for_each(|span| follower.check_span(span, &pieces[span.knot], reading))?;
+    }
+    Ok(())
 }
 
 /// Pairs parts of the motion with parts of the line, from the beginning to the end of both.
@@ -119,11 +126,11 @@ struct Follower<'a> {
 }
 
 impl Follower<'_> {
-    /// Checks that the tip stays near a piece of the line during a span. `control` has the control points between the
-    /// span's knot and the next.
-    fn check_span(&mut self, span: &Span, control: &[[i128; 2]]) -> Result<(), CheckError> {
+    /// Checks that the tip stays near a piece of the line during a span, in one reading of the motion from the span's knot
+    /// to the next.
+    fn check_span(&mut self, span: &Span, motion: &Piece, reading: usize) -> Result<(), CheckError> {
         let curve = &self.line.pieces[span.piece];
-        let joints = cut(joint_curve(control), &span.shares);
+        let joints = cut(joint_curve(&motion.curves[reading]), &span.shares);
         let [from, to] = &span.parameters;
         let begin = Pairing::new(curve, &tip::at(self.arm, &joints[0]), from.clone());
         let end = Pairing::new(curve, &tip::at(self.arm, &joints[joints.len() - 1]), to.clone());
@@ -138,7 +145,7 @@ impl Follower<'_> {
             if *off > self.tolerance || halvings >= MAX_HALVINGS || self.parts >= MAX_PARTS {
                 return CheckError::fails(format!(
                     "from knot {} to the next the tip is not shown to stay within {} of piece {} of the line",
-                    span.knot, self.line.tolerance, span.piece
+                    motion.knot, self.line.tolerance, span.piece
                 ));
             }
             let (first, second) = bezier::cut(&joints, &Interval::whole(1).half());
@@ -184,7 +191,7 @@ impl Follower<'_> {
 }
 
 /// Returns a guess as a number of units of [`Interval`].
-fn units(guess: f64) -> BigInt {
+pub fn units(guess: f64) -> BigInt {
     BigInt::from((guess * (1_u64 << GUESS_BITS) as f64) as i64) << (BITS - GUESS_BITS)
 }
 

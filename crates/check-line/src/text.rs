@@ -9,7 +9,7 @@ use num_bigint::BigInt;
 use serde::Deserialize;
 use std::fmt;
 
-/// Number of decimals of the greatest gap between two pieces, as a share of one metre and the distance from the origin.
+/// Number of decimals of the greatest distance between two points that count as the same, as a share of one metre and the distance from the origin.
 const GAP_DECIMALS: u32 = 8;
 
 #[derive(Deserialize)]
@@ -20,16 +20,27 @@ enum PieceText {
     Arc { center: Corner, radius: Decimal, from: Decimal, by: Decimal },
 }
 
+/// The member `line` of a certificate, or of a step of one.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct LineText {
-    tolerance: Decimal,
+pub struct LineText {
+    pub tolerance: Option<Decimal>,
     pieces: Vec<PieceText>,
     #[serde(default)]
     travels: Vec<usize>,
     #[serde(default)]
     places: Vec<[Decimal; 2]>,
-    stretch: Option<[Decimal; 2]>,
+    pub stretch: Option<[Decimal; 2]>,
+}
+
+impl LineText {
+    /// Reads the member's JSON.
+    ///
+    /// # Errors
+    /// If the text is not a line.
+    pub fn read(text: &str) -> Result<Self, CheckError> {
+        serde_json::from_str(text).map_err(|error| wrong(format!("\"line\": {error}")))
+    }
 }
 
 /// A line, and its part in the evidence.
@@ -47,19 +58,22 @@ pub struct Line {
     pub stretch: Option<[Decimal; 2]>,
 }
 
+fn wrong(message: String) -> CheckError {
+    CheckError::in_file(Input::Certificate, message)
+}
+
 fn point(corner: &Corner) -> Point {
     corner.each_ref().map(Interval::from)
 }
 
 impl Line {
-    /// Reads a line.
+    /// Makes a line from its text.
     ///
     /// # Errors
-    /// If the text is not a line, or if a piece does not begin where the one before it ends.
-    pub fn read(text: &str) -> Result<Self, CheckError> {
-        let wrong = |message: String| CheckError::in_file(Input::Certificate, message);
-        let LineText { tolerance, pieces, travels, places, stretch } =
-            serde_json::from_str(text).map_err(|error| wrong(format!("\"line\": {error}")))?;
+    /// If it has no tolerance or no pieces, or if a piece does not begin where the one before it ends.
+    pub fn new(text: LineText) -> Result<Self, CheckError> {
+        let LineText { tolerance, pieces, travels, places, stretch } = text;
+        let Some(tolerance) = tolerance else { return Err(wrong("\"line\": it has no tolerance".into())) };
         let curve = |piece: &PieceText| match piece {
             PieceText::Straight(ends) => Curve::Bezier(ends.iter().map(point).collect()),
             PieceText::Cubic(control) => Curve::Bezier(control.iter().map(point).collect()),
@@ -101,9 +115,13 @@ pub fn parameter(position: &Decimal, piece: usize) -> BigInt {
 
 /// Returns true if a piece begins where another one ends, apart from rounding.
 fn is_joined(before: &Curve, after: &Curve) -> bool {
-    let (end, start) = (before.at(&Interval::whole(1)), after.at(&Interval::whole(0)));
-    let scale = &length(&start) + &Interval::whole(1);
-    length(&minus(&end, &start)).upper <= (&scale * &Interval::from(&Decimal::power_of_ten(GAP_DECIMALS))).lower
+    is_near(&before.at(&Interval::whole(1)), &after.at(&Interval::whole(0)))
+}
+
+/// Returns true if two points are the same, apart from rounding.
+pub fn is_near(point: &Point, other: &Point) -> bool {
+    let scale = &length(other) + &Interval::whole(1);
+    length(&minus(point, other)).upper <= (&scale * &Interval::from(&Decimal::power_of_ten(GAP_DECIMALS))).lower
 }
 
 impl fmt::Display for Line {

@@ -1,9 +1,11 @@
 //! The steps of a task in the order of their execution.
 
+use super::lines;
 use crate::world::task::{Group, Node, Step};
 use cplan_check::CheckError;
 use cplan_check::certificate::{ExecutedStep, Motion};
 use cplan_check::decimal::Decimal;
+use cplan_check_line::StepLine;
 use std::iter::{Enumerate, Peekable};
 use std::slice::Iter;
 
@@ -13,6 +15,8 @@ pub(super) struct MatchedStep<'a> {
     pub(super) done: &'a ExecutedStep,
     /// Indices of the objects that return to their initial poses before the step.
     pub(super) renewed: Vec<usize>,
+    /// The line, if the step follows one.
+    pub(super) line: Option<StepLine>,
 }
 
 /// The state of the matching of executed steps with those of the world.
@@ -50,7 +54,8 @@ impl<'a> Order<'a> {
         };
         match self.left.next() {
             Some((_, done)) if done.step == step.number => {
-                self.matched.push(MatchedStep { step, done, renewed: std::mem::take(&mut self.renewed) });
+                let (renewed, line) = (std::mem::take(&mut self.renewed), lines::read(step, done)?);
+                self.matched.push(MatchedStep { step, done, renewed, line });
                 Ok(())
             }
             Some((index, done)) => CheckError::fails(format!(

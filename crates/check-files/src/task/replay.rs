@@ -149,7 +149,7 @@ impl<'a> Replay<'a> {
 
     /// Checks a step and updates the state. `after` are the steps that follow.
     pub(super) fn step(&mut self, matched: &MatchedStep, after: &[MatchedStep]) -> Result<(), CheckError> {
-        let MatchedStep { step, done, renewed } = matched;
+        let MatchedStep { step, done, renewed, line } = matched;
         // Objects return to their initial poses only after the arm has rested.
         if !renewed.is_empty() {
             let at = [1, 2].map(|k| Interval::from(&self.motion.knots[self.knot][k]));
@@ -204,8 +204,16 @@ impl<'a> Replay<'a> {
                 self.free(&still, &to, None, tool)?;
                 self.release(at, angle.as_ref(), &to)?;
             }
-            Action::Move(goal) => {
-                self.misses(self.arm.error_bound(&motion.knots[last], goal))?;
+            Action::Move(_) | Action::MoveToLine | Action::Follow(_) => {
+                let next_line = after.first().and_then(|next| next.line.as_ref());
+                match (&step.action, next_line, line) {
+                    (Action::Move(goal), ..) => self.misses(self.arm.error_bound(&motion.knots[last], goal))?,
+                    (Action::MoveToLine, Some(line), _) => {
+                        self.misses(line.distance_from_start(self.arm, &motion.knots[last]))?;
+                    }
+                    (_, _, Some(line)) => line.check(self.arm, &moving)?,
+                    _ => return CheckError::fails("the line is missing"),
+                }
                 self.turn(done, &to)?;
                 if let Some(height) = self.lowered[1].as_ref().filter(|_| after.is_empty()) {
                     self.require_static("a stroke of the tool")?;

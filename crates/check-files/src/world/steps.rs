@@ -290,12 +290,12 @@ impl Steps<'_, '_> {
         let reader = self.reader;
         let table = reader.table(value)?;
         let dwell = table.get("dwell").map_or(Ok(dwell.clone()), |value| reader.number(value))?;
-        let known = ["pick", "place", "move", "transfer", "steps", "grasp", "supports", "at", "window"];
+        let known = ["pick", "place", "move", "follow", "transfer", "steps", "grasp", "supports", "at", "window"];
         let is_known = |key: &str| known.contains(&key) || SHARED_STEP_KEYS.contains(&key);
         if let Some((key, _)) = table.iter().find(|(key, _)| !is_known(key.get_ref())) {
             return reader.error(value, &format!("the checker does not know the key {} of a step", key.get_ref()));
         }
-        let given: Vec<&str> = known[..5].iter().copied().filter(|key| table.get(*key).is_some()).collect();
+        let given: Vec<&str> = known[..6].iter().copied().filter(|key| table.get(*key).is_some()).collect();
         let [what] = given[..] else { return reader.error(value, "a step needs exactly one action") };
         if what != "pick" && (table.contains_key("at") || table.contains_key("window")) {
             return reader.error(value, "only picks have a place and a window of time");
@@ -316,11 +316,14 @@ impl Steps<'_, '_> {
             }
             "place" => vec![self.place(of)?],
             "move" => vec![Action::Move(reader.place(of)?)],
+            "follow" => vec![Action::MoveToLine, Action::Follow(reader.line(of)?)],
             _ => self.transfer(of)?,
         };
         let step = |action| {
             self.count += 1;
-            Node::Step(Step { number: self.count, action, dwell: dwell.clone() })
+            // The arm need not rest before it follows a line.
+            let dwell = if matches!(action, Action::MoveToLine) { Decimal::whole(0) } else { dwell.clone() };
+            Node::Step(Step { number: self.count, action, dwell })
         };
         Ok(actions.into_iter().map(step).collect())
     }

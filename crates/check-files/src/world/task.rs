@@ -1,5 +1,6 @@
 //! The content of a task: objects and steps.
 
+use super::lines::WorldLine;
 use cplan_check::decimal::Decimal;
 use cplan_check::domain::Range;
 use cplan_check::interval::{Interval, Point};
@@ -121,6 +122,10 @@ pub enum Action {
         supports: Option<Vec<usize>>,
     },
     Move(Goal),
+    /// The tip moves to the beginning of the line of the next step.
+    MoveToLine,
+    /// The tip follows a line.
+    Follow(WorldLine),
 }
 
 /// Rules that apply from a pick to the next place step.

@@ -2,6 +2,7 @@
 
 use crate::decimal::Decimal;
 use serde::Deserialize;
+use serde_json::value::RawValue;
 
 /// A step of a task, with the part of the motion that executes it.
 #[derive(Deserialize)]
@@ -22,4 +23,6 @@ pub struct ExecutedStep {
     pub raising: Option<Vec<[Decimal; 3]>>,
     /// Knots of the stroke that raises the tool before the first step. `None` if the arm rests during it.
     pub raising_first: Option<Vec<[Decimal; 3]>>,
+    /// For a step along a line: the line as JSON. The crate `cplan-check-line` reads it.
+    pub line: Option<Box<RawValue>>,
 }

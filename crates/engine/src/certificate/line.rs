@@ -4,10 +4,10 @@ use super::contacts::Contacts;
 use super::motion::{motion_member, written_inward};
 use super::{BOX_MARGINS, Evidence, NoCertificate, lines, robot_members, written};
 use cplan_core::check::{Cell, CollisionBox};
-use cplan_core::model::{Pair, Scene};
+use cplan_core::model::{Arm, Pair, Scene};
 use cplan_core::space::Configuration;
 use cplan_deviation::{Deviation, Foot, Kinematics, Line, Place};
-use cplan_handling::Piece;
+use cplan_handling::{FollowedLine, Piece};
 use cplan_motion::Trajectory;
 use cplan_toolpath::{Curve, Toolpath};
 use cplan_world::{Digests, Overrides};
@@ -54,7 +54,8 @@ impl CertifiedLine<'_> {
         let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
         let readings = if is_smooth { ["cubic", "quintic"] } else { ["cubic", "quartic"] };
         let motion = motion_member(&readings, time, &[position, velocity, acceleration]);
-        let places = ("places", lines(&self.places(trajectory)));
+        let places =
+            ("places", lines(&places(arm, self.line, self.tolerance, &motion_pieces(trajectory, [0, time.len() - 1]))));
         self.written("found", places, [motion])
     }
 
@@ -89,29 +90,11 @@ impl CertifiedLine<'_> {
 
     /// Returns the line as a member of the certificate's JSON, with its part in the evidence.
     fn line_member(&self, evidence: (&'static str, String)) -> (&'static str, String) {
-        let pieces: Vec<Value> = self.line.pieces().iter().map(|piece| curve(&piece.curve)).collect();
-        let travels = self.line.pieces().iter().enumerate().filter(|(_, piece)| piece.is_travel);
-        let travels: Vec<usize> = travels.map(|(number, _)| number).collect();
-        let mut members: Evidence = vec![("tolerance", json!(self.tolerance).to_string()), ("pieces", lines(&pieces))];
-        members.extend((!travels.is_empty()).then(|| ("travels", json!(travels).to_string())));
+        let mut members: Evidence = vec![("tolerance", json!(self.tolerance).to_string())];
+        members.extend(pieces_members(self.line));
         members.push(evidence);
         let members: Vec<String> = members.iter().map(|(name, value)| format!("\"{name}\": {value}")).collect();
         ("line", format!("{{ {} }}", members.join(",\n  ")))
-    }
-
-    /// Returns moments of a motion, and the positions on the line at which the tip is near then. A moment is a sample plus
-    /// the share of the time until the next one, and a position is a piece plus its parameter.
-    fn places(&self, trajectory: &Trajectory) -> Vec<[f64; 2]> {
-        let (kinematics, line) = (Kinematics::new(self.scene.arm()), Line::new(self.line));
-        let last = Foot { piece: self.line.pieces().len() - 1, u: 1.0 };
-        let ends = [Foot { piece: 0, u: 0.0 }, last];
-        let deviation = Deviation { kinematics: &kinematics, line: &line, tolerance: self.tolerance, ends };
-        let mut pieces = trajectory.pieces();
-        if pieces.is_empty() {
-            let q = trajectory.position[0].into();
-            pieces.push(Piece::line(0.0, 1.0, q, q));
-        }
-        deviation.pairs(&pieces).into_iter().map(|(moment, foot)| [moment, foot.piece as f64 + foot.u]).collect()
     }
 
     /// Returns a box of collisions around all configurations of a solution that keep the tip within the tolerance: the
@@ -135,6 +118,48 @@ impl CertifiedLine<'_> {
         };
         BOX_MARGINS.into_iter().chain([0.0]).find_map(of_margin)
     }
+}
+
+/// Returns the line of a step in the form of certificates. `motion` has the pieces of the motion that follows it.
+pub(super) fn step_line(arm: &Arm, line: &FollowedLine, motion: &[Piece]) -> Value {
+    let places = places(arm, &line.path, line.tolerance, motion);
+    let (pieces, travels) = pieces_and_travels(&line.path);
+    match travels[..] {
+        [] => json!({ "pieces": pieces, "places": places }),
+        _ => json!({ "pieces": pieces, "travels": travels, "places": places }),
+    }
+}
+
+/// Returns the members of a line for its pieces and travels.
+fn pieces_members(line: &Toolpath) -> Evidence {
+    let (pieces, travels) = pieces_and_travels(line);
+    let travels = (!travels.is_empty()).then(|| ("travels", json!(travels).to_string()));
+    [("pieces", lines(&pieces))].into_iter().chain(travels).collect()
+}
+
+/// Returns the pieces of a line in the form of certificates, and the indices of its travels.
+fn pieces_and_travels(line: &Toolpath) -> (Vec<Value>, Vec<usize>) {
+    let travels = line.pieces().iter().enumerate().filter(|(_, piece)| piece.is_travel);
+    (line.pieces().iter().map(|piece| curve(&piece.curve)).collect(), travels.map(|(number, _)| number).collect())
+}
+
+/// Returns moments of a motion, and the positions on the line at which the tip is near then. A moment is a sample plus
+/// the share of the time until the next one, and a position is a piece plus its parameter. `motion` has the pieces of the
+/// motion; at least one.
+fn places(arm: &Arm, line: &Toolpath, tolerance: f64, motion: &[Piece]) -> Vec<[f64; 2]> {
+    let last = Foot { piece: line.pieces().len() - 1, u: 1.0 };
+    let ends = [Foot { piece: 0, u: 0.0 }, last];
+    let (kinematics, line) = (Kinematics::new(arm), Line::new(line));
+    let deviation = Deviation { kinematics: &kinematics, line: &line, tolerance, ends };
+    deviation.pairs(motion).into_iter().map(|(moment, foot)| [moment, foot.piece as f64 + foot.u]).collect()
+}
+
+/// Returns the pieces of a motion between two samples; a piece at rest if both are the same.
+pub(super) fn motion_pieces(trajectory: &Trajectory, [first, last]: [usize; 2]) -> Vec<Piece> {
+    let end = |k: usize| [trajectory.position[k].into(), trajectory.velocity[k].into()];
+    let piece = |k: usize| Piece::hermite(trajectory.time[k], trajectory.time[k + 1], end(k), end(k + 1));
+    let q = trajectory.position[first].into();
+    if first == last { vec![Piece::line(0.0, 1.0, q, q)] } else { (first..last).map(piece).collect() }
 }
 
 /// Returns a curve in the form of certificates.

@@ -44,9 +44,6 @@ pub enum NoCertificate {
     /// The goal of a task is on the command line.
     #[error("a certificate that includes the tool's joints needs the goal in the world file, not on the command line")]
     Goal,
-    /// A step of the task follows a line.
-    #[error("a task with a line has no certificate; `cplan follow` with --certificate certifies the line by itself")]
-    LineInTask,
     /// An object rests on another one, and its outline has corners that a checker cannot move inwards.
     #[error(
         "object \"{0}\" rests on a support, but its outline is too fine or touches itself: it cannot be shrunk by the depth that it may press in"
@@ -119,7 +116,8 @@ fn certificate_of_task(
     let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
     let members = robot_members(files, &task.arm).into_iter().chain(start).chain(clearance).collect();
     let (steps, _) = step_reports(task, answer);
-    let evidence = [motion::evidence(&task.arm, &motion.sequence.trajectory), task::steps(task, &steps)];
+    let trajectory = &motion.sequence.trajectory;
+    let evidence = [motion::evidence(&task.arm, trajectory), task::steps(task, &steps, trajectory)];
     Ok(written("found", members, evidence))
 }
 

@@ -70,7 +70,7 @@ pub fn recorded(
     let all = [&positions, &velocities, &accelerations];
     let motion = motion_member(&[reading], recording.times().unwrap_or(&counted), &all[..columns]);
     let times = recording.times().unwrap_or(&counted);
-    let steps = steps.map(|(task, steps)| steps_of_recording(task, steps, times));
+    let steps = steps.map(|(task, steps)| steps_of_recording(task, steps, (recording, times)));
     Ok(written("found", members, [motion].into_iter().chain(steps)))
 }
 

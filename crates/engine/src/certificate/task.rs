@@ -1,18 +1,19 @@
-//! Evidence for a task: the motion, the part of it that performs each step, and the turns of the wrist with the
-//! payload. The positions of all objects then follow from the world.
+//! Evidence for a task: the motion, the part of it that performs each step, the turns of the wrist with the payload, and
+//! the lines that steps follow. The positions of all objects then follow from the world.
 
+use super::line::{motion_pieces, step_line};
 use super::{NoCertificate, lines};
 use crate::result::StepReport;
 use cplan_geometry::can_inset_union;
-use cplan_handling::{Action, Object, Payload, RecordedStep, Step, Stroke, Task};
+use cplan_handling::{Action, FollowedLine, Object, Payload, RecordedStep, Recording, Step, Stroke, Task};
 use cplan_motion::recorded::turn_profile;
-use cplan_motion::single;
+use cplan_motion::{Trajectory, single};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
 /// Returns the steps of a planned task as a member of the certificate's JSON. The motion of such a task is part of the
-/// result.
-pub(super) fn steps(task: &Task, steps: &[StepReport]) -> (&'static str, String) {
+/// result; `trajectory` has its samples.
+pub(super) fn steps(task: &Task, steps: &[StepReport], trajectory: &Trajectory) -> (&'static str, String) {
     let step = |step: &StepReport| {
         let turn = step.turn.as_ref().map(|turn| Turn {
             by: turn.to - turn.from,
@@ -31,14 +32,22 @@ pub(super) fn steps(task: &Task, steps: &[StepReport]) -> (&'static str, String)
         });
         let first = step.raising.filter(|raising| raising.after_departure > 0.0);
         let first = first.map(|raising| [raising.lowered, step.begin + raising.after_departure]);
-        done(task, (step.step, knots), turn, (first, overlaps))
+        let mut done = done(task, (step.step, knots), turn, (first, overlaps));
+        if let Some(line) = followed_line(task, step.step) {
+            done["line"] = step_line(&task.arm, line, &motion_pieces(trajectory, knots));
+        }
+        done
     };
     ("steps", lines(&steps.iter().map(step).collect::<Vec<_>>()))
 }
 
-/// Returns the steps of a recorded task as a member of the certificate's JSON. `times` are those of the samples, in
-/// seconds.
-pub(super) fn steps_of_recording(task: &Task, steps: &[RecordedStep], times: &[f64]) -> (&'static str, String) {
+/// Returns the steps of a recorded task as a member of the certificate's JSON. `times` are those of the samples of the
+/// recording, in seconds.
+pub(super) fn steps_of_recording(
+    task: &Task,
+    steps: &[RecordedStep],
+    (recording, times): (&Recording, &[f64]),
+) -> (&'static str, String) {
     let mut held = None;
     let mut step = |(index, step): (usize, &RecordedStep)| {
         let knots = [*step.samples.start(), *step.samples.end()];
@@ -67,9 +76,21 @@ pub(super) fn steps_of_recording(task: &Task, steps: &[RecordedStep], times: &[f
         let lowered =
             task.start_tool.lowered_by().zip(task.stroke.as_ref()).map(|(depth, stroke)| stroke.lowered(depth));
         let first = lowered.filter(|_| step.raising > 0.0).map(|lowered| [lowered, times[knots[0]] + step.raising]);
-        done(task, (step.number, knots), turn, (first, overlaps))
+        let mut done = done(task, (step.number, knots), turn, (first, overlaps));
+        if let Some((line, motion)) = followed_line(task, step.number).zip(recording.part(step.samples.clone())) {
+            done["line"] = step_line(&task.arm, line, &motion.pieces());
+        }
+        done
     };
     ("steps", lines(&steps.iter().enumerate().map(&mut step).collect::<Vec<_>>()))
+}
+
+/// Returns the line that a step follows. `None` if the step follows no line.
+fn followed_line(task: &Task, number: usize) -> Option<&FollowedLine> {
+    match &task.steps().find(|step| step.number == number)?.action {
+        Action::Follow(line) => Some(line),
+        _ => None,
+    }
 }
 
 /// The strokes of a step that overlap with motions of the arm.
@@ -162,11 +183,8 @@ fn pressed_objects(task: &Task) -> BTreeSet<usize> {
 /// must do.
 ///
 /// # Errors
-/// [`NoCertificate::Outline`], and [`NoCertificate::LineInTask`].
+/// [`NoCertificate::Outline`].
 pub(super) fn checkable(task: &Task) -> Result<(), NoCertificate> {
-    if task.steps().any(|step| matches!(step.action, Action::Follow(_))) {
-        return Err(NoCertificate::LineInTask);
-    }
     let allowance = Payload::penetration_allowance(&task.arm);
     for object in pressed_objects(task) {
         let Object { name, pieces, .. } = &task.objects[object];

@@ -1,0 +1,53 @@
+//! The lines that steps of a task follow.
+
+use super::order::MatchedStep;
+use crate::world::task::{Action, Step};
+use cplan_check::certificate::ExecutedStep;
+use cplan_check::{CheckError, Input};
+use cplan_check_line::StepLine;
+use std::collections::BTreeMap;
+
+/// Reads the line of an executed step. Returns `None` if the step follows no line.
+///
+/// # Errors
+/// If a step has a line but follows none, or the reverse, and if the line is not that of the world.
+pub(super) fn read(step: &Step, done: &ExecutedStep) -> Result<Option<StepLine>, CheckError> {
+    let number = step.number;
+    let wrong = |message| Err(CheckError::in_file(Input::Certificate, message));
+    match (&step.action, &done.line) {
+        (Action::Follow(asked), Some(text)) => {
+            let line = StepLine::read(text.get(), &asked.tolerance)?;
+            match asked.allows(&line) {
+                true => Ok(Some(line)),
+                false => CheckError::fails(format!("the line of step {number} is not that of the world")),
+            }
+        }
+        (Action::Follow(_), None) => wrong(format!("step {number} follows a line, but has no \"line\"")),
+        (_, Some(_)) => wrong(format!("step {number} follows no line, but has a \"line\"")),
+        (_, None) => Ok(None),
+    }
+}
+
+/// Describes the lines of all steps in words.
+///
+/// # Errors
+/// If a step follows different lines in its repetitions.
+pub(super) fn in_words(steps: &[MatchedStep]) -> Result<String, CheckError> {
+    let (mut words, mut first) = (String::new(), BTreeMap::new());
+    for MatchedStep { step, line, .. } in steps {
+        let (Some(line), Action::Follow(asked), number) = (line, &step.action, step.number) else { continue };
+        if let Some(before) = first.insert(number, line) {
+            if !line.has_pieces_of(before) {
+                return CheckError::fails(format!(
+                    "the line of step {number} is another one when the step is repeated"
+                ));
+            }
+            continue;
+        }
+        words += &format!("; in step {number} the tip follows {line}");
+        if !asked.is_known() {
+            words += ", which is taken from the certificate";
+        }
+    }
+    Ok(words)
+}
