@@ -33,7 +33,7 @@ fn load_for(robot: &str, world: &str) -> Result<Task, InputError> {
 }
 
 /// Returns a world with two posts, perhaps an object that is picked first, and lines of all kinds.
-fn world(dice: &mut Dice) -> String {
+pub fn world(dice: &mut Dice) -> String {
     let mut text = String::from("[start]\njoints = [0.3, 1.2]\n");
     let polar = |distance: f64, angle: f64| [distance * angle.cos(), distance * angle.sin()];
     for k in 0..2 {
@@ -174,7 +174,7 @@ fn judge(task: &Task, answer: &TaskAnswer, seed: u64) {
 }
 
 /// Returns the joint that moves the tip most across its path, and its displacement for a metre across.
-fn aside(before: Configuration, after: Configuration) -> [f64; 2] {
+pub fn aside(before: Configuration, after: Configuration) -> [f64; 2] {
     let tip = |q: Configuration| BARS.tip([q[0], q[1]]);
     let [from, to] = [tip(before), tip(after)];
     let length = (to[0] - from[0]).hypot(to[1] - from[1]);

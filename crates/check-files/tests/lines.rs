@@ -519,7 +519,7 @@ fn simple(replace: &[(&str, &str)]) -> Result<String, CheckError> {
 #[test]
 fn malformed_lines_are_refused_with_a_reason() {
     let proven = simple(&[]).unwrap();
-    assert!(proven.contains("a line of 1 pieces, 1 of them travels, from (1.200000, 0.000000) to"), "{proven}");
+    assert!(proven.contains("a line of 1 piece, 1 of them travels, from (1.200000, 0.000000) to"), "{proven}");
     let travel = r#""travels": [0]"#;
     for (from, to, why) in [
         (travel, r#""travels": [1]"#, "must be counts of pieces"),

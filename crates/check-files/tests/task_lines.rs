@@ -1,7 +1,8 @@
 //! Certificates of tasks with lines, written by hand, and falsified ones.
 
+use cplan_cases::{dice, seeds};
 use cplan_check_files::{CheckError, check};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt::Write as _;
 
 /// URDF of a gantry with the tip at the joints' values. It has a small head.
@@ -158,6 +159,8 @@ fn other_lines_are_taken_from_the_certificate() {
         let report = holds(judge(&format!("[[step]]\nfollow = {{ {form} }}\n"), KNOTS, &both_steps()));
         assert!(report.ends_with("in its order, which is taken from the certificate"), "{report}");
     }
+    let world = ANGLE.replace("]] }", "]], wrist = \"tangent\", wrist_tolerance = 0.02 }");
+    assert!(holds(judge(&world, KNOTS, &both_steps())).ends_with("; the angle of the tool there is not judged"));
     for (form, part) in [
         ("points = [[1, 1], [3, 1]], arc = [[1, 1], [2, 1], [3, 2]]", "exactly one of points, arc, spline and file"),
         ("speed = 1", "exactly one of points, arc, spline and file"),
@@ -202,6 +205,75 @@ fn an_arc_passes_its_three_points() {
     fails(with(&arc.replace("[1, 1]", "[1.000001, 1]"), "1e-4", [1.0, FRAC_PI_2]), not_of_the_world);
     let steps = format!("{MOVE}, {}", line(2, [1, parts as usize + 1], r#"{"straight": [[1, 1], [0, 0]]}"#, &places));
     fails(judge(&world(&arc, "1e-4"), &knots, &steps), not_of_the_world);
+}
+
+/// An arc that is placed at random in a world, and a motion along it in chords.
+struct PlacedArc {
+    world: String,
+    knots: String,
+    places: String,
+    /// Centre, radius, direction of the beginning, and angle.
+    arc: [f64; 5],
+}
+
+/// Number of chords of a motion along a placed arc.
+const CHORDS: u32 = 48;
+
+impl PlacedArc {
+    fn random(dice: &mut cplan_cases::dice::Dice) -> Self {
+        let [x, y, radius] = [(-3.0, 3.0), (-3.0, 3.0), (0.1, 3.0)].map(|(low, high)| dice.within(low, high));
+        let [from, turned] = [dice.within(-4.0, 4.0), dice.within(0.3, 6.0)];
+        let by = if dice.chance(0.5) { turned } else { -turned };
+        let at = |u: f64| [x + radius * (from + by * u).cos(), y + radius * (from + by * u).sin()];
+        let (scale, turn, shift) = (dice.within(0.1, 10.0), dice.within(-4.0, 4.0), [dice.within(-2.0, 2.0), 0.5]);
+        // The world states the points before they are scaled, turned and moved.
+        let point = |u: f64| {
+            let [x, y] = [0, 1].map(|k| (at(u)[k] - shift[k]) / scale);
+            [x * turn.cos() + y * turn.sin(), y * turn.cos() - x * turn.sin()]
+        };
+        let points = [0.0, dice.within(0.05, 0.95), 1.0].map(point);
+        let world = format!(
+            "[[step]]\nfollow = {{ arc = {points:?}, scale = {scale:?}, turn = {turn:?}, move = {shift:?}, tolerance = 0.01 }}\n"
+        );
+        let share = |k: u32| f64::from(k) / f64::from(CHORDS);
+        let knot = |k: u32| format!(", [{}, {:?}, {:?}]", k + 1, at(share(k))[0], at(share(k))[1]);
+        let places: Vec<String> = (0..=CHORDS).map(|k| format!("[{k}, {:?}]", share(k))).collect();
+        let knots = "[0, 0, 1]".to_owned() + &(0..=CHORDS).map(knot).collect::<String>();
+        Self { world, knots, places: places.join(", "), arc: [x, y, radius, from, by] }
+    }
+
+    /// Judges the motion with an arc in the certificate.
+    fn judge(&self, [x, y, radius, from, by]: [f64; 5]) -> (i32, String) {
+        let piece =
+            format!(r#"{{"arc": {{"center": [{x:?}, {y:?}], "radius": {radius:?}, "from": {from:?}, "by": {by:?}}}}}"#);
+        let along = line(2, [1, CHORDS as usize + 1], &piece, &self.places);
+        judge(&self.world, &self.knots, &format!("{MOVE}, {along}"))
+    }
+}
+
+#[test]
+fn random_arcs_hold_and_no_others() {
+    let mut count = 0;
+    for seed in seeds(40) {
+        let mut dice = dice(seed);
+        let placed = PlacedArc::random(&mut dice);
+        let (code, report) = placed.judge(placed.arc);
+        assert!(code == 0 && !report.contains("taken from"), "seed {seed}: {report}\n{}", placed.world);
+        let by = placed.arc[4];
+        // The rest of the circle, and a whole turn more.
+        for other in [by - TAU * by.signum(), by + TAU * by.signum()] {
+            let [x, y, radius, from, _] = placed.arc;
+            fails(placed.judge([x, y, radius, from, other]), "the line of step 2 is not that of the world");
+        }
+        for number in 0..5 {
+            let mut other = placed.arc;
+            let size = 10_f64.powf(dice.within(-5.5, -1.0));
+            other[number] += if dice.chance(0.5) { size } else { -size };
+            fails(placed.judge(other), "the line of step 2 is not that of the world");
+        }
+        count += 8;
+    }
+    println!("{count} arcs");
 }
 
 #[test]

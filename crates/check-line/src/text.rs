@@ -131,6 +131,7 @@ impl fmt::Display for Line {
         let (from, to) = (self.pieces[0].at(&Interval::whole(0)), self.pieces[count - 1].at(&Interval::whole(1)));
         let [[a, b], [c, d]] = [rough(&from), rough(&to)];
         let travels = if self.travels > 0 { format!(", {} of them travels,", self.travels) } else { String::new() };
-        write!(f, "a line of {count} pieces{travels} from ({a:.6}, {b:.6}) to ({c:.6}, {d:.6})")
+        let pieces = if count == 1 { "piece" } else { "pieces" };
+        write!(f, "a line of {count} {pieces}{travels} from ({a:.6}, {b:.6}) to ({c:.6}, {d:.6})")
     }
 }

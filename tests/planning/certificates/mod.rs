@@ -13,6 +13,7 @@
 //! ```
 
 mod drawn;
+mod followed_lines;
 mod motions;
 mod oracle;
 mod tasks;

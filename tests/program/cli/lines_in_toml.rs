@@ -103,12 +103,33 @@ fn a_task_follows_lines_of_all_kinds() {
 }
 
 #[test]
-fn a_task_with_a_line_says_that_it_has_no_certificate() {
+fn a_task_with_lines_has_a_certificate() {
     let place = Place::new();
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/badge.toml")];
-    let done = place.run(&[&files[0], &files[1]], "--certificate c.json --quiet");
-    assert!(done.stderr.contains("a task with a line has no certificate"), "{}", done.stderr);
-    assert!(!place.path("c.json").exists());
+    let done = place.run(&[&files[0], &files[1]], "--certificate c.json --output badge.json --quiet");
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    let verified = place.run(&["verify", &files[0], &files[1], "badge.json"], "--certificate v.json");
+    assert_eq!(verified.code, 0, "{}", verified.stderr);
+    for certificate in ["c.json", "v.json"] {
+        let done = place.run(&["recheck", &files[0], &files[1], "--proof", certificate], "");
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        for part in
+            ["does all 9 steps", "in step 4 the tip follows a line of 1 piece from", "within 0.0001 of the line"]
+        {
+            assert!(done.stdout.contains(part), "no \"{part}\" in {}", done.stdout);
+        }
+        // The checker reads the arc of step 4 from the world.
+        assert_eq!(done.stdout.matches("which is taken from the certificate").count(), 3, "{}", done.stdout);
+    }
+    // A sample of the last line is moved by a tenth of a millimetre.
+    let mut moved: Value = serde_json::from_str(&place.read("c.json")).unwrap();
+    let knots = &moved["steps"][7]["knots"];
+    let middle = (knots[0].as_u64().unwrap() + knots[1].as_u64().unwrap()) / 2;
+    let value = &mut moved["motion"]["knots"][middle as usize][1];
+    *value = (number(value) + 1e-4).into();
+    place.write("moved.json", moved.to_string());
+    let refused = place.run(&["recheck", &files[0], &files[1], "--proof", "moved.json"], "");
+    assert!(refused.code == 1 && refused.stderr.contains("step 8: from knot"), "{} {}", refused.code, refused.stderr);
 }
 
 /// Runs a task for a shipped robot, and returns its files.

@@ -48,6 +48,9 @@ pub(super) fn in_words(steps: &[MatchedStep]) -> Result<String, CheckError> {
         if !asked.is_known() {
             words += ", which is taken from the certificate";
         }
+        if asked.has_tool_angle {
+            words += "; the angle of the tool there is not judged";
+        }
     }
     Ok(words)
 }

@@ -13,13 +13,17 @@ const DEFAULT_TOLERANCE_DECIMALS: u32 = 5;
 /// Keys that define the form of a line.
 const FORMS: [&str; 4] = ["points", "arc", "spline", "file"];
 
-/// Other keys of a line. The checker does not judge the speed.
-const MANNERS: [&str; 7] = ["radius", "speed", "tolerance", "unit", "scale", "turn", "move"];
+/// Other keys of a line. The checker judges neither the speed nor the angle of the tool. It counts shapes that turn with the
+/// wrist as discs, so they are free at each angle.
+const MANNERS: [&str; 9] =
+    ["radius", "speed", "tolerance", "unit", "scale", "turn", "move", "wrist", "wrist_tolerance"];
 
 /// A line that a step of the world asks for.
 pub struct WorldLine {
     /// Greatest distance between the tip and the line, metres.
     pub tolerance: Decimal,
+    /// True if the world asks for an angle of the tool.
+    pub has_tool_angle: bool,
     /// The form of the line. `None` if the checker does not read it.
     form: Option<Form>,
 }
@@ -92,6 +96,6 @@ impl Reader<'_> {
             },
             _ => None,
         };
-        Ok(WorldLine { tolerance, form })
+        Ok(WorldLine { tolerance, has_tool_angle: table.contains_key("wrist"), form })
     }
 }
