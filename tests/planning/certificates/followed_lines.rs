@@ -99,7 +99,7 @@ fn moved(piece: &mut Value, last: f64, whole: f64) {
 fn certified(seed: u64, tally: &mut Tally) {
     let mut dice: Dice = cplan_cases::dice(seed);
     let drawn = world(&mut dice);
-    let world = if seed % 2 == 0 { without_radius(&drawn) } else { drawn };
+    let world = if seed.is_multiple_of(2) { without_radius(&drawn) } else { drawn };
     let urdf = std::fs::read_to_string(format!("{}/robots/planar_2r.urdf", env!("CARGO_MANIFEST_DIR"))).unwrap();
     let source = |name: &str, text: &str| Source::in_memory(name, text);
     let loaded = input::scene_from(source("arm.urdf", &urdf), source("world.toml", &world));
