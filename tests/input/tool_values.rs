@@ -52,6 +52,24 @@ fn a_goal_on_the_command_line_keeps_the_values() {
     assert!(error.contains("needs the goal in the world file"), "{error}");
 }
 
+#[test]
+fn a_wrist_without_a_value_at_the_goal_stays() {
+    let goal = GOAL.replace("wrist = \"90deg\"\n", "");
+    let world = [ROBOT, START, "wrist = 0.7\n", &goal].concat();
+    let task = task(&world, &Overrides::default()).unwrap().task;
+    let step = task.steps().next().unwrap();
+    assert_eq!((task.start_tool.wrist, step.tool.wrist), (Some(0.7), Some(0.7)));
+}
+
+/// Tests limits at which a stroke would last for longer than a million seconds.
+#[test]
+fn strokes_that_take_for_ever_are_refused() {
+    for limit in ["velocity = 1e-12", "acceleration = 1e-300", "jerk = 1e-30"] {
+        let robot = ROBOT.replace("joint = \"axis_3\"", &format!("joint = \"axis_3\", {limit}"));
+        refused(&[&robot, START, GOAL].concat(), &["at most a million seconds", "raise the limits"]);
+    }
+}
+
 /// Tests a value of the wrist alone: the tool stays raised, and the wrist takes longer than the arm.
 #[test]
 fn the_wrist_alone_is_a_task_and_may_take_longest() {

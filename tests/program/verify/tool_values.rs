@@ -9,6 +9,7 @@ use cplan_check_files::check;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// Lengths of both links, metres.
 const LENGTHS: [f64; 2] = [0.3, 0.25];
@@ -349,6 +350,44 @@ fn motions_of_four_joints_have_no_false_answer() {
 fn example() -> Query {
     let post = Post { at: [0.5, 0.0], radius: 0.05, height: [0.0, 0.2] };
     Query { posts: vec![post], ends: [[0.4, 0.3, -0.1, 0.5], [-0.6, -0.3, -0.15, -1.0]], arch: "", jerks: None }
+}
+
+/// Compares the files of single steps with the rest at their ends. Both worlds have strokes that follow each other within a
+/// nanosecond.
+#[test]
+fn files_of_steps_begin_and_end_at_rest() {
+    let robot = "[robot]\njoints = [\"axis_1\", \"axis_2\"]\ntip = \"flange\"\nfixed = { axis_3 = -0.06 }\n";
+    let lowered = "stroke = { joint = \"axis_3\", jerk = 50.0 }\n[start]\njoints = [-1.2, 1.4]\nstroke = -0.0103\n\
+                   [[step]]\nmove = { joints = [-0.5, 1.2] }\n";
+    let carried = "stroke = { joint = \"axis_3\" }\n[start]\njoints = [-1.2, 1.4]\n[[object]]\nname = \"part\"\n\
+                   polygon = [[-0.03, -0.01], [0.03, -0.01], [0.03, 0.01], [-0.03, 0.01]]\nheight = [0.057, 0.077]\n\
+                   lift = 0.042\nat = [0.25, -0.1525]\n[[step]]\npick = \"part\"\n[[step]]\n\
+                   place = { at = [0.25, 0.1525] }\n[[step]]\nmove = { joints = [-0.5, 1.2] }\n";
+    let folder = tempfile::tempdir().unwrap();
+    let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/robots/scara.urdf");
+    for (content, steps) in [(lowered, 1), (carried, 3)] {
+        std::fs::write(folder.path().join("world.toml"), [robot, content].concat()).unwrap();
+        let run = Command::new(env!("CARGO_BIN_EXE_cplan"))
+            .current_dir(folder.path())
+            .args([urdf, "world.toml", "--per-step", "--quiet", "--output", "plan.csv"])
+            .output()
+            .unwrap();
+        assert!(run.status.success(), "{run:?}");
+        for step in 1..=steps {
+            let table = std::fs::read_to_string(folder.path().join(format!("plan-{step:03}.csv"))).unwrap();
+            let rows: Vec<Vec<f64>> = table.lines().skip(1).map(numbers).collect();
+            let [first, .., last] = &rows[..] else { panic!("{table}") };
+            assert_eq!(first[0], 0.0);
+            for row in [first, last] {
+                assert_eq!(row[5..9], [0.0; 4], "step {step}: {row:?}");
+            }
+        }
+    }
+}
+
+/// Returns the numbers of a line of a table.
+fn numbers(line: &str) -> Vec<f64> {
+    line.split(',').map(|value| value.parse().unwrap()).collect()
 }
 
 #[test]
