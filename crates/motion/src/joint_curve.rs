@@ -127,7 +127,6 @@ fn motion(curve: &Spline, limits: &Limits, period: f64, too_far: &dyn Fn(&[Piece
         let rate = Rate::fastest_of_all(&curve.conditions(limits, parts), 1.0 / parts as f64)?;
         let near = near_motion(curve, &rate, (rate.duration() / (parts * pieces) as f64).min(period), too_far)?;
         let excess = near.excess(limits);
-        eprintln!("     parts {parts} pieces {pieces} rate {} near {} excess {excess}", rate.duration(), near.pieces().len());
         let (_, slower) = near.slowed(excess);
         let tip = limits.tip.and_then(|tip| tip.excess(&slower.pieces()));
         let (_, slower) = slower.slowed(tip.unwrap_or(1.0));
@@ -150,9 +149,7 @@ fn near_motion(curve: &Spline, rate: &Rate, longest: f64, too_far: &dyn Fn(&[Pie
     while count <= MAX_STEPS {
         checkpoint();
         let spline = curve.passed(rate, (rate.duration() / count * NANOSECONDS_PER_SECOND as f64).ceil() as u64);
-        let n = too_far(&spline.pieces()).len();
-        if n > 0 { eprintln!("      count {count}: {n} far"); }
-        if n == 0 {
+        if too_far(&spline.pieces()).is_empty() {
             return Some(spline);
         }
         count *= 2.0;
