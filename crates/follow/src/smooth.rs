@@ -4,17 +4,25 @@
 //! by a sixth of the second difference of its neighbours, so that the spline passes almost through the line's points, and
 //! rounds corners. Where the spline is too far from the line, the control points are placed more densely. The crate
 //! `cplan-motion` finds the fastest motion along the spline.
+//!
+//! Near a hairpin of the line that is narrow compared with the tolerance, the check of the distance may count the way back
+//! too early, and finds everything after it too far. Denser control points do not help. A curve within a small share of
+//! the tolerance does, because the check goes on to the way back only if it is nearer by such a share.
 
 use crate::motion::Driver;
 use crate::search::Route;
 use crate::spacing::Spacing;
-use crate::{FollowError, SLACK_SHARE};
+use crate::{FollowError, MIN_TOLERANCE, SLACK_SHARE};
 use cplan_core::check::CertifiedPath;
 use cplan_core::space::{Configuration, JointRange};
 use cplan_handling::Piece;
 use cplan_interrupt::checkpoint;
 use cplan_motion::{CertifiedCurve, CurveDrive, JointCurve, TimedMotion, along_curve, along_joint_curve};
+use std::cell::Cell;
 use std::f64::consts::TAU;
+
+/// Shares of the tolerance that are tried in turn, until a motion is found without rounds in vain.
+const TOLERANCE_SHARES: [f64; 3] = [1.0, 0.1, 0.01];
 
 /// Share of the tolerance that the curve may use. The motion along it needs the rest, because it cuts bends as well.
 const CURVE_SHARE: f64 = 0.6;
@@ -37,11 +45,30 @@ const MIN_END_SHARE: f64 = 0.01;
 /// Number of times that control points are placed more densely.
 const MAX_ROUNDS: usize = 24;
 
+/// Number of rounds in vain after which the search for a curve ends. In such a round, the number of pieces that are too far
+/// increases although the control points are denser. Usually it is reduced at once to a few.
+const MAX_VAIN_ROUNDS: usize = 2;
+
 /// Greatest number of control points of a stretch.
 const MAX_POINTS: usize = 50_000;
 
+/// Greatest number of steps of a motion for each piece of its curve, if pieces of the motion are too far from the line. Six
+/// halvings of the steps bring a motion four thousand times nearer to its curve.
+const MAX_STEPS_PER_PIECE: usize = 64;
+
+/// Number of steps up to which they are always halved.
+const FREE_STEPS: usize = 20_000;
+
 /// Number of steps of the search for the point of a line beside a leg of the path.
 const FOOT_STEPS: u32 = 3;
+
+/// The result of the search for a curve.
+struct Search {
+    /// The curve; `None` if none is near enough.
+    curve: Option<JointCurve>,
+    /// Number of rounds in vain.
+    vain_rounds: usize,
+}
 
 /// A part of a route between two stops.
 pub(crate) struct Stretch<'a> {
@@ -73,39 +100,78 @@ impl<'a> Stretch<'a> {
     /// Returns the fastest motion that is found, from rest to rest without a stop between. Returns `None` if no motion is
     /// found.
     pub fn motion(&self) -> Result<Option<TimedMotion>, FollowError> {
-        let scene = self.driver.scene;
-        let too_far = |pieces: &[Piece]| self.too_far(pieces, 1.0);
         if self.ends[1] - self.ends[0] <= 1 {
             let curve = CertifiedCurve::from(self.path.clone());
-            return Ok(Some(along_curve(scene, curve, self.drive)?));
+            return Ok(Some(along_curve(self.driver.scene, curve, self.drive)?));
         }
-        let motion = |curve: JointCurve| along_joint_curve(scene, self.path, &curve, self.drive, &too_far);
-        Ok(self.curve().and_then(motion))
+        let mut best: Option<TimedMotion> = None;
+        for share in TOLERANCE_SHARES {
+            let tolerance = share * self.driver.settings.tolerance;
+            if share < 1.0 && tolerance < MIN_TOLERANCE {
+                break;
+            }
+            let Search { curve, vain_rounds } = self.curve(tolerance);
+            let found = curve.and_then(|curve| self.motion_along(&curve, tolerance));
+            let duration = |timed: &TimedMotion| timed.trajectory.duration();
+            best = best.into_iter().chain(found).min_by(|a, b| duration(a).total_cmp(&duration(b)));
+            if best.is_some() && vain_rounds == 0 {
+                break;
+            }
+        }
+        Ok(best)
     }
 
-    /// Returns the indices of the pieces that are farther from the line than a share of the tolerance.
-    fn too_far(&self, pieces: &[Piece], share: f64) -> Vec<usize> {
-        let tolerance = share * self.driver.settings.tolerance;
+    /// Returns the fastest motion along a curve that is found within a tolerance of the line.
+    fn motion_along(&self, curve: &JointCurve, tolerance: f64) -> Option<TimedMotion> {
+        let most = FREE_STEPS.max(MAX_STEPS_PER_PIECE * curve.pieces().len());
+        // With more steps, pieces count as near, so that the search ends, and its result is dropped.
+        let is_dropped = Cell::new(false);
+        let too_far = |pieces: &[Piece]| {
+            let far = if is_dropped.get() { vec![] } else { self.too_far(pieces, tolerance, 1.0) };
+            if far.is_empty() || pieces.len() <= most {
+                return far;
+            }
+            is_dropped.set(true);
+            vec![]
+        };
+        let timed = along_joint_curve(self.driver.scene, self.path, curve, self.drive, &too_far)?;
+        (!is_dropped.get()).then_some(timed)
+    }
+
+    /// Returns the indices of the pieces that are farther from the line than a share of a tolerance.
+    fn too_far(&self, pieces: &[Piece], tolerance: f64, share: f64) -> Vec<usize> {
+        let tolerance = share * tolerance;
         let mut deviation = self.driver.deviation(self.route, self.ends);
         deviation.tolerance = tolerance;
         let bounds = deviation.of_pieces(pieces);
         (0..bounds.len()).filter(|&i| bounds[i] > tolerance).collect()
     }
 
-    /// Returns a smooth curve that is near the line and within the limits of the joints. Returns `None` if the search finds no such curve.
-    fn curve(&self) -> Option<JointCurve> {
-        let mut spacing = self.first_spacing();
+    /// Searches for a smooth curve that is within a tolerance of the line and within the limits of the joints.
+    fn curve(&self, tolerance: f64) -> Search {
+        let mut spacing = self.first_spacing(tolerance);
+        let (mut vain_rounds, mut before) = (0, usize::MAX);
         for _ in 0..MAX_ROUNDS {
             checkpoint();
             let distances = spacing.distances();
             if distances.len() > MAX_POINTS {
-                return None;
+                break;
             }
             let curve = JointCurve::new(&self.control(&distances));
-            let far = self.too_far(&curve.pieces(), CURVE_SHARE);
+            let pieces = curve.pieces();
+            let mut far = self.too_far(&pieces, tolerance, CURVE_SHARE);
             if far.is_empty() {
-                return Some(curve);
+                // With the whole tolerance, other places of the line may count.
+                far = self.too_far(&pieces, tolerance, 1.0);
             }
+            if far.is_empty() {
+                return Search { curve: Some(curve), vain_rounds };
+            }
+            vain_rounds += usize::from(far.len() > before);
+            if vain_rounds == MAX_VAIN_ROUNDS {
+                break;
+            }
+            before = far.len();
             let mut is_marked = vec![false; distances.len()];
             for piece in far {
                 // A piece is between two points, and depends on their neighbours too.
@@ -114,16 +180,17 @@ impl<'a> Stretch<'a> {
             }
             spacing = spacing.finer(&distances, &is_marked);
         }
-        None
+        Search { curve: None, vain_rounds }
     }
 
     /// Returns the spacing that the bends at the waypoints suggest.
-    fn first_spacing(&self) -> Spacing {
+    fn first_spacing(&self, tolerance: f64) -> Spacing {
         let length = self.distances[self.distances.len() - 1];
         let widest = length / MIN_SPACINGS;
         let last = self.distances.len() - 1;
         let end = |leg: usize| self.start_distance(leg).clamp(MIN_END_SHARE * widest, widest);
-        let inner = (1..last).map(|w| [self.distances[w], widest.min(FIRST_SPACING * self.half_neighborhood(w))]);
+        let inner =
+            (1..last).map(|w| [self.distances[w], widest.min(FIRST_SPACING * self.half_neighborhood(w, tolerance))]);
         let mut places: Vec<[f64; 2]> =
             [[0.0, end(0)]].into_iter().chain(inner).chain([[length, end(last - 1)]]).collect();
         // Legs may be shorter than the rounding of distances.
@@ -146,9 +213,9 @@ impl<'a> Stretch<'a> {
     }
 
     /// Returns half the size of the neighbourhood of an inner waypoint in which the path is almost straight.
-    fn half_neighborhood(&self, w: usize) -> f64 {
+    fn half_neighborhood(&self, w: usize, tolerance: f64) -> f64 {
         let (q, d) = (self.path.path().waypoints(), &self.distances);
-        let most = BULGE_TOLERANCES * self.driver.settings.tolerance;
+        let most = BULGE_TOLERANCES * tolerance;
         let (mut half, mut around) = (0.0, 1);
         loop {
             let [from, to] = [w.saturating_sub(around), (w + around).min(d.len() - 1)];
