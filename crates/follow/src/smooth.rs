@@ -7,7 +7,7 @@
 //!
 //! Near a hairpin of the line that is narrow compared with the tolerance, the check of the distance may count the way back
 //! too early, and finds everything after it too far. Denser control points do not help. A curve within a small share of
-//! the tolerance does, because the check goes on to the way back only if it is nearer by such a share.
+//! the tolerance does, because the check turns to the way back only if it is nearer by such a share.
 
 use crate::motion::Driver;
 use crate::search::Route;
@@ -64,7 +64,7 @@ const FOOT_STEPS: u32 = 3;
 
 /// The result of the search for a curve.
 struct Search {
-    /// The curve; `None` if none is near enough.
+    /// The curve; `None` if all of them are too far away.
     curve: Option<JointCurve>,
     /// Number of rounds in vain.
     vain_rounds: usize,

@@ -107,8 +107,8 @@ fn judge_motion(
     Ok(findings.with_faults(Judgement::Claims, false_claims))
 }
 
-/// Describes the differences between recorded and stated values of the tool's joints at both ends of a motion. A joint that
-/// the file does not have is held at its default value.
+/// Describes the differences between recorded and stated values of the tool's joints at both ends of a motion. A joint
+/// without values in the file has its default value.
 fn tool_errors(loaded: &LoadedScene, recording: &Recording, held: &[HeldMotion]) -> Result<Vec<String>, InputError> {
     if !loaded.is_task() || loaded.has_steps() {
         return Ok(Vec::new());
