@@ -1,7 +1,12 @@
 //! Certificates of tasks with lines, written by hand, and falsified ones.
 
+#[allow(dead_code, reason = "other tests use more of it")]
+#[path = "common/gantry.rs"]
+mod gantry;
+
 use cplan_cases::{dice, seeds};
 use cplan_check_files::{CheckError, check};
+use gantry::{assert_fails as fails, assert_holds as holds, assert_refused as is_refused};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt::Write as _;
 
@@ -54,22 +59,6 @@ fn judge(world: &str, knots: &str, steps: &str) -> (i32, String) {
 /// Returns the steps of the line of two pieces.
 fn both_steps() -> String {
     format!("{MOVE}, {}", line(2, [1, 3], PIECES, PLACES))
-}
-
-#[track_caller]
-fn holds((code, report): (i32, String)) -> String {
-    assert_eq!(code, 0, "{report}");
-    report
-}
-
-#[track_caller]
-fn fails((code, report): (i32, String), part: &str) {
-    assert!(code == 3 && report.contains(part), "{code} {report}");
-}
-
-#[track_caller]
-fn is_refused((code, report): (i32, String), part: &str) {
-    assert!(code == 1 && report.contains(part), "{code} {report}");
 }
 
 #[test]

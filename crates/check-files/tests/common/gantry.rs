@@ -37,8 +37,9 @@ pub fn judge_steps(urdf: &str, world: &str, knots: &str, steps: &str) -> (i32, S
 }
 
 #[track_caller]
-pub fn assert_holds((code, report): (i32, String)) {
+pub fn assert_holds((code, report): (i32, String)) -> String {
     assert_eq!(code, 0, "{report}");
+    report
 }
 
 #[track_caller]
