@@ -32,12 +32,12 @@ fn distance(scene: &Scene, q: Values, number: usize) -> f64 {
     // If joint 1 carries the link, only joint 2 moves the one relative to the other.
     let poses = arm.poses(Configuration::from(if is_carried { [0.0, q[1]] } else { q }));
     let mut least = f64::INFINITY;
-    for (link, pose) in arm.links.iter().zip(&poses).skip(usize::from(is_carried)) {
-        let can_meet = |part: &&Part| match own {
+    for (index, (link, pose)) in arm.links.iter().zip(&poses).enumerate().skip(usize::from(is_carried)) {
+        let can_meet = |(number, part): &(usize, &Part)| match own {
             None => part.heights.meet(obstacle.heights),
-            Some(own) => part.heights.definitely_meet(obstacle.heights) && !own.ignores(&part.body),
+            Some(own) => part.heights.definitely_meet(obstacle.heights) && !own.ignores(index, *number, &part.body),
         };
-        for part in link.parts.iter().filter(can_meet) {
+        for (_, part) in link.parts.iter().enumerate().filter(can_meet) {
             let shape = part.shape.at(pose);
             let apart = obstacle
                 .pieces

@@ -20,6 +20,7 @@ mod interrupt;
 #[allow(dead_code, reason = "other test programs ask more")]
 mod judged;
 mod optimum;
+mod own_bodies;
 mod published;
 mod random_tasks;
 mod random_worlds;

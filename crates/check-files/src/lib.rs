@@ -94,8 +94,7 @@ fn check_texts([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2
         line: Some(error.pos().row as usize),
         message: error.to_string(),
     })?;
-    let mut robot = Robot::read(&document, &world, &files, certificate.joints.as_ref())?;
-    robot.arm.ignore(&certificate)?;
+    let robot = Robot::read(&document, &world, &files, certificate.joints.as_ref())?;
     let proven = match (&certificate.line, &certificate.steps) {
         (Some(line), _) => cplan_check_line::judge(&robot.arm, &world.world, &certificate, line.get())?,
         (None, Some(steps)) => task::check_motion(&robot, &world, &certificate, steps)?,

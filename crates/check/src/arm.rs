@@ -1,12 +1,9 @@
 //! A planar arm of two joints, as a robot's file describes it.
 
-use crate::certificate::Certificate;
 use crate::domain::{Axis, Domain, Range};
-use crate::error::CheckError;
 use crate::interval::Point;
-use crate::mover::{Cell, MovingBody};
 use crate::obstacle::Obstacle;
-use crate::shapes::{Body, CollisionShape, Outline};
+use crate::shapes::{Body, CollisionShape};
 
 /// Planar motion that a joint gives to the links that it carries.
 #[derive(Debug, Clone)]
@@ -52,43 +49,4 @@ pub struct Arm {
     pub own: Vec<Obstacle>,
     /// Sentences for messages. They state assumptions that differ from the robot's file.
     pub notes: String,
-}
-
-impl Arm {
-    /// Ignores contact between the pairs of links that the certificate lists. Such links overlap in every
-    /// configuration.
-    ///
-    /// # Errors
-    /// If a pair does not overlap where the motion begins.
-    pub fn ignore(&mut self, certificate: &Certificate) -> Result<(), CheckError> {
-        let first = certificate.motion.as_ref().and_then(|motion| motion.knots.first()?.get(1..3));
-        let cell = first.map(|q| Cell::from(&[0, 1].map(|k| [q[k].clone(), q[k].clone()])));
-        for [a, b] in &certificate.ignored {
-            let is_pair = |own: &CollisionShape, other: &CollisionShape| {
-                [a, b] == [&own.link, &other.link] || [b, a] == [&own.link, &other.link]
-            };
-            let meet = |own: &CollisionShape, other: &CollisionShape| {
-                let heights = other.within.inset_heights(Outline::Within);
-                let mover = MovingBody::new(self, &own.within);
-                let cell = cell.clone().map(|cell| cell.for_link(Some(&other.owner())));
-                own.within.overlaps_heights(heights.as_ref())
-                    && cell.is_none_or(|cell| mover.overlaps(&other.within.shape, &cell))
-            };
-            let pairs = self.shapes.iter().flat_map(|own| self.bases.iter().map(move |other| (own, other)));
-            if !pairs.filter(|(own, other)| is_pair(own, other)).any(|(own, other)| meet(own, other)) {
-                let why = format!(
-                    "links \"{a}\" and \"{b}\" do not overlap where the motion begins, so their contact counts"
-                );
-                return CheckError::fails(why);
-            }
-            for own in &mut self.shapes {
-                let other = [(a, b), (b, a)].into_iter().find(|(link, _)| own.link == **link);
-                own.ignored.extend(other.map(|(_, other)| other.clone()));
-            }
-            self.notes += &format!(
-                "; contact of links \"{a}\" and \"{b}\" is ignored, as the certificate says that they always overlap"
-            );
-        }
-        Ok(())
-    }
 }

@@ -48,9 +48,6 @@ pub struct Certificate {
     pub motion: Option<Motion>,
     /// For a task: the part of the motion that executes each step.
     pub steps: Option<Vec<ExecutedStep>>,
-    /// Pairs of links that overlap in every configuration.
-    #[serde(default)]
-    pub ignored: Vec<[String; 2]>,
     /// Shapes to which the evidence refers by their indices.
     #[serde(default)]
     pub shapes: Vec<ShapeName>,

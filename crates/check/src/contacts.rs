@@ -95,8 +95,8 @@ impl<'a> Contacts<'a> {
             return fails(": the shape passes over or under the obstacle");
         }
         match beside {
-            Some(Owner { link, .. }) if shape.ignored.contains(link) => {
-                fails(&format!(": the shape may meet link \"{link}\""))
+            Some(Owner { shape: other, .. }) if shape.ignored.contains(other) => {
+                fails(&format!(": the shape may meet {other}"))
             }
             _ => Ok(Pair { body, part: &part.shape, beside }),
         }

@@ -36,6 +36,7 @@ pub mod motion;
 pub mod mover;
 pub mod obstacle;
 pub mod overlap;
+mod permanent;
 pub mod polygon;
 pub mod scene;
 pub mod shapes;

@@ -78,7 +78,7 @@ pub struct CollisionShape {
     pub around: Body,
     /// A subset of the covered region.
     pub within: Body,
-    /// Names of the links that the shape may touch.
+    /// The robot's shapes that the shape may touch, in the words that name them in messages.
     pub ignored: BTreeSet<String>,
 }
 
@@ -94,25 +94,25 @@ impl fmt::Display for CollisionShape {
 }
 
 impl CollisionShape {
-    /// Returns the link as the owner of an obstacle.
+    /// Returns the shape as the origin of an obstacle.
     pub fn owner(&self) -> Owner {
-        Owner { link: self.link.clone(), is_carried: self.last.is_some() }
+        Owner { shape: self.to_string(), is_carried: self.last.is_some() }
     }
 
     /// Returns true if `body` must keep away from an obstacle. This is so if the obstacle is at its height, and is not
-    /// a link that this shape may touch. `body` is this shape, or the region that the shape sweeps as the tool turns.
+    /// a shape of the robot that this shape may touch. `body` is this shape, or the region that the shape sweeps as the tool turns.
     pub fn meets(&self, body: &Body, obstacle: &Obstacle) -> bool {
-        let is_free = obstacle.own.as_ref().is_some_and(|own| self.ignored.contains(&own.link));
+        let is_free = obstacle.own.as_ref().is_some_and(|own| self.ignored.contains(&own.shape));
         !is_free && !body.misses_heights(obstacle.heights.as_ref())
     }
 }
 
-/// A link of the robot that is an obstacle for others.
+/// A shape of the robot that is an obstacle for others.
 #[derive(Clone)]
 pub struct Owner {
-    /// Name of the link.
-    pub link: String,
-    /// True if joint 1 carries the link. Then positions of the link, and of shapes that can collide with it, are given
+    /// The shape, in the words that name it in messages.
+    pub shape: String,
+    /// True if joint 1 carries the shape. Then its positions, and those of shapes that can collide with it, are given
     /// with joint 1 at zero.
     pub is_carried: bool,
 }

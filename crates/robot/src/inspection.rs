@@ -254,7 +254,8 @@ pub struct SelfObstacleEntry {
     pub moves: bool,
     /// Least and greatest height, in metres.
     pub heights: [f64; 2],
-    /// URDF links further along the chain whose contact with it is ignored.
+    /// URDF links further along the chain whose contact with it is ignored, because the world file allows it, or because
+    /// a shape of the link meets it in every configuration.
     pub ignored: Vec<String>,
 }
 

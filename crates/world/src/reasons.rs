@@ -79,15 +79,24 @@ pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
     scene.obstructions(q).iter().map(|obstruction| scene.explain(obstruction)).collect()
 }
 
-/// Hint about a configuration in which the robot's links hit only each other.
-const HELP_FOR_OWN_BODY: &str =
-    "choose another configuration, or let these links touch: [robot] ignore_contact = [[\"LINK\", \"LINK\"]]";
-
-/// Returns the hint about a blocked configuration.
-pub(super) fn help_at(scene: &Scene, q: Configuration) -> &'static str {
-    let hits = scene.obstructions(q);
-    let is_own = |hit: &Obstruction| scene.self_obstacle(hit.contact.pair.obstacle).is_some();
-    if !hits.is_empty() && hits.iter().all(is_own) { HELP_FOR_OWN_BODY } else { help_for_contact(scene) }
+/// Returns the hint about a blocked configuration. If the robot's links hit only each other, it names the shapes, and
+/// the line of the world file that lets the links touch.
+pub(super) fn help_at(scene: &Scene, q: Configuration) -> String {
+    let (mut shapes, mut links) = (Vec::new(), Vec::new());
+    for Obstruction { contact, .. } in scene.obstructions(q) {
+        let Some(own) = scene.self_obstacle(contact.pair.obstacle) else { return help_for_contact(scene).to_owned() };
+        let (part, fixed) = (&scene.link(contact.pair).parts[contact.pair.part], &own.obstacle.name);
+        let [of_fixed, of_part] = [own.number + 1, part.number + 1];
+        shapes.push(format!("shape {of_part} of \"{}\" and shape {of_fixed} of \"{fixed}\"", part.body));
+        links.push(format!("[\"{fixed}\", \"{}\"]", part.body));
+    }
+    if links.is_empty() {
+        return help_for_contact(scene).to_owned();
+    }
+    let (shapes, links) = (shapes.join(", "), links.join(", "));
+    format!(
+        "choose another configuration; or, if the real parts never touch ({shapes}), [robot] ignore_contact = [{links}]"
+    )
 }
 
 /// Returns the hint about a configuration in which the arm hits or nearly hits something.

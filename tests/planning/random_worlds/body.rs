@@ -27,7 +27,7 @@ fn self_obstacles(dice: &mut Dice, arm: &Arm) -> Vec<SelfObstacle> {
             number,
             is_visual: false,
             ignored: ignored.clone(),
-            permanent: vec![],
+            permanent: Default::default(),
         };
         let shapes = world::obstacle(dice, 0.0, near).into_iter().flat_map(|o| split(&o));
         all.extend(shapes.map(obstacle));

@@ -129,10 +129,102 @@ fn links_that_meet_in_every_configuration_are_named() {
         <link name="plate"> <collision> <origin xyz="0 0 0.42"/> <geometry> <cylinder radius="3" length="0.01"/> </geometry> </collision> </link>"#;
     let (_, done) = run(&scara(0.39, plate), &world("", [0.0, -1.0]), "");
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let report = "links that meet in every configuration is ignored: \"plate\" and \"outer\", \"plate\" and \"quill\"";
+    let report = "shapes that meet in every configuration is ignored: \"plate\" and \"outer\", \"plate\" and \"quill\"";
     assert!(done.stdout.contains(report), "{}", done.stdout);
-    let neighbors = "\"base_link\" and \"inner\", \"inner\" and \"outer\"";
-    assert!(done.stdout.contains(neighbors), "{}", done.stdout);
+}
+
+/// An arm of two bars that are 0.4 m long. Braces stand for its root, with everything that hangs from it, and for the
+/// range of joint 2.
+const ON_A_BASE: &str = r#"<robot name="arm"> {base}
+<joint name="j1" type="revolute">
+  <parent link="base"/> <child link="L1"/> <origin xyz="0 0 0.1"/> <axis xyz="0 0 1"/> <limit lower="-2.5" upper="2.5" effort="1" velocity="2"/>
+</joint>
+<link name="L1"> <collision> <origin xyz="0.2 0 0"/> <geometry> <box size="0.4 0.04 0.04"/> </geometry> </collision> </link>
+<joint name="j2" type="revolute">
+  <parent link="L1"/> <child link="L2"/> <origin xyz="0.4 0 {rise}"/> <axis xyz="0 0 1"/> <limit lower="-{bend}" upper="{bend}" effort="1" velocity="2"/>
+</joint>
+<link name="L2"> <collision> <origin xyz="0.2 0 0"/> <geometry> <box size="0.4 0.04 0.04"/> </geometry> </collision> </link> </robot>"#;
+
+fn on_a_base(base: &str, bend: f64, rise: f64) -> String {
+    ON_A_BASE.replace("{base}", base).replace("{bend}", &bend.to_string()).replace("{rise}", &rise.to_string())
+}
+
+/// A swing of joint 1 from one side to the other.
+const SWING: &str = "{robot}\n[start]\njoints = [-1.59, 0.0]\n[goal]\njoints = [1.59, 0.0]\n";
+
+fn swing(urdf: &str, robot: &str) -> (Place, Done) {
+    run(urdf, &SWING.replace("{robot}", robot), "--json --quiet --certificate c.json")
+}
+
+/// Asserts that a part of the base bars the way, for each planner that can prove it, and for the checker.
+fn assert_bars(urdf: &str, link: &str) {
+    let (place, done) = swing(urdf, "");
+    assert_eq!(done.code, 3, "{urdf}\n{}{}", done.stdout, done.stderr);
+    let files = ["arm.urdf", "world.toml", "c.json"].map(|name| place.path(name));
+    check_files(&files[0], &files[1], &files[2]).expect("holds");
+    let allowed = format!("[robot]\nignore_contact = [[\"{link}\", \"L1\"], [\"{link}\", \"L2\"]]");
+    let (place, done) = swing(urdf, &allowed);
+    assert_eq!(done.code, 0, "{urdf}\n{}{}", done.stdout, done.stderr);
+    let files = ["arm.urdf", "world.toml", "c.json"].map(|name| place.path(name));
+    check_files(&files[0], &files[1], &files[2]).expect("holds");
+}
+
+/// Checks a plate in front of the arm. Start and goal are beside it, and at 32 values of each joint link 2 is in it.
+#[test]
+fn a_plate_that_is_left_at_both_ends_counts() {
+    let plate = r#"<link name="base"> <collision> <origin xyz="0.54 0 0.15"/> <geometry> <box size="1.0 1.56 0.1"/> </geometry> </collision> </link>"#;
+    assert_bars(&on_a_base(plate, 0.01, 0.1), "base");
+}
+
+/// Checks a post beside link 1 that hangs from a root without a shape, with one, and behind further fixed joints.
+#[test]
+fn a_post_beside_link_1_counts_whatever_it_hangs_from() {
+    let post = |parent: &str, root: &str| {
+        format!(
+            r#"<link name="base"> {root} </link>
+            <joint name="f" type="fixed"> <parent link="base"/> <child link="frame"/> </joint> <link name="frame"/>
+            <joint name="p" type="fixed"> <parent link="{parent}"/> <child link="post"/> <origin xyz="0.25 0.15 0.1"/> </joint>
+            <link name="post"> <collision> <geometry> <cylinder radius="0.03" length="0.2"/> </geometry> </collision> </link>"#
+        )
+    };
+    let foot = r#"<collision> <geometry> <cylinder radius="0.05" length="0.2"/> </geometry> </collision>"#;
+    for parent in ["base", "frame"] {
+        for root in ["", foot] {
+            assert_bars(&on_a_base(&post(parent, root), 2.5, 0.05), "post");
+        }
+    }
+}
+
+/// Checks a base of a column at the axis and a cable box beside it.
+#[test]
+fn shapes_of_a_neighbor_count_one_by_one() {
+    let base = |cable_box: &str| {
+        format!(
+            r#"<link name="base">
+            <collision> <geometry> <cylinder radius="0.05" length="0.2"/> </geometry> </collision>
+            <collision> <origin xyz="{cable_box} 0.1"/> <geometry> <box size="0.1 0.1 0.1"/> </geometry> </collision> </link>"#
+        )
+    };
+    assert_bars(&on_a_base(&base("0.25 0.15"), 2.5, 0.05), "base");
+    let (_, beside) = run(&on_a_base(&base("-0.25 0.0"), 2.5, 0.05), &SWING.replace("{robot}", ""), "");
+    assert_eq!(beside.code, 0, "{}", beside.stderr);
+    let note = "is ignored: shape 1 of \"base\" and shape 1 of \"L1\"";
+    assert!(beside.stdout.contains(note), "{}", beside.stdout);
+}
+
+/// Checks the hint of an arm whose shapes collide near a joint. The line that it offers helps.
+#[test]
+fn the_hint_names_shapes_that_are_too_large() {
+    let base = r#"<link name="base"> <collision> <origin xyz="-0.02 0.05 0.1"/> <geometry> <box size="0.1 0.1 0.1"/> </geometry> </collision>
+        <collision> <origin xyz="0.1 0 0.1"/> <geometry> <box size="0.05 0.02 0.1"/> </geometry> </collision> </link>"#;
+    let urdf = on_a_base(base, 2.5, 0.05);
+    let at_zero =
+        |robot: &str| run(&urdf, &format!("{robot}\n[start]\njoints = [0, 0]\n[goal]\njoints = [1, 1]\n"), "");
+    let (_, done) = at_zero("");
+    let line = "ignore_contact = [[\"base\", \"L1\"]]";
+    done.refused(1, &["link \"L1\" hits link \"base\"", "shape 1 of \"L1\" and shape 2 of \"base\"", line]);
+    let (_, done) = at_zero(&format!("[robot]\n{line}"));
+    assert_eq!(done.code, 0, "{}", done.stderr);
 }
 
 #[test]

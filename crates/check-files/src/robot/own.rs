@@ -4,7 +4,7 @@ use super::Robot;
 use super::layers::cuts;
 use super::shapes::PlacedShape;
 use super::solid::bodies;
-use super::tree::{ReadResult, Tree};
+use super::tree::ReadResult;
 use crate::world::WorldFile;
 use cplan_check::interval::{Interval, Point, sum};
 use cplan_check::obstacle::Obstacle;
@@ -12,22 +12,6 @@ use cplan_check::shapes::{CollisionShape, Outline};
 use cplan_check::{CheckError, Input};
 use num_bigint::BigInt;
 use std::collections::{BTreeMap, BTreeSet};
-
-impl<'a> Tree<'a> {
-    /// Returns the links from the root of the tree to `link`.
-    fn chain(&self, link: &'a str) -> ReadResult<Vec<&'a str>> {
-        let parents = self.joints_above(link)?.into_iter().rev().map(|joint| self.parent(joint));
-        parents.chain([Ok(link)]).collect()
-    }
-}
-
-/// Returns true if no solid link lies between the ends of two chains that begin at the root.
-fn are_neighbors(left: &[&str], right: &[&str], is_solid: impl Fn(&str) -> bool) -> bool {
-    let common = left.iter().zip(right).take_while(|(a, b)| a == b).count();
-    let mut between = left[common.saturating_sub(1)..].iter().chain(&right[common..]);
-    let is_end = |link: &str| [left.last(), right.last()].contains(&Some(&link));
-    between.all(|link| is_end(link) || !is_solid(link))
-}
 
 impl<'a> Robot<'a> {
     /// Finds the last of the two joints that moves a link. Returns `Some(None)` for a static link. Returns `None` if
@@ -55,13 +39,11 @@ impl<'a> Robot<'a> {
         }
         let groups: BTreeMap<&'a str, Option<usize>> =
             all.iter().map(|placed| (placed.link, placed.whole.last)).collect();
-        let chain = |link: &&'a str| Ok((*link, self.tree.chain(link)?));
-        let chains = groups.keys().map(chain).collect::<ReadResult<BTreeMap<&str, Vec<&str>>>>()?;
         let mut apart = BTreeSet::new();
         for (a, of_a) in &groups {
             for (b, _) in groups.iter().filter(|(_, of_b)| world.robot.own_body && *of_b != of_a) {
                 let may_meet = ignored.iter().any(|[c, d]| [c, d] == [a, b] || [d, c] == [a, b]);
-                if !may_meet && !are_neighbors(&chains[a], &chains[b], |link| groups.contains_key(link)) {
+                if !may_meet {
                     apart.insert((*a, *b));
                 }
             }
@@ -69,10 +51,8 @@ impl<'a> Robot<'a> {
         let ends = |placed: &PlacedShape| placed.whole.around.heights.iter().flatten().map(|h| h.middle().0).collect();
         let ends: Vec<(&str, Vec<BigInt>)> = all.iter().map(|placed| (placed.link, ends(placed))).collect();
         let wrist = world.task.as_ref().and_then(|task| task.wrist.as_ref()?.joint.as_deref());
-        for PlacedShape { link, mut whole, surface } in all {
+        for PlacedShape { link, whole, surface } in all {
             let last = whole.last;
-            let ignored = groups.keys().filter(|other| !apart.contains(&(link, **other)));
-            whole.ignored = ignored.map(|other| (*other).to_owned()).collect();
             let others = ends.iter().filter(|(other, _)| apart.contains(&(link, *other)));
             let cuts = cuts(others.flat_map(|(_, ends)| ends.clone()).collect());
             // A link that turns with the wrist is replaced by a disc, and is not cut.
@@ -80,9 +60,9 @@ impl<'a> Robot<'a> {
                 self.tree.joints_above(link)?.iter().any(|joint| wrist.is_some() && joint.attribute("name") == wrist);
             let layers = surface.filter(|_| !turns).map_or_else(Vec::new, |surface| surface.layers(&cuts));
             let layer = |(number, (points, heights)): (usize, (Vec<Point>, [Interval; 2]))| {
-                let (link, ignored, layer) = (whole.link.clone(), whole.ignored.clone(), Some(number));
+                let (link, layer) = (whole.link.clone(), Some(number));
                 let [around, within] = bodies(last, points.into_iter(), &heights);
-                CollisionShape { link, layer, around, within, ignored, ..whole }
+                CollisionShape { link, layer, around, within, ignored: BTreeSet::new(), ..whole }
             };
             let mut layers: Vec<CollisionShape> = layers.into_iter().enumerate().map(layer).collect();
             if layers.is_empty() {
@@ -96,6 +76,12 @@ impl<'a> Robot<'a> {
                 self.arm.shapes.append(&mut layers);
             }
         }
+        for own in &mut self.arm.shapes {
+            let allowed =
+                self.arm.bases.iter().filter(|other| !apart.contains(&(own.link.as_str(), other.link.as_str())));
+            own.ignored = allowed.map(ToString::to_string).collect();
+        }
+        self.arm.ignore_permanent_contacts();
         let obstacle = |own: &CollisionShape| {
             let heights = own.around.inset_heights(Outline::Around);
             Obstacle::link(own.to_string(), own.owner(), own.around.shape.clone(), heights)

@@ -7,6 +7,8 @@
 //!   segment. Only `certify` makes a [`CertifiedPath`] from a path; `then`, `part` and `within` derive others.
 //! - [`CurveSearch`] does the same for any curve, given bounds on its parts. The crate `motion` judges rounded
 //!   corners with it.
+//! - [`permanent_contacts`] proves which shapes of the robot's own body meet in every configuration. No other pairs
+//!   are left out.
 //! - [`Disconnection::checked`] judges a proof that there is no path. It joins the gaps between the collision boxes by
 //!   petgraph's union-find.
 //!
@@ -28,6 +30,7 @@ mod cell;
 mod deviation;
 mod drift;
 mod motion;
+mod permanent;
 mod proof;
 mod vicinity;
 
@@ -35,5 +38,6 @@ pub use cell::Cell;
 pub use deviation::{COLLISION_ROUNDING, Deviation, Posture, SeparationBound};
 pub use drift::Drift;
 pub use motion::{CertifiedPath, CurveSearch, Nearest, Rejection, StraightMotions, certify};
+pub use permanent::permanent_contacts;
 pub use proof::{CheckedProof, CollisionBox, Disconnection, ProofBox, ProofError, ProofFormatError, read_proof};
 pub use vicinity::Vicinity;

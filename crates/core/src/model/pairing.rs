@@ -104,7 +104,7 @@ impl Pairing<'_> {
             let attached = if link == 1 { part.checked_sub(self.own_parts) } else { None };
             let attached = attached.map(|number| &self.attached[number]);
             for (obstacle, &(kind, o)) in self.obstacles.iter().enumerate() {
-                if !self.can_meet(link, p, attached.is_some(), kind, o) {
+                if !self.can_meet((link, part), p, attached.is_some(), kind, o) {
                     continue;
                 }
                 let pieces = match attached {
@@ -124,15 +124,23 @@ impl Pairing<'_> {
         [pairs, loose]
     }
 
-    /// Returns true if the heights and the carriers of a part and of an obstacle allow them to meet.
-    fn can_meet(&self, link: usize, part: &Part, is_attached: bool, kind: ObstacleKind, obstacle: &Obstacle) -> bool {
+    /// Returns true if the heights and the carriers of a part and of an obstacle allow them to meet. `at` is the part's
+    /// link, and its number there.
+    fn can_meet(
+        &self,
+        at: (usize, usize),
+        part: &Part,
+        is_attached: bool,
+        kind: ObstacleKind,
+        obstacle: &Obstacle,
+    ) -> bool {
         let ObstacleKind::Own(own) = kind else {
             return self.policy.meet.meet(is_attached, part.heights, obstacle.heights);
         };
         // The heights of links that lie on each other touch, so only definite overlaps count.
-        (link == 1 || own.carrier == Carrier::Base)
+        (at.0 == 1 || own.carrier == Carrier::Base)
             && part.heights.definitely_meet(obstacle.heights)
-            && (is_attached || !own.ignores(&part.body))
+            && (is_attached || !own.ignores(at.0, at.1, &part.body))
     }
 
     /// Returns for each obstacle, and each of its pieces, whether the piece is in no pair. Returns an empty list if

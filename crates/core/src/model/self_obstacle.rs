@@ -29,17 +29,23 @@ pub struct SelfObstacle {
     pub number: usize,
     /// True if the shape is `<visual>` geometry.
     pub is_visual: bool,
-    /// URDF links that are allowed to meet the shape: neighbours in the chain, and those that the world file allows.
+    /// URDF links that may meet the shape, because the world file allows it.
     pub ignored: Vec<String>,
-    /// Other URDF links that are allowed to meet the shape, because they meet it in every configuration.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub permanent: Vec<String>,
+    /// For each link of the arm, the numbers of the parts that are proven to meet the shape in every configuration.
+    /// Their contact is ignored. See [`crate::check::permanent_contacts`].
+    #[serde(default, skip_serializing_if = "is_nowhere")]
+    pub permanent: [Vec<usize>; 2],
+}
+
+fn is_nowhere(parts: &[Vec<usize>; 2]) -> bool {
+    parts.iter().all(Vec::is_empty)
 }
 
 impl SelfObstacle {
-    /// Returns true if a URDF link is allowed to meet the shape.
+    /// Returns true if the contact with a part of the arm is ignored. The part is given by its link, its number among
+    /// the link's own parts, and its URDF link.
     #[must_use]
-    pub fn ignores(&self, link: &str) -> bool {
-        self.ignored.iter().chain(&self.permanent).any(|ignored| ignored == link)
+    pub fn ignores(&self, link: usize, part: usize, body: &str) -> bool {
+        self.permanent[link].contains(&part) || self.ignored.iter().any(|ignored| ignored == body)
     }
 }

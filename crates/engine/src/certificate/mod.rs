@@ -26,7 +26,6 @@ use cplan_world::{Digests, Overrides, TipPoint};
 use lower_bound::LowerBound;
 use serde::Serialize;
 use serde_json::json;
-use std::collections::BTreeSet;
 use thiserror::Error;
 
 /// Fraction of a bound that the certificate of a motion may lose, so that it is small and can be checked quickly.
@@ -143,18 +142,12 @@ fn lines(entries: &[impl Serialize]) -> String {
     format!("[\n{}\n  ]", entries.join(",\n"))
 }
 
-/// Returns the JSON members about the files and the joints, and about links of the robot that overlap in every
-/// configuration.
+/// Returns the JSON members about the files and the joints.
 fn robot_members(files: Option<&Digests>, arm: &Arm) -> JsonMembers {
     let joints = ("joints", json!(arm.joints.each_ref().map(|joint| &joint.name)));
-    let permanent =
-        arm.self_obstacles.iter().flat_map(|own| own.permanent.iter().map(|link| [&own.obstacle.name, link]));
-    let permanent: BTreeSet<[&String; 2]> = permanent.collect();
-    let ignored = (!permanent.is_empty()).then(|| ("ignored", json!(permanent)));
-    let joints = [joints].into_iter().chain(ignored);
-    let Some(Digests { urdf, world, others }) = files else { return joints.collect() };
+    let Some(Digests { urdf, world, others }) = files else { return vec![joints] };
     let others = (!others.is_empty()).then(|| ("others", json!(others)));
-    [("urdf", json!(urdf)), ("world", json!(world))].into_iter().chain(others).chain(joints).collect()
+    [("urdf", json!(urdf)), ("world", json!(world))].into_iter().chain(others).chain([joints]).collect()
 }
 
 /// Returns the JSON members for values that override the world file.

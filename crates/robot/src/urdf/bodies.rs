@@ -118,7 +118,6 @@ impl Bodies<'_> {
         let self_obstacles = own.obstacles(&all);
         if self.settings.table.own_body_is_obstacle() {
             warnings.extend(fixed.unread.iter().chain(&fixed.unseen).map(describe_unread_mesh));
-            notes.extend(own.notes());
         }
         Ok(Outlines { links, self_obstacles, geometry, notes, sizeless, warnings })
     }

@@ -1,7 +1,7 @@
 //! Self-collision: the pairs of links that the planner keeps apart, and the layers in which it cuts their meshes.
 //!
-//! A link is an obstacle for the links that a joint further along the chain moves. Exceptions are its neighbours in the
-//! chain, those that the world allows to meet it, and those that meet it in every configuration.
+//! A link is an obstacle for the links that a joint further along the chain moves. Exceptions are links that the world
+//! allows to meet it, and single shapes that are proven to meet in every configuration, as neighbours do at their joint.
 
 use super::bodies::Bodies;
 use super::chain::Chain;
@@ -10,14 +10,10 @@ use super::shapes::PlacedShape;
 use super::solid::MIN_LAYER_THICKNESS;
 use super::tree::Tree;
 use crate::error::{Diagnostic, quoted};
-use cplan_core::model::{Arm, Carrier, Obstacle, Scene, SelfObstacle, Shape, Workspace};
-use cplan_core::space::Configuration;
-use cplan_geometry::separation;
-use std::collections::BTreeSet;
+use cplan_core::check::permanent_contacts;
+use cplan_core::model::{Arm, Carrier, Obstacle, Pair, Scene, SelfObstacle, Shape, Workspace};
+use std::collections::{BTreeMap, BTreeSet};
 use urdf_rs::JointType;
-
-/// Number of values of each joint at which links are placed, to find links that touch in every configuration.
-const SAMPLES_PER_JOINT: usize = 32;
 
 /// The part of the robot to which a link belongs. The last joint that moves the link determines it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -79,18 +75,7 @@ impl<'a> SelfCollision<'a> {
     fn keeps_apart(&self, a: usize, b: usize) -> bool {
         let is_enabled = self.bodies.settings.table.own_body_is_obstacle();
         let are_apart = self.groups[a].zip(self.groups[b]).is_some_and(|(a, b)| a != b);
-        is_enabled && are_apart && !self.allowed.contains(&(a, b)) && !self.are_neighbors(a, b)
-    }
-
-    /// Returns true if no link with a shape lies between two links in the tree.
-    fn are_neighbors(&self, a: usize, b: usize) -> bool {
-        let [above_a, above_b] = [a, b].map(|link| self.bodies.tree.ancestors(link));
-        let common = above_a.iter().rev().zip(above_b.iter().rev()).take_while(|(a, b)| a == b).count();
-        let between = |above: &[usize]| above[..above.len() - common].iter().skip(1).copied().collect::<Vec<_>>();
-        // If one link carries the other, it is their last common link.
-        let top = above_a[above_a.len() - common];
-        let middle = (top != a && top != b).then_some(top);
-        !between(&above_a).into_iter().chain(between(&above_b)).chain(middle).any(|link| self.solid.contains(&link))
+        is_enabled && are_apart && !self.allowed.contains(&(a, b))
     }
 
     /// Returns the heights at which a link's meshes are cut into layers, in ascending order. They are the lower and
@@ -123,7 +108,7 @@ impl<'a> SelfCollision<'a> {
                 let name = self.bodies.document.robot.links[link].name.clone();
                 let obstacle = Obstacle { name, shape: Shape::Pieces, pieces: vec![piece], heights };
                 let ignored = self.ignored(link);
-                let permanent = Vec::new();
+                let permanent = Default::default();
                 obstacles.push(SelfObstacle { carrier, obstacle, number, is_visual, ignored, permanent });
             }
         }
@@ -141,64 +126,45 @@ impl<'a> SelfCollision<'a> {
         let ignored = self.solid.iter().copied().filter(|other| further(other) && !self.keeps_apart(link, *other));
         ignored.map(|other| self.bodies.document.robot.links[other].name.clone()).collect()
     }
-
-    /// Describes the neighbours whose contact is ignored.
-    pub fn notes(&self) -> Vec<String> {
-        let neighbors: Vec<String> =
-            self.pairs().filter(|(a, b)| self.are_neighbors(*a, *b)).map(|p| self.named(p)).collect();
-        let is_enabled = self.bodies.settings.table.own_body_is_obstacle();
-        let note = format!("contact of links that are neighbours is ignored: {}", neighbors.join(", "));
-        if is_enabled && !neighbors.is_empty() { vec![note] } else { Vec::new() }
-    }
-
-    /// Iterates over pairs of solid links of different groups.
-    fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let all = self.solid.iter().copied().filter(|&link| self.groups[link].is_some());
-        all.clone()
-            .flat_map(move |a| all.clone().map(move |b| (a, b)))
-            .filter(|&(a, b)| self.groups[a] < self.groups[b])
-    }
-
-    fn named(&self, (a, b): (usize, usize)) -> String {
-        let name = |link: usize| &self.bodies.document.robot.links[link].name;
-        format!("\"{}\" and \"{}\"", name(a), name(b))
-    }
 }
 
-/// Ignores the contact of links that touch in every configuration, and names them. The arm is placed at
-/// [`SAMPLES_PER_JOINT`] values of each joint within its limits.
+/// Ignores the contact of shapes that meet in every configuration, and names them.
 pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
     if arm.self_obstacles.is_empty() {
         return None;
     }
     let scene = Scene::trusted(arm.clone(), Workspace::new([]));
-    let names = |pair: &cplan_core::model::Pair| {
-        let moving = &scene.link(*pair).parts[pair.part].body;
-        (scene.obstacle_name(*pair).to_owned(), moving.clone())
-    };
-    let mut permanent: BTreeSet<(String, String)> = scene.pairs().iter().map(names).collect();
-    let value = |joint: usize, number: usize| {
-        let (lower, upper) = scene.arm().joints[joint].range.domain();
-        lower + (upper - lower) * (number as f64 + 0.5) / SAMPLES_PER_JOINT as f64
-    };
-    for number in 0..SAMPLES_PER_JOINT * SAMPLES_PER_JOINT {
-        if permanent.is_empty() {
-            return None;
+    let permanent = permanent_contacts(&scene);
+    for pair in &permanent {
+        let parts = &mut arm.self_obstacles[pair.obstacle].permanent[pair.link.min(1)];
+        parts.push(pair.part);
+    }
+    let named = named(&scene, &permanent);
+    let note = || format!("contact of shapes that meet in every configuration is ignored: {}", named.join(", "));
+    (!named.is_empty()).then(note)
+}
+
+/// Names the links to which pairs of shapes belong. If only some shapes of two links are in the pairs, names the shapes.
+fn named(scene: &Scene, permanent: &[Pair]) -> Vec<String> {
+    let links = |pair: &Pair| (scene.obstacle_name(*pair), scene.link(*pair).parts[pair.part].body.as_str());
+    let mut by_links: BTreeMap<_, Vec<&Pair>> = BTreeMap::new();
+    scene.pairs().iter().for_each(|pair| by_links.entry(links(pair)).or_default().push(pair));
+    let mut names = Vec::new();
+    for ((fixed, moving), pairs) in by_links {
+        let of_links: Vec<&Pair> = pairs.iter().copied().filter(|pair| permanent.contains(pair)).collect();
+        if of_links.len() == pairs.len() {
+            names.push(format!("\"{fixed}\" and \"{moving}\""));
+            continue;
         }
-        let poses = scene
-            .arm()
-            .pair_poses(Configuration::new(value(0, number / SAMPLES_PER_JOINT), value(1, number % SAMPLES_PER_JOINT)));
-        let of_permanent = scene.pairs().iter().filter(|pair| permanent.contains(&names(pair)));
-        let meet = of_permanent
-            .filter(|&&pair| separation(&scene.part(pair).at(&poses[pair.link]), scene.piece(pair)).distance <= 0.0);
-        permanent = meet.map(names).collect();
+        let number = |pair: &&Pair| {
+            let own = scene.self_obstacle(pair.obstacle).expect("a link of the robot");
+            [own.number, scene.link(**pair).parts[pair.part].number].map(|number| number + 1)
+        };
+        let shapes: BTreeSet<[usize; 2]> = of_links.iter().map(number).collect();
+        names
+            .extend(shapes.into_iter().map(|[a, b]| format!("shape {a} of \"{fixed}\" and shape {b} of \"{moving}\"")));
     }
-    for own in &mut arm.self_obstacles {
-        let of_this = permanent.iter().filter(|(fixed, _)| *fixed == own.obstacle.name);
-        own.permanent.extend(of_this.map(|(_, moving)| moving.clone()));
-    }
-    let named: Vec<String> = permanent.iter().map(|(fixed, moving)| format!("\"{fixed}\" and \"{moving}\"")).collect();
-    Some(format!("contact of links that meet in every configuration is ignored: {}", named.join(", ")))
+    names
 }
 
 /// Returns the group of a URDF link. `None` if the last joint that moves it is outside the arm.

@@ -144,7 +144,7 @@ fn examine_pair(report: &mut Inspection, reduction: &Reduction) {
     let (arm, _, unknown) = reduction.arm(plane, bounds.unwrap_or_else(|_| unbounded(reduction)), outlines);
     report.errors.extend(unknown.filter(|_| reduction.settings.table.dynamics).map(InputError::from));
     report.ignored.extend(sizeless);
-    report.self_obstacles = arm.self_obstacles.iter().map(self_obstacle).collect();
+    report.self_obstacles = arm.self_obstacles.iter().map(|own| self_obstacle(&arm, own)).collect();
     report.warnings.extend(advice::warnings(reduction, &arm));
     report.reach = Some(reach(&arm));
     report.frames = frames(reduction, &plane);
@@ -273,12 +273,17 @@ fn outline(link: &Link) -> OutlineEntry {
     }
 }
 
-fn self_obstacle(own: &SelfObstacle) -> SelfObstacleEntry {
+fn self_obstacle(arm: &Arm, own: &SelfObstacle) -> SelfObstacleEntry {
+    let permanent =
+        own.permanent.iter().zip(&arm.links).flat_map(|(parts, link)| parts.iter().map(|p| &link.parts[*p].body));
+    let mut ignored: Vec<String> = own.ignored.iter().chain(permanent).cloned().collect();
+    ignored.sort();
+    ignored.dedup();
     SelfObstacleEntry {
         link: own.obstacle.name.clone(),
         moves: own.carrier == Carrier::FirstJoint,
         heights: [own.obstacle.heights.lower, own.obstacle.heights.upper],
-        ignored: own.ignored.iter().chain(&own.permanent).cloned().collect(),
+        ignored,
     }
 }
 

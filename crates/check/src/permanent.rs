@@ -1,0 +1,107 @@
+//! Shapes of the robot that meet in every configuration, as neighbours do at their joint. Their contact is ignored.
+
+use crate::arm::{Arm, Motion};
+use crate::decimal::Decimal;
+use crate::domain::{Range, Rectangle};
+use crate::interval::{Interval, Point, sum};
+use crate::mover::{Cell, MovingBody};
+use crate::overlap::{Shape, overlap_by_more_than};
+use crate::shapes::{CollisionShape, Outline};
+use num_bigint::BigInt;
+use std::collections::VecDeque;
+
+/// Number of decimals of the distance within which shapes count as meeting: `10^-8` m. Links often begin where others
+/// end, so at some angles the shapes only touch.
+const TOUCHING_DECIMALS: u32 = 8;
+
+/// Largest number of boxes of configurations in which one pair is tested. If they do not decide, the contact counts.
+const MAX_CELLS: usize = 4096;
+
+impl Arm {
+    /// Ignores contact between shapes that are proven to meet in every configuration.
+    pub fn ignore_permanent_contacts(&mut self) {
+        let of_shape = |own: &CollisionShape| {
+            let met = self.bases.iter().filter(|other| self.is_permanent(own, other));
+            met.map(ToString::to_string).collect::<Vec<_>>()
+        };
+        let ignored: Vec<Vec<String>> = self.shapes.iter().map(of_shape).collect();
+        for (own, ignored) in self.shapes.iter_mut().zip(ignored) {
+            own.ignored.extend(ignored);
+        }
+    }
+
+    /// Returns true if a moving shape and one that is an obstacle for it certainly share heights, and are proven to meet
+    /// in every configuration.
+    fn is_permanent(&self, own: &CollisionShape, other: &CollisionShape) -> bool {
+        let is_obstacle = other.last.is_none() || own.last == Some(1);
+        let heights = other.within.inset_heights(Outline::Within);
+        is_obstacle
+            && !own.ignored.contains(&other.to_string())
+            && own.within.overlaps_heights(heights.as_ref())
+            && (self.meet_at_axis(own, other) || self.meet_in_boxes(own, other))
+    }
+
+    /// Returns true if one shape contains a disc about the axis of the joint between the two, and the other reaches this
+    /// disc. They then meet at every angle.
+    fn meet_at_axis(&self, own: &CollisionShape, other: &CollisionShape) -> bool {
+        let (axis, joint) = match (own.last, other.last) {
+            (Some(0), None) => (self.base.clone(), 0),
+            (Some(1), Some(0)) => (sum(&self.base, &self.offset), 1),
+            _ => return false,
+        };
+        let near = Interval::from(&Decimal::power_of_ten(TOUCHING_DECIMALS));
+        let reaches = |shape: &Shape, axis: &Point, radius: &Interval| {
+            let disc = Shape { points: vec![axis.clone()], radius: radius + &near };
+            overlap_by_more_than(&disc, shape, &BigInt::ZERO)
+        };
+        let origin = [0, 0].map(Interval::whole);
+        let sides = [(&own.within.shape, &origin), (&other.within.shape, &axis)];
+        let contains_disc = |(shape, axis): (&Shape, &Point)| {
+            let core = Shape { radius: Interval::whole(0), points: shape.points.clone() };
+            reaches(&core, axis, &Interval::whole(0))
+        };
+        let meet = |[disc, other]: [(&Shape, &Point); 2]| {
+            contains_disc(disc) && reaches(other.0, other.1, &Interval::exact(disc.0.radius.lower.clone()))
+        };
+        let turns = matches!(self.joints[joint].motion, Motion::Turn(_));
+        turns && (meet(sides) || meet([sides[1], sides[0]]))
+    }
+
+    /// Returns true if the shapes overlap in every box of configurations, among boxes that cover all configurations. A
+    /// box in which they may be apart is halved. The search ends at the first middle of a box at which they are not
+    /// proven to overlap.
+    fn meet_in_boxes(&self, own: &CollisionShape, other: &CollisionShape) -> bool {
+        let (mover, beside) = (MovingBody::new(self, &own.within), other.owner());
+        let cell = |ranges: &Rectangle| Cell::from(ranges).for_link(Some(&beside));
+        let none = || [0, 0].map(Decimal::whole);
+        let [mut first, mut second] = self.domain.ranges.clone();
+        if beside.is_carried {
+            first = none();
+        }
+        if own.last == Some(0) {
+            second = none();
+        }
+        let mut waiting = VecDeque::from([[first, second]]);
+        for _ in 0..MAX_CELLS {
+            let Some(ranges) = waiting.pop_front() else { return true };
+            if mover.overlaps(&other.within.shape, &cell(&ranges)) {
+                continue;
+            }
+            let middle = ranges.each_ref().map(|[low, high]| Decimal::middle(low, high));
+            let at = |k: usize| [middle[k].clone(), middle[k].clone()];
+            if !mover.overlaps(&other.within.shape, &cell(&[at(0), at(1)])) {
+                return false;
+            }
+            let displaced = |ranges: Rectangle| mover.farthest(&cell(&ranges));
+            let side = displaced([at(0), ranges[1].clone()]) > displaced([ranges[0].clone(), at(1)]);
+            let half = |range: Range| {
+                let mut half = ranges.clone();
+                half[usize::from(side)] = range;
+                half
+            };
+            let ([low, high], middle) = (ranges[usize::from(side)].clone(), middle[usize::from(side)].clone());
+            waiting.extend([half([low, middle.clone()]), half([middle, high])]);
+        }
+        false
+    }
+}
