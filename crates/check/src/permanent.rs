@@ -20,11 +20,14 @@ const MAX_CELLS: usize = 4096;
 impl Arm {
     /// Ignores contact between shapes that are proven to meet in every configuration.
     pub fn ignore_permanent_contacts(&mut self) {
-        let of_shape = |own: &CollisionShape| {
-            let met = self.bases.iter().filter(|other| self.is_permanent(own, other));
-            met.map(ToString::to_string).collect::<Vec<_>>()
+        let [shapes, bases] = [&self.shapes, &self.bases].map(|all| all.chunk_by(is_same_shape).collect::<Vec<_>>());
+        let ignored = |layers: &&[CollisionShape]| {
+            let own = uncut(layers);
+            let met = bases.iter().filter(|other| self.is_permanent(&own, &uncut(other)));
+            let names: Vec<String> = met.flat_map(|other| other.iter().map(ToString::to_string)).collect();
+            vec![names; layers.len()]
         };
-        let ignored: Vec<Vec<String>> = self.shapes.iter().map(of_shape).collect();
+        let ignored: Vec<Vec<String>> = shapes.iter().flat_map(ignored).collect();
         for (own, ignored) in self.shapes.iter_mut().zip(ignored) {
             own.ignored.extend(ignored);
         }
@@ -36,7 +39,6 @@ impl Arm {
         let is_obstacle = other.last.is_none() || own.last == Some(1);
         let heights = other.within.inset_heights(Outline::Within);
         is_obstacle
-            && !own.ignored.contains(&other.to_string())
             && own.within.overlaps_heights(heights.as_ref())
             && (self.meet_at_axis(own, other) || self.meet_in_boxes(own, other))
     }
@@ -104,4 +106,21 @@ impl Arm {
         }
         false
     }
+}
+
+/// Returns true if two shapes are layers of one mesh.
+fn is_same_shape(a: &CollisionShape, b: &CollisionShape) -> bool {
+    (&a.link, a.kind, a.number) == (&b.link, b.kind, b.number)
+}
+
+/// Joins the layers of a mesh to the mesh again, of which the convex hull counts. They are given from the lowest on.
+fn uncut(layers: &[CollisionShape]) -> CollisionShape {
+    let mut whole = layers[0].clone();
+    for layer in &layers[1..] {
+        whole.within.shape.points.extend_from_slice(&layer.within.shape.points);
+        if let (Some([_, top]), Some([_, upper])) = (&mut whole.within.heights, &layer.within.heights) {
+            top.clone_from(upper);
+        }
+    }
+    whole
 }

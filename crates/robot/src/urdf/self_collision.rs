@@ -11,7 +11,8 @@ use super::solid::MIN_LAYER_THICKNESS;
 use super::tree::Tree;
 use crate::error::{Diagnostic, quoted};
 use cplan_core::check::permanent_contacts;
-use cplan_core::model::{Arm, Carrier, Obstacle, Pair, Scene, SelfObstacle, Shape, Workspace};
+use cplan_core::model::{Arm, Carrier, Obstacle, Pair, Part, Scene, SelfObstacle, Shape, Workspace};
+use cplan_geometry::{Convex, Point, hull};
 use std::collections::{BTreeMap, BTreeSet};
 use urdf_rs::JointType;
 
@@ -128,20 +129,74 @@ impl<'a> SelfCollision<'a> {
     }
 }
 
-/// Ignores the contact of shapes that meet in every configuration, and names them.
+/// Ignores the contact of shapes that meet in every configuration, and names them. A mesh is one shape here, with all
+/// its layers: meshes of neighbours enclose the axis of their joint, but not in each layer.
 pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
     if arm.self_obstacles.is_empty() {
         return None;
     }
-    let scene = Scene::trusted(arm.clone(), Workspace::new([]));
+    let (whole, parts_of, obstacles_of) = uncut(arm);
+    let scene = Scene::trusted(whole, Workspace::new([]));
     let permanent = permanent_contacts(&scene);
     for pair in &permanent {
-        let parts = &mut arm.self_obstacles[pair.obstacle].permanent[pair.link.min(1)];
-        parts.push(pair.part);
+        let link = pair.link.min(1);
+        for layer in &obstacles_of[pair.obstacle] {
+            arm.self_obstacles[*layer].permanent[link].extend(&parts_of[link][pair.part]);
+        }
     }
     let named = named(&scene, &permanent);
     let note = || format!("contact of shapes that meet in every configuration is ignored: {}", named.join(", "));
     (!named.is_empty()).then(note)
+}
+
+/// For each uncut shape, the numbers of its layers.
+type Layers = Vec<Vec<usize>>;
+
+/// Returns the arm with the layers of each mesh joined to the mesh's convex hull again. Also returns the layers of the
+/// parts of each link, and those of the self obstacles.
+fn uncut(arm: &Arm) -> (Arm, [Layers; 2], Layers) {
+    let mut whole = arm.clone();
+    let parts_of = whole.links.each_mut().map(|link| {
+        let mut layers = Layers::new();
+        for (number, part) in std::mem::take(&mut link.parts).into_iter().enumerate() {
+            let is_same = |known: &&mut Part| (&known.body, known.number) == (&part.body, part.number);
+            match link.parts.last_mut().filter(|known| is_same(known)) {
+                Some(known) => {
+                    known.shape = joined(&known.shape, &part.shape);
+                    known.heights = known.heights.and(part.heights);
+                    layers.last_mut().expect("one for each part").push(number);
+                }
+                None => {
+                    link.parts.push(part);
+                    layers.push(vec![number]);
+                }
+            }
+        }
+        layers
+    });
+    let mut obstacles_of = Layers::new();
+    for (number, own) in std::mem::take(&mut whole.self_obstacles).into_iter().enumerate() {
+        let is_same =
+            |known: &&mut SelfObstacle| (&known.obstacle.name, known.number) == (&own.obstacle.name, own.number);
+        match whole.self_obstacles.last_mut().filter(|known| is_same(known)) {
+            Some(known) => {
+                known.obstacle.pieces[0] = joined(&known.obstacle.pieces[0], &own.obstacle.pieces[0]);
+                known.obstacle.heights = known.obstacle.heights.and(own.obstacle.heights);
+                obstacles_of.last_mut().expect("one for each obstacle").push(number);
+            }
+            None => {
+                whole.self_obstacles.push(own);
+                obstacles_of.push(vec![number]);
+            }
+        }
+    }
+    (whole, parts_of, obstacles_of)
+}
+
+/// Returns the convex hull of two layers of a mesh.
+fn joined(a: &Convex, b: &Convex) -> Convex {
+    let corners: Vec<Point> = a.core().iter().chain(b.core()).copied().collect();
+    Convex::trusted(hull(&corners), a.radius().max(b.radius()))
 }
 
 /// Names the links to which pairs of shapes belong. If only some shapes of two links are in the pairs, names the shapes.
