@@ -27,6 +27,7 @@ mod memory;
 mod message_args;
 mod plan;
 mod planners;
+mod polygons;
 mod print_args;
 mod program;
 mod progress;
@@ -85,6 +86,7 @@ commands! { program:
     "Understand" {
         Explain(explain::ExplainArgs),
         Check(check::CheckArgs),
+        Polygons(polygons::PolygonsArgs),
         Reach(reach::ReachArgs),
         Inspect(inspect::InspectArgs),
         #[cfg(feature = "serve")]

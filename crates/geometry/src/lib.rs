@@ -38,6 +38,7 @@ mod pose;
 mod predicates;
 mod rings;
 mod separation;
+mod simple_test;
 mod sliding;
 mod turning;
 
@@ -65,6 +66,7 @@ pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segm
 pub use rings::{Polygon, RingError, RingSide};
 pub use separation::{Separation, separation};
 pub use separation::{gap_along, separation_at};
+pub use simple_test::{SimpleDifference, simple_difference, simple_polygon_test};
 pub use sliding::sliding;
 pub use sliding::{along_and_across, sliding_tracks};
 pub use turning::{Features, Hits, ROUNDING, turning, turning_from};

@@ -44,6 +44,7 @@ mod obstacles;
 mod page;
 #[cfg(feature = "png")]
 mod png_writer;
+mod polygon_pair;
 mod preferences;
 mod reach;
 mod regions;
@@ -68,6 +69,7 @@ pub use exploration::exploration_page;
 pub use flow::FieldLines;
 pub use followed::{LineSettings, LineView};
 pub use obstacles::{extent, obstacles, still_page};
+pub use polygon_pair::{PolygonPair, polygon_pair};
 pub use view::{AxesFrame, KeyFigures, Moments, Picture, TaskPicture, View, drawing, inspection_page, page, shell};
 
 /// The reason why there is no picture.

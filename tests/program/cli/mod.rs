@@ -38,6 +38,7 @@ mod numbers;
 mod outputs;
 mod own_body;
 mod path_kind;
+mod polygons;
 mod pressing_depth;
 mod proof_sizes;
 mod reach;

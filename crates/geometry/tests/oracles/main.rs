@@ -10,5 +10,6 @@ mod parry;
 mod polygons;
 mod rings;
 mod shapes;
+mod simple;
 mod slices;
 mod verdicts;

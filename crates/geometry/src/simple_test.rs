@@ -1,0 +1,56 @@
+//! The penetration test for simple polygons, which need not be convex, and the parts of their Minkowski difference.
+
+use super::penetration::{CornerInside, PolygonTest, distance_to_segment};
+use super::predicates::segments_cross;
+use super::{Convex, Point, SimplePolygon, minkowski_difference, penetration_depth};
+
+/// Runs the polygon penetration test on two simple polygons: finds the corners of each inside the other, and the sides
+/// that cross. `O(n m)`.
+///
+/// Signs are exact. The depth of a corner is its distance from the nearest side. The test is complete: if two polygons
+/// meet and no corner of either lies in the other, then their boundaries cross at points that are not corners.
+#[must_use]
+pub fn simple_polygon_test(a: &SimplePolygon, b: &SimplePolygon) -> PolygonTest {
+    let (a_inside, b_inside) = (corners_inside(a, b), corners_inside(b, a));
+    let mut crossings = Vec::new();
+    for (i, (p, q)) in sides(a).enumerate() {
+        crossings.extend(sides(b).enumerate().filter(|(_, (r, s))| segments_cross(p, q, *r, *s)).map(|(k, _)| (i, k)));
+    }
+    let meet = !(a_inside.is_empty() && b_inside.is_empty() && crossings.is_empty());
+    PolygonTest { meet, a_inside, b_inside, crossings }
+}
+
+fn corners_inside(corners: &SimplePolygon, polygon: &SimplePolygon) -> Vec<CornerInside> {
+    let depth = |p: Point| sides(polygon).map(|(a, b)| distance_to_segment(p, a, b)).fold(f64::INFINITY, f64::min);
+    let inside = corners.corners().iter().enumerate().filter(|(_, p)| polygon.contains(**p));
+    inside.map(|(corner, &p)| CornerInside { corner, depth: depth(p) }).collect()
+}
+
+/// Iterates over the sides. Side `i` runs from corner `i` to the next one.
+fn sides(polygon: &SimplePolygon) -> impl Iterator<Item = (Point, Point)> + '_ {
+    let corners = polygon.corners();
+    (0..corners.len()).map(move |i| (corners[i], corners[(i + 1) % corners.len()]))
+}
+
+/// The Minkowski difference `b - a` of two simple polygons, and the depth of the origin in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimpleDifference {
+    /// Convex polygons whose union is the difference: one for each pair of a convex piece of `b` and one of `a`.
+    pub parts: Vec<Vec<Point>>,
+    /// Greatest depth of the origin in one of the parts, metres; negative if it is in none, and then the distance of
+    /// the polygons with a minus sign. If there is a single part, it is the penetration depth: the length of the
+    /// shortest translation that separates the polygons. Otherwise it is a lower bound on that length.
+    pub depth: f64,
+}
+
+/// Computes the Minkowski difference `b - a` of two simple polygons: the translations that make `a` meet `b`.
+///
+/// The polygons are cut into convex pieces. Each pair of pieces has a difference, found by [`minkowski_difference`].
+#[must_use]
+pub fn simple_difference(b: &SimplePolygon, a: &SimplePolygon) -> SimpleDifference {
+    let (b, a) = (b.convex_pieces(), a.convex_pieces());
+    let pairs = || b.iter().flat_map(|q| a.iter().map(move |p| (q, p)));
+    let parts = pairs().map(|(q, p): (&Convex, &Convex)| minkowski_difference(q.core(), p.core())).collect();
+    let depth = pairs().map(|(q, p)| penetration_depth(p, q)).fold(f64::NEG_INFINITY, f64::max);
+    SimpleDifference { parts, depth }
+}
