@@ -102,7 +102,8 @@ fn the_full_visibility_graph_is_that_of_the_definition() {
         let ordered = |a: Place, b: Place| if a < b { (a, b) } else { (b, a) };
         let found: BTreeSet<_> = edges.iter().map(|[a, b]| ordered(place(a), place(b))).collect();
         assert_eq!(found.len(), edges.len(), "each arc once");
-        let nodes: Vec<Place> = rectangles.iter().flatten().copied().chain(WINDOW).chain([start, goal]).collect();
+        // The corners of the window are where joint limits meet. They are corners of no obstacle.
+        let nodes: Vec<Place> = rectangles.iter().flatten().copied().chain([start, goal]).collect();
         let pairs = nodes.iter().enumerate().flat_map(|(i, &a)| nodes[i + 1..].iter().map(move |&b| (a, b)));
         let expected: BTreeSet<_> =
             pairs.filter(|&(a, b)| joined(&rectangles, a, b)).map(|(a, b)| ordered(a, b)).collect();
@@ -114,5 +115,5 @@ fn the_full_visibility_graph_is_that_of_the_definition() {
         let length = |outcome: &Proposal| if let Proposal::Found(path) = outcome { path.length() } else { panic!() };
         assert!((length(&run.outcome) - length(&shorter.outcome)).abs() < 1e-9, "seed {seed}");
     }
-    assert!(arcs > 10_000, "{arcs}");
+    assert!(arcs > 9_000, "{arcs}");
 }

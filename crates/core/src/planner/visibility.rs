@@ -31,7 +31,7 @@ pub enum VisibilityGraph {
     /// paths.
     #[default]
     Reduced,
-    /// All edges of the definition: between any two corners of free space that see each other.
+    /// All edges of the definition: between any two corners of C-obstacles that see each other.
     Full,
 }
 
@@ -75,6 +75,8 @@ pub struct Visibility {
 #[derive(Debug, Clone)]
 pub struct VisibilityMap {
     mesh: Mesh,
+    /// Window of the space, as in [`Regions::window`].
+    window: [(f64, f64); 2],
 }
 
 impl Planner for Visibility {
@@ -83,7 +85,7 @@ impl Planner for Visibility {
     type Map = VisibilityMap;
 
     fn build(&self, space: &Regions) -> VisibilityMap {
-        VisibilityMap { mesh: Mesh::new(Boundary::new(&space.contours())) }
+        VisibilityMap { mesh: Mesh::new(Boundary::new(&space.contours())), window: space.window }
     }
 
     /// Answers a query. Trace and size describe the part of the graph that the search visited.

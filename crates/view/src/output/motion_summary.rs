@@ -3,7 +3,7 @@
 use super::summary::{Line, SummaryLines, configuration, field, goal_lines, non_empty, torque};
 use crate::view::plane_of_motion;
 use cplan_core::model::{Arm, MotionProblem, Outcome, Scene};
-use cplan_core::planner::Proposal;
+use cplan_core::planner::{Proposal, VisibilityGraph};
 use cplan_core::space::{Configuration, Metric};
 use cplan_engine::{Motion, Plan};
 use cplan_explain::{BlockingSet, MotionQuestion, blocking_set};
@@ -36,13 +36,16 @@ fn found_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) ->
         Outcome::Infeasible(proof) => vec![("result", format!("infeasible: there is no path; {}", proof.describe()))],
         Outcome::Unknown(unknown) => vec![("result", format!("unknown: {}", unknown.reason))],
     };
-    let graph = plan.options().planner.graph().map(|graph| format!("{} graph", graph.name()));
+    let graph = plan.options().planner.graph();
+    let has_all_nodes = graph == Some(VisibilityGraph::Full);
+    let graph = graph.map(|graph| format!("{} graph", graph.name()));
     let search: Vec<String> = plan.search().iter().map(ToString::to_string).chain(graph).collect();
     let search = (!search.is_empty()).then(|| format!(" ({})", search.join(", ")));
     let space = plan.options().planner.space().and_then(GridSpace::reported_name).map(|space| format!(", {space}"));
     let how = search.unwrap_or_default() + &space.unwrap_or_default();
     lines.push(("planner", format!("{}{how}: {}", answer.method, answer.run.size)));
     lines.extend(cells(plan, answer));
+    lines.extend(has_all_nodes.then(|| ("nodes", FULL_GRAPH_NODES.to_owned())));
     lines.extend(exact(plan, answer));
     lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
     lines.extend(field(plan.options()));
@@ -51,6 +54,9 @@ fn found_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) ->
 
 /// Returns the lines about a motion that was found, with the properties that are proven.
 fn motion_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motion) -> Vec<Line> {
+/// The nodes of the full visibility graph.
+const FULL_GRAPH_NODES: &str = "start, goal, and the corners of C-obstacles, which are cut off at joint limits";
+
     let (scene, arm, path) = (problem.scene(), problem.scene().arm(), motion.path.path());
     let timed = TimedScene { scene, ..plan.problem().timed() };
     let TimedMotion { curve, trajectory } = &motion.timed;

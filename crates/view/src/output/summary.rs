@@ -48,7 +48,7 @@ pub fn range(joint: &Joint) -> String {
 }
 
 /// Keys of the lines about the planner's work.
-const DETAIL_KEYS: [&str; 4] = ["planner", "cells", "exact", "field"];
+const DETAIL_KEYS: [&str; 5] = ["planner", "cells", "exact", "field", "nodes"];
 
 /// Largest number of waits that the short summary lists.
 const MAX_WAITS: usize = 3;

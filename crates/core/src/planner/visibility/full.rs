@@ -14,9 +14,11 @@ use petgraph::graph::NodeIndex;
 const MAX_VERTICES: usize = 1500;
 
 impl VisibilityMap {
-    /// Returns the graph of the start, the goals and all corners of free space, including corners at joint limits.
-    /// Two nodes are joined if the segment between them is a side of free space, or if it lies in free space and
-    /// touches no corner between its ends (Latombe, *Robot Motion Planning*, 1991, section 4.1).
+    /// Returns the graph of the start, the goals and all corners of C-obstacles, which are cut off at joint limits. Two
+    /// nodes are joined if the segment between them is a side of free space, or if it lies in free space and touches no
+    /// corner between its ends (Latombe, *Robot Motion Planning*, 1991, section 4.1).
+    ///
+    /// A corner at which two joint limits meet is no corner of a C-obstacle, so it is no node.
     ///
     /// Exact; linear in the number of triangles that lines of sight cross.
     ///
@@ -33,16 +35,19 @@ impl VisibilityMap {
             ));
         }
         let mut roadmap = Roadmap::new(measure);
-        let nodes: Vec<NodeIndex> = vertices.iter().map(|&at| roadmap.add(at)).collect();
+        let is_limit = |at: &Point| (0..2).all(|k| [self.window[k].0, self.window[k].1].contains(&at[k]));
+        let nodes: Vec<Option<NodeIndex>> =
+            vertices.iter().map(|at| (!is_limit(at)).then(|| roadmap.add(*at))).collect();
         let mut query_graph = roadmap.query_graph(terminals.start);
         let start = query_graph.start;
-        for (&root, node) in vertices.iter().zip(&nodes).chain([(&terminals.start, &start)]) {
+        for (&root, node) in vertices.iter().zip(&nodes).chain([(&terminals.start, &Some(start))]) {
             checkpoint();
+            let Some(node) = node else { continue };
             let sight = CornerView { mesh, terminals, root };
             let (mut seen, mut goals) = (Vec::new(), Vec::new());
             sight.collect_visible(&mut seen, &mut goals);
             // Each edge is found from both ends; add it once.
-            let joined = seen.into_iter().map(|vertex| nodes[vertex as usize]).filter(|other| other < node);
+            let joined = seen.into_iter().filter_map(|vertex| nodes[vertex as usize]).filter(|other| other < node);
             joined.for_each(|other| query_graph.join(*node, other));
             for part in goals {
                 let goal = query_graph.goal(part.nearest(measure, root));
