@@ -5,13 +5,13 @@ use super::motion::{Motion, driven};
 use super::problem::{MotionOrTask, Problem};
 use super::result::{MessageError, Messages};
 use cplan_core::check::CheckedProof;
-use cplan_core::cspace::has_exact_polygons;
-use cplan_core::model::{Arm, MotionProblem, Outcome, Status};
+use cplan_core::cspace::{NotPolygons, not_polygons};
+use cplan_core::model::{Arm, MotionProblem, Outcome, Scene, Status};
 use cplan_handling::{ObstacleTrajectory, RobotJoints, Task};
 use cplan_motion::{TimingError, Trajectory};
 use cplan_solver::{Answer, NamedJoints, Options, Replay, solve};
 use cplan_tasks::{FailedStep, TaskAnswer, TaskMotion, TaskReplay};
-use cplan_text::percent;
+use cplan_text::{length, percent};
 use std::borrow::Cow;
 use thiserror::Error;
 
@@ -133,11 +133,11 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
 
 /// Returns the reason why the options do not suit the robot. `None` if they do.
 fn unsuitable_options(options: &Options, problem: &Problem) -> Option<String> {
-    if options.planner.is_exact() && !has_exact_polygons(problem.scene()) {
-        let kind = problem.scene().arm().kind();
+    let curved = options.planner.is_exact().then(|| not_polygons(problem.scene())).flatten();
+    if let Some(curved) = curved {
+        let why = curved_because(curved, problem.scene());
         return Some(format!(
-            "--margin 0 needs C-obstacles that are polygons, and only gantries (PP) have these: this arm is {kind}; use a \
-             small margin, such as --margin 1e-5"
+            "--margin 0 needs C-obstacles that are polygons, but {why}; use a small margin, such as --margin 1e-5"
         ));
     }
     if !options.drive.torque || problem.scene().arm().dynamics.is_some() {
@@ -145,6 +145,20 @@ fn unsuitable_options(options: &Options, problem: &Problem) -> Option<String> {
     }
     let why = problem.robot().no_dynamics.as_deref().unwrap_or("the arm has none of these");
     Some(format!("--torque needs masses, inertias and efforts: {why}"))
+}
+
+/// Describes why C-obstacles are not polygons.
+fn curved_because(curved: NotPolygons, scene: &Scene) -> String {
+    match curved {
+        NotPolygons::Arm => format!("only gantries (PP) have these: this arm is {}", scene.arm().kind()),
+        NotPolygons::Clearance => {
+            format!("a clearance of {} makes their corners round", length(scene.workspace().clearance))
+        }
+        NotPolygons::RoundLink(pair) => format!("{} is round, so their corners are, too", scene.describe_part(pair)),
+        NotPolygons::RoundObstacle(pair) => {
+            format!("{} is round, so their corners are, too", scene.describe_obstacle(pair.obstacle))
+        }
+    }
 }
 
 /// Plans a single motion.

@@ -6,7 +6,7 @@ use super::decision::decide;
 use super::rungs::{Describe, grid_cells, polygons, zoned_cells};
 use super::{Answer, BoundedPath, Options, Settings, Space, Stages, Unknown};
 use cplan_core::check::{CertifiedPath, CheckedProof, Rejection, certify};
-use cplan_core::cspace::{Grid, Regions, ZonedGrid, has_exact_polygons};
+use cplan_core::cspace::{Grid, Regions, ZonedGrid, not_polygons};
 use cplan_core::model::{MotionProblem, Outcome, Scene};
 use cplan_core::planner::{Note, Planner, Proposal, Query, Run, Visibility};
 use cplan_core::space::{Metric, Path, Segment};
@@ -114,7 +114,7 @@ where
     let mut last: Option<(Run, P::Space)> = None;
     let mut known = None;
     let mut sweeps_end = false;
-    let keeps_first = options.planner.is_exact() && has_exact_polygons(problem.scene());
+    let keeps_first = options.planner.is_exact() && not_polygons(problem.scene()).is_none();
     for level in 0..options.levels.max(1) {
         let clock = Instant::now();
         let Some(space) = build(level) else { break };

@@ -3,8 +3,8 @@
 use super::setting::DEFAULT_CELLS;
 use super::{CellCounts, GridSpace, Space};
 use cplan_core::cspace::{
-    Grid, Proves, Regions, ZonedGrid, exact_regions, grid_from_slices, has_exact_polygons, outer_grid, regions,
-    sampled_grid, traced_pairs,
+    Grid, Proves, Regions, ZonedGrid, exact_regions, grid_from_slices, not_polygons, outer_grid, regions, sampled_grid,
+    traced_pairs,
 };
 use cplan_core::model::{Arm, MotionProblem};
 
@@ -39,13 +39,13 @@ const MAX_PAIRS: usize = 16_384;
 /// them and are refused. With this margin, paths are still within the usual gap (1e-4) of the shortest.
 const MARGIN_AFTER_EXACT: f64 = 4e-5;
 
-/// Returns the polygons of a level. If `first`, the first margin, is 0 and the arm is a gantry, the first level has the
-/// exact polygons. All other polygons are grown. `None` if there is no finer level.
+/// Returns the polygons of a level. If `first`, the first margin, is 0 and C-obstacles are polygons, the first level has
+/// them. All other polygons are grown. `None` if there is no finer level.
 pub(super) fn polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<Regions> {
     if first > 0.0 {
         return grown_polygons(problem, first, level);
     }
-    match level.checked_sub(usize::from(has_exact_polygons(problem.scene()))) {
+    match level.checked_sub(usize::from(not_polygons(problem.scene()).is_none())) {
         Some(level) => grown_polygons(problem, MARGIN_AFTER_EXACT, level),
         None => exact_regions(problem.scene()),
     }

@@ -48,25 +48,63 @@ fn margin_0_writes_the_c_obstacles_of_a_gantry_as_the_sweep_gives_them() {
     assert!((corners(&grown, "dead end")[0][0] - 0.35).abs() > 1e-4);
 }
 
-/// Checks a head that is a disc, and a wall at an angle. Only arcs are replaced by tangents outside of them; straight
-/// sides stay.
+/// Checks round corners, which polygons cannot have: of an obstacle, of the head, and those that a clearance makes. The
+/// hint of each message works.
 #[test]
-fn margin_0_keeps_flat_sides_where_corners_are_round() {
+fn margin_0_is_refused_where_corners_are_round() {
     let place = Place::new();
-    let world = "clearance = 0.02\n[start]\njoints = [0.15, 0.15]\n[goal]\njoints = [1.85, 1.35]\n\
-                 [[obstacle]]\nname = \"wedge\"\npolygon = [[0.8, 0.4], [1.2, 0.7], [0.8, 1.0]]\nheight = [0.0, 0.3]\n";
+    let world = |obstacle: &str| {
+        let ends = "[start]\njoints = [0.15, 0.15]\n[goal]\njoints = [1.85, 1.35]\n[[obstacle]]\nheight = [0.0, 0.3]\n";
+        format!("{ends}{obstacle}")
+    };
+    let wedge = "name = \"wedge\"\npolygon = [[0.8, 0.4], [1.2, 0.7], [0.8, 1.0]]\n";
+    let disc = "name = \"post\"\ncircle = { center = [1.0, 0.7], radius = 0.2 }\n";
+    place.write("wedge.toml", world(wedge));
+    place.write("disc.toml", world(disc));
+    let gantry = shipped("robots/gantry.urdf");
+    let cup = [shipped("robots/stage_robot.urdf"), shipped("workspaces/published/cup.toml")];
+    for (files, options, reason) in [
+        (
+            [gantry.clone(), "wedge.toml".into()],
+            "--clearance 0.02",
+            "a clearance of 20.00 mm makes their corners round",
+        ),
+        ([gantry.clone(), "disc.toml".into()], "", "obstacle \"post\" is round"),
+        (cup, "", "link \"body\" is round"),
+    ] {
+        let parts = ["--margin 0 needs C-obstacles that are polygons", reason, "such as --margin 1e-5"];
+        // One of the robots comes with a warning.
+        let done = place.run(&files, &format!("{options} --margin 0"));
+        assert_eq!((done.code, done.stdout.as_str()), (1, ""), "{}", done.stderr);
+        assert!(parts.iter().all(|part| done.stderr.contains(part)), "{}", done.stderr);
+        let done = place.run(&files, &format!("{options} --margin 1e-5 --output cspace.json"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let spaces: Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+        assert_eq!(spaces["spaces"][0]["proves"]["kind"], "outer");
+    }
+    let done = place.run(&[gantry, "wedge.toml".into()], "--margin 0 --quiet");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+}
+
+/// Checks walls that the bridge hits. They block values of joint 1, without any growth.
+#[test]
+fn margin_0_does_not_grow_what_the_bridge_hits() {
+    let place = Place::new();
+    let world = "[start]\njoints = [0.15, 0.15]\n[goal]\njoints = [0.9, 1.35]\n[[obstacle]]\nname = \"column\"\n\
+                 polygon = [[1.5, 0.2], [1.6, 0.2], [1.6, 0.3], [1.5, 0.3]]\n";
     place.write("world.toml", world);
-    let files = [shipped("robots/gantry.urdf"), "world.toml".into()];
-    let done = place.run(&files, "--margin 0 --quiet --output cspace.json");
+    let done =
+        place.run(&[shipped("robots/gantry.urdf"), "world.toml".into()], "--margin 0 --quiet --output cspace.json");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let spaces: Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
-    let space = &spaces["spaces"][0];
-    assert_eq!(space["proves"]["kind"], "outer");
-    let found = corners(space, "wedge");
-    let left = found[0][0];
-    // Half of the head, and the clearance.
-    assert!((left - 0.73).abs() < 1e-12, "{left}");
-    assert!(found.len() > 8, "{found:?}");
+    assert_eq!(spaces["spaces"][0]["proves"], json!({ "kind": "exact" }));
+    let left = corners(&spaces["spaces"][0], "column")[0][0];
+    // The bridge is 0.08 m wide, the head 0.1 m.
+    let found = corners(&spaces["spaces"][0], "column");
+    let bands: Vec<f64> =
+        found.iter().filter(|corner| (corner[1] - 1.5).abs() < 1e-12).map(|corner| corner[0]).collect();
+    assert!((left - 1.45).abs() < 1e-12 && (bands[0] - 1.46).abs() < 1e-12, "{found:?}");
+    assert!((bands[bands.len() - 1] - 1.64).abs() < 1e-12, "{found:?}");
 }
 
 #[test]

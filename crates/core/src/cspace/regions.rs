@@ -22,10 +22,6 @@ const COARSENESS_PER_MARGIN: f64 = 2.0;
 /// the rounding of the union.
 const SEAM_OVERLAP: f64 = 1e-3;
 
-/// Fraction of the arm's reach by which the rounded corners of [`exact_c_obstacles`] may be larger than their arcs.
-/// That is invisible in pictures, and needs at most five corners per quarter of a turn.
-const ARC_TOLERANCE: f64 = 1e-3;
-
 /// A simple polygon with holes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolygonWithHoles {
@@ -127,37 +123,55 @@ pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize
     within_window(scene, Proves::Outer { margin }, window(scene, center, periods), obstacles)
 }
 
-/// Returns true if [`exact_c_obstacles`] returns a result for the scene: both joints are prismatic, and their
-/// directions are not parallel.
-#[must_use]
-pub fn has_exact_polygons(scene: &Scene) -> bool {
-    translation::joint_map(scene.arm()).is_some()
+/// Reasons why C-obstacles are not polygons.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NotPolygons {
+    /// The arm is not a gantry: a joint turns, or both joints slide in the same direction.
+    Arm,
+    /// The required clearance makes the corners of C-obstacles round.
+    Clearance,
+    /// In this pair, the link's shape is round: a circle, or a shape with rounded corners.
+    RoundLink(Pair),
+    /// In this pair, the obstacle's shape is round.
+    RoundObstacle(Pair),
 }
 
-/// Computes the exact C-obstacles of a gantry, and what they prove. Returns `None` for other arms.
-///
-/// Each is a Minkowski difference of two polygons, found by a sweep over their normals. Nothing is grown and no
-/// corner is added. Corners are differences of given corners, rounded once, in joint values. Circles, capsules and a
-/// clearance make rounded corners; only these arcs are replaced, by tangents outside of them.
+/// Returns the reason why the C-obstacles of a scene are not polygons; `None` if they are. They are if both joints are
+/// prismatic, and all shapes have straight sides.
 #[must_use]
-pub fn exact_c_obstacles(scene: &Scene) -> Option<(Vec<CObstacle>, Proves)> {
-    let (level, tolerance) = (scene.workspace().clearance, ARC_TOLERANCE * scene.arm().reach());
-    has_exact_polygons(scene).then(|| {
-        let radius = |pair: &Pair| scene.part(*pair).radius() + scene.piece(*pair).radius() + level;
-        let is_round = scene.pairs().iter().any(|pair| pair.link == 1 && radius(pair) > 0.0);
-        let proves = if is_round { Proves::Outer { margin: tolerance } } else { Proves::Exact };
-        (trace_contours(scene, level, tolerance), proves)
+pub fn not_polygons(scene: &Scene) -> Option<NotPolygons> {
+    if translation::joint_map(scene.arm()).is_none() {
+        return Some(NotPolygons::Arm);
+    }
+    // Pairs of one link that only slides along one axis give bands, whose sides are straight for all shapes.
+    scene.pairs().iter().filter(|pair| pair.link == 1).find_map(|&pair| {
+        if scene.part(pair).radius() > 0.0 {
+            return Some(NotPolygons::RoundLink(pair));
+        }
+        if scene.piece(pair).radius() > 0.0 {
+            return Some(NotPolygons::RoundObstacle(pair));
+        }
+        (scene.workspace().clearance > 0.0).then_some(NotPolygons::Clearance)
     })
 }
 
+/// Computes the exact C-obstacles of a gantry. Returns `None` if they are not polygons; [`not_polygons`] has the reason.
+///
+/// Each is a Minkowski difference of two polygons, found by a sweep over their normals. Nothing is grown and no
+/// corner is added. Corners are differences of given corners, rounded once, in joint values.
+#[must_use]
+pub fn exact_c_obstacles(scene: &Scene) -> Option<Vec<CObstacle>> {
+    not_polygons(scene).is_none().then(|| trace_contours(scene, scene.workspace().clearance, 0.0))
+}
+
 /// Computes the free space of a gantry among [`exact_c_obstacles`], within the limits of its joints. Returns `None`
-/// for other arms.
+/// if there are none.
 ///
 /// At configurations on the boundary of free space the arm touches an obstacle.
 #[must_use]
 pub fn exact_regions(scene: &Scene) -> Option<Regions> {
-    let (obstacles, proves) = exact_c_obstacles(scene)?;
-    Some(within_window(scene, proves, window(scene, Configuration::zeros(), 0), obstacles))
+    let obstacles = exact_c_obstacles(scene)?;
+    Some(within_window(scene, Proves::Exact, window(scene, Configuration::zeros(), 0), obstacles))
 }
 
 /// Computes the free space of a gantry, within the limits of its joints, with obstacles shrunk by at most `margin`

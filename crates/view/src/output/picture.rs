@@ -292,7 +292,7 @@ fn contours_of(options: &Options) -> fn(&Scene) -> Vec<CObstacle> {
 
 /// Returns the exact C-obstacles for pictures if the arm has exact ones. Otherwise does the same as [`contours`].
 fn exact_contours(scene: &Scene) -> Vec<CObstacle> {
-    exact_c_obstacles(scene).map_or_else(|| contours(scene), |(exact, _)| exact)
+    exact_c_obstacles(scene).unwrap_or_else(|| contours(scene))
 }
 
 /// Returns C-obstacles for pictures.

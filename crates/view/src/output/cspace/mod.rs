@@ -214,6 +214,7 @@ impl CSpace {
         let (contours, proves) = exact.unwrap_or_else(grown);
         let united = cspace::united(scene, &contours);
         let region =
+        let exact = exact.map(|contours| (contours, Proves::Exact));
             |(obstacle, all): (String, Vec<PolygonWithHoles>)| ObstacleRegion { obstacle, polygons: polygons(&all) };
         Self {
             payload: scene.attachment().map(|payload| payload.name.clone()).unwrap_or_default(),
