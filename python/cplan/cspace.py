@@ -115,7 +115,8 @@ class Boxes:
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Cells of a field. Cell `[i, j]` begins at `lower + (i, j) * size`.
+    """Cells of a field. Cell `[i, j]` begins at `lower + (i, j) * size`. `free` is the part of a free cell that is known
+    to be free: `whole` or `center`.
 
     `blocked` and `values` have shape (n, m). `quantity` is the meaning of the values: `steps` to the goal,
     `ln_potential` (0 at the goal, lower with distance), or `height`. Cells without a value have NaN; without a field,
@@ -125,6 +126,7 @@ class Grid:
     lower: Array
     size: Array
     proves: Proves
+    free: str
     blocked: NDArray[np.bool_]
     quantity: str
     values: Array | None
@@ -143,7 +145,7 @@ class CSpace:
     `goals` are segments, both ends of each, shape (n, 2, 2). `expanded` are the places that a search expanded, in
     order, shape (n, 2). `rows` are free stretches at fixed values of joint 1 that the path passes; `proof` has
     collision boxes that separate start and goals. Both have shape (n, 2, 2). `payload` is the name of the carried
-    object, in a task.
+    object, in a task. `failed_attempts` are the results of earlier attempts, in words.
     """
 
     axes: tuple[Axis, Axis]
@@ -159,6 +161,7 @@ class CSpace:
     expanded: Array
     rows: Array
     boxes: Boxes | None
+    failed_attempts: tuple[str, ...]
     grid: Grid | None
     proof: Array
 
@@ -188,6 +191,7 @@ def _space(axes: tuple[Axis, Axis], data: dict[str, Any]) -> CSpace:
         expanded=_array(data.get("expanded", []), 2),
         rows=_array(data.get("rows", []), 2, 2),
         boxes=made("boxes", lambda boxes: Boxes(*(_array(boxes[kind], 2, 2) for kind in ("free", "stuck", "mixed")))),
+        failed_attempts=tuple(data.get("failed_attempts", [])),
         grid=made("grid", _grid),
         proof=_array(data.get("proof", []), 2, 2),
     )
@@ -199,6 +203,7 @@ def _grid(data: dict[str, Any]) -> Grid:
         lower=_array(data["lower"]),
         size=_array(data["size"]),
         proves=_proves(data["proves"]),
+        free=data["free"],
         blocked=_fixed(np.array(data["blocked"], bool).reshape(shape)),
         quantity=data["quantity"],
         values=_array(data["values"], shape[1]) if data["values"] else None,

@@ -47,6 +47,7 @@ def test_free_cells_are_free_and_lead_to_the_goal() -> None:
     centres = grid.lower + (np.argwhere(~grid.blocked) + 0.5) * grid.size
     for q in DRAWS.choice(centres, 200):
         assert cplan.check(*shelf(), at=q).free, q
+    assert (grid.free, found.failed_attempts) == ("whole", ())
     assert grid.quantity == "steps" and not np.isfinite(grid.values[grid.blocked]).any()
     i, j = np.argwhere(grid.values == 0)[0]
     assert np.all(np.abs(grid.lower + (np.array([i, j]) + 0.5) * grid.size - found.goals[0, 0]) <= grid.size)

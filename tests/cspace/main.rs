@@ -4,6 +4,7 @@
 mod common;
 mod crowded;
 mod data;
+mod gantry_cells;
 mod grids;
 mod nearest;
 #[path = "../../crates/geometry/tests/oracles/parry.rs"]

@@ -47,7 +47,7 @@ fn searches_are_for_the_wavefront_and_have_their_names() {
         (&["--search", "astar"][..], "--search needs --planner wavefront, visibility"),
         (&["--planner", "harmonic", "--neighbors", "8"], "--neighbors needs --planner wavefront"),
         (&["--space", "sampled"], "--space needs --planner wavefront or harmonic: shortest has no grid"),
-        (&["--planner", "harmonic", "--space", "guessed"], "[possible values: rows, centers, sampled]"),
+        (&["--planner", "harmonic", "--space", "guessed"], "[possible values: rows, whole, centers, sampled]"),
         (&["--planner", "wavefront", "--search", "best"], "wave, bfs, dfs, dijkstra, astar, greedy"),
         (&["--planner", "wavefront", "--neighbors", "6"], "possible values: 4, 8"),
     ] {

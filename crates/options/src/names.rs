@@ -150,6 +150,7 @@ impl Named for GridSpace {
     fn help(self) -> &'static str {
         match self {
             GridSpace::Rows => "By exact slices: first only wholly free cells, then also cells with a free centre",
+            GridSpace::Whole => "By exact slices: only wholly free cells, in every attempt",
             GridSpace::Centers => "By exact slices: cells with a free centre, in every attempt",
             GridSpace::Sampled => "By parry2d's collision checks at the cells' centres",
         }

@@ -167,8 +167,9 @@ fn search_help() -> String {
 
 fn space_help() -> String {
     format!(
-        "Test of the grid's cells (planners {}): by exact slices, or by sampled collision checks, which prove nothing. \
-         Paths are certified in either case [default: rows]",
+        "Cells that count as free (planners {}): those that are wholly free and, in a second attempt, those whose centre \
+         is (rows); only those that are wholly free (whole); those whose centre is, by slices (centers) or by collision \
+         checks (sampled). Paths are certified in all cases [default: rows]",
         readers(&[Setting::Space], ", ")
     )
 }

@@ -11,6 +11,8 @@ pub enum GridSpace {
     /// which of the two applies.
     #[default]
     Rows,
+    /// Exact slices, and in every attempt a cell counts as free only if all of it is free.
+    Whole,
     /// Exact slices. A cell counts as free if its centre is free, from the first attempt on, as usual in the
     /// literature.
     Centers,
@@ -21,13 +23,14 @@ pub enum GridSpace {
 
 impl GridSpace {
     /// All methods, in the order of the command line's help.
-    pub const ALL: [Self; 3] = [Self::Rows, Self::Centers, Self::Sampled];
+    pub const ALL: [Self; 4] = [Self::Rows, Self::Whole, Self::Centers, Self::Sampled];
 
     /// Returns the name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Rows => "rows",
+            Self::Whole => "whole",
             Self::Centers => "centers",
             Self::Sampled => "sampled",
         }
@@ -38,7 +41,7 @@ impl GridSpace {
     pub fn levels_per_size(self) -> usize {
         match self {
             Self::Rows => 2,
-            Self::Centers | Self::Sampled => 1,
+            Self::Whole | Self::Centers | Self::Sampled => 1,
         }
     }
 

@@ -125,7 +125,7 @@ pub(super) fn zoned_cells(
 fn finer(problem: &MotionProblem, space: GridSpace, CellCounts(first): CellCounts, level: usize) -> Option<[usize; 2]> {
     let (finer, checks) = match space {
         GridSpace::Rows => (level / 2, 0),
-        GridSpace::Centers => (level, 0),
+        GridSpace::Whole | GridSpace::Centers => (level, 0),
         GridSpace::Sampled => (level, problem.scene().pairs().len()),
     };
     let [a, b] = first.map(|n| n << finer);
@@ -136,6 +136,7 @@ fn finer(problem: &MotionProblem, space: GridSpace, CellCounts(first): CellCount
 fn grid(problem: &MotionProblem, space: GridSpace, level: usize, shape: [usize; 2]) -> Grid {
     let build = match space {
         GridSpace::Sampled => sampled_grid,
+        GridSpace::Whole => outer_grid,
         GridSpace::Rows if level.is_multiple_of(2) => outer_grid,
         GridSpace::Rows | GridSpace::Centers => grid_from_slices,
     };

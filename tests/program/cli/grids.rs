@@ -125,3 +125,75 @@ fn unsupported_searches_are_refused() {
     }
     assert!(!place.path("cspace.csv").exists());
 }
+
+fn maze() -> [String; 2] {
+    [shipped("robots/gantry.urdf"), shipped("workspaces/gantry_maze.toml")]
+}
+
+/// Returns the grid of `cspace.json`, the number of its free cells, and the label of the cell at `(0.15, 0.15)`, the start.
+fn maze_grid(place: &Place, cells: usize, options: &str) -> (serde_json::Value, usize, Option<u64>) {
+    place.run(&maze(), &format!("--planner wavefront --cells {cells} --quiet --output cspace.json {options}"));
+    let spaces: serde_json::Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    let space = spaces["spaces"][0].clone();
+    let grid = &space["grid"];
+    let free = grid["blocked"].as_array().unwrap().iter().filter(|blocked| **blocked == 0).count();
+    let [i, j] = [2.0, 1.5].map(|extent| (0.15 / (extent / cells as f64)) as usize);
+    let label = grid["values"][i * cells + j].as_f64().map(|label| label as u64);
+    (space, free, label)
+}
+
+/// Compares numbers with a count in fractions, for which cells and C-obstacles are rectangles.
+#[test]
+fn the_wholly_free_cells_of_a_gantry_are_exact() {
+    let place = Place::new();
+    for (cells, free, label) in [(16, 149, None), (20, 269, Some(85)), (28, 505, Some(122))] {
+        let (space, counted, found) = maze_grid(&place, cells, "--levels 1");
+        assert_eq!((counted, found), (free, label), "{cells}");
+        assert_eq!(space["grid"]["free"], "whole");
+    }
+    for path in ["own", "taut"] {
+        let done = place.run(&maze(), &format!("--planner wavefront --cells 20 --levels 1 --path {path}"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        assert!(!done.stdout.contains("attempts"), "{}", done.stdout);
+    }
+}
+
+#[test]
+fn a_second_attempt_with_free_centres_is_reported() {
+    let place = Place::new();
+    let said = "16 x 16 cells that are wholly free show no certified path; here a cell is free if its centre is";
+    let done = place.run(&maze(), "--planner wavefront --cells 16 --picture wave.svg");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(done.stdout.lines().any(|line| line.starts_with("attempts") && line.ends_with(said)), "{}", done.stdout);
+    assert!(place.read("wave.svg").contains(said));
+    let (space, ..) = maze_grid(&place, 16, "");
+    assert_eq!((&space["grid"]["free"], &space["grid"]["proves"]["kind"]), (&"center".into(), &"sampled".into()));
+    assert_eq!(space["failed_attempts"], serde_json::json!(["16 x 16 cells: no path in it"]));
+}
+
+#[test]
+fn the_space_whole_has_no_second_attempt() {
+    let place = Place::new();
+    let done = place.run(&maze(), "--planner wavefront --cells 16 --space whole --picture wave.svg");
+    assert_eq!(done.code, 4, "{}", done.stdout);
+    assert!(!done.stdout.contains("attempts") && !place.read("wave.svg").contains("its centre"), "{}", done.stdout);
+    let (space, free, _) = maze_grid(&place, 16, "--space whole");
+    assert_eq!((free, &space["grid"]["free"]), (149, &"whole".into()));
+    // Finer cells are wholly free, too.
+    let done = place.run(&maze(), "--planner wavefront --cells 16 --space whole --levels 3 --verbose");
+    assert_eq!(done.code, 0, "{}", done.stdout);
+    assert!(!done.stdout.contains("attempts"), "{}", done.stdout);
+}
+
+/// Compares the labels with figure 6.14 of the course, in which the start has no number: it would be 9.
+#[test]
+fn the_manhattan_navigation_function_is_the_published_one() {
+    let place = Place::new();
+    let files = [shipped("robots/gantry.urdf"), shipped("workspaces/published/manhattan.toml")];
+    let done = place.run(&files, "--planner wavefront --cells 8 --space whole --path own --output cspace.csv");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let published = "2,1,2,3,4,5,inf,inf\n1,0,1,2,3,4,inf,inf\n2,1,2,3,4,5,inf,inf\n3,2,inf,inf,5,6,inf,inf\n\
+                     4,3,inf,inf,6,7,8,9\n5,4,inf,inf,7,8,9,10\n6,5,6,7,8,9,10,11\n7,6,7,8,9,10,11,12\n";
+    assert_eq!(place.read("cspace.csv"), published);
+    assert!(done.stdout.contains("9 straight pieces, length 2.0625"), "{}", done.stdout);
+}

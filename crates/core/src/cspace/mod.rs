@@ -36,6 +36,7 @@ mod coarse;
 mod covering;
 mod curves;
 mod events;
+mod gantry_cells;
 mod grid;
 mod nearest;
 mod outline;

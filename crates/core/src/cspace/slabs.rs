@@ -1,12 +1,13 @@
 //! Grids made of slices, without a collision test per cell.
 
 use super::coarse::coarse;
-use super::{Grid, Proves};
+use super::{Grid, Proves, gantry_cells, translation};
 use crate::model::{Contacts, Scene, on_axis};
 use cplan_geometry::ROUNDING;
 use cplan_interrupt::checkpoint;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Length by which intervals are widened before whole cells are judged, radians or metres. The rounding error of the
 /// division into cells is about 1e-13 of a cell.
@@ -23,7 +24,7 @@ const MAX_COARSENING: f64 = 1.0 / 16.0;
 pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let slices = Contacts::new(scene);
     let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
-    let columns = Columns::new(&grid);
+    let columns = Columns::new(&grid, 1);
     let bands = slices.bands(clearance);
     let mut intervals = Vec::new();
     for i in 0..cells[0] {
@@ -52,9 +53,16 @@ pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Gri
 /// that of the grid's [`Proves::Outer`].
 ///
 /// Each obstacle is examined only in the rows where link 2 can reach it: `O(reached slices * contacts + cells)`.
+///
+/// The cells of a gantry are exact: a cell is blocked only if a C-obstacle reaches into it. One that touches its side
+/// leaves it free, see `gantry_cells`.
 #[must_use]
 pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
+    if let Some(map) = translation::joint_map(scene.arm()) {
+        gantry_cells::block(&mut grid, scene, &map, clearance);
+        return grid;
+    }
     let steps = grid.step();
     let kept = clearance + 2.0 * ROUNDING;
     let motions = |slices: &Contacts| -> Vec<f64> {
@@ -68,7 +76,7 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let motions = motions(&slices);
     grid.proves = Proves::Outer { margin: margin(&slices, &motions, steps, clearance) + within };
 
-    let columns = Columns::new(&grid);
+    let columns = Columns::new(&grid, 1);
     let bands = slices.bands(kept);
     let axis = grid.topology.ranges[0];
     let turns: &[f64] = if axis.is_circle() { &[-TAU, 0.0, TAU] } else { &[0.0] };
@@ -118,39 +126,43 @@ fn margin(slices: &Contacts<'_>, motions: &[f64], [h1, h2]: [f64; 2], clearance:
     first.chain(second).fold(0.0, f64::max) + 4.0 * ROUNDING + ARC_WIDENING
 }
 
-/// The cells of a row, ordered by value of joint 2.
-struct Columns {
+/// The cells along one axis, in ascending order: the rows (axis 0), or the columns of a row (axis 1).
+pub(super) struct Columns {
     lower: f64,
     per_cell: f64,
     count: usize,
 }
 
 impl Columns {
-    fn new(grid: &Grid) -> Self {
-        Self { lower: grid.topology.ranges[1].domain().0, per_cell: 1.0 / grid.step()[1], count: grid.cells[1] }
+    pub(super) fn new(grid: &Grid, axis: usize) -> Self {
+        let lower = grid.topology.ranges[axis].domain().0;
+        Self { lower, per_cell: 1.0 / grid.step()[axis], count: grid.cells[axis] }
     }
 
     /// Blocks the cells whose centres lie in the closed interval.
     fn block_centers(&self, row: &mut [bool], start: f64, end: f64) {
         let first = ((start - self.lower) * self.per_cell - 0.5).ceil();
         let last = ((end - self.lower) * self.per_cell - 0.5).floor();
-        self.block(row, first, last);
+        row[self.within(first, last)].fill(true);
     }
 
     /// Blocks the closed cells that meet the closed interval.
-    fn block_touched(&self, row: &mut [bool], start: f64, end: f64) {
-        let first = ((start - self.lower) * self.per_cell).ceil() - 1.0;
-        let last = ((end - self.lower) * self.per_cell).floor();
-        self.block(row, first, last);
+    pub(super) fn block_touched(&self, row: &mut [bool], start: f64, end: f64) {
+        row[self.touched(start, end)].fill(true);
     }
 
-    fn block(&self, row: &mut [bool], first: f64, last: f64) {
-        // Conversions saturate: positions before the row become 0. Positions beyond it are cut off at the number of
-        // cells.
+    /// Returns the numbers of the closed cells that meet the closed interval.
+    pub(super) fn touched(&self, start: f64, end: f64) -> Range<usize> {
+        let first = ((start - self.lower) * self.per_cell).ceil() - 1.0;
+        let last = ((end - self.lower) * self.per_cell).floor();
+        self.within(first, last)
+    }
+
+    /// Returns the numbers of cells from `first` to `last`, both included.
+    fn within(&self, first: f64, last: f64) -> Range<usize> {
+        // Conversions saturate: positions before the first cell become 0. Positions beyond the last one are cut off.
         let (from, to) = (first.max(0.0) as usize, (last + 1.0).max(0.0) as usize);
         let to = to.min(self.count);
-        if from < to {
-            row[from..to].fill(true);
-        }
+        from.min(to)..to
     }
 }

@@ -2,6 +2,7 @@
 //! corners.
 
 use crate::model::{Arm, JointType};
+use crate::space::Configuration;
 use cplan_geometry::{Convex, Point, Vector, cross, inset, minkowski_difference, perpendicular};
 use nalgebra::Matrix2;
 use std::f64::consts::TAU;
@@ -54,6 +55,28 @@ pub(super) fn inner_contour(
     let core = minkowski_difference(piece.core(), part.core());
     let polygon = if radius <= 0.0 { inset(&core, -radius)? } else { chord_polygon(&core, radius, margin / 2.0) };
     (polygon.len() > 2).then(|| in_joint_values(arm, map, &polygon))
+}
+
+/// Returns the configurations with the least and the greatest value of joint 1, then those of joint 2, at which `part`
+/// of link 2 is within a distance of `piece`. `radius` is the sum of this distance and both radii. `map` comes from
+/// [`joint_map`]. `O(n + m)`.
+pub(super) fn extremes(
+    arm: &Arm,
+    map: &Matrix2<f64>,
+    part: &Convex,
+    piece: &Convex,
+    radius: f64,
+) -> [[Configuration; 2]; 2] {
+    let core = in_joint_values(arm, map, &minkowski_difference(piece.core(), part.core()));
+    [0, 1].map(|axis| {
+        // The direction in the plane in which the joint's value grows fastest.
+        let up = map.row(axis).transpose().normalize();
+        let reach = map * up * radius;
+        let by_value = |a: &&Point, b: &&Point| a[axis].total_cmp(&b[axis]);
+        let [least, greatest] = [core.iter().min_by(by_value), core.iter().max_by(by_value)];
+        let core_end = |end: Option<&Point>| *end.unwrap_or_else(|| unreachable!("shapes have corners"));
+        [core_end(least) - reach, core_end(greatest) + reach]
+    })
 }
 
 /// Returns a polygon that contains all points within `radius - sag` of a convex polygon, and only points within

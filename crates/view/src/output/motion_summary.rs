@@ -2,6 +2,7 @@
 
 use super::summary::{Line, SummaryLines, configuration, field, goal_lines, non_empty, torque};
 use crate::view::plane_of_motion;
+use cplan_core::cspace::{Grid, Proves};
 use cplan_core::model::{Arm, MotionProblem, Outcome, Scene};
 use cplan_core::planner::{Proposal, VisibilityGraph};
 use cplan_core::space::{Configuration, Metric};
@@ -44,19 +45,20 @@ fn found_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) ->
     let space = plan.options().planner.space().and_then(GridSpace::reported_name).map(|space| format!(", {space}"));
     let how = search.unwrap_or_default() + &space.unwrap_or_default();
     lines.push(("planner", format!("{}{how}: {}", answer.method, answer.run.size)));
-    lines.extend(cells(plan, answer));
     lines.extend(has_all_nodes.then(|| ("nodes", FULL_GRAPH_NODES.to_owned())));
+    lines.extend(cells(plan, answer));
+    lines.extend(second_attempt(plan, answer).map(|text| ("attempts", text)));
     lines.extend(exact(plan, answer));
     lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
     lines.extend(field(plan.options()));
     lines
 }
 
-/// Returns the lines about a motion that was found, with the properties that are proven.
-fn motion_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motion) -> Vec<Line> {
 /// The nodes of the full visibility graph.
 const FULL_GRAPH_NODES: &str = "start, goal, and the corners of C-obstacles, which are cut off at joint limits";
 
+/// Returns the lines about a motion that was found, with the properties that are proven.
+fn motion_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motion) -> Vec<Line> {
     let (scene, arm, path) = (problem.scene(), problem.scene().arm(), motion.path.path());
     let timed = TimedScene { scene, ..plan.problem().timed() };
     let TimedMotion { curve, trajectory } = &motion.timed;
@@ -84,6 +86,18 @@ fn cells(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let asked = plan.options().planner.cells().filter(|asked| asked.0 != grid.cells)?;
     let [used, asked] = [grid.cells, asked.0].map(|[a, b]| format!("{a} x {b}"));
     Some(("cells", format!("{used}: {asked} show no certified path")))
+}
+
+/// Returns a description of the planner's cells if it was the second attempt that decided them, by their centres. `None`
+/// if the cells are those that were requested.
+pub(super) fn second_attempt(plan: &Plan, answer: &Answer<Motion>) -> Option<String> {
+    let is_second =
+        |grid: &Grid| grid.proves == Proves::Sampled && plan.options().planner.space() == Some(GridSpace::Rows);
+    let Space::Grid(grid) = &answer.space else { return None };
+    is_second(grid).then(|| {
+        let [a, b] = grid.cells;
+        format!("{a} x {b} cells that are wholly free show no certified path; here a cell is free if its centre is")
+    })
 }
 
 /// Returns a line about planning among exact polygons. `None` if the planner does not use them, or no path was found.

@@ -1,7 +1,7 @@
 //! Pictures and pages of a plan.
 
 use super::explained_words::blame_in_words;
-use super::motion_summary::blocking;
+use super::motion_summary::{blocking, second_attempt};
 use super::summary::facts;
 use crate::{DrawError, KeyFigures, Moments, Picture, TaskPicture, View};
 use cplan_core::cspace::{CObstacle, c_obstacles, exact_c_obstacles};
@@ -197,7 +197,7 @@ fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, co
         Outcome::Unknown(_) => method.to_string(),
     };
     View::of_picture(&Picture {
-        title: vec![title_of(scene), detail],
+        title: [title_of(scene), detail].into_iter().chain(second_attempt(plan, answer)).collect(),
         status: status(plan.status()).into(),
         ending: Some(plan.status()),
         facts: facts(plan),

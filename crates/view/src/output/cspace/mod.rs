@@ -95,6 +95,9 @@ pub struct CSpace {
     /// Boxes of a subdivision.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub boxes: Option<Boxes>,
+    /// Results of attempts in coarser spaces, or with cells that are wholly free, in words.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub failed_attempts: Vec<String>,
     /// Cells of a field.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<FieldGrid>,
@@ -211,10 +214,10 @@ impl CSpace {
             (contours(scene), Proves::Outer { margin })
         };
         let exact = if is_exact { cspace::exact_c_obstacles(scene) } else { None };
+        let exact = exact.map(|contours| (contours, Proves::Exact));
         let (contours, proves) = exact.unwrap_or_else(grown);
         let united = cspace::united(scene, &contours);
         let region =
-        let exact = exact.map(|contours| (contours, Proves::Exact));
             |(obstacle, all): (String, Vec<PolygonWithHoles>)| ObstacleRegion { obstacle, polygons: polygons(&all) };
         Self {
             payload: scene.attachment().map(|payload| payload.name.clone()).unwrap_or_default(),
@@ -229,6 +232,7 @@ impl CSpace {
             expanded: Vec::new(),
             rows: Vec::new(),
             boxes: None,
+            failed_attempts: Vec::new(),
             grid: None,
             proof: Vec::new(),
         }
@@ -249,6 +253,7 @@ impl CSpace {
             goals: problem.goals().pieces().iter().map(|goal| goal.ends().map(Values::from)).collect(),
             paths: motion.map(|motion| PathData::of(answer.method.to_string(), &motion.timed.curve)).collect(),
             free,
+            failed_attempts: answer.history.clone(),
             proof: answer.outcome.infeasible().map(boxes_of).unwrap_or_default(),
             ..Self::of_scene(scene, problem.start(), is_exact)
         };

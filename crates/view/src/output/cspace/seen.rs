@@ -60,6 +60,8 @@ pub struct FieldGrid {
     pub size: Values,
     /// Guarantee of free and blocked for a cell.
     pub proves: Proves,
+    /// The part of a free cell that is known to be free: `whole` or `center`.
+    pub free: &'static str,
     /// One value per cell: 1 if it is blocked, otherwise 0.
     #[serde(serialize_with = "bits")]
     #[schemars(with = "Vec<u8>")]
@@ -102,6 +104,7 @@ impl FieldGrid {
             lower: grid.topology.ranges.map(|range| range.domain().0),
             size: grid.step(),
             proves: grid.proves,
+            free: if grid.proves == Proves::Sampled { "center" } else { "whole" },
             blocked: grid.blocked.clone(),
             quantity,
             values: if has_values { values.to_vec() } else { Vec::new() },
