@@ -33,6 +33,7 @@ mod solve;
 mod stored;
 mod task_optimum;
 mod tasks;
+mod touching_heights;
 mod twins;
 mod validity;
 mod voronoi;

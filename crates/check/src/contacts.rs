@@ -91,7 +91,11 @@ impl<'a> Contacts<'a> {
             return fails(" names a shape or a part that does not exist");
         };
         let (body, beside) = (&shape.within, part.link.as_ref());
-        if !body.overlaps_heights(part.heights.as_ref()) {
+        let meets = match beside {
+            Some(_) => body.overlaps_heights(part.heights.as_ref()),
+            None => body.touches_heights(part.heights.as_ref()),
+        };
+        if !meets {
             return fails(": the shape passes over or under the obstacle");
         }
         match beside {

@@ -10,7 +10,8 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 /// Number of decimals of the least overlap of the heights of two links that can collide: `10^-9` m. Links often rest on
-/// one another, and rounded heights then overlap slightly.
+/// one another, and rounded heights then overlap slightly. A shape and an obstacle that is no link touch if their heights
+/// are no farther apart than this.
 const MIN_OVERLAP_DECIMALS: u32 = 9;
 
 /// Approximation of a link's shape, projected into the plane.
@@ -43,6 +44,13 @@ impl Body {
     pub fn overlaps_heights(&self, heights: Option<&Range>) -> bool {
         self.enclosures(heights)
             .is_none_or(|(own, [low, high])| own[0].upper <= high.lower && low.upper <= own[1].lower)
+    }
+
+    /// Returns true if this body's heights and the given heights certainly overlap or touch.
+    pub fn touches_heights(&self, heights: Option<&Range>) -> bool {
+        let by = Interval::from(&Decimal::power_of_ten(MIN_OVERLAP_DECIMALS));
+        let within = |low: &Interval, high: &Interval| low.upper <= (high + &by).lower;
+        self.enclosures(heights).is_none_or(|(own, [low, high])| within(&own[0], &high) && within(&low, &own[1]))
     }
 
     /// Returns true if this body's heights and the given heights certainly do not overlap.

@@ -139,7 +139,7 @@ impl Pairing<'_> {
         };
         // The heights of links that lie on each other touch, so only definite overlaps count.
         (at.0 == 1 || own.carrier == Carrier::Base)
-            && part.heights.definitely_meet(obstacle.heights)
+            && part.heights.overlap(obstacle.heights)
             && (is_attached || !own.ignores(at.0, at.1, &part.body))
     }
 

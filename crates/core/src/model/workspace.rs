@@ -17,7 +17,8 @@ pub struct Heights {
     pub upper: f64,
 }
 
-/// Bound on the rounding error of heights, metres. Heights are sums of products of numbers that the input files state.
+/// Gap, metres, up to which two heights count as touching. It is above the rounding error of heights, which are sums of
+/// products of numbers that the input files state.
 const ROUNDING: f64 = 1e-9;
 
 /// Depth, metres, by which the bottom of an object may be below the top of its support without counting as a contact.
@@ -41,9 +42,17 @@ impl Heights {
         self.meet_within(other, ROUNDING)
     }
 
-    /// Returns true if the two extents certainly overlap, by more than rounding.
+    /// Returns true if the two extents overlap or touch even if rounding has brought them up to half a nanometre closer
+    /// together.
     #[must_use]
     pub fn definitely_meet(self, other: Heights) -> bool {
+        self.meet_within(other, ROUNDING / 2.0)
+    }
+
+    /// Returns true if the two extents overlap by more than rounding. Touching does not count: links of a robot rest on
+    /// each other.
+    #[must_use]
+    pub fn overlap(self, other: Heights) -> bool {
         self.meet_within(other, -ROUNDING)
     }
 
@@ -55,8 +64,8 @@ impl Heights {
         self.meet(other) && !self.is_above(other, RESTING_TOLERANCE - ROUNDING)
     }
 
-    /// Returns true if an object at these heights certainly overlaps with something at the `other` heights, by more
-    /// than rounding, and does not rest on it.
+    /// Returns true if an object at these heights certainly overlaps with something at the `other` heights, or touches it,
+    /// and does not rest on it.
     #[must_use]
     pub fn object_definitely_meets(self, other: Heights) -> bool {
         self.definitely_meet(other) && !self.is_above(other, RESTING_TOLERANCE + ROUNDING)

@@ -170,6 +170,7 @@ impl<'a> ToolMotion<'a> {
         let is_cover = self.covers[pair.link.min(1)].get(pair.part).is_some_and(|is_cover| *is_cover);
         let [part, obstacle] = self.heights(pair, &self.extents(Span::Part(piece, share, share)));
         let meet = match self.still.is_attached(pair) {
+            _ if self.still.self_obstacle(pair.obstacle).is_some() => part.overlap(obstacle),
             true => part.object_definitely_meets(obstacle),
             false => part.definitely_meet(obstacle),
         };
