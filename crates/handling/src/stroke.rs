@@ -5,6 +5,9 @@ use cplan_core::model::{Arm, Heights, OutlineSource, check_range};
 use cplan_core::space::JointRange;
 use serde::{Deserialize, Serialize};
 
+/// Displacement of a joint of the tool, radians or metres, that is due to rounding. The joint does not move by so little.
+const ROUNDING: f64 = 1e-12;
+
 /// A joint of the tool. It moves the tool along the plane's normal, or turns it about the normal. Within the plane, it
 /// affects only the load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -64,10 +67,18 @@ impl ToolValues {
         *self == Self::default()
     }
 
-    /// Returns the distance by which the tool is lowered, metres. `None` if it is raised.
+    /// Returns the distance by which the tool is lowered, metres. `None` if it is raised, up to rounding.
     #[must_use]
     pub fn lowered_by(&self) -> Option<f64> {
-        Some(self.depth).filter(|depth| *depth != 0.0)
+        Some(self.depth).filter(|depth| depth.abs() > ROUNDING)
+    }
+
+    /// Returns the signed angle from the wrist's value at the start to this one, radians; 0 if they differ only by
+    /// rounding. `None` unless both are given.
+    #[must_use]
+    pub fn wrist_turn(&self, start: &Self) -> Option<f64> {
+        let angle = self.wrist? - start.wrist?;
+        Some(if angle.abs() > ROUNDING { angle } else { 0.0 })
     }
 }
 

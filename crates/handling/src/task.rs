@@ -257,7 +257,7 @@ impl Task {
     /// move states a value.
     #[must_use]
     pub fn wrist_turn(&self, step: &Step) -> Option<f64> {
-        Some(step.tool.wrist? - self.start_tool.wrist?)
+        step.tool.wrist_turn(&self.start_tool)
     }
 
     /// Iterates over all steps. The steps of a group that may be executed in any order come in the order of the file.

@@ -4,6 +4,18 @@ use cplan_core::model::{Arm, Goal, equivalent_values, inverse};
 use cplan_core::space::Configuration;
 use cplan_geometry::Point;
 
+/// Displacement of a joint, radians or metres, that is due to rounding. It is far above the rounding of IK solutions and
+/// of units, and far below what a controller resolves. A joint does not move by so little.
+pub(super) const JOINT_ROUNDING: f64 = 1e-12;
+
+/// Returns `preferred` if a configuration differs from it only by rounding; otherwise the configuration.
+fn without_rounding(q: Configuration, preferred: Configuration) -> Configuration {
+    if (q - preferred).amax() <= JOINT_ROUNDING { preferred } else { q }
+}
+
+/// Reason why a step without IK solutions is impossible.
+pub(super) const UNREACHABLE: &str = "no IK solution within the joint limits reaches its target";
+
 /// Configurations that reach a target.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct IkSolutions {
@@ -14,7 +26,8 @@ pub(super) struct IkSolutions {
 }
 
 /// Returns all configurations within the limits that put the tip, or another point of link 2, at `target`. If there are
-/// infinitely many, returns those in which the free joint has its `preferred` value.
+/// infinitely many, returns those in which the free joint has its `preferred` value. A solution that differs from
+/// `preferred` only by rounding becomes `preferred`, so that the arm does not move.
 pub(super) fn ik_solutions(arm: &Arm, point: Point, target: Point, preferred: Configuration) -> IkSolutions {
     let solved = if point == arm.tip {
         inverse(arm, target, preferred)
@@ -26,16 +39,19 @@ pub(super) fn ik_solutions(arm: &Arm, point: Point, target: Point, preferred: Co
         let copies =
             [0, 1].map(|k| equivalent_values(arm.joints[k].range, arm.joints[k].joint_type.is_revolute(), branch[k]));
         for &first in &copies[0] {
-            configurations.extend(copies[1].iter().map(|&second| Configuration::new(first, second)));
+            let solutions = copies[1].iter().map(|&second| Configuration::new(first, second));
+            configurations.extend(solutions.map(|q| without_rounding(q, preferred)));
         }
     }
+    // If the arm can stay where it is, this comes first, so that it does not move without saving time.
+    configurations.sort_by_key(|q| *q != preferred);
     IkSolutions { configurations, all: solved.free.is_none() }
 }
 
 /// Returns the configurations within the limits that reach the goal of a move.
 pub(super) fn goal_ik_solutions(arm: &Arm, goal: &Goal, preferred: Configuration) -> IkSolutions {
     match goal {
-        Goal::Joints(q) => IkSolutions { configurations: vec![*q], all: true },
+        Goal::Joints(q) => IkSolutions { configurations: vec![without_rounding(*q, preferred)], all: true },
         Goal::Tip(tip) => ik_solutions(arm, arm.tip, *tip, preferred),
         Goal::Area([low, high]) => {
             // Tasks that have been checked contain no areas.

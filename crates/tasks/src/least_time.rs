@@ -1,5 +1,6 @@
 //! Lower bounds on the durations of motions.
 
+use super::ik_solutions::JOINT_ROUNDING;
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 use cplan_handling::{Action, Step, ToolLimits};
@@ -43,13 +44,14 @@ const ROUNDING: f64 = 1e-9;
 
 /// Returns a lower bound, in seconds, on the duration of every motion between two configurations from rest to rest. The
 /// joints move at most at the fraction `speed` of their top speeds. Each joint takes at least its own time. On a
-/// circle, it takes the shorter direction.
+/// circle, it takes the shorter direction. A displacement that is due to rounding takes no time.
 #[must_use]
 pub(super) fn least_time(arm: &Arm, from: Configuration, to: Configuration, speed: f64) -> f64 {
     let displacement = arm.topology().displacement(from, to);
     let of = |k: usize| {
         let joint = &arm.joints[k];
-        rest_to_rest(displacement[k].abs(), joint.velocity * speed, joint.acceleration * speed * speed)
+        let distance = Some(displacement[k].abs()).filter(|distance| *distance > JOINT_ROUNDING).unwrap_or(0.0);
+        rest_to_rest(distance, joint.velocity * speed, joint.acceleration * speed * speed)
     };
     of(0).max(of(1)) * (1.0 - ROUNDING)
 }

@@ -13,7 +13,7 @@ use cplan_follow::{Found, Settings, WristAlong, follow_between};
 use cplan_geometry::Pose;
 use cplan_handling::{Action, FollowedLine, Payload, Step, Task, WristGuide};
 use cplan_motion::recorded::{WristTurn, wrist_turn};
-use cplan_motion::{TimedMotion, TorqueLimit, single};
+use cplan_motion::{TimedMotion, TorqueLimit, nanoseconds, seconds, single};
 use cplan_proofs::{Connectivity, slab_connectivity};
 use cplan_solver::{Answer, BoundedPath, LARGE_PROOF_BOXES, Options, Unknown, solve};
 use cplan_text::{counted, listed};
@@ -97,12 +97,11 @@ impl Motion {
     pub fn seconds(&self) -> f64 {
         let strokes = if self.raises_again { 2.0 } else { 1.0 };
         let stroke = self.stroke.map_or(0.0, |stroke| strokes * stroke.seconds);
+        let moving =
+            self.timed.trajectory.duration() - self.overlap.seconds() + self.before_departure() + self.turning + stroke;
+        // All times are whole nanoseconds. Rounding must not decide between motions during which the wrist turns equally long.
         let waiting = self.wrist.map_or(0.0, |wrist| wrist.waiting);
-        self.timed.trajectory.duration() - self.overlap.seconds()
-            + self.before_departure()
-            + self.turning
-            + stroke
-            + waiting
+        if waiting > 0.0 { seconds(nanoseconds(moving + waiting)) } else { moving }
     }
 
     /// Returns the time of the turn and the stroke before the departure that count for this motion, in seconds. A part of

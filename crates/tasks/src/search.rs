@@ -6,6 +6,7 @@
 use super::answer::Leg;
 use super::failed_step::{FailedStep, RefusedStep, farthest};
 use super::heuristic::Heuristic;
+use super::ik_solutions::UNREACHABLE;
 use super::least_time::{least_line_time, least_time};
 use super::motion_cache::{Motion, MotionCache, Refusal};
 use super::state::{Candidate, State, turns_on_the_way};
@@ -225,9 +226,10 @@ impl<'a, 'l> Search<'a, 'l> {
         for candidates in state.candidates(self.task) {
             self.complete &= candidates.all;
             if candidates.ways.is_empty() {
-                let target =
-                    if let Action::Follow(_) = candidates.step.action { "the end of the line" } else { "its target" };
-                let reason = format!("no IK solution within the joint limits reaches {target}");
+                let reason = match candidates.step.action {
+                    Action::Follow(_) => "no IK solution within the joint limits reaches the end of the line",
+                    _ => UNREACHABLE,
+                };
                 let refusal = Refusal::new(reason, candidates.all);
                 self.refused.push(RefusedStep {
                     depth,

@@ -218,8 +218,29 @@ impl Played {
     }
 }
 
-/// Checks a found motion. Returns its duration.
+/// Returns the least time for a distance from rest to rest.
+fn least_seconds(distance: f64, speed: f64, acceleration: f64) -> f64 {
+    match speed * speed / acceleration < distance {
+        true => distance / speed + speed / acceleration,
+        false => 2.0 * (distance / acceleration).sqrt(),
+    }
+}
+
+/// Checks a found motion and its bound. Returns its duration.
 fn check_found(query: &Query, result: &Value, seed: u64) -> f64 {
+    let duration = check_motion(query, result, seed);
+    // Each joint needs at least its own least time.
+    let [from, to] = query.ends;
+    let own = |j: usize| least_seconds((to[j] - from[j]).abs(), SPEEDS[j], ACCELERATIONS[j]);
+    let strokes: f64 = [from, to].map(|end| least_seconds(end[2].abs(), SPEEDS[2], ACCELERATIONS[2])).iter().sum();
+    let bound = own(0).max(own(1)).max(own(3)).max(strokes);
+    let stated = result["lower_bound"].as_f64().unwrap();
+    assert!(stated <= duration + 1e-9 && stated >= bound - 1e-6, "seed {seed}: {bound} {stated} {duration}");
+    duration
+}
+
+/// Checks a found motion. Returns its duration.
+fn check_motion(query: &Query, result: &Value, seed: u64) -> f64 {
     let played = Played::of(result);
     let dense = played.dense();
     let [first, last] = [played.rows[0], played.rows[played.rows.len() - 1]];
@@ -250,17 +271,6 @@ fn check_found(query: &Query, result: &Value, seed: u64) -> f64 {
             }
         }
     }
-    // Each joint needs at least its own least time.
-    let least = |distance: f64, speed: f64, acceleration: f64| match speed * speed / acceleration < distance {
-        true => distance / speed + speed / acceleration,
-        false => 2.0 * (distance / acceleration).sqrt(),
-    };
-    let [from, to] = query.ends;
-    let own = |j: usize| least((to[j] - from[j]).abs(), SPEEDS[j], ACCELERATIONS[j]);
-    let strokes: f64 = [from, to].map(|end| least(end[2].abs(), SPEEDS[2], ACCELERATIONS[2])).iter().sum();
-    let bound = own(0).max(own(1)).max(own(3)).max(strokes);
-    let stated = result["lower_bound"].as_f64().unwrap();
-    assert!(stated <= duration + 1e-9 && stated >= bound - 1e-6, "seed {seed}: {bound} {stated} {duration}");
     duration
 }
 
@@ -350,6 +360,46 @@ fn motions_of_four_joints_have_no_false_answer() {
 fn example() -> Query {
     let post = Post { at: [0.5, 0.0], radius: 0.05, height: [0.0, 0.2] };
     Query { posts: vec![post], ends: [[0.4, 0.3, -0.1, 0.5], [-0.6, -0.3, -0.15, -1.0]], arch: "", jerks: None }
+}
+
+/// Draws goals that differ from the start by rounding. Such joints must not move at all. Also draws goals to which the arm
+/// moves for some microseconds, during which the wrist must keep its limits.
+#[test]
+fn moves_below_rounding_are_dropped() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = Files::new(folder.path());
+    for seed in cplan_cases::seeds(24) {
+        let mut dice = cplan_cases::dice(seed);
+        let mut start = Query::random(&mut dice).ends[0];
+        (start[2], start[3]) = (0.0, dice.within(-4.0, 4.0));
+        let is_rounding = dice.chance(0.5);
+        let by = 10_f64.powf(if is_rounding { dice.within(-17.0, -13.0) } else { dice.within(-11.0, -8.0) });
+        let mut goal = start.map(|value| value + if dice.chance(0.5) { by } else { -by });
+        if !is_rounding {
+            goal[2] = start[2];
+        }
+        goal[3] = start[3] + dice.within(0.5, 1.5);
+        let query = Query { posts: Vec::new(), ends: [start, goal], arch: "", jerks: None };
+        let result = files.plan(&query, seed).unwrap();
+        let duration = check_motion(&query, &result, seed);
+        assert_eq!(files.findings(&result)["verdict"], "free", "seed {seed}");
+        files.check_certificate(seed);
+        let turning = least_seconds(goal[3] - start[3], SPEEDS[3], ACCELERATIONS[3]);
+        if is_rounding {
+            assert!((duration - turning).abs() < 1e-8, "seed {seed}: {by}: {duration} {turning}");
+            assert_eq!(result["length"], 0.0, "seed {seed}: {by}");
+        }
+        // The same goal, as the position of the tip.
+        let [x, y] = tip(start);
+        let joints = format!("joints = [{}, {}]\nstroke = {}", goal[0], goal[1], goal[2]);
+        let world = query.world().replace(&joints, &format!("tip = [{x}, {y}]"));
+        assert!(world.contains("tip = "), "{world}");
+        std::fs::write(&files.world, world).unwrap();
+        let result = plan_result(&files.robot, &files.world, "");
+        let duration =
+            check_motion(&Query { ends: [start, [start[0], start[1], 0.0, goal[3]]], ..query }, &result, seed);
+        assert!((duration - turning).abs() < 1e-8, "seed {seed}: {duration} {turning}");
+    }
 }
 
 /// Compares the files of single steps with the rest at their ends. Both worlds have strokes that follow each other within a

@@ -113,15 +113,19 @@ impl TimedStroke {
         self.phases.iter().map(|[time, ..]| self.begin + nanoseconds(*time))
     }
 
-    /// Returns the joint's value and velocity at a time during or after the stroke.
-    fn at(&self, time: u64) -> [f64; 2] {
+    /// Returns the joint's value and velocity at the time of a row during or after the stroke. `before` and `after` are
+    /// the times of the rows beside it.
+    fn at(&self, time: u64, [before, after]: [Option<u64>; 2]) -> [f64; 2] {
         let [from, to] = self.ends;
         let since = seconds(time - self.begin);
         let end = self.phases.last().map_or(0.0, |[time, ..]| *time);
         let phase = self.phases.windows(2).find(|phase| phase[1][0] > since);
-        // A row may stand for the beginning or the end of the stroke shortly before or after it.
-        let is_over = nanoseconds(end) <= nanoseconds(since) + MIN_ROW_GAP;
-        if !is_over && nanoseconds(since) <= MIN_ROW_GAP {
+        // A row may stand for the beginning or the end of the stroke shortly before or after it, unless the row beside it
+        // does. If two rows did, the stroke between the next ones would be too fast.
+        let end = self.begin + nanoseconds(end);
+        let is_near = |row: Option<u64>, change: u64| row.is_some_and(|row| row.abs_diff(change) <= MIN_ROW_GAP);
+        let is_over = time >= end || (is_near(Some(time), end) && !is_near(after, end));
+        if !is_over && is_near(Some(time), self.begin) && !is_near(before, self.begin) {
             return [from, 0.0];
         }
         let Some(phase) = phase.filter(|_| !is_over) else { return [to, 0.0] };
@@ -214,24 +218,31 @@ impl Rows {
 
     /// Adds strokes to rows that have the initial value of the stroke.
     fn add_strokes(&mut self, strokes: &[TimedStroke]) {
-        for row in &mut self.0 {
+        for index in 0..self.0.len() {
+            let (beside, row) = (self.beside(index), &mut self.0[index]);
             let begun = strokes.partition_point(|stroke| stroke.begin <= row.at);
             if let Some(stroke) = begun.checked_sub(1).map(|last| &strokes[last]) {
-                [row.value.stroke, row.rate.stroke] = stroke.at(row.at);
+                [row.value.stroke, row.rate.stroke] = stroke.at(row.at, beside);
             }
         }
+    }
+
+    /// Returns the times of the rows before and after a row.
+    fn beside(&self, index: usize) -> [Option<u64>; 2] {
+        [index.checked_sub(1), Some(index + 1)].map(|beside| self.0.get(beside?).map(|row| row.at))
     }
 
     /// Adds turns to rows in which the wrist only compensates the rotation of link 2.
     fn add_turns(&mut self, turns: &[TimedStroke]) {
         let (mut done, mut turned) = (0, 0.0);
-        for row in &mut self.0 {
+        for index in 0..self.0.len() {
+            let (beside, row) = (self.beside(index), &mut self.0[index]);
             while turns.get(done + 1).is_some_and(|next| next.begin <= row.at) {
                 turned += turns[done].ends[1];
                 done += 1;
             }
             if let Some(turn) = turns.get(done).filter(|turn| turn.begin <= row.at) {
-                let [angle, rate] = turn.at(row.at);
+                let [angle, rate] = turn.at(row.at, beside);
                 row.value.wrist += turned + angle;
                 row.rate.wrist += rate;
             }

@@ -222,7 +222,7 @@ pub(super) fn wrist_faults(task: &Task, step: &Step, turn: Option<RecordedWrist>
     if (turn.from - from).abs().max((turn.to - to).abs()) > PLACE_TOLERANCE {
         faults.push(Fault::WristEnds { is: [turn.from, turn.to], asked: [from, to] });
     }
-    let least = least_seconds((to - from).abs(), &wrist.limits());
+    let least = least_seconds(task.wrist_turn(step).unwrap_or(0.0).abs(), &wrist.limits());
     if turn.seconds < least - TIME_TOLERANCE {
         faults.push(Fault::TooFast { seconds: turn.seconds, least });
     }
