@@ -3,7 +3,7 @@
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
 use super::least_time::{least_line_time, least_time};
 use super::state::Progress;
-use super::stroke::{least_rest, least_without_strokes, most_overlap, stroke_depth};
+use super::stroke::{least_raising_at_start, least_rest, least_without_strokes, most_overlap, stroke_depth};
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
@@ -235,7 +235,7 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
     let mut lies: Vec<Option<KnownPose>> = task.objects.iter().map(lies).collect();
     let mut held = None;
     // The longest overlap at the beginning of the next motion.
-    let mut rising = most_overlap(task, task.start_tool.lowered_by());
+    let mut rising = least_raising_at_start(task, |depth| most_overlap(task, Some(depth)));
     let mut stop = |step: &Step, rising: &mut f64, lies: &mut [Option<KnownPose>]| {
         let object = match step.action {
             Action::Pick { object, .. } => Some(object),

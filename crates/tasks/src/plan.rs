@@ -10,7 +10,7 @@ use super::part;
 use super::search::{Ending, Limits, Search};
 use super::sequence::Sequence;
 use super::state::State;
-use super::stroke::least_stroke;
+use super::stroke::{least_raising_at_start, least_stroke};
 use super::wrist::least_turn;
 use cplan_core::model::Outcome;
 use cplan_handling::{Item, Task};
@@ -56,7 +56,8 @@ pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> T
     }
     let heuristic = Heuristic::new(task);
     let start = State::at_start(task);
-    let lower_bound = least_raising(task) + heuristic.remaining(start.q, start.progress);
+    let raising = least_raising_at_start(task, |depth| least_stroke(task, depth));
+    let lower_bound = raising + heuristic.remaining(start.q, start.progress);
     let turns = task.steps().filter_map(|step| task.wrist_turn(step)).zip(&task.wrist);
     let lower_bound = turns.map(|(angle, wrist)| least_turn(wrist, angle)).fold(lower_bound, f64::max);
     let planning = Planning { task, options, legs: MotionCache::new(options), lower_bound, expanded: 0, progress };
@@ -229,11 +230,6 @@ impl Found {
     fn is_done(&self) -> bool {
         matches!(self.outcome, Outcome::Found(()))
     }
-}
-
-/// Returns a lower bound on the time for raising the tool at the start, in seconds.
-fn least_raising(task: &Task) -> f64 {
-    task.start_tool.lowered_by().map_or(0.0, |depth| least_stroke(task, depth))
 }
 
 /// Returns the limits of a search for the fastest choice.

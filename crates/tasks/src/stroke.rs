@@ -7,7 +7,7 @@ use super::state::{Candidate, State};
 use cplan_core::check::certify;
 use cplan_core::model::{Grip, Scene};
 use cplan_core::space::{Configuration, Path};
-use cplan_handling::{Step, Stroke, Task};
+use cplan_handling::{Item, Step, Stroke, Task};
 use cplan_motion::single;
 
 /// A stroke of the tool. At a pick or a place, the tool is lowered, the gripper acts, and the tool is raised. At the end of
@@ -36,6 +36,26 @@ pub(super) fn least_rest(task: &Task, step: &Step, object: Option<usize>) -> f64
 /// Returns a lower bound, in seconds, on the duration of a stroke down to a depth, or up from there.
 pub(super) fn least_stroke(task: &Task, depth: f64) -> f64 {
     task.stroke.as_ref().map_or(0.0, |stroke| least_of_tool(depth.abs(), &stroke.limits()))
+}
+
+/// Returns a lower bound on the time for raising the tool at the start, in seconds. `seconds` is the duration of a stroke
+/// over a length in metres.
+///
+/// If the first step's depth is on the other side of the raised position, one stroke leads through that position without a
+/// stop, unless the world demands one. Then the first step's own stroke counts in full, and the raising only for the rest.
+pub(super) fn least_raising_at_start(task: &Task, seconds: impl Fn(f64) -> f64) -> f64 {
+    let Some(from) = task.start_tool.lowered_by() else { return 0.0 };
+    let may_pass = task.stroke.as_ref().is_some_and(|stroke| stroke.arch.is_some());
+    let raising = |step: &Step| match stroke_depth(task, step, step.action.picked()) {
+        Some(to) if may_pass && from * to < 0.0 => seconds((from - to).abs()) - seconds(to.abs()),
+        _ => seconds(from.abs()),
+    };
+    let first = task.items.iter().find_map(|item| match item {
+        Item::Step(step) => Some(raising(step)),
+        Item::AnyOrder(pairs) => Some(pairs.iter().map(|[pick, _]| raising(pick)).fold(f64::INFINITY, f64::min)),
+        Item::Renew(_) => None,
+    });
+    first.unwrap_or_else(|| seconds(from.abs()))
 }
 
 /// Returns the depth in metres to which a step lowers the tool for its object, or at the end of a move.

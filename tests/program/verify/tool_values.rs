@@ -362,6 +362,40 @@ fn example() -> Query {
     Query { posts: vec![post], ends: [[0.4, 0.3, -0.1, 0.5], [-0.6, -0.3, -0.15, -1.0]], arch: "", jerks: None }
 }
 
+/// Draws motions without posts. All four joints may move at the same time there, so the longest of their own least times is
+/// the duration of a motion, and no bound may exceed it. If both heights are on the same side of the raised position, the
+/// bound is about motions that raise the tool.
+#[test]
+fn no_bound_exceeds_the_duration_of_a_stroke_through_the_raised_position() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = Files::new(folder.path());
+    for seed in cplan_cases::seeds(12) {
+        let mut dice = cplan_cases::dice(seed);
+        let query = Query { posts: Vec::new(), arch: "", ..Query::random(&mut dice) };
+        let mut ends = query.ends;
+        ends[0][2] = dice.within(0.005, 0.05);
+        ends[1][2] = -dice.within(0.005, 0.25);
+        if dice.chance(0.5) {
+            let [first, last] = &mut ends;
+            std::mem::swap(&mut first[2], &mut last[2]);
+        }
+        // The arm hardly moves, so the stroke takes the longest.
+        ends[1][0] = ends[0][0] + 0.01;
+        let query = Query { ends, jerks: None, ..query };
+        let result = files.plan(&query, seed).unwrap();
+        let duration = check_motion(&query, &result, seed);
+        let [from, to] = query.ends;
+        let own = (0..4).map(|j| least_seconds((to[j] - from[j]).abs(), SPEEDS[j], ACCELERATIONS[j]));
+        let possible = own.fold(0.0, f64::max);
+        let stated = result["lower_bound"].as_f64().unwrap();
+        assert!(stated <= possible && stated > 0.99 * possible, "seed {seed}: {stated} {possible} {duration}");
+        // This world demands a stop.
+        let resting = files.plan(&Query { arch: "arch = false", ..query }, seed).unwrap();
+        let strokes: f64 = [from, to].map(|end| least_seconds(end[2].abs(), SPEEDS[2], ACCELERATIONS[2])).iter().sum();
+        assert!(resting["lower_bound"].as_f64().unwrap() >= strokes - 1e-6, "seed {seed}");
+    }
+}
+
 /// Draws goals that differ from the start by rounding. Such joints must not move at all. Also draws goals to which the arm
 /// moves for some microseconds, during which the wrist must keep its limits.
 #[test]

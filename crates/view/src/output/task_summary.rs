@@ -100,11 +100,22 @@ fn motion_lines(task: &Task, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Li
         ("motion", format!("{:.3} s{still}, {samples} samples", trajectory.duration())),
     ];
     lines.extend(torque(arm, trajectory));
-    lines.extend([("optimum", proven), ("optimum", choice.into())]);
+    lines.push(("optimum", proven));
+    lines.extend(answer.legs.first().and_then(bounded_motions).map(|about| ("optimum", about)));
+    lines.push(("optimum", choice.into()));
     lines.extend(clearance(answer));
     let plane = motion.timing.as_ref().and_then(|_| plane_of_task(task, &answer.legs));
     lines.extend(motion.timing.iter().flat_map(|timing| among_movers(arm, timing, plane.as_ref())));
     lines
+}
+
+/// Describes the motions that the bound is about, unless it holds for all. A tool that is lowered at both ends of the first
+/// motion is raised in between, by the rules of tasks.
+fn bounded_motions(leg: &Leg) -> Option<String> {
+    let (first, last) = leg.raising.zip(leg.stroke)?;
+    let is_same_side = (first.lowered - first.raised) * (last.lowered - last.raised) > 0.0;
+    is_same_side
+        .then(|| format!("the bound is about motions that raise the tool to {} m in between", short(first.raised)))
 }
 
 /// Returns a line with the clearance of the whole motion, and the step that comes nearest to an obstacle.
