@@ -150,6 +150,61 @@ fn infeasibility_in_any_order_is_proven_for_large_groups() {
     }
 }
 
+/// Returns a cell of a SCARA with a tray of twelve parts, and twelve places. A post beside the place of one part is lower than
+/// the raised tool.
+fn cell_with_post([x, y]: [f64; 2]) -> String {
+    let mut world = format!(
+        "[robot]\njoints = [\"axis_1\", \"axis_2\"]\ntip = \"flange\"\npayload = \"level\"\n\
+         fixed = {{ axis_3 = -0.03 }}\nstroke = {{ joint = \"axis_3\" }}\n[start]\njoints = [0.0, 1.2]\n\
+         [task]\norder = \"free\"\n[[obstacle]]\nname = \"post\"\n\
+         circle = {{ center = [{x}, {y}], radius = 0.01 }}\nheight = [0.0, 0.05]\n"
+    );
+    let at = |index: u8, side: f64| [0.25 + 0.05 * f64::from(index % 4), side * (0.1 + 0.05 * f64::from(index / 4))];
+    for index in 0..12 {
+        let _ = writeln!(
+            world,
+            "[[object]]\nname = \"part {index}\"\ncircle = {{ center = [0.0, 0.0], radius = 0.009 }}\nat = {:?}\n\
+             height = [0.0, 0.02]\nlift = 0.12",
+            at(index, -1.0)
+        );
+    }
+    for index in 0..12 {
+        let _ = writeln!(world, "[[step]]\npick = \"part {index}\"\n[[step]]\nplace = {{ at = {:?} }}", at(index, 1.0));
+    }
+    world
+}
+
+/// A pick or a place that fails alone is found before any order is tried, whichever of the twelve parts it is.
+#[test]
+fn impossible_picks_and_places_are_found_before_orders() {
+    let robot = Path::new(env!("CARGO_MANIFEST_DIR")).join("robots/scara.urdf");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("world.toml");
+    // Beside a part, beside a place, and far from both.
+    let posts = [
+        ([0.32, -0.1], Some("\"part 1\" cannot be picked there")),
+        ([0.37, 0.2], Some("\"part 10\" cannot be placed there")),
+        ([-0.3, 0.1], None),
+    ];
+    for (post, failure) in posts {
+        std::fs::write(&file, cell_with_post(post)).unwrap();
+        let task = load_scene(&robot, &file).unwrap().task(&Overrides::default()).unwrap().task;
+        let mut messages = Vec::new();
+        let options = Options { drive: Drive { period: 0.1, ..Drive::default() }, ..Method::Visibility.into() };
+        let answer = plan(&task, &options, &mut |message| messages.push(message.to_owned()));
+        let Some(failure) = failure else {
+            assert!(answer.failed().is_none(), "{:?}", answer.failed().map(|failed| &failed.reasons));
+            continue;
+        };
+        let Outcome::Infeasible(failed) = &answer.outcome else { panic!("{post:?}: {:?}", answer.outcome.status()) };
+        let reasons = failed.reasons.join("; ");
+        assert!(reasons.contains(&format!("{failure}, in any order, even without the other objects")), "{reasons}");
+        assert!(reasons.contains("hits obstacle \"post\""), "{reasons}");
+        assert_eq!((answer.motions, messages.len()), (0, 0), "{messages:?}");
+        assert!(answer.legs.is_empty() && !failed.ik_solutions.is_empty());
+    }
+}
+
 /// Returns the task of a world, or `None` if the arm is not free initially.
 fn task(world: &str) -> Option<Task> {
     let folder = tempfile::tempdir().unwrap();

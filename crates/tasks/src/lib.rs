@@ -45,8 +45,10 @@
 //!
 //! If the search has tried everything and every motion was refused with a proof, the task is infeasible. If a choice
 //! was left out (a turn of the wrist during a motion, or an order), the answer is unknown. A `part` of a group can
-//! prove that no order is possible: one or two pairs that cannot be done even without all other objects.
+//! prove that no order is possible: one or two pairs that cannot be done even without all other objects. Before any search,
+//! each pick and place of a group is judged `alone`.
 
+mod alone;
 mod among_movers;
 mod answer;
 mod arch;

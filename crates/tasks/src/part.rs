@@ -5,6 +5,7 @@
 //! obstacles. Where it carried another object, it now carries nothing. Link 2 may touch the objects of the part's picks
 //! and places for longer.
 
+use super::alone::whatever_the_order;
 use super::heuristic::Heuristic;
 use super::motion_cache::MotionCache;
 use super::plan::{Found, limits};
@@ -12,6 +13,7 @@ use super::search::{Ending, Search};
 use cplan_core::model::{Outcome, Shape};
 use cplan_handling::{Action, Item, Task};
 use cplan_solver::Options;
+use cplan_text::listed;
 use std::collections::BTreeSet;
 
 /// Largest number of motions that are planned for one part of a group.
@@ -48,20 +50,26 @@ pub(super) fn impossible(
         }
         let mut found = Found::of(&mut search, ending, true);
         let Outcome::Infeasible(failed) = &mut found.outcome else { return None };
-        let names: Vec<String> = part.iter().map(|&pair| name(task, item, pair)).collect();
-        failed.reasons.push(format!("this holds in any order, even if {} are the only objects", names.join(" and ")));
+        let names: Vec<&str> = part.iter().map(|&pair| name(task, item, pair)).collect();
+        failed.reasons.push(match names[..] {
+            [object] => whatever_the_order(&failed.step, object),
+            _ => {
+                let all = listed(&names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>());
+                format!("{all} cannot all be picked and placed, in any order, even without the other objects")
+            }
+        });
         // These steps were done in a world with fewer objects, so they are no part of the answer.
         found.legs.clear();
         Some(found)
     })
 }
 
-fn name(task: &Task, item: usize, pair: usize) -> String {
+fn name(task: &Task, item: usize, pair: usize) -> &str {
     let picked = match &task.items[item] {
         Item::AnyOrder(pairs) => pairs[pair][0].action.picked(),
         _ => None,
     };
-    picked.map_or_else(String::new, |object| format!("\"{}\"", task.objects[object].name))
+    picked.map_or("", |object| &task.objects[object].name)
 }
 
 /// Returns the task up to a group, with only some of the group's pairs. Objects that other pairs or later steps move

@@ -1,5 +1,6 @@
 //! Planning of tasks: chooses the search and its limits.
 
+use super::alone;
 use super::among_movers;
 use super::answer::{Leg, TaskAnswer, TaskMotion};
 use super::failed_step::FailedStep;
@@ -61,6 +62,9 @@ pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> T
     let turns = task.steps().filter_map(|step| task.wrist_turn(step)).zip(&task.wrist);
     let lower_bound = turns.map(|(angle, wrist)| least_turn(wrist, angle)).fold(lower_bound, f64::max);
     let planning = Planning { task, options, legs: MotionCache::new(options), lower_bound, expanded: 0, progress };
+    if let Some(found) = alone::impossible(task) {
+        return planning.answer(found);
+    }
     let pairs = |item: &Item| if let Item::AnyOrder(pairs) = item { pairs.len() } else { 0 };
     match task.items.iter().map(pairs).max().unwrap_or(0) {
         0 => planning.plan_fixed_order(&heuristic),

@@ -87,6 +87,15 @@ pub(super) struct Candidates<'a> {
     pub ways: Vec<Candidate<'a>>,
     /// True if these are all possible candidates.
     pub all: bool,
+    /// True if all IK solutions at the target are among the candidates. The wrist may have other turns.
+    pub has_every_ik_solution: bool,
+}
+
+impl<'a> Candidates<'a> {
+    /// Returns no candidates for a step, because none are known.
+    fn unknown(step: &'a Step) -> Self {
+        Self { step, ways: Vec::new(), all: false, has_every_ik_solution: false }
+    }
 }
 
 /// Difference in radians below which two orientations count as equal. It covers rounding.
@@ -209,7 +218,7 @@ impl State {
                 reach
             }
             (Action::Pick { object, grasp, .. }, None) => {
-                let Some(lies) = self.poses[*object] else { return Candidates { step, ways, all: false } };
+                let Some(lies) = self.poses[*object] else { return Candidates::unknown(step) };
                 let reach = ik_solutions(arm, arm.tip, lies.point(*grasp), self.q);
                 let wanted = place.and_then(|place| match place.action {
                     Action::Place { angle, .. } => angle,
@@ -257,12 +266,12 @@ impl State {
             }
             // The loader guarantees that picks and places alternate.
             (Action::Pick { .. }, Some(_)) | (Action::Place { .. }, None) => {
-                return Candidates { step, ways, all: false };
+                return Candidates::unknown(step);
             }
         };
         // A turn during the motion would be another candidate.
         let turns = ways.iter().any(|candidate| candidate.turn.is_some());
-        Candidates { step, ways, all: reach.all && !turns }
+        Candidates { step, ways, all: reach.all && !turns, has_every_ik_solution: reach.all }
     }
 
     /// Returns the state after a candidate's step, with the arm at `q`. Includes all renewals before the next step.

@@ -196,7 +196,7 @@ impl<'a> Orders<'a> {
             }
             proposals[number] += 1;
             if proposals[number] <= MAX_PROPOSALS && group.propose() {
-                progress(&format!("order {} of {} pairs", proposals[number] + 1, group.pairs.len()));
+                progress(&format!("{} pairs: trying order {}", group.pairs.len(), proposals[number] + 1));
                 continue;
             }
             built[number] = true;
