@@ -12,6 +12,7 @@
 //! kinematics. Both change along a part by at most the bounds of [`Kinematics`]. So no sample counts by itself, and the
 //! result holds between samples.
 
+use crate::free_space::{FreeSpace, Part};
 use crate::kinematics::Kinematics;
 use crate::line::Line;
 use cplan_core::space::Configuration;
@@ -21,6 +22,16 @@ use cplan_toolpath::Curve;
 
 /// Allowance for rounding, as a share of the lengths that occur.
 const ROUNDING: f64 = 1e-13;
+
+/// Share of the tolerance by which parts of the motion and of the line may deviate from their chords in the free-space
+/// diagram.
+const FINEST_SHARE: f64 = 1.0 / 32.0;
+
+/// Greatest number of parts of a curve of the line in the diagram.
+const MAX_PARTS: f64 = 4096.0;
+
+/// Number of times that a piece of the motion is halved for the diagram.
+const MAX_PART_HALVINGS: u32 = 8;
 
 /// Number of times that a part of the motion is halved before its bound counts.
 const MAX_HALVINGS: u32 = 10;
@@ -59,63 +70,114 @@ pub struct Foot {
     pub u: f64,
 }
 
-/// The part of a line that belongs to a piece of a motion.
-struct Stride {
-    /// The positions of the tip at the ends of the piece.
-    tips: [Point; 2],
-    /// The places on the line then.
-    feet: [Foot; 2],
-    /// Number of corners of the line between them.
-    corners: usize,
+/// The places of a motion and of a line that belong together.
+pub struct Pairing {
+    /// Moments of the motion at the ends of its pieces and at the corners of the line, each with the place on the line that
+    /// counts then. A moment is a piece of the motion plus the share of its duration. Both never return.
+    pub pairs: Vec<(f64, Foot)>,
+    /// For each piece of the motion, an upper bound on its distance from the line, metres.
+    pub bounds: Vec<f64>,
 }
 
 impl Deviation<'_> {
-    /// Returns an upper bound on the distance between the line and each piece of a motion, metres. It takes `O(n)` for
-    /// `n` pieces, and more where a bound exceeds the tolerance.
+    /// Pairs a motion with the line. It takes `O(n)` for `n` pieces if each place of the line is near only those moments
+    /// that belong to it, and more where a bound exceeds the tolerance.
     #[must_use]
-    pub fn of_pieces(&self, pieces: &[Piece]) -> Vec<f64> {
-        let bound = |(piece, stride): (&Piece, Stride)| self.of_piece(piece, stride.tips, stride.feet, stride.corners);
-        pieces.iter().zip(self.strides(pieces)).map(bound).collect()
+    pub fn pairing(&self, pieces: &[Piece]) -> Pairing {
+        let advanced = self.with_bounds(pieces, self.advanced(pieces));
+        if advanced.bounds.iter().all(|bound| *bound <= self.tolerance) {
+            return advanced;
+        }
+        match self.free_space(pieces).pairs() {
+            Ok(pairs) => self.with_bounds(pieces, pairs),
+            Err(_) => advanced,
+        }
     }
 
-    /// Returns the moments of a motion at the ends of its pieces and at the corners of the line, each with the place on
-    /// the line that counts then. A moment is a piece of the motion plus the share of its duration. Both never return. It
-    /// takes `O(n)` for `n` pieces.
+    /// Returns an upper bound on the distance between the line and each piece of a motion, metres: those of
+    /// [`Self::pairing`].
     #[must_use]
-    pub fn pairs(&self, pieces: &[Piece]) -> Vec<(f64, Foot)> {
-        let mut pairs = vec![(0.0, self.ends[0])];
-        for (k, (piece, Stride { tips, feet, corners })) in pieces.iter().zip(self.strides(pieces)).enumerate() {
-            let (mut share, mut tip) = (0.0, tips[0]);
-            for corner in feet[0].piece..feet[0].piece + corners {
-                share = self.nearest(piece, share, [tip, tips[1]], self.curve(corner).end().into());
+    pub fn of_pieces(&self, pieces: &[Piece]) -> Vec<f64> {
+        self.pairing(pieces).bounds
+    }
+
+    /// Pairs each moment with the place of the line that comes next and is near. Near a hairpin that is narrower than the
+    /// tolerance, or a piece much shorter than it, these may be the wrong ones.
+    fn advanced(&self, pieces: &[Piece]) -> Vec<(f64, Foot)> {
+        let [mut foot, last] = self.ends;
+        let mut pairs = vec![(0.0, foot)];
+        let Some(first) = pieces.first() else { return pairs };
+        let mut begin = self.tip(first, 0.0);
+        for (k, piece) in pieces.iter().enumerate() {
+            let end = self.tip(piece, 1.0);
+            let from = foot;
+            foot = if k + 1 == pieces.len() { last } else { self.advance(foot, end, (end - begin).norm()) };
+            let (mut share, mut tip) = (0.0, begin);
+            for corner in from.piece..foot.piece {
+                share = self.nearest(piece, share, [tip, end], self.curve(corner).end().into());
                 tip = self.tip(piece, share);
                 pairs.push((k as f64 + share, Foot { piece: corner, u: 1.0 }));
             }
-            pairs.push(((k + 1) as f64, feet[1]));
+            pairs.push(((k + 1) as f64, foot));
+            begin = end;
         }
         pairs
     }
 
-    /// Returns the parts of the line that belong to the pieces of a motion.
-    fn strides(&self, pieces: &[Piece]) -> Vec<Stride> {
-        let [mut foot, last] = self.ends;
-        let mut start = pieces.first().map_or(Point::zeros(), |piece| self.tip(piece, 0.0));
-        let stride = |(i, piece): (usize, &Piece)| {
-            let (from, mut corners) = (foot, 0);
-            // Each piece begins exactly where the one before it ends.
-            let begin = start;
-            let end = self.tip(piece, 1.0);
-            start = end;
-            let step = (end - begin).norm();
-            foot = self.advance(foot, end, step, &mut corners);
-            if i + 1 == pieces.len() {
-                // The motion ends where the line does.
-                corners += last.piece - foot.piece;
-                foot = last;
+    /// Returns pairs with their bounds.
+    fn with_bounds(&self, pieces: &[Piece], pairs: Vec<(f64, Foot)>) -> Pairing {
+        let mut bounds = vec![0.0_f64; pieces.len()];
+        let Some(first) = pieces.first() else { return Pairing { pairs, bounds } };
+        let mut tip = self.tip(first, 0.0);
+        for pair in pairs.windows(2) {
+            let [(begin, from), (end, to)] = [pair[0], pair[1]];
+            let own = (begin as usize).min(pieces.len() - 1);
+            let shares = [begin, end].map(|moment| (moment - own as f64).clamp(0.0, 1.0));
+            // After a corner, the next curve begins at its first end.
+            let start = if from.piece == to.piece { from.u } else { 0.0 };
+            let tips = [tip, self.tip(&pieces[own], shares[1])];
+            let bound = self.of_part(&pieces[own], (shares, tips), to.piece, [start, to.u], 0);
+            bounds[own] = bounds[own].max(bound);
+            tip = tips[1];
+        }
+        Pairing { pairs, bounds }
+    }
+
+    /// Returns the free-space diagram of a motion and the line.
+    fn free_space(&self, pieces: &[Piece]) -> FreeSpace {
+        let finest = FINEST_SHARE * self.tolerance;
+        let mut motion = Vec::with_capacity(pieces.len());
+        for (k, piece) in pieces.iter().enumerate() {
+            self.divide(piece, k, [0.0, 1.0], finest, &mut motion);
+        }
+        let mut line = Vec::new();
+        for piece in self.ends[0].piece..=self.ends[1].piece {
+            let from = if piece == self.ends[0].piece { self.ends[0].u } else { 0.0 };
+            let to = if piece == self.ends[1].piece { self.ends[1].u } else { 1.0 };
+            let curve = self.curve(piece);
+            let count = (sag(curve, [from, to]) / finest).sqrt().ceil().clamp(1.0, MAX_PARTS);
+            let share = |k: u32| if f64::from(k) < count { from + (to - from) * f64::from(k) / count } else { to };
+            line.extend((0..count as u32).map(|k| {
+                let shares = [share(k), share(k + 1)];
+                Part { piece, shares, ends: shares.map(|u| curve.at(u).into()), off: sag(curve, shares) }
+            }));
+        }
+        FreeSpace { motion, line, tolerance: self.tolerance }
+    }
+
+    /// Appends the parts of a piece of a motion that deviate little from their chords.
+    fn divide(&self, piece: &Piece, number: usize, shares: [f64; 2], finest: f64, parts: &mut Vec<Part>) {
+        let mut open = vec![(shares, 0)];
+        while let Some((shares, halvings)) = open.pop() {
+            let ends = shares.map(|u| self.tip(piece, u));
+            let off = self.off_chord(piece, shares, ends);
+            if off <= finest || halvings >= MAX_PART_HALVINGS {
+                parts.push(Part { piece: number, shares, ends, off });
+            } else {
+                let middle = (shares[0] + shares[1]) / 2.0;
+                open.extend([[middle, shares[1]], [shares[0], middle]].map(|half| (half, halvings + 1)));
             }
-            Stride { tips: [begin, end], feet: [from, foot], corners }
-        };
-        pieces.iter().enumerate().map(stride).collect()
+        }
     }
 
     /// Returns an upper bound on the distance between the line and an arm that rests, metres.
@@ -136,28 +198,9 @@ impl Deviation<'_> {
         gap(self.line, piece, u, tip)
     }
 
-    /// Returns the place of the line for the next position of the tip, which is `step` metres away. Counts the corners
-    /// between both places.
-    fn advance(&self, from: Foot, tip: Point, step: f64, corners: &mut usize) -> Foot {
-        let foot = advance(self.line, self.tolerance, [from, self.ends[1]], tip, step);
-        *corners += foot.piece - from.piece;
-        foot
-    }
-
-    /// Returns the bound for a piece, with the tip at its ends, between two places with several corners of the line
-    /// between them.
-    fn of_piece(&self, piece: &Piece, tips: [Point; 2], [from, to]: [Foot; 2], corners: usize) -> f64 {
-        let (mut bound, mut begin, mut foot) = (0.0_f64, (0.0, tips[0]), from);
-        for _ in 0..corners {
-            let corner: Point = self.curve(foot.piece).end().into();
-            let u = self.nearest(piece, begin.0, [begin.1, tips[1]], corner);
-            let next = (u, self.tip(piece, u));
-            let part = ([begin.0, u], [begin.1, next.1]);
-            bound = bound.max(self.of_part(piece, part, foot.piece, [foot.u, 1.0], 0));
-            (begin, foot) = (next, Foot { piece: foot.piece + 1, u: 0.0 });
-        }
-        let part = ([begin.0, 1.0], [begin.1, tips[1]]);
-        bound.max(self.of_part(piece, part, to.piece, [foot.u, to.u], 0))
+    /// Returns the place of the line for the next position of the tip, which is `step` metres away.
+    fn advance(&self, from: Foot, tip: Point, step: f64) -> Foot {
+        advance(self.line, self.tolerance, [from, self.ends[1]], tip, step)
     }
 
     /// Returns a share of a piece, from `least` on, at which the tip is near a corner. The tip is given there and at the
@@ -252,6 +295,10 @@ pub fn advance(line: &Line, tolerance: f64, [from, last]: [Foot; 2], tip: Point,
     let ahead = 2.0 * step + LOOKAHEAD_TOLERANCES * tolerance;
     while foot.piece < last.piece {
         let curve = line.curve(foot.piece);
+        // The chord is shorter than the rest of the curve, and quickly computed.
+        if (Point::from(curve.at(foot.u)) - Point::from(curve.end())).norm() > ahead {
+            break;
+        }
         let left = if foot.u >= 1.0 { 0.0 } else { curve.length() - curve.length_to(foot.u) };
         if left > ahead {
             break;

@@ -6,11 +6,12 @@
 #![forbid(unsafe_code)]
 
 mod deviation;
+mod free_space;
 mod kinematics;
 mod line;
 mod tool_angle;
 
-pub use deviation::{Deviation, Foot, advance, sag};
+pub use deviation::{Deviation, Foot, Pairing, advance, sag};
 pub use kinematics::{Kinematics, SolutionBox};
 pub use line::{Line, Place};
 pub use tool_angle::{ToolDeviation, is_sharp};

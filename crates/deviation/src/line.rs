@@ -38,13 +38,19 @@ impl<'a> Line<'a> {
     /// Measures the pieces of a line. It takes `O(n)` for `n` pieces.
     #[must_use]
     pub fn new(path: &'a Toolpath) -> Self {
+        Self::of(path.pieces())
+    }
+
+    /// Does the same as [`Line::new`] for pieces in order, at least one.
+    #[must_use]
+    pub fn of(pieces: &'a [Piece]) -> Self {
         let mut at = 0.0;
         let begin = |piece: &Piece| {
             let begin = at;
             at += piece.curve.length();
             begin
         };
-        Self { pieces: path.pieces(), begins: path.pieces().iter().map(begin).collect() }
+        Self { pieces, begins: pieces.iter().map(begin).collect() }
     }
 
     /// Returns the curve of a piece.

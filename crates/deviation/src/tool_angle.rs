@@ -1,6 +1,6 @@
 //! The proven difference between the angle of a tool and the one that is required along a line.
 //!
-//! A part of the motion belongs to a part of the line, in the order of both ([`Deviation::pairs`]). The angle of the tool
+//! A part of the motion belongs to a part of the line, in the order of both ([`Deviation::pairing`]). The angle of the tool
 //! is a polynomial in time, so its control points bound it on the part. The line's headings on its part are bounded, too
 //! ([`cplan_toolpath::Curve::headings`]). So however both parts are passed together, the difference is at most that between the ends of both
 //! bounds. A part whose bound is too large is halved. No sample counts by itself.
@@ -76,7 +76,7 @@ impl ToolDeviation<'_> {
         greatest: &mut [f64],
     ) {
         let first = stretch.start;
-        for pair in (Deviation { ends, ..self.deviation }).pairs(&pieces[stretch.clone()]).windows(2) {
+        for pair in (Deviation { ends, ..self.deviation }).pairing(&pieces[stretch.clone()]).pairs.windows(2) {
             let [(begin, from), (end, to)] = [pair[0], pair[1]];
             let own = (begin as usize).min(stretch.len() - 1);
             let shares = [begin, end].map(|moment| (moment - own as f64).clamp(0.0, 1.0));

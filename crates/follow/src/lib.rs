@@ -24,7 +24,8 @@
 //!
 //! # Method
 //!
-//! The line is divided into parts (`nodes`) so short that the tip stays near each part while the joints move straight
+//! Pieces far below the tolerance are merged for planning (`merge`); proofs and the final check of the distance are about
+//! the line as it is written. The line is divided into parts (`nodes`) so short that the tip stays near each part while the joints move straight
 //! from its beginning to its end. A search (`search`) chooses the IK solution on each part, and where to change it. The
 //! corners of the resulting path in joint space are blended, each as far as the tolerance allows (`motion`), and the crate
 //! `cplan-motion` times it. With limits on jerks, a smooth curve near the line replaces the blended path between two
@@ -41,6 +42,8 @@
 
 mod deviation;
 mod fixed_angle;
+mod follower;
+mod merge;
 mod motion;
 mod nodes;
 mod proof;
@@ -53,6 +56,7 @@ mod wrist;
 
 pub use cplan_deviation::Place;
 pub use cplan_handling::{DEFAULT_TOLERANCE, MIN_TOLERANCE};
+pub use follower::metres;
 pub use proof::{Cause, Exclusion, Infeasible, Obstacle};
 pub use proof_wrist::WristExcess;
 pub use wrist::WristAlong;
@@ -63,45 +67,13 @@ use cplan_deviation::{Kinematics, Line};
 use cplan_handling::{MAX_WRIST_TOLERANCE, MIN_WRIST_TOLERANCE, ToolAngle};
 use cplan_motion::{TimedMotion, TimingError};
 use cplan_toolpath::Toolpath;
-use motion::{Driver, Motion};
-use nodes::{Division, MAX_NODES, Nodes};
+use follower::Follower;
 use proof::Prover;
-use search::{Route, Search};
-use sheets::Sheets;
-use wrist::{OutOfRange, Turns};
-
-/// Share of the tolerance that the straight motions in joint space and the blends may use each. Their deviations have
-/// the same direction where the line is smooth, so they do not add up there.
-const INITIAL_SHARE: f64 = 0.7;
-
-/// Factor by which that share is lowered if the motion is not proven to be within the tolerance.
-const SHARE_FACTOR: f64 = 0.6;
-
-/// Number of shares that are tried.
-const ATTEMPTS: u32 = 5;
-
-/// Share of the tolerance up to which places out of reach are replaced by the nearest ones in reach.
-const SLACK_SHARE: f64 = 0.25;
-
-/// Factor by which the line is divided more finely for a proof, if the nodes of the search give no proof. The number of
-/// nodes grows with its root.
-const PROOF_FINENESS: f64 = 64.0;
-
-/// Number of parts of each piece for a proof, if that does not make too many. Long parts may be blocked in the middle.
-const PROOF_PARTS: usize = 64;
-
-/// Factor by which the tolerance is lowered if no motion is proven to be within it.
-const TOLERANCE_FACTOR: f64 = 0.1;
-
-/// Number of routes on which the wrist's range is tried.
-const WRIST_ROUTES: u32 = 8;
+use search::Search;
 
 /// Greatest turn of the line's direction between two nodes, as a multiple of the tool's tolerance. The tool turns evenly
 /// between them, so its angle deviates by far less.
 const TURN_TOLERANCES: f64 = 10.0;
-
-/// Greatest number of nodes before the line is divided more finely for a proof.
-const MAX_COARSE_NODES: usize = 20_000;
 
 /// Settings of a motion along a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -214,7 +186,7 @@ pub fn follow(scene: &Scene, path: &Toolpath, settings: &Settings) -> Result<Fol
     let (kinematics, line) = (Kinematics::new(scene.arm()), Line::new(path));
     let follower = Follower { scene, kinematics: &kinematics, line: &line, settings, ends: None };
     let prove = |prover: &Prover, _: &Search| prover.prove().or_else(|| follower.prove_finely(prover));
-    follower.run(&prove, &|infeasible| infeasible)
+    follower.run(&prove, &|infeasible| infeasible, &|text| format!("with `--tolerance {text}`"))
 }
 
 /// Returns a motion along a line from one configuration to another, up to whole turns of joints on circles. Both put the
@@ -237,135 +209,6 @@ pub fn follow_between(
         let whole = || prover.prove().or_else(|| follower.prove_finely(prover));
         between.or_else(|| whole().map(|infeasible| infeasible.describe()))
     };
-    follower.run(&prove, &|infeasible: Infeasible| infeasible.describe())
-}
-
-/// The input of a motion along a line.
-struct Follower<'a> {
-    scene: &'a Scene,
-    kinematics: &'a Kinematics<'a>,
-    line: &'a Line<'a>,
-    settings: &'a Settings,
-    ends: Option<[Configuration; 2]>,
-}
-
-impl Follower<'_> {
-    /// Searches for a motion, with smaller shares of the tolerance until the motion is proven to be within it. `prove`
-    /// searches for a proof if there is no sequence of IK solutions.
-    fn run<P>(
-        &self,
-        prove: &dyn Fn(&Prover, &Search) -> Option<P>,
-        proof: &dyn Fn(Infeasible) -> P,
-    ) -> Result<Outcome<Found, P>, FollowError> {
-        let Self { scene, kinematics, line, settings, ends } = *self;
-        let tolerance = settings.tolerance;
-        let is_smooth = scene.arm().joints.iter().any(|joint| joint.jerk.is_some());
-        let is_tangent = |wrist: WristAlong| matches!(wrist.guide.angle, ToolAngle::Tangent(_));
-        if is_smooth && settings.wrist.is_some_and(is_tangent) {
-            return Err(FollowError::TangentWithJerk);
-        }
-        let mut share = INITIAL_SHARE;
-        for attempt in 0..ATTEMPTS {
-            let division = Division {
-                deviation: share * tolerance,
-                slack: SLACK_SHARE * tolerance,
-                least_parts: 1,
-                turn: share * settings.greatest_turn(),
-            };
-            let Ok(nodes) = &Nodes::new(kinematics, line, division) else {
-                return Ok(Outcome::Unknown(format!(
-                    "the line needs more than {MAX_NODES} parts; split it, or raise the tolerance"
-                )));
-            };
-            if let Some(infeasible) = proof::out_of_reach(kinematics, nodes, tolerance) {
-                return Ok(Outcome::Infeasible(proof(infeasible)));
-            }
-            let sheets = Sheets::new(kinematics, nodes);
-            let mut search = Search::new(scene, (kinematics, line), nodes, &sheets, division, ends);
-            let (route, turns) = match self.route(&mut search, nodes) {
-                Ok(found) => found,
-                Err(out_of_range) => {
-                    let (inner, sheets) = (&*scene.inner(), &sheets);
-                    let prover =
-                        Prover { scene, inner, kinematics, line, nodes, sheets, tolerance, wrist: settings.wrist };
-                    if attempt == 0
-                        && let Some(proven) = prove(&prover, &search)
-                    {
-                        return Ok(Outcome::Infeasible(proven));
-                    }
-                    return Ok(Outcome::Unknown(match out_of_range {
-                        Some(place) => format!(
-                            "the wrist would leave its range at {place}; no other motion was found, and no proof"
-                        ),
-                        None => {
-                            let stuck = nodes.nodes[search.furthest.get()].place;
-                            format!("no free motion was found past {stuck}, and no proof")
-                        }
-                    }));
-                }
-            };
-            let driver = Driver { scene, kinematics, line, nodes, settings, blend: share * tolerance };
-            let Motion { timed, deviation, tool } = driver.motion(&route, turns.as_ref())?;
-            let keeps_angle = tool.zip(settings.wrist).is_none_or(|(off, wrist)| off <= wrist.guide.tolerance);
-            if deviation <= tolerance && keeps_angle {
-                let changes = route.changes.iter().map(|&w| nodes.nodes[route.nodes[w]].place).collect();
-                let waypoints = route.nodes.len();
-                return Ok(Outcome::Found(Found { timed, deviation, changes, waypoints, tool_deviation: tool }));
-            }
-            share *= SHARE_FACTOR;
-        }
-        // A motion within a smaller tolerance is one within this.
-        let smaller = Settings { tolerance: TOLERANCE_FACTOR * tolerance, ..*settings };
-        if smaller.tolerance >= MIN_TOLERANCE {
-            let finer = Follower { scene, kinematics, line, settings: &smaller, ends }
-                .run(&|_: &Prover, _: &Search| None::<P>, proof)?;
-            if matches!(finer, Outcome::Found(_)) {
-                return Ok(finer);
-            }
-        }
-        Ok(Outcome::Unknown(
-            "a motion was found, but not proven to be within the tolerance; try another tolerance".into(),
-        ))
-    }
-
-    /// Returns the cheapest certified route on which the wrist's joint stays within its range, with its values.
-    ///
-    /// # Errors
-    /// No such route was found. If the wrist is the reason: the first place where it would leave its range.
-    fn route(&self, search: &mut Search, nodes: &Nodes) -> Result<(Route, Option<Turns>), Option<Place>> {
-        let mut stuck = None;
-        for _ in 0..WRIST_ROUTES {
-            let Some(route) = search.route() else { break };
-            let Some(wrist) = self.settings.wrist else { return Ok((route, None)) };
-            match wrist.turns(self.scene.arm(), self.line, nodes, &route) {
-                Ok(turns) => return Ok((route, Some(turns))),
-                Err(OutOfRange { waypoint }) => {
-                    stuck = stuck.or(Some(nodes.nodes[route.nodes[waypoint]].place));
-                    if !search.close_before(&route, waypoint) {
-                        break;
-                    }
-                }
-            }
-        }
-        Err(stuck)
-    }
-
-    /// Searches for a proof at a finer division of the line.
-    fn prove_finely(&self, prover: &Prover) -> Option<Infeasible> {
-        if prover.nodes.nodes.len() > MAX_COARSE_NODES {
-            return None;
-        }
-        let tolerance = self.settings.tolerance;
-        let (deviation, slack) = (INITIAL_SHARE * tolerance / PROOF_FINENESS, SLACK_SHARE * tolerance);
-        let least_parts = (MAX_COARSE_NODES / self.line.pieces.len()).clamp(1, PROOF_PARTS) as u32;
-        let nodes = &Nodes::new(
-            self.kinematics,
-            self.line,
-            Division { deviation, slack, least_parts, turn: self.settings.greatest_turn() },
-        )
-        .ok()?;
-        let sheets = &Sheets::new(self.kinematics, nodes);
-        let finer = Prover { nodes, sheets, ..*prover };
-        proof::out_of_reach(self.kinematics, nodes, tolerance).or_else(|| finer.prove())
-    }
+    let option = |text: &str| format!("with `tolerance = \"{text}\"`");
+    follower.run(&prove, &|infeasible: Infeasible| infeasible.describe(), &option)
 }

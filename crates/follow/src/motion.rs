@@ -2,6 +2,7 @@
 
 use crate::deviation::{bounds, tool_bound};
 use crate::fixed_angle;
+use crate::merge::Merged;
 use crate::nodes::Nodes;
 use crate::search::Route;
 use crate::smooth::Stretch;
@@ -11,6 +12,7 @@ use cplan_core::check::{CertifiedPath, certify};
 use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, Path};
 use cplan_deviation::{Deviation, Foot, Kinematics, Line, ToolDeviation};
+use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
 use cplan_motion::{CurveDrive, TimedMotion, TipSpeed, WristLimit, along_curve, blend_up_to};
 
@@ -19,6 +21,9 @@ const REVERSAL_COSINE: f64 = -0.95;
 
 /// Cosine of the angle by which the tip may turn at a corner that a motion with limited jerk passes without a stop.
 const SMOOTH_CORNER_COSINE: f64 = 0.985;
+
+/// Share of the tolerance that a waypoint leaves over by which a blend may deviate from it.
+const BLEND_ROOM_SHARE: f64 = 0.7;
 
 /// Share of the tool's tolerance by which blends may change its angle.
 const BLEND_TOOL_SHARE: f64 = 0.2;
@@ -36,13 +41,19 @@ pub(crate) struct Motion {
     pub deviation: f64,
     /// Bound on the difference between the tool's angle and the required one, radians; `None` without a wrist.
     pub tool: Option<f64>,
+    /// Position of the tip where the first bound is greatest, metres.
+    pub farthest: Point,
 }
 
 /// The input of a motion.
 pub(crate) struct Driver<'a> {
     pub scene: &'a Scene,
     pub kinematics: &'a Kinematics<'a>,
+    /// The line as it is written.
+    pub written: &'a Line<'a>,
+    /// The line with its tiny pieces merged.
     pub line: &'a Line<'a>,
+    pub merged: &'a Merged,
     pub nodes: &'a Nodes,
     pub settings: &'a Settings,
     /// Greatest distance of a blend from its corner, for the tip, metres.
@@ -77,12 +88,15 @@ impl Driver<'_> {
     /// Returns a motion with proven bounds.
     fn judged(&self, route: &Route, timed: TimedMotion, is_smooth: bool) -> Motion {
         let deviation = self.deviation(route, [0, route.nodes.len() - 1]);
-        let greatest = bounds(&deviation, &timed.trajectory, is_smooth).into_iter().reduce(f64::max);
-        let bound = greatest.unwrap_or_else(|| deviation.at_rest(timed.curve.straight().path().start()));
+        let bounds = bounds(&deviation, &timed.trajectory, is_smooth).into_iter().enumerate();
+        let (piece, bound) = bounds
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .unwrap_or_else(|| (0, deviation.at_rest(timed.curve.straight().path().start())));
+        let farthest = self.kinematics.arm.tip_at(timed.trajectory.position[piece].into());
         let tool = self.settings.wrist.map(|WristAlong { guide, joint, .. }| {
             tool_bound(&ToolDeviation { deviation, guide }, &joint, &timed.trajectory, is_smooth)
         });
-        Motion { timed, deviation: bound, tool }
+        Motion { timed, deviation: bound, tool, farthest }
     }
 
     /// Returns the motion along a whole route with blends. Where the wrist turns at rest, the arm stops.
@@ -181,17 +195,17 @@ impl Driver<'_> {
     pub(crate) fn deviation(&self, route: &Route, waypoints: [usize; 2]) -> Deviation<'_> {
         let parts = &self.nodes.parts;
         let foot = |node: usize| match node.checked_sub(1) {
-            Some(part) => Foot { piece: parts[part].piece, u: parts[part].ends[1] },
+            Some(part) => self.merged.foot(Foot { piece: parts[part].piece, u: parts[part].ends[1] }),
             None => Foot { piece: 0, u: 0.0 },
         };
-        let last = route.nodes.len() - 1;
+        let (last, end) = (route.nodes.len() - 1, Foot { piece: self.written.pieces.len() - 1, u: 1.0 });
         // The first and the last waypoints stand for the ends of the line, even if the arm rests on a part of it.
         let ends = waypoints.map(|w| match w {
             0 => foot(0),
-            w if w == last => foot(self.nodes.nodes.len() - 1),
+            w if w == last => end,
             w => foot(route.nodes[w]),
         });
-        Deviation { kinematics: self.kinematics, line: self.line, tolerance: self.settings.tolerance, ends }
+        Deviation { kinematics: self.kinematics, line: self.written, tolerance: self.settings.tolerance, ends }
     }
 
     /// Returns the greatest speed of the tip on each leg, metres per second; infinite without a limit.
@@ -225,7 +239,9 @@ impl Driver<'_> {
         let tips = legs(q, w).map(|d| self.kinematics.velocity(q[w], d));
         // The middle of a blend is at a quarter of this times the radius from the corner.
         let off = (tips[1] - tips[0]).norm();
-        if off > 0.0 { 4.0 * self.blend / off } else { f64::INFINITY }
+        // Beside the reach of the arm, the waypoint itself is away from the line.
+        let room = self.blend.min(BLEND_ROOM_SHARE * (self.settings.tolerance - self.nodes.nodes[route.nodes[w]].off));
+        if off > 0.0 { 4.0 * room / off } else { f64::INFINITY }
     }
 
     /// Returns the greatest radius of the blend at a waypoint at which the tool keeps its angle.
@@ -261,8 +277,9 @@ impl Driver<'_> {
 
     /// Returns true if the tip stops at a node because a travel begins or ends there.
     fn is_stop(&self, node: usize) -> bool {
-        let is_travel = |part: usize| self.nodes.parts.get(part).map(|part| self.line.pieces[part.piece].is_travel);
-        node > 0 && is_travel(node - 1) != is_travel(node)
+        let piece = |part: usize| self.nodes.parts.get(part).map(|part| part.piece);
+        let ends = node.checked_sub(1).and_then(piece).zip(piece(node));
+        ends.is_some_and(|(before, after)| before != after && self.merged.stops[after])
     }
 }
 

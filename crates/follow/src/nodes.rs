@@ -61,9 +61,15 @@ pub(crate) struct Division {
 pub(crate) struct TooManyNodes;
 
 impl Nodes {
-    /// Divides a line.
-    pub fn new(kinematics: &Kinematics, line: &Line, division: Division) -> Result<Self, TooManyNodes> {
-        let mut divider = Divider { kinematics, line, division, nodes: Vec::new(), parts: Vec::new() };
+    /// Divides a line. With `joints`, the motion begins, passes from each piece to the next one, and ends at these points,
+    /// which may differ from the ends of the pieces.
+    pub fn new(
+        kinematics: &Kinematics,
+        line: &Line,
+        joints: Option<&[Point]>,
+        division: Division,
+    ) -> Result<Self, TooManyNodes> {
+        let mut divider = Divider { kinematics, line, joints, division, nodes: Vec::new(), parts: Vec::new() };
         for (piece, own) in line.pieces.iter().enumerate() {
             if piece == 0 {
                 divider.push(0, 0.0);
@@ -84,6 +90,7 @@ impl Nodes {
 struct Divider<'a, 'l> {
     kinematics: &'a Kinematics<'a>,
     line: &'a Line<'l>,
+    joints: Option<&'a [Point]>,
     division: Division,
     nodes: Vec<Node>,
     parts: Vec<Part>,
@@ -92,11 +99,28 @@ struct Divider<'a, 'l> {
 impl Divider<'_, '_> {
     fn node(&self, piece: usize, u: f64) -> Node {
         let place = self.line.place(piece, u);
-        let target = self.kinematics.reachable(place.point, self.division.slack);
+        let joint = self.joint(piece, u);
+        let target = self.kinematics.reachable(joint.unwrap_or(place.point), self.division.slack);
         let solutions = target.and_then(|target| self.kinematics.solutions(target));
-        let far = |q: &Configuration| (self.kinematics.arm.tip_at(*q) - place.point).norm();
+        // At a joint, the end of the piece before and the beginning of the piece after it may differ.
+        let next = if joint.is_some() { piece + usize::from(u > 0.0) } else { piece };
+        let other = self.line.pieces.get(next).filter(|_| next > piece).map_or(place.point, |p| p.curve.start().into());
+        let far = |q: &Configuration| {
+            let tip = self.kinematics.arm.tip_at(*q);
+            (tip - place.point).norm().max((tip - other).norm())
+        };
         let off = solutions.iter().flatten().map(far).fold(0.0, f64::max);
         Node { place, solutions, off, is_continued: false }
+    }
+
+    /// Returns the point at which the motion passes an end of a piece.
+    fn joint(&self, piece: usize, u: f64) -> Option<Point> {
+        let joint = match u {
+            0.0 => piece,
+            1.0 => piece + 1,
+            _ => return None,
+        };
+        Some(self.joints?[joint])
     }
 
     fn push(&mut self, piece: usize, u: f64) {

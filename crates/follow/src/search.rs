@@ -98,6 +98,11 @@ impl<'a> Search<'a> {
         Some([self.sheets.at(part, sheet)?, self.sheets.at(part + 1, sheet)?])
     }
 
+    /// Returns true if the motion can begin with some sheet.
+    pub fn has_begun(&self) -> bool {
+        (0..self.count()).any(|sheet| self.is_end(0, sheet))
+    }
+
     /// Returns true if the motion may begin (0) or end (1) with a sheet.
     pub fn is_end(&self, end: usize, sheet: usize) -> bool {
         let node = if end == 0 { 0 } else { self.nodes.nodes.len() - 1 };

@@ -9,10 +9,11 @@
 //! too early, and finds everything after it too far. Denser control points do not help. A curve within a small share of
 //! the tolerance does, because the check turns to the way back only if it is nearer by such a share.
 
+use crate::follower::SLACK_SHARE;
 use crate::motion::Driver;
 use crate::search::Route;
 use crate::spacing::Spacing;
-use crate::{FollowError, MIN_TOLERANCE, SLACK_SHARE};
+use crate::{FollowError, MIN_TOLERANCE};
 use cplan_core::check::CertifiedPath;
 use cplan_core::space::{Configuration, JointRange};
 use cplan_handling::Piece;

@@ -165,15 +165,27 @@ impl Curve {
     /// Finds the first place from `least` on where the distance stops falling, and refines it by golden sections.
     fn nearest_ahead(&self, point: Point, least: f64) -> f64 {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let far = |u: f64| norm(minus(self.at(u), point));
+        let far = |u: f64| {
+            let off = minus(self.at(u), point);
+            dot(off, off)
+        };
         let (mut low, mut middle) = (least, least);
         let mut high = (middle + NEAREST_STEP).min(1.0);
         while far(high) < far(middle) && high < 1.0 {
             (low, middle, high) = (middle, high, (high + NEAREST_STEP).min(1.0));
         }
+        let [mut a, mut b] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+        let [mut at_a, mut at_b] = [far(a), far(b)];
         for _ in 0..NEAREST_STEPS {
-            let [a, b] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-            if far(a) <= far(b) { high = b } else { low = a }
+            if at_a <= at_b {
+                (high, b, at_b) = (b, a, at_a);
+                a = high - GOLDEN * (high - low);
+                at_a = far(a);
+            } else {
+                (low, a, at_a) = (a, b, at_b);
+                b = low + GOLDEN * (high - low);
+                at_b = far(b);
+            }
         }
         [low, high, (low + high) / 2.0].into_iter().min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(middle)
     }

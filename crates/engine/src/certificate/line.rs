@@ -151,7 +151,7 @@ fn places(arm: &Arm, line: &Toolpath, tolerance: f64, motion: &[Piece]) -> Vec<[
     let ends = [Foot { piece: 0, u: 0.0 }, last];
     let (kinematics, line) = (Kinematics::new(arm), Line::new(line));
     let deviation = Deviation { kinematics: &kinematics, line: &line, tolerance, ends };
-    deviation.pairs(motion).into_iter().map(|(moment, foot)| [moment, foot.piece as f64 + foot.u]).collect()
+    deviation.pairing(motion).pairs.into_iter().map(|(moment, foot)| [moment, foot.piece as f64 + foot.u]).collect()
 }
 
 /// Returns the pieces of a motion between two samples; a piece at rest if both are the same.

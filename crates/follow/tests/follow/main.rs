@@ -4,6 +4,7 @@ mod gantry;
 mod oracle;
 mod random;
 mod smooth;
+mod tiny;
 mod wrist;
 
 use cplan_core::model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};

@@ -1,0 +1,300 @@
+//! The sequence of attempts to follow a line.
+
+use crate::merge::{Merged, Merging};
+use crate::motion::{Driver, Motion};
+use crate::nodes::{Division, MAX_NODES, Nodes};
+use crate::proof::{self, Infeasible, Prover};
+use crate::search::{Route, Search};
+use crate::sheets::Sheets;
+use crate::wrist::{OutOfRange, Turns, WristAlong};
+use crate::{FollowError, Found, MIN_TOLERANCE, Settings};
+use cplan_core::model::{Outcome, Scene};
+use cplan_core::space::Configuration;
+use cplan_deviation::{Kinematics, Line, Place};
+use cplan_geometry::Point;
+use cplan_handling::ToolAngle;
+use cplan_text::{Unit, UnknownUnit, chosen_length, length};
+
+/// Shares of the tolerance that the straight motions in joint space and the blends may use each, in the order in which they
+/// are tried until the motion is proven to be within the tolerance. Their deviations have the same direction where the line
+/// is smooth, so they do not add up there.
+const SHARES: [f64; 3] = [0.7, 0.28, 0.11];
+
+/// Share of the tolerance up to which places out of reach are replaced by the nearest ones in reach.
+pub(crate) const SLACK_SHARE: f64 = 0.25;
+
+/// Shares of the tolerance for lines with places that are farther out of reach: for the motions between nodes, and for the
+/// distance of these places from the reach.
+const OUTER_SHARES: [[f64; 2]; 2] = [[0.97, 0.9], [0.999, 0.995]];
+
+/// Share of the tolerance up to which the length of a piece is tiny, and from which merged pieces may deviate.
+const MERGED_SHARE: f64 = 0.1;
+
+/// Greatest change of a heading by merging, as a share of the tolerance of the tool's angle.
+const MERGED_TURN_SHARE: f64 = 0.1;
+
+/// Factor by which the line is divided more finely for a proof, if the nodes of the search give no proof. The number of
+/// nodes grows with its root.
+const PROOF_FINENESS: f64 = 64.0;
+
+/// Number of parts of each piece for a proof, if that does not make too many. Long parts may be blocked in the middle.
+const PROOF_PARTS: usize = 64;
+
+/// Factor by which the tolerance is lowered if no motion is proven to be within it.
+const TOLERANCE_FACTOR: f64 = 0.1;
+
+/// Factors of the tolerance that are tried for the hint, if the line cannot be followed within it.
+const WIDER_FACTORS: [f64; 3] = [2.0, 5.0, 20.0];
+
+/// Number of routes on which the wrist's range is tried.
+const WRIST_ROUTES: u32 = 8;
+
+/// Greatest number of nodes before the line is divided more finely for a proof.
+const MAX_COARSE_NODES: usize = 20_000;
+
+/// The input of a motion along a line.
+#[derive(Clone, Copy)]
+pub(crate) struct Follower<'a> {
+    pub scene: &'a Scene,
+    pub kinematics: &'a Kinematics<'a>,
+    /// The line as it is written.
+    pub line: &'a Line<'a>,
+    pub settings: &'a Settings,
+    /// The configurations in which the motion begins and ends. With `None`, any IK solutions will do.
+    pub ends: Option<[Configuration; 2]>,
+}
+
+/// The result of one attempt.
+enum Attempt {
+    Found(Found),
+    /// A motion that is not proven to be within the tolerance: the position of the tip where the bound is greatest.
+    TooFar(Point),
+    NoRoute(Stuck),
+    TooLong,
+}
+
+/// The place that no route passes.
+struct Stuck {
+    place: Place,
+    /// True if the range of the wrist is the reason.
+    is_wrist: bool,
+    /// Distance of the place from the reach of the tip, metres; 0 if it is within reach.
+    out_of_reach: f64,
+}
+
+impl Follower<'_> {
+    /// Searches for a motion, with smaller shares of the tolerance until the motion is proven to be within it. `prove`
+    /// searches for a proof if there is no sequence of IK solutions. `option` returns the words that advise a tolerance.
+    pub fn run<P>(
+        &self,
+        prove: &dyn Fn(&Prover, &Search) -> Option<P>,
+        proof: &dyn Fn(Infeasible) -> P,
+        option: &dyn Fn(&str) -> String,
+    ) -> Result<Outcome<Found, P>, FollowError> {
+        let is_smooth = self.scene.arm().joints.iter().any(|joint| joint.jerk.is_some());
+        let is_tangent = |wrist: WristAlong| matches!(wrist.guide.angle, ToolAngle::Tangent(_));
+        if is_smooth && self.settings.wrist.is_some_and(is_tangent) {
+            return Err(FollowError::TangentWithJerk);
+        }
+        let mut farthest = None;
+        for share in SHARES {
+            match self.attempt(self.division(share))? {
+                Attempt::Found(found) => return Ok(Outcome::Found(found)),
+                Attempt::TooFar(tip) => farthest = farthest.or(Some(tip)),
+                Attempt::NoRoute(stuck) if farthest.is_none() => return self.without_route(stuck, prove, proof),
+                Attempt::NoRoute(_) => break,
+                Attempt::TooLong => {
+                    let why = format!("the line needs more than {MAX_NODES} parts; split it, or raise the tolerance");
+                    return Ok(Outcome::Unknown(why));
+                }
+            }
+        }
+        if let Some(found) = self.within_less()? {
+            return Ok(Outcome::Found(found));
+        }
+        let [x, y] = farthest.map_or([0.0; 2], |tip| [1e3 * tip.x, 1e3 * tip.y]);
+        let within = length(self.settings.tolerance);
+        let failed = format!("the motion near ({x:.1}, {y:.1}) mm is not proven to stay within {within} of the line");
+        Ok(Outcome::Unknown(match self.wider_tolerance()? {
+            Some(text) => format!("{failed}; {} it is", option(&text)),
+            None => failed,
+        }))
+    }
+
+    /// Returns the division of the line for a share of the tolerance.
+    fn division(&self, share: f64) -> Division {
+        let tolerance = self.settings.tolerance;
+        let turn = share * self.settings.greatest_turn();
+        Division { deviation: share * tolerance, slack: SLACK_SHARE * tolerance, least_parts: 1, turn }
+    }
+
+    /// Returns a motion within a smaller tolerance, which is one within the given tolerance.
+    fn within_less(&self) -> Result<Option<Found>, FollowError> {
+        let smaller = Settings { tolerance: TOLERANCE_FACTOR * self.settings.tolerance, ..*self.settings };
+        if smaller.tolerance < MIN_TOLERANCE {
+            return Ok(None);
+        }
+        let finer = Follower { settings: &smaller, ..*self };
+        match finer.attempt(finer.division(SHARES[0]))? {
+            Attempt::Found(found) => Ok(Some(found)),
+            Attempt::TooFar(_) => finer.within_less(),
+            Attempt::NoRoute(_) | Attempt::TooLong => Ok(None),
+        }
+    }
+
+    /// Returns a greater tolerance, as text with its unit, within which a motion is found.
+    fn wider_tolerance(&self) -> Result<Option<String>, FollowError> {
+        for factor in WIDER_FACTORS {
+            let text = chosen_length(factor * self.settings.tolerance).replace(' ', "");
+            let Ok(tolerance) = metres(&text) else { continue };
+            let wider = Settings { tolerance, ..*self.settings };
+            let wider = Follower { settings: &wider, ..*self };
+            if let Attempt::Found(_) = wider.attempt(wider.division(SHARES[0]))? {
+                return Ok(Some(text));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Plans and judges one motion.
+    fn attempt(&self, division: Division) -> Result<Attempt, FollowError> {
+        let Self { scene, kinematics, line: written, settings, ends } = *self;
+        let tolerance = settings.tolerance;
+        let turn = match settings.wrist.map(|wrist| wrist.guide) {
+            Some(guide) if matches!(guide.angle, ToolAngle::Tangent(_)) => MERGED_TURN_SHARE * guide.tolerance,
+            _ => f64::INFINITY,
+        };
+        let size = MERGED_SHARE * (tolerance - division.slack).min(division.deviation);
+        let merged = &Merged::new(written, Merging { size, turn });
+        let line = &Line::of(&merged.pieces);
+        let Ok(nodes) = &Nodes::new(kinematics, line, Some(&merged.joints), division) else {
+            return Ok(Attempt::TooLong);
+        };
+        let sheets = Sheets::new(kinematics, nodes);
+        let mut search = Search::new(scene, (kinematics, line), nodes, &sheets, division, ends);
+        let (route, turns) = match self.route(&mut search, (line, nodes)) {
+            Ok(found) => found,
+            Err(out_of_range) => {
+                // The search knows the last node that it reached; the one after it is the obstacle.
+                let next = (search.furthest.get() + usize::from(search.has_begun())).min(nodes.nodes.len() - 1);
+                let place = merged.place(written, &out_of_range.unwrap_or(nodes.nodes[next].place));
+                let out_of_reach = kinematics.distance_out_of_reach(place.point).max(0.0);
+                return Ok(Attempt::NoRoute(Stuck { place, is_wrist: out_of_range.is_some(), out_of_reach }));
+            }
+        };
+        let driver = Driver { scene, kinematics, written, line, merged, nodes, settings, blend: division.deviation };
+        let Motion { timed, deviation, tool, farthest } = driver.motion(&route, turns.as_ref())?;
+        let keeps_angle = tool.zip(settings.wrist).is_none_or(|(off, wrist)| off <= wrist.guide.tolerance);
+        if deviation > tolerance || !keeps_angle {
+            return Ok(Attempt::TooFar(farthest));
+        }
+        let place = |w: &usize| merged.place(written, &nodes.nodes[route.nodes[*w]].place);
+        let (changes, waypoints) = (route.changes.iter().map(place).collect(), route.nodes.len());
+        Ok(Attempt::Found(Found { timed, deviation, changes, waypoints, tool_deviation: tool }))
+    }
+
+    /// Returns the answer if no route passes a place: a motion beside the reach of the arm, a proof, or the reason.
+    fn without_route<P>(
+        &self,
+        stuck: Stuck,
+        prove: &dyn Fn(&Prover, &Search) -> Option<P>,
+        proof: &dyn Fn(Infeasible) -> P,
+    ) -> Result<Outcome<Found, P>, FollowError> {
+        let Self { scene, kinematics, line, settings, ends } = *self;
+        let (tolerance, division) = (settings.tolerance, self.division(SHARES[0]));
+        let Ok(nodes) = &Nodes::new(kinematics, line, None, division) else {
+            return Ok(Outcome::Unknown(stuck.describe(tolerance)));
+        };
+        if let Some(infeasible) = proof::out_of_reach(kinematics, nodes, tolerance) {
+            return Ok(Outcome::Infeasible(proof(infeasible)));
+        }
+        let mut last = stuck;
+        for [deviation, slack] in OUTER_SHARES.map(|shares| shares.map(|share| share * tolerance)) {
+            if last.out_of_reach <= SLACK_SHARE * tolerance {
+                break;
+            }
+            match self.attempt(Division { deviation, slack, ..division })? {
+                Attempt::Found(found) => return Ok(Outcome::Found(found)),
+                Attempt::NoRoute(stuck) => last = stuck,
+                Attempt::TooFar(_) | Attempt::TooLong => {}
+            }
+        }
+        let (inner, sheets) = (&*scene.inner(), &Sheets::new(kinematics, nodes));
+        let search = Search::new(scene, (kinematics, line), nodes, sheets, division, ends);
+        let prover = Prover { scene, inner, kinematics, line, nodes, sheets, tolerance, wrist: settings.wrist };
+        Ok(match prove(&prover, &search) {
+            Some(proven) => Outcome::Infeasible(proven),
+            None => Outcome::Unknown(last.describe(tolerance)),
+        })
+    }
+
+    /// Returns the cheapest certified route on which the wrist's joint stays within its range, with its values.
+    ///
+    /// # Errors
+    /// No such route was found. If the wrist is the reason: the first place where it would leave its range.
+    fn route(
+        &self,
+        search: &mut Search,
+        (line, nodes): (&Line, &Nodes),
+    ) -> Result<(Route, Option<Turns>), Option<Place>> {
+        let mut stuck = None;
+        for _ in 0..WRIST_ROUTES {
+            let Some(route) = search.route() else { break };
+            let Some(wrist) = self.settings.wrist else { return Ok((route, None)) };
+            match wrist.turns(self.scene.arm(), line, nodes, &route) {
+                Ok(turns) => return Ok((route, Some(turns))),
+                Err(OutOfRange { waypoint }) => {
+                    stuck = stuck.or(Some(nodes.nodes[route.nodes[waypoint]].place));
+                    if !search.close_before(&route, waypoint) {
+                        break;
+                    }
+                }
+            }
+        }
+        Err(stuck)
+    }
+
+    /// Searches for a proof at a finer division of the line.
+    pub fn prove_finely(&self, prover: &Prover) -> Option<Infeasible> {
+        if prover.nodes.nodes.len() > MAX_COARSE_NODES {
+            return None;
+        }
+        let division = self.division(SHARES[0]);
+        let least_parts = (MAX_COARSE_NODES / self.line.pieces.len()).clamp(1, PROOF_PARTS) as u32;
+        let turn = self.settings.greatest_turn();
+        let finer = Division { deviation: division.deviation / PROOF_FINENESS, least_parts, turn, ..division };
+        let nodes = &Nodes::new(self.kinematics, self.line, None, finer).ok()?;
+        let sheets = &Sheets::new(self.kinematics, nodes);
+        let finer = Prover { nodes, sheets, ..*prover };
+        proof::out_of_reach(self.kinematics, nodes, self.settings.tolerance).or_else(|| finer.prove())
+    }
+}
+
+/// Parses a length: a number of metres, or a number with its unit, such as `0.05mm`.
+///
+/// # Errors
+/// Text that is neither.
+pub fn metres(text: &str) -> Result<f64, String> {
+    let (number, unit) = text.split_at(text.trim_end_matches(|c: char| c.is_ascii_alphabetic()).len());
+    let unit =
+        if unit.is_empty() { Unit::METER } else { unit.parse().map_err(|error: UnknownUnit| error.to_string())? };
+    let number: f64 =
+        number.trim_end().parse().map_err(|_| "must be a number of metres, or a length such as 0.05mm")?;
+    Ok(number * unit.metres())
+}
+
+impl Stuck {
+    fn describe(&self, tolerance: f64) -> String {
+        let place = self.place;
+        if self.is_wrist {
+            return format!("the wrist would leave its range at {place}; no other motion was found, and no proof");
+        }
+        if self.out_of_reach > 0.0 {
+            let [by, within] = [self.out_of_reach, tolerance].map(length);
+            return format!(
+                "{place} is {by} out of reach; no motion within {within} of it was found, and no proof that there is none"
+            );
+        }
+        format!("no free motion was found past {place}, and no proof")
+    }
+}
