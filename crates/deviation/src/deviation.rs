@@ -30,6 +30,12 @@ const FINEST_SHARE: f64 = 1.0 / 32.0;
 /// Greatest number of parts of a curve of the line in the diagram.
 const MAX_PARTS: f64 = 4096.0;
 
+/// Share of the tolerance up to which the moment of a place in the diagram is sought, along the motion.
+const MOMENT_SHARE: f64 = 1e-3;
+
+/// Greatest number of steps of this search.
+const MOMENT_STEPS: u32 = 40;
+
 /// Number of times that a piece of the motion is halved for the diagram.
 const MAX_PART_HALVINGS: u32 = 8;
 
@@ -88,10 +94,38 @@ impl Deviation<'_> {
         if advanced.bounds.iter().all(|bound| *bound <= self.tolerance) {
             return advanced;
         }
-        match self.free_space(pieces).pairs() {
-            Ok(pairs) => self.with_bounds(pieces, pairs),
-            Err(_) => advanced,
+        let space = self.free_space(pieces);
+        let Ok(places) = space.pairs() else { return advanced };
+        let mut latest = 0.0_f64;
+        let pairs = places.into_iter().map(|(part, share, foot)| {
+            let part = &space.motion[part];
+            latest = latest.max(part.piece as f64 + self.moment(&pieces[part.piece], part, share));
+            (latest, foot)
+        });
+        self.with_bounds(pieces, pairs.collect())
+    }
+
+    /// Returns the share of a piece of the motion at which the tip has covered a share of the chord of one of its parts.
+    fn moment(&self, piece: &Piece, part: &Part, share: f64) -> f64 {
+        let Part { shares, ends: [a, b], .. } = *part;
+        let (along, square) = (b - a, (b - a).norm_squared());
+        if share <= 0.0 || share >= 1.0 || square <= 0.0 {
+            return if share >= 1.0 { shares[1] } else { shares[0] };
         }
+        let finest = MOMENT_SHARE * self.tolerance / square.sqrt();
+        let [mut low, mut high] = [(shares[0], -share), (shares[1], 1.0 - share)];
+        let mut u = shares[0];
+        for step in 0..MOMENT_STEPS {
+            // Straight interpolation and halving take turns, so that the search ends soon in any case.
+            let part = if step % 2 == 0 { -low.1 / (high.1 - low.1) } else { 0.5 };
+            u = low.0 + part * (high.0 - low.0);
+            let ahead = (self.tip(piece, u) - a).dot(&along) / square - share;
+            if ahead.abs() <= finest {
+                break;
+            }
+            *(if ahead < 0.0 { &mut low } else { &mut high }) = (u, ahead);
+        }
+        u
     }
 
     /// Returns an upper bound on the distance between the line and each piece of a motion, metres: those of
@@ -317,5 +351,5 @@ pub fn advance(line: &Line, tolerance: f64, [from, last]: [Foot; 2], tip: Point,
 /// Returns a bound on the distance of a part of a curve from its chord, at equal shares of the parameter, metres.
 #[must_use]
 pub fn sag(curve: &Curve, [from, to]: [f64; 2]) -> f64 {
-    curve.bend() * (to - from) * (to - from) / 8.0
+    curve.bend_between([from, to]) * (to - from) * (to - from) / 8.0
 }

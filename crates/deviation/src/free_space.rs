@@ -46,20 +46,19 @@ pub(crate) struct FreeSpace {
 }
 
 impl FreeSpace {
-    /// Returns moments of the motion, each with a place on the line, from the beginning to the end of both. They include
-    /// the ends of all parts. A moment is a piece plus the share of its duration. If there are none, returns the index of
+    /// Returns places of the motion, each with a place on the line, from the beginning to the end of both. They include the
+    /// ends of all parts. A place of the motion is a part and a share of its chord. If there are none, returns the index of
     /// the part of the motion after which no place of the line is near enough. It takes `O(n k)` for `n` parts of the
     /// motion with `k` parts of the line near each of them.
-    pub fn pairs(&self) -> Result<Vec<(f64, Foot)>, usize> {
+    pub fn pairs(&self) -> Result<Vec<(usize, f64, Foot)>, usize> {
         let (begins, reached) = self.reached()?;
         let mut pairs = Vec::with_capacity(self.motion.len() + self.line.len() + 1);
         let (mut part, mut share) = (self.line.len() - 1, 1.0);
-        pairs.push(((self.motion[self.motion.len() - 1].piece + 1) as f64, self.foot(part, share)));
+        pairs.push((self.motion.len() - 1, 1.0, self.foot(part, share)));
         for row in (0..self.motion.len()).rev() {
             let before = &reached[begins[row]..begins[row + 1]];
             (part, share) = self.step_back(row, before, (part, share), &mut pairs).ok_or(row)?;
-            let Part { piece, shares, .. } = &self.motion[row];
-            pairs.push((*piece as f64 + shares[0], self.foot(part, share)));
+            pairs.push((row, 0.0, self.foot(part, share)));
         }
         pairs.reverse();
         Ok(pairs)
@@ -120,7 +119,7 @@ impl FreeSpace {
         row: usize,
         before: &[Reached],
         (last, share): (usize, f64),
-        pairs: &mut Vec<(f64, Foot)>,
+        pairs: &mut Vec<(usize, f64, Foot)>,
     ) -> Option<(usize, f64)> {
         let own = &self.motion[row];
         let mut best: Option<(f64, usize, f64)> = None;
@@ -148,17 +147,13 @@ impl FreeSpace {
             part -= 1;
         }
         let (_, first, share) = best?;
-        let mut least = 0.0_f64;
-        let mut moments = Vec::with_capacity(last - first);
+        let (mut least, begin) = (0.0_f64, pairs.len());
         for part in first..last {
             let Interval { low, high } = passed[last - part - 1];
             least = projected(own.ends, self.line[part].ends[1]).clamp(least.max(low).min(high), high);
-            moments.push((
-                own.piece as f64 + own.shares[0] + least * (own.shares[1] - own.shares[0]),
-                self.foot(part, 1.0),
-            ));
+            pairs.push((row, least, self.foot(part, 1.0)));
         }
-        pairs.extend(moments.into_iter().rev());
+        pairs[begin..].reverse();
         Some((first, share))
     }
 
