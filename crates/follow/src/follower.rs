@@ -67,10 +67,18 @@ pub(crate) struct Follower<'a> {
 /// The result of one attempt.
 enum Attempt {
     Found(Found),
-    /// A motion that is not proven to be within the tolerance: the position of the tip where the bound is greatest.
-    TooFar(Point),
+    /// A motion that is not proven to be within the tolerance.
+    TooFar(Excess),
     NoRoute(Stuck),
     TooLong,
+}
+
+/// The reason why a motion is not proven to be within the tolerance.
+enum Excess {
+    /// The tip may be too far from the line: its position where the bound is greatest.
+    Tip(Point),
+    /// The angle of the tool may be wrong.
+    Tool,
 }
 
 /// The place that no route passes.
@@ -89,7 +97,7 @@ impl Follower<'_> {
         &self,
         prove: &dyn Fn(&Prover, &Search) -> Option<P>,
         proof: &dyn Fn(Infeasible) -> P,
-        option: &dyn Fn(&str) -> String,
+        option: &dyn Fn(&str, f64) -> String,
     ) -> Result<Outcome<Found, P>, FollowError> {
         let is_smooth = self.scene.arm().joints.iter().any(|joint| joint.jerk.is_some());
         let is_tangent = |wrist: WristAlong| matches!(wrist.guide.angle, ToolAngle::Tangent(_));
@@ -100,25 +108,39 @@ impl Follower<'_> {
         for share in SHARES {
             match self.attempt(self.division(share))? {
                 Attempt::Found(found) => return Ok(Outcome::Found(found)),
-                Attempt::TooFar(tip) => farthest = farthest.or(Some(tip)),
-                Attempt::NoRoute(stuck) if farthest.is_none() => return self.without_route(stuck, prove, proof),
+                Attempt::TooFar(excess) => farthest = farthest.or(Some(excess)),
+                Attempt::NoRoute(stuck) if farthest.is_none() => {
+                    return Ok(match self.without_route(stuck, prove, proof)? {
+                        Outcome::Unknown(why) => Outcome::Unknown(self.advised(why, option)?),
+                        known => known,
+                    });
+                }
                 Attempt::NoRoute(_) => break,
                 Attempt::TooLong => {
-                    let why = format!("the line needs more than {MAX_NODES} parts; split it, or raise the tolerance");
-                    return Ok(Outcome::Unknown(why));
+                    let why = format!("the line needs more than {MAX_NODES} parts; split it");
+                    return Ok(Outcome::Unknown(self.advised(why, option)?));
                 }
             }
         }
         if let Some(found) = self.within_less()? {
             return Ok(Outcome::Found(found));
         }
-        let [x, y] = farthest.map_or([0.0; 2], |tip| [1e3 * tip.x, 1e3 * tip.y]);
-        let within = length(self.settings.tolerance);
-        let failed = format!("the motion near ({x:.1}, {y:.1}) mm is not proven to stay within {within} of the line");
-        Ok(Outcome::Unknown(match self.wider_tolerance()? {
-            Some(text) => format!("{failed}; {} it is", option(&text)),
-            None => failed,
-        }))
+        let why = match farthest {
+            Some(Excess::Tip(tip)) => {
+                let ([x, y], within) = ([1e3 * tip.x, 1e3 * tip.y], length(self.settings.tolerance));
+                format!("the motion near ({x:.1}, {y:.1}) mm is not proven to stay within {within} of the line")
+            }
+            _ => "the tool is not proven to keep its angle along the line".into(),
+        };
+        Ok(Outcome::Unknown(self.advised(why, option)?))
+    }
+
+    /// Returns the reason of an unknown answer with the advice to use a greater tolerance, if a motion is found within it.
+    fn advised(&self, why: String, option: &dyn Fn(&str, f64) -> String) -> Result<String, FollowError> {
+        Ok(match self.wider_tolerance()? {
+            Some((text, tolerance)) => format!("{why}; with {} a motion is found", option(&text, tolerance)),
+            None => why,
+        })
     }
 
     /// Returns the division of the line for a share of the tolerance.
@@ -142,15 +164,15 @@ impl Follower<'_> {
         }
     }
 
-    /// Returns a greater tolerance, as text with its unit, within which a motion is found.
-    fn wider_tolerance(&self) -> Result<Option<String>, FollowError> {
+    /// Returns a greater tolerance within which a motion is found, as text with its unit and in metres.
+    fn wider_tolerance(&self) -> Result<Option<(String, f64)>, FollowError> {
         for factor in WIDER_FACTORS {
             let text = chosen_length(factor * self.settings.tolerance).replace(' ', "");
             let Ok(tolerance) = metres(&text) else { continue };
             let wider = Settings { tolerance, ..*self.settings };
             let wider = Follower { settings: &wider, ..*self };
             if let Attempt::Found(_) = wider.attempt(wider.division(SHARES[0]))? {
-                return Ok(Some(text));
+                return Ok(Some((text, tolerance)));
             }
         }
         Ok(None)
@@ -186,7 +208,7 @@ impl Follower<'_> {
         let Motion { timed, deviation, tool, farthest } = driver.motion(&route, turns.as_ref())?;
         let keeps_angle = tool.zip(settings.wrist).is_none_or(|(off, wrist)| off <= wrist.guide.tolerance);
         if deviation > tolerance || !keeps_angle {
-            return Ok(Attempt::TooFar(farthest));
+            return Ok(Attempt::TooFar(if deviation > tolerance { Excess::Tip(farthest) } else { Excess::Tool }));
         }
         let place = |w: &usize| merged.place(written, &nodes.nodes[route.nodes[*w]].place);
         let (changes, waypoints) = (route.changes.iter().map(place).collect(), route.nodes.len());

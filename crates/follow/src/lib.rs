@@ -186,7 +186,7 @@ pub fn follow(scene: &Scene, path: &Toolpath, settings: &Settings) -> Result<Fol
     let (kinematics, line) = (Kinematics::new(scene.arm()), Line::new(path));
     let follower = Follower { scene, kinematics: &kinematics, line: &line, settings, ends: None };
     let prove = |prover: &Prover, _: &Search| prover.prove().or_else(|| follower.prove_finely(prover));
-    follower.run(&prove, &|infeasible| infeasible, &|text| format!("with `--tolerance {text}`"))
+    follower.run(&prove, &|infeasible| infeasible, &|text, _| format!("`--tolerance {text}`"))
 }
 
 /// Returns a motion along a line from one configuration to another, up to whole turns of joints on circles. Both put the
@@ -209,6 +209,6 @@ pub fn follow_between(
         let whole = || prover.prove().or_else(|| follower.prove_finely(prover));
         between.or_else(|| whole().map(|infeasible| infeasible.describe()))
     };
-    let option = |text: &str| format!("with `tolerance = \"{text}\"`");
+    let option = |_: &str, tolerance: f64| format!("`tolerance = {tolerance}`");
     follower.run(&prove, &|infeasible: Infeasible| infeasible.describe(), &option)
 }

@@ -6,9 +6,9 @@ use crate::cli::headings::OUTPUT;
 use crate::cli::print_args::PrintArgs;
 use crate::cli::theme::ThemeArgs;
 use crate::cli::values::{clearance, displacement, turn};
-use crate::grammar::{number_in, positive};
+use crate::grammar::positive;
 use clap::{Args, ValueHint};
-use cplan_follow::{MIN_TOLERANCE, Settings};
+use cplan_follow::{MIN_TOLERANCE, Settings, metres};
 use cplan_handling::ToolAngle;
 use cplan_toolpath::Placement;
 use cplan_toolpath::Unit;
@@ -39,8 +39,9 @@ pub struct FollowArgs {
     /// Line: G-code (.gcode, .nc, .ngc, .tap), a drawing (.svg), or the keys of a step's `follow` (.toml).
     #[arg(value_name = "PATH", value_hint = ValueHint::FilePath)]
     pub path: PathBuf,
-    /// Greatest distance of the tip from the line, metres; by default that of the line in TOML, or else 0.00001.
-    #[arg(long, value_name = "METRES", value_parser = tolerance)]
+    /// Greatest distance of the tip from the line, metres or with a unit such as 0.05mm; by default that of the line in TOML,
+    /// or else 0.00001.
+    #[arg(long, value_name = "LENGTH", value_parser = tolerance)]
     pub tolerance: Option<f64>,
     /// Greatest speed of the tip, metres per second, instead of the speeds (F) of the file.
     #[arg(long, value_name = "M/S", value_parser = positive)]
@@ -97,5 +98,6 @@ impl FollowArgs {
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
-    number_in(text, |x| x.is_finite() && x >= MIN_TOLERANCE, &format!("of metres, finite and at least {MIN_TOLERANCE}"))
+    let range = || format!("must be a length such as 0.00005 or 0.05mm, finite and at least {MIN_TOLERANCE} m");
+    metres(text).ok().filter(|x| x.is_finite() && *x >= MIN_TOLERANCE).ok_or_else(range)
 }

@@ -179,10 +179,18 @@ fn spoilt(dice: &mut Dice, start: Point, tolerance: f64) -> [Toolpath; 2] {
     let (mut at, mut end) = (start, start);
     for _ in 0..3 + dice.within(0.0, 4.0) as usize {
         let next = [0, 1].map(|k| at[k] + dice.within(-2e-3, 2e-3));
-        let is_travel = dice.chance(0.2);
-        let piece = |piece: Piece| if is_travel { travel(piece) } else { piece };
-        clean.push(piece(straight(at, next)));
-        spoilt.push(piece(straight(end, next)));
+        let (is_travel, is_curved) = (dice.chance(0.2), dice.chance(0.4));
+        let control = [dice.within(-1e-3, 1e-3), dice.within(-1e-3, 1e-3)];
+        let piece = |from: Point| match (is_travel, is_curved) {
+            (true, _) => travel(straight(from, next)),
+            (_, false) => straight(from, next),
+            (_, true) => {
+                let [a, b] = [[from[0] + control[0], from[1]], [next[0], next[1] + control[1]]];
+                Piece { curve: Curve::Cubic([from, a, b, next]), ..straight(from, next) }
+            }
+        };
+        clean.push(piece(at));
+        spoilt.push(piece(end));
         (at, end) = (next, next);
         let size = tolerance * 10_f64.powf(dice.within(-6.0, -0.2));
         let aside = |dice: &mut Dice| {
@@ -195,9 +203,8 @@ fn spoilt(dice: &mut Dice, start: Point, tolerance: f64) -> [Toolpath; 2] {
             1 => corners.extend([aside(dice), at]),
             2 => (0..1 + dice.within(0.0, 40.0) as usize).for_each(|_| corners.push(aside(dice))),
             _ => {
-                // Steps along the direction of the line, with one step back.
-                let length = (next[0] - clean[clean.len() - 1].curve.start()[0]).hypot(1e-4);
-                let along = [size / 2.0, size / 3.0 + 0.0 * length];
+                // Steps in one direction, with one step back.
+                let along = [size / 2.0, size / 3.0];
                 let steps = [1.0, 2.0, 1.5, 3.0, 4.0];
                 corners.extend(steps.map(|step| [at[0] + step * along[0], at[1] + step * along[1]]));
             }
@@ -262,6 +269,21 @@ fn an_answer_near_the_end_of_the_reach_names_the_place() {
         }
         other => panic!("{:?}", other.status()),
     }
+}
+
+#[test]
+fn an_unknown_answer_names_a_tolerance_that_works() {
+    let (scene, settings) = (scene_of(BARS, 3.0, vec![]), Settings::default());
+    let line = line(through(&[[1.0, 0.0], [1.8 + 0.999_99 * settings.tolerance, 0.0]]));
+    let Outcome::Unknown(why) = follow(&scene, &line, &settings).expect("usable settings") else {
+        panic!("no room is left beside the end");
+    };
+    let (_, advice) = why.split_once("; with `--tolerance ").unwrap_or_else(|| panic!("{why}"));
+    let text = advice.trim_end_matches("` a motion is found");
+    assert!(["0.02mm", "0.05mm"].contains(&text), "{why}");
+    let wider = Settings { tolerance: metres(text).expect("a length"), ..settings };
+    let answer = follow(&scene, &line, &wider).expect("usable settings");
+    assert!(matches!(answer, Outcome::Found(_)), "{text}: {:?}", answer.status());
 }
 
 #[test]
