@@ -35,7 +35,7 @@ fn distance(scene: &Scene, q: Values, number: usize) -> f64 {
     for (index, (link, pose)) in arm.links.iter().zip(&poses).enumerate().skip(usize::from(is_carried)) {
         let can_meet = |(number, part): &(usize, &Part)| match own {
             None => part.heights.meet(obstacle.heights),
-            Some(own) => part.heights.definitely_meet(obstacle.heights) && !own.ignores(index, *number, &part.body),
+            Some(own) => part.heights.overlap(obstacle.heights) && !own.ignores(index, *number, &part.body),
         };
         for (_, part) in link.parts.iter().enumerate().filter(can_meet) {
             let shape = part.shape.at(pose);
