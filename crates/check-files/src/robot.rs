@@ -23,6 +23,7 @@ mod mesh;
 mod mimic;
 mod oblique;
 mod own;
+mod permanent;
 mod plane;
 mod pose;
 mod quaternion;

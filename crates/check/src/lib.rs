@@ -36,7 +36,6 @@ pub mod motion;
 pub mod mover;
 pub mod obstacle;
 pub mod overlap;
-mod permanent;
 pub mod polygon;
 pub mod scene;
 pub mod shapes;

@@ -2,6 +2,7 @@
 
 use super::Robot;
 use super::layers::cuts;
+use super::permanent::ignore_permanent_contacts;
 use super::shapes::PlacedShape;
 use super::solid::bodies;
 use super::tree::ReadResult;
@@ -81,7 +82,7 @@ impl<'a> Robot<'a> {
                 self.arm.bases.iter().filter(|other| !apart.contains(&(own.link.as_str(), other.link.as_str())));
             own.ignored = allowed.map(ToString::to_string).collect();
         }
-        self.arm.ignore_permanent_contacts();
+        ignore_permanent_contacts(&mut self.arm);
         let obstacle = |own: &CollisionShape| {
             let heights = own.around.inset_heights(Outline::Around);
             Obstacle::link(own.to_string(), own.owner(), own.around.shape.clone(), heights)
