@@ -112,13 +112,16 @@ class NearbyFree:
 
 @dataclass(frozen=True)
 class BlockedEnd:
-    """A start or goal that is not free: the excess of each joint over its limits, and the obstacles that it hits."""
+    """A start or goal that is not free: the excess of each joint over its limits, and the obstacles that it hits. `when`
+    is set if the arm hits them only while it stands still there, for example "while the tool is lowered".
+    """
 
     end: str
     joints: Pair
     beyond_limits: Pair
     hits: tuple[Hit, ...]
     nearest_free: NearbyFree | None
+    when: str | None
 
 
 @dataclass(frozen=True)
@@ -167,7 +170,7 @@ class Explanation(_Findings):
 
     `status` is "found", "infeasible" or "unknown", the last one with a `reason`. If infeasible, `blocking` names the
     obstacles of the first of the `sets`. If found, there are `path`, its `length`, the `lower_bound` of all paths, and
-    `shaped_by`. For a task that succeeds, there is only the status. `stopped_after` (seconds) is set if the time was
+    `shaped_by`. For a task that succeeds, there is only the status. For one that fails, `reasons` are those of `plan`. `stopped_after` (seconds) is set if the time was
     up. Then sets may not be irreducible, and changes and savings may be missing.
     """
 
@@ -186,6 +189,7 @@ class Explanation(_Findings):
     shaped_by: tuple[Saving, ...]
     tightest: Tightest | None
     stopped_after: float | None
+    reasons: tuple[str, ...]
     _: KW_ONLY
     _text: str = field(repr=False)
     _asked: tuple[Arm, World, tuple[str, ...], float] = field(repr=False)

@@ -205,6 +205,47 @@ def test_an_explanation_is_what_the_program_finds(robot: Path, world: str, words
     assert pickle.loads(pickle.dumps(found)).svg() == found.svg()
 
 
+# A pick beside a rim, which the lowered flange hits.
+RIM = """
+robot = { joints = ["axis_1", "axis_2"], tip = "flange", stroke = { joint = "axis_3" } }
+start.joints = [0.0, 1.2]
+[[obstacle]]
+name = "rim"
+polygon = [[0.1, -0.35], [0.3, -0.35], [0.3, -0.21], [0.1, -0.21]]
+height = [0.0, 0.08]
+[[object]]
+name = "part"
+circle = { center = [0.0, 0.0], radius = 0.009 }
+at = [0.2, -0.195]
+height = [0.0, 0.02]
+lift = 0.15
+[[step]]
+pick = "part"
+[[step]]
+place = { at = [0.2, 0.2] }
+"""
+
+
+@pytest.mark.parametrize(
+    ("robot", "world"),
+    [
+        (ROBOT, cplan.World.from_toml(SHELF)),
+        (ROBOT, cplan.World.from_toml(ROOT / "workspaces/no_path.toml")),
+        (SCARA, cplan.World.from_toml(CELL)),
+        (SCARA, cplan.World.from_text(RIM)),
+    ],
+)
+def test_what_one_function_says_no_other_denies(robot: Path, world: cplan.World) -> None:
+    arm = cplan.Arm.from_urdf(robot)
+    plan, found = cplan.plan(arm, world), cplan.explain(arm, world)
+    assert found.status == type(plan).__name__.lower()
+    if isinstance(plan, cplan.Found):
+        assert cplan.verify(arm, world, plan).verdict == "free"
+    elif robot == SCARA:
+        assert found.blocking == ("rim",) and found.reasons
+        assert {end.when for end in found.blocked_ends} == {"while the tool is lowered"}
+
+
 def test_changes_are_told_between_a_path_and_a_proof() -> None:
     arm, world = cplan.Arm.from_urdf(ROBOT), cplan.World.from_toml(ROOT / "workspaces/no_path.toml")
     [closed] = cplan.explain(arm, world).sets

@@ -11,14 +11,13 @@ use super::sinks::{self, Sink};
 use super::theme::ThemeArgs;
 use super::values::time_limit;
 use crate::draw::View;
-use crate::engine::explain::{Explanation, MotionQuestion, TIME_LIMIT, explain};
-use crate::engine::task::FailedStep;
+use crate::engine::explain::{Explanation, MotionQuestion, StepFailure, TIME_LIMIT, explain, explain_step};
+use crate::engine::task::raising_at_start;
 use crate::engine::{Options, Plan, Problem, plan};
-use crate::input::{self, DiagnosticKind, LoadedEnds, LoadedScene, Overrides};
+use crate::input::{self, DiagnosticKind, InputError, LoadedEnds, LoadedScene, Overrides};
 use crate::model::{Action, Status};
 use crate::output::PlanOutput as _;
 use crate::output::explained;
-use crate::space::{GoalSet, Segment};
 use crate::text::for_a_shell;
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
@@ -100,12 +99,8 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
 pub fn hint(files: &Files, query: &QueryArgs) -> Option<String> {
     let loaded = input::load_scene(files.robot(), &files.world).ok()?;
     let overrides = query.overrides();
-    if loaded.is_task() && !loaded.has_steps() {
-        // The tool may be the cause, which an explanation does not consider.
-        return None;
-    }
     let has_ends = match loaded.is_task() {
-        true => loaded.clone().start_alone(&overrides).is_ok(),
+        true => Problem::of_scene(loaded.clone(), &overrides).map_or_else(|error| is_about_start(&error), |_| true),
         false => loaded.clone().query(&overrides).is_ok(),
     };
     let words = ["cplan".to_owned(), "explain".to_owned()].into_iter().chain(files.words()).chain(query.words());
@@ -130,36 +125,25 @@ impl ExplanationResult {
     /// Overrides that do not suit the world, and an invalid task.
     pub fn of(loaded: LoadedScene, overrides: &Overrides, limit: Duration) -> Result<Self, Failure> {
         loaded.require_static_obstacles("explanations are for worlds without moving obstacles")?;
+        let options = Options::default();
         let (question, notes) = if loaded.is_task() {
             match Problem::of_scene(loaded.clone(), overrides) {
                 Ok(problem) => {
-                    let plan = plan(&problem, &Options::default())?;
-                    if let Some(number) = failed_line(&plan) {
-                        return Err(Failure::Option(format!(
-                            "step {number} follows a line, and an explanation is about a motion between two \
-                             configurations; `cplan follow` names the place where the line cannot be followed"
-                        )));
-                    }
-                    match failed_step(&plan) {
-                        Some((question, note)) => (question, vec![note]),
-                        None => return Ok(Self::Done(Box::new(plan))),
-                    }
+                    let plan = plan(&problem, &options)?;
+                    let explained = failed_step(&plan, limit, &options);
+                    return Ok(match explained {
+                        Some((explanation, note)) => Self::Motion(Box::new(explanation), vec![note]),
+                        None => Self::Done(Box::new(plan)),
+                    });
                 }
-                Err(error) if error.diagnostics().iter().all(|found| found.kind == DiagnosticKind::Start) => {
-                    let LoadedEnds { scene, start, goals, mut notes, .. } = loaded.start_alone(overrides)?;
-                    notes.push(
-                        "the start is blocked, so no step can begin: this explanation is about the start alone".into(),
-                    );
-                    (MotionQuestion::of_goals(scene, start, &goals), notes)
-                }
+                Err(error) if is_about_start(&error) => blocked_start(loaded, overrides)?,
                 Err(error) => return Err(error.into()),
             }
         } else {
             let query = loaded.query(overrides)?;
             (MotionQuestion::of_goals(query.scene, query.start, &query.goals), query.notes)
         };
-        let question = question.with_time_limit(limit);
-        Ok(Self::Motion(Box::new(explain(&question, &Options::default())), notes))
+        Ok(Self::Motion(Box::new(explain(&question.with_time_limit(limit), &options)), notes))
     }
 
     /// Returns the status of the motion or task.
@@ -199,21 +183,36 @@ impl ExplanationResult {
     }
 }
 
-/// Returns the number of the failed step if it follows a line.
-fn failed_line(plan: &Plan) -> Option<usize> {
-    let step = &plan.task()?.1.failed()?.step;
-    matches!(step.action, Action::Follow(_)).then_some(step.number)
+/// Returns true if a world is refused only because its start is blocked.
+fn is_about_start(error: &InputError) -> bool {
+    error.diagnostics().iter().all(|found| found.kind == DiagnosticKind::Start)
 }
 
-/// Returns the motion of the failed step, with objects and payload as they are then, and the description of the step.
-/// `None` if no step fails.
-fn failed_step(plan: &Plan) -> Option<(MotionQuestion, String)> {
+/// Returns the question about the blocked start of a task, with the tool at its height there, and notes about the input.
+fn blocked_start(loaded: LoadedScene, overrides: &Overrides) -> Result<(MotionQuestion, Vec<String>), InputError> {
+    // Another defect of the world may hide the values of the tool's joints.
+    let raising = loaded.clone().recorded_task(overrides).ok().and_then(|loaded| raising_at_start(&loaded.task));
+    let LoadedEnds { scene, start, goals, mut notes, .. } = loaded.start_alone(overrides)?;
+    notes.push("the start is blocked, so no step can begin: this explanation is about the start alone".into());
+    let standstills = [raising.into_iter().collect(), Vec::new()];
+    Ok((MotionQuestion::of_goals(scene, start, &goals).with_standstills(standstills), notes))
+}
+
+/// Explains the failed step of a task. Also returns a note that describes the step. `None` if no step fails.
+fn failed_step(plan: &Plan, limit: Duration, options: &Options) -> Option<(Explanation, String)> {
     let (task, answer) = plan.task()?;
-    let FailedStep { step, scene, from, ik_solutions, .. } = answer.failed()?;
-    let goals: GoalSet = ik_solutions.iter().map(|unreached| Segment::point(unreached.ik_solution)).collect();
-    let what = step.action.describe(&task.objects);
-    let note = format!("step {} fails, and this explanation is about its motion: {what} ({})", step.number, step.place);
-    Some((MotionQuestion::new((**scene).clone(), *from, goals), note))
+    let failed = answer.failed()?;
+    let (status, verdict, reasons) = (plan.status(), plan.reason().unwrap_or_default(), failed.reasons.clone());
+    let explanation = explain_step(failed, StepFailure { status, verdict, reasons }, limit, options);
+    let step = &failed.step;
+    let (number, what, place) = (step.number, step.action.describe(&task.objects), &step.place);
+    let note = match &step.action {
+        Action::Follow(_) => format!(
+            "step {number} fails: {what} ({place}); `cplan follow` names the place where the line cannot be followed"
+        ),
+        _ => format!("step {number} fails, and this explanation is about its motion: {what} ({place})"),
+    };
+    Some((explanation, note))
 }
 
 fn exit_code(status: Status) -> u8 {

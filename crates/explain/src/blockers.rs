@@ -80,8 +80,7 @@ impl BlockingSet {
 /// the first gave no result. Makes `O(n)` decisions for the `n` elements that the proof names.
 #[must_use]
 pub fn blocking_set(question: &MotionQuestion, proof: Option<CheckedProof>, boxes: [usize; 2]) -> BlockingSet {
-    let mut filter =
-        Filter { question, boxes: boxes[0], all: Element::all(question.scene()), set: Vec::new(), proof: None };
+    let mut filter = Filter { question, boxes: boxes[0], all: question.elements(), set: Vec::new(), proof: None };
     filter.set.clone_from(&filter.all);
     filter.refine(proof);
     let (limits, others): (Vec<_>, Vec<_>) =

@@ -14,11 +14,11 @@ impl Change {
     pub fn apply(&self, question: &MotionQuestion, set: &BlockingSet) -> MotionQuestion {
         let rest = match self.among {
             ChangeContext::World => question.clone(),
-            ChangeContext::Set => question.without(&set.others(question.scene())),
+            ChangeContext::Set => question.without(&set.others(question)),
         };
         match self.element {
             Element::Obstacle { number } => match self.changed_obstacle(question.scene()) {
-                Some(changed) => rest.rebuilt(|_, workspace| workspace.obstacles[number] = changed),
+                Some(changed) => rest.rebuilt(|_, workspace| workspace.obstacles[number].clone_from(&changed)),
                 None => rest,
             },
             Element::Link { .. } => rest,
@@ -55,11 +55,11 @@ impl Change {
 }
 
 impl BlockingSet {
-    /// Returns the elements of the scene that are not in the set.
+    /// Returns the elements of the question that are not in the set.
     #[must_use]
-    pub fn others(&self, scene: &Scene) -> Vec<Element> {
+    pub fn others(&self, question: &MotionQuestion) -> Vec<Element> {
         let elements = self.elements();
-        Element::all(scene).into_iter().filter(|element| !elements.contains(element)).collect()
+        question.elements().into_iter().filter(|element| !elements.contains(element)).collect()
     }
 }
 

@@ -2,9 +2,10 @@
 
 use super::question::{MotionQuestion, Target};
 use cplan_core::cspace::{NearestFree, nearest_free};
-use cplan_core::model::{Arm, Obstruction, inverse};
+use cplan_core::model::{Arm, Obstruction, Scene, inverse};
 use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
+use cplan_tasks::StandstillScene;
 use serde::Serialize;
 
 /// Number of values of each joint in the lattice with which the search for the tip's nearest place starts.
@@ -34,11 +35,19 @@ pub struct BlockedEnd {
     pub beyond: [f64; 2],
     /// Obstacles that the arm hits there, or that it comes too near to.
     pub hits: Vec<Obstruction>,
-    /// The nearest free configuration. `None` if no configuration is free.
+    /// The scene of these hits, if the arm hits them while it stands still. `None` for the scene of the motion.
+    pub standing: Option<StandstillScene>,
+    /// The nearest free configuration. `None` if no configuration is free, or if the arm stands still.
     pub nearest: Option<NearestFree>,
 }
 
 impl BlockedEnd {
+    /// Returns the scene of the hits. `scene` is that of the motion.
+    #[must_use]
+    pub fn scene<'a>(&'a self, scene: &'a Scene) -> &'a Scene {
+        self.standing.as_ref().map_or(scene, |standing| &standing.scene)
+    }
+
     /// Returns the distance, in metres, between the tip at the blocked configuration and the tip at the nearest free
     /// one. `None` if no configuration is free.
     #[must_use]
@@ -64,7 +73,7 @@ pub struct OutOfReach {
 #[must_use]
 pub fn blocked_ends(question: &MotionQuestion) -> (Vec<BlockedEnd>, Option<OutOfReach>) {
     let mut blocked: Vec<BlockedEnd> = Vec::new();
-    if !question.is_free(question.start()) {
+    if !question.is_start_free() {
         blocked.push(blocked_end(question, End::Start, question.start()));
     }
     let mut out_of_reach = None;
@@ -97,7 +106,15 @@ fn blocked_end(question: &MotionQuestion, end: End, at: Configuration) -> Blocke
         JointRange::Interval { lower, upper } => (lower - at[k]).max(at[k] - upper).max(0.0),
         JointRange::Circle => 0.0,
     });
-    BlockedEnd { end, at, beyond, hits: scene.obstructions(at), nearest: nearest_free(scene, at) }
+    let hits = scene.obstructions(at);
+    let standing = if hits.is_empty() { question.blocked_standstill(end, at).cloned() } else { None };
+    match standing {
+        Some(standing) => {
+            let hits = standing.scene.obstructions(at);
+            BlockedEnd { end, at, beyond, hits, standing: Some(standing), nearest: None }
+        }
+        None => BlockedEnd { end, at, beyond, hits, standing, nearest: nearest_free(scene, at) },
+    }
 }
 
 /// Finds the place nearest to a goal that the tip reaches within the limits. Starts at the best configuration of a

@@ -8,7 +8,10 @@ use super::question::MotionQuestion;
 use super::shaping::{Saving, savings};
 use cplan_core::check::CheckedProof;
 use cplan_core::model::{Outcome, Status};
+use cplan_handling::Action;
 use cplan_solver::{Answer, Options, Unknown, solve};
+use cplan_tasks::FailedStep;
+use std::time::Duration;
 
 /// Largest number of boxes for each decision about a blocker or a change, of which there are many.
 const BOXES_PER_DECISION: usize = 20_000;
@@ -23,9 +26,23 @@ pub struct Explanation {
     pub question: MotionQuestion,
     /// If there is a motion: the elements that make it longer. Otherwise, the reasons why there is none.
     pub outcome: Outcome<FoundExplanation, InfeasibleExplanation>,
+    /// The failed step that the question is about. `None` for the question of a single motion.
+    pub failure: Option<StepFailure>,
     /// True if the time limit was reached. Then sets may contain needless elements, and changes and savings may be
     /// missing.
     pub is_stopped: bool,
+}
+
+/// A step of a task that fails. The task may have other choices, so its answer may be unknown although the motion of the
+/// step is infeasible.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepFailure {
+    /// The answer to the whole task: infeasible or unknown.
+    pub status: Status,
+    /// Sentence with that answer.
+    pub verdict: String,
+    /// The reasons why the step fails, with the motions that were tried.
+    pub reasons: Vec<String>,
 }
 
 /// A motion that was found.
@@ -38,7 +55,7 @@ pub struct FoundExplanation {
 }
 
 /// Reasons why there is no motion.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct InfeasibleExplanation {
     /// Proof that the whole world has no motion. `None` if the start or all goals are blocked, which needs no proof.
     pub proof: Option<CheckedProof>,
@@ -56,7 +73,7 @@ impl Explanation {
     /// Returns found, infeasible or unknown, with the same meaning as for a plan.
     #[must_use]
     pub fn status(&self) -> Status {
-        self.outcome.status()
+        self.failure.as_ref().map_or(self.outcome.status(), |failure| failure.status)
     }
 }
 
@@ -79,7 +96,26 @@ pub fn explain(question: &MotionQuestion, options: &Options) -> Explanation {
             Outcome::Found(FoundExplanation { answer: Box::new(answer), savings })
         }
     };
-    Explanation { question: question.clone(), outcome, is_stopped: started.is_out_of_time() }
+    Explanation { question: question.clone(), outcome, failure: None, is_stopped: started.is_out_of_time() }
+}
+
+/// Explains why a step of a task fails. `failure` is the planner's answer, which the explanation never contradicts: if it
+/// finds no obstacle that blocks the step, it states only the planner's reasons.
+#[must_use]
+pub fn explain_step(failed: &FailedStep, failure: StepFailure, limit: Duration, options: &Options) -> Explanation {
+    let question = MotionQuestion::of_failed_step(failed).with_time_limit(limit);
+    let is_motion = !matches!(failed.step.action, Action::Follow(_)) && !failed.ik_solutions.is_empty();
+    let explained = is_motion.then(|| explain(&question, options));
+    match explained.filter(|explanation| matches!(explanation.outcome, Outcome::Infeasible(_))) {
+        Some(explanation) => Explanation { failure: Some(failure), ..explanation },
+        None => {
+            let outcome = match failure.status {
+                Status::Infeasible => Outcome::Infeasible(InfeasibleExplanation::default()),
+                _ => Outcome::Unknown(failure.reasons.join("; ")),
+            };
+            Explanation { question, outcome, failure: Some(failure), is_stopped: false }
+        }
+    }
 }
 
 impl InfeasibleExplanation {
@@ -93,7 +129,7 @@ impl InfeasibleExplanation {
 fn closed(question: &MotionQuestion, proof: Option<CheckedProof>) -> InfeasibleExplanation {
     let mut sets = blocking_sets(question, proof.clone(), [BOXES_PER_DECISION, BOXES_FOR_LAST_DECISIONS]);
     for set in &mut sets {
-        let others = set.others(question.scene());
+        let others = set.others(question);
         for blocker in &mut set.blockers {
             let element = blocker.element;
             let opens = matches!(question.without(&[element]).answer(BOXES_PER_DECISION), Outcome::Found(_));
@@ -104,5 +140,8 @@ fn closed(question: &MotionQuestion, proof: Option<CheckedProof>) -> InfeasibleE
         }
     }
     let (ends, out_of_reach) = blocked_ends(question);
-    InfeasibleExplanation { proof, ends, out_of_reach, sets, bottleneck: bottleneck(question, BOXES_PER_DECISION) }
+    // A path of the motion does not show where an arm is stuck that stands still.
+    let is_moving = ends.iter().all(|end| end.standing.is_none());
+    let bottleneck = if is_moving { bottleneck(question, BOXES_PER_DECISION) } else { None };
+    InfeasibleExplanation { proof, ends, out_of_reach, sets, bottleneck }
 }

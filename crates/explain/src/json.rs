@@ -2,10 +2,10 @@
 
 use super::{
     BlockedEnd, Blocker, Bottleneck, Change, Element, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach,
-    Saving,
+    Saving, StepFailure,
 };
 use cplan_core::check::ProofBox;
-use cplan_core::model::{Obstruction, Outcome, Scene};
+use cplan_core::model::{Obstruction, Outcome, Scene, Status};
 use cplan_core::space::Configuration;
 use serde_json::{Map, Value, json};
 
@@ -23,6 +23,12 @@ impl Explanation {
         };
         if let (Value::Object(object), Value::Object(more)) = (&mut object, more) {
             object.extend(more);
+            if let Some(StepFailure { status, reasons, .. }) = &self.failure {
+                object.insert("reasons".into(), json!(reasons));
+                if *status == Status::Unknown {
+                    object.insert("reason".into(), json!(reasons.join("; ")));
+                }
+            }
             if let (true, Some(limit)) = (self.is_stopped, self.question.time_limit()) {
                 object.insert("stopped_after".into(), json!(limit.as_secs_f64()));
             }
@@ -136,7 +142,8 @@ fn of_end(scene: &Scene, blocked: &BlockedEnd) -> Value {
         "end": blocked.end,
         "joints": pair(blocked.at),
         "beyond_limits": blocked.beyond,
-        "hits": blocked.hits.iter().map(|hit| of_hit(scene, hit)).collect::<Vec<_>>(),
+        "when": blocked.standing.as_ref().map(|standing| standing.when),
+        "hits": blocked.hits.iter().map(|hit| of_hit(blocked.scene(scene), hit)).collect::<Vec<_>>(),
         "nearest_free": nearest,
     })
 }

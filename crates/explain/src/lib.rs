@@ -1,5 +1,5 @@
-//! Explanations: why there is no motion, and which changes open a path; for a motion that exists, which elements make
-//! it longer.
+//! Explanations: why there is no motion, or why a step of a task fails, and which changes open a path; for a motion that
+//! exists, which elements make it longer.
 //!
 //! ```
 //! use cplan_explain::{MotionQuestion, explain};
@@ -41,7 +41,7 @@ pub use bottleneck::{Bottleneck, bottleneck};
 pub use change::{Change, ChangeContext, ChangeKind, changes};
 pub use element::{Element, Side};
 pub use ends::{BlockedEnd, End, OutOfReach, blocked_ends};
-pub use explanation::{Explanation, FoundExplanation, InfeasibleExplanation, explain};
+pub use explanation::{Explanation, FoundExplanation, InfeasibleExplanation, StepFailure, explain, explain_step};
 pub use motion_tree::{MotionTree, Origin};
 pub use question::{MIN_CLEARANCE, MotionQuestion, TIME_LIMIT, Target};
 pub use reach::{Access, MAX_PLACES, Reach, Solution, reach};

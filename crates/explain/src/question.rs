@@ -1,12 +1,14 @@
 //! Motion queries whose start or goal may be blocked, and the same queries with fewer elements in the world.
 
 use super::element::{Element, Side, widened};
+use super::ends::End;
 use cplan_core::check::{CertifiedPath, CheckedProof};
 use cplan_core::model::{Arm, Goal, JointType, MotionProblem, Outcome, Scene, Workspace, area_goals, inverse};
 use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::{Convex, Point};
 use cplan_interrupt::{Instant, Interrupt};
 use cplan_solver::decide;
+use cplan_tasks::{FailedStep, Standstill, StandstillScene};
 use std::f64::consts::TAU;
 use std::time::Duration;
 
@@ -53,6 +55,8 @@ pub struct MotionQuestion {
     scene: Scene,
     start: Configuration,
     target: Target,
+    /// Standstills at the start and at goals.
+    standstills: [Vec<Standstill>; 2],
     /// Distance that each joint may go beyond a removed limit, in radians or metres. It is the same whichever other
     /// elements are removed.
     beyond: [f64; 2],
@@ -84,11 +88,32 @@ impl MotionQuestion {
     pub fn new(scene: Scene, start: Configuration, target: impl Into<Target>) -> Self {
         let target = target.into();
         let beyond = margins_beyond_limits(&scene, start, &target);
-        let asked = Self { scene, start, target, beyond, least_clearance: 0.0, time_limit: None, deadline: None };
-        let hardly_any = MIN_CLEARANCE * asked.scene.arm().reach().min(1.0);
-        let kept = asked.with_clearance(asked.scene.workspace().clearance.max(hardly_any));
-        let keeps = kept.is_free(start) == asked.is_free(start) && kept.goals() == asked.goals();
-        Self { least_clearance: if keeps { hardly_any } else { 0.0 }, ..asked }
+        let standstills = [Vec::new(), Vec::new()];
+        let asked =
+            Self { scene, start, target, standstills, beyond, least_clearance: 0.0, time_limit: None, deadline: None };
+        asked.with_least_clearance()
+    }
+
+    /// Returns the question of a step of a task that fails. Its motion leads from the arm's configuration to the IK
+    /// solutions that were tried. At both ends, the arm must also be free while the tool is lowered.
+    #[must_use]
+    pub fn of_failed_step(failed: &FailedStep) -> Self {
+        let goals: GoalSet = failed.ik_solutions.iter().map(|refused| Segment::point(refused.ik_solution)).collect();
+        Self::new((*failed.scene).clone(), failed.from, goals).with_standstills(failed.standstills.clone())
+    }
+
+    /// Returns the question with standstills at the start and at goals. A goal with several standstills is free if one
+    /// of them is.
+    #[must_use]
+    pub fn with_standstills(self, standstills: [Vec<Standstill>; 2]) -> Self {
+        Self { standstills, ..self }.with_least_clearance()
+    }
+
+    fn with_least_clearance(self) -> Self {
+        let hardly_any = MIN_CLEARANCE * self.scene.arm().reach().min(1.0);
+        let kept = self.with_clearance(self.scene.workspace().clearance.max(hardly_any));
+        let keeps = kept.is_start_free() == self.is_start_free() && kept.goals() == self.goals();
+        Self { least_clearance: if keeps { hardly_any } else { 0.0 }, ..self }
     }
 
     /// Creates a query for a motion from a start to any of some goals. The goals may be blocked.
@@ -148,10 +173,36 @@ impl MotionQuestion {
         &self.target
     }
 
-    /// Returns true if a configuration is within the limits and free.
+    /// Returns true if the start is within the limits and free, also while the arm stands still there.
     #[must_use]
-    pub fn is_free(&self, q: Configuration) -> bool {
-        self.scene.arm().topology().contains(q) && self.scene.obstructions(q).is_empty()
+    pub fn is_start_free(&self) -> bool {
+        let is_free =
+            self.scene.arm().topology().contains(self.start) && self.scene.obstructions(self.start).is_empty();
+        is_free && self.blocked_standstill(End::Start, self.start).is_none()
+    }
+
+    /// Returns the scene in which the arm is not free while it stands still at an end of the motion, although the motion
+    /// itself may end there. `None` if it is free.
+    #[must_use]
+    pub fn blocked_standstill(&self, end: End, q: Configuration) -> Option<&StandstillScene> {
+        let standing = self.standstills[end as usize].iter().filter(|standing| standing.at == q);
+        let blocked: Vec<_> = standing.map(|standing| Some(&standing.scenes[standing.blocked_scene()?])).collect();
+        // Another standstill at the same configuration may be free.
+        blocked.into_iter().collect::<Option<Vec<_>>>()?.first().copied()
+    }
+
+    /// Returns all elements that may block the motion or the arm while it stands still, in the order of [`Element::all`].
+    #[must_use]
+    pub fn elements(&self) -> Vec<Element> {
+        let mut all = Element::all(&self.scene);
+        let standing = self.standstills.iter().flatten().flat_map(|standing| &standing.scenes);
+        for element in standing.flat_map(|standing| Element::all(&standing.scene)) {
+            if !all.contains(&element) {
+                all.push(element);
+            }
+        }
+        all.sort_by_key(|element| element.obstacle());
+        all
     }
 
     /// Returns all configurations of the target that are within the limits, whether they are blocked or not.
@@ -170,8 +221,9 @@ impl MotionQuestion {
     /// Returns the goals within the limits that are not known to be blocked.
     #[must_use]
     pub fn goals(&self) -> GoalSet {
+        let is_open = |q| self.scene.obstructions(q).is_empty() && self.blocked_standstill(End::Goal, q).is_none();
         let open = |piece: &Segment| match piece.is_point() {
-            true => self.scene.obstructions(piece.ends()[0]).is_empty(),
+            true => is_open(piece.ends()[0]),
             false => self.scene.blocked_along(piece).is_none(),
         };
         self.ends().into_iter().filter(open).collect()
@@ -181,7 +233,7 @@ impl MotionQuestion {
     #[must_use]
     pub fn problem(&self) -> Option<MotionProblem> {
         let goals = self.goals();
-        (self.is_free(self.start) && !goals.is_empty())
+        (self.is_start_free() && !goals.is_empty())
             .then(|| MotionProblem::trusted(self.scene.clone(), self.start, goals))
     }
 
@@ -240,7 +292,7 @@ impl MotionQuestion {
 
     /// Returns the question with the pieces of one obstacle replaced.
     pub(super) fn with_pieces(&self, number: usize, pieces: Vec<Convex>) -> Self {
-        self.rebuilt(|_, workspace| workspace.obstacles[number].pieces = pieces)
+        self.rebuilt(|_, workspace| workspace.obstacles[number].pieces.clone_from(&pieces))
     }
 
     /// Returns the question with one end of a joint's range moved outwards.
@@ -253,8 +305,14 @@ impl MotionQuestion {
         self.rebuilt(|_, workspace| workspace.clearance = clearance)
     }
 
-    pub(super) fn rebuilt(&self, edit: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
-        Self { scene: self.scene.changed(edit), target: self.target.clone(), ..*self }
+    /// Returns the question after `edit` has changed the arm and the workspace in all scenes.
+    pub(super) fn rebuilt(&self, edit: impl Fn(&mut Arm, &mut Workspace)) -> Self {
+        let standing =
+            |standing: &StandstillScene| StandstillScene { scene: standing.scene.changed(&edit), ..*standing };
+        let changed =
+            |stands: &Standstill| Standstill { scenes: stands.scenes.iter().map(standing).collect(), ..*stands };
+        let standstills = self.standstills.each_ref().map(|stands| stands.iter().map(changed).collect());
+        Self { scene: self.scene.changed(&edit), target: self.target.clone(), standstills, ..*self }
     }
 }
 

@@ -27,7 +27,7 @@ pub struct Saving {
 pub fn savings(question: &MotionQuestion, answer: &Answer, options: &Options) -> Vec<Saving> {
     let Some(whole) = answer.bound() else { return Vec::new() };
     let mut savings = Vec::new();
-    for element in Element::all(question.scene()) {
+    for element in question.elements() {
         checkpoint();
         let Some(problem) = question.without_at_clearance(&[element]).problem() else { continue };
         let Some(without) = question.within_time_limit(|| solve(&problem, options, &mut |_| ())) else { break };

@@ -1,11 +1,13 @@
 //! The step of a task that fails.
 
-use super::motion_cache::Refusal;
-use super::state::State;
+use super::motion_cache::{Refusal, scene_after};
+use super::standstill::{Standstill, raising_of};
+use super::state::{Candidate, State};
+use super::stroke::stroke_scene;
 use cplan_core::check::CheckedProof;
 use cplan_core::model::{Arm, Joint, Scene};
 use cplan_core::space::Configuration;
-use cplan_handling::Step;
+use cplan_handling::{Step, Task};
 use std::sync::Arc;
 
 /// Largest number of start configurations that a reason names.
@@ -44,6 +46,9 @@ pub struct FailedStep {
     /// The IK solutions to which motions from there were tried. Empty if no IK solution within the joint limits reaches
     /// the target.
     pub ik_solutions: Vec<RefusedIkSolution>,
+    /// Standstills before the motions that were tried, while the tool is raised, and after them, while it is lowered or
+    /// when objects have changed. A solution with several standstills can be used if one of them is free.
+    pub standstills: [Vec<Standstill>; 2],
 }
 
 /// A step that could not be done after some node of the search.
@@ -55,6 +60,8 @@ pub(super) struct RefusedStep<'a> {
     pub step: &'a Step,
     /// The IK solution that was tried. `None` if the target has none.
     pub ik_solution: Option<Configuration>,
+    /// The candidate of that IK solution, if its obstacles do not move.
+    pub candidate: Option<Candidate<'a>>,
     pub refusal: Refusal,
 }
 
@@ -73,7 +80,7 @@ impl RefusedStep<'_> {
 /// Explains why the search got no farther. It considers the refused steps that have the most steps before them, and of
 /// these the node that was reached first. Also returns that node.
 pub(super) fn farthest<'s>(
-    arm: &Arm,
+    task: &Task,
     refused: &[RefusedStep],
     state: impl Fn(usize) -> Option<&'s State>,
     scene: impl FnOnce(&State, &Step) -> Arc<Scene>,
@@ -96,9 +103,24 @@ pub(super) fn farthest<'s>(
             ik_solutions.push(unreached);
         }
     }
-    let (reasons, scene) = (reasons(arm, &tried), scene(from, step));
-    let moving = from.moving.clone();
-    (FailedStep { step: step.clone(), reasons, scene, moving, from: from.q, ik_solutions }, node)
+    let standstills = standstills(task, from, same().filter(|refused| refused.node == node));
+    let (reasons, scene) = (reasons(&task.arm, &tried), scene(from, step));
+    let (step, moving, from) = (step.clone(), from.moving.clone(), from.q);
+    (FailedStep { step, reasons, scene, moving, from, ik_solutions, standstills }, node)
+}
+
+/// Returns the standstills before and after the motions that were tried from a state.
+fn standstills<'a>(
+    task: &Task,
+    from: &State,
+    tried: impl Iterator<Item = &'a RefusedStep<'a>>,
+) -> [Vec<Standstill>; 2] {
+    let at_goal = |candidate: Candidate| {
+        let scenes = [scene_after(task, from, &candidate), stroke_scene(task, from, &candidate)];
+        Standstill { at: candidate.to, scenes: scenes.into_iter().flatten().collect() }
+    };
+    let goals = tried.filter_map(|refused| refused.candidate).map(at_goal);
+    [raising_of(task, from).into_iter().collect(), goals.collect()]
 }
 
 /// A motion that was tried, and the reason why it was refused.

@@ -2,6 +2,7 @@
 
 use super::arch::{Overlap, overlap};
 use super::least_time::least_of_tool;
+use super::standstill::StandstillScene;
 use super::state::{Candidate, State, turns_on_the_way};
 use super::stroke::{ToolStroke, raising_first, stroke};
 use super::tool_turn::turned_first;
@@ -432,18 +433,29 @@ impl MotionCache {
 /// Refuses a candidate if the arm collides, or cannot be held, after its step: at the end of the task, or when objects
 /// are renewed.
 fn require_free_after(task: &Task, from: &State, candidate: &Candidate) -> Result<(), Refusal> {
-    let left = from.after_step(task, candidate, candidate.to);
-    if left.is_done(task) {
-        // No later motion will begin there.
-        let left = left.scene(task, from.released);
-        require_unobstructed(&left, candidate.to, "after it")?;
-        let held = TorqueLimit::check_holding_at(&left, candidate.to);
-        held.map_err(|error| Refusal::new(format!("after it {error}"), false))?;
-    } else if left.needs_renewal(task) {
-        // The next motion begins among other objects.
-        require_unobstructed(&left.scene(task, None), candidate.to, "after it")?;
+    let Some(StandstillScene { when, scene }) = scene_after(task, from, candidate) else { return Ok(()) };
+    require_unobstructed(&scene, candidate.to, when)?;
+    if from.after_step(task, candidate, candidate.to).is_done(task) {
+        let held = TorqueLimit::check_holding_at(&scene, candidate.to);
+        held.map_err(|error| Refusal::new(format!("{when} {error}"), false))?;
     }
     Ok(())
+}
+
+/// Returns the scene after a candidate's step at the end of the task, or when objects are renewed. `None` if the next
+/// motion begins in the world in which this one ends.
+pub(super) fn scene_after(task: &Task, from: &State, candidate: &Candidate) -> Option<StandstillScene> {
+    let left = from.after_step(task, candidate, candidate.to);
+    let scene = if left.is_done(task) {
+        // No later motion will begin there.
+        left.scene(task, from.released)
+    } else if left.needs_renewal(task) {
+        // The next motion begins among other objects.
+        left.scene(task, None)
+    } else {
+        return None;
+    };
+    Some(StandstillScene { when: "after it", scene })
 }
 
 /// Returns the wrist that turns the tool along a line.

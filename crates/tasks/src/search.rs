@@ -182,7 +182,14 @@ impl<'a, 'l> Search<'a, 'l> {
             let reason = format!("given up after {motions} motions and {states} states of the world");
             let refusal = Refusal::new(reason, false);
             let depth = self.nodes[node].depth;
-            self.refused.push(RefusedStep { depth, node, step: candidates.step, ik_solution: None, refusal });
+            self.refused.push(RefusedStep {
+                depth,
+                node,
+                step: candidates.step,
+                ik_solution: None,
+                candidate: None,
+                refusal,
+            });
         }
     }
 
@@ -211,6 +218,7 @@ impl<'a, 'l> Search<'a, 'l> {
                 node: parent,
                 step: candidate.step,
                 ik_solution: Some(candidate.to),
+                candidate: Some(candidate),
                 refusal,
             }),
         }
@@ -236,6 +244,7 @@ impl<'a, 'l> Search<'a, 'l> {
                     node: index,
                     step: candidates.step,
                     ik_solution: None,
+                    candidate: None,
                     refusal,
                 });
             }
@@ -309,7 +318,7 @@ impl<'a, 'l> Search<'a, 'l> {
             Stage::Pending(_) => None,
         };
         let (task, legs) = (self.task, &mut *self.legs);
-        let (failed, node) = farthest(&task.arm, &self.refused, state, |from, step| legs.scene(task, from, step));
+        let (failed, node) = farthest(task, &self.refused, state, |from, step| legs.scene(task, from, step));
         let proven = self.complete && self.refused.iter().all(|refused| refused.refusal.proven);
         (failed, node, proven)
     }

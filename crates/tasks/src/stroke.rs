@@ -3,12 +3,16 @@
 use super::answer::Event;
 use super::least_time::least_of_tool;
 use super::motion_cache::{Refusal, require_unobstructed};
+use super::standstill::StandstillScene;
 use super::state::{Candidate, State};
 use cplan_core::check::certify;
 use cplan_core::model::{Grip, Scene};
 use cplan_core::space::{Configuration, Path};
 use cplan_handling::{Item, Step, Stroke, Task};
 use cplan_motion::single;
+
+/// The time of a stroke, as a phrase for messages.
+const WHILE_LOWERED: &str = "while the tool is lowered";
 
 /// A stroke of the tool. At a pick or a place, the tool is lowered, the gripper acts, and the tool is raised. At the end of
 /// a move it is only lowered, and at the beginning of a motion only raised.
@@ -86,17 +90,21 @@ pub(super) fn least_without_strokes(travel: f64, overlaps: [f64; 2]) -> f64 {
 /// Returns the stroke at a candidate's target. `None` if the tool is not lowered. Without a stroke, still checks that
 /// an object is free at the place where it is put.
 pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result<Option<ToolStroke>, Refusal> {
+    let Some(standing) = stroke_scene(task, from, candidate) else {
+        return if candidate.depth(task).is_some() && task.stroke.is_none() { Err(no_tool()) } else { Ok(None) };
+    };
+    let clearance = clearance_at(&standing, candidate.to)?;
+    Ok(task.stroke.as_ref().zip(candidate.depth(task)).map(|(stroke, depth)| ToolStroke::new(stroke, depth, clearance)))
+}
+
+/// Returns the scene while the tool is lowered at a candidate's target. `None` if it is not lowered.
+pub(super) fn stroke_scene(task: &Task, from: &State, candidate: &Candidate) -> Option<StandstillScene> {
     let Some(event) = candidate.event else {
         let after = from.after_step(task, candidate, candidate.to);
-        return candidate.depth(task).map_or(Ok(None), |depth| empty_stroke(task, &after, depth).map(Some));
+        return empty_stroke_scene(task, &after, candidate.depth(task)?);
     };
-    let Some(scene) = lowered(task, from, candidate, event) else { return Ok(None) };
-    let when = if task.stroke.is_some() { "while the tool is lowered" } else { "lying there" };
-    let clearance = clearance_at(&scene, candidate.to, when)?;
-    Ok(task.stroke.as_ref().map(|stroke| {
-        let depth = stroke.depth(&task.objects[event.object()]);
-        ToolStroke::new(stroke, depth, clearance)
-    }))
+    let when = if task.stroke.is_some() { WHILE_LOWERED } else { "lying there" };
+    lowered(task, from, candidate, event).map(|scene| StandstillScene { when, scene })
 }
 
 impl ToolStroke {
@@ -108,22 +116,28 @@ impl ToolStroke {
 
 /// Returns the stroke with which the motion from a state begins, because the tool is lowered there. `None` if it is raised.
 pub(super) fn raising_first(task: &Task, from: &State) -> Result<Option<ToolStroke>, Refusal> {
-    from.rising.filter(|_| from.is_lowered).map(|depth| empty_stroke(task, from, depth)).transpose()
+    let Some(depth) = from.rising.filter(|_| from.is_lowered) else { return Ok(None) };
+    let (standing, stroke) = raising_scene(task, from).zip(task.stroke.as_ref()).ok_or_else(no_tool)?;
+    Ok(Some(ToolStroke::new(stroke, depth, clearance_at(&standing, from.q)?)))
 }
 
-/// Returns the stroke of the empty tool in a state, down to a depth or up from there.
-fn empty_stroke(task: &Task, state: &State, depth: f64) -> Result<ToolStroke, Refusal> {
-    let scene = task.empty_lowered_scene(depth, &state.poses, state.released);
-    let Some((stroke, scene)) = task.stroke.as_ref().zip(scene) else {
-        return Err(Refusal::new("the arm has no joint that lowers the tool", false));
-    };
-    let clearance = clearance_at(&scene, state.q, "while the tool is lowered")?;
-    Ok(ToolStroke::new(stroke, depth, clearance))
+/// Returns the scene while the tool is raised before the motion from a state. `None` if it is already raised.
+pub(super) fn raising_scene(task: &Task, from: &State) -> Option<StandstillScene> {
+    empty_stroke_scene(task, from, from.rising.filter(|_| from.is_lowered)?)
 }
 
-/// Returns a proven lower bound, in metres, on the distance to obstacles in a configuration. `when` says when the arm is
-/// there, for messages.
-fn clearance_at(scene: &Scene, q: Configuration, when: &str) -> Result<f64, Refusal> {
+/// Returns the scene of a stroke of the empty tool in a state, down to a depth or up from there.
+fn empty_stroke_scene(task: &Task, state: &State, depth: f64) -> Option<StandstillScene> {
+    let scene = task.empty_lowered_scene(depth, &state.poses, state.released)?;
+    Some(StandstillScene { when: WHILE_LOWERED, scene })
+}
+
+fn no_tool() -> Refusal {
+    Refusal::new("the arm has no joint that lowers the tool", false)
+}
+
+/// Returns a proven lower bound, in metres, on the distance to obstacles in a configuration in which the arm stands still.
+fn clearance_at(StandstillScene { when, scene }: &StandstillScene, q: Configuration) -> Result<f64, Refusal> {
     require_unobstructed(scene, q, when)?;
     let certified = certify(scene, Path::new(vec![q, q]), scene.workspace().clearance);
     let certified = certified.map_err(|_| Refusal::new(format!("no proof that it is free {when} was found"), false))?;

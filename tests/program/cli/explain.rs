@@ -74,6 +74,97 @@ fn a_start_of_steps_that_is_not_free_is_explained() {
     assert!(ends[0]["nearest_free"]["distance"].as_f64().expect("a number") > 0.0);
 }
 
+/// Start of the worlds for the shipped SCARA, whose quill is lowered.
+const LOWERED: &str = "[robot]\njoints = [\"axis_1\", \"axis_2\"]\ntip = \"flange\"\nstroke = { joint = \"axis_3\" }\n\
+                       wrist = { joint = \"axis_4\", velocity = 20.0 }\n";
+
+/// A pick and a place. The lowered flange is 5 mm inside the wall that stands beside the part. `move` shifts the wall.
+fn pick_beside_wall(shift: f64, rest: &str) -> String {
+    let [lower, upper] = [-0.35 - shift, -0.21 - shift];
+    format!(
+        "{LOWERED}{rest}[start]\njoints = [0.0, 1.2]\n[[obstacle]]\nname = \"wall\"\n\
+         polygon = [[0.1, {lower}], [0.3, {lower}], [0.3, {upper}], [0.1, {upper}]]\nheight = [0.0, 0.08]\n\
+         [[object]]\nname = \"part\"\ncircle = {{ center = [0.0, 0.0], radius = 0.009 }}\nat = [0.2, -0.195]\n\
+         height = [0.0, 0.02]\nlift = 0.15\n[[step]]\npick = \"part\"\n[[step]]\nplace = {{ at = [0.2, 0.2]"
+    )
+}
+
+/// Runs `plan` and `explain` in a world of the SCARA. Returns the exit codes and the explanation in JSON and in words.
+fn planned_and_explained(world: &str) -> ([i32; 2], Value, String) {
+    let (place, robot) = (Place::new(), shipped("robots/scara.urdf"));
+    place.write("world.toml", world);
+    let plan = place.run(&[robot.as_str(), "world.toml"], "");
+    let words = place.run(&["explain", &robot, "world.toml"], "");
+    let done = place.run(&["explain", &robot, "world.toml"], "--json");
+    assert_eq!(words.code, done.code, "{}", words.stderr);
+    ([plan.code, done.code], json(&done), words.stdout)
+}
+
+/// Checks that an explanation judges a pick with the tool at its heights, and that its instruction helps.
+#[test]
+fn a_tool_that_hits_while_it_is_lowered_is_explained() {
+    let world = |shift: f64| pick_beside_wall(shift, "") + " }\n";
+    let (codes, result, words) = planned_and_explained(&world(0.0));
+    assert_eq!(codes, [3, 3], "{words}");
+    assert_eq!(words.lines().next(), Some("At the goal, while the tool is lowered, the flange hits the wall."));
+    assert_eq!(result["blocking"], serde_json::json!(["wall"]));
+    let ends = result["blocked_ends"].as_array().expect("a list");
+    assert!(ends.len() == 2 && ends.iter().all(|end| end["when"] == "while the tool is lowered"), "{result}");
+    let changes = result["sets"][0]["blockers"][0]["changes"].as_array().expect("a list");
+    let moved = changes.iter().find(|change| change["change"] == "moved").expect("a move");
+    assert!(moved["direction"][1].as_f64().expect("a number") < -0.999, "{moved}");
+    let [opens, closed] = ["opens", "closed"].map(|key| moved[key].as_f64().expect("a number"));
+    assert_eq!(planned_and_explained(&world(opens)).0, [0, 0]);
+    assert_eq!(planned_and_explained(&world(closed)).0, [3, 3]);
+}
+
+/// Checks a motion whose lowered tool hits at its goal, and one that is lowered into an obstacle at its start.
+#[test]
+fn a_motion_of_four_joints_is_explained_with_its_tool() {
+    let world = |start: f64, goal: f64| {
+        format!(
+            "{LOWERED}[start]\njoints = [-0.5, 0.8]\nstroke = {start}\n[goal]\njoints = [0.5, 0.8]\nstroke = {goal}\n\
+             [[obstacle]]\nname = \"box\"\nheight = [0.0, 0.1]\npolygon = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]]\n\
+             [[obstacle]]\nname = \"pit\"\nheight = [0.0, 0.02]\npolygon = [[0.3, -0.2], [0.6, -0.2], [0.6, 0.0], [0.3, 0.0]]\n"
+        )
+    };
+    assert_eq!(planned_and_explained(&world(-0.05, -0.05)).0, [0, 0]);
+    let (codes, result, words) = planned_and_explained(&world(0.0, -0.15));
+    assert_eq!((codes, &result["blocking"]), ([3, 3], &serde_json::json!(["box"])), "{words}");
+    assert!(words.starts_with("At the goal, while the tool is lowered, the flange hits the box."), "{words}");
+    let (codes, result, words) = planned_and_explained(&world(-0.175, 0.0));
+    assert_eq!((codes, &result["blocking"]), ([1, 3], &serde_json::json!(["pit"])), "{words}");
+    assert_eq!(result["blocked_ends"][0]["when"], "while the tool is lowered", "{result}");
+}
+
+/// Checks a task whose answer is unknown, because the wrist might turn the object elsewhere. The obstacle that blocks the
+/// step is still named.
+#[test]
+fn an_unknown_task_stays_unknown_and_names_what_blocks_the_step() {
+    let world = pick_beside_wall(0.0, "payload = \"level\"\n") + ", angle = 1.0 }\n";
+    let (codes, result, words) = planned_and_explained(&world);
+    assert_eq!((codes, &result["status"]), ([4, 4], &"unknown".into()), "{words}");
+    assert_eq!(result["blocking"], serde_json::json!(["wall"]));
+    assert!(result["reason"].as_str().expect("a reason").contains("while the tool is lowered"), "{result}");
+    assert!(words.contains("result     unknown: no motion was found for step 1"), "{words}");
+}
+
+/// Checks steps that fail for another reason than an obstacle: the explanation has the planner's reason and exit code.
+#[test]
+fn steps_without_blocking_obstacles_keep_the_planners_answer() {
+    let place = Place::new();
+    let line = "[start]\njoints = [0.3, 1.2]\n[[obstacle]]\nname = \"post\"\ncircle = { center = [1.2, 0.3], radius = 0.1 }\n\
+                [[step]]\nfollow = { points = [[1.2, -0.2], [1.2, 0.8]], tolerance = 1e-3 }\n";
+    let plan = place.plan(line, "");
+    assert_eq!(plan.code, 3, "{}", plan.stdout);
+    let robot = shipped("robots/planar_2r.urdf");
+    let done = place.run(&["explain", &robot, "world.toml"], "--json");
+    assert_eq!((done.code, &json(&done)["status"]), (3, &"infeasible".into()), "{}", done.stderr);
+    assert!(!json(&done)["reasons"].as_array().expect("a list").is_empty(), "{}", done.stdout);
+    let words = place.run(&["explain", &robot, "world.toml"], "").stdout;
+    assert!(words.contains("result     infeasible: step 2") && words.contains("cplan follow"), "{words}");
+}
+
 #[test]
 fn a_motion_is_explained_by_the_obstacles_that_shape_it() {
     let done = explain(&Place::new(), "planar_2r", "shelf", "--json");

@@ -355,7 +355,7 @@ pub struct FailedStepReport {
 impl FailedStepReport {
     /// Creates the report of the first step of a task that cannot be done, with the reasons.
     pub fn new(task: &Task, why: &FailedStep) -> Self {
-        let FailedStep { step, reasons, scene, moving: _, from, ik_solutions } = why;
+        let FailedStep { step, reasons, scene, from, ik_solutions, .. } = why;
         Self {
             step: step.number,
             cycle: step.cycle,

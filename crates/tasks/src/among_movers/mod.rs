@@ -124,6 +124,7 @@ fn failed_pick_out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
         moving: start.moving.clone(),
         from: start.q,
         ik_solutions: Vec::new(),
+        standstills: [Vec::new(), Vec::new()],
     })
 }
 
@@ -286,7 +287,7 @@ impl<'a> Search<'a> {
         if let Some((node, step)) = next.filter(|_| !is_known) {
             let refusal = Refusal::new(format!("given up after {} motions planned in time", self.motions), false);
             let depth = self.nodes[node].depth;
-            self.refused.push(RefusedStep { depth, node, step, ik_solution: None, refusal });
+            self.refused.push(RefusedStep { depth, node, step, ik_solution: None, candidate: None, refusal });
         }
     }
 
@@ -304,7 +305,7 @@ impl<'a> Search<'a> {
         let Choices { ways, refused } = TimedState { task: self.task, state, time: *seconds }.choices();
         for reason in refused {
             let (step, ik_solution, refusal) = (reason.step, reason.to, reason.refusal);
-            self.refused.push(RefusedStep { depth, node: index, step, ik_solution, refusal });
+            self.refused.push(RefusedStep { depth, node: index, step, ik_solution, candidate: None, refusal });
         }
         for choice in ways {
             self.push(Node {
@@ -337,7 +338,7 @@ impl<'a> Search<'a> {
                 // A passing object is picked at many places, so that no single IK solution is reported.
                 let ik_solution = choice.moment.is_none().then_some(choice.candidate.to);
                 let step = choice.candidate.step;
-                self.refused.push(RefusedStep { depth, node: parent, step, ik_solution, refusal });
+                self.refused.push(RefusedStep { depth, node: parent, step, ik_solution, candidate: None, refusal });
             }
         }
     }
@@ -507,6 +508,6 @@ impl<'a> Search<'a> {
             Stage::Pending(_) => None,
         };
         let (task, legs) = (self.task, &mut self.legs);
-        farthest(&task.arm, &self.refused, state, |from, step| legs.scene(task, from, step))
+        farthest(task, &self.refused, state, |from, step| legs.scene(task, from, step))
     }
 }

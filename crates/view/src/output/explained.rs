@@ -5,7 +5,7 @@ use super::explained_words::{bounds, headline, instruction};
 use super::picture::{contours, title_of};
 use super::summary::{Line, configuration, format_columns, goal_lines};
 use crate::{Picture, View};
-use cplan_core::model::{Outcome, Scene};
+use cplan_core::model::{Outcome, Scene, Status};
 use cplan_explain::{
     BlockedEnd, Bottleneck, End, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach, TIME_LIMIT, Target,
 };
@@ -20,6 +20,8 @@ const TIME_LIMIT_FACTOR: f64 = 12.0;
 pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
     let scene = explanation.question.scene();
     let mut lines = vec![("result", verdict(explanation))];
+    let reasons = explanation.failure.iter().flat_map(|failure| &failure.reasons);
+    lines.extend(reasons.map(|reason| ("why", reason.clone())));
     lines.extend(facts(explanation));
     lines.extend(time_limit_note(explanation).map(|words| ("stopped", words)));
     lines.push(("start", configuration(scene.arm(), explanation.question.start())));
@@ -65,6 +67,13 @@ pub fn view(explanation: &Explanation) -> View {
 /// Returns the answer in a sentence.
 fn verdict(explanation: &Explanation) -> String {
     let scene = explanation.question.scene();
+    let blocking = explanation.outcome.infeasible().and_then(|closed| closed.sets.first());
+    let blocking = blocking.filter(|set| !set.blockers.is_empty());
+    if let Some(failure) = &explanation.failure
+        && (failure.status == Status::Unknown || blocking.is_none())
+    {
+        return failure.verdict.clone();
+    }
     match &explanation.outcome {
         Outcome::Unknown(reason) => format!("unknown: {reason}"),
         Outcome::Found(shaped) => match shaped.savings.len() {
@@ -74,7 +83,7 @@ fn verdict(explanation: &Explanation) -> String {
             0 => "found: a path exists, and no single obstacle or limit makes the shortest path longer".into(),
             n => format!("found: a path exists; {} the shortest path longer", count_with_makes(n)),
         },
-        Outcome::Infeasible(closed) => match closed.sets.first().filter(|set| !set.blockers.is_empty()) {
+        Outcome::Infeasible(closed) => match blocking {
             Some(set) => format!("infeasible: proven; blocked by {}", set.describe(scene)),
             None if closed.out_of_reach.is_some() => "infeasible: the goal is out of reach".into(),
             None => "infeasible: there is no path, and no obstacle or limit whose removal opens one is known".into(),
@@ -164,7 +173,7 @@ fn infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Vec<Line> {
 
 /// Describes the defects of a start or goal, and the nearest free configuration.
 fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
-    let arm = scene.arm();
+    let (arm, scene) = (scene.arm(), blocked.scene(scene));
     let key = if blocked.end == End::Start { "bad start" } else { "bad goal" };
     let beyond = (0..2).filter(|&k| blocked.beyond[k] > 0.0);
     let beyond = beyond.map(|k| {
@@ -175,7 +184,11 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
         )
     });
     let reasons: Vec<String> = beyond.chain(blocked.hits.iter().map(|hit| scene.explain(hit))).collect();
-    let mut lines = vec![(key, format!("{}: {}", configuration(arm, blocked.at), listed(&reasons)))];
+    let when = blocked.standing.as_ref().map_or_else(String::new, |standing| format!("{} ", standing.when));
+    let mut lines = vec![(key, format!("{}: {when}{}", configuration(arm, blocked.at), listed(&reasons)))];
+    if blocked.standing.is_some() {
+        return lines;
+    }
     lines.push(match (&blocked.nearest, blocked.tip_moves(arm)) {
         (Some(nearest), Some(tip)) => {
             let (at, far) = (configuration(arm, nearest.configuration), nearest.distance);

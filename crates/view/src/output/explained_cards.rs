@@ -77,7 +77,7 @@ impl CardMaker<'_> {
         let number = change.element.obstacle();
         let removed = match change.among {
             ChangeContext::World => Vec::new(),
-            ChangeContext::Set => set.others(self.scene()).into_iter().filter_map(Element::obstacle).collect(),
+            ChangeContext::Set => set.others(self.question).into_iter().filter_map(Element::obstacle).collect(),
         };
         let view = obstacle.as_ref().zip(number);
         let [opens, closed] = bounds(self.scene(), set, change);

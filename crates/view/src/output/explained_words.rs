@@ -116,6 +116,7 @@ fn headline_of_ends(scene: &Scene, ends: &[BlockedEnd]) -> String {
 }
 
 fn describe_end(scene: &Scene, blocked: &BlockedEnd) -> String {
+    let scene = blocked.scene(scene);
     let end = if blocked.end == End::Start { "start" } else { "goal" };
     let beyond: Vec<String> =
         (0..2).filter(|&k| blocked.beyond[k] > 0.0).map(|k| joint_name(&scene.arm().joints[k])).collect();
@@ -128,11 +129,13 @@ fn describe_end(scene: &Scene, blocked: &BlockedEnd) -> String {
     let mut obstacles: Vec<String> = hits.iter().map(|hit| obstacle_name(scene, hit.contact.pair.obstacle)).collect();
     obstacles.dedup();
     let who = match hits[..] {
+        [only] if blocked.standing.is_some() => body_name(scene, only.contact.pair),
         [only] => part_name(scene, only),
         _ => "the arm".into(),
     };
     let what = if obstacles.len() > MAX_NAMED { format!("{} obstacles", obstacles.len()) } else { joined(&obstacles) };
-    format!("At the {end}, {who} {verb} {what}.")
+    let when = blocked.standing.as_ref().map_or_else(String::new, |standing| format!(" {},", standing.when));
+    format!("At the {end},{when} {who} {verb} {what}.")
 }
 
 /// Returns a sentence about the proof behind the headline. Empty if there is nothing to add.
@@ -356,6 +359,11 @@ pub(super) fn part_name(scene: &Scene, hit: &Obstruction) -> String {
 pub(super) fn part_of_pair(scene: &Scene, pair: Pair) -> String {
     let link = scene.link(pair);
     if scene.is_attached(pair) { noun("payload", &link.parts[pair.part].body) } else { noun("link", &link.name) }
+}
+
+/// Names the body of the robot to which the part of a pair belongs, or the payload.
+fn body_name(scene: &Scene, pair: Pair) -> String {
+    noun(if scene.is_attached(pair) { "payload" } else { "link" }, &scene.link(pair).parts[pair.part].body)
 }
 
 /// Returns a name with an article if it consists of ordinary words, and otherwise in quotation marks after its kind:
