@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod errata;
 mod family;
 mod football;
 mod moving;
