@@ -61,7 +61,8 @@ pub struct PlanArgs {
     #[command(flatten)]
     pub motion: MotionArgs,
     /// Write the result (.json, .csv, .yaml for a ROS 2 JointTrajectory, .mcap for a recording of ROS 2 topics), or the
-    /// configuration space with the planner's graph or grid (cspace.json, NAME.cspace.json, .geojson). Can be repeated.
+    /// configuration space with the planner's graph or grid (cspace.json, NAME.cspace.json, .geojson), or matrices of a grid
+    /// (cspace.csv, potential.csv, heuristic.csv). Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub output: Vec<PathBuf>,
     /// Write the motion of each step, from rest to rest, into a separate .csv or .yaml file: --output plan.yaml writes
@@ -80,6 +81,10 @@ pub struct PlanArgs {
     #[arg(long, value_enum, value_name = "LINES", default_value_t = FieldLinesName::Equipotentials)]
     #[arg(help_heading = OUTPUT)]
     pub field_lines: FieldLinesName,
+    /// First label of a wavefront, or of another search of a grid, in pictures and files. Textbooks begin at 0, some at 1
+    /// or 2.
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = OUTPUT)]
+    pub labels_from: u32,
     /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact
     /// arithmetic. If FILE is also a .json of --output, it becomes the member `certificate` there. Infeasible tasks have no
     /// certificate.
@@ -144,7 +149,7 @@ pub fn answer(
     let sinks = sinks::sinks_with(&args.output, &args.picture, certificate.filter(|_| within.is_none()))?;
     let options = options(args.planner, &args.options, &args.motion, &args.message)?;
     let options = Options { timings: args.timings, ..options };
-    require_grid(&sinks, &options.planner)?;
+    require_grid(args, &sinks, &options.planner)?;
     let begun = Instant::now();
     let loaded = load()?;
     let inputs = loaded.files();
@@ -215,16 +220,29 @@ pub fn with_ends(
     }
 }
 
-/// Refuses to write a grid's values as CSV if the planner has no grid.
-fn require_grid(sinks: &[Sink], planner: &Planner) -> Result<(), Failure> {
-    let matrix = sinks.iter().find(|sink| matches!(sink, Sink::CSpace(CSpaceFormat::Csv, _)));
-    match matrix {
-        Some(sink) if planner.space().is_none() => Err(Failure::Usage(format!(
-            "{} holds the values of a grid and needs --planner wavefront or harmonic",
-            sink.path().display()
-        ))),
-        _ => Ok(()),
+/// Refuses to write the values of a grid, its potential or its estimates if the planner has none, and to count labels
+/// that it does not have.
+fn require_grid(args: &PlanArgs, sinks: &[Sink], planner: &Planner) -> Result<(), Failure> {
+    if args.labels_from > 0 && planner.method() != Method::Wavefront {
+        return Err(Failure::Usage("--labels-from needs --planner wavefront: other planners label no cells".into()));
     }
+    for sink in sinks {
+        let Sink::CSpace(format, path) = sink else { continue };
+        let needed = match format {
+            CSpaceFormat::Csv if planner.space().is_none() => {
+                "holds the values of a grid and needs --planner wavefront or harmonic"
+            }
+            CSpaceFormat::PotentialCsv if !planner.has_potential() => {
+                "holds the potential of a field and needs --planner harmonic, with any field except khatib"
+            }
+            CSpaceFormat::HeuristicCsv if !planner.estimates_costs() => {
+                "holds the estimates of a search and needs --planner wavefront --search astar or greedy"
+            }
+            _ => continue,
+        };
+        return Err(Failure::Usage(format!("{} {needed}", path.display())));
+    }
+    Ok(())
 }
 
 /// Writes results, configuration spaces, pictures and the certificate, in this order. Returns the names of the written
@@ -253,13 +271,14 @@ fn written(
     let seen = || {
         let mut view = if plays { plan.view_with_replay() } else { plan.view() };
         view.facts.extend(hint.iter().map(|hint| ["hint".to_owned(), (*hint).to_owned()]));
-        args.theme.apply(view).with_field_lines(args.field_lines.into())
+        args.theme.apply(view).with_field_lines(args.field_lines.into()).with_labels_from(args.labels_from)
     };
+    let labeled = || plan.cspaces().with_labels_from(args.labels_from);
     let (mut view, mut spaces) = (None, None);
     for sink in sinks {
         match sink {
             Sink::Result(..) => continue,
-            Sink::CSpace(format, path) => match format.text(spaces.get_or_insert_with(|| plan.cspaces())) {
+            Sink::CSpace(format, path) => match format.text(spaces.get_or_insert_with(labeled)) {
                 Some(text) => write_whole(path, text.as_bytes())?,
                 None => {
                     sinks::warn_unwritten(path, "grid");

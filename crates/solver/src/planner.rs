@@ -4,7 +4,8 @@ use super::{CellCounts, Criterion, GridSpace, Method, Setting, Settings};
 use cplan_core::model::Arm;
 use cplan_core::planner::{PathKind, RoadmapSearch, VisibilityGraph};
 use cplan_core::space::Metric;
-use cplan_fields::FieldPlanner;
+use cplan_core::waves::search::Order;
+use cplan_fields::{FieldChoice, FieldPlanner};
 use serde::de::Error;
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -159,6 +160,20 @@ impl Planner {
     #[must_use]
     pub fn field(&self) -> Option<&FieldPlanner> {
         self.settings.field.as_ref()
+    }
+
+    /// Returns true if the planner computes a potential between that of goals and that of obstacles.
+    #[must_use]
+    pub fn has_potential(&self) -> bool {
+        let is_relaxed = |field: &FieldPlanner| matches!(field.field, FieldChoice::Relaxed { .. });
+        self.method.reads(Setting::Field) && self.field().is_none_or(is_relaxed)
+    }
+
+    /// Returns true if the planner's search of a grid estimates remaining costs.
+    #[must_use]
+    pub fn estimates_costs(&self) -> bool {
+        let order = self.settings.grid_search.order(self.settings.ties);
+        self.method.reads(Setting::GridSearch) && order.is_some_and(Order::estimates)
     }
 
     fn value_if_read<T>(&self, setting: Setting, value: T) -> Option<T> {

@@ -45,15 +45,101 @@ fn a_search_from_the_start_with_ties_first_labels_the_published_50_cells() {
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_published_matrices_come_from_the_command_line() {
     let place = Place::new();
-    for (file, options, first) in
-        [("wavefront_20x12.csv", "", 2.0), ("astar_g_20x12.csv", "--search astar --forward --ties first", 1.0)]
-    {
+    for (file, options) in [
+        ("wavefront_20x12.csv", "--labels-from 2"),
+        ("astar_g_20x12.csv", "--search astar --forward --ties first --labels-from 1"),
+    ] {
         let published = std::fs::read_to_string(published(&format!("data/{file}"))).unwrap();
-        let shown = |value: f64| if value.is_nan() { 0.0 } else { value + first };
+        let shown = |value: f64| if value.is_nan() { 0.0 } else { value };
         let ours: Vec<f64> = matrix(&place, options).into_iter().flatten().map(shown).collect();
         let theirs: Vec<f64> = published.split([',', '\n']).filter_map(|cell| cell.trim().parse().ok()).collect();
         assert_eq!(ours, theirs, "{file}");
     }
+}
+
+/// Compares first labels with those of figures 2 and 3, in all files and in the picture.
+#[test]
+fn labels_begin_at_the_requested_number() {
+    let place = Place::new();
+    let wave = matrix(&place, "--labels-from 2 --picture wave.svg --output cspace.json");
+    assert_eq!((wave[4][2], wave[18][10], wave[17][10]), (24.0, 2.0, 3.0));
+    let costs = matrix(&place, "--search astar --forward --ties first --labels-from 1");
+    assert!((costs[4][2], costs[18][10]) == (1.0, 23.0) && costs[1][1].is_nan());
+    let json: serde_json::Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    let values = json["spaces"][0]["grid"]["values"].as_array().unwrap();
+    let least = values.iter().filter_map(serde_json::Value::as_f64).fold(f64::INFINITY, f64::min);
+    assert_eq!(least, 2.0);
+    let picture = place.read("wave.svg");
+    matrix(&place, "--picture wave.svg");
+    assert!(picture != place.read("wave.svg"), "the numbers in the picture are others");
+}
+
+/// Compares the estimates of A\* with figure 4, whose rows 16 and 17 are joined in our copy.
+#[test]
+fn the_estimates_of_a_star_are_the_published_ones() {
+    let place = Place::new();
+    let search = "--search astar --forward --ties first --output heuristic.csv --output cspace.json";
+    let done = place.run(&map(), &format!("{MAP} {search}"));
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let text = place.read("heuristic.csv");
+    let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    for (row, published) in [
+        (1, "inf 26 25 24 23 22 21 20 19 18 17 inf"),
+        (2, "inf 25 24 23 inf inf inf 19 inf inf 16 inf"),
+        (6, "inf 21 20 19 18 17 16 15 inf inf 12 inf"),
+        (7, "inf 20 inf inf inf inf inf 14 13 12 11 inf"),
+        (10, "inf 17 16 15 14 13 12 11 inf inf inf inf"),
+        (13, "inf inf inf 12 11 inf inf 8 inf inf inf inf"),
+        (15, "inf 12 11 10 9 8 7 6 inf inf inf inf"),
+        (18, "inf 9 8 7 6 5 4 3 2 1 0 inf"),
+    ] {
+        assert_eq!(lines[row].join(" "), published, "row {row}");
+    }
+    // An independent rule: the Manhattan distance from the goal's cell.
+    for (row, line) in lines.iter().enumerate() {
+        for (column, cell) in line.iter().enumerate() {
+            let apart = row.abs_diff(18) + column.abs_diff(10);
+            assert!(*cell == "inf" || *cell == apart.to_string(), "{row} {column}: {cell}");
+        }
+    }
+    let json: serde_json::Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    let estimates = json["spaces"][0]["grid"]["heuristic"].as_array().unwrap();
+    assert_eq!((estimates.len(), estimates[10 * 20 + 1].as_f64()), (240, Some(0.0)));
+    place.run(&map(), "--planner wavefront --output heuristic.csv").refused(2, &["--search astar or greedy"]);
+    place.run(&map(), "--planner harmonic --labels-from 1").refused(2, &["--labels-from needs --planner wavefront"]);
+}
+
+/// Compares the potential with its logarithm, and with the mean of its neighbours: 0 at the goal, 1 at obstacles.
+#[test]
+fn the_potential_is_that_of_the_sources() {
+    let place = Place::new();
+    let files = "--output potential.csv --output cspace.csv";
+    let done =
+        place.run(&map(), &format!("--planner harmonic --cells 12x20 --space centers --levels 1 --quiet {files}"));
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let read = |file: &str| -> Vec<Vec<f64>> {
+        place.read(file).lines().map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
+    };
+    let (potential, logarithm) = (read("potential.csv"), read("cspace.csv"));
+    let mut free = 0;
+    for i in 0..20 {
+        for j in 0..12 {
+            let p = potential[i][j];
+            if logarithm[i][j] == f64::INFINITY {
+                assert_eq!(p, 1.0);
+            } else if logarithm[i][j] == 0.0 {
+                assert_eq!((p, i, j), (0.0, 18, 10));
+            } else {
+                let mean =
+                    (potential[i - 1][j] + potential[i + 1][j] + potential[i][j - 1] + potential[i][j + 1]) / 4.0;
+                assert!((p - (1.0 - logarithm[i][j].exp())).abs() < 1e-12 && (p - mean).abs() < 1e-9, "{i} {j}: {p}");
+                free += 1;
+            }
+        }
+    }
+    assert_eq!(free, 109);
+    place.run(&map(), "--planner wavefront --output potential.csv").refused(2, &["needs --planner harmonic"]);
+    place.run(&map(), "--planner harmonic --field khatib --output potential.csv").refused(2, &["except khatib"]);
 }
 
 #[test]

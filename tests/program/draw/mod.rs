@@ -147,6 +147,7 @@ fn a_wavefront_between_limits_is_drawn() {
             labels: labels.to_vec(),
             expanded: Vec::new(),
             forward: false,
+            estimates: None,
         },
     );
     let words = words(&text);
@@ -306,9 +307,15 @@ fn a_motion_that_stays_where_it_is_is_drawn() {
             expanded: Vec::new(),
         },
         Trace::Roads { edges: Vec::new(), expanded: Vec::new(), kind: GraphKind::Roadmap },
-        Trace::Wavefront { cells: [1, 1], labels: vec![0], expanded: Vec::new(), forward: false },
-        Trace::Wavefront { cells: [0, 0], labels: Vec::new(), expanded: Vec::new(), forward: false },
-        Trace::Wavefront { cells: [2, 1], labels: vec![u32::MAX; 2], expanded: Vec::new(), forward: false },
+        Trace::Wavefront { cells: [1, 1], labels: vec![0], expanded: Vec::new(), forward: false, estimates: None },
+        Trace::Wavefront { cells: [0, 0], labels: Vec::new(), expanded: Vec::new(), forward: false, estimates: None },
+        Trace::Wavefront {
+            cells: [2, 1],
+            labels: vec![u32::MAX; 2],
+            expanded: Vec::new(),
+            forward: false,
+            estimates: None,
+        },
         Trace::Field { cells: [2, 2], potential: vec![f64::NEG_INFINITY, 0.0, -1.0, -2.0] },
         Trace::Field { cells: [0, 0], potential: Vec::new() },
     ] {

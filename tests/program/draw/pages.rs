@@ -103,7 +103,7 @@ fn a_wavefront_is_written_in_letters() {
     let scene = planar_scene();
     let n = 400;
     let labels: Vec<u32> = (0..n * n).map(|k| if k / n < 100 { u32::MAX } else { (k / n - 100) as u32 }).collect();
-    let trace = Trace::Wavefront { cells: [n; 2], labels, expanded: Vec::new(), forward: false };
+    let trace = Trace::Wavefront { cells: [n; 2], labels, expanded: Vec::new(), forward: false, estimates: None };
     let picture = Picture { trace: Some(&trace), ending: Some(Status::Unknown), ..plain_picture(&scene, &[]) };
     let value = inspected("page_wavefront", &View::of_picture(&picture));
     let seen = &value["worlds"][0]["trace"];

@@ -49,6 +49,7 @@ pub use visibility::{Visibility, VisibilityGraph, VisibilityMap};
 pub use wavefront::{GridSearch, Wavefront};
 
 use crate::space::{Configuration, GoalSet, Path};
+use crate::waves::search::Estimates;
 use cplan_geometry::planar::NO_ENTRY;
 use cplan_harmonic::{Component, Potential, estimated_harmonic};
 use cplan_text::counted;
@@ -263,6 +264,8 @@ pub enum Trace {
         expanded: Vec<u32>,
         /// True if the search began at the start.
         forward: bool,
+        /// The estimates of the search. `None` if it uses none.
+        estimates: Option<Estimates>,
     },
     /// The natural logarithm of the potential for each cell: 0 at the goal, lower farther away. Minus infinity where
     /// there is no potential.

@@ -3,7 +3,7 @@
 use super::attach::JoinedQuery;
 use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
-use crate::waves::search::{Order, Search, Ties};
+use crate::waves::search::{Estimates, Order, Search, Ties};
 use crate::waves::{FreeCells, Neighborhood, StepLabels};
 use cplan_harmonic::UNREACHED;
 use serde::{Deserialize, Serialize};
@@ -63,7 +63,8 @@ impl GridSearch {
     }
 
     /// Returns the order in which cells are expanded; `None` for the wave, which labels whole levels at once.
-    fn order(self, ties: Ties) -> Option<Order> {
+    #[must_use]
+    pub fn order(self, ties: Ties) -> Option<Order> {
         match self {
             Self::Wave => None,
             Self::BreadthFirst => Some(Order::BreadthFirst),
@@ -140,10 +141,11 @@ impl Planner for Wavefront {
         let joined = match JoinedQuery::new(space, query) {
             Ok(joined) => joined,
             Err(reason) => {
-                let labels = vec![UNREACHED; space.blocked.len()];
+                let (labels, expanded) = (vec![UNREACHED; space.blocked.len()], Vec::new());
+                let forward = self.forward;
                 return Run {
                     outcome: Proposal::GaveUp(reason),
-                    trace: Trace::Wavefront { cells: space.cells, labels, expanded: Vec::new(), forward: self.forward },
+                    trace: Trace::Wavefront { cells: space.cells, labels, expanded, forward, estimates: None },
                     size: Size::Grid { cells: 0, sweeps: 0 },
                     note: None,
                 };
@@ -165,7 +167,7 @@ impl Wavefront {
             let cells = joined.start.cells.iter().find_map(|&cell| wave.descend(map, cell));
             let size = Size::Grid { cells: wave.reached(), sweeps: wave.levels() };
             let (labels, expanded) = (wave.into_labels(), Vec::new());
-            let trace = Trace::Wavefront { cells: map.cells(), labels, expanded, forward: false };
+            let trace = Trace::Wavefront { cells: map.cells(), labels, expanded, forward: false, estimates: None };
             return (cells, trace, size);
         };
         let (cells, search) = if self.forward {
@@ -181,7 +183,9 @@ impl Wavefront {
             _ => Size::Search { expanded: search.expanded.len(), labeled },
         };
         let (labels, expanded) = (search.labels(), search.expanded);
-        let trace = Trace::Wavefront { cells: map.cells(), labels, expanded, forward: self.forward };
+        let targets = if self.forward { sources } else { joined.start.cells[..1].to_vec() };
+        let estimates = order.estimates().then_some(Estimates { targets, neighborhood: self.neighborhood });
+        let trace = Trace::Wavefront { cells: map.cells(), labels, expanded, forward: self.forward, estimates };
         (cells, trace, size)
     }
 

@@ -31,6 +31,14 @@ pub enum Order {
     IterativeDeepening,
 }
 
+impl Order {
+    /// Returns true if the order depends on estimates of the remaining cost.
+    #[must_use]
+    pub fn estimates(self) -> bool {
+        matches!(self, Self::AStar(_) | Self::Greedy)
+    }
+}
+
 /// The rule for choosing among cells with the same estimated total cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -88,6 +96,24 @@ impl Cost {
     }
 }
 
+/// The estimates of A\* and of greedy searches: the cost from a cell to the nearest target without obstacles.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Estimates {
+    /// The cells that end the search.
+    pub targets: Vec<usize>,
+    /// The neighbours to which a move may lead.
+    pub neighborhood: Neighborhood,
+}
+
+impl Estimates {
+    /// Returns the estimate of a cell. Takes time proportional to the number of targets.
+    #[must_use]
+    pub fn of(&self, free: &FreeCells, cell: usize) -> Cost {
+        let costs = self.targets.iter().map(|&target| straight_cost(free, self.neighborhood, cell, target));
+        costs.min_by(|a, b| a.value().total_cmp(&b.value())).unwrap_or_default()
+    }
+}
+
 /// The result of a search, for each cell of the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Search {
@@ -139,13 +165,8 @@ impl Search {
             return search;
         }
         let mut open = OpenCells::new(order);
-        let estimate = |cell: usize| match order {
-            Order::AStar(_) | Order::Greedy => {
-                let costs = targets.iter().map(|&target| straight_cost(free, neighborhood, cell, target));
-                costs.min_by(|a, b| a.value().total_cmp(&b.value())).unwrap_or_default()
-            }
-            _ => Cost::default(),
-        };
+        let estimates = Estimates { targets: targets.iter().copied().collect(), neighborhood };
+        let estimate = |cell: usize| if order.estimates() { estimates.of(free, cell) } else { Cost::default() };
         for source in sources {
             open.push(source, Cost::default(), estimate(source));
         }

@@ -48,8 +48,7 @@ pub enum SaveError {
 
 impl FileFormat {
     /// Returns the format of a file's extension: `.json`, `.csv`, `.yaml`, `.mcap`, `.svg`, `.png`, `.gif`, `.html` or
-    /// `.geojson`. The names `cspace.json` and `cspace.csv`, and those that end in `.cspace.json` or `.cspace.csv`,
-    /// mean the configuration space.
+    /// `.geojson`. Some names, such as `cspace.json`, mean the configuration space: see [`CSpaceFormat::from_path`].
     ///
     /// # Errors
     /// Any other extension, and those that this build of the program does not support.

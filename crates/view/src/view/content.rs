@@ -191,6 +191,15 @@ impl View {
         self
     }
 
+    /// Adds a number to the labels of a wavefront, whose first label is 0 otherwise.
+    #[must_use]
+    pub fn with_labels_from(mut self, first: u32) -> Self {
+        for trace in self.worlds.iter_mut().filter_map(|world| world.trace.as_mut()) {
+            trace.shift_labels(first);
+        }
+        self
+    }
+
     /// Returns the view with the key figures of a result.
     #[must_use]
     pub fn with_figures(mut self, figures: KeyFigures) -> Self {

@@ -99,6 +99,13 @@ impl TraceView {
         Some(ScaleView { title, ends, soft })
     }
 
+    /// Adds a number to the labels of a wavefront.
+    pub fn shift_labels(&mut self, by: u32) {
+        if let Self::Wavefront(waves) = self {
+            waves.numbers.iter_mut().flatten().for_each(|label| *label = label.saturating_add(by));
+        }
+    }
+
     /// Returns the trace for pictures and pages. `None` if there is nothing to show.
     pub fn new(trace: &Trace, topology: &Topology, grain: RoundingSteps) -> Option<Self> {
         let pairs = |pairs: &[[Configuration; 2]]| grain.configurations(pairs.iter().flatten());
@@ -123,7 +130,7 @@ impl TraceView {
             Trace::Boxes { free, stuck, mixed } => {
                 Self::Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed), rest: Chain::default() }
             }
-            Trace::Wavefront { cells, labels, expanded, forward } => {
+            Trace::Wavefront { cells, labels, expanded, forward, .. } => {
                 let mut waves = Waves::new(*cells, labels, expanded)?;
                 waves.from_start = *forward;
                 Self::Wavefront(waves)

@@ -12,12 +12,16 @@ pub enum CSpaceFormat {
     GeoJson,
     /// The values of a grid as a matrix.
     Csv,
+    /// The potential of a field as a matrix.
+    PotentialCsv,
+    /// The estimates of a search of a grid as a matrix.
+    HeuristicCsv,
 }
 
 impl CSpaceFormat {
     /// Returns the format for a file name, in upper or lower case. `cspace.json`, and names that end in `.cspace.json`,
-    /// mean JSON. `cspace.csv`, and names that end in `.cspace.csv`, mean CSV. Names that end in `.geojson` mean
-    /// GeoJSON. Returns `None` for other names.
+    /// mean JSON. In the same way, `cspace.csv`, `potential.csv` and `heuristic.csv` mean matrices. Names that end in
+    /// `.geojson` mean GeoJSON. Returns `None` for other names.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
         let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
@@ -26,18 +30,24 @@ impl CSpaceFormat {
             Some(Self::Json)
         } else if is("cspace.csv") {
             Some(Self::Csv)
+        } else if is("potential.csv") {
+            Some(Self::PotentialCsv)
+        } else if is("heuristic.csv") {
+            Some(Self::HeuristicCsv)
         } else {
             path.extension()?.eq_ignore_ascii_case("geojson").then_some(Self::GeoJson)
         }
     }
 
-    /// Returns the text of the file. `None` for a matrix if there is no grid.
+    /// Returns the text of the file. `None` for a matrix if there is no grid with such values.
     #[must_use]
     pub fn text(self, spaces: &CSpaces) -> Option<String> {
         match self {
             Self::Json => Some(spaces.json()),
             Self::GeoJson => Some(spaces.geojson()),
             Self::Csv => spaces.csv(),
+            Self::PotentialCsv => spaces.potential_csv(),
+            Self::HeuristicCsv => spaces.heuristic_csv(),
         }
     }
 }

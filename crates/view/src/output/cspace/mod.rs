@@ -14,6 +14,8 @@ use cplan_core::cspace::{self, PolygonWithHoles, Proves};
 use cplan_core::model::{Joint, MotionProblem, Scene, Status};
 use cplan_core::planner::{Trace, VisibilityGraph};
 use cplan_core::space::{Configuration, Path};
+use cplan_core::waves::FreeCells;
+use cplan_core::waves::search::Estimates;
 use cplan_engine::{Detail, Motion, Plan};
 use cplan_geometry::Point;
 use cplan_handling::Task;
@@ -179,7 +181,31 @@ impl CSpaces {
     /// Returns the values of the first grid as a matrix in CSV, if there is a grid.
     #[must_use]
     pub fn csv(&self) -> Option<String> {
-        self.spaces.iter().find_map(|space| space.grid.as_ref()).map(FieldGrid::matrix)
+        self.grid().map(FieldGrid::matrix)
+    }
+
+    /// Returns the potential of the first grid as a matrix in CSV: 0 at the goals, 1 at obstacles. `None` if the grid
+    /// has no such field.
+    #[must_use]
+    pub fn potential_csv(&self) -> Option<String> {
+        self.grid()?.potential_matrix()
+    }
+
+    /// Returns the estimates of the search of the first grid as a matrix in CSV. `None` if the search uses none.
+    #[must_use]
+    pub fn heuristic_csv(&self) -> Option<String> {
+        self.grid()?.estimate_matrix()
+    }
+
+    fn grid(&self) -> Option<&FieldGrid> {
+        self.spaces.iter().find_map(|space| space.grid.as_ref())
+    }
+
+    /// Adds a number to the labels of all grids, whose first label is 0 otherwise.
+    #[must_use]
+    pub fn with_labels_from(mut self, first: u32) -> Self {
+        self.spaces.iter_mut().filter_map(|space| space.grid.as_mut()).for_each(|grid| grid.shift_labels(first));
+        self
     }
 
     /// Returns a GeoJSON `FeatureCollection`, with joint values as coordinates.
@@ -285,10 +311,13 @@ impl CSpace {
                 let boxes = Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed) };
                 Self { boxes: Some(boxes), ..self }
             }
-            Trace::Wavefront { labels, forward, .. } => {
+            Trace::Wavefront { labels, forward, estimates, .. } => {
                 let steps = |&label: &u32| if label == u32::MAX { f64::INFINITY } else { f64::from(label) };
                 let quantity = if *forward { "steps_from_start" } else { "steps" };
-                Self { grid: grid(quantity, &labels.iter().map(steps).collect::<Vec<_>>()), ..self }
+                let values: Vec<f64> = labels.iter().map(steps).collect();
+                let estimates = estimates.iter().flat_map(|estimates| estimated_costs(estimates, space));
+                let grid = grid(quantity, &values).map(|grid| grid.with_estimates(estimates.collect()));
+                Self { grid, ..self }
             }
             Trace::Potential { heights, .. } => Self { grid: grid("height", heights), ..self },
             // These values are an estimate for pictures.
@@ -300,6 +329,13 @@ impl CSpace {
             }
         }
     }
+}
+
+/// Returns the estimate of each cell of a grid.
+fn estimated_costs(estimates: &Estimates, space: &Space) -> Vec<f64> {
+    let Space::Grid(grid) = space else { return Vec::new() };
+    let free = FreeCells::new(grid);
+    (0..grid.blocked.len()).map(|cell| estimates.of(&free, cell).value()).collect()
 }
 
 /// Largest growth of obstacles, as a multiple of the tolerance of pictures. It is the sum of the margin itself, twice

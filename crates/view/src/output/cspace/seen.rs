@@ -66,12 +66,16 @@ pub struct FieldGrid {
     #[serde(serialize_with = "bits")]
     #[schemars(with = "Vec<u8>")]
     pub blocked: Vec<bool>,
-    /// The meaning of `values`: `steps` to the goal, `steps_from_start`, `ln_potential` (natural logarithm, 0 at the
-    /// goal, lower with distance), or `height` (descended by the path).
+    /// The meaning of `values`: `steps` to the goal, `steps_from_start`, `ln_potential` (the natural logarithm `ln(1 -
+    /// p)` of a potential `p` that is 0 at the goals and 1 at obstacles), or `height` (descended by the path). Steps
+    /// begin at 0, or at the number of `--labels-from`.
     pub quantity: &'static str,
     /// One value per cell; infinite (null in JSON) if there is no value. Empty if there is no field.
     #[schemars(with = "Vec<Option<f64>>")]
     pub values: Vec<f64>,
+    /// Estimated cost from each cell to the end of the search, without obstacles. Only for A\* and greedy searches.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub heuristic: Vec<f64>,
 }
 
 fn bits<S: Serializer>(flags: &[bool], serializer: S) -> Result<S::Ok, S::Error> {
@@ -108,6 +112,19 @@ impl FieldGrid {
             blocked: grid.blocked.clone(),
             quantity,
             values: if has_values { values.to_vec() } else { Vec::new() },
+            heuristic: Vec::new(),
         })
+    }
+
+    /// Adds the estimates of a search, one per cell.
+    pub(super) fn with_estimates(self, heuristic: Vec<f64>) -> Self {
+        Self { heuristic, ..self }
+    }
+
+    /// Adds a number to the values if they are steps.
+    pub(super) fn shift_labels(&mut self, by: u32) {
+        if self.quantity.starts_with("steps") {
+            self.values.iter_mut().for_each(|value| *value += f64::from(by));
+        }
     }
 }
