@@ -151,7 +151,8 @@ fn path_help() -> String {
     format!(
         "Kind of path: the planner's own (the curve along a field's gradient, the wavefront's staircase, the middles of \
          a decomposition's portals and cells, the arcs of the Voronoi diagram), that path pulled taut within the \
-         planner's cells, or the portals' middles alone [default: own for {}, taut for the others]",
+         planner's cells, or the portals' middles alone, with a cell's centroid only between two portals on one \
+         vertical (a U-turn) [default: own for {}, taut for the others]",
         listed(&own, " and ")
     )
 }

@@ -134,3 +134,26 @@ fn where_cells_are_too_coarse_the_answer_says_whether_there_is_a_path() {
         assert_eq!((closed.code, &closed.json()["status"]), (3, &json!("infeasible")), "{planner}: {}", closed.stderr);
     }
 }
+
+/// Checks the text on `--path middles` against a path around the end of a wall: both portals of the cell beside it lie on
+/// one vertical.
+#[test]
+fn middles_pass_a_centroid_in_a_u_turn_and_the_help_says_so() {
+    let place = Place::new();
+    let help = place.run(&["help", "planners"], "").stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(help.contains("with a cell's centroid only between two portals on one vertical (a U-turn)"), "{help}");
+    let files = [shipped("robots/stage_robot.urdf"), shipped("workspaces/published/cup.toml")];
+    let done = place.run(&files, "--planner trapezoid --path middles --json --output cspace.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let spaces: Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    let cells = &spaces["spaces"][0]["cells"];
+    let [centers, middles] = ["centers", "middles"].map(|key| cells[key].as_array().unwrap().clone());
+    let passed = done.json()["path"].as_array().unwrap().clone();
+    let mut turns = 0;
+    for (portals, center) in middles.windows(2).zip(&centers[1..]) {
+        let is_turn = (portals[0][0].as_f64().unwrap() - portals[1][0].as_f64().unwrap()).abs() < 1e-12;
+        assert_eq!(passed.contains(center), is_turn, "{center}");
+        turns += usize::from(is_turn);
+    }
+    assert!(turns > 0, "the path has no U-turn");
+}
