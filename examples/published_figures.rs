@@ -55,8 +55,8 @@ fn errors() -> Result<(), Box<dyn Error>> {
     ];
     for altered in [false, true] {
         for (of, relaxation) in relaxations.iter().enumerate() {
-            let share = if altered { -1.0 } else { 1.0 } / relaxation.factor([100, 100]);
-            let epsilon = scene.epsilon(100).into_iter().map(|epsilon| share * epsilon).collect();
+            let sign = if altered { -1.0 } else { 1.0 };
+            let epsilon = scene.epsilon(100).into_iter().map(|epsilon| sign * epsilon).collect();
             let equation = match altered {
                 true => Equation::AlteredPreference { epsilon },
                 false => Equation::Preference { epsilon, difference: Difference::Central },

@@ -106,6 +106,7 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
         measure: Measure::GreatestRelativeChange,
         tolerance: 1e-6,
         stencil: Stencil::Square,
+        initial: cplan::field::Initial::High,
         max_sweeps: 10_000,
     };
     vec![

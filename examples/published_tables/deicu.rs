@@ -54,10 +54,10 @@ pub type Sweeps = [Option<usize>; 2];
 /// [`RELAXATIONS`].
 pub fn measure(scene: &Scene, cells: usize, of: usize, altered: bool) -> Sweeps {
     let relaxation = relaxation(of);
-    // Over-relaxation adds the preference without the factor. The sign of the altered form is that of the source's
-    // equation, `- epsilon v grad p`, not of its algorithm; the other form has the sign of the algorithm.
-    let share = if altered { -1.0 } else { 1.0 } / relaxation.factor([cells, cells]);
-    let epsilon = scene.epsilon(cells).into_iter().map(|epsilon| share * epsilon).collect();
+    // The sign of the altered form is that of the source's equation, `- epsilon v grad p`, not of its algorithm; the
+    // other form has the sign of the algorithm.
+    let sign = if altered { -1.0 } else { 1.0 };
+    let epsilon = scene.epsilon(cells).into_iter().map(|epsilon| sign * epsilon).collect();
     let equation = match altered {
         true => Equation::AlteredPreference { epsilon },
         false => Equation::Preference { epsilon, difference: Difference::Central },

@@ -9,8 +9,8 @@ use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
 use super::theme::ThemeArgs;
 use crate::cspace::ZonedGrid;
-use crate::engine::{Problem, field_on_cells};
-use crate::field::{Difference, Direction, Domain, Equation, Limits, Measure, Stencil, Stopping};
+use crate::engine::{CellCounts, Problem, field_on_cells};
+use crate::field::{Difference, Direction, Domain, Equation, Initial, Limits, Measure, Stencil, Stopping};
 use crate::grammar::{OrderName, direction, finite, positive, word};
 use crate::input;
 use crate::motion::write_whole_set;
@@ -28,7 +28,8 @@ use std::path::PathBuf;
 The measured relaxations are Jacobi, weighted Jacobi (0.8), Gauss-Seidel and
 SOR. Gauss-Seidel and SOR go row by row, from the four corners in turn, and
 red-black; SOR uses the formula for empty rectangles. The cells are those of the
-harmonic planner: obstacles have the value 0, goals 1, free cells initially 0.
+harmonic planner: obstacles have the value 0, goals 1. SOR is that of the planner:
+no value leaves this range.
 
 The equations are harmonic, and oriented by central and upwind differences. In
 worlds with preferences, local (by both differences; --direction applies to
@@ -48,11 +49,11 @@ pub struct ConvergeArgs {
     pub files: Files,
     #[command(flatten)]
     pub query: QueryArgs,
-    /// Number of grid cells along each axis, 8 to 256. Except for SOR, the number of sweeps grows with its square: 256
-    /// cells take minutes.
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(8..=256))]
+    /// Number of grid cells along each axis, 8 to 256, or one number per joint, such as 80x40. Except for SOR, the
+    /// number of sweeps grows with its square: 256 cells take minutes.
+    #[arg(long, value_name = "N|AxB", default_value = "64", value_parser = cells, allow_hyphen_values = true)]
     #[arg(help_heading = RELAXATION)]
-    pub cells: u32,
+    pub cells: CellCounts,
     /// Strength of the drift per grid cell in the oriented equations.
     #[arg(long, value_name = "E", default_value_t = 0.5, value_parser = finite, allow_hyphen_values = true)]
     #[arg(help_heading = RELAXATION)]
@@ -68,6 +69,10 @@ pub struct ConvergeArgs {
     #[arg(long, value_parser = word::<Limits>(), value_name = "NAME", default_value = "high")]
     #[arg(help_heading = RELAXATION)]
     pub limits: Limits,
+    /// Value of free cells before the first sweep.
+    #[arg(long, value_parser = word::<Initial>(), value_name = "NAME", default_value = "high")]
+    #[arg(help_heading = RELAXATION)]
+    pub initial: Initial,
     /// Measure of a sweep's changes, which must fall below the tolerance.
     #[arg(long, value_parser = word::<Measure>(), value_name = "NAME", default_value = "relative")]
     #[arg(help_heading = RELAXATION)]
@@ -113,8 +118,9 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
             "{world}: a world with steps has a different field for each motion\n  hint: use a world with a start and a goal"
         ))
     })?;
-    let (space, domain) = field_on_cells(motion, args.cells as usize, args.limits)
+    let (space, domain) = field_on_cells(motion, args.cells, args.limits)
         .map_err(|reason| Failure::Option(format!("{reason}\n  hint: more --cells")))?;
+    let domain = domain.with_initial(args.initial);
     let setup = args.setup(title_of(problem.scene()), &space, &domain).map_err(Failure::Option)?;
     let measured = convergence(&setup, &mut |text| args.print.print_status(&format!("{text} ...")))
         .map_err(|error| Failure::Option(error.to_string()))?;
@@ -135,6 +141,16 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     write_whole_set(&written)?;
     args.print.report(DONE, json, || measured.to_text())?;
     Ok(DONE)
+}
+
+/// Greatest number of cells along an axis. With more, the hundreds of relaxations take hours.
+const MAX_CELLS: usize = 256;
+
+fn cells(text: &str) -> Result<CellCounts, String> {
+    let fits = |CellCounts(counts): &CellCounts| counts.iter().all(|&n| n <= MAX_CELLS);
+    text.parse::<CellCounts>().ok().filter(fits).ok_or_else(|| {
+        format!("must be a number from 8 to {MAX_CELLS}, or two such numbers, one per joint, such as 80x40")
+    })
 }
 
 impl ConvergeArgs {

@@ -146,6 +146,7 @@ fn relaxed(equation: EquationChoice) -> FieldPlanner {
         max_sweeps: 10_000,
         on: Device::Cpu,
         stencil: Stencil::Square,
+        initial: cplan::field::Initial::High,
     };
     FieldPlanner { field, limits: Limits::High, escape: None, path: PathKind::Taut }
 }

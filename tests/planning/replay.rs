@@ -70,7 +70,8 @@ fn replays_follow_the_order_of_the_search() {
     for search in GridSearch::ALL {
         let planner = Planner::named(Method::Wavefront).with(Setting::GridSearch, |s| s.grid_search = search);
         let plan = plan_shipped("planar_2r", "shelf", planner);
-        let Trace::Wavefront { cells, labels, expanded, forward: false } = &plan.motion().unwrap().1.run.trace else {
+        let Trace::Wavefront { cells, labels, expanded, forward: false, .. } = &plan.motion().unwrap().1.run.trace
+        else {
             panic!("a wavefront")
         };
         assert_eq!(expanded.is_empty(), search == GridSearch::Wave);
@@ -138,6 +139,7 @@ fn a_field_is_replayed_sweep_by_sweep() {
             max_sweeps: 2000,
             on: cplan::field::Device::Cpu,
             stencil: cplan::field::Stencil::Square,
+            initial: cplan::field::Initial::High,
         },
         limits: cplan::field::Limits::High,
         escape: None,

@@ -22,9 +22,11 @@ pub(super) fn field_report<F>(planner: &FieldPlanner, answer: &Answer<F>) -> Fie
             }),
             ..FieldReport::default()
         },
-        FieldChoice::Relaxed { equation, relaxation, measure, tolerance, max_sweeps, on, stencil } => {
+        FieldChoice::Relaxed { equation, relaxation, measure, tolerance, max_sweeps, on, stencil, initial } => {
             let sweeps = if let Size::Grid { sweeps, .. } = answer.run.size { sweeps } else { 0 };
             FieldReport {
+                relaxes_preferences: relaxation.relaxes_preferences.then_some(true),
+                initial: (!initial.is_high()).then_some("low"),
                 stencil: (!stencil.is_square()).then_some("anisotropic"),
                 measure: (!measure.is_relative()).then(|| measure_name(measure)),
                 tolerance: Some(tolerance),

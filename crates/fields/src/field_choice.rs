@@ -1,6 +1,6 @@
 //! Settings of the field planner: the field, its equation, and how it is solved.
 
-use crate::{Device, Difference, Direction, Equation, Escape, Khatib, Limits, Measure, Relaxation, Stencil};
+use crate::{Device, Difference, Direction, Equation, Escape, Initial, Khatib, Limits, Measure, Relaxation, Stencil};
 use cplan_core::cspace::ZonedGrid;
 use cplan_core::planner::PathKind;
 use serde::{Deserialize, Serialize};
@@ -68,6 +68,9 @@ pub enum FieldChoice {
         /// Rule for cells that are not square: whether the equation takes their shape into account.
         #[serde(default, skip_serializing_if = "Stencil::is_square")]
         stencil: Stencil,
+        /// Value of free cells before the first sweep.
+        #[serde(default, skip_serializing_if = "Initial::is_high")]
+        initial: Initial,
     },
     /// Attraction by the goal and repulsion by obstacles.
     Khatib(Khatib),
@@ -157,8 +160,11 @@ impl fmt::Display for EquationChoice {
 impl fmt::Display for FieldPlanner {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.field {
-            FieldChoice::Relaxed { equation, relaxation, on, stencil, .. } => {
+            FieldChoice::Relaxed { equation, relaxation, on, stencil, initial, .. } => {
                 write!(f, "{equation}; {relaxation}")?;
+                if !initial.is_high() {
+                    f.write_str("; free cells start low")?;
+                }
                 if !stencil.is_square() {
                     f.write_str("; anisotropic stencil")?;
                 }

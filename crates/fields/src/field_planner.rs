@@ -3,7 +3,7 @@
 use crate::field_choice::{FieldChoice, FieldPlanner};
 use crate::{
     Cell, DeadEnd, Device, Domain, Equation, Escape, EscapedMinima, ForceField, ForceGuide, Khatib, Levels, Limits,
-    Measure, RelaxError, Relaxation, RelaxedField, Stopping, Trap, ValueGuide, relax_from, relax_on,
+    Measure, RelaxError, Relaxation, RelaxedField, Scheme, Stopping, Trap, ValueGuide, relax_from, relax_on,
 };
 use cplan_core::cspace::{Grid, ZonedGrid};
 use cplan_core::planner::attach::JoinedQuery;
@@ -52,9 +52,9 @@ impl Planner for FieldPlanner {
         let task = FieldQuery { space, query, joined: &joined, start, kind: self.path };
         let followed = match self.field {
             FieldChoice::Khatib(laws) => task.follow_forces(laws, self.escape, &goals, self.limits),
-            FieldChoice::Relaxed { equation, relaxation, measure, tolerance, max_sweeps, on, stencil } => {
+            FieldChoice::Relaxed { equation, relaxation, measure, tolerance, max_sweeps, on, stencil, initial } => {
                 let stopping = Stopping { measure, below: tolerance, max_sweeps };
-                let domain = domain.with_beta(stencil.beta(grid));
+                let domain = domain.with_beta(stencil.beta(grid)).with_initial(initial);
                 let equation = match equation.on(space, stencil) {
                     Ok(equation) => equation,
                     Err(reason) => return ended(Proposal::GaveUp(reason), cells),
@@ -160,7 +160,7 @@ impl FieldQuery<'_> {
         }
         let path = match (path, note) {
             // A path through an unfinished field would not be a path of the requested field.
-            (_, Some(Note::Unconverged { .. })) => Err(describe_unconverged(domain, equation, sweeps)),
+            (_, Some(Note::Unconverged { .. })) => Err(describe_unconverged(domain, equation, relaxation, sweeps)),
             (path, _) => path.map_err(|stuck| {
                 format!(
                     "{} at {}: {}",
@@ -199,12 +199,20 @@ fn not_monotone(equation: &Equation) -> String {
 }
 
 /// Describes a relaxation that reached its largest number of sweeps, with a hint.
-fn describe_unconverged(domain: &Domain, equation: &Equation, sweeps: usize) -> String {
-    let help = match equation.is_monotone_on(domain) {
-        true => "allow more sweeps or a larger tolerance, or use the relaxation sor".into(),
-        false => not_monotone(equation),
+fn describe_unconverged(domain: &Domain, equation: &Equation, relaxation: &Relaxation, sweeps: usize) -> String {
+    let factor = relaxation.factor(domain.cells());
+    let hint = match relaxation.scheme {
+        _ if !equation.is_monotone_on(domain) => not_monotone(equation),
+        Scheme::Successive { .. } if factor > 1.0 && equation.has_preferences() && relaxation.relaxes_preferences => {
+            "preferences are multiplied by the factor, too; leave out --relax-preferences, or take a smaller factor"
+                .into()
+        }
+        Scheme::Successive { .. } if factor > 1.0 => {
+            format!("allow more sweeps or a larger tolerance, or take a factor below {factor:.4}")
+        }
+        _ => "allow more sweeps or a larger tolerance, or use the relaxation sor".into(),
     };
-    format!("the field is not converged after {sweeps} sweeps: {help}")
+    format!("the field is not converged after {sweeps} sweeps: {hint}")
 }
 
 /// Explains why the path along a field is stuck, as far as that is known.

@@ -25,7 +25,7 @@ pub use khatib::{
 pub use moving::{Disc, Moment, MovingField, Solver};
 pub use relax::{
     Boundary, Cell, Convergence, DeadEnd, Device, Difference, Direction, Domain, Ending, Equation, Factor, Influence,
-    Leap, Levels, Limits, Lines, Measure, Neighbor, Order, Precision, RelaxError, Relaxation, RelaxedField, Sample,
-    Scan, Scheme, Stencil, Stopping, SweepSnapshot, Trace, ValueGuide, by_multigrid, descend, drift_around_robots,
-    eliminated, relax, relax_from, relax_on, relax_watched, trace,
+    Initial, Leap, Levels, Limits, Lines, Measure, Neighbor, Order, Precision, RelaxError, Relaxation, RelaxedField,
+    Sample, Scan, Scheme, Stencil, Stopping, SweepSnapshot, Trace, ValueGuide, by_multigrid, descend,
+    drift_around_robots, eliminated, relax, relax_from, relax_on, relax_watched, trace,
 };

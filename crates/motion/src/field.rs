@@ -26,6 +26,12 @@ pub struct FieldReport {
     /// Relaxation factor on the last grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
+    /// True if over-relaxation multiplies preferences by its factor, too; omitted if it adds them without the factor.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relaxes_preferences: Option<bool>,
+    /// `low` if free cells start at the value of goals; omitted if they start at that of obstacles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub initial: Option<&'static str>,
     /// `anisotropic` if the equation takes the shape of cells into account; omitted if cells count as square.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stencil: Option<&'static str>,

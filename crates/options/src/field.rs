@@ -7,7 +7,7 @@ use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use cplan_core::planner::PathKind;
 use cplan_fields::{
-    Attraction, Device, Difference, Direction, Escape, Factor, Khatib, Limits, Lines, Measure, Order,
+    Attraction, Device, Difference, Direction, Escape, Factor, Initial, Khatib, Limits, Lines, Measure, Order,
     RELATIVE_TOLERANCE, Relaxation, Repulsion, Scan, Stencil,
 };
 use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
@@ -99,6 +99,14 @@ pub struct FieldArgs {
     /// rectangle].
     #[arg(long, value_name = "W", value_parser = positive, allow_hyphen_values = true)]
     pub factor: Option<f64>,
+    /// Multiply preferences by the factor of sor, too (bvp, bvp2). The limit then is that of gauss-seidel, but bvp2 may
+    /// not converge. By default sor adds preferences without its factor, as published: their epsilon counts as epsilon
+    /// / factor.
+    #[arg(long)]
+    pub relax_preferences: bool,
+    /// Value of free cells before the first sweep [default: high].
+    #[arg(long, value_parser = word::<Initial>(), value_name = "NAME")]
+    pub initial: Option<Initial>,
     /// Weights of a cell's neighbours: as for square cells, or by the cells' real shape [default: square].
     #[arg(long, value_parser = word::<Stencil>(), value_name = "NAME")]
     pub stencil: Option<Stencil>,
@@ -178,6 +186,7 @@ impl FieldArgs {
                 max_sweeps: self.max_sweeps.unwrap_or(MAX_SWEEPS) as usize,
                 on: self.device(),
                 stencil: self.stencil.unwrap_or_default(),
+                initial: self.initial.unwrap_or_default(),
             },
         };
         if self.saturated && self.escape.is_some() {
@@ -216,6 +225,8 @@ impl FieldArgs {
             ("--relaxation", self.relaxation.is_some()),
             ("--order", self.order.is_some()),
             ("--factor", self.factor.is_some()),
+            ("--relax-preferences", self.relax_preferences),
+            ("--initial", self.initial.is_some()),
             ("--stencil", self.stencil.is_some()),
             ("--limits", self.limits.is_some()),
             ("--measure", self.measure.is_some()),
@@ -259,8 +270,17 @@ impl FieldArgs {
                 "--order needs --relaxation gauss-seidel or sor: Jacobi's relaxations update all cells at once".into(),
             );
         }
-        // On a GPU, sweeps have no guard.
-        let guarded = |relaxation: Relaxation| if self.device().is_cpu() { relaxation.guarded() } else { relaxation };
+        if self.relax_preferences && name != RelaxationName::Sor {
+            return Err(
+                "--relax-preferences needs --relaxation sor: other relaxations have no factor to leave out".into()
+            );
+        }
+        let sor = |factor: Factor| {
+            let sor = Relaxation::sor(factor, order);
+            // On a GPU, sweeps have no guard.
+            let sor = if self.device().is_cpu() { sor.guarded() } else { sor };
+            if self.relax_preferences { sor.relaxing_preferences() } else { sor }
+        };
         match (name, self.factor) {
             (RelaxationName::Jacobi, None) => Ok(Relaxation::JACOBI),
             (RelaxationName::Jacobi, Some(_)) => Err("--factor needs --relaxation weighted-jacobi or sor".into()),
@@ -272,8 +292,8 @@ impl FieldArgs {
             (RelaxationName::GaussSeidel, Some(_)) => {
                 Err("--factor needs --relaxation weighted-jacobi or sor: gauss-seidel is sor with the factor 1".into())
             }
-            (RelaxationName::Sor, Some(factor)) => Ok(guarded(Relaxation::sor(Factor::Given(factor), order))),
-            (RelaxationName::Sor, None) => Ok(guarded(Relaxation::sor(Factor::Formula, order))),
+            (RelaxationName::Sor, Some(factor)) => Ok(sor(Factor::Given(factor))),
+            (RelaxationName::Sor, None) => Ok(sor(Factor::Formula)),
         }
     }
 }
@@ -295,8 +315,9 @@ fn needed_field(option: &str) -> Option<&'static [FieldName]> {
         "--epsilon" => Some(&[Oriented, Bvp, Bvp2]),
         "--direction" => Some(&[Oriented, Local]),
         "--difference" => Some(&[Oriented, Local, Bvp]),
-        "--relaxation" | "--order" | "--factor" | "--stencil" | "--measure" | "--tolerance" | "--max-sweeps"
-        | "--on" => Some(&[Harmonic, Oriented, Local, Bvp, Bvp2]),
+        "--relax-preferences" => Some(&[Bvp, Bvp2]),
+        "--relaxation" | "--order" | "--factor" | "--initial" | "--stencil" | "--measure" | "--tolerance"
+        | "--max-sweeps" | "--on" => Some(&[Harmonic, Oriented, Local, Bvp, Bvp2]),
         "--attraction" | "--repulsion" | "--saturated" | "--escape" => Some(&[Khatib]),
         _ => None,
     }

@@ -3,7 +3,7 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use cplan_core::planner::{GridSearch, PathKind, VisibilityGraph};
 use cplan_core::waves::search::Ties;
-use cplan_fields::{Device, Difference, Limits, Measure, Stencil};
+use cplan_fields::{Device, Difference, Initial, Limits, Measure, Stencil};
 use cplan_motion::Objective;
 use cplan_solver::{GridSpace, Method, NamedJoints};
 use std::ffi::OsStr;
@@ -201,6 +201,8 @@ named!(Stencil: Square "square" "All four neighbours have the same weight",
 
 named!(Limits: High "high" "Limits repel, like obstacles",
     Reflecting "reflecting" "Limits neither attract nor repel");
+
+named!(Initial: High "high" "The value of obstacles", Low "low" "The value of goals, as in published counts of sweeps");
 
 named!(Measure: GreatestRelativeChange "relative" "Greatest change relative to the cell's value", GreatestChange "greatest" "Greatest change",
     SumOfChange "absolute" | "sum" "Sum of changes; alias: sum", SumOfSquares "squares" "Sum of squared changes",

@@ -9,18 +9,23 @@ use cplan_fields::field_domain;
 use cplan_fields::{Cell, Domain, Limits};
 
 /// Returns the cells of a problem's first level with the world's preferences, and marks which of them are free,
-/// obstacles and goals. The planner `harmonic` relaxes an equation on such cells. `cells` is the number along each
-/// axis, as that of the planner's `--cells`.
+/// obstacles and goals. The planner `harmonic` relaxes an equation on such cells. `cells` are those of the
+/// planner's `--cells`.
 ///
 /// # Errors
 /// Returns the reason, in words, if the start or the goal has no free cell near it, or if no free cell leads to the
 /// goal.
-pub fn field_on_cells(problem: &MotionProblem, cells: usize, limits: Limits) -> Result<(ZonedGrid, Domain), String> {
-    let space = zoned_cells(problem, GridSpace::Rows, Some(CellCounts::square(cells)), 0);
-    let space = space.ok_or_else(|| format!("there is no grid of {cells} x {cells} cells"))?;
+pub fn field_on_cells(
+    problem: &MotionProblem,
+    cells: CellCounts,
+    limits: Limits,
+) -> Result<(ZonedGrid, Domain), String> {
+    let space = zoned_cells(problem, GridSpace::Rows, Some(cells), 0);
+    let CellCounts([rows, columns]) = cells;
+    let space = space.ok_or_else(|| format!("there is no grid of {rows} x {columns} cells"))?;
     let domain = field_domain(&space.grid, &Ends::new(problem, &space).query, limits)?;
     if !domain.kinds().contains(&Cell::Free) {
-        return Err(format!("on {cells} x {cells} cells no free cell leads to the goal"));
+        return Err(format!("on {rows} x {columns} cells no free cell leads to the goal"));
     }
     Ok((space, domain))
 }

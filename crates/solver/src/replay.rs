@@ -302,14 +302,22 @@ fn own_path<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -
 /// Relaxes the field once more and samples it between sweeps.
 fn sweeps<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> Option<Sweeps> {
     let planner = options.planner.field()?;
-    let FieldChoice::Relaxed { equation, relaxation, measure, tolerance, max_sweeps, on: Device::Cpu, stencil } =
-        planner.field
+    let FieldChoice::Relaxed {
+        equation,
+        relaxation,
+        measure,
+        tolerance,
+        max_sweeps,
+        on: Device::Cpu,
+        stencil,
+        initial,
+    } = planner.field
     else {
         return None;
     };
     let (Space::Grid(grid), Size::Grid { sweeps: total, .. }) = (&answer.space, answer.run.size) else { return None };
     let query = Ends::new(problem, &**grid).query;
-    let domain = field_domain(grid, &query, planner.limits).ok()?.with_beta(stencil.beta(grid));
+    let domain = field_domain(grid, &query, planner.limits).ok()?.with_beta(stencil.beta(grid)).with_initial(initial);
     let equation = equation.on(&ZonedGrid::new((**grid).clone(), problem.scene()), stencil).ok()?;
     let stopping = Stopping { measure, below: tolerance, max_sweeps };
     let shape = domain.cells();

@@ -9,6 +9,7 @@ mod divergence;
 mod escapes;
 mod khatib;
 mod planner;
+mod preferences;
 mod product;
 mod promises;
 mod sides;

@@ -45,6 +45,7 @@ pub fn planner(equation: EquationChoice, relaxation: Relaxation) -> FieldPlanner
         max_sweeps: 20_000,
         on: Device::Cpu,
         stencil: Stencil::Square,
+        initial: cplan::field::Initial::High,
     };
     FieldPlanner { field, limits: Limits::High, escape: None, path: PathKind::Own }
 }
@@ -187,6 +188,7 @@ fn unconverged_fields_are_reported() {
             relaxation,
             measure: Measure::GreatestRelativeChange,
             stencil: Stencil::Square,
+            initial: cplan::field::Initial::High,
             tolerance: 1e-9,
             max_sweeps,
             on: Device::Cpu,

@@ -71,8 +71,10 @@ fn relaxations() -> Vec<Relaxation> {
     let mut relaxations = vec![Relaxation::JACOBI, Relaxation::weighted_jacobi(0.7)];
     for order in orders {
         relaxations.push(Relaxation::gauss_seidel(order));
-        relaxations
-            .extend([Factor::Given(1.3), Factor::Given(0.8), Factor::Formula].map(|f| Relaxation::sor(f, order)));
+        relaxations.extend(
+            [Factor::Given(1.3), Factor::Given(0.8), Factor::Formula]
+                .map(|f| Relaxation::sor(f, order).relaxing_preferences()),
+        );
     }
     relaxations
 }

@@ -64,7 +64,7 @@ fn fields_on_cells_that_are_not_square_are_the_direct_solutions() {
                 for relaxation in [
                     Relaxation::JACOBI,
                     Relaxation::gauss_seidel(Order::FourColors),
-                    Relaxation::sor(Factor::Given(1.3), Order::Corners(Lines::Rows)).guarded(),
+                    Relaxation::sor(Factor::Given(1.3), Order::Corners(Lines::Rows)).guarded().relaxing_preferences(),
                 ] {
                     let field = relax(&domain, &equation, &relaxation, &STOPPING).unwrap();
                     let off = greatest_difference(&field.values, &expected);

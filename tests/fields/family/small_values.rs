@@ -2,8 +2,8 @@
 
 use super::direct::drawn;
 use cplan::field::{
-    Boundary, Cell, Domain, Equation, Factor, Levels, Lines, Measure, Order, Relaxation, Scan, Stopping, eliminated,
-    relax, relax_watched,
+    Boundary, Cell, Domain, Equation, Factor, Initial, Levels, Lines, Measure, Order, RelaxError, Relaxation, Scan,
+    Stopping, eliminated, relax, relax_watched,
 };
 
 /// Returns two walls round a goal, open on opposite sides.
@@ -57,25 +57,52 @@ fn over_relaxation_settles_values_that_are_smaller_than_its_rounding() {
 }
 
 #[test]
-fn over_relaxed_values_never_pass_that_of_obstacles() {
-    for levels in [Levels::PROBABILITY, Levels::PUBLISHED] {
-        let domain = Domain::new(rings().cells(), rings().kinds().to_vec(), [Boundary::High; 2], levels);
-        let lost = |relaxation: Relaxation| {
-            let mut lost = 0;
-            let stopping = Stopping { measure: Measure::SumOfChange, below: 0.01, max_sweeps: 1_000 };
-            let mut watch = |seen: cplan::field::SweepSnapshot| {
-                let is_past = |value: &&f64| if levels.obstacle > 0.5 { **value > 1.0 } else { **value < 0.0 };
-                lost += seen.values.iter().filter(is_past).count();
+fn guarded_over_relaxation_never_leaves_the_range_of_the_fixed_values() {
+    let mut unguarded = [0; 2];
+    for (levels, initial) in [Levels::PROBABILITY, Levels::PUBLISHED]
+        .into_iter()
+        .flat_map(|levels| [Initial::High, Initial::Low].map(|initial| (levels, initial)))
+    {
+        let room = drawn(
+            &("..........\n".repeat(5) + "....G.....\n" + &"..........\n".repeat(5)),
+            [Boundary::Reflecting; 2],
+            levels,
+        );
+        let rings = Domain::new(rings().cells(), rings().kinds().to_vec(), [Boundary::High; 2], levels);
+        for domain in [rings, room].map(|domain| domain.with_initial(initial)) {
+            // Values beyond that of obstacles, and beyond that of goals.
+            let lost = |relaxation: Relaxation| {
+                let mut lost = [0; 2];
+                let stopping = Stopping { measure: Measure::SumOfChange, below: 0.01, max_sweeps: 1_000 };
+                let mut watch = |seen: cplan::field::SweepSnapshot| {
+                    let count = |is_past: fn(&f64) -> bool| seen.values.iter().filter(|value| is_past(value)).count();
+                    let [above, below] = [count(|value| *value > 1.0), count(|value| *value < 0.0)];
+                    let [obstacles, goals] = if levels.obstacle > 0.5 { [above, below] } else { [below, above] };
+                    lost = [lost[0] + obstacles, lost[1] + goals];
+                };
+                let start = domain.start();
+                relax_watched(&domain, &Equation::Harmonic, &relaxation, &stopping, start, &mut watch).unwrap();
+                lost
             };
-            let start = domain.start();
-            let field = relax_watched(&domain, &Equation::Harmonic, &relaxation, &stopping, start, &mut watch).unwrap();
-            assert!(field.converged());
-            lost
-        };
-        let sor = Relaxation::sor(Factor::Formula, ROWS);
-        assert_eq!(lost(sor.guarded()), 0, "{levels:?}");
-        assert!(lost(sor) > 0, "{levels:?}");
+            let sor = Relaxation::sor(Factor::Given(1.9), ROWS);
+            assert_eq!(lost(sor.guarded()), [0; 2], "{levels:?}");
+            let [obstacles, goals] = lost(sor);
+            unguarded = [unguarded[0] + obstacles, unguarded[1] + goals];
+        }
     }
+    assert!(unguarded.iter().all(|&lost| lost > 0), "{unguarded:?}: no case tests one side of the guard");
+}
+
+/// Checks that the guard does not hide a divergence: with a factor of 2 or more, values would stay in their range and
+/// never settle.
+#[test]
+fn factors_that_never_converge_diverge_although_they_are_guarded() {
+    let sor = Relaxation::sor(Factor::Given(2.5), ROWS).guarded();
+    let settings = Stopping { measure: Measure::SumOfChange, below: 0.01, max_sweeps: 20_000 };
+    let Err(RelaxError::Diverged { hint, .. }) = relax(&rings(), &Equation::Harmonic, &sor, &settings) else {
+        panic!("a factor of 2.5 does not diverge")
+    };
+    assert!(hint.contains("use a smaller factor"), "{hint}");
 }
 
 /// Checks that a guard changes nothing if there are no small values.

@@ -29,6 +29,10 @@ fn options_that_do_not_go_together_end_with_2() {
         ("--planner harmonic --relaxation weighted-jacobi", "needs --factor"),
         ("--planner harmonic --relaxation gauss-seidel --factor 1.5", "sor with the factor 1"),
         ("--planner harmonic --relaxation sor --factor 0", "greater than 0"),
+        ("--planner harmonic --relaxation sor --relax-preferences", "--relax-preferences needs --field bvp or bvp2"),
+        ("--planner harmonic --field bvp --relax-preferences", "--relax-preferences needs --relaxation sor"),
+        ("--planner harmonic --initial middle", "high, low"),
+        ("--planner harmonic --field khatib --initial low", "--initial needs --field harmonic"),
         ("--planner harmonic --tolerance -1", "greater than 0"),
         ("--planner harmonic --max-sweeps 0", "1.."),
         ("--planner harmonic --field khatib --relaxation sor", "--relaxation needs --field harmonic"),
@@ -101,6 +105,15 @@ fn the_result_names_the_field() {
             "--field bvp --epsilon -0.5",
             json!({ "equation": "bvp", "epsilon": -0.5, "difference": "central", "relaxation": "gauss-seidel",
                 "order": "corners" }),
+        ),
+        (
+            "--field bvp2 --epsilon 0.5 --relaxation sor --factor 1.2 --relax-preferences --measure relative",
+            json!({ "equation": "bvp2", "epsilon": 0.5, "relaxation": "sor", "factor": 1.2, "order": "corners",
+                "relaxes_preferences": true }),
+        ),
+        (
+            "--relaxation jacobi --initial low",
+            json!({ "equation": "harmonic", "relaxation": "jacobi", "initial": "low" }),
         ),
         (
             "--field bvp2 --epsilon 0.5 --max-sweeps 9000",
@@ -303,4 +316,71 @@ fn oblong_cells_are_reported_and_change_the_path() {
     place
         .run(&files, "--planner harmonic --field khatib --stencil square")
         .refused(2, &["--stencil needs --field harmonic"]);
+}
+
+/// Checks the case in which over-relaxation once diverged, because it multiplied preferences by its factor.
+#[test]
+fn over_relaxed_preferences_find_the_path_on_map_1() {
+    for order in ["rows", "corners"] {
+        for field in ["bvp", "bvp2"] {
+            let (first, _) = on_map("leon", &format!("--levels 1 --field {field} --relaxation sor --order {order}"));
+            // Table 17 has 181 and 270, 237 and 310 sweeps.
+            assert!((100..320).contains(&first), "{field} {order}: {first}");
+        }
+    }
+    on_map("leon", "--levels 1 --field bvp2 --relaxation sor --order corners --relax-preferences");
+}
+
+/// Follows the hint of a message and expects a path.
+#[test]
+fn hints_for_over_relaxation_do_not_name_it_and_work_when_followed() {
+    let place = Place::new();
+    let files = [shipped("robots/room_gantry.urdf"), shipped("workspaces/maps/leon.toml")];
+    let run = |options: &str| {
+        let done = place.run(&files, &format!("--planner harmonic --cells 100 --levels 1 --json {options}"));
+        (done.code, done.json()["reason"].as_str().unwrap_or_default().to_owned())
+    };
+    let (code, reason) = run("--relaxation sor --max-sweeps 20");
+    assert!(code == 4 && reason.contains("after 20 sweeps: allow more sweeps or a larger tolerance"), "{reason}");
+    assert!(!reason.contains("use the relaxation sor"), "{reason}");
+    assert_eq!(run("--relaxation sor --max-sweeps 3000").0, 0);
+    let never = "--field bvp2 --relaxation sor --order corners --relax-preferences --max-sweeps 2000";
+    let (code, reason) = run(never);
+    assert!(code == 4 && reason.contains("leave out --relax-preferences, or take a smaller factor"), "{reason}");
+    assert_eq!(run(&never.replace(" --relax-preferences", "")).0, 0);
+    assert_eq!(run(&format!("{never} --factor 1.5")).0, 0);
+    let (code, reason) = run("--relaxation sor --factor 2.5");
+    assert!(
+        code == 4 && reason.contains("the relaxation diverged") && reason.contains("use a smaller factor"),
+        "{reason}"
+    );
+    let (code, reason) = run("--relaxation gauss-seidel --max-sweeps 20");
+    assert!(code == 4 && reason.contains("or use the relaxation sor"), "{reason}");
+}
+
+/// Returns the sweeps of Gauss-Seidel relaxation on one of the published maps, with the source's own cells.
+fn published_sweeps(map: &str, cells: usize, order: &str) -> usize {
+    let place = Place::new();
+    let files = [shipped("robots/room_gantry.urdf"), shipped(&format!("workspaces/published/{map}.toml"))];
+    let relaxation = format!("--relaxation gauss-seidel --order {order} --initial low --measure absolute");
+    let options = format!("--planner harmonic --cells {cells} --space centers --levels 1 --verbose {relaxation}");
+    let done = place.run(&files, &options);
+    let (_, rest) = done.stdout.split_once("the measure was met after ").unwrap_or_else(|| panic!("{}", done.stdout));
+    rest.split(' ').next().unwrap().parse().unwrap()
+}
+
+/// Compares sweeps with Tables 17 and 18 of Deicu 2012. The source stores single precision, which takes one sweep fewer
+/// in one case.
+#[test]
+fn free_cells_that_start_low_take_the_published_sweeps() {
+    for (map, cells, order, published) in [
+        ("map_1", 100, "rows", 1408),
+        ("map_1", 100, "corners", 1411 + 1),
+        ("map_2", 100, "rows", 884),
+        ("map_2", 100, "corners", 887),
+        ("map_2", 250, "rows", 5572),
+        ("map_2", 250, "corners", 5575),
+    ] {
+        assert_eq!(published_sweeps(map, cells, order), published, "{map} {cells} {order}");
+    }
 }

@@ -31,8 +31,13 @@ fn relaxations() -> Vec<Relaxation> {
     let orders = [Order::Lines(Scan::ROWS), Order::Corners(Lines::Rows), Order::RedBlack];
     let at_once = [Relaxation::JACOBI, Relaxation::weighted_jacobi(JACOBI_WEIGHT)];
     let gauss_seidel = orders.map(Relaxation::gauss_seidel);
-    let sor = orders.map(|order| Relaxation::sor(Factor::Formula, order));
+    let sor = orders.map(|order| sor(Factor::Formula, order));
     at_once.into_iter().chain(gauss_seidel).chain(sor).collect()
+}
+
+/// Returns over-relaxation as the planner uses it.
+fn sor(factor: Factor, order: Order) -> Relaxation {
+    Relaxation::sor(factor, order).guarded()
 }
 
 /// Returns the factors of SOR in the scan: from 1 in steps of 0.05, near 2 in steps of 0.01.
@@ -75,7 +80,7 @@ pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Conv
         }
         progress(&format!("{name}: factors of SOR"));
         let at = |factor: f64| {
-            let relaxation = Relaxation::sor(Factor::Given(factor), *order);
+            let relaxation = sor(Factor::Given(factor), *order);
             point(factor, domain, equation, &relaxation, stopping)
         };
         factor_scans.push(FactorScan {

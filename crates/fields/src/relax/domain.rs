@@ -66,6 +66,25 @@ impl Levels {
     }
 }
 
+/// Initial value of free cells, in the terms of the literature, where obstacles are high and goals low.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Initial {
+    /// The value of obstacles: [`Levels::obstacle`].
+    #[default]
+    High,
+    /// The value of goals: [`Levels::goal`]. The literature's counts of sweeps begin there.
+    Low,
+}
+
+impl Initial {
+    /// Returns true if free cells start at the value of obstacles.
+    #[must_use]
+    pub fn is_high(&self) -> bool {
+        *self == Self::High
+    }
+}
+
 /// The neighbour of a cell in one of four directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Neighbor {
@@ -138,6 +157,13 @@ impl Domain {
     pub fn with_beta(self, beta: f64) -> Self {
         assert!(beta > 0.0 && beta.is_finite(), "cells have positive sides");
         Self { beta, ..self }
+    }
+
+    /// Sets the value of free cells before the first sweep.
+    #[must_use]
+    pub fn with_initial(self, initial: Initial) -> Self {
+        let free = if initial.is_high() { self.levels.obstacle } else { self.levels.goal };
+        Self { levels: Levels { free, ..self.levels }, ..self }
     }
 
     /// Returns the width of a cell along axis 1 divided by that along axis 2; 1 if cells count as square.

@@ -184,6 +184,11 @@ impl Equation {
         }
     }
 
+    /// Returns true for the equations with preferences, which have two stages.
+    pub(crate) fn has_preferences(&self) -> bool {
+        matches!(self, Self::Preference { .. } | Self::AlteredPreference { .. })
+    }
+
     /// Returns the drift of each cell with its discretisation. Returns `None` if the drift depends on a field.
     pub(super) fn drift(&self) -> Option<(DriftOf<'_>, Difference)> {
         match self {

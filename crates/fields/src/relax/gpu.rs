@@ -51,8 +51,9 @@ pub(super) fn relax(
     };
     let gpu = shared().map_err(RelaxError::Refused)?;
     let unknowns = unknowns(domain);
-    let mut field = Field { gpu, domain, equation, settings, unknowns, values: domain.start(), stages: Vec::new() };
-    relax_in_stages(equation, domain, &mut field)?;
+    let (values, stages) = (domain.start(), Vec::new());
+    let mut field = Field { gpu, domain, equation, relaxation, settings, unknowns, values, stages };
+    relax_in_stages(equation, domain, relaxation, &mut field)?;
     Ok(RelaxedField { values: field.values, stages: field.stages })
 }
 
@@ -61,6 +62,7 @@ struct Field<'a> {
     gpu: &'a Gpu,
     domain: &'a Domain,
     equation: &'a Equation,
+    relaxation: &'a Relaxation,
     settings: Settings,
     unknowns: Vec<u32>,
     values: Vec<f64>,
@@ -126,7 +128,7 @@ impl Field<'_> {
     fn error(&self, error: GpuError) -> RelaxError {
         match error {
             GpuError::Diverged { sweeps, cell, value } => {
-                let hint = hint(self.domain, self.equation, self.settings.factor);
+                let hint = hint(self.domain, self.equation, self.relaxation);
                 RelaxError::Diverged { sweeps: sweeps as usize, cell, value, hint }
             }
             error => RelaxError::Refused(error.to_string()),

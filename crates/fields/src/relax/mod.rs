@@ -26,7 +26,7 @@ pub(super) use by_multigrid::{Memory, by_multigrid_in};
 pub use descent::{DeadEnd, ValueGuide, descend};
 pub use device::{Device, relax_on};
 pub use direct::eliminated;
-pub use domain::{Boundary, Cell, Domain, Levels, Limits, Neighbor, Stencil};
+pub use domain::{Boundary, Cell, Domain, Initial, Levels, Limits, Neighbor, Stencil};
 pub use equation::{Difference, Direction, Equation, Influence, drift_around_robots};
 pub use relaxation::{Factor, Lines, Order, Precision, Relaxation, Scan, Scheme};
 pub use stopping::{Convergence, Measure, Stopping};

@@ -15,9 +15,12 @@ pub struct Relaxation {
     pub clamp: Option<[f64; 2]>,
     /// Precision in which new values are stored.
     pub precision: Precision,
-    /// True if over-relaxation must not pass the obstacles' value; see [`Relaxation::guarded`].
+    /// True if over-relaxation must not leave the range of the fixed values; see [`Relaxation::guarded`].
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub guarded: bool,
+    /// True if over-relaxation multiplies preferences by its factor, too; see [`Relaxation::relaxing_preferences`].
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub relaxes_preferences: bool,
 }
 
 /// Precision in which values are stored between updates. Updates themselves are computed in doubles.
@@ -129,7 +132,7 @@ impl Relaxation {
     /// Returns weighted Jacobi relaxation.
     #[must_use]
     pub const fn weighted_jacobi(factor: f64) -> Self {
-        Self { scheme: Scheme::Simultaneous { factor }, clamp: None, precision: Precision::Double, guarded: false }
+        Self::of(Scheme::Simultaneous { factor })
     }
 
     /// Returns Gauss-Seidel relaxation with this order.
@@ -141,7 +144,11 @@ impl Relaxation {
     /// Returns successive over-relaxation with this factor and order.
     #[must_use]
     pub const fn sor(factor: Factor, order: Order) -> Self {
-        Self { scheme: Scheme::Successive { factor, order }, clamp: None, precision: Precision::Double, guarded: false }
+        Self::of(Scheme::Successive { factor, order })
+    }
+
+    const fn of(scheme: Scheme) -> Self {
+        Self { scheme, clamp: None, precision: Precision::Double, guarded: false, relaxes_preferences: false }
     }
 
     /// Clamps new values to a range.
@@ -161,14 +168,34 @@ impl Relaxation {
     /// Over-relaxation carries the rounding errors of large values to cells with smaller values. There signs flip, and
     /// relative changes never settle. Therefore:
     ///
-    /// - A cell that would pass the obstacles' value takes the value that its neighbours imply, without the factor.
-    ///   With monotone equations no value then passes that of obstacles.
+    /// - A cell that would pass the obstacles' or the goals' value takes the value that its neighbours imply, without
+    ///   the factor. With monotone equations no value then leaves the range of the fixed values. Relaxations with a
+    ///   factor of 2 or more never converge; they have no guard, so that their divergence shows.
     /// - With [`Measure::GreatestRelativeChange`](super::Measure), the factor becomes 1 when no value changes by more
     ///   than `1e-13` of the difference between the obstacles' and the goals' value. The rest is relaxed by
     ///   Gauss-Seidel sweeps, which keep relative errors small.
     #[must_use]
     pub const fn guarded(self) -> Self {
         Self { guarded: true, ..self }
+    }
+
+    /// Multiplies preferences by the factor of over-relaxation, like the mean of the neighbours.
+    ///
+    /// By default, over-relaxation by a factor `w` adds the term of preferences without `w`, as Deicu 2012 prints it
+    /// (tables 10, 11, 14 and 15): `p + w (h - p) + epsilon d / 8` for [`Preference`](super::Equation::Preference),
+    /// where `h` is the mean of the four neighbours. Its limit satisfies the equation with `epsilon / w`. With the
+    /// factor, the limit satisfies the equation with `epsilon`, as for Gauss-Seidel, but altered preferences often do
+    /// not converge.
+    #[must_use]
+    pub const fn relaxing_preferences(self) -> Self {
+        Self { relaxes_preferences: true, ..self }
+    }
+
+    /// Returns the share of `epsilon` that preferences have in the limit, on a domain of this many cells.
+    #[must_use]
+    pub fn preference_share(&self, cells: [usize; 2]) -> f64 {
+        let is_successive = matches!(self.scheme, Scheme::Successive { .. });
+        if is_successive && !self.relaxes_preferences { 1.0 / self.factor(cells).max(1.0) } else { 1.0 }
     }
 
     /// Returns the factor on a domain of this many cells.
@@ -189,6 +216,9 @@ impl fmt::Display for Relaxation {
             Scheme::Successive { factor: Factor::Given(1.0), order } => write!(f, "gauss-seidel, {order}")?,
             Scheme::Successive { factor: Factor::Given(factor), order } => write!(f, "sor, {order}, factor {factor}")?,
             Scheme::Successive { factor: Factor::Formula, order } => write!(f, "sor, {order}")?,
+        }
+        if self.relaxes_preferences {
+            f.write_str(", also of preferences")?;
         }
         if let Some([low, high]) = self.clamp {
             write!(f, ", clamped to {low}..{high}")?;

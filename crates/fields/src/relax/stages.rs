@@ -1,7 +1,7 @@
 //! The stages in which each equation is relaxed, on any device.
 
 use super::sweeps::{normalized_gradient, strengths};
-use super::{Difference, Domain, Equation, RelaxError};
+use super::{Difference, Domain, Equation, RelaxError, Relaxation};
 
 /// A device that relaxes the stages of an equation. Each stage starts with the final values of the previous one.
 pub(super) trait Stages {
@@ -19,7 +19,16 @@ pub(super) trait Stages {
 }
 
 /// Runs all stages of an equation: preferences start with the harmonic field.
-pub(super) fn relax_in_stages(equation: &Equation, domain: &Domain, on: &mut impl Stages) -> Result<(), RelaxError> {
+///
+/// Over-relaxation by a factor `w` that adds a preference without `w` is the same as over-relaxation of the equation
+/// with `epsilon / w`: `p + w (h - p) + epsilon d = p + w (h + epsilon / w d - p)`.
+pub(super) fn relax_in_stages(
+    equation: &Equation,
+    domain: &Domain,
+    relaxation: &Relaxation,
+    on: &mut impl Stages,
+) -> Result<(), RelaxError> {
+    let share = relaxation.preference_share(domain.cells());
     match equation {
         Equation::Harmonic => on.harmonic(),
         Equation::Oriented { direction, epsilon, difference } => {
@@ -30,11 +39,11 @@ pub(super) fn relax_in_stages(equation: &Equation, domain: &Domain, on: &mut imp
         Equation::Preference { epsilon, difference } => {
             on.harmonic()?;
             let direction = normalized_gradient(domain, on.values());
-            on.linear(|cell| direction[cell].map(|v| epsilon[cell] * v), *difference)
+            on.linear(|cell| direction[cell].map(|v| share * epsilon[cell] * v), *difference)
         }
         Equation::AlteredPreference { epsilon } => {
             on.harmonic()?;
-            on.altered(strengths(domain, epsilon))
+            on.altered(strengths(domain, share, epsilon))
         }
     }
 }

@@ -154,7 +154,7 @@ pub fn relax_watched(
         return Err(refusal);
     }
     let mut engine = Engine::new(domain, equation, relaxation, stopping, initial_values(domain, start)?, watch);
-    relax_in_stages(equation, domain, &mut engine)?;
+    relax_in_stages(equation, domain, relaxation, &mut engine)?;
     engine.values.pop();
     Ok(RelaxedField { values: engine.values, stages: engine.stages })
 }
@@ -203,16 +203,19 @@ pub(super) fn initial_values(domain: &Domain, start: Vec<f64>) -> Result<Vec<f64
     Ok(fixed.chain([domain.levels().obstacle]).collect())
 }
 
-/// Returns `epsilon / 4` of altered preferences, with the sign that fits the levels, one per cell.
-pub(super) fn strengths(domain: &Domain, epsilon: &[f64]) -> Vec<f64> {
-    let quarter = 0.25 * domain.levels().orientation();
+/// Returns the share of `epsilon / 4` of altered preferences, with the sign that fits the levels, one per cell.
+pub(super) fn strengths(domain: &Domain, share: f64, epsilon: &[f64]) -> Vec<f64> {
+    let quarter = 0.25 * share * domain.levels().orientation();
     epsilon.iter().map(|epsilon| quarter * epsilon).collect()
 }
 
 /// Returns a possible reason for a divergence, with advice.
-pub(super) fn hint(domain: &Domain, equation: &Equation, factor: f64) -> String {
+pub(super) fn hint(domain: &Domain, equation: &Equation, relaxation: &Relaxation) -> String {
+    let factor = relaxation.factor(domain.cells());
     if equation.is_monotone_on(domain) {
-        format!("the factor {factor:.4} is too great for this equation")
+        let also =
+            if equation.has_preferences() && relaxation.relaxes_preferences { " and its preferences" } else { "" };
+        format!("the factor {factor:.4} is too great for this equation{also}; use a smaller factor, or gauss-seidel")
     } else if matches!(equation, Equation::AlteredPreference { .. }) {
         "the altered equation is monotone only for an |epsilon| of less than 2 per cell: use a smaller epsilon".into()
     } else {
@@ -320,7 +323,8 @@ impl<'a> Engine<'a> {
         let levels = self.domain.levels();
         let floor = OVER_RELAXATION_LIMIT * (levels.obstacle - levels.goal).abs();
         let has_floor = relaxation.guarded && factor > 1.0 && stopping.measure.is_relative();
-        let guard = relaxation.guarded.then_some([levels.orientation(), levels.obstacle]);
+        let range = [levels.obstacle.min(levels.goal), levels.obstacle.max(levels.goal)];
+        let guard = (relaxation.guarded && factor < 2.0).then_some(range);
         let mut step = Step { stencil, factor, guard, clamp: relaxation.clamp, precision: relaxation.precision };
         let mut next = vec![0.0; if passes.is_empty() { self.unknowns.len() } else { 0 }];
         let mut stage = Convergence { sweeps: 0, change: f64::INFINITY, converged: self.unknowns.is_empty() };
@@ -390,7 +394,7 @@ impl<'a> Engine<'a> {
         };
         let Some(&cell) = self.unknowns.iter().find(lost) else { return Ok(()) };
         let (cell, columns) = (cell as usize, self.domain.cells()[1]);
-        let hint = hint(self.domain, self.equation, self.relaxation.factor(self.domain.cells()));
+        let hint = hint(self.domain, self.equation, self.relaxation);
         Err(RelaxError::Diverged { sweeps, cell: [cell / columns, cell % columns], value: self.values[cell], hint })
     }
 }
@@ -415,8 +419,7 @@ impl Changes {
 struct Step<'a, S> {
     stencil: &'a S,
     factor: f64,
-    /// `None` if values may pass that of obstacles. Otherwise two numbers: 1 if obstacles are high or -1 if they are
-    /// low, and the obstacles' value.
+    /// Range of the fixed values. `None` if values may leave it.
     guard: Option<[f64; 2]>,
     clamp: Option<[f64; 2]>,
     precision: Precision,
@@ -428,7 +431,7 @@ impl<S: Stencil> Step<'_, S> {
         // With factor 1 take exactly the implied value, without additional rounding.
         let new = if self.factor == 1.0 { asked } else { old + self.factor * (asked - old) };
         let new = match self.guard {
-            Some([orientation, obstacle]) if orientation * (new - obstacle) > 0.0 => asked,
+            Some([low, high]) if new < low || new > high => asked,
             _ => new,
         };
         // Avoid `clamp`, which would check the bounds for each cell.
