@@ -88,15 +88,16 @@ fn states_after<'a>(task: &'a Task, states: &[State]) -> Result<Vec<State>, Opti
     for state in states {
         for Candidates { step, ways, has_every_ik_solution, .. } in state.candidates(task) {
             is_proven &= has_every_ik_solution;
-            let mut refuse = |ik_solution, refusal| {
-                refused.push(RefusedStep { depth: 0, node: 0, step, ik_solution, refusal });
+            let mut refuse = |candidate: Option<Candidate<'a>>, refusal| {
+                let ik_solution = candidate.as_ref().map(|candidate| candidate.to);
+                refused.push(RefusedStep { depth: 0, node: 0, step, ik_solution, candidate, refusal });
             };
             if ways.is_empty() {
                 refuse(None, Refusal::new(UNREACHABLE, true));
             }
             for candidate in ways {
                 match check_target(task, state, &candidate) {
-                    Err(refusal) if refusal.proven => refuse(Some(candidate.to), refusal),
+                    Err(refusal) if refusal.proven => refuse(Some(candidate), refusal),
                     Err(_) => is_proven = false,
                     Ok(()) => {
                         let after = state.after_step(task, &candidate, candidate.to);
@@ -124,5 +125,5 @@ fn check_target(task: &Task, from: &State, candidate: &Candidate) -> Result<(), 
 /// from anywhere.
 fn explained(task: &Task, state: &State, refused: Vec<RefusedStep>) -> Option<FailedStep> {
     let scene = |from: &State, step: &Step| Arc::new(from.scene(task, step.action.picked()));
-    (!refused.is_empty()).then(|| farthest(&task.arm, &refused, |_| Some(state), scene).0)
+    (!refused.is_empty()).then(|| farthest(task, &refused, |_| Some(state), scene).0)
 }
