@@ -147,7 +147,8 @@ impl Follower<'_> {
     fn division(&self, share: f64) -> Division {
         let tolerance = self.settings.tolerance;
         let turn = share * self.settings.greatest_turn();
-        Division { deviation: share * tolerance, slack: SLACK_SHARE * tolerance, least_parts: 1, turn }
+        let is_even = self.settings.wrist.is_some();
+        Division { deviation: share * tolerance, slack: SLACK_SHARE * tolerance, least_parts: 1, turn, is_even }
     }
 
     /// Returns a motion within a smaller tolerance, which is one within the given tolerance.

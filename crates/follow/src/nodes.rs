@@ -55,6 +55,8 @@ pub(crate) struct Division {
     pub least_parts: u32,
     /// Greatest turn of the line's direction between two nodes of a piece, radians; infinite if it does not matter.
     pub turn: f64,
+    /// True if all parts of a cubic curve must be as short as its strongest bend demands. So a wrist turns evenly along it.
+    pub is_even: bool,
 }
 
 /// The reason why a line cannot be divided.
@@ -177,7 +179,9 @@ impl Divider<'_, '_> {
         let (before, after) = (last.solutions?, next.solutions?);
         let lifted = [0, 1].map(|s| self.lift(before[s], after[s]));
         let off = last.off.max(next.off);
-        let sag = sag(self.line.curve(piece), ends);
+        let curve = self.line.curve(piece);
+        let part = ends[1] - ends[0];
+        let sag = if self.division.is_even { curve.bend() * part * part / 8.0 } else { sag(curve, ends) };
         let deviation = |s: usize| off + sag + chord_deviation(self.kinematics, before[s], lifted[s]);
         Some((lifted, deviation(0).max(deviation(1))))
     }

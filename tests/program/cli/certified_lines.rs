@@ -280,3 +280,32 @@ fn every_answer_about_random_lines_has_a_certificate_that_holds() {
     println!("found, infeasible, unknown: {answers:?}");
     assert!(answers[0] >= 15 && answers[1] >= 10 && answers[2] <= 5, "{answers:?}");
 }
+
+/// The tip turns back within the tolerance at the beginning. The checker pairs the ways there and back with the line.
+#[test]
+fn lines_there_and_back_have_certificates_that_hold() {
+    for (size, tolerance) in [(8e-5, 1e-5), (8e-5, 1e-4), (1e-3, 1e-5), (1e-3, 1e-4), (5e-3, 1e-5)] {
+        let line = format!("G21 G90 F600\nG0 X1000 Y100\nG1 X{}\nG1 X1000\nG3 X1030 Y130 R-40\n", 1000.0 + size);
+        Judged::of(&robot(), "", &line, &format!("--tolerance {tolerance}"), 0).proven();
+    }
+}
+
+/// Hooks, hairpins and closings far below the tolerance, beside corners and travels.
+#[test]
+fn lines_with_tiny_pieces_have_certificates_that_hold() {
+    for seed in cplan_cases::seeds(12) {
+        let mut dice: Dice = cplan_cases::dice(seed);
+        let (mut text, mut at) = ("G21 G90 F6000\nG0 X1000 Y0\n".to_owned(), [1000.0, 0.0]);
+        for _ in 0..6 {
+            at = at.map(|x| x + dice.within(-3.0, 3.0));
+            let word = if dice.chance(0.2) { "G0" } else { "G1" };
+            text += &format!("{word} X{} Y{}\n", at[0], at[1]);
+            let size = 10_f64.powf(dice.within(-7.0, -2.5));
+            for _ in 0..1 + dice.within(0.0, 4.0) as usize {
+                let aside = at.map(|x| x + dice.within(-size, size));
+                text += &format!("G1 X{} Y{}\n", aside[0], aside[1]);
+            }
+        }
+        Judged::of(&robot(), "", &text, "", 0).proven();
+    }
+}

@@ -194,3 +194,22 @@ fn unusable_options_are_refused_before_any_work() {
         .run(&["follow", &files()[0], &mover, "line.gcode"], "")
         .refused(1, &["a line is followed among obstacles at rest"]);
 }
+
+/// The end of the line is out of reach by less than the tolerance, and by hardly less.
+#[test]
+fn places_beside_the_reach_are_followed_or_named_with_a_tolerance_that_works() {
+    let place = Place::new();
+    place.write("world.toml", "");
+    let follow = |end: f64, options: &str| {
+        place.write("line.gcode", format!("G21 G90 F6000\nG0 X1000 Y0\nG1 X{end}\n"));
+        place.run(&["follow", &files()[0], "world.toml", "line.gcode"], options)
+    };
+    assert_eq!(follow(1800.008, "").code, 0);
+    assert_eq!(follow(1800.011, "").code, 3);
+    let unknown = follow(1800.009_999_9, "");
+    assert_eq!(unknown.code, 4, "{}", unknown.stdout);
+    let (before, after) = unknown.stdout.split_once("; with `").expect("advice");
+    assert!(before.contains("800.0 mm of the line (line 3 of the file) is 0.010 mm out of reach"), "{before}");
+    let (advice, _) = after.split_once('`').expect("advice");
+    assert_eq!(follow(1800.009_999_9, advice).code, 0, "{advice}");
+}
