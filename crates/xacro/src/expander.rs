@@ -31,6 +31,8 @@ pub(crate) struct Expander<'s> {
     pub open_files: Vec<PathBuf>,
     /// Macros that are being called, with the place of the call.
     pub calls: Vec<(String, Place)>,
+    /// Names and definitions of macros that are not called so far.
+    pub uncalled: Vec<(String, Rc<Element>)>,
     /// Paths of the YAML files that were read.
     pub yaml: Vec<PathBuf>,
     pub notes: Vec<String>,
@@ -50,6 +52,7 @@ impl<'s> Expander<'s> {
             packages: BTreeMap::new(),
             open_files: Vec::new(),
             calls: Vec::new(),
+            uncalled: Vec::new(),
             yaml: Vec::new(),
             notes: Vec::new(),
             namespaces: Vec::new(),
@@ -80,6 +83,7 @@ impl<'s> Expander<'s> {
             };
             return Err(whole(format!("the robot has no argument \"{name}\""), &hint));
         }
+        self.require_link(&children)?;
         let root = Element { name: root.name.clone(), attributes, children, place: root.place.clone() };
         let (text, spans) = writer::write(&root, &self.namespaces);
         Ok(Expansion { text, spans, files: self.files, yaml: self.yaml, notes: self.notes })

@@ -76,7 +76,31 @@ impl Expander<'_> {
         let params = element.attribute("params").map_or("", |params| params.value.as_str());
         let defined = Macro { parameters: parameters(params), body: Rc::clone(element) };
         self.scopes.set_macro(scope, &name, defined);
+        self.uncalled.push((name, Rc::clone(element)));
         Ok(())
+    }
+
+    /// Refuses files that define a robot as a macro and never call it.
+    ///
+    /// # Errors
+    /// If the expanded content of the robot has no link, and a macro is not called.
+    pub(crate) fn require_link(&self, content: &[Node]) -> Result<(), Error> {
+        let has_link = content.iter().filter_map(Node::element).any(|element| element.name == "link");
+        // Included files usually define parts, which the robot's own file joins.
+        let is_own = |(_, body): &&(String, Rc<Element>)| body.place.file == 0;
+        let own = self.uncalled.iter().rfind(is_own).or(self.uncalled.last());
+        let Some((name, body)) = own.filter(|_| !has_link) else { return Ok(()) };
+        let list = parameters(body.attribute("params").map_or("", |params| params.value.as_str()));
+        let needed = list.iter().filter(|parameter| parameter.default.is_none());
+        let (blocks, values): (Vec<_>, Vec<_>) =
+            needed.map(|p| p.name.as_str()).partition(|name| name.starts_with('*'));
+        let values: String = values.iter().map(|value| format!(" {value}=\"...\"")).collect();
+        let call = match blocks.is_empty() {
+            true => format!("<xacro:{name}{values}/>"),
+            false => format!("<xacro:{name}{values}>...</xacro:{name}> with elements for {}", blocks.join(", ")),
+        };
+        let message = format!("the macro \"{name}\" is defined and never called, so the robot has no link");
+        Err(self.error(&body.place, Fault::with_hint(message, format!("call it before </robot>: {call}"))))
     }
 
     /// Replaces a call by the expansion of its macro.
@@ -95,6 +119,7 @@ impl Expander<'_> {
             };
             return Err(self.error(&element.place, Fault::with_hint(format!("there is no macro \"{name}\""), hint)));
         };
+        self.uncalled.retain(|(_, body)| !Rc::ptr_eq(body, &called.body));
         let inner = self.scopes.open(scope);
         let given: Vec<&Attribute> =
             element.attributes.iter().filter(|a| !(element.name == "xacro:call" && a.name == "macro")).collect();

@@ -64,6 +64,26 @@ fn mistakes_are_named_with_file_line_and_hint() {
 }
 
 #[test]
+fn a_macro_that_is_never_called_is_named_with_a_call_that_works() {
+    let arm = "<xacro:macro name=\"arm\" params=\"\">\n<link name=\"base\"/>\n</xacro:macro>";
+    let message = "the macro \"arm\" is defined and never called, so the robot has no link";
+    refused(&[("r.xacro", &robot(arm))], &[], &["r.xacro:2:", message, "before </robot>: <xacro:arm/>"]);
+    let called = Files::new(&[("r.xacro", &robot(&format!("{arm}<xacro:arm/>")))]).expand(&[]).unwrap();
+    assert!(called.text.contains("<link name=\"base\"/>"));
+    let other = "<xacro:macro name=\"arm\" params=\"parent reach:=1 *origin\"><link name=\"base\"/></xacro:macro>";
+    let call = "<xacro:arm parent=\"...\">...</xacro:arm> with elements for *origin";
+    refused(&[("r.xacro", &robot(&format!("<material name=\"m\"/>{other}")))], &[], &[call]);
+    // The robot's own macros come before those of included files.
+    let files = [
+        ("r.xacro", &*robot(&format!("{arm}<xacro:include filename=\"b.xacro\"/>"))),
+        ("b.xacro", &*robot("<xacro:macro name=\"b\"/>")),
+    ];
+    refused(&files, &[], &[message]);
+    // A robot with a link may leave macros uncalled.
+    assert!(Files::new(&[("r.xacro", &robot(&format!("{arm}<link name=\"a\"/>")))]).expand(&[]).is_ok());
+}
+
+#[test]
 fn endless_expansion_is_refused_early() {
     let deep = "<a>".repeat(100_000) + &"</a>".repeat(100_000);
     let parens = format!("<v v=\"${{{}1{}}}\"/>", "(".repeat(5000), ")".repeat(5000));
