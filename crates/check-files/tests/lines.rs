@@ -32,12 +32,12 @@ fn tip([a, b]: P) -> P {
     [LENGTHS[0] * a.cos() + LENGTHS[1] * (a + b).cos(), LENGTHS[0] * a.sin() + LENGTHS[1] * (a + b).sin()]
 }
 
-/// A piece of a line: straight, a cubic Bezier curve, or an arc with its radius, direction and angle.
+/// A piece of a line: straight, a cubic Bezier curve, or an arc with its radius, direction, angle and growth.
 #[derive(Clone, Debug)]
 enum Piece {
     Straight([P; 2]),
     Cubic([P; 4]),
-    Arc(P, [f64; 3]),
+    Arc(P, [f64; 4]),
 }
 
 impl Piece {
@@ -48,8 +48,8 @@ impl Piece {
                 let weights = [(1.0 - u).powi(3), 3.0 * u * (1.0 - u).powi(2), 3.0 * u * u * (1.0 - u), u.powi(3)];
                 [0, 1].map(|k| (0..4).map(|i| weights[i] * control[i][k]).sum())
             }
-            Self::Arc([x, y], [radius, from, by]) => {
-                let angle = from + by * u;
+            Self::Arc([x, y], [radius, from, by, growth]) => {
+                let (angle, radius) = (from + by * u, radius + growth * u);
                 [x + radius * angle.cos(), y + radius * angle.sin()]
             }
         }
@@ -71,15 +71,19 @@ impl Piece {
         match self {
             Self::Straight(ends) => format!(r#"{{"straight": {ends:?}}}"#),
             Self::Cubic(control) => format!(r#"{{"cubic": {control:?}}}"#),
-            Self::Arc(center, [radius, from, by]) => {
-                format!(r#"{{"arc": {{"center": {center:?}, "radius": {radius:?}, "from": {from:?}, "by": {by:?}}}}}"#)
+            Self::Arc(center, [radius, from, by, growth]) => {
+                let growth = if *growth == 0.0 { String::new() } else { format!(r#", "growth": {growth:?}"#) };
+                format!(
+                    r#"{{"arc": {{"center": {center:?}, "radius": {radius:?}, "from": {from:?}, "by": {by:?}{growth}}}}}"#
+                )
             }
         }
     }
 }
 
-/// Returns the arc through three points, if they are not nearly on a line and the arc is at most half a circle.
-fn arc(a: P, b: P, c: P) -> Option<Piece> {
+/// Returns the arc through three points, if they are not nearly on a line and the arc is at most half a circle. If the
+/// centre is displaced by `aside`, it is a spiral between the outer points, near the middle one.
+fn arc(a: P, b: P, c: P, aside: P) -> Option<Piece> {
     let [u, v] = [b, c].map(|p| [p[0] - a[0], p[1] - a[1]]);
     let twice = 2.0 * (u[0] * v[1] - u[1] * v[0]);
     let [uu, vv] = [u, v].map(|w| w[0] * w[0] + w[1] * w[1]);
@@ -87,11 +91,14 @@ fn arc(a: P, b: P, c: P) -> Option<Piece> {
         return None;
     }
     let away = [(v[1] * uu - u[1] * vv) / twice, (u[0] * vv - v[0] * uu) / twice];
-    let center = [a[0] + away[0], a[1] + away[1]];
+    let center = [a[0] + away[0] + aside[0], a[1] + away[1] + aside[1]];
     let angle = |p: P| (p[1] - center[1]).atan2(p[0] - center[0]);
     let turn = (angle(c) - angle(a)).rem_euclid(std::f64::consts::TAU);
     let by = if twice > 0.0 { turn } else { turn - std::f64::consts::TAU };
-    (by.abs() < std::f64::consts::PI).then(|| Piece::Arc(center, [away[0].hypot(away[1]), angle(a), by]))
+    (by.abs() < std::f64::consts::PI).then(|| {
+        let radii = [a, c].map(|p| distance(p, center));
+        Piece::Arc(center, [radii[0], angle(a), by, if aside == [0.0; 2] { 0.0 } else { radii[1] - radii[0] }])
+    })
 }
 
 /// The claim that a motion follows a line.
@@ -159,7 +166,10 @@ impl Followed {
             };
             let middle = tip(claim.at(knot, f64::midpoint(low, share)));
             let piece = match dice.below(3) {
-                0 if begin == end => arc(from, middle, to).filter(|piece| distance(piece.at(1.0), to) < 1e-9),
+                0 if begin == end => {
+                    let aside = if dice.chance(0.5) { off(dice, [0.0; 2]) } else { [0.0; 2] };
+                    arc(from, middle, to, aside).filter(|piece| distance(piece.at(1.0), to) < 1e-9)
+                }
                 1 if begin == end => {
                     let step = 1e-6;
                     let [a, b] = [low, share - step].map(|u| {
@@ -458,7 +468,7 @@ fn solutions_that_cannot_be_changed_near_full_reach_are_excluded() {
                     "line": {{"tolerance": 0.00001, "pieces": [{}], "stretch": [0, 1]}},
                     "shapes": [{{"link": "upper", "collision": 0}}],
                     "parts": [{{"obstacle": 0}}, {{"obstacle": 1}}], "boxes": [{}]}}"#,
-                Piece::Arc([0.0; 2], [radius, from, by]).text(),
+                Piece::Arc([0.0; 2], [radius, from, by, 0.0]).text(),
                 boxes.join(", ")
             )
         };

@@ -75,7 +75,8 @@ impl StepLine {
     #[must_use]
     pub fn is_arc_through(&self, [from, through, to]: &[Point; 3]) -> bool {
         let [piece @ Curve::Arc(arc)] = &self.0.pieces[..] else { return false };
-        let is_turn = arc.by.magnitude() <= (Interval::pi() + Interval::pi()).lower;
+        let is_circle = arc.growth == Interval::whole(0);
+        let is_turn = is_circle && arc.by.magnitude() <= (Interval::pi() + Interval::pi()).lower;
         let between = Interval::exact(nearest(piece, through));
         let ends = [(Interval::whole(0), from), (between, through), (Interval::whole(1), to)];
         is_turn && ends.iter().all(|(u, point)| is_near(&piece.at(u), point))

@@ -17,7 +17,7 @@ const GAP_DECIMALS: u32 = 8;
 enum PieceText {
     Straight([Corner; 2]),
     Cubic([Corner; 4]),
-    Arc { center: Corner, radius: Decimal, from: Decimal, by: Decimal },
+    Arc { center: Corner, radius: Decimal, from: Decimal, by: Decimal, growth: Option<Decimal> },
 }
 
 /// The member `line` of a certificate, or of a step of one.
@@ -77,9 +77,10 @@ impl Line {
         let curve = |piece: &PieceText| match piece {
             PieceText::Straight(ends) => Curve::Bezier(ends.iter().map(point).collect()),
             PieceText::Cubic(control) => Curve::Bezier(control.iter().map(point).collect()),
-            PieceText::Arc { center, radius, from, by } => {
+            PieceText::Arc { center, radius, from, by, growth } => {
                 let [radius, from, by] = [radius, from, by].map(Interval::from);
-                Curve::Arc(Box::new(Arc { center: point(center), radius, from, by }))
+                let growth = growth.as_ref().map_or_else(|| Interval::whole(0), Interval::from);
+                Curve::Arc(Box::new(Arc { center: point(center), radius, from, by, growth }))
             }
         };
         let line =

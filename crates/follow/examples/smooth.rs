@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 fn measure(scene: &Scene, name: &str, legs: Vec<(Curve, usize)>) -> Result<(), Box<dyn std::error::Error>> {
     let source = Source::of_line(1);
-    let piece = |(curve, _): (Curve, usize)| Piece { curve, speed: None, is_travel: false, source };
+    let piece = |(curve, _): (Curve, usize)| Piece { curve, speed: None, is_travel: false, dwell: None, source };
     let line = Toolpath::new(legs.into_iter().map(piece).collect())?;
     let mut fastest = f64::INFINITY;
     let mut answer = None;

@@ -73,7 +73,8 @@ impl Driver<'_> {
         }
         for _ in 0..SLOWDOWNS {
             let parts = self.smooth_parts(route, &speeds, share)?;
-            let mut timed = parts.into_iter().reduce(joined).expect("at least one part");
+            let join = |(first, before), (from, next)| (first, joined(before, self.dwell(route, from), next));
+            let (_, mut timed) = parts.into_iter().reduce(join).expect("at least one part");
             let Some((wrist, turns)) = wrist else { return Ok(self.judged(route, timed, is_smooth)) };
             fixed_angle::add_wrist(self.scene.arm(), &wrist, turns.values[0][1], &mut timed.trajectory);
             let excess = fixed_angle::excess(&wrist, self.settings.share, &timed.trajectory);
@@ -99,7 +100,7 @@ impl Driver<'_> {
         Motion { timed, deviation: bound, tool, farthest }
     }
 
-    /// Returns the motion along a whole route with blends. Where the wrist turns at rest, the arm stops.
+    /// Returns the motion along a whole route with blends. The arm stops where the wrist turns at rest, and for dwells.
     fn blended(
         &self,
         route: &Route,
@@ -114,7 +115,7 @@ impl Driver<'_> {
         let radii: Vec<f64> = (0..q.len()).map(radius).collect();
         let turn_at = |w: usize| wrist.map(|(_, turns)| turns.values[w]).filter(|[from, to]| from != to);
         let last = q.len() - 1;
-        let stops = (1..last.max(1)).filter(|w| turn_at(*w).is_some());
+        let stops = (1..last.max(1)).filter(|w| turn_at(*w).is_some() || self.dwell(route, *w).is_some());
         let stops: Vec<usize> = [0].into_iter().chain(stops).chain([last]).collect();
         let share = self.settings.share;
         let mut whole: Option<TimedMotion> = None;
@@ -139,17 +140,22 @@ impl Driver<'_> {
                     if let Some(([_, to], (wrist, _))) = turn_at(from).zip(wrist) {
                         before.trajectory.append_turn(to, share * wrist.velocity, share * share * wrist.acceleration);
                     }
-                    joined(before, part)
+                    joined(before, self.dwell(route, from), part)
                 }
             });
         }
         Ok(whole.expect("at least one part"))
     }
 
-    /// Returns the motions with limits on jerks from each stop of a route to the next one. The arm stops where it must,
-    /// at corners of the line, and where the limit on the tip's speed changes. `share` is the share of the joints' top
-    /// speeds to use.
-    fn smooth_parts(&self, route: &Route, speeds: &[f64], share: f64) -> Result<Vec<TimedMotion>, FollowError> {
+    /// Returns the motions with limits on jerks from each stop of a route to the next one, each with the waypoint where it
+    /// begins. The arm stops where it must, at corners of the line, and where the limit on the tip's speed changes. `share`
+    /// is the share of the joints' top speeds to use.
+    fn smooth_parts(
+        &self,
+        route: &Route,
+        speeds: &[f64],
+        share: f64,
+    ) -> Result<Vec<(usize, TimedMotion)>, FollowError> {
         let q = route.path.path().waypoints();
         let last = q.len() - 1;
         let is_corner = |w: usize| self.is_corner(route.nodes[w]) || speeds[w] != speeds[w - 1];
@@ -163,7 +169,7 @@ impl Driver<'_> {
             let path = self.part_of_path(route, [from, to])?;
             let drive = self.drive(speeds.get(from).copied().unwrap_or(0.0), &[], share);
             match Stretch::new(self, route, [from, to], &path, drive).motion()? {
-                Some(part) => parts.push(part),
+                Some(part) => parts.push((from, part)),
                 None => {
                     let middle = from.midpoint(to);
                     open.extend([[middle, to], [from, middle]]);
@@ -256,10 +262,20 @@ impl Driver<'_> {
         if off > 0.0 { 4.0 * BLEND_TOOL_SHARE * wrist.guide.tolerance / off } else { f64::INFINITY }
     }
 
-    /// Returns true if every motion stops at an inner waypoint: a travel begins or ends there, or the joints turn back.
+    /// Returns true if every motion stops at an inner waypoint: a travel begins or ends there, the line says that the tip
+    /// rests there, or the joints turn back.
     fn must_stop(&self, q: &[Configuration], route: &Route, w: usize) -> bool {
         let [before, after] = legs(q, w);
-        self.is_stop(route.nodes[w]) || before.dot(&after) < REVERSAL_COSINE
+        self.is_stop(route.nodes[w]) || self.dwell(route, w).is_some() || before.dot(&after) < REVERSAL_COSINE
+    }
+
+    /// Returns the time for which the tip rests at a waypoint, seconds; `None` if the line has no dwell there.
+    fn dwell(&self, route: &Route, w: usize) -> Option<f64> {
+        // A waypoint stands for all nodes after those of the one before it.
+        let first = w.checked_sub(1).map_or(0, |before| route.nodes[before] + 1);
+        let parts = (first.max(1)..=route.nodes[w]).map(|node| self.nodes.parts[node - 1]);
+        let ends = parts.filter(|part| part.ends[1] == 1.0);
+        ends.filter_map(|part| self.line.pieces[part.piece].dwell).reduce(|a, b| a + b)
     }
 
     /// Returns true if two pieces of the line meet at a node, and their directions differ too much for a motion with
@@ -283,9 +299,9 @@ impl Driver<'_> {
     }
 }
 
-/// Joins a motion and the next one.
-fn joined(mut before: TimedMotion, next: TimedMotion) -> TimedMotion {
-    before.trajectory.then(0.0, &next.trajectory);
+/// Joins a motion and the next one, with a rest in between, seconds.
+fn joined(mut before: TimedMotion, dwell: Option<f64>, next: TimedMotion) -> TimedMotion {
+    before.trajectory.then(dwell.unwrap_or(0.0), &next.trajectory);
     TimedMotion { curve: before.curve.then(&next.curve), ..before }
 }
 

@@ -11,6 +11,9 @@ const LENGTH_INTERVALS: usize = 32;
 /// Step of the parameter in the search for the nearest point of a cubic curve.
 const NEAREST_STEP: f64 = 1.0 / 64.0;
 
+/// Number of steps that refine the nearest point of a spiral. Near the curve, each step leaves a small share of the error.
+const NEAREST_DIRECTION_STEPS: usize = 4;
+
 /// Number of golden sections that refine the nearest point of a cubic curve.
 const NEAREST_STEPS: usize = 6;
 
@@ -28,16 +31,20 @@ pub enum Curve {
         /// The other end, metres.
         to: Point,
     },
-    /// An arc of a circle at constant speed of the parameter.
+    /// An arc about a centre at constant angular speed of the parameter: of a circle, or of a spiral whose radius changes
+    /// linearly.
     Arc {
-        /// The circle's centre, metres.
+        /// The centre, metres.
         center: Point,
-        /// The circle's radius, metres.
+        /// The radius at the first end, metres.
         radius: f64,
         /// Direction from the centre to the first end, radians from the x axis.
         from: f64,
         /// Angle about the centre from the first end to the other, radians; positive counter-clockwise.
         by: f64,
+        /// Difference between the radius at the other end and that at the first end, metres; 0 for a circle.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        growth: f64,
     },
     /// A cubic Bézier curve with these control points, metres. The first and the last are its ends.
     Cubic([Point; 4]),
@@ -49,8 +56,9 @@ impl Curve {
     pub fn at(&self, u: f64) -> Point {
         match *self {
             Curve::Line { from, to } => mix(from, to, u),
-            Curve::Arc { center, radius, from, by } => {
+            Curve::Arc { center, radius, from, by, growth } => {
                 let (sin, cos) = (from + by * u).sin_cos();
+                let radius = radius + growth * u;
                 [center[0] + radius * cos, center[1] + radius * sin]
             }
             Curve::Cubic([a, b, c, d]) => {
@@ -65,9 +73,10 @@ impl Curve {
     pub fn derivative(&self, u: f64) -> Point {
         match *self {
             Curve::Line { from, to } => minus(to, from),
-            Curve::Arc { radius, from, by, .. } => {
+            Curve::Arc { radius, from, by, growth, .. } => {
                 let (sin, cos) = (from + by * u).sin_cos();
-                [-radius * by * sin, radius * by * cos]
+                let across = (radius + growth * u) * by;
+                [growth * cos - across * sin, growth * sin + across * cos]
             }
             Curve::Cubic([a, b, c, d]) => {
                 let [ab, bc, cd] = [minus(b, a), minus(c, b), minus(d, c)];
@@ -81,7 +90,7 @@ impl Curve {
     pub fn bend(&self) -> f64 {
         match *self {
             Curve::Line { .. } => 0.0,
-            Curve::Arc { radius, by, .. } => radius * by * by,
+            Curve::Arc { radius, by, growth, .. } => (radius.max(radius + growth) * by * by).hypot(2.0 * growth * by),
             Curve::Cubic([a, b, c, d]) => {
                 let second = |p: Point, q: Point, r: Point| norm(minus(minus(r, q), minus(q, p)));
                 6.0 * second(a, b, c).max(second(b, c, d))
@@ -129,19 +138,20 @@ impl Curve {
         (length > 0.0).then(|| derivative.map(|x| x / length))
     }
 
-    /// Returns the length, metres. For a cubic curve it is a numerical integral.
+    /// Returns the length, metres. For a cubic curve and a spiral it is a numerical integral.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.length_to(1.0)
     }
 
-    /// Returns the length from the first end to a parameter, metres. For a cubic curve it is a numerical integral.
+    /// Returns the length from the first end to a parameter, metres. For a cubic curve and a spiral it is a numerical
+    /// integral.
     #[must_use]
     pub fn length_to(&self, u: f64) -> f64 {
         match *self {
             Curve::Line { from, to } => u * norm(minus(to, from)),
-            Curve::Arc { radius, by, .. } => u * radius * by.abs(),
-            Curve::Cubic(_) => {
+            Curve::Arc { radius, by, growth: 0.0, .. } => u * radius * by.abs(),
+            Curve::Arc { .. } | Curve::Cubic(_) => {
                 // Simpson's rule.
                 let step = u / LENGTH_INTERVALS as f64;
                 let speed = |k: f64| {
@@ -155,7 +165,7 @@ impl Curve {
     }
 
     /// Returns the parameter from `least` on at which the curve is near a point. It is the nearest one on lines, and on
-    /// arcs within half a turn. On cubic curves it is the first one from which the distance grows, in small steps.
+    /// circles within half a turn. On spirals it is near the place in the same direction from the centre. On cubic curves it is the first one from which the distance grows, in small steps.
     #[must_use]
     pub fn nearest(&self, point: Point, least: f64) -> f64 {
         match *self {
@@ -165,16 +175,27 @@ impl Curve {
                 let u = if square > 0.0 { dot(minus(point, from), along) / square } else { 0.0 };
                 u.clamp(least, 1.0)
             }
-            Curve::Arc { center, from, by, .. } => {
+            Curve::Arc { center, from, by, growth, .. } => {
                 let away = minus(point, center);
                 let middle = from + by * least;
                 let turned = (away[1].atan2(away[0]) - middle) * by.signum();
                 // Within half a turn of the place `least`.
                 let turn = turned - std::f64::consts::TAU * (turned / std::f64::consts::TAU).round();
-                (least + (turn / by.abs()).max(0.0)).clamp(least, 1.0)
+                let beside = (least + (turn / by.abs()).max(0.0)).clamp(least, 1.0);
+                if growth == 0.0 { beside } else { self.refined(point, least, beside) }
             }
             Curve::Cubic(_) => self.nearest_ahead(point, least),
         }
+    }
+
+    /// Refines the place that is nearest to a point by steps along the curve's direction.
+    fn refined(&self, point: Point, least: f64, guess: f64) -> f64 {
+        let far = |u: f64| norm(minus(self.at(u), point));
+        (0..NEAREST_DIRECTION_STEPS).fold(guess, |u, _| {
+            let along = self.derivative(u);
+            let next = (u + dot(minus(point, self.at(u)), along) / dot(along, along)).clamp(least, 1.0);
+            if far(next) < far(u) { next } else { u }
+        })
     }
 
     /// Finds the first place from `least` on where the distance stops falling, and refines it by golden sections and by
@@ -221,8 +242,9 @@ impl Curve {
         let moved = |[x, y]: Point| [scale * (x * cos - y * sin) + shift[0], scale * (x * sin + y * cos) + shift[1]];
         match *self {
             Curve::Line { from, to } => Curve::Line { from: moved(from), to: moved(to) },
-            Curve::Arc { center, radius, from, by } => {
-                Curve::Arc { center: moved(center), radius: scale * radius, from: from + turn, by }
+            Curve::Arc { center, radius, from, by, growth } => {
+                let [radius, growth] = [scale * radius, scale * growth];
+                Curve::Arc { center: moved(center), radius, from: from + turn, by, growth }
             }
             Curve::Cubic(points) => Curve::Cubic(points.map(moved)),
         }
@@ -233,10 +255,18 @@ impl Curve {
         let near = |p: &Point| p.iter().all(|x| x.abs() <= most);
         match self {
             Curve::Line { from, to } => near(from) && near(to),
-            Curve::Arc { center, radius, from, by } => near(center) && near(&[*radius, *by]) && from.is_finite(),
+            Curve::Arc { center, radius, from, by, growth } => {
+                near(center) && near(&[*radius, *growth]) && near(&[*from, *by])
+            }
             Curve::Cubic(points) => points.iter().all(near),
         }
     }
+}
+
+/// Returns true for the number 0.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
 }
 
 fn mix(a: Point, b: Point, u: f64) -> Point {

@@ -24,22 +24,27 @@ impl Curve {
     #[must_use]
     pub fn heading(&self, u: f64) -> Option<f64> {
         let [x, y] = match *self {
-            Curve::Arc { from, by, .. } => return (by != 0.0).then_some(from + by * u + by.signum() * FRAC_PI_2),
+            Curve::Arc { radius, from, by, growth, .. } => {
+                return (by != 0.0).then_some(from + by * u + slant(radius + growth * u, by, growth));
+            }
             Curve::Cubic(_) if u == 0.0 || u == 1.0 => self.direction(u)?,
             _ => self.derivative(u),
         };
         (x != 0.0 || y != 0.0).then(|| y.atan2(x))
     }
 
-    /// Returns bounds on the headings between two parameters. They are exact for lines and arcs. Returns `None` if the
+    /// Returns bounds on the headings between two parameters. They are exact for lines and circles. Returns `None` if the
     /// headings may differ by half a turn or more, or if the curve has no length.
     #[must_use]
     pub fn headings(&self, [from, to]: [f64; 2]) -> Option<Headings> {
         match *self {
             Curve::Line { .. } => Some(Headings { middle: self.heading(0.0)?, half: 0.0 }),
-            Curve::Arc { by, .. } => {
-                let middle = self.heading((from + to) / 2.0)?;
-                Some(Headings { middle, half: (by * (to - from)).abs() / 2.0 })
+            Curve::Arc { radius, by, growth, .. } => {
+                let middle = (from + to) / 2.0;
+                // The angle between the heading and the direction from the centre changes in one sense.
+                let [a, b, c] = [from, middle, to].map(|u| slant(radius + growth * u, by, growth));
+                let half = (by * (to - from)).abs() / 2.0 + (a - b).abs().max((c - b).abs());
+                Some(Headings { middle: self.heading(middle)?, half })
             }
             Curve::Cubic(points) => {
                 let [a, b, c] = [0, 1, 2].map(|k| minus(points[k + 1], points[k]));
@@ -55,6 +60,11 @@ impl Curve {
             }
         }
     }
+}
+
+/// Returns the angle from the direction away from an arc's centre to the heading, radians.
+fn slant(radius: f64, by: f64, growth: f64) -> f64 {
+    if growth == 0.0 { by.signum() * FRAC_PI_2 } else { (radius * by).atan2(growth) }
 }
 
 fn mixed(a: Point, b: Point, u: f64) -> Point {
@@ -75,7 +85,7 @@ mod tests {
             points in prop::array::uniform8(-1.0..1.0_f64), part in (0.0..1.0_f64, 0.0..1.0_f64), share in 0.0..1.0_f64,
         ) {
             let point = |k: usize| [points[2 * k], points[2 * k + 1]];
-            let arc = Curve::Arc { center: point(0), radius: 0.1 + points[2].abs(), from: 3.0 * points[3], by: 6.0 * points[4] };
+            let arc = Curve::Arc { center: point(0), radius: 0.1 + points[2].abs(), from: 3.0 * points[3], by: 6.0 * points[4], growth: 0.09 * points[5] };
             let line = Curve::Line { from: point(0), to: point(1) };
             let [from, to] = [part.0.min(part.1), part.0.max(part.1)];
             for curve in [line, arc, Curve::Cubic([0, 1, 2, 3].map(point))] {

@@ -17,12 +17,15 @@
 //!
 //! # G-code
 //!
-//! The reader accepts G0 to G3, G17, G20, G21, G90 and G91, the words F, I, J, N, R, X and Y, M2 and M30, and comments
-//! in parentheses or after a semicolon. It refuses every other word by its name, with line and column. Nothing is
-//! ignored silently: a machine that would do something else than the file says is worse than one that stops.
+//! The reader follows straight lines and arcs, displacements, units, shifted origins (G92) and dwells (G4). Words that
+//! command the machine have no effect on the line, and are listed in a note. Words that would change the line are
+//! refused by name, all in one error: a machine that does something else than the file says is worse than one that stops.
 //!
 //! The first point of the file is where the line begins. A later G0 is a piece with [`Piece::is_travel`]: a straight
 //! move of the tip.
+//!
+//! Files round their numbers, so both ends of an arc are rarely equally far from its centre. The radius of such an arc
+//! changes linearly from one to the other.
 //!
 //! # SVG
 //!

@@ -40,6 +40,9 @@ pub struct Piece {
     pub speed: Option<f64>,
     /// True if the tip only travels to where the next piece begins (G0). Then the file's speed does not apply.
     pub is_travel: bool,
+    /// Time for which the tip rests at the end of the piece, seconds; `None` if it need not stop there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dwell: Option<f64>,
     /// Place of the piece in the file.
     pub source: Source,
 }
@@ -76,7 +79,11 @@ impl Toolpath {
                 return Err(Error::new(line, column, message, "join the pieces by a travel"));
             }
             let parts = cusps::parts(&piece.curve).into_iter().filter(|curve| curve.length() > 0.0);
-            kept.extend(parts.map(|curve| Piece { curve, ..piece }));
+            kept.extend(parts.map(|curve| Piece { curve, dwell: None, ..piece }));
+            // A dwell without a piece before it is at the start of the line, where the tip rests anyway.
+            if let Some((seconds, last)) = piece.dwell.zip(kept.last_mut()) {
+                last.dwell = Some(last.dwell.unwrap_or(0.0) + seconds);
+            }
         }
         if kept.len() > MAX_PIECES {
             let hint = "split the file into several";

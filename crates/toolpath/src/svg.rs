@@ -15,7 +15,7 @@ pub(crate) fn read(bytes: &[u8], placement: &Placement) -> Result<Toolpath, Erro
     let mut pieces: Vec<Piece> = Vec::new();
     for stroke in &drawing.strokes {
         let source = Source::of_line(stroke.line);
-        let piece = |curve: Curve, is_travel: bool| Piece { curve, speed: None, is_travel, source };
+        let piece = |curve: Curve, is_travel: bool| Piece { curve, speed: None, is_travel, dwell: None, source };
         let last: Option<Point> = pieces.last().map(|piece| piece.curve.end());
         if let Some(from) = last.filter(|end| *end != stroke.start) {
             pieces.push(piece(Curve::Line { from, to: stroke.start }, true));
@@ -25,7 +25,7 @@ pub(crate) fn read(bytes: &[u8], placement: &Placement) -> Result<Toolpath, Erro
             let curve = match *curve {
                 StrokeCurve::Line(to) => Curve::Line { from, to },
                 StrokeCurve::Cubic([b, c, d]) => Curve::Cubic([from, b, c, d]),
-                StrokeCurve::Arc { center, radius, from, by } => Curve::Arc { center, radius, from, by },
+                StrokeCurve::Arc { center, radius, from, by } => Curve::Arc { center, radius, from, by, growth: 0.0 },
             };
             from = curve.end();
             pieces.push(piece(curve, false));

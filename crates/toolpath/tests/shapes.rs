@@ -10,7 +10,7 @@ fn far(a: Point, b: Point) -> f64 {
 
 /// Returns the curves as a line, which requires that they join.
 fn joined(curves: impl IntoIterator<Item = Curve>) -> Toolpath {
-    let piece = |curve| Piece { curve, speed: None, is_travel: false, source: Source::of_line(1) };
+    let piece = |curve| Piece { curve, speed: None, is_travel: false, dwell: None, source: Source::of_line(1) };
     Toolpath::new(curves.into_iter().map(piece).collect()).unwrap()
 }
 

@@ -168,7 +168,7 @@ impl LineTable {
         let lines: Vec<usize> = list.iter().map(|point| cursor.position(point.span().start).line).collect();
         let piece = |(curve, to): (Curve, usize)| {
             let source = cplan_toolpath::Source::of_line(lines[to]);
-            Piece { curve: placement.place(&curve), speed: None, is_travel: false, source }
+            Piece { curve: placement.place(&curve), speed: None, is_travel: false, dwell: None, source }
         };
         let path = legs(&values).and_then(|legs| Toolpath::new(legs.into_iter().map(piece).collect()));
         path.map_err(|error| reader.source.diagnostic_at(points.span(), error.message).help(error.hint))

@@ -381,11 +381,11 @@ fn defects_of_the_file_of_a_line_are_reported_there() {
         scene.and_then(|scene| scene.task(&Overrides::default())).map_err(|error| error.to_string())
     };
     write("good.gcode", "G21 G0 X1100 Y0\nG1 X1200\n");
-    write("bad.gcode", "G21 G0 X1100 Y0\nG1 X1200 Z-2\n");
+    write("bad.gcode", "G21 G0 X1100 Y0\nG1 X1200 A90\n");
     write("line.txt", "");
     assert_eq!(load("good.gcode").unwrap().task.items.len(), 2);
     let error = load("bad.gcode").unwrap_err();
-    assert!(error.contains("bad.gcode: line 2, column 10: Z-2 moves the tip out of the plane"), "{error}");
+    assert!(error.contains("bad.gcode: line 2, column 10: A turns the tool"), "{error}");
     let error = load("line.txt").unwrap_err();
     assert!(error.contains("world.toml: line 4") && error.contains("unknown ending"), "{error}");
     let error = load("none.svg").unwrap_err();

@@ -122,6 +122,25 @@ fn the_order_of_the_line_counts() {
     judged.fails(reversed, "not shown to stay within");
 }
 
+/// The ends of the arc are not equally far from its centre, so that its radius changes.
+#[test]
+fn arcs_of_a_changing_radius_have_certificates() {
+    let judged = Judged::of(&robot(), "", "G21\nG0 X1200 Y0\nG3 X1100 Y-100.09 I-100\nG1 X1200\n", "", 0);
+    judged.proven();
+    let growth = judged.certificate["line"]["pieces"][0]["arc"]["growth"].as_f64().unwrap();
+    assert!((growth - 0.09e-3).abs() < 1e-12, "{growth}");
+    let without = |c: &mut Value| drop(c["line"]["pieces"][0]["arc"].as_object_mut().unwrap().remove("growth"));
+    judged.fails(without, "of the line does not begin");
+    // The same arc at another distance from its centre.
+    judged.fails(
+        |c| {
+            let arc = &mut c["line"]["pieces"][0]["arc"];
+            (arc["radius"], arc["growth"]) = (json!(0.1 + 1.5 * growth), json!(-0.5 * growth));
+        },
+        "not shown to stay within",
+    );
+}
+
 /// All shapes of lines, with each kind of arm, and with limited jerk.
 #[test]
 fn every_kind_of_line_and_arm_has_a_certificate_that_holds() {

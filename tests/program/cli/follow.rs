@@ -145,15 +145,35 @@ fn ros_messages_and_pages_are_written() {
     assert!(page.contains("\"line\":{\"strokes\":[[1.1,-0.15,1.2,-0.15]],\"curves\":"), "the page has the line");
 }
 
+/// The line goes on from where G92 states another origin, the motion rests for the dwell, and one note lists the words
+/// without an effect.
+#[test]
+fn origins_and_dwells_are_followed_and_other_words_are_noted() {
+    let place = Place::new();
+    let text = "G21 G90\nSET_VELOCITY_LIMIT ACCEL=500\nG0 X1100 Y0\nG1 X1150 F6000\nG92 X0 Y0 (here is the new origin)\n\
+        G1 X20 Y0\nG4 X2\nM3 S5\nG1 X20 Y20 Z3\n";
+    let done = follow_program(&place, text, "--output m.csv");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let note = "note       read without effect on the line: M3 (1), S (1), SET_VELOCITY_LIMIT (1), Z (1 height)";
+    assert!(done.stdout.contains(note) && done.stdout.contains("1 stop of 2 s in all (G4)"), "{}", done.stdout);
+    let csv = place.read("m.csv");
+    let rows: Vec<Vec<f64>> =
+        csv.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
+    let at = |row: &Vec<f64>| tip([row[1], row[2]]);
+    let end = at(&rows[rows.len() - 1]);
+    assert!((end[0] - 1.17).hypot(end[1] - 0.02) < 1e-5, "{end:?}");
+    let is_rest = |pair: &&[Vec<f64>]| (pair[1][0] - pair[0][0] - 2.0).abs() < 1e-6 && pair[0][1..3] == pair[1][1..3];
+    let rests: Vec<[f64; 2]> = rows.windows(2).filter(is_rest).map(|pair| at(&pair[0])).collect();
+    assert!(rests.len() == 1 && (rests[0][0] - 1.17).hypot(rests[0][1]) < 1e-5, "{rests:?}");
+}
+
 #[test]
 fn defects_of_the_line_have_their_place_and_a_hint() {
     let place = Place::new();
-    let done = follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200 Z-2\n", "");
-    done.refused(
-        1,
-        &["line.gcode: line 2, column 10: Z-2 moves the tip out of the plane", "hint: the arm moves in a plane"],
-    );
-    let done = follow_program(&place, "G21\nM3 S1000\n", "--json");
+    let done = follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200 A90\nG41\n", "");
+    let list = "line.gcode: line 2, column 10: A turns the tool (line 2); G41 moves the line aside";
+    done.refused(1, &[list, "hint: write a file for the axes X, Y and Z; let the program that writes the file"]);
+    let done = follow_program(&place, "G21\nG18\n", "--json");
     let error = done.json();
     assert_eq!(
         (error["status"].as_str(), error["line"].as_u64(), error["column"].as_u64()),

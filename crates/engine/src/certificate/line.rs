@@ -166,8 +166,11 @@ pub(super) fn motion_pieces(trajectory: &Trajectory, [first, last]: [usize; 2]) 
 fn curve(curve: &Curve) -> Value {
     match *curve {
         Curve::Line { from, to } => json!({ "straight": [from, to] }),
-        Curve::Arc { center, radius, from, by } => {
+        Curve::Arc { center, radius, from, by, growth: 0.0 } => {
             json!({ "arc": { "center": center, "radius": radius, "from": from, "by": by } })
+        }
+        Curve::Arc { center, radius, from, by, growth } => {
+            json!({ "arc": { "center": center, "radius": radius, "from": from, "by": by, "growth": growth } })
         }
         Curve::Cubic(points) => json!({ "cubic": points }),
     }

@@ -57,7 +57,13 @@ fn a_wide_tolerance_at_hairpins_takes_neither_long_nor_slow_motions() {
         [0.741, 0.505],
         [0.901, 0.973],
     ];
-    let piece = |(curve, k): (Curve, usize)| Piece { curve, speed: None, is_travel: false, source: Source::of_line(k) };
+    let piece = |(curve, k): (Curve, usize)| Piece {
+        curve,
+        speed: None,
+        is_travel: false,
+        dwell: None,
+        source: Source::of_line(k),
+    };
     let pieces = spline(&through).expect("a spline").into_iter().map(piece).collect();
     let line = Toolpath::new(pieces).expect("a line");
     let scene = gantry(50.0);

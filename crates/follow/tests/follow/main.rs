@@ -101,6 +101,56 @@ fn corners_are_passed_within_the_tolerance_without_a_stop() {
     assert_eq!(motions[1].velocity.iter().filter(|v| stops(v)).count(), 2, "it stops only at its ends");
 }
 
+/// Returns the times at which a trajectory rests, and for how long, seconds. A stop of a sample lasts no time.
+fn rests(trajectory: &cplan_motion::Trajectory) -> Vec<(f64, Point)> {
+    let is_still = |v: &Point| v[0].hypot(v[1]) < 1e-9;
+    let mut rests: Vec<(f64, Point)> = Vec::new();
+    for (k, (time, q)) in trajectory.time.iter().zip(&trajectory.position).enumerate() {
+        match rests.last_mut() {
+            Some((length, at)) if is_still(&trajectory.velocity[k]) && at == q => {
+                *length += time - trajectory.time[k - 1]
+            }
+            _ if is_still(&trajectory.velocity[k]) => rests.push((0.0, *q)),
+            _ => {}
+        }
+    }
+    rests
+}
+
+/// The line goes straight on at its dwells, with and without limits on jerks.
+#[test]
+fn the_tip_rests_at_dwells() {
+    let line =
+        line("G0 X900 Y0\nG1 X1000 F6000\nG4 P0.75\nG1 X1100\nG4 P0\nG1 X1200\nG4 P0.25\nG4 P0.25\nG3 X1200 Y100 J50");
+    for jerk in [None, Some(200.0)] {
+        let mut scene = scene_of(BARS, 3.0, vec![]);
+        if let Some(jerk) = jerk {
+            let mut arm = scene.arm().clone();
+            arm.joints.iter_mut().for_each(|joint| joint.jerk = Some(jerk));
+            scene = Scene::new(arm, Workspace::new(vec![])).expect("a scene");
+        }
+        let found = found(&scene, &line, &Settings::default());
+        check(&BARS, &scene, &line, &Settings::default(), &found);
+        let rests = rests(&found.timed.trajectory);
+        for (seconds, x) in [(0.75, 1.0), (0.0, 1.1), (0.5, 1.2)] {
+            let is_there = |(length, q): &&(f64, Point)| {
+                let tip = BARS.tip(*q);
+                (length - seconds).abs() < 1e-6 && (tip[0] - x).hypot(tip[1]) < 1e-5
+            };
+            assert_eq!(rests.iter().filter(is_there).count(), 1, "{jerk:?} {seconds}: {rests:?}");
+        }
+    }
+}
+
+/// The ends of both arcs are not equally far from their centres, so that these are spirals.
+#[test]
+fn arcs_of_a_changing_radius() {
+    let scene = scene_of(BARS, 3.0, vec![]);
+    let line = line("G0 X1200 Y0\nG3 X1000 Y-200.19 I-200\nG2 X1040.003 Y-200.19 I20");
+    let settings = Settings { tolerance: 2e-5, ..Settings::default() };
+    check(&BARS, &scene, &line, &settings, &found(&scene, &line, &settings));
+}
+
 #[test]
 fn a_place_out_of_reach_is_named() {
     let (scene, line) = (scene_of(BARS, 3.0, vec![]), line("G0 X900 Y0\nG1 X1500\nG1 X1900"));

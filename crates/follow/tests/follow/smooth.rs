@@ -20,7 +20,13 @@ fn smooth_scene(bars: Bars, limit: f64, obstacles: Vec<Obstacle>) -> Scene {
 }
 
 fn toolpath(legs: Vec<(Curve, usize)>) -> Toolpath {
-    let piece = |(curve, k): (Curve, usize)| Piece { curve, speed: None, is_travel: false, source: Source::of_line(k) };
+    let piece = |(curve, k): (Curve, usize)| Piece {
+        curve,
+        speed: None,
+        is_travel: false,
+        dwell: None,
+        source: Source::of_line(k),
+    };
     Toolpath::new(legs.into_iter().map(piece).collect()).expect("a line")
 }
 

@@ -339,13 +339,19 @@ fn random_line(dice: &mut Dice) -> Toolpath {
                 let radius = dice.within(0.02, 0.15);
                 let from = dice.within(0.0, TAU);
                 let center = [at[0] - radius * from.cos(), at[1] - radius * from.sin()];
-                Curve::Arc { center, radius, from, by: dice.within(-4.0, 4.0) }
+                Curve::Arc {
+                    center,
+                    radius,
+                    from,
+                    by: dice.within(-4.0, 4.0),
+                    growth: radius * dice.within(-0.05, 0.05),
+                }
             }
             _ => Curve::Line { from: at, to: next },
         };
         at = curve.at(1.0);
         let speed = (!is_travel && dice.chance(0.3)).then(|| dice.within(0.05, 0.5));
-        pieces.push(Piece { curve, speed, is_travel, source: Source::of_line(k + 1) });
+        pieces.push(Piece { curve, speed, is_travel, dwell: None, source: Source::of_line(k + 1) });
     }
     Toolpath::new(pieces).expect("a line")
 }

@@ -1,16 +1,20 @@
 //! The state of a machine that runs G-code.
 
-use super::words::Word;
-use crate::arc;
-use crate::path::{Piece, Toolpath};
+mod arcs;
+mod dwells;
+mod finish;
+
+use super::block::Block;
+use super::meaning::{self, OTHER_SYSTEM, Slot, UNSTATED_ORIGIN};
+use super::origin::Origin;
+use super::remarks::Remarks;
+use super::words::{Line, Word};
+use crate::path::Piece;
 use crate::{Curve, Error, Placement, Point};
-use cplan_text::{Unit, counted};
+use cplan_text::Unit;
 
 const INCH: f64 = 0.0254;
 const SECONDS_PER_MINUTE: f64 = 60.0;
-
-/// The words that the reader accepts, for hints.
-const ACCEPTED: &str = "cplan reads G0 G1 G2 G3 G17 G20 G21 G90 G91, F I J N R X Y, M2 and M30; remove this word";
 
 /// The kinds of moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,88 +27,160 @@ enum Move {
     Arc { is_left: bool },
 }
 
-/// The words of a block by their purpose.
-#[derive(Default)]
-struct Block<'w> {
-    motion: Option<&'w Word>,
-    unit: Option<&'w Word>,
-    distance: Option<&'w Word>,
-    end: Option<&'w Word>,
-    /// The words F, I, J, R, X and Y.
-    values: [Option<&'w Word>; 6],
-}
-
-const VALUES: [char; 6] = ['F', 'I', 'J', 'R', 'X', 'Y'];
-const F: usize = 0;
-const I: usize = 1;
-const J: usize = 2;
-const R: usize = 3;
-const X: usize = 4;
-const Y: usize = 5;
-
-/// The state between two blocks.
+/// The state between two lines of a program.
 pub(super) struct Machine<'p> {
     placement: &'p Placement,
     /// Metres per unit of length.
     unit: f64,
     says_unit: bool,
     is_relative: bool,
+    /// True if the centres of arcs are coordinates (G90.1).
+    has_absolute_centers: bool,
     motion: Option<Move>,
     /// Metres per second.
     speed: Option<f64>,
-    /// The place of the tip in metres, before the placement.
-    at: Point,
-    /// False until the first move, before which the place of the tip is not known.
-    has_place: bool,
+    origin: Origin,
+    /// Number of the system of coordinates, 54 for G54.
+    system: f64,
+    /// Seconds per unit of P in dwells; `None` before the first one.
+    dwell_unit: Option<f64>,
+    is_firmware: bool,
+    /// Sum of all dwells, seconds.
+    dwells: f64,
+    has_begun: bool,
     pieces: Vec<Piece>,
+    remarks: Remarks,
+    /// Notes for the user about assumptions.
+    notes: Vec<String>,
 }
 
 impl<'p> Machine<'p> {
-    pub fn new(placement: &'p Placement) -> Self {
+    /// Creates a machine. `is_firmware` is true for programs of printers and plotters.
+    pub fn new(placement: &'p Placement, is_firmware: bool) -> Self {
         Self {
             placement,
             unit: placement.unit.unwrap_or(Unit::MILLIMETER).metres(),
             says_unit: false,
             is_relative: false,
+            has_absolute_centers: false,
             motion: None,
             speed: None,
-            at: [0.0; 2],
-            has_place: false,
+            origin: Origin::default(),
+            system: 54.0,
+            dwell_unit: None,
+            is_firmware,
+            dwells: 0.0,
+            has_begun: false,
             pieces: Vec::new(),
+            remarks: Remarks::default(),
+            notes: Vec::new(),
         }
     }
 
-    /// Runs a block. Returns true if the program ends there.
+    /// Runs a line. Returns true if the program ends there. Words that cannot be followed are collected.
     ///
     /// # Errors
-    /// If the block has a word that cannot be followed, or words that contradict each other.
-    pub fn run(&mut self, words: &[Word]) -> Result<bool, Error> {
-        let block = sort(words)?;
-        if let Some(word) = block.unit {
+    /// If a word has no number, or if words contradict each other or describe no move.
+    pub fn run(&mut self, line: &Line) -> Result<bool, Error> {
+        let is_first = !self.has_begun;
+        self.has_begun |= !matches!(line, Line::Words(words) if words.is_empty());
+        match line {
+            Line::Percent => return Ok(!is_first),
+            Line::Optional(_) => self.remarks.list("/, left out".into()),
+            Line::Command(name, source) => match meaning::of_command(name) {
+                Some(reason) => self.remarks.refuse(name.clone(), reason, *source),
+                None => self.remarks.list(name.clone()),
+            },
+            Line::Words(words) => {
+                if let Some(block) = Block::new(words, &mut self.remarks)? {
+                    self.run_block(&block)?;
+                    return Ok(block.get(Slot::End).is_some());
+                }
+            }
+        }
+        Ok(false)
+    }
+
+    fn run_block(&mut self, block: &Block) -> Result<(), Error> {
+        self.set_modes(block)?;
+        if let Some(word) = block.get(Slot::Dwell) {
+            return self.dwell(block, word);
+        }
+        if let Some(word) = block.get(Slot::Shift) {
+            return self.shift(block, word);
+        }
+        match [Slot::X, Slot::Y, Slot::I, Slot::J, Slot::R].into_iter().find_map(|slot| block.get(slot)) {
+            Some(first) => self.draw(block, first),
+            None => Ok(()),
+        }
+    }
+
+    /// Applies the words that hold until another one.
+    fn set_modes(&mut self, block: &Block) -> Result<(), Error> {
+        if let Some(value) = block.value(Slot::Unit) {
             self.says_unit = true;
-            let stated = if word.value == 20.0 { INCH } else { Unit::MILLIMETER.metres() };
+            let stated = if value == 20.0 { INCH } else { Unit::MILLIMETER.metres() };
             self.unit = self.placement.unit.map_or(stated, Unit::metres);
         }
-        if let Some(word) = block.distance {
-            self.is_relative = word.value == 91.0;
+        if let Some(value) = block.value(Slot::Distance) {
+            self.is_relative = value == 91.0;
         }
-        if let Some(word) = block.values[F] {
-            if word.value <= 0.0 {
+        if let Some(value) = block.value(Slot::Centers) {
+            self.has_absolute_centers = value == 90.1;
+        }
+        if let Some((word, value)) = block.get(Slot::System).zip(block.value(Slot::System)) {
+            if value != self.system && self.origin.has_begun() {
+                self.remarks.refuse(word.text.clone(), OTHER_SYSTEM, word.source);
+            }
+            self.system = value;
+        }
+        if let Some((word, value)) =
+            block.get(Slot::F).zip(block.value(Slot::F)).filter(|_| block.get(Slot::Dwell).is_none())
+        {
+            if value <= 0.0 {
                 return Err(word.error("is not a speed", "give a speed above 0, in units per minute"));
             }
-            self.speed = Some(word.value * self.unit / SECONDS_PER_MINUTE);
+            self.speed = Some(value * self.unit / SECONDS_PER_MINUTE);
         }
-        if let Some(word) = block.motion {
-            self.motion = Some(match word.value {
+        if block.get(Slot::NoMotion).is_some() {
+            self.motion = None;
+        }
+        if let Some(value) = block.value(Slot::Motion) {
+            self.motion = Some(match value {
                 0.0 => Move::Travel,
                 1.0 => Move::Line,
                 value => Move::Arc { is_left: value == 3.0 },
             });
         }
-        if let Some(word) = [X, Y, I, J, R].into_iter().find_map(|k| block.values[k]) {
-            self.draw(&block, word)?;
+        Ok(())
+    }
+
+    /// Moves the origin of coordinates (G92).
+    fn shift(&mut self, block: &Block, word: &Word) -> Result<(), Error> {
+        if let Some(motion) = block.get(Slot::Motion) {
+            let message = format!("and {} are on the same line", motion.text);
+            return Err(word.error(&message, "write each on a line of its own"));
         }
-        Ok(block.end.is_some())
+        let is_stated = match word.value {
+            Some(92.1) => self.origin.reset(false),
+            Some(92.2) => self.origin.reset(true),
+            Some(92.3) => {
+                self.origin.restore();
+                true
+            }
+            _ => {
+                if block.with_letters("XYZABCUVWE").next().is_none() {
+                    let hint = "name the coordinates that become those of the tip, such as G92 X0 Y0";
+                    return Err(word.error("has no coordinates", hint));
+                }
+                self.origin.state([Slot::X, Slot::Y].map(|slot| block.value(slot).map(|value| value * self.unit)));
+                true
+            }
+        };
+        if !is_stated {
+            self.remarks.refuse(word.text.clone(), UNSTATED_ORIGIN, word.source);
+        }
+        Ok(())
     }
 
     /// Adds the move of a block. `first` is its first coordinate.
@@ -112,139 +188,59 @@ impl<'p> Machine<'p> {
         let Some(motion) = self.motion else {
             return Err(first.error("has no kind of move", "write G0, G1, G2 or G3 before it"));
         };
-        let value = |k: usize| block.values[k].map(|word| word.value * self.unit);
         if !matches!(motion, Move::Arc { .. })
-            && let Some(word) = [I, J, R].into_iter().find_map(|k| block.values[k])
+            && let Some(word) = [Slot::I, Slot::J, Slot::R].into_iter().find_map(|slot| block.get(slot))
         {
-            return Err(word.error("belongs to an arc, and this is a straight move", "write G2 or G3, or remove it"));
+            return Err(word.error("belongs to an arc, and this is a straight move", "write G2 or G3 before it"));
         }
-        let from = self.at;
-        let to = [(X, 0), (Y, 1)].map(|(word, k)| match value(word) {
+        let from = self.origin.at;
+        let origin = self.origin.place([0.0; 2]);
+        let to = [(Slot::X, 0), (Slot::Y, 1)].map(|(slot, k)| match block.value(slot).map(|value| value * self.unit) {
             Some(value) if self.is_relative => from[k] + value,
-            Some(value) => value,
+            Some(value) => origin[k] + value,
             None => from[k],
         });
-        let source = block.motion.unwrap_or(first).source;
-        if !std::mem::replace(&mut self.has_place, true) {
-            if motion != Move::Travel {
-                let message = "is the first move, but the file has not said where the tip is";
-                let word = block.motion.unwrap_or(first);
-                return Err(word.error(message, "begin with a move to the first point, such as G0 X0 Y0"));
-            }
-            self.at = to;
-            return Ok(());
+        let source = block.get(Slot::Motion).unwrap_or(first).source;
+        if !self.origin.is_known() {
+            return self.begin(block, first, motion, to);
         }
         let curve = match motion {
-            Move::Travel | Move::Line => Curve::Line { from, to },
-            Move::Arc { is_left } => self.arc(block, first, to, is_left)?,
+            Move::Travel | Move::Line => Ok(Curve::Line { from, to }),
+            Move::Arc { is_left } => self.arc(block, first, to, is_left),
         };
-        self.at = to;
+        self.origin.advance(to);
         let is_travel = motion == Move::Travel;
+        self.remarks.drawn += usize::from(!is_travel);
         let speed = self.speed.filter(|_| !is_travel);
-        self.pieces.push(Piece { curve, speed, is_travel, source });
+        self.pieces.push(Piece { curve: curve?, speed, is_travel, dwell: None, source });
         Ok(())
     }
 
-    fn arc(&self, block: &Block, first: &Word, to: Point, is_left: bool) -> Result<Curve, Error> {
-        let word = block.motion.unwrap_or(first);
-        let value = |k: usize| block.values[k].map(|word| word.value * self.unit);
-        let shown = |length: f64| format!("{} {}", (length / self.unit * 1e6).round() / 1e6, self.unit_name());
-        match (value(I), value(J), value(R)) {
-            (None, None, None) => Err(word.error("has neither a centre nor a radius", "add I and J, or R")),
-            (None, None, Some(radius)) => arc::with_radius(self.at, to, radius, is_left).ok_or_else(|| {
-                if to == self.at {
-                    return word.error("ends where it begins, so R does not give its centre", "use I and J");
-                }
-                let chord = (to[0] - self.at[0]).hypot(to[1] - self.at[1]);
-                let message = format!("has ends {} apart, more than twice its radius", shown(chord));
-                word.error(&message, format!("give a radius of at least {}", shown(chord / 2.0)))
-            }),
-            (_, _, Some(_)) => Err(word.error("has a centre and a radius", "keep I and J, or R")),
-            (i, j, None) => {
-                let center = [self.at[0] + i.unwrap_or(0.0), self.at[1] + j.unwrap_or(0.0)];
-                arc::about(self.at, to, center, is_left).map_err(|[first, last]| {
-                    let [first, last] = [first, last].map(shown);
-                    let message = format!("begins {first} from its centre, and ends {last} from it");
-                    word.error(&message, "I and J count from the start of the arc; write them with more digits")
-                })
-            }
+    /// Runs the first move, which begins where the program does not say. The line begins at its end.
+    fn begin(&mut self, block: &Block, first: &Word, motion: Move, to: Point) -> Result<(), Error> {
+        let word = block.get(Slot::Motion).unwrap_or(first);
+        if matches!(motion, Move::Arc { .. }) {
+            let message = "is the first move, but the file has not said where the tip is";
+            return Err(word.error(message, "write a travel (G0) before it, to the place where this arc begins"));
         }
+        let is_missing = |slot: Slot| self.is_relative || block.get(slot).is_none();
+        let axes = [(Slot::X, 0, "X"), (Slot::Y, 1, "Y")];
+        let missing = axes.into_iter().filter(|(slot, k, _)| !self.origin.is_known[*k] && is_missing(*slot));
+        let missing: Vec<&str> = missing.map(|(.., name)| name).collect();
+        if !missing.is_empty() {
+            let stated = missing.join(" and ");
+            self.notes.push(format!("the file does not state {stated} where the line begins: read as 0"));
+        }
+        if motion == Move::Line {
+            let line = word.source.line;
+            self.notes.push(format!("the first move (G1, line {line}) begins at an unstated place: left out"));
+        }
+        self.origin.advance(to);
+        Ok(())
     }
 
-    fn unit_name(&self) -> String {
-        match self.placement.unit {
-            Some(unit) => unit.to_string(),
-            None if self.unit == INCH => "in".into(),
-            None => "mm".into(),
-        }
+    /// Returns the error that lists all words that cannot be followed.
+    pub fn refusal(&mut self) -> Option<Error> {
+        self.remarks.error()
     }
-
-    /// Returns the line.
-    ///
-    /// # Errors
-    /// If the program has no line.
-    pub fn finish(self) -> Result<Toolpath, Error> {
-        let placed = |piece: Piece| Piece { curve: self.placement.place(&piece.curve), ..piece };
-        // Where a travel leads to nothing, the tip would only leave the line.
-        let mut pieces = self.pieces;
-        let count = pieces.len();
-        while pieces.last().is_some_and(|piece| piece.is_travel) {
-            pieces.pop();
-        }
-        let after = count - pieces.len();
-        let drawn = pieces.iter().position(|piece| !piece.is_travel).unwrap_or(pieces.len());
-        if pieces.iter().all(|piece| piece.curve.length() == 0.0) {
-            return Err(Error::new(None, None, "the file has no line", "add at least one move (G1)"));
-        }
-        let path = Toolpath::new(pieces.into_iter().skip(drawn).map(placed).collect())?;
-        let assumed = !self.says_unit && self.placement.unit.is_none();
-        let mut notes = Vec::new();
-        if assumed {
-            notes.push("the file states no unit (G20 or G21): read as mm".to_owned());
-        }
-        for (left_out, place) in [(drawn, "before the first piece"), (after, "after the last piece")] {
-            if left_out > 0 {
-                notes.push(format!("{} (G0) {place} left out", counted(left_out, "travel")));
-            }
-        }
-        Ok(path.with_notes(notes))
-    }
-}
-
-/// Sorts the words of a block by their purpose.
-fn sort(words: &[Word]) -> Result<Block<'_>, Error> {
-    let mut block = Block::default();
-    for (index, word) in words.iter().enumerate() {
-        let place = match (word.letter, word.value) {
-            ('G', 0.0 | 1.0 | 2.0 | 3.0) => &mut block.motion,
-            ('G', 20.0 | 21.0) => &mut block.unit,
-            ('G', 90.0 | 91.0) => &mut block.distance,
-            // The plane of X and Y, which is the only one.
-            ('G', 17.0) => continue,
-            ('M', 2.0 | 30.0) => &mut block.end,
-            ('N', _) if index == 0 => continue,
-            ('N', _) => return Err(word.error("is not at the start of its line", "put it first, or remove it")),
-            (letter, _) if VALUES.contains(&letter) => {
-                &mut block.values[VALUES.iter().position(|value| *value == letter).unwrap_or(0)]
-            }
-            _ => return Err(unknown(word)),
-        };
-        if let Some(known) = place {
-            let message = format!("contradicts {} on the same line", known.text);
-            return Err(word.error(&message, "keep one of them on the line"));
-        }
-        *place = Some(word);
-    }
-    Ok(block)
-}
-
-fn unknown(word: &Word) -> Error {
-    let (message, hint) = match word.letter {
-        'Z' => ("moves the tip out of the plane", "the arm moves in a plane; remove the Z words"),
-        'A' | 'B' | 'C' => ("turns the tool", "the arm has no such axis; remove this word"),
-        'S' | 'T' => ("commands the spindle or the tool", "remove this word"),
-        'M' => ("commands the machine", "remove this word; cplan moves only the tip, and reads M2 and M30"),
-        _ => ("is not a word that cplan follows", ACCEPTED),
-    };
-    word.error(message, hint)
 }

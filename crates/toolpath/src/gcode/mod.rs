@@ -1,22 +1,51 @@
 //! Reads G-code (ISO 6983), as far as it describes lines in the plane.
 
+mod block;
 mod machine;
+mod meaning;
+mod origin;
+mod remarks;
 mod words;
 
 use crate::{Error, Placement, Toolpath};
 use machine::Machine;
+use words::{Line, Word};
 
-/// Reads a program up to M2, M30 or its end.
+/// The least number of an M word that only the firmware of printers and plotters has, apart from calls of programs.
+const FIRMWARE: f64 = 80.0;
+
+/// Reads a program up to M2, M30, a second % or its end.
 ///
 /// # Errors
-/// If the program has a word that cannot be followed, with its line and column, or if it has no line.
+/// If the program has words that cannot be followed: one error lists all of them. Otherwise the first defect, with its line
+/// and column; or if the program has no line.
 pub(crate) fn read(text: &str, placement: &Placement) -> Result<Toolpath, Error> {
-    let mut machine = Machine::new(placement);
-    for (number, line) in text.lines().enumerate() {
-        let block = words::block(line, number + 1)?;
-        if machine.run(&block)? {
-            break;
+    let lines: Vec<Result<Line, Error>> =
+        text.lines().zip(1..).map(|(line, number)| words::line(line, number)).collect();
+    let mut machine = Machine::new(placement, lines.iter().flatten().any(is_firmware));
+    let mut first_error = None;
+    for line in &lines {
+        match line.as_ref().map_err(Clone::clone).and_then(|line| machine.run(line)) {
+            Ok(false) => {}
+            Ok(true) => break,
+            Err(error) => first_error = first_error.or(Some(error)),
         }
     }
-    machine.finish()
+    match machine.refusal().or(first_error) {
+        Some(error) => Err(error),
+        None => machine.finish(),
+    }
+}
+
+/// Returns true if a line is for the firmware of printers and plotters. There the P of a dwell counts milliseconds.
+fn is_firmware(line: &Line) -> bool {
+    let is_own = |word: &Word| {
+        let is_call = word.is('M', &[97.0, 98.0, 99.0]);
+        word.letter == 'E' || (word.letter == 'M' && !is_call && word.value.is_some_and(|value| value >= FIRMWARE))
+    };
+    match line {
+        Line::Words(words) => words.iter().any(is_own),
+        Line::Command(name, _) => name.len() > 2,
+        Line::Percent | Line::Optional(_) => false,
+    }
 }

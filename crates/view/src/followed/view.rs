@@ -288,7 +288,8 @@ impl LineDocument {
         let flat = |curve: &Curve| -> Vec<f64> {
             match *curve {
                 Curve::Line { from, to } => [from, to].concat(),
-                Curve::Arc { center, radius, from, by } => vec![center[0], center[1], radius, from, by],
+                Curve::Arc { center, radius, from, by, growth: 0.0 } => vec![center[0], center[1], radius, from, by],
+                Curve::Arc { center, radius, from, by, growth } => vec![center[0], center[1], radius, from, by, growth],
                 Curve::Cubic(points) => points.concat(),
             }
         };

@@ -103,11 +103,12 @@ class Lens {
     return [...walk(-1).reverse(), center, ...walk(1)];
   }
 
-  /** Returns the point of a curve at a parameter: a straight line, an arc or a cubic curve. */
+  /** Returns the point of a curve at a parameter: a straight line, an arc of a circle or spiral, or a cubic curve. */
   static at(curve, u) {
     if (curve.length === 4) return [0, 1].map((k) => curve[k] * (1 - u) + curve[k + 2] * u);
-    if (curve.length === 5) {
-      const [x, y, r, from, by] = curve;
+    if (curve.length <= 6) {
+      const [x, y, radius, from, by, growth = 0] = curve;
+      const r = radius + growth * u;
       return [x + r * Math.cos(from + by * u), y + r * Math.sin(from + by * u)];
     }
     const v = 1 - u;
@@ -121,7 +122,7 @@ class Lens {
       const [dx, dy] = [curve[2] - curve[0], curve[3] - curve[1]];
       return within(((x - curve[0]) * dx + (y - curve[1]) * dy) / (dx * dx + dy * dy || 1));
     }
-    if (curve.length === 5) {
+    if (curve.length <= 6) {
       const [cx, cy, , from, by] = curve;
       const turn = ((Math.atan2(y - cy, x - cx) - from) * Math.sign(by)) / Geometry.TURN;
       const u = ((turn - Math.floor(turn)) * Geometry.TURN) / Math.abs(by);

@@ -1,0 +1,63 @@
+//! Arcs (G2 and G3).
+
+use super::{INCH, Machine};
+use crate::gcode::block::Block;
+use crate::gcode::meaning::Slot;
+use crate::gcode::words::Word;
+use crate::{Curve, Error, Point, arc};
+
+impl Machine<'_> {
+    /// Returns the arc from the place of the tip to a point. `first` is the first coordinate of the block.
+    ///
+    /// # Errors
+    /// If the block gives no arc that ends there.
+    pub(super) fn arc(&self, block: &Block, first: &Word, to: Point, is_left: bool) -> Result<Curve, Error> {
+        let (at, word) = (self.origin.at, block.get(Slot::Motion).unwrap_or(first));
+        let value = |slot: Slot| block.value(slot).map(|value| value * self.unit);
+        let shown = |length: f64| format!("{} {}", (length / self.unit * 1e6).round() / 1e6, self.unit_name());
+        if let Some(turns) = block.with_letters("P").find(|turns| turns.value != Some(1.0)) {
+            return Err(turns.error("gives an arc several turns", "write an arc for each turn"));
+        }
+        match (value(Slot::I), value(Slot::J), value(Slot::R)) {
+            (None, None, None) => Err(word.error("has neither a centre nor a radius", "add I and J, or R")),
+            (None, None, Some(radius)) => arc::with_radius(at, to, radius, is_left).ok_or_else(|| {
+                if to == at {
+                    return word.error("ends where it begins, so R does not give its centre", "use I and J");
+                }
+                let chord = (to[0] - at[0]).hypot(to[1] - at[1]);
+                let message = format!("has ends {} apart, more than twice its radius", shown(chord));
+                word.error(&message, format!("give a radius of at least {}", shown(chord / 2.0)))
+            }),
+            (_, _, Some(_)) => Err(word.error("has a centre and a radius", "keep I and J, or R")),
+            (Some(i), Some(j), None) if self.has_absolute_centers => {
+                self.about(word, to, self.origin.place([i, j]), is_left)
+            }
+            _ if self.has_absolute_centers => {
+                let hint = "write both I and J, which are coordinates here (G90.1)";
+                Err(word.error("has one coordinate of its centre", hint))
+            }
+            (i, j, None) => self.about(word, to, [at[0] + i.unwrap_or(0.0), at[1] + j.unwrap_or(0.0)], is_left),
+        }
+    }
+
+    /// Returns the arc about a centre.
+    fn about(&self, word: &Word, to: Point, center: Point, is_left: bool) -> Result<Curve, Error> {
+        let shown = |length: f64| format!("{} {}", (length / self.unit * 1e6).round() / 1e6, self.unit_name());
+        arc::about(self.origin.at, to, center, is_left).map_err(|[first, last]| {
+            let message = format!("begins {} from its centre, and ends {} from it", shown(first), shown(last));
+            let hint = match self.has_absolute_centers {
+                true => "I and J are the coordinates of the centre (G90.1); write them with more digits",
+                false => "I and J count from the start of the arc (G91.1); write them with more digits",
+            };
+            word.error(&message, hint)
+        })
+    }
+
+    fn unit_name(&self) -> String {
+        match self.placement.unit {
+            Some(unit) => unit.to_string(),
+            None if self.unit == INCH => "in".into(),
+            None => "mm".into(),
+        }
+    }
+}
