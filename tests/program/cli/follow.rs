@@ -154,7 +154,7 @@ fn origins_and_dwells_are_followed_and_other_words_are_noted() {
         G1 X20 Y0\nG4 X2\nM3 S5\nG1 X20 Y20 Z3\n";
     let done = follow_program(&place, text, "--output m.csv");
     assert_eq!(done.code, 0, "{}", done.stderr);
-    let note = "note       read without effect on the line: M3 (1), S (1), SET_VELOCITY_LIMIT (1), Z (1 height)";
+    let note = "read without effect on the line: M3 (1), S (1), SET_VELOCITY_LIMIT (1), Z (1 height)";
     assert!(done.stdout.contains(note) && done.stdout.contains("1 stop of 2 s in all (G4)"), "{}", done.stdout);
     let csv = place.read("m.csv");
     let rows: Vec<Vec<f64>> =
