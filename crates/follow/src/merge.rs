@@ -69,6 +69,11 @@ impl Merged {
     /// Appends a piece that stands for the pieces from `first` to `until` of a line, after the omitted ones.
     fn push(&mut self, own: &[Piece], piece: Piece, [omitted, first, until]: [usize; 3]) {
         let changes = |pair: &[Piece]| pair[0].is_travel != pair[1].is_travel;
+        let rest = |pieces: &[Piece]| pieces.iter().filter_map(|piece| piece.dwell).reduce(|a, b| a + b);
+        if let (Some(before), Some(seconds)) = (self.pieces.last_mut(), rest(&own[omitted..first])) {
+            before.dwell = Some(before.dwell.unwrap_or(0.0) + seconds);
+        }
+        let piece = Piece { dwell: rest(&own[first..until]), ..piece };
         let joint = self.stops.len() - 1;
         self.stops[joint] = omitted > 0 && own[omitted - 1..=first].windows(2).any(changes);
         self.pieces.push(piece);
@@ -99,7 +104,7 @@ fn is_near(curve: &Curve, point: Point, size: f64) -> bool {
 }
 
 /// Returns the end of the longest sequence of tiny pieces from `first` on that is near the chord from a point to its end.
-/// The sequence has at least one piece, which may be longer than the others.
+/// The sequence has at least one piece, which may be longer than the others. The tip rests nowhere but at its end.
 fn chord_end(own: &[Piece], first: usize, from: Point, Merging { size, turn }: Merging) -> usize {
     let radius = size / 2.0;
     // The directions from the point in which all chords are near the pieces, as differences from that of the first chord.
@@ -107,7 +112,8 @@ fn chord_end(own: &[Piece], first: usize, from: Point, Merging { size, turn }: M
     let (mut farthest, mut end) = (0.0_f64, first + 1);
     for (number, piece) in own.iter().enumerate().skip(first) {
         let is_alike = piece.is_travel == own[first].is_travel && piece.speed == own[first].speed;
-        if number > first && (!is_alike || piece.is_travel || piece.curve.length() > size) {
+        let rests = number > first && own[number - 1].dwell.is_some();
+        if rests || number > first && (!is_alike || piece.is_travel || piece.curve.length() > size) {
             break;
         }
         let along: cplan_geometry::Vector = Point::from(piece.curve.end()) - from;
