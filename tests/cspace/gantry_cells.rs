@@ -5,7 +5,6 @@ use cplan::cspace::{Proves, outer_grid};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, Scene};
 use cplan::space::JointRange;
-use cplan_cases::cases;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -67,7 +66,7 @@ fn hull(points: &[Point]) -> Vec<Point> {
 }
 
 proptest! {
-    #![proptest_config(cases(60))]
+    #![proptest_config(cplan_cases::cases(60))]
 
     /// Compares each cell with the shape that the link sweeps while the configuration ranges over the cell.
     #[test]

@@ -76,8 +76,9 @@ fn a_sound_robot_is_described_in_full() {
     for part in ["1 <transmission>", "1 visual shape of link \"upper\""] {
         assert!(ignored.contains(part), "no {part} in {ignored}");
     }
-    let [base] = &found.self_obstacles[..] else { panic!("one link that stands still") };
+    let [base, upper] = &found.self_obstacles[..] else { panic!("the base and link 1") };
     assert_eq!((base.link.as_str(), base.moves, &base.ignored[..]), ("base", false, &["upper".to_owned()][..]));
+    assert_eq!((upper.link.as_str(), upper.moves, &upper.ignored[..]), ("upper", true, &[][..]));
     assert_eq!(found.frames.len(), 3);
 }
 

@@ -3,7 +3,7 @@
 //! The free-space diagram (Alt and Godau, 1995) has a row for each part of the motion and a column for each part of the
 //! line. A pair of places is free if they are within the tolerance. The motion follows the line exactly if a path in the
 //! free space leads from the beginning of both to their ends and never returns. Parts are so short that they count as
-//! straight. What they deviate from their chords reduces the tolerance in their cells, in which the free space is convex.
+//! straight. Their deviation from chords reduces the tolerance in their cells. In a cell the free space is convex.
 //! So the places that can be reached on a side of a cell form one interval.
 
 use crate::deviation::Foot;
@@ -47,7 +47,7 @@ pub(crate) struct FreeSpace {
 
 impl FreeSpace {
     /// Returns places of the motion, each with a place on the line, from the beginning to the end of both. They include the
-    /// ends of all parts. A place of the motion is a part and a share of its chord. If there are none, returns the index of
+    /// ends of all parts. A place of the motion is a part and a share of its chord. If such places do not exist, returns the index of
     /// the part of the motion after which no place of the line is near enough. It takes `O(n k)` for `n` parts of the
     /// motion with `k` parts of the line near each of them.
     pub fn pairs(&self) -> Result<Vec<(usize, f64, Foot)>, usize> {

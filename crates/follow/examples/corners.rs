@@ -19,8 +19,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let step = 1e-3 / 2.0_f64.sqrt();
     let at = |k: u32| [0.9 + f64::from(k % 2) * step, -0.35 + f64::from(k) * step];
     let source = Source::of_line(1);
-    let piece =
-        |k: u32| Piece { curve: Curve::Line { from: at(k), to: at(k + 1) }, speed: None, is_travel: false, dwell: None, source };
+    let piece = |k: u32| Piece {
+        curve: Curve::Line { from: at(k), to: at(k + 1) },
+        speed: None,
+        is_travel: false,
+        dwell: None,
+        source,
+    };
     let line = Toolpath::new((0..1001).map(piece).collect())?;
     let mut fastest = f64::INFINITY;
     let mut answer = None;

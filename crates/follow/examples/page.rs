@@ -53,7 +53,13 @@ fn page(count: usize) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
     let mut push = |from: Point, to: Point, is_travel: bool| {
         let source = Source::of_line(pieces.len() + 1);
-        pieces.push(Piece { curve: Curve::Line { from, to }, speed: (!is_travel).then_some(0.1), is_travel, dwell: None, source });
+        pieces.push(Piece {
+            curve: Curve::Line { from, to },
+            speed: (!is_travel).then_some(0.1),
+            is_travel,
+            dwell: None,
+            source,
+        });
         pieces.len()
     };
     let mut at: Option<Point> = None;

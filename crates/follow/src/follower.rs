@@ -43,7 +43,7 @@ const PROOF_PARTS: usize = 64;
 /// Factor by which the tolerance is lowered if no motion is proven to be within it.
 const TOLERANCE_FACTOR: f64 = 0.1;
 
-/// Factors of the tolerance that are tried for the hint, if the line cannot be followed within it.
+/// Factors by which the hint widens the tolerance, in the order of the attempts.
 const WIDER_FACTORS: [f64; 3] = [2.0, 5.0, 20.0];
 
 /// Number of routes on which the wrist's range is tried.
@@ -57,7 +57,7 @@ const MAX_COARSE_NODES: usize = 20_000;
 pub(crate) struct Follower<'a> {
     pub scene: &'a Scene,
     pub kinematics: &'a Kinematics<'a>,
-    /// The line as it is written.
+    /// The line of the file.
     pub line: &'a Line<'a>,
     pub settings: &'a Settings,
     /// The configurations in which the motion begins and ends. With `None`, any IK solutions will do.
@@ -315,7 +315,7 @@ impl Stuck {
         if self.out_of_reach > 0.0 {
             let [by, within] = [self.out_of_reach, tolerance].map(length);
             return format!(
-                "{place} is {by} out of reach; no motion within {within} of it was found, and no proof that there is none"
+                "{place} is {by} out of reach; neither a motion within {within} of it was found, nor a proof that no motion exists"
             );
         }
         format!("no free motion was found past {place}, and no proof")

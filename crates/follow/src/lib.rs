@@ -25,7 +25,7 @@
 //! # Method
 //!
 //! Pieces far below the tolerance are merged for planning (`merge`); proofs and the final check of the distance are about
-//! the line as it is written. The line is divided into parts (`nodes`) so short that the tip stays near each part while the joints move straight
+//! the line of the file. The line is divided into parts (`nodes`) so short that the tip stays near each part while the joints move straight
 //! from its beginning to its end. A search (`search`) chooses the IK solution on each part, and where to change it. The
 //! corners of the resulting path in joint space are blended, each as far as the tolerance allows (`motion`), and the crate
 //! `cplan-motion` times it. With limits on jerks, a smooth curve near the line replaces the blended path between two

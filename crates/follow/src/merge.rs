@@ -3,7 +3,7 @@
 //! A file may have pieces of a few nanometres: a hook before a travel, the rounding of a closed outline, micrometre steps
 //! along a curve. A motion cannot follow their directions, and needs not to. Tiny pieces near one point are omitted, so the
 //! pieces before and after them may be a gap apart. Longer sequences of tiny pieces become straight chords. Only the
-//! planning uses the merged pieces: the distance of the motion is judged against the line as it is written.
+//! planning uses the merged pieces: the distance of the motion is judged against the line of the file.
 
 use cplan_deviation::{Foot, Line, Place};
 use cplan_geometry::{Point, cross};

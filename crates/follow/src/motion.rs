@@ -49,7 +49,7 @@ pub(crate) struct Motion {
 pub(crate) struct Driver<'a> {
     pub scene: &'a Scene,
     pub kinematics: &'a Kinematics<'a>,
-    /// The line as it is written.
+    /// The line of the file.
     pub written: &'a Line<'a>,
     /// The line with its tiny pieces merged.
     pub line: &'a Line<'a>,

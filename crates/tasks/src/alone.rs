@@ -63,8 +63,8 @@ pub(super) fn whatever_the_order(step: &Step, object: &str) -> String {
     format!("\"{object}\" cannot be {done} there, in any order, even without the other objects")
 }
 
-/// Returns the first of the two steps at the beginning of a task that is proven to be impossible where it ends, whatever
-/// the motion to it. `None` if there is no such proof.
+/// Returns the first of the two steps at the beginning of a task whose end is proven to be impossible, by any motion.
+/// `None` without such a proof.
 fn failed_step(task: &Task) -> Option<FailedStep> {
     let start = [State::at_start(task)];
     let lifted = match states_after(task, &start) {

@@ -5,7 +5,7 @@ use cplan_core::space::Configuration;
 use cplan_geometry::Point;
 
 /// Displacement of a joint, radians or metres, that is due to rounding. It is far above the rounding of IK solutions and
-/// of units, and far below what a controller resolves. A joint does not move by so little.
+/// of units, and far below the resolution of controllers. A joint does not move by so little.
 pub(super) const JOINT_ROUNDING: f64 = 1e-12;
 
 /// Returns `preferred` if a configuration differs from it only by rounding; otherwise the configuration.

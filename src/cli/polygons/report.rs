@@ -39,7 +39,7 @@ pub fn verdict(findings: &Findings) -> String {
     }
 }
 
-/// Adds lines with a key, or a line that states that there are none.
+/// Adds lines with a key. Without lines, adds the line `none`.
 fn add(columns: &mut Columns, key: &str, lines: Vec<String>, none: &str) {
     let lines = if lines.is_empty() { vec![none.to_owned()] } else { lines };
     for (i, line) in first_lines(lines, |more| format!("and {more} more (--json lists all)")).iter().enumerate() {

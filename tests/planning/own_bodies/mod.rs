@@ -1,7 +1,7 @@
 //! The robot's own body against brute force that knows no rule for pairs.
 //!
 //! For the brute force, two shapes of different links collide where they overlap, unless they overlap in all of many
-//! postures. Nothing else is left out. `CPLAN_TIMES=50` tries fifty times as many robots.
+//! postures. All other pairs count. `CPLAN_TIMES=50` tries fifty times as many robots.
 
 mod drawn;
 

@@ -145,7 +145,7 @@ fn ros_messages_and_pages_are_written() {
     assert!(page.contains("\"line\":{\"strokes\":[[1.1,-0.15,1.2,-0.15]],\"curves\":"), "the page has the line");
 }
 
-/// The line goes on from where G92 states another origin, the motion rests for the dwell, and one note lists the words
+/// The line continues at the place where G92 states another origin, the motion rests for the dwell, and one note lists the words
 /// without an effect.
 #[test]
 fn origins_and_dwells_are_followed_and_other_words_are_noted() {

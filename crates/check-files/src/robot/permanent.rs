@@ -111,7 +111,7 @@ fn is_same_shape(a: &CollisionShape, b: &CollisionShape) -> bool {
     (&a.link, a.kind, a.number) == (&b.link, b.kind, b.number)
 }
 
-/// Joins the layers of a mesh to the mesh again, of which the convex hull counts. They are given from the lowest on.
+/// Returns the mesh that consists of these layers, ordered from the lowest on. Its convex hull counts.
 fn uncut(layers: &[CollisionShape]) -> CollisionShape {
     let mut whole = layers[0].clone();
     for layer in &layers[1..] {

@@ -7,8 +7,8 @@
 //!   segment. Only `certify` makes a [`CertifiedPath`] from a path; `then`, `part` and `within` derive others.
 //! - [`CurveSearch`] does the same for any curve, given bounds on its parts. The crate `motion` judges rounded
 //!   corners with it.
-//! - [`permanent_contacts`] proves which shapes of the robot's own body meet in every configuration. No other pairs
-//!   are left out.
+//! - [`permanent_contacts`] proves which shapes of the robot's own body meet in every configuration. Their contact
+//!   is ignored.
 //! - [`Disconnection::checked`] judges a proof that there is no path. It joins the gaps between the collision boxes by
 //!   petgraph's union-find.
 //!

@@ -89,7 +89,7 @@ impl<'a> PairOutline<'a> {
         self.extremes.map_or([f64::NEG_INFINITY, f64::INFINITY], |[first, _]| first.map(|q| q[0]))
     }
 
-    /// Returns the values of joint 2 of the C-obstacle between two values of joint 1. `None` if there are none.
+    /// Returns the range of joint 2 that the C-obstacle covers between two values of joint 1; `None` if it covers nothing there.
     fn within(&self, sides: [f64; 2], intervals: &mut Vec<[f64; 2]>) -> Option<[f64; 2]> {
         let extent = self.extent();
         let inwards = [sides[0] + TOUCH_DEPTH, sides[1] - TOUCH_DEPTH];

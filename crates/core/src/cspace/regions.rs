@@ -165,7 +165,7 @@ pub fn exact_c_obstacles(scene: &Scene) -> Option<Vec<CObstacle>> {
 }
 
 /// Computes the free space of a gantry among [`exact_c_obstacles`], within the limits of its joints. Returns `None`
-/// if there are none.
+/// without exact C-obstacles.
 ///
 /// At configurations on the boundary of free space the arm touches an obstacle.
 #[must_use]

@@ -120,8 +120,9 @@ fn rests(trajectory: &cplan_motion::Trajectory) -> Vec<(f64, Point)> {
 /// The line goes straight on at its dwells, with and without limits on jerks. Two of them are 20 nm apart.
 #[test]
 fn the_tip_rests_at_dwells() {
-    let line =
-        line("G0 X900 Y0\nG1 X1000 F6000\nG4 P0.75\nG1 X1100\nG4 P0\nG1 X1200\nG4 P0.25\nG1 X1200.00002\nG4 P0.25\nG3 X1200 Y100 J50");
+    let line = line(
+        "G0 X900 Y0\nG1 X1000 F6000\nG4 P0.75\nG1 X1100\nG4 P0\nG1 X1200\nG4 P0.25\nG1 X1200.00002\nG4 P0.25\nG3 X1200 Y100 J50",
+    );
     for jerk in [None, Some(200.0)] {
         let mut scene = scene_of(BARS, 3.0, vec![]);
         if let Some(jerk) = jerk {

@@ -23,7 +23,13 @@ fn gantry() -> Scene {
 }
 
 fn straight(from: Point, to: Point) -> Piece {
-    Piece { curve: Curve::Line { from, to }, speed: Some(0.1), is_travel: false, dwell: None, source: Source::of_line(1) }
+    Piece {
+        curve: Curve::Line { from, to },
+        speed: Some(0.1),
+        is_travel: false,
+        dwell: None,
+        source: Source::of_line(1),
+    }
 }
 
 /// Returns the pieces of a polyline.

@@ -62,7 +62,7 @@ impl<'w> Block<'w> {
     }
 }
 
-/// Adds the words that cannot be followed to the remarks. Returns false if there is none.
+/// Adds the words that cplan cannot follow to the remarks. Returns true if it finds such a word.
 fn refuse(words: &[Word], meanings: &[Meaning], remarks: &mut Remarks) -> bool {
     let refused = words.iter().zip(meanings).filter(|(_, meaning)| matches!(meaning, Meaning::Refused(_)));
     // Other words of the block are parameters of a refused command.

@@ -1,15 +1,15 @@
-//! What words do to the line.
+//! Effects of words on the line.
 
 use super::words::Word;
 
-/// What a word does.
+/// The effect of a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Meaning {
     /// It takes part in the line.
     Follow(Slot),
     /// It commands the machine, or repeats what cplan does anyway.
     Listed,
-    /// It would change the line in a way that cplan cannot follow.
+    /// It would make another line, which cplan cannot follow.
     Refused(Reason),
     /// It is the number of its line, which means nothing.
     Number,
@@ -52,9 +52,9 @@ pub(super) const SLOTS: usize = Slot::Y as usize + 1;
 /// The reason why cplan cannot follow a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Reason {
-    /// What the word does; it follows the word.
+    /// The effect, as words that follow the word in a message.
     pub does: &'static str,
-    /// How to write the same line otherwise.
+    /// Another form of the same line.
     pub hint: &'static str,
 }
 
@@ -104,7 +104,7 @@ pub(super) fn machine_place(is_inside: bool) -> Reason {
     reason("moves to a place that only the machine knows", hint)
 }
 
-/// Returns what a word does among the words of its block.
+/// Returns the effect of a word among the words of its block.
 pub(super) fn of(word: &Word, block: &[Word]) -> Meaning {
     use Meaning::{Follow, Listed, Refused};
     if word.is_computed {
@@ -134,7 +134,7 @@ pub(super) fn of(word: &Word, block: &[Word]) -> Meaning {
     }
 }
 
-/// Returns what a G word does among the words of its block.
+/// Returns the effect of a G word among the words of its block.
 fn preparatory(value: f64, block: &[Word]) -> Meaning {
     use Meaning::{Follow, Listed, Refused};
     // G codes have at most one decimal.

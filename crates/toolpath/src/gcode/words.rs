@@ -7,7 +7,7 @@ use crate::{Error, Source};
 pub(super) struct Word {
     /// The letter, in upper case; `#` for parameters, `O` for keywords such as `WHILE`.
     pub letter: char,
-    /// The number; `None` if there is none, or if it is computed.
+    /// The number; `None` if it is missing or computed.
     pub value: Option<f64>,
     /// True if the number is an expression or a parameter.
     pub is_computed: bool,

@@ -1,4 +1,4 @@
-//! Compares random programs with what a small machine of its own draws, point by point.
+//! Compares random programs with the drawings of a small machine of its own, point by point.
 
 use cplan_toolpath::{Format, Placement, read};
 use proptest::prelude::*;
@@ -7,7 +7,7 @@ use std::fmt::Write;
 /// Number of points that are compared on each move.
 const POINTS: usize = 16;
 
-/// What a line of a program does, as random numbers.
+/// The contents of a line of a program, as random numbers.
 #[derive(Debug, Clone)]
 enum Step {
     Move { to: [i32; 2], has: [bool; 2], is_travel: bool },
@@ -147,7 +147,7 @@ impl Machine {
 proptest! {
     #![proptest_config(cplan_cases::cases(256))]
 
-    /// The line of a random program with shifted origins, relative moves and arcs is what the machine draws.
+    /// Compares the line of a random program with the machine's drawing. It has shifted origins, relative moves and arcs.
     #[test]
     fn random_programs_are_what_a_machine_draws(steps in prop::collection::vec(step(), 1..30)) {
         let text = "G21 G90\nG0 X0 Y0\nG1 X1\n".to_owned();
