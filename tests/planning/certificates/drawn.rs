@@ -207,8 +207,10 @@ impl Drawn {
                 Goal::Tip(tip) => writeln!(text, "goal.tip = {tip:?}"),
             };
         }
+        // The oracle knows only obstacles of the world; `own_bodies` attacks the robot's own body.
+        let _ = writeln!(text, "[robot]\nown_body = false");
         if (self.at, self.angle) != ([0.0; 2], 0.0) {
-            let _ = writeln!(text, "[robot]\nat = {:?}\nangle = {:?}", self.at, self.angle);
+            let _ = writeln!(text, "at = {:?}\nangle = {:?}", self.at, self.angle);
         }
         for Obstacle { outline, at, angle, height } in &self.obstacles {
             let _ = writeln!(text, "[[obstacle]]\nat = {at:?}\nangle = {angle:?}");
