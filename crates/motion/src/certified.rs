@@ -58,8 +58,9 @@ impl CertifiedCurve {
         &self.curve
     }
 
-    /// Returns the extent of the rounding at each waypoint, in joint units. This is the radius of the blend, or that of
-    /// a parabola that deviates from the path as far as the motion does. It is 0 where the motion stops at the corner.
+    /// Returns the extent of the rounding at each waypoint, in joint units: the greatest distance from the waypoint at which
+    /// the motion is off the path, such as the radius of the blend. The motion's distance from the path is at most half of
+    /// it. It is 0 where the motion stops at the corner.
     #[must_use]
     pub fn radii(&self) -> &[f64] {
         self.driven.as_ref().map_or_else(|| self.curve.radii(), |(radii, _)| radii)

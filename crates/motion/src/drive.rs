@@ -1,5 +1,6 @@
 //! Makes a motion in time along a certified path, with rounded corners.
 
+use super::rounded::rounded;
 use super::schedule::duration_bound;
 use super::shape::ShapeSearch;
 use super::smooth::smoothed;
@@ -31,7 +32,7 @@ pub struct Drive {
     pub optimize: Objective,
     /// Time between two samples, seconds.
     pub period: f64,
-    /// Greatest distance from a corner at which the motion may leave the path, in joint space. With 0, it stops at
+    /// Greatest distance from the nearest corner at which the motion is off the path, in joint space. With 0, it stops at
     /// every corner. If infinite, only the clearance and the path limit the distance.
     #[serde(with = "cplan_text::number")]
     pub blend: f64,
@@ -88,7 +89,7 @@ impl Drive {
             let least = Cell::new(duration_bound(best.curve.curve(), &limits));
             let drive = |path: &CertifiedPath, below: f64| {
                 if is_smooth {
-                    return smoothed(scene, path, self.blend, limits, self.period, below, false);
+                    return self.smooth(scene, path, limits, below);
                 }
                 let curve = blended(path);
                 let rough = duration_bound(curve.curve(), &limits);
@@ -128,6 +129,18 @@ impl Drive {
             best.trajectory.torque = torque.along_trajectory(&best.trajectory);
         }
         Ok(best)
+    }
+}
+
+impl Drive {
+    /// Returns the fastest motion with limited jerks along a path, if it is shorter than `below` seconds.
+    fn smooth(&self, scene: &Scene, path: &CertifiedPath, limits: Limits, below: f64) -> Option<TimedMotion> {
+        let smooth = |below: f64| smoothed(scene, path, self.blend, limits, self.period, below, false);
+        if self.blend.is_infinite() {
+            return smooth(below);
+        }
+        let near = rounded(scene, path, self.blend, limits, self.period, below);
+        smooth(near.as_ref().map_or(below, |near| near.trajectory.duration())).or(near)
     }
 }
 

@@ -6,6 +6,7 @@
 //! motion is near enough.
 
 use super::clock::NANOSECONDS_PER_SECOND;
+use super::extent::extents;
 use super::limits::Limits;
 use super::retime::Rate;
 use super::sample::{TimedMotion, Trajectory};
@@ -13,7 +14,7 @@ use super::spline::Spline;
 use super::{CurveDrive, Rounding, TorqueLimit};
 use cplan_core::check::CertifiedPath;
 use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, Path};
+use cplan_core::space::Configuration;
 use cplan_handling::Piece;
 use cplan_interrupt::checkpoint;
 
@@ -106,7 +107,9 @@ pub fn along_joint_curve(
             return None;
         }
         let rounding = Rounding::new(scene, path, scene.workspace().clearance);
-        let curve = rounding.certified(extents(path.path(), &pieces), &pieces)?;
+        let last = path.path().waypoints().len() - 1;
+        let radii = extents(path.path(), &pieces, |w| 0 < w && w < last);
+        let curve = rounding.certified(radii, &pieces)?;
         if let Some(torque) = torque {
             trajectory.torque = torque.along_trajectory(&trajectory);
         }
@@ -117,7 +120,12 @@ pub fn along_joint_curve(
 
 /// Returns the fastest motion along a curve whose pieces are all near enough, within all limits except those on torques.
 /// `None` if no motion is near enough.
-fn motion(curve: &Spline, limits: &Limits, period: f64, too_far: &dyn Fn(&[Piece]) -> Vec<usize>) -> Option<Spline> {
+pub(super) fn motion(
+    curve: &Spline,
+    limits: &Limits,
+    period: f64,
+    too_far: &dyn Fn(&[Piece]) -> Vec<usize>,
+) -> Option<Spline> {
     let pieces = curve.pieces().len();
     let mut parts = MIN_INTERVALS.div_ceil(pieces);
     let growth = |k: usize| limits.jerk[k].map_or(f64::INFINITY, |jerk| limits.acceleration[k] / jerk);
@@ -155,26 +163,4 @@ fn near_motion(curve: &Spline, rate: &Rate, longest: f64, too_far: &dyn Fn(&[Pie
         count *= 2.0;
     }
     None
-}
-
-/// Returns the extent of a motion at each waypoint of a path: the radius of a parabola that deviates from the path as far
-/// as the motion does near the waypoint. It is positive at all inner waypoints.
-fn extents(path: &Path, pieces: &[Piece]) -> Vec<f64> {
-    let q = path.waypoints();
-    let mut extents = vec![0.0; q.len()];
-    let mut leg = 0;
-    for at in pieces.iter().map(|piece| piece.at(0.5)) {
-        let share = |leg: usize| (at - q[leg]).dot(&(q[leg + 1] - q[leg])) / (q[leg + 1] - q[leg]).norm_squared();
-        while leg + 2 < q.len() && share(leg) > 1.0 {
-            leg += 1;
-        }
-        let along = share(leg).clamp(0.0, 1.0);
-        let off = (at - q[leg] - (q[leg + 1] - q[leg]) * along).norm();
-        let nearest = if along < 0.5 { leg } else { leg + 1 };
-        extents[nearest] = f64::max(extents[nearest], 2.0 * off);
-    }
-    let last = q.len() - 1;
-    extents.iter_mut().take(last).skip(1).for_each(|extent| *extent = extent.max(f64::MIN_POSITIVE));
-    (extents[0], extents[last]) = (0.0, 0.0);
-    extents
 }

@@ -50,7 +50,8 @@ impl DurationOptimality {
 pub struct BlendReport {
     /// Number of blends. The motion stops at the path's other corners.
     pub count: usize,
-    /// Greatest distance between a blend's ends and its corner, in joint space (mixing radians and metres).
+    /// Greatest distance from a corner at which the motion is off the path, in joint space (mixing radians and metres).
+    /// On a blend, this is the distance of its ends from the corner.
     pub largest_radius: f64,
 }
 
@@ -58,11 +59,7 @@ impl BlendReport {
     /// Summarises the blends of a curve.
     #[must_use]
     pub fn of(curve: &CertifiedCurve) -> Self {
-        // A blend does not extend beyond the next corners.
-        let q = curve.curve().path().waypoints();
-        let room = |w: usize| (q[w] - q[w - 1]).norm().min((q[w + 1] - q[w]).norm());
-        let rounded = curve.radii().iter().enumerate().filter(|(_, radius)| **radius > 0.0);
-        let radii: Vec<f64> = rounded.map(|(w, radius)| radius.min(room(w))).collect();
+        let radii: Vec<f64> = curve.radii().iter().copied().filter(|radius| *radius > 0.0).collect();
         Self { count: radii.len(), largest_radius: radii.into_iter().fold(0.0, f64::max) }
     }
 }

@@ -5,6 +5,7 @@
 //! passed more slowly. Finally the motion is driven along its own curve in the least time (`retime`).
 
 use super::clock::{nanoseconds, seconds};
+use super::extent::extents;
 use super::limits::Limits;
 use super::sample::{TimedMotion, Trajectory};
 use super::schedule::{TimedTrack, schedule, stopping_at};
@@ -33,15 +34,6 @@ const ACCELERATION_FACTOR: f64 = 0.8;
 /// Least acceleration limit that is tried, as a share of the full limit.
 const MIN_ACCELERATION_SHARE: f64 = 1e-3;
 
-/// Fractions of a piece of a motion at which its distance from the path is measured.
-const DISTANCE_POSITIONS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
-
-/// Share by which the distance from the path may be greater between the measured positions.
-const DISTANCE_MARGIN: f64 = 0.01;
-
-/// Greatest number of legs between the leg of one piece and that of the next piece.
-const MAX_LEGS_AHEAD: usize = 8;
-
 /// A path that is timed within limits.
 struct Smoothing<'a> {
     limits: Limits<'a>,
@@ -61,7 +53,7 @@ struct SmoothMotion {
     passed: Vec<(usize, [u64; 2])>,
 }
 
-/// Returns the fastest motion around the corners of a path that deviates from the path by at most `greatest`. It is
+/// Returns the fastest motion around the corners of a path that is off the path only within `greatest` of a corner. It is
 /// shown to be free, and shorter than `below` seconds. Returns `None` if no such motion is found. If requested, the
 /// motion is finally driven along its own curve in the least time.
 pub(super) fn smoothed(
@@ -99,10 +91,14 @@ pub(super) fn smoothed(
             torque.share /= excess;
             continue;
         }
-        let radii = reaches(&curve, &smooth, &pieces);
-        let far = (0..radii.len()).filter(|&w| radii[w] > most);
         let open = rounding.uncertified_pieces(&pieces);
-        let slower: BTreeSet<usize> = open.iter().filter_map(|&i| smooth.corner(&pieces[i])).chain(far).collect();
+        let mut slower: BTreeSet<usize> = open.iter().filter_map(|&i| smooth.corner(&pieces[i])).collect();
+        let mut radii = Vec::new();
+        if slower.is_empty() {
+            let is_passed = |w: usize| smooth.passed.iter().any(|(passed, _)| *passed == w);
+            radii = extents(curve.path(), &pieces, is_passed);
+            slower.extend((0..radii.len()).filter(|&w| radii[w] > most));
+        }
         if slower.is_empty() {
             let certified = rounding.certified(radii, &pieces);
             let timed = certified.map(|curve| TimedMotion { curve, trajectory: smooth.trajectory });
@@ -119,40 +115,6 @@ pub(super) fn smoothed(
         }
     }
     plain
-}
-
-/// Returns the extent of the motion at each waypoint, as the radius of a parabola. The parabola deviates at least as
-/// far from the path as the motion does, and passes the corner at least as far away.
-fn reaches(curve: &BlendedPath, smooth: &SmoothMotion, pieces: &[Piece]) -> Vec<f64> {
-    let q = curve.path().waypoints();
-    let (mut radii, mut nearest) = (vec![0.0_f64; q.len()], vec![f64::INFINITY; q.len()]);
-    let mut leg = 0;
-    for piece in pieces {
-        let corner = smooth.corner(piece);
-        for at in DISTANCE_POSITIONS.map(|u| piece.at(u)) {
-            let legs = leg..(leg + MAX_LEGS_AHEAD).min(q.len() - 1);
-            for w in legs.clone() {
-                nearest[w] = nearest[w].min((q[w] - at).norm());
-            }
-            let off = legs.map(|leg| (to_leg(at, q[leg], q[leg + 1]), leg)).min_by(|a, b| a.0.total_cmp(&b.0));
-            if let Some((off, on)) = off {
-                leg = on;
-                corner.iter().for_each(|&w| radii[w] = radii[w].max(off));
-            }
-        }
-    }
-    for (w, _) in &smooth.passed {
-        let off = radii[*w].max(if nearest[*w].is_finite() { nearest[*w] } else { 0.0 });
-        radii[*w] = curve.radii()[*w].max(2.0 * off * (1.0 + DISTANCE_MARGIN));
-    }
-    radii
-}
-
-/// Returns the distance of a configuration from a straight piece.
-fn to_leg(at: Configuration, from: Configuration, to: Configuration) -> f64 {
-    let (along, off) = (to - from, at - from);
-    let share = (along.dot(&off) / along.norm_squared()).clamp(0.0, 1.0);
-    (off - along * share).norm()
 }
 
 impl<'a> Smoothing<'a> {

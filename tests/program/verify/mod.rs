@@ -4,6 +4,7 @@ mod bad_input;
 mod claims;
 mod command;
 mod controller;
+mod corners;
 mod dialects;
 mod files;
 mod held_joints;

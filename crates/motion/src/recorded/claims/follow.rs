@@ -10,9 +10,9 @@ pub(super) const PATH_TOLERANCE: f64 = 1e-6;
 /// Number of samples per piece of the motion.
 const SAMPLES_PER_PIECE: u8 = 4;
 
-/// Checks, by samples of the whole motion, that a motion follows a path from beginning to end. At rounded corners it
-/// may deviate by half of `radius`, the greatest radius that the result states. If `radius` is `None`, corners must not
-/// be rounded.
+/// Checks, by samples of the whole motion, that a motion follows a path from beginning to end. Within `radius` of a
+/// corner, the greatest radius that the result states, it may deviate by half of that. If `radius` is `None`, corners must
+/// not be rounded.
 ///
 /// # Errors
 /// Returns a description of the deviation.
@@ -20,9 +20,11 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
     let q = path.waypoints();
     let longest = path.segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max);
     let largest = q.iter().map(|q| q.amax()).fold(0.0, f64::max);
+    let radius = radius.map_or(0.0, |radius| radius.clamp(0.0, longest));
+    let rounding = PATH_TOLERANCE + largest * f64::EPSILON * 16.0;
     // The middle of a parabola is halfway between its corner and the middle of its ends.
-    let within =
-        PATH_TOLERANCE + largest * f64::EPSILON * 16.0 + radius.map_or(0.0, |radius| radius.clamp(0.0, longest) / 2.0);
+    let within = rounding + radius / 2.0;
+    let inner = q.get(1..q.len().saturating_sub(1)).unwrap_or_default();
     let last = q.len().saturating_sub(2);
     let off = |at: Configuration, leg: usize| to_leg(at, q[leg], q[(leg + 1).min(q.len() - 1)]);
     // Where legs are close to each other, or turn back, the motion may be on one of several legs.
@@ -45,6 +47,15 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
                 let off = (0..=last).map(|leg| off(at, leg)).fold(f64::INFINITY, f64::min);
                 return Err(format!(
                     "the motion does not follow it: after sample {sample} it is at ({}, {}), {off:.6} from it",
+                    at[0], at[1]
+                ));
+            }
+            let is_off = found.iter().all(|leg| off(at, *leg) > rounding);
+            let from_corner = inner.iter().map(|corner| (corner - at).norm()).fold(f64::INFINITY, f64::min);
+            if is_off && from_corner > radius + rounding {
+                return Err(format!(
+                    "the motion leaves it {from_corner:.6} from the nearest corner, after sample {sample} at ({}, {}), but rounds \
+                     corners only within {radius:.6}, as `blends` states",
                     at[0], at[1]
                 ));
             }

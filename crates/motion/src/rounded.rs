@@ -1,0 +1,253 @@
+//! Motions with limits on jerks that leave their path only near its corners.
+//!
+//! Smoothing over time (`smooth`) leaves a path a fixed time before a corner, thus far from it. If this distance is
+//! limited, the path is first replaced by a smooth curve: a uniform cubic B-spline with a control point at each corner and
+//! others on the legs. Those next to a corner are so near that the curve leaves the leg within the limit. Spaces between
+//! control points grow away from corners. The motion along the curve is the fastest one that is found (`joint_curve`).
+
+use super::extent::extents;
+use super::joint_curve::motion;
+use super::limits::Limits;
+use super::sample::{TimedMotion, Trajectory};
+use super::schedule::stopping_at;
+use super::spline::Spline;
+use crate::{BlendedPath, Rounding};
+use cplan_core::check::CertifiedPath;
+use cplan_core::model::Scene;
+use cplan_core::space::{Configuration, Path};
+use cplan_handling::Piece;
+
+/// Share of the allowed distance at which the curve leaves a leg. The motion leaves it up to two steps earlier.
+const USED_SHARE: f64 = 0.95;
+
+/// Factor by which the distance is reduced at a corner where the curve is not shown to be free.
+const REDUCTION: f64 = 0.6;
+
+/// Share of the allowed distance below which the motion stops at the corner instead.
+const MIN_SHARE: f64 = 1.0 / 64.0;
+
+/// Ratio of a space between control points on a leg to the space before it, away from the corner.
+const SPACE_GROWTH: f64 = 1.5;
+
+/// Greatest space between control points, as a share of their leg.
+const MAX_SPACE_SHARE: f64 = 1.0 / 8.0;
+
+/// Share of a space between control points below which the next one is left out.
+const MIN_GAP_SHARE: f64 = 0.5;
+
+/// Number of motions that are tried, each with reduced distances at some corners.
+const MAX_TRIES: usize = 6;
+
+/// Number of times that torques are reduced if they exceed the efforts between the positions at which they are limited.
+const MAX_TORQUE_ROUNDS: usize = 6;
+
+/// Returns a fast motion along a path that is off the path only within `greatest` of a corner, and shown to be free.
+/// `None` if no such motion is found that is shorter than `below` seconds and passes a corner without a stop.
+pub(super) fn rounded(
+    scene: &Scene,
+    path: &CertifiedPath,
+    greatest: f64,
+    limits: Limits,
+    period: f64,
+    below: f64,
+) -> Option<TimedMotion> {
+    let rounding = Rounding::new(scene, path, scene.workspace().clearance);
+    let mut curve = RoundedPath::new(path.path(), greatest);
+    for _ in 0..MAX_TRIES {
+        curve.keep_free(&rounding)?;
+        let trajectory = curve.driven(&limits, period).filter(|driven| driven.duration() < below)?;
+        let pieces = trajectory.pieces();
+        let open = rounding.uncertified_pieces(&pieces);
+        if open.is_empty() {
+            let radii = extents(path.path(), &pieces, |w| curve.distances[w] > 0.0);
+            return rounding.certified(radii, &pieces).map(|curve| TimedMotion { curve, trajectory });
+        }
+        curve.reduce(open.iter().map(|&piece| &pieces[piece]));
+    }
+    None
+}
+
+/// A path, and the distances from its corners within which it is rounded.
+struct RoundedPath<'a> {
+    path: &'a Path,
+    greatest: f64,
+    /// Distance for each waypoint; 0 where the motion stops.
+    distances: Vec<f64>,
+}
+
+impl<'a> RoundedPath<'a> {
+    fn new(path: &'a Path, greatest: f64) -> Self {
+        let mut distances = vec![USED_SHARE * greatest; path.waypoints().len()];
+        let last = distances.len() - 1;
+        (distances[0], distances[last]) = (0.0, 0.0);
+        Self { path, greatest, distances }
+    }
+
+    /// Iterates over the indices of waypoints between which the motion does not stop.
+    fn runs(&self) -> impl Iterator<Item = [usize; 2]> {
+        let stops: Vec<usize> = (0..self.distances.len()).filter(|&w| self.distances[w] == 0.0).collect();
+        (1..stops.len()).map(move |k| [stops[k - 1], stops[k]])
+    }
+
+    /// Reduces the distances until the curve is shown to be free. `None` if the motion would stop at all corners.
+    fn keep_free(&mut self, rounding: &Rounding) -> Option<()> {
+        loop {
+            if self.distances.iter().all(|distance| *distance == 0.0) {
+                return None;
+            }
+            let rounded = self.runs().filter(|[first, last]| last - first > 1);
+            let pieces: Vec<Piece> = rounded.flat_map(|run| self.curve(run).pieces()).collect();
+            let open = rounding.uncertified_pieces(&pieces);
+            if open.is_empty() {
+                return Some(());
+            }
+            self.reduce(open.iter().map(|&piece| &pieces[piece]));
+        }
+    }
+
+    /// Reduces the distances at the corners that are nearest to these pieces.
+    fn reduce<'p>(&mut self, pieces: impl Iterator<Item = &'p Piece>) {
+        let q = self.path.waypoints();
+        let rounded: Vec<usize> = (0..q.len()).filter(|&w| self.distances[w] > 0.0).collect();
+        let nearest = |piece: &Piece| {
+            let distance = |w: &&usize| (q[**w] - piece.at(0.5)).norm();
+            rounded.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied()
+        };
+        let mut reduced: Vec<usize> = pieces.filter_map(nearest).collect();
+        reduced.sort_unstable();
+        reduced.dedup();
+        for w in reduced {
+            let less = REDUCTION * self.distances[w];
+            self.distances[w] = if less < MIN_SHARE * self.greatest { 0.0 } else { less };
+        }
+    }
+
+    /// Returns the curve between two stops.
+    fn curve(&self, [first, last]: [usize; 2]) -> Spline {
+        let q = self.path.waypoints();
+        let mut points = vec![q[first]];
+        for leg in first..last {
+            let along = (q[leg + 1] - q[leg]) / (q[leg + 1] - q[leg]).norm();
+            let places = spaced((q[leg + 1] - q[leg]).norm(), [self.distances[leg], self.distances[leg + 1]]);
+            points.extend(places.into_iter().map(|place| q[leg] + along * place));
+            points.push(q[leg + 1]);
+        }
+        Spline::of_curve(&points)
+    }
+
+    /// Returns the fastest motion that is found along the curve. `None` if there is none.
+    fn driven(&self, limits: &Limits, period: f64) -> Option<Trajectory> {
+        let mut used = *limits;
+        for _ in 0..MAX_TORQUE_ROUNDS {
+            let trajectory = self.driven_within(&used, period)?;
+            match (limits.torque.and_then(|limit| limit.excess(&trajectory.pieces())), &mut used.torque) {
+                (Some(excess), Some(used)) => used.share /= excess,
+                _ => return Some(trajectory),
+            }
+        }
+        None
+    }
+
+    fn driven_within(&self, limits: &Limits, period: f64) -> Option<Trajectory> {
+        let q = self.path.waypoints();
+        let straight = BlendedPath::from(self.path.clone());
+        let (mut trajectory, mut begin) = (Trajectory::default(), 0);
+        for run @ [first, last] in self.runs() {
+            // Torques change along a straight leg, too, and a safe constant limit is slow.
+            if last - first == 1 && limits.torque.is_none() {
+                begin = stopping_at(&straight, first, limits, begin, period, &mut trajectory);
+                continue;
+            }
+            let part = Path::new(q[first..=last].to_vec());
+            let too_far = |pieces: &[Piece]| {
+                let extents = extents(&part, pieces, |w| 0 < w && w < last - first);
+                if extents.iter().any(|extent| *extent > self.greatest) { vec![0] } else { Vec::new() }
+            };
+            let spline = motion(&self.curve(run), limits, period, &too_far)?;
+            spline.sample(begin, period, &mut trajectory);
+            begin += spline.duration();
+        }
+        trajectory.push(begin, [self.path.goal(), Configuration::zeros(), Configuration::zeros()]);
+        Some(trajectory)
+    }
+}
+
+/// Returns the places of control points on a leg, in ascending order, without its ends. `distances` are those within which
+/// the path is rounded at both ends; 0 at a stop.
+fn spaced(length: f64, distances: [f64; 2]) -> Vec<f64> {
+    // With a control point at the corner, and the next ones at `d` and `(1 + g) d`, the curve leaves the leg at the distance
+    // `(5 + g) d / 6`.
+    let nearest = distances.map(|distance| 6.0 / (5.0 + SPACE_GROWTH) * distance);
+    let most = MAX_SPACE_SHARE * length;
+    let [first, last] = nearest;
+    if first + last > length {
+        return Vec::new();
+    }
+    let from_end = |nearest: f64, until: f64| {
+        let mut places = Vec::new();
+        let (mut place, mut space) = (nearest, nearest);
+        while nearest > 0.0 && place <= until {
+            places.push(place);
+            space = (SPACE_GROWTH * space).min(most.max(nearest));
+            place += space;
+        }
+        places
+    };
+    let split = match nearest {
+        [0.0, 0.0] => return (1..8).map(|k| length * f64::from(k) / 8.0).collect(),
+        [0.0, _] => 0.0,
+        [_, 0.0] => length,
+        _ => length * first / (first + last),
+    };
+    let mut places = from_end(first, split);
+    let mut back = from_end(last, length - split);
+    // Both rows meet at any distance. The last place of one of them is left out if they nearly meet, unless it is needed
+    // beside a corner.
+    let gap = length - back.last().copied().unwrap_or(0.0) - places.last().copied().unwrap_or(0.0);
+    let longer = if places.len() > back.len() { &mut places } else { &mut back };
+    if let [.., before, after] = longer[..]
+        && longer.len() > 2
+        && gap < MIN_GAP_SHARE * (after - before)
+    {
+        longer.pop();
+    }
+    places.extend(back.into_iter().rev().map(|place| length - place));
+    places
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(256))]
+
+        /// Samples curves through random corners. Each is off the path only within the distance of a corner.
+        #[test]
+        fn curves_are_off_the_path_only_near_corners(
+            turns in prop::collection::vec((0.02..1.5_f64, -2.9..2.9_f64), 3..9), greatest in 0.005..0.5_f64,
+        ) {
+            let (mut corners, mut heading) = (vec![Configuration::new(0.5, -0.25)], 0.3_f64);
+            for (length, turn) in turns {
+                corners.push(corners[corners.len() - 1] + Configuration::new(heading.cos(), heading.sin()) * length);
+                heading += turn;
+            }
+            let path = Path::new(corners.clone());
+            let curve = RoundedPath::new(&path, greatest).curve([0, corners.len() - 1]);
+            let ahead = |at: Configuration, leg: &[Configuration]| {
+                let (along, off) = (leg[1] - leg[0], at - leg[0]);
+                (off - along * (along.dot(&off) / along.norm_squared()).clamp(0.0, 1.0)).norm()
+            };
+            let mut is_rounded = false;
+            for at in curve.pieces().iter().flat_map(|piece| (0..8).map(|k| piece.at(f64::from(k) / 8.0))) {
+                let off = corners.windows(2).map(|leg| ahead(at, leg)).fold(f64::INFINITY, f64::min);
+                let inner = &corners[1..corners.len() - 1];
+                let nearest = inner.iter().map(|corner| (corner - at).norm()).fold(f64::INFINITY, f64::min);
+                prop_assert!(off < 1e-9 || nearest <= greatest, "{off} {nearest} {greatest}");
+                is_rounded |= off > 1e-6;
+            }
+            prop_assert!(is_rounded);
+        }
+    }
+}
