@@ -99,9 +99,8 @@ impl Follower<'_> {
         proof: &dyn Fn(Infeasible) -> P,
         option: &dyn Fn(&str, f64) -> String,
     ) -> Result<Outcome<Found, P>, FollowError> {
-        let is_smooth = self.scene.arm().joints.iter().any(|joint| joint.jerk.is_some());
         let is_tangent = |wrist: WristAlong| matches!(wrist.guide.angle, ToolAngle::Tangent(_));
-        if is_smooth && self.settings.wrist.is_some_and(is_tangent) {
+        if self.is_smooth() && self.settings.wrist.is_some_and(is_tangent) {
             return Err(FollowError::TangentWithJerk);
         }
         let mut farthest = None;
@@ -143,11 +142,16 @@ impl Follower<'_> {
         })
     }
 
+    /// Returns true if jerks are limited.
+    fn is_smooth(&self) -> bool {
+        self.scene.arm().joints.iter().any(|joint| joint.jerk.is_some())
+    }
+
     /// Returns the division of the line for a share of the tolerance.
     fn division(&self, share: f64) -> Division {
         let tolerance = self.settings.tolerance;
         let turn = share * self.settings.greatest_turn();
-        let is_even = self.settings.wrist.is_some();
+        let is_even = self.settings.wrist.is_some() || self.is_smooth();
         Division { deviation: share * tolerance, slack: SLACK_SHARE * tolerance, least_parts: 1, turn, is_even }
     }
 

@@ -55,7 +55,8 @@ pub(crate) struct Division {
     pub least_parts: u32,
     /// Greatest turn of the line's direction between two nodes of a piece, radians; infinite if it does not matter.
     pub turn: f64,
-    /// True if all parts of a cubic curve must be as short as its strongest bend demands. So a wrist turns evenly along it.
+    /// True if all parts of a cubic curve must be as short as its strongest bend demands. So a wrist turns evenly along it, and
+    /// a smooth curve has evenly spaced points.
     pub is_even: bool,
 }
 
