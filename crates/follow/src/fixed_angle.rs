@@ -5,7 +5,7 @@
 
 use crate::wrist::WristAlong;
 use cplan_core::model::Arm;
-use cplan_handling::{Derivative, WristJoint};
+use cplan_handling::{Derivative, Piece, WristJoint};
 use cplan_motion::Trajectory;
 
 /// Adds a wrist to a motion that keeps the angle of the tool. `first` is the joint's first value, radians.
@@ -24,12 +24,14 @@ pub(crate) fn add_wrist(arm: &Arm, wrist: &WristAlong, first: f64, trajectory: &
 /// if it is.
 pub(crate) fn excess(wrist: &WristAlong, share: f64, trajectory: &Trajectory) -> f64 {
     let [velocity, acceleration] = [share * wrist.velocity, share * share * wrist.acceleration];
-    let greatest = |of: Derivative| {
-        let pieces = trajectory.wrist_pieces();
-        let values = pieces.iter().map(|piece| piece.bounds_of_sum(of, [1.0, 0.0], [0.0, 1.0]));
-        values.flatten().map(f64::abs).fold(0.0, f64::max)
+    let pieces = trajectory.wrist_pieces();
+    let greatest = |piece: &Piece, of: Derivative| {
+        piece.bounds_of_sum(of, [1.0, 0.0], [0.0, 1.0]).into_iter().map(f64::abs).fold(0.0, f64::max)
     };
-    let stated = trajectory.wrist.iter().map(|[.., rate]| rate.abs()).fold(0.0, f64::max);
-    let speed = greatest(Derivative::Velocity) / velocity;
-    speed.max((greatest(Derivative::Acceleration).max(stated) / acceleration).sqrt())
+    let speed = pieces.iter().map(|piece| greatest(piece, Derivative::Velocity)).fold(0.0, f64::max) / velocity;
+    // Polynomials that begin with the stated acceleration differ from the cubics by at most this.
+    let off =
+        |k: usize, piece: &Piece| (trajectory.wrist[k][2] - piece.derivative(Derivative::Acceleration, 0.0)[0]).abs();
+    let gains = pieces.iter().enumerate().map(|(k, piece)| greatest(piece, Derivative::Acceleration) + off(k, piece));
+    speed.max((gains.fold(0.0, f64::max) / acceleration).sqrt())
 }

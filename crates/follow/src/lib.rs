@@ -144,8 +144,8 @@ pub enum FollowError {
         "with limits on jerks, the tool cannot follow the line's direction; give it a fixed angle, or remove `jerk` from [robot]"
     )]
     TangentWithJerk,
-    /// A motion with limited jerks that stays too fast for the wrist.
-    #[error("no motion with limited jerks is slow enough for the wrist; give the wrist a higher acceleration")]
+    /// A motion that stays too fast for the wrist.
+    #[error("no motion that was tried is slow enough for the wrist; give the wrist a higher acceleration")]
     WristTooSlow,
     /// The motion cannot be timed.
     #[error(transparent)]

@@ -28,8 +28,11 @@ const BLEND_ROOM_SHARE: f64 = 0.7;
 /// Share of the tool's tolerance by which blends may change its angle.
 const BLEND_TOOL_SHARE: f64 = 0.2;
 
-/// Number of times that a motion with limited jerks is slowed down for the wrist.
+/// Number of times that a motion is slowed down for the wrist.
 const SLOWDOWNS: u32 = 8;
+
+/// Excess over the limits of the wrist that counts as rounding, as a share.
+const WRIST_ROUNDING: f64 = 2e-7;
 
 /// Factor by which such a motion is slowed down further than the excess of the wrist demands.
 const SLOWDOWN_MARGIN: f64 = 1.01;
@@ -69,7 +72,7 @@ impl Driver<'_> {
         let wrist = self.settings.wrist.zip(turns);
         let mut share = self.settings.share;
         if !is_smooth {
-            return Ok(self.judged(route, self.blended(route, &speeds, wrist)?, is_smooth));
+            return Ok(self.judged(route, self.within_wrist(route, &speeds, wrist)?, is_smooth));
         }
         for _ in 0..SLOWDOWNS {
             let parts = self.smooth_parts(route, &speeds, share)?;
@@ -82,6 +85,28 @@ impl Driver<'_> {
                 return Ok(self.judged(route, timed, is_smooth));
             }
             share /= excess * SLOWDOWN_MARGIN;
+        }
+        Err(FollowError::WristTooSlow)
+    }
+
+    /// Returns the motion along a whole route with blends. If rounding takes the wrist beyond a limit between samples, the
+    /// motion is planned again with a slower wrist.
+    fn within_wrist(
+        &self,
+        route: &Route,
+        speeds: &[f64],
+        wrist: Option<(WristAlong, &Turns)>,
+    ) -> Result<TimedMotion, FollowError> {
+        let Some((limits, turns)) = wrist else { return self.blended(route, speeds, None) };
+        let mut slower = limits;
+        for _ in 0..SLOWDOWNS {
+            let timed = self.blended(route, speeds, Some((slower, turns)))?;
+            let excess = fixed_angle::excess(&limits, self.settings.share, &timed.trajectory);
+            if excess <= 1.0 + WRIST_ROUNDING {
+                return Ok(timed);
+            }
+            slower.velocity /= excess * excess;
+            slower.acceleration /= excess.powi(3);
         }
         Err(FollowError::WristTooSlow)
     }

@@ -126,7 +126,7 @@ fn check(bars: &Bars, line: &Toolpath, settings: &Settings, found: &Found) {
             }
             assert!(rate.abs() <= wrist.velocity * settings.share * (1.0 + 1e-9), "{joint:?}");
             let most = wrist.acceleration * settings.share * settings.share;
-            assert!(gain.abs() <= most * (1.0 + 1e-6), "{joint:?}");
+            assert!(gain.abs() <= most * (1.0 + 1e-6), "{joint:?}: {most}");
         }
         match wrist.guide.angle {
             ToolAngle::Fixed(angle) => {
