@@ -17,6 +17,8 @@ pub enum HeldEffect {
     Turns {
         /// Position of the axis, in the frame of link 2.
         axis: Point,
+        /// 1 if increasing values of the joint turn counter-clockwise in the plane, and -1 if they turn clockwise.
+        sign: f64,
     },
     /// Another effect, which cplan cannot check.
     Unjudged {

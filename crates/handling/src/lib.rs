@@ -36,7 +36,7 @@ pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 pub use moving_obstacle::{Leg, MAX_STOP_TIME, MovingObstacle, ObstacleTrajectory, ObstacleTrajectoryError, Stop};
 pub use payload::{ArchScene, Payload};
 pub use piece::{Derivative, Piece, State};
-pub use recording::{Recording, RecordingError};
+pub use recording::{RecordedJoints, Recording, RecordingError};
 pub use robot_joints::{Driver, Drives, RobotJoint, RobotJoints};
 pub use stroke::{Arch, Stroke, ToolJoint, ToolLimits, ToolValues};
 pub use task::{Action, Holding, Item, Object, Step, Task, Wrist};

@@ -26,6 +26,15 @@ pub struct Recording {
     rests: Vec<usize>,
 }
 
+/// The motion of all joints of a robot, as a file states it beside that of the arm's two joints.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordedJoints {
+    /// The motion of the arm's two joints.
+    pub arm: Recording,
+    /// Names of the other joints, each with its values at the same samples as the first coordinate.
+    pub others: Vec<(String, Recording)>,
+}
+
 /// Reason why samples do not form a motion. Samples are numbered from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum RecordingError {

@@ -70,7 +70,7 @@ pub use range_sensor::{Mount, Sensor};
 pub use schema::toml_schema;
 pub use suite::{ExcludedWorld, LoadedProblems, MANIFEST_NAME, Member, RefusedProblem, Suite, load_folder, load_suite};
 pub use task::LoadedTask;
-pub use trajectory::{LoadedRecording, load_recording, load_topic, read_recording};
+pub use trajectory::{AllJoints, LoadedRecording, load_recording, load_topic, read_recording};
 pub use values::{JointValues, Overrides, TipPoint};
 pub use world::{World, in_toml_words, world_schema};
 

@@ -12,7 +12,7 @@ use super::sinks::{self, Sink};
 use super::theme::ThemeArgs;
 use crate::draw::{Picture, View};
 use crate::engine::certificate_of_recording;
-use crate::engine::findings::{Judgement, MotionFindings, verify};
+use crate::engine::findings::{Judgement, MotionFindings, PlanFinding, verify};
 use crate::input::{self, Digests, JointValues, Overrides, TipPoint};
 use crate::model::TimedScene;
 use crate::motion::write_whole;
@@ -41,8 +41,13 @@ In a world with steps, the file is a result of cplan for that world (.json).
 Each step is judged: whether it is the world's step, its motion with the payload
 and the objects where they are then, grasps, places, wrist turns and rests.
 
+With --plan, the greatest distances of the motion from the nearest places of the
+plan are reported, in joint space and of the tip. Times are not compared.
+
 Examples:
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
+  cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv \\
+    --plan plan.json
   cplan verify robots/planar_2r_continuous.urdf workspaces/wrap_around.toml \\
     turns.csv --unwrap --clearance 0.01
   cplan verify robots/scara.urdf workspaces/tasks/kitting_cell.toml kit.json
@@ -81,6 +86,10 @@ pub struct VerifyArgs {
     /// Files with torques are always checked.
     #[arg(long)]
     pub torque: bool,
+    /// Plan to compare with: .json (a result of cplan), .csv or .yaml. Reports the greatest distances of the motion from it,
+    /// in joint space and of the tip.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub plan: Option<PathBuf>,
     /// Draw workspace and configuration space with the motion: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
@@ -111,7 +120,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     if args.torque || recorded.has_torques {
         loaded = loaded.keeping_efforts()?;
     }
-    let inputs: Vec<_> = loaded.files().into_iter().chain([args.trajectory.clone()]).collect();
+    let inputs: Vec<_> = loaded.files().into_iter().chain([args.trajectory.clone()]).chain(args.plan.clone()).collect();
     sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path), &inputs)?;
     let scene = &loaded.scene;
     if args.unwrap {
@@ -124,8 +133,12 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     if recorded.steps.is_some() && args.anywhere {
         return Err(Failure::Usage("--anywhere is for motions: a task must begin at its start".into()));
     }
-    let findings = verify(&loaded, &recorded, &overrides(args), args.anywhere)?;
+    let mut findings = verify(&loaded, &recorded, &overrides(args), args.anywhere)?;
     let recording = &recorded.recording;
+    if let Some(plan) = &args.plan {
+        let plan = input::load_recording(plan, &loaded)?.recording;
+        findings.plan = Some(PlanFinding::new(scene.arm(), recording, &plan));
+    }
     for sink in &sinks {
         match sink {
             Sink::Picture(format, path) => {

@@ -2,12 +2,13 @@
 
 use crate::check::Limit;
 use crate::engine::findings::{
-    CollisionFinding, EncounterFinding, Judgement, LimitFinding, MomentFinding, MotionFindings, StepFinding,
+    CollisionFinding, EncounterFinding, FarthestFinding, Judgement, LimitFinding, MomentFinding, MotionFindings,
+    PlanFinding, StepFinding,
 };
 use crate::model::Arm;
 use crate::output::{Line, StepLine, configuration, format_columns, step_lines};
 use crate::space::Recording;
-use crate::text::{chosen_length, counted, format_distinct, length, length_down};
+use crate::text::{chosen_length, counted, fixed, format_distinct, length, length_down, length_unlike};
 
 /// Depth of a contact, in metres, below which it counts as rounding.
 const TOUCHING_DEPTH: f64 = 1e-9;
@@ -26,6 +27,7 @@ pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFinding
     if !findings.not_judged.is_empty() {
         lines.push(("not judged", format!("the file's values of {}", findings.not_judged.join(", "))));
     }
+    lines.extend(findings.plan.iter().flat_map(plan));
     let duration = findings.duration.map_or("no times".into(), |d| format!("{d:.3} s"));
     lines.push(("motion", format!("{} samples, {duration}", findings.samples)));
     let positions = recording.positions();
@@ -43,6 +45,17 @@ fn format_moment(m: &MomentFinding) -> String {
         (Some(time), _) => format!("at {time:.6} s (sample {})", m.sample),
         (None, waypoint) => format!("at waypoint {:.4}", waypoint.unwrap_or_default()),
     }
+}
+
+/// Returns lines about the greatest distances from the plan.
+fn plan(PlanFinding { joints, tip }: &PlanFinding) -> [Line; 2] {
+    let farthest = |distance: String, place: &FarthestFinding| {
+        format!("up to {distance} from the plan, {}", format_moment(&place.moment))
+    };
+    [
+        ("plan", farthest(format!("{} in joint space", fixed(joints.distance, 6)), joints)),
+        ("", format!("tip {}", farthest(format!("{} mm", fixed(1e3 * tip.distance, 3)), tip))),
+    ]
 }
 
 /// Returns lines about the collisions along the motion, and about its clearance.
@@ -69,15 +82,16 @@ fn collisions(arm: &Arm, collisions: &CollisionFinding, verdict: Judgement) -> V
         _ => {}
     }
     if let Some(first) = &collisions.first_contact {
-        lines.push(("contact", format!("{}, {}", place(first), depth(first))));
+        let key = if first.depth < 0.0 { "too near" } else { "contact" };
+        lines.push((key, format!("{}, {}", place(first), depth(first))));
         lines.extend(collisions.free_until.map(|until| match first.moment.time {
             Some(_) => ("", format!("proven free before {until:.6} s")),
             None => ("", format!("proven free before waypoint {until:.4}")),
         }));
     }
-    lines.extend(
-        collisions.deepest.iter().map(|deepest| ("deepest", format!("{}, {}", place(deepest), depth(deepest)))),
-    );
+    lines.extend(collisions.deepest.iter().map(|deepest| {
+        (if deepest.depth < 0.0 { "nearest" } else { "deepest" }, format!("{}, {}", place(deepest), depth(deepest)))
+    }));
     lines.extend(
         collisions.undecided.iter().map(|nearest| {
             ("undecided", format!("{}: {}, too near to decide", place(nearest), length(-nearest.depth)))
@@ -128,6 +142,7 @@ fn rows(steps: &[StepFinding]) -> Vec<String> {
         let found = match (step.verdict, step.clearance()) {
             (Judgement::Free, Some(clearance)) => format!("clearance {}", length_down(clearance)),
             (Judgement::Free, None) => "no obstacle within reach".into(),
+            (Judgement::Collision, _) if step.collisions.touches == Some(false) => "nearer than required".into(),
             (Judgement::Collision, _) => "collides".into(),
             (Judgement::Task | Judgement::Ends | Judgement::Claims, _) => "not as required".into(),
             (Judgement::Limits, _) => "breaks limits".into(),
@@ -140,6 +155,23 @@ fn rows(steps: &[StepFinding]) -> Vec<String> {
     step_lines(&steps.iter().map(line).collect::<Vec<_>>())
 }
 
+/// Describes a motion that collides, or comes nearer than the required clearance.
+fn too_near(collisions: &CollisionFinding, required: f64) -> String {
+    let (Some(deepest), Some(shortfall)) = (&collisions.deepest, collisions.shortfall) else {
+        return "collision: proven".into();
+    };
+    let least = -deepest.depth;
+    let is_near = || {
+        let [by, least, required] = [length(shortfall), length_unlike(least, required), chosen_length(required)];
+        format!("nearer than the required clearance by {by} ({least} instead of {required}): proven")
+    };
+    match collisions.touches {
+        Some(true) => "collision: proven".into(),
+        Some(false) => format!("{}; no collision: proven", is_near()),
+        None => format!("{}; whether it collides is undecided", is_near()),
+    }
+}
+
 fn result(findings: &MotionFindings) -> String {
     let required = findings.required;
     let kept = if required > 0.0 { format!(" by {}", chosen_length(required)) } else { String::new() };
@@ -149,8 +181,7 @@ fn result(findings: &MotionFindings) -> String {
     };
     match findings.verdict {
         Judgement::Free => format!("free{kept}: {whole}proven"),
-        Judgement::Collision if required > 0.0 => "collision, or nearer than the required clearance: proven".into(),
-        Judgement::Collision => "collision: proven".into(),
+        Judgement::Collision => too_near(&findings.collisions, required),
         Judgement::Task => "not the task of the world".into(),
         Judgement::Ends => "does not lead from the start to the goal".into(),
         Judgement::Claims => "free, but values stated in the file are wrong".into(),

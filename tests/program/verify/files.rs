@@ -140,7 +140,9 @@ fn tampered_results_are_caught() {
         assert_eq!((end.joint, end.value, end.moment.sample), (0, -0.25, last), "{name}");
 
         let (verdict, _) = read(&hit, format, name);
-        let CollisionCheck::Collision { first, free_until, deepest } = verdict else { panic!("{name}: {verdict:?}") };
+        let CollisionCheck::Collision { first, free_until, deepest, .. } = verdict else {
+            panic!("{name}: {verdict:?}")
+        };
         assert!(
             times[at - 1] < free_until && free_until <= first.moment.time && first.moment.time < times[at],
             "{name}"

@@ -105,23 +105,58 @@ fn between_samples_a_quill_goes_where_its_velocities_lead_it() {
     assert_eq!((verdict.as_str(), &json["first_contact"]["body"]), ("collision", &"rod".into()), "{json:#}");
 }
 
+/// Checks turns of a finger of 0.2 m on a tip that is 0.2 m, 0.05 m or 0 m beside the block.
 #[test]
-fn a_wrist_sweeps_a_disc() {
+fn a_wrist_is_judged_at_the_angles_that_it_has() {
     let table = |turn: f64, j1: f64| format!("time,j1,j2,quill,wrist\n0,{j1},0,0.5,0\n1,{j1},0,0.5,{turn}\n");
-    // The tip is 0.2 m and 0.05 m beside the block, the finger 0.2 m long.
     for (finger, turn, j1, verdict) in [
         (FINGER, 1.0, 0.0, "free"),
-        (FINGER, 1.0, 0.2, "undecided"),
-        (FINGER, 0.0, 0.2, "free"),
+        // The finger turns towards the block, and away from it.
+        (FINGER, 2.0, 0.2, "collision"),
+        (FINGER, -2.0, 0.2, "free"),
+        (FINGER, 0.1, 0.2, "free"),
         ("", 1.0, 0.2, "free"),
-        (FINGER, 1.0, 0.38, "collision"),
     ] {
         let (found, json) = verdict_and_findings(finger, &table(turn, j1));
         assert_eq!(found, verdict, "{turn} {j1}: {json:#}");
-        assert!(turn == 0.0 || json["notes"].to_string().contains("the disc that they sweep"), "{json:#}");
-        // The rod is round, so that its contacts are certain; those of the disc are not.
-        let certain = json["first_contact"]["body"].as_str();
-        assert_eq!(certain, (verdict == "collision").then_some("rod"), "{json:#}");
+        assert!(json["notes"].to_string().contains("judged at their angles of each moment"), "{json:#}");
+        let hit = json["first_contact"]["body"].as_str();
+        assert_eq!(hit, (verdict == "collision").then_some("tool"), "{json:#}");
+    }
+    let (_, json) = verdict_and_findings(FINGER, &table(1.0, 0.38));
+    assert_eq!(json["first_contact"]["body"], "rod", "{json:#}");
+}
+
+/// Checks a wrist that turns a bar by little. The bar keeps far from the upper arm, although the disc that it would sweep in
+/// a whole turn does not.
+#[test]
+fn a_small_turn_of_a_bar_keeps_its_distance() {
+    let joint = |name: &str, parent: &str, child: &str, x: f64| {
+        format!(
+            "<joint name=\"{name}\" type=\"revolute\"><parent link=\"{parent}\"/><child link=\"{child}\"/>\
+             <origin xyz=\"{x} 0 0\"/><axis xyz=\"0 0 1\"/><limit lower=\"-4\" upper=\"4\" velocity=\"1\" effort=\"1\"/></joint>"
+        )
+    };
+    let bar = |name: &str, length: f64| {
+        let half = length / 2.0;
+        format!(
+            "<link name=\"{name}\"><collision><origin xyz=\"{half} 0 0\"/><geometry><box size=\"{length} 0.02 0.04\"/>\
+             </geometry></collision></link>"
+        )
+    };
+    let bars = bar("a", 0.3) + &bar("b", 0.2) + &bar("tool", 0.24);
+    let joints = joint("j1", "base", "a", 0.0) + &joint("j2", "a", "b", 0.3) + &joint("j3", "b", "tool", 0.2);
+    let place = Place::new();
+    place.write("arm.urdf", &format!("<robot name=\"bars\"><link name=\"base\"/>{bars}{joints}</robot>"));
+    place.write("world.toml", "[robot]\njoints = [\"j1\", \"j2\"]\n");
+    // The tip is 0.2 m from the upper arm's end, which the bar reaches only if it turns back.
+    for (turn, code) in [(0.001, 0), (0.01, 0), (-3.12, 3)] {
+        place.write("m.csv", &format!("time,j1,j2,j3\n0,0,0,0\n1,0.1,-0.1,{turn}\n"));
+        let done = place.run(&["verify", "arm.urdf", "world.toml", "m.csv"], "--anywhere --json");
+        let found: Value = serde_json::from_str(&done.stdout).unwrap_or_else(|_| panic!("{}", done.stderr));
+        assert_eq!(done.code, code, "{turn}: {found:#}");
+        let clearance = found["clearance"].as_f64();
+        assert!(code == 3 || clearance.is_some_and(|kept| (0.17..=0.2).contains(&kept)), "{turn}: {found:#}");
     }
 }
 
@@ -148,27 +183,32 @@ fn motions_that_cannot_be_judged_say_why() {
     assert!(error.contains("not along the normal"), "{error}");
 }
 
-/// Checks random motions of a quill. The judge must agree with the static scene of each moment, in which the quill has
-/// its position at that time.
+/// Checks random motions of a quill and a wrist. The judge must agree with the static scene of each moment, in which both
+/// have their values at that time.
 #[test]
-fn motions_of_a_quill_agree_with_the_scenes_of_their_moments() {
+fn motions_of_a_quill_and_a_wrist_agree_with_the_scenes_of_their_moments() {
     let mut verdicts = [0; 2];
     for seed in random::seeds(12) {
         let mut dice = crate::common::dice::Dice::new(seed);
-        let samples: Vec<[f64; 3]> =
-            (0..5).map(|_| [dice.within(-0.8, 1.2), dice.within(-1.5, 1.5), dice.within(0.0, 0.6)]).collect();
-        let mut table = "time,j1,j2,quill\n".to_owned();
-        for (k, [j1, j2, quill]) in samples.iter().enumerate() {
-            writeln!(table, "{k},{j1},{j2},{quill}").unwrap();
+        let samples: Vec<[f64; 4]> = (0..5)
+            .map(|_| {
+                let [j1, j2] = [dice.within(-0.8, 1.2), dice.within(-1.5, 1.5)];
+                [j1, j2, dice.within(0.0, 0.6), dice.within(-2.5, 2.5)]
+            })
+            .collect();
+        let mut table = "time,j1,j2,quill,wrist\n".to_owned();
+        for (k, [j1, j2, quill, wrist]) in samples.iter().enumerate() {
+            writeln!(table, "{k},{j1},{j2},{quill},{wrist}").unwrap();
         }
         let (verdict, json) = verdict_and_findings(FINGER, &table);
         let at = |time: f64| {
             let (k, share) = ((time.floor() as usize).min(3), time - time.floor().min(3.0));
-            [0, 1, 2].map(|j| samples[k][j] + share * (samples[k + 1][j] - samples[k][j]))
+            [0, 1, 2, 3].map(|j| samples[k][j] + share * (samples[k + 1][j] - samples[k][j]))
         };
         let distance = |time: f64| {
-            let [j1, j2, quill] = at(time);
-            let world = WORLD.replace("[robot]", &format!("[robot]\nfixed = {{ quill = {quill:?} }}"));
+            let [j1, j2, quill, wrist] = at(time);
+            let world =
+                WORLD.replace("[robot]", &format!("[robot]\nfixed = {{ quill = {quill:?}, wrist = {wrist:?} }}"));
             let robot = Source::in_memory("arm.urdf", ROBOT.replace("FINGER", FINGER));
             let scene =
                 scene_from(robot, Source::in_memory("world.toml", world)).unwrap_or_else(|e| panic!("{e}")).scene;

@@ -1,5 +1,6 @@
 //! `cplan verify`: recorded motions against closed forms, dense sampling and tampering.
 
+mod all_joints;
 mod bad_input;
 mod claims;
 mod command;
@@ -12,5 +13,6 @@ pub mod judged;
 mod limits;
 mod motion;
 mod recordings;
+mod plan_distance;
 mod tasks;
 mod tool_values;

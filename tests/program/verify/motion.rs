@@ -70,7 +70,7 @@ proptest! {
                 prop_assert!((configuration_at(&recording, nearest.moment.time) - nearest.moment.at).norm() < 1e-9);
                 prop_assert!(nearest.contact.separation.distance <= seen + step);
             }
-            CollisionCheck::Collision { first, free_until, deepest } => {
+            CollisionCheck::Collision { first, free_until, deepest, .. } => {
                 prop_assert!(scene.clearance(first.moment.at) <= 0.0);
                 prop_assert!((configuration_at(&recording, first.moment.time) - first.moment.at).norm() < 1e-9);
                 prop_assert!(free_until <= first.moment.time && first.moment.time - free_until < 1e-9);

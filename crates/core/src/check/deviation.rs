@@ -86,6 +86,25 @@ pub struct SeparationBound {
     pub least: f64,
 }
 
+/// A pair of shapes during a span of a motion.
+#[derive(Debug, Clone, Copy)]
+pub struct SpanPair<'s> {
+    /// The pair.
+    pub pair: Pair,
+    /// A shape that contains the pair's part at all times of the span, in the link's frame. `None` if the part keeps its
+    /// shape.
+    pub part: Option<&'s Convex>,
+    /// The motion of the obstacle. `None` if it is still.
+    pub drift: Option<&'s Drift>,
+}
+
+impl From<Pair> for SpanPair<'_> {
+    /// Converts a pair whose part keeps its shape, and whose obstacle is still.
+    fn from(pair: Pair) -> Self {
+        Self { pair, part: None, drift: None }
+    }
+}
+
 /// The shapes of a pair, and the drift of its obstacle, if any. While the arm deviates by `t d`, the obstacle is at
 /// its position `t` half spans after the middle of the drift.
 #[derive(Clone, Copy)]
@@ -156,26 +175,33 @@ impl<'a> Posture<'a> {
         self.least(self.shapes(pair), deviation, enough)
     }
 
-    /// Does the same as [`Posture::bound_up_to`] for a loose obstacle that drifts. The posture is the arm's in the
-    /// middle of the drift's span, and the deviation is the arm's motion in that span.
-    pub fn bound_drifting(
+    /// Does the same as [`Posture::bound_up_to`] during a span of a motion. The posture is the arm's in the middle of the
+    /// span, and the deviation is the arm's motion in it.
+    pub fn bound_during(
         &self,
-        pair: Pair,
+        SpanPair { pair, part, drift }: SpanPair,
         deviation: Deviation,
-        drift: &Drift,
         enough: impl Fn(f64) -> f64,
     ) -> SeparationBound {
-        let standing = self.shapes(pair);
-        let piece = standing.piece.at(&drift.middle);
-        self.least(Shapes { piece: &piece, drift: Some(drift), ..standing }, deviation, enough)
+        let still = self.shapes(pair);
+        let local = part.unwrap_or(still.local);
+        match drift {
+            None => self.least(Shapes { local, ..still }, deviation, enough),
+            Some(Drift { middle, .. }) => {
+                let piece = still.piece.at(middle);
+                self.least(Shapes { local, piece: &piece, drift, ..still }, deviation, enough)
+            }
+        }
     }
 
-    /// Does the same as [`Posture::disc_bound`] for a loose obstacle that drifts: returns a lower bound on the
-    /// distance.
-    pub fn drifting_disc_bound(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> f64 {
-        let (center, around) = disc(self.scene.piece(pair));
-        let drifts = drift.farthest(center.norm() + around);
-        self.disc_bound_from(pair, deviation, drift.middle.point(center), around + drifts)
+    /// Does the same as [`Posture::disc_bound`] during a span of a motion: returns a lower bound on the distance.
+    pub fn disc_bound_during(&self, SpanPair { pair, part, drift }: SpanPair, deviation: Deviation) -> f64 {
+        let (mut center, mut around) = disc(self.scene.piece(pair));
+        if let Some(drift) = drift {
+            around += drift.farthest(center.norm() + around);
+            center = drift.middle.point(center);
+        }
+        self.disc_bound_from(pair.link, part.unwrap_or(self.scene.part(pair)), deviation, (center, around))
     }
 
     fn shapes(&self, pair: Pair) -> Shapes<'a> {
@@ -203,12 +229,11 @@ impl<'a> Posture<'a> {
     /// Returns a lower bound on the distance of a pair over `deviation`, from discs around the two shapes. It costs
     /// a small part of what [`Posture::bound`] costs. If the shapes are near each other, it is far lower.
     pub fn disc_bound(&self, pair: Pair, deviation: Deviation) -> f64 {
-        let (fixed, around) = disc(self.scene.piece(pair));
-        self.disc_bound_from(pair, deviation, fixed, around)
+        self.disc_bound_during(pair.into(), deviation)
     }
 
-    fn disc_bound_from(&self, pair: Pair, deviation: Deviation, fixed: Point, around: f64) -> f64 {
-        let (at, extent) = self.place(pair, deviation);
+    fn disc_bound_from(&self, link: usize, part: &Convex, deviation: Deviation, (fixed, around): (Point, f64)) -> f64 {
+        let (at, extent) = self.place_of(link, part, deviation);
         let between = (at - fixed).norm();
         let scale = self.scene.arm().base.norm() + at.norm() + fixed.norm() + extent + around;
         between - extent - around - ROUNDING * scale
@@ -216,8 +241,12 @@ impl<'a> Posture<'a> {
 
     /// Returns centre and radius of a disc that contains the moving part of a pair over the whole `deviation`.
     pub fn place(&self, pair: Pair, deviation: Deviation) -> (Point, f64) {
-        let (center, extent) = disc(self.scene.part(pair));
-        (self.poses[pair.link].point(center), extent + self.farthest_motion(pair, deviation))
+        self.place_of(pair.link, self.scene.part(pair), deviation)
+    }
+
+    fn place_of(&self, link: usize, part: &Convex, deviation: Deviation) -> (Point, f64) {
+        let (center, extent) = disc(part);
+        (self.poses[link].point(center), extent + self.farthest_motion_of(link, part, deviation))
     }
 
     /// Returns an upper bound on the signed distance of a pair over `deviation`. If it is negative, the pair collides

@@ -35,7 +35,7 @@ mod proof;
 mod vicinity;
 
 pub use cell::Cell;
-pub use deviation::{COLLISION_ROUNDING, Deviation, Posture, SeparationBound};
+pub use deviation::{COLLISION_ROUNDING, Deviation, Posture, SeparationBound, SpanPair};
 pub use drift::Drift;
 pub use motion::{CertifiedPath, CurveSearch, Nearest, Rejection, StraightMotions, certify};
 pub use permanent::permanent_contacts;

@@ -2,22 +2,24 @@
 
 mod configuration;
 mod motion;
+mod plan;
 mod task;
 
 pub use configuration::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
 use motion::ExceededLimits;
 pub use motion::{CollisionFinding, EncounterFinding, Judgement, LimitFinding, MomentFinding, MotionFindings};
+pub use plan::{FarthestFinding, PlanFinding};
 pub use task::{StepFinding, TurnContactFinding, TurnFinding};
 
 use cplan_core::model::Scene;
 use cplan_dynamics::Torques;
 use cplan_handling::{Claims, HeldMotion, RecordedStep, Recording};
 use cplan_motion::recorded::{
-    END_TOLERANCE, check_collision, check_collision_with, endpoint_errors, false_claims, limit_violations, replay,
-    torque_violations,
+    END_TOLERANCE, check_collision, check_collision_with, endpoint_errors, false_claims, limit_violations,
+    misplaced_joints, replay, torque_violations,
 };
 use cplan_robot::InputError;
-use cplan_world::{LoadedRecording, LoadedScene, LoadedTask, Overrides};
+use cplan_world::{AllJoints, LoadedRecording, LoadedScene, LoadedTask, Overrides};
 
 /// Judges a recording. It must lead from the world's start to its goal, or to those of `overrides`. If `anywhere` is
 /// true, it may begin and end at any configuration. A recording with steps is judged as the world's task.
@@ -30,14 +32,14 @@ pub fn verify(
     overrides: &Overrides,
     anywhere: bool,
 ) -> Result<MotionFindings, InputError> {
-    let LoadedRecording { recording, held, steps, claims, has_torques: _, notes: read } = recorded;
+    let LoadedRecording { recording, held, steps, all_joints, claims, has_torques: _, notes: read } = recorded;
     let nothing = Claims::default();
     let claims = claims.as_ref().unwrap_or(&nothing);
     let turns = describe_jumps(&loaded.scene, recording);
     let assumed = recording.times().map(|_| loaded.robot.assumptions(loaded.scene.arm())).unwrap_or_default();
     let notes = loaded.world.notes.iter().chain(read).cloned().chain(turns).chain(assumed).collect();
     let findings = match steps {
-        Some(steps) => judge_task(loaded, recording, steps, claims, overrides, notes)?,
+        Some(steps) => judge_task(loaded, (recording, steps, all_joints.as_ref()), claims, overrides, notes)?,
         None => judge_motion(loaded, (recording, held), claims, overrides, anywhere, notes)?,
     };
     Ok(findings.leaving(claims))
@@ -132,8 +134,7 @@ fn tool_errors(loaded: &LoadedScene, recording: &Recording, held: &[HeldMotion])
 /// Judges the recording as the world's task.
 fn judge_task(
     loaded: &LoadedScene,
-    recording: &Recording,
-    steps: &[RecordedStep],
+    (recording, steps, all_joints): (&Recording, &[RecordedStep], Option<&AllJoints>),
     claims: &Claims,
     overrides: &Overrides,
     mut notes: Vec<String>,
@@ -146,7 +147,21 @@ fn judge_task(
             .into(),
     );
     let replay = replay(&task, recording, steps);
-    Ok(task::judge_steps(&task, &scene, &loaded.robot.assumed, (recording, steps), replay, claims, notes))
+    let assumed = &loaded.robot.assumed;
+    let (findings, tools) = task::judge_steps(&task, &scene, assumed, (recording, steps), replay, claims, notes);
+    let Some(AllJoints { joints, held }) = all_joints else { return Ok(findings) };
+    let misplaced = misplaced_joints(&task, &loaded.robot.joints, recording, (steps, &tools), joints);
+    if misplaced.is_empty() || loaded.has_steps() {
+        return Ok(findings.with_faults(Judgement::Task, misplaced));
+    }
+    // The file states two motions. The one of all joints is judged as from any other file.
+    let Some(held) = held else { return Ok(findings.with_faults(Judgement::Task, misplaced)) };
+    let judged = judge_motion(loaded, (&joints.arm, held), &Claims::default(), overrides, false, Vec::new())?;
+    let mut findings = findings.with_faults(Judgement::Task, misplaced).with_faults(Judgement::Ends, judged.faults);
+    if judged.verdict == Judgement::Collision {
+        (findings.verdict, findings.collisions) = (judged.verdict, judged.collisions);
+    }
+    Ok(findings)
 }
 
 /// Describes steps between samples that look like jumps because angles were wrapped. `None` if there are none.

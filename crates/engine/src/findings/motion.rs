@@ -1,9 +1,9 @@
 //! Findings about a motion, as data.
 
-use super::StepFinding;
+use super::{PlanFinding, StepFinding};
 use cplan_core::model::{Joint, Scene};
 use cplan_handling::{Claims, Recording};
-use cplan_motion::recorded::{CollisionCheck, Encounter, Limit, LimitViolation, Moment};
+use cplan_motion::recorded::{CollisionCheck, Encounter, Limit, LimitViolation, Moment, Touch};
 use cplan_robot::AssumedLimits;
 use serde::Serialize;
 
@@ -23,7 +23,7 @@ pub enum Judgement {
     Limits,
     /// Not known to collide, but differs from the requested task.
     Task,
-    /// Proven to collide.
+    /// Proven to collide, or to come nearer than the required clearance.
     Collision,
 }
 
@@ -74,6 +74,9 @@ pub struct MotionFindings {
     /// Members of a result that were not judged.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub not_judged: Vec<String>,
+    /// Distance from the plan. `None` if no plan was given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plan: Option<PlanFinding>,
     /// Findings about the steps of a task.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<Vec<StepFinding>>,
@@ -91,13 +94,21 @@ pub struct CollisionFinding {
     /// The place where a free motion comes nearest to an obstacle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest: Option<EncounterFinding>,
-    /// The first contact of a motion that collides.
+    /// True if the motion is proven to touch an obstacle, and false if it is proven to touch none, although it comes nearer
+    /// than the required clearance. `None` if neither is proven, and for all other motions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub touches: Option<bool>,
+    /// The required clearance less the least signed distance that was seen, metres: the motion is too near by at least
+    /// this. `None` if it keeps the clearance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shortfall: Option<f64>,
+    /// The first place at which a motion collides, or comes nearer than the required clearance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_contact: Option<EncounterFinding>,
     /// Time before which a colliding motion is proven free, on the same clock as the time of `first_contact`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free_until: Option<f64>,
-    /// The deepest penetration found on a motion that collides.
+    /// The place with the least signed distance that was seen on such a motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deepest: Option<EncounterFinding>,
     /// The place where it is not known whether the motion collides.
@@ -219,6 +230,7 @@ impl MotionFindings {
             assumed_exceeded: Vec::new(),
             faults: Vec::new(),
             not_judged: Vec::new(),
+            plan: None,
             steps: None,
             notes: Vec::new(),
         }
@@ -260,7 +272,13 @@ impl CollisionFinding {
                 nearest: nearest.as_ref().map(encounter),
                 ..Self::default()
             },
-            CollisionCheck::Collision { first, free_until, deepest } => Self {
+            CollisionCheck::Collision { first, free_until, deepest, touch } => Self {
+                touches: match touch {
+                    Touch::Proven => Some(true),
+                    Touch::Excluded => Some(false),
+                    Touch::Undecided => None,
+                },
+                shortfall: Some(scene.workspace().clearance - deepest.contact.separation.distance),
                 first_contact: Some(encounter(first)),
                 free_until: Some(*free_until),
                 deepest: Some(encounter(deepest)),
@@ -289,7 +307,7 @@ fn encounter(scene: &Scene, e: &Encounter, timed: bool) -> EncounterFinding {
     }
 }
 
-fn moment(m: &Moment, timed: bool) -> MomentFinding {
+pub(super) fn moment(m: &Moment, timed: bool) -> MomentFinding {
     MomentFinding {
         time: timed.then_some(m.time),
         waypoint: (!timed).then_some(m.time),

@@ -4,7 +4,7 @@ use super::motion::{CollisionFinding, ExceededLimits, Judgement, LimitFinding, M
 use cplan_core::model::Scene;
 use cplan_handling::{Claims, RecordedStep, Recording, Task};
 use cplan_motion::recorded::{
-    OrderDeviation, Replay, ReplayedStep, ReplayedTurn, false_step_claims, false_task_claims,
+    OrderDeviation, Replay, ReplayedStep, ReplayedTurn, StepTool, false_step_claims, false_task_claims,
 };
 use cplan_robot::AssumedLimits;
 use serde::Serialize;
@@ -129,7 +129,8 @@ impl TurnFinding {
 }
 
 /// Judges all steps. Collisions and clearance of the whole task are those of one step: the first that collides,
-/// otherwise the first that is undecided, otherwise the one with the least clearance.
+/// otherwise the first that is undecided, otherwise the one with the least clearance. Also returns the motion of the tool in
+/// each step.
 pub(super) fn judge_steps(
     task: &Task,
     scene: &Scene,
@@ -138,12 +139,13 @@ pub(super) fn judge_steps(
     mut replay: Replay,
     claims: &Claims,
     notes: Vec<String>,
-) -> MotionFindings {
-    let (mut happened, mut false_claims) = (Vec::new(), Vec::new());
+) -> (MotionFindings, Vec<StepTool>) {
+    let (mut happened, mut false_claims, mut tools) = (Vec::new(), Vec::new(), Vec::new());
     let mut steps = Vec::new();
     for (index, step) in replay.by_ref().enumerate() {
         false_claims.extend(false_step_claims(task, recording, &step, claims, index));
         happened.extend(step.event.clone());
+        tools.push(step.tool);
         steps.push(StepFinding::new(task, &step, assumed));
     }
     // If the recording departs from the task, the file's statements about the whole task do not apply to it.
@@ -158,7 +160,7 @@ pub(super) fn judge_steps(
         step.faults.iter().map(move |fault| format!("{name}: {fault}")).collect::<Vec<_>>()
     };
     let faults = steps.iter().flat_map(of_step).chain(departure).collect();
-    MotionFindings {
+    let findings = MotionFindings {
         verdict: worst.max(of_departure),
         collisions: collisions(&steps),
         limits_broken: steps.iter().flat_map(|step| step.limits_broken.iter().cloned()).collect(),
@@ -167,8 +169,8 @@ pub(super) fn judge_steps(
         steps: Some(steps),
         notes,
         ..MotionFindings::of_nothing(scene, recording)
-    }
-    .with_faults(Judgement::Claims, false_claims)
+    };
+    (findings.with_faults(Judgement::Claims, false_claims), tools)
 }
 
 /// Returns collisions and clearance of the whole task, from those of its steps.

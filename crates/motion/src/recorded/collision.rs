@@ -1,8 +1,8 @@
 //! Continuous collision check of a recorded motion, with the first place of contact.
 
-use super::tool::ToolMotion;
+use super::tool::{ToolMotion, TurnedShapes};
 use crate::{Place, Span};
-use cplan_core::check::{Deviation, Drift, Posture, SeparationBound};
+use cplan_core::check::{Deviation, Drift, Posture, SpanPair};
 use cplan_core::model::{Contact, Pair, Scene};
 use cplan_core::space::Configuration;
 use cplan_geometry::Separation;
@@ -59,6 +59,17 @@ pub struct Encounter {
     pub contact: Contact,
 }
 
+/// Knowledge about contacts of a motion that comes nearer to an obstacle than required.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Touch {
+    /// Proven: the motion touches an obstacle.
+    Proven,
+    /// Proven: the motion touches no obstacle.
+    Excluded,
+    /// Neither is proven.
+    Undecided,
+}
+
 /// Result of the continuous check of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CollisionCheck {
@@ -79,6 +90,8 @@ pub enum CollisionCheck {
         free_until: f64,
         /// The least signed distance that was seen anywhere on the motion.
         deepest: Encounter,
+        /// Whether the motion also touches an obstacle.
+        touch: Touch,
     },
     /// Undecided: this is the first moment at which the distance is too close to the clearance to decide, or at which
     /// the search reached its limit.
@@ -99,12 +112,12 @@ pub enum CollisionCheck {
 #[must_use]
 pub fn check_collision<'a>(scene: impl Into<TimedScene<'a>>, recording: &Recording, clearance: f64) -> CollisionCheck {
     let scene = scene.into();
-    check_pairs(scene, all_pairs(scene, recording), recording, clearance)
+    let (pairs, pieces) = (all_pairs(scene, recording), recording.pieces());
+    searched(|required| Search::new(scene, &pairs, &pieces, required), clearance)
 }
 
 /// Does the same as [`check_collision`], while other joints move that the scene holds still, such as a tool's. Parts
-/// have the heights that these joints give them at each moment. For a part that a wrist turns, the disc that it sweeps
-/// is checked. Carried objects follow only joints that lift them ([`HeldMotion::lifts_payload`]).
+/// have the heights and angles that these joints give them at each moment. Carried objects follow only joints that lift them ([`HeldMotion::lifts_payload`]).
 #[must_use]
 pub fn check_collision_with(
     scene: TimedScene,
@@ -137,11 +150,23 @@ fn check_with_tool(
 ) -> CollisionCheck {
     let pieces = recording.pieces();
     let scene = TimedScene { scene: tool.scene(), ..scene };
-    let mut search = Search::new(scene, pairs, &pieces, clearance);
-    search.tool = Some(tool);
-    search.sample_motion();
-    search.run();
-    search.verdict()
+    searched(|required| Search { tool: Some(tool), ..Search::new(scene, pairs, &pieces, required) }, clearance)
+}
+
+/// Returns the verdict of a search with a required clearance. If the motion comes nearer than that, but is not seen to touch
+/// an obstacle, the same search without a clearance decides whether it does.
+fn searched<'a>(search: impl Fn(f64) -> Search<'a>, clearance: f64) -> CollisionCheck {
+    let mut found = search(clearance).of_whole_motion();
+    if let CollisionCheck::Collision { deepest, touch: touch @ Touch::Undecided, .. } = &mut found {
+        let (nearest, decided) = match search(0.0).of_whole_motion() {
+            CollisionCheck::Free { nearest, .. } => (nearest, Touch::Excluded),
+            CollisionCheck::Collision { deepest, .. } => (Some(deepest), Touch::Proven),
+            CollisionCheck::Undecided(nearest) => (Some(nearest), Touch::Undecided),
+        };
+        let distance = |encounter: &Encounter| encounter.contact.separation.distance;
+        (*deepest, *touch) = (nearest.filter(|it| distance(it) < distance(deepest)).unwrap_or(*deepest), decided);
+    }
+    found
 }
 
 /// Greatest number of checks of a pair of shapes on a span in [`keeps_during_stroke`]. They take a few milliseconds.
@@ -185,7 +210,8 @@ fn all_pairs<'a>(scene: TimedScene<'a>, recording: &Recording) -> Cow<'a, [Pair]
 /// time.
 #[must_use]
 pub fn certify_in_time(scene: TimedScene, recording: &Recording, clearance: f64) -> CollisionCheck {
-    check_pairs(scene, scene.moving_pairs().into(), recording, clearance)
+    let pieces = recording.pieces();
+    Search::new(scene, scene.moving_pairs(), &pieces, clearance).of_whole_motion()
 }
 
 /// Returns the first encounter with a moving obstacle that is too close, or for which this cannot be decided. `None` if
@@ -199,14 +225,6 @@ pub fn first_moving_contact(scene: TimedScene, recording: &Recording, clearance:
         CollisionCheck::Collision { first, .. } | CollisionCheck::Undecided(first) => Some(first),
         CollisionCheck::Free { .. } => None,
     }
-}
-
-fn check_pairs(scene: TimedScene, pairs: Cow<[Pair]>, recording: &Recording, clearance: f64) -> CollisionCheck {
-    let pieces = recording.pieces();
-    let mut search = Search::new(scene, &pairs, &pieces, clearance);
-    search.sample_motion();
-    search.run();
-    search.verdict()
 }
 
 struct Search<'a> {
@@ -274,11 +292,13 @@ impl<'a> Search<'a> {
             self.keep_meeting(span, &mut pairs);
             let posture = Posture::new(self.scene.scene, middle);
             let [begins, ends] = span.ends();
+            let turned = self.shapes_during(span);
             pairs.retain(|&pair| {
                 let drift = self.drift(pair, begins, ends);
+                let during = SpanPair { pair, part: turned.of(pair), drift: drift.as_ref() };
                 let enough = |_| self.required.max(self.least_distance());
-                self.may_be_closest(distance_bound(&posture, pair, deviation, drift.as_ref()))
-                    && self.may_be_closest(bound(&posture, pair, deviation, drift.as_ref(), enough).least)
+                self.may_be_closest(posture.disc_bound_during(during, deviation))
+                    && self.may_be_closest(posture.bound_during(during, deviation, enough).least)
             });
             if !pairs.is_empty() {
                 let half = from.midpoint(to);
@@ -291,13 +311,15 @@ impl<'a> Search<'a> {
     /// Samples some pairs at a place. Skips pairs whose enclosing discs are far apart.
     fn sample_pairs(&mut self, place: Place, pairs: &[Pair]) {
         let posture = Posture::new(self.scene.scene, self.pieces[place.0].at(place.1));
+        let turned = self.shapes_at(place);
         for &pair in pairs {
             if !self.certainly_meets(pair, place) {
                 continue;
             }
             let drift = self.drift(pair, place, place);
-            if self.may_be_closest(distance_bound(&posture, pair, NO_DEVIATION, drift.as_ref())) {
-                self.record_distance(place, Contact { pair, separation: here(&posture, pair, drift.as_ref()) });
+            let at_place = SpanPair { pair, part: turned.of(pair), drift: drift.as_ref() };
+            if self.may_be_closest(posture.disc_bound_during(at_place, NO_DEVIATION)) {
+                self.record_distance(place, Contact { pair, separation: here(&posture, at_place) });
             }
         }
     }
@@ -313,6 +335,14 @@ impl<'a> Search<'a> {
             let extents = tool.extents(span);
             pairs.retain(|pair| tool.may_meet(*pair, &extents));
         }
+    }
+
+    fn shapes_during(&self, span: Span) -> TurnedShapes {
+        self.tool.map_or_else(TurnedShapes::default, |tool| tool.shapes_during(span))
+    }
+
+    fn shapes_at(&self, place: Place) -> TurnedShapes {
+        self.tool.map_or_else(TurnedShapes::default, |tool| tool.shapes_at(place))
     }
 
     /// Returns true if the shapes of a pair are exact at a place, and their heights meet there.
@@ -384,6 +414,7 @@ impl<'a> Search<'a> {
         let (middle, deviation) = span.deviation(self.pieces);
         let posture = Posture::new(self.scene.scene, middle);
         let [from, to] = span.ends();
+        let (turned, at_middle) = (self.shapes_during(span), self.shapes_at(span.middle()));
         pairs.retain(|&pair| {
             let certainly_meets = self.certainly_meets(pair, span.middle());
             // A shape that is not exact may be nearer than the true shape, so do not compare it with sampled distances.
@@ -392,19 +423,24 @@ impl<'a> Search<'a> {
                 false => bound > 0.0 && bound >= search.required,
             };
             let drift = self.drift(pair, from, to);
+            let during = SpanPair { pair, part: turned.of(pair), drift: drift.as_ref() };
             self.evaluations += 1;
-            if let Some(drift) = &drift {
-                let apart = posture.drifting_disc_bound(pair, deviation, drift);
+            if drift.is_some() {
+                let apart = posture.disc_bound_during(during, deviation);
                 if suffices(self, apart) {
                     self.proven = self.proven.min(apart);
                     return false;
                 }
             }
-            let bounded = bound(&posture, pair, deviation, drift.as_ref(), |_| f64::INFINITY);
+            let bounded = posture.bound_during(during, deviation, |_| f64::INFINITY);
             if let Span::Part(index, from, to) = span
                 && certainly_meets
             {
-                self.record_distance((index, (from + to) / 2.0), Contact { pair, separation: bounded.here });
+                let separation = match at_middle.of(pair) {
+                    Some(part) => here(&posture, SpanPair { part: Some(part), ..during }),
+                    None => bounded.here,
+                };
+                self.record_distance((index, (from + to) / 2.0), Contact { pair, separation });
             }
             let free = suffices(self, bounded.least);
             if free {
@@ -420,9 +456,10 @@ impl<'a> Search<'a> {
         for place in span.ends() {
             let at = self.pieces[place.0].at(place.1);
             let posture = Posture::new(self.scene.scene, at);
+            let turned = self.shapes_at(place);
             for &pair in pairs {
                 let drift = self.drift(pair, place, place);
-                let separation = here(&posture, pair, drift.as_ref());
+                let separation = here(&posture, SpanPair { pair, part: turned.of(pair), drift: drift.as_ref() });
                 let contact = Contact { pair, separation };
                 if self.certainly_meets(pair, place) {
                     self.record_distance(place, contact);
@@ -438,12 +475,22 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// Samples and examines the whole motion.
+    fn of_whole_motion(mut self) -> CollisionCheck {
+        self.sample_motion();
+        self.run();
+        self.verdict()
+    }
+
     fn verdict(self) -> CollisionCheck {
         match (self.hit, self.open, self.least) {
             (Some((place, first)), open, least) => {
                 let from = open.map_or(place, |(from, _)| if from < place { from } else { place });
                 let free_until = self.pieces[from.0].time(from.1);
-                CollisionCheck::Collision { first, free_until, deepest: least.unwrap_or(first) }
+                let deepest = least.unwrap_or(first);
+                let is_touching = deepest.contact.separation.distance <= 0.0;
+                let touch = if is_touching { Touch::Proven } else { Touch::Undecided };
+                CollisionCheck::Collision { first, free_until, deepest, touch }
             }
             (None, Some((_, nearest)), _) => CollisionCheck::Undecided(nearest),
             (None, None, nearest) => CollisionCheck::Free { clearance: self.proven, nearest },
@@ -451,30 +498,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Returns the distance of a pair in the middle of a span, and a lower bound on it within the span. Stops improving the
-/// bound as soon as it suffices.
-fn bound(
-    posture: &Posture,
-    pair: Pair,
-    deviation: Deviation,
-    drift: Option<&Drift>,
-    enough: impl Fn(f64) -> f64,
-) -> SeparationBound {
-    match drift {
-        Some(drift) => posture.bound_drifting(pair, deviation, drift, enough),
-        None => posture.bound_up_to(pair, deviation, enough),
-    }
-}
-
 /// Returns the distance of a pair at a moment.
-fn here(posture: &Posture, pair: Pair, drift: Option<&Drift>) -> Separation {
-    bound(posture, pair, NO_DEVIATION, drift, |_| f64::NEG_INFINITY).here
-}
-
-/// Returns a lower bound on the distance of a pair over `deviation`, from discs around both shapes.
-fn distance_bound(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Drift>) -> f64 {
-    match drift {
-        Some(drift) => posture.drifting_disc_bound(pair, deviation, drift),
-        None => posture.disc_bound(pair, deviation),
-    }
+fn here(posture: &Posture, pair: SpanPair) -> Separation {
+    posture.bound_during(pair, NO_DEVIATION, |_| f64::NEG_INFINITY).here
 }

@@ -2,9 +2,9 @@
 //!
 //! During a span of time, a lifted part counts with all its heights from the least to the greatest. This is enough to
 //! prove that a span is free. A contact is reported only if the heights meet at one moment. A part that a wrist turns
-//! counts as the disc that it sweeps about the wrist's axis. A contact of such a disc is reported only if the part is a
-//! disc itself.
+//! counts with all its orientations from the least angle to the greatest, and with that of the moment for a contact.
 
+use super::cover::cover_about;
 use crate::{Place, Span};
 use cplan_core::check::Deviation;
 use cplan_core::model::{Heights, OutlineSource, Pair, Part, Scene};
@@ -28,14 +28,43 @@ struct Lift<'a> {
 impl Lift<'_> {
     /// Returns bounds on the joint's lift during a span, in metres relative to the held value.
     fn extent(&self, span: Span) -> [f64; 2] {
-        let (middle, deviation) = span.deviation(&self.pieces);
-        let half = match deviation {
-            Deviation::Box([half, _]) => half,
-            Deviation::Tube(chord, [half, _]) => chord[0].abs() + half,
-            Deviation::Along(chord) => chord[0].abs(),
-        };
-        let lift = self.sign * (middle[0] - self.rest);
-        [lift - half, lift + half]
+        extent(&self.pieces, span, (self.rest, self.sign))
+    }
+}
+
+/// Returns bounds on the values of a joint during a span, relative to `rest` and multiplied by `sign`.
+fn extent(pieces: &[Piece], span: Span, (rest, sign): (f64, f64)) -> [f64; 2] {
+    let (middle, deviation) = span.deviation(pieces);
+    let half = match deviation {
+        Deviation::Box([half, _]) => half,
+        Deviation::Tube(chord, [half, _]) => chord[0].abs() + half,
+        Deviation::Along(chord) => chord[0].abs(),
+    };
+    let value = sign * (middle[0] - rest);
+    [value - half, value + half]
+}
+
+/// A part of link 2 that a joint turns.
+struct Turn {
+    /// Index of the part.
+    part: usize,
+    /// The part's shape while the joint is at its held value.
+    shape: Convex,
+    axis: Point,
+    pieces: Vec<Piece>,
+    /// The held value of the joint, and the direction of increasing values.
+    rest: f64,
+    sign: f64,
+}
+
+/// Shapes of the parts that a joint turns, at a moment or during a span.
+#[derive(Default)]
+pub(super) struct TurnedShapes(Vec<(usize, Convex)>);
+
+impl TurnedShapes {
+    /// Returns the shape of a pair's part. `None` if it does not turn.
+    pub fn of(&self, pair: Pair) -> Option<&Convex> {
+        self.0.iter().find(|(part, _)| pair.link > 0 && *part == pair.part).map(|(_, shape)| shape)
     }
 }
 
@@ -44,48 +73,42 @@ pub(super) struct ToolMotion<'a> {
     lifts: Vec<Lift<'a>>,
     /// Index among link 2's parts of the bar from joint 2 to the tip, if it has one. One end of a bar moves with the tip.
     bar: Option<usize>,
-    /// The scene with parts at the heights of the held joints, and with discs in place of parts that turn.
+    turns: Vec<Turn>,
+    /// The scene with parts at the heights of the held joints.
     still: Cow<'a, Scene>,
     /// The scene with parts at all heights that they take during the motion, and with the pairs that meet at some of
     /// them.
     swept: Cow<'a, Scene>,
-    /// For each part of both links, true if its shape covers more than the part, as a disc for a turning part does.
-    covers: [Vec<bool>; 2],
 }
 
 impl<'a> ToolMotion<'a> {
     /// Creates a scene in which these joints move.
     pub fn new(scene: &Scene, motions: &'a [HeldMotion]) -> Self {
         let mut lifts = Vec::new();
-        let mut turns: Vec<(Point, &[String])> = Vec::new();
+        let mut turns = Vec::new();
         for HeldMotion { joint, values, lifts_payload } in motions {
             match joint.effect {
                 HeldEffect::Lifts { sign } => {
                     let (pieces, lifts_payload) = (values.pieces(), *lifts_payload);
                     lifts.push(Lift { pieces, rest: joint.value, sign, bodies: &joint.bodies, lifts_payload });
                 }
-                HeldEffect::Turns { axis } => turns.push((axis, &joint.bodies)),
+                HeldEffect::Turns { axis, sign } => {
+                    let turned = |(part, own): (usize, &Part)| {
+                        let is_turned = joint.bodies.contains(&own.body) && !is_round(&own.shape, axis);
+                        let (shape, pieces) = (own.shape.clone(), values.pieces());
+                        is_turned.then(|| Turn { part, shape, axis, pieces, rest: joint.value, sign })
+                    };
+                    turns.extend(scene.own_parts(1).iter().enumerate().filter_map(turned));
+                }
                 HeldEffect::Unjudged { .. } => {}
             }
         }
-        let axis_of = |part: &Part| turns.iter().find(|(_, bodies)| bodies.contains(&part.body)).map(|(axis, _)| *axis);
-        let is_cover = |part: &Part| axis_of(part).is_some_and(|axis| !is_round(&part.shape, axis));
-        let covers = scene.arm().links.each_ref().map(|link| link.parts.iter().map(is_cover).collect());
-        let turned = |part: &mut Part| {
-            if let Some(axis) = axis_of(part).filter(|axis| !is_round(&part.shape, *axis)) {
-                (part.shape, part.inner) = (swept_disc(&part.shape, axis), None);
-            }
-        };
         let all = |part: &mut Part| {
-            turned(part);
             for lift in lifts.iter().filter(|lift| lift.bodies.contains(&part.body)) {
                 part.heights = part.heights.lifted(lift.extent(Span::all(lift.pieces.len())));
             }
         };
-        let [still, swept] = [
-            scene.reshaped(turned, |obstacle| obstacle.pieces.clone()),
-            scene.reshaped(all, |obstacle| obstacle.pieces.clone()),
-        ];
+        let swept = scene.reshaped(all, |obstacle| obstacle.pieces.clone());
         let all_pieces = |lift: &Lift| lift.extent(Span::all(lift.pieces.len()));
         let swept = match scene.attachment() {
             Some(attachment) => {
@@ -107,7 +130,7 @@ impl<'a> ToolMotion<'a> {
             }),
             None => swept,
         };
-        Self { lifts, bar, still: Cow::Owned(still), swept: Cow::Owned(swept), covers }
+        Self { lifts, bar, turns, still: Cow::Owned(scene.clone()), swept: Cow::Owned(swept) }
     }
 
     /// Creates a motion of the joint that lowers the tool, in scenes that are already known.
@@ -116,13 +139,31 @@ impl<'a> ToolMotion<'a> {
         let sign = if let HeldEffect::Lifts { sign } = joint.effect { sign } else { 0.0 };
         let (pieces, lifts_payload) = (values.pieces(), *lifts_payload);
         let lifts = vec![Lift { pieces, rest: joint.value, sign, bodies: &joint.bodies, lifts_payload }];
-        let covers = raised.arm().links.each_ref().map(|link| vec![false; link.parts.len()]);
-        Self { lifts, bar: bar_of(raised), still: Cow::Borrowed(raised), swept: Cow::Borrowed(swept), covers }
+        let (still, swept) = (Cow::Borrowed(raised), Cow::Borrowed(swept));
+        Self { lifts, bar: bar_of(raised), turns: Vec::new(), still, swept }
     }
 
     /// Returns the scene with all pairs that meet at some time.
     pub fn scene(&self) -> &Scene {
         &self.swept
+    }
+
+    /// Returns shapes that contain the turning parts at all times of a span.
+    pub fn shapes_during(&self, span: Span) -> TurnedShapes {
+        let cover = |turn: &Turn| {
+            let angles = extent(&turn.pieces, span, (turn.rest, turn.sign));
+            (turn.part, cover_about(turn.axis, &turn.shape, angles))
+        };
+        TurnedShapes(self.turns.iter().map(cover).collect())
+    }
+
+    /// Returns the shapes of the turning parts at a moment.
+    pub fn shapes_at(&self, (piece, share): Place) -> TurnedShapes {
+        let turned = |turn: &Turn| {
+            let angle = turn.sign * (turn.pieces[piece].at(share)[0] - turn.rest);
+            (turn.part, cover_about(turn.axis, &turn.shape, [angle; 2]))
+        };
+        TurnedShapes(self.turns.iter().map(turned).collect())
     }
 
     /// Returns bounds on the lift of each joint during a span.
@@ -165,16 +206,15 @@ impl<'a> ToolMotion<'a> {
         if self.still.is_attached(pair) { part.object_may_meet(obstacle) } else { part.meet(obstacle) }
     }
 
-    /// Returns true if at a moment the heights of a pair certainly meet, and its part is exact.
+    /// Returns true if at a moment the heights of a pair certainly meet, and its part is no bar.
     pub fn certainly_meets(&self, pair: Pair, (piece, share): Place) -> bool {
-        let is_cover = self.covers[pair.link.min(1)].get(pair.part).is_some_and(|is_cover| *is_cover);
         let [part, obstacle] = self.heights(pair, &self.extents(Span::Part(piece, share, share)));
         let meet = match self.still.is_attached(pair) {
             _ if self.still.self_obstacle(pair.obstacle).is_some() => part.overlap(obstacle),
             true => part.object_definitely_meets(obstacle),
             false => part.definitely_meet(obstacle),
         };
-        !is_cover && !self.is_bar(pair) && meet
+        !self.is_bar(pair) && meet
     }
 }
 
@@ -187,10 +227,4 @@ fn bar_of(scene: &Scene) -> Option<usize> {
 /// Returns true if a shape is a disc about an axis, unchanged by rotation.
 fn is_round(shape: &Convex, axis: Point) -> bool {
     shape.core().iter().all(|corner| (corner - axis).norm() <= AXIS_TOLERANCE)
-}
-
-/// Returns the disc about an axis that a shape sweeps.
-fn swept_disc(shape: &Convex, axis: Point) -> Convex {
-    let farthest = shape.core().iter().map(|corner| (corner - axis).norm()).fold(0.0, f64::max);
-    Convex::trusted(vec![axis], (farthest + shape.radius()) * (1.0 + 4.0 * f64::EPSILON))
 }

@@ -5,17 +5,14 @@
 //! that are not proven free are halved, so covers get smaller. Nothing is sampled.
 
 use super::arch::{MIN_GAP, times_between};
-use super::collision::{CollisionCheck, Encounter, Moment, proven_clearance};
+use super::collision::{CollisionCheck, Encounter, Moment, Touch, proven_clearance};
+use super::cover::cover;
 use crate::{phase_at, single};
 use cplan_core::check::Posture;
 use cplan_core::model::{Arm, AttachedPart, Contact, Grip, JointType, Scene};
-use cplan_geometry::{Convex, Point, Pose, hull, reach};
+use cplan_geometry::{Point, Pose};
 use cplan_handling::{Derivative, Recording, Wrist};
 use cplan_interrupt::checkpoint;
-use std::f64::consts::FRAC_PI_2;
-
-/// Relative growth of covers, which allows for rounding.
-const COVER_ROUNDING: f64 = 1e-12;
 
 /// Least angle, in radians, at which a span is halved. The covers of smaller spans hardly differ from the payload.
 const MIN_ANGLE: f64 = 1e-4;
@@ -79,24 +76,6 @@ impl TurnCover {
     fn is_empty(&self) -> bool {
         self.scene.pairs().is_empty()
     }
-}
-
-/// Returns a convex shape that covers all rotations of a shape about the origin, from one angle to another.
-fn cover(shape: &Convex, [from, to]: [f64; 2]) -> Convex {
-    let farthest = reach(shape.core(), Point::zeros());
-    let rounding = COVER_ROUNDING * (farthest + shape.radius());
-    let width = (to - from).abs();
-    if width > FRAC_PI_2 {
-        return Convex::trusted(vec![Point::zeros()], farthest + shape.radius() + rounding);
-    }
-    let turned = |angle: f64| shape.at(&Pose::rotation(angle));
-    if width == 0.0 {
-        return turned(from);
-    }
-    // Between both ends, a corner moves along an arc, which leaves its chord by at most the sagitta.
-    let corners: Vec<Point> = [from, to].into_iter().flat_map(|angle| turned(angle).core().to_vec()).collect();
-    let sagitta = farthest * (1.0 - (width / 2.0).cos());
-    Convex::trusted(hull(&corners), shape.radius() + sagitta + rounding)
 }
 
 /// Returns the motion of a wrist that turns by `distance` radians in `seconds`: its fastest motion, stretched evenly in
@@ -243,7 +222,8 @@ impl TurnDuringMotion<'_> {
         let (scene, first) = nearer(nearer(first, middle), last);
         let apart = first.contact.separation.distance;
         if apart <= 0.0 || apart < clearance {
-            return (scene, CollisionCheck::Collision { first, free_until: span[0], deepest: first });
+            let touch = if apart <= 0.0 { Touch::Proven } else { Touch::Undecided };
+            return (scene, CollisionCheck::Collision { first, free_until: span[0], deepest: first, touch });
         }
         (scene, CollisionCheck::Undecided(first))
     }
@@ -311,32 +291,9 @@ pub fn turn_angle(profile: &[[f64; 3]], [from, to]: [f64; 2], since: f64) -> f64
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use std::f64::consts::TAU;
 
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
-
-        /// Compares covers with rotated shapes: in each direction, no rotation reaches farther than the cover.
-        #[test]
-        fn a_cover_has_all_rotations(
-            corners in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), 1..6),
-            radius in 0.0..0.2_f64, from in -7.0..7.0_f64, width in -3.0..3.0_f64,
-        ) {
-            let corners: Vec<Point> = corners.into_iter().map(|(x, y)| Point::new(x, y)).collect();
-            let shape = Convex::trusted(hull(&corners), radius);
-            let whole = cover(&shape, [from, from + width]);
-            for look in 0..=64 {
-                let (sin, cos) = (from + width * f64::from(look) / 64.0).sin_cos();
-                for side in 0..48 {
-                    let (y, x) = (TAU * f64::from(side) / 48.0).sin_cos();
-                    let reach = |points: &[Point]| points.iter().map(|p| p.x * x + p.y * y).fold(f64::MIN, f64::max);
-                    let turned: Vec<Point> =
-                        shape.core().iter().map(|p| Point::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y)).collect();
-                    let [inner, outer] = [reach(&turned) + radius, reach(whole.core()) + whole.radius()];
-                    prop_assert!(inner <= outer + 1e-12, "{inner} {outer}");
-                }
-            }
-        }
 
         /// Compares the profile with the integral of its speeds, and checks that it keeps both limits.
         #[test]

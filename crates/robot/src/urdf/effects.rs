@@ -45,7 +45,8 @@ impl Reduction<'_> {
             JointType::Prismatic => Ok(HeldEffect::Lifts { sign: along.signum() }),
             JointType::Revolute | JointType::Continuous if self.tree.carries(self.chain.joints[1], child) => {
                 let elbow = self.at(plane, self.tree.child[self.chain.joints[1]]);
-                Ok(HeldEffect::Turns { axis: project(plane, &self.poses[child].translation.vector) - elbow })
+                let axis = project(plane, &self.poses[child].translation.vector) - elbow;
+                Ok(HeldEffect::Turns { axis, sign: along.signum() })
             }
             _ => Err("turns links that the arm's two joints do not both carry".into()),
         }

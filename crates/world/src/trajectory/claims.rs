@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer};
 const MAX_NUMBER: f64 = 1e12;
 
 /// Members that are no claims. They are read elsewhere, or state how to read others.
-const OTHER_MEMBERS: [&str; 5] = ["joints", "trajectory", "interpolation", "steps", "events"];
+const OTHER_MEMBERS: [&str; 6] = ["joints", "trajectory", "interpolation", "steps", "events", "all_joints"];
 
 /// The members that make claims.
 #[derive(Deserialize)]

@@ -16,10 +16,20 @@ struct Document {
     path: Option<Vec<Vec<f64>>>,
     interpolation: Option<String>,
     trajectory: Option<Inner>,
+    all_joints: Option<AllJoints>,
     /// The joints of a ROS message, which is the whole document or a member of it.
     joint_names: Option<Vec<String>>,
     points: Option<Vec<Point>>,
     joint_trajectory: Option<Inner>,
+}
+
+/// The motion of all joints of a robot.
+#[derive(Deserialize)]
+struct AllJoints {
+    joints: Vec<String>,
+    time: Vec<f64>,
+    position: Vec<Vec<f64>>,
+    velocity: Option<Vec<Vec<f64>>>,
 }
 
 /// A trajectory of cplan, or a ROS message.
@@ -76,6 +86,20 @@ impl Stamp {
 
 /// Reads a result of cplan, or another program's JSON.
 pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
+    Ok(samples(source, document(source)?)?)
+}
+
+/// Reads the motion of all joints that a result of cplan states beside that of the arm. `None` if it states none.
+pub(super) fn all_joints(source: &Source) -> Result<Option<Samples>, InputError> {
+    let Some(AllJoints { joints, time, position, velocity }) = document(source)?.all_joints else { return Ok(None) };
+    let what = "all_joints.position";
+    let mut samples = Samples { time: Some(time), what: what.into(), ..Samples::default() };
+    samples.joints = series(source, named(source, Some(joints), "all_joints.joints")?, &position, what)?;
+    samples.add(source, velocity, "all_joints.velocity", |joint| &mut joint.velocity)?;
+    Ok(Some(samples))
+}
+
+fn document(source: &Source) -> Result<Document, InputError> {
     let help = "write a result with cplan --output NAME.json, or a JointTrajectory; all numbers must be finite";
     // Serde would take the elements of a list for the members of an object in their order.
     let begins = source.text().len() - source.text().trim_start().len();
@@ -83,9 +107,7 @@ pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
         let message = "is a list, but must be an object { ... }";
         return Err(source.diagnostic_at(begins..begins + 1, message).help(help).into());
     }
-    let document: Document =
-        serde_json::from_str(source.text()).map_err(|error| json_diagnostic(source, &error).help(help))?;
-    Ok(samples(source, document)?)
+    Ok(serde_json::from_str(source.text()).map_err(|error| json_diagnostic(source, &error).help(help))?)
 }
 
 /// Reads a JointTrajectory as ROS 2 prints it in YAML.
@@ -108,7 +130,8 @@ pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
 }
 
 fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
-    let Document { status, joints, path, interpolation, trajectory, joint_names, points, joint_trajectory } = document;
+    let Document { status, joints, path, interpolation, trajectory, joint_names, points, joint_trajectory, .. } =
+        document;
     if let Some(points) = points {
         return message(source, joint_names, points);
     }

@@ -4,6 +4,7 @@
 //! checks their common conditions: the arm's joints are present, the motion of held joints can be judged, and times
 //! increase.
 
+mod all_joints;
 mod claims;
 mod columns;
 mod csv;
@@ -19,7 +20,7 @@ mod units;
 use super::LoadedScene;
 use cplan_core::model::JointType;
 use cplan_core::space::Configuration;
-use cplan_handling::{Claims, HeldMotion, Interpolation, RecordedStep, Recording};
+use cplan_handling::{Claims, HeldMotion, Interpolation, RecordedJoints, RecordedStep, Recording};
 use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use samples::{Names, Samples, Series, misplaced};
 use std::path::Path;
@@ -37,12 +38,23 @@ pub struct LoadedRecording {
     pub held: Vec<HeldMotion>,
     /// The steps of a task. `None` unless the file is cplan's result for a world with steps.
     pub steps: Option<Vec<RecordedStep>>,
+    /// The motion of all joints that a result of cplan for a task states.
+    pub all_joints: Option<AllJoints>,
     /// The claims that a cplan result makes about the samples.
     pub claims: Option<Claims>,
     /// True if the recording has torques.
     pub has_torques: bool,
     /// Notes for the user about ignored parts, and about how samples are joined.
     pub notes: Vec<String>,
+}
+
+/// The motion of all joints of a robot, and how it would be read from a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AllJoints {
+    /// The motion.
+    pub joints: RecordedJoints,
+    /// Motions of joints that the world holds. `None` if a motion of these joints cannot be judged.
+    pub held: Option<Vec<HeldMotion>>,
 }
 
 /// Reads a recorded motion: a joint path or a trajectory. The file's extension determines the format: `.json`, `.csv`,
@@ -99,16 +111,24 @@ fn load(path: &Path, topic: Option<&str>, scene: &LoadedScene) -> Result<LoadedR
 pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     let names = Names::of(scene);
     let extension = source.path().extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    let (samples, steps, claims) = match extension.as_deref() {
-        Some("csv") => (csv::read(source, &names)?, None, None),
-        Some("yaml" | "yml") => (document::yaml(source)?, None, None),
-        _ => {
-            let samples = document::json(source)?;
-            let steps = if scene.is_task() { steps::json(source, &samples)? } else { None };
-            (samples, steps, claims::json(source, names.arm)?)
-        }
-    };
-    Ok(LoadedRecording { steps, claims, ..names.recording(source, samples)? })
+    match extension.as_deref() {
+        Some("csv") => Ok(names.recording(source, csv::read(source, &names)?)?),
+        Some("yaml" | "yml") => Ok(names.recording(source, document::yaml(source)?)?),
+        _ => read_json(source, scene, &names),
+    }
+}
+
+/// Reads a JSON file. Without steps, a motion of all joints counts instead of that of the arm's two joints.
+fn read_json(source: &Source, scene: &LoadedScene, names: &Names) -> Result<LoadedRecording, InputError> {
+    let samples = document::json(source)?;
+    let steps = if scene.is_task() { steps::json(source, &samples)? } else { None };
+    let claims = claims::json(source, names.arm)?;
+    let whole = if steps.is_none() { names.whole_motion(source)? } else { None };
+    if let Some(whole) = whole {
+        return Ok(LoadedRecording { claims, ..whole });
+    }
+    let all_joints = names.all_joints(source)?;
+    Ok(LoadedRecording { steps, all_joints, claims, ..names.recording(source, samples)? })
 }
 
 /// Reads an MCAP file: the given topic, or the only suitable one.
@@ -181,7 +201,8 @@ impl<'a> Names<'a> {
         notes.extend(
             (recording.accelerations().is_some() && samples.joined.is_none()).then(|| STATED_ACCELERATIONS_NOTE.into()),
         );
-        Ok(LoadedRecording { recording, held, steps: None, claims: None, has_torques: samples.has_torques, notes })
+        let has_torques = samples.has_torques;
+        Ok(LoadedRecording { recording, held, steps: None, all_joints: None, claims: None, has_torques, notes })
     }
 }
 

@@ -94,8 +94,8 @@ fn describe_motion(joint: &HeldJoint, series: &Series) -> String {
     let name = &joint.name;
     match joint.effect {
         HeldEffect::Turns { .. } => format!(
-            "joint \"{name}\" turns, from {least} to {most} rad: the parts that it turns count as the disc that they \
-             sweep; its own limits are not judged"
+            "joint \"{name}\" turns, from {least} to {most} rad: the parts that it turns are judged at their angles of each \
+             moment; its own limits are not judged"
         ),
         _ => format!(
             "joint \"{name}\" moves, from {least} to {most} m: the parts that it carries are judged at their heights \
@@ -105,7 +105,7 @@ fn describe_motion(joint: &HeldJoint, series: &Series) -> String {
 }
 
 /// Returns the values of a joint at the samples of a recording, with the recording's interpolation.
-fn values(series: &Series, recording: &Recording, samples: &Samples) -> Result<Recording, RecordingError> {
+pub(super) fn values(series: &Series, recording: &Recording, samples: &Samples) -> Result<Recording, RecordingError> {
     let single = |values: &Vec<f64>| values.iter().map(|value| Configuration::new(*value, 0.0)).collect::<Vec<_>>();
     let velocity = series.velocity.as_ref().filter(|_| recording.velocities().is_some());
     let rule = recording.interpolation();

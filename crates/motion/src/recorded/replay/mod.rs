@@ -10,8 +10,10 @@ mod order;
 mod overlap;
 mod state;
 mod tool_angle;
+mod tool_joints;
 
 pub use fault::{Fault, OrderDeviation};
+pub use tool_joints::{MisplacedJoint, StepTool, misplaced_joints};
 
 use super::{
     CollisionCheck, Limit, LimitViolation, TurnContact, WristTurn, check_collision, limit_violations, torque_violations,
@@ -90,6 +92,8 @@ pub struct ReplayedStep<'a> {
     pub turn: Option<ReplayedTurn>,
     /// Differences from the required step.
     pub faults: Vec<Fault>,
+    /// The motion of the tool, as it was judged.
+    pub tool: StepTool,
 }
 
 /// An iterator that checks recorded steps, one after the other.
@@ -356,7 +360,20 @@ impl<'a> Iterator for Replay<'a> {
             let (number, cycle, tip) = (step.number, step.cycle, task.arm.tip_at(to));
             GripperEvent { step: number, cycle, object, time: (times[1] + turning + lowering).min(times[2]), tip, pose }
         });
+        let holding = |object: usize| task.objects[object].holding;
+        let tool = StepTool {
+            times,
+            raising: overlaps.raising,
+            lowering: overlaps.lowering,
+            depth,
+            stays_lowered: handled.is_none(),
+            carried: carried.map(holding),
+            picked: picked.map(holding),
+            turn_before: overlaps.turn_before,
+            turn: recorded.turn,
+        };
         Some(ReplayedStep {
+            tool,
             step,
             recorded,
             scene,

@@ -1,0 +1,41 @@
+//! The distance of a recorded motion from a plan, as data.
+
+use super::motion::{MomentFinding, moment};
+use cplan_core::model::Arm;
+use cplan_handling::Recording;
+use cplan_motion::recorded::{FarthestPlace, farthest_from_plan};
+use serde::Serialize;
+
+/// The greatest distances of a recorded motion from the nearest place of a plan. Times are not compared.
+#[derive(Debug, Clone, Serialize)]
+pub struct PlanFinding {
+    /// The place farthest from the plan in joint space.
+    pub joints: FarthestFinding,
+    /// The place at which the tip is farthest from the path of the planned tip.
+    pub tip: FarthestFinding,
+}
+
+/// A place of a motion, and its distance from a plan.
+#[derive(Debug, Clone, Serialize)]
+pub struct FarthestFinding {
+    /// Distance from the nearest place of the plan: Euclidean in joint space (radians and metres are added as numbers), or
+    /// in metres for the tip.
+    pub distance: f64,
+    /// The place.
+    #[serde(flatten)]
+    pub moment: MomentFinding,
+}
+
+impl PlanFinding {
+    /// Compares a recorded motion with a plan.
+    #[must_use]
+    pub fn new(arm: &Arm, recording: &Recording, plan: &Recording) -> Self {
+        let is_timed = recording.times().is_some();
+        let finding = |place: FarthestPlace| FarthestFinding {
+            distance: place.distance,
+            moment: moment(&place.moment, is_timed),
+        };
+        let [joints, tip] = farthest_from_plan(arm, recording, plan).map(finding);
+        Self { joints, tip }
+    }
+}
