@@ -93,7 +93,9 @@ mod tests {
     fn legs_that_turn_back_are_followed_to_the_end() {
         let path = [[0.0, 0.0], [1.0, 100.0], [1.6, 60.0], [5.0, 60.0]];
         assert!(is_followed(&path, &path, Some(4.0)));
-        assert!(is_followed(&[path[0], [0.99, 99.0], [1.01, 99.3], path[2], path[3]], &path, Some(4.0)));
+        assert!(is_followed(&[path[0], [0.98, 98.0], [1.03, 98.0], path[2], path[3]], &path, Some(4.0)));
+        // It joins the second leg only at its end.
+        assert!(!is_followed(&[path[0], [0.99, 99.0], [1.01, 99.3], path[2], path[3]], &path, Some(4.0)));
         for short in [&path[..2], &path[..3], &[path[0], [0.5, 50.0], path[2], path[3]]] {
             assert!(!is_followed(short, &path, Some(4.0)), "{short:?}");
         }
