@@ -79,7 +79,7 @@ pub(super) fn extents(path: &Path, pieces: &[Piece], is_rounded: impl Fn(usize) 
     extents
 }
 
-/// Returns the share of a piece at which it leaves or joins the path, between two shares of which one is on the path.
+/// Returns the share of a piece at which it leaves or joins the path. It lies between two shares; one is on the path.
 fn last_on_path(q: &[Configuration], piece: &Piece, [from, to]: [f64; 2], [was, is]: [Position; 2]) -> f64 {
     let (mut on, mut off) = if was.off > is.off { (to, from) } else { (from, to) };
     for _ in 0..PLACE_HALVINGS {

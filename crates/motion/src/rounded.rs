@@ -32,7 +32,7 @@ const SPACE_GROWTH: f64 = 1.5;
 /// Greatest space between control points, as a share of their leg.
 const MAX_SPACE_SHARE: f64 = 1.0 / 8.0;
 
-/// Share of a space between control points below which the next one is left out.
+/// Smallest space between control points, as a share of the usual one.
 const MIN_GAP_SHARE: f64 = 0.5;
 
 /// Number of motions that are tried, each with reduced distances at some corners.
@@ -135,7 +135,7 @@ impl<'a> RoundedPath<'a> {
         Spline::of_curve(&points)
     }
 
-    /// Returns the fastest motion that is found along the curve. `None` if there is none.
+    /// Returns the fastest motion that is found along the curve; `None` if none is found.
     fn driven(&self, limits: &Limits, period: f64) -> Option<Trajectory> {
         let mut used = *limits;
         for _ in 0..MAX_TORQUE_ROUNDS {
@@ -201,8 +201,7 @@ fn spaced(length: f64, distances: [f64; 2]) -> Vec<f64> {
     };
     let mut places = from_end(first, split);
     let mut back = from_end(last, length - split);
-    // Both rows meet at any distance. The last place of one of them is left out if they nearly meet, unless it is needed
-    // beside a corner.
+    // Both rows meet at any distance. If they nearly meet, one of them loses its last place, unless a corner needs it.
     let gap = length - back.last().copied().unwrap_or(0.0) - places.last().copied().unwrap_or(0.0);
     let longer = if places.len() > back.len() { &mut places } else { &mut back };
     if let [.., before, after] = longer[..]

@@ -92,7 +92,7 @@ pub(super) struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
-    /// Returns no candidates for a step, because none are known.
+    /// Returns an empty list for a step with unknown candidates.
     fn unknown(step: &'a Step) -> Self {
         Self { step, ways: Vec::new(), all: false, has_every_ik_solution: false }
     }

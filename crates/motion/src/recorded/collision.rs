@@ -90,7 +90,7 @@ pub enum CollisionCheck {
         free_until: f64,
         /// The least signed distance that was seen anywhere on the motion.
         deepest: Encounter,
-        /// Whether the motion also touches an obstacle.
+        /// Statement about contact with the obstacle.
         touch: Touch,
     },
     /// Undecided: this is the first moment at which the distance is too close to the clearance to decide, or at which

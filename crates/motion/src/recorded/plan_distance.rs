@@ -2,8 +2,8 @@
 //!
 //! The distance of a place of the recorded motion is that from the nearest place of the planned one. Times are not compared,
 //! since a controller may begin later, or move more slowly. The planned motion is replaced by chords that are near enough.
-//! The distance of the recorded motion changes no faster than the motion itself, which bounds it between the places that
-//! are looked at.
+//! The distance of the recorded motion changes no faster than the motion itself, which bounds it between the places of
+//! the search.
 
 use super::Moment;
 use cplan_core::model::Arm;
@@ -29,7 +29,7 @@ const TOLERANCE: f64 = 1e-5;
 /// Greatest number of halvings of a piece of the recorded motion.
 const MAX_HALVINGS: u32 = 20;
 
-/// Number of chords whose bounding box is looked at first.
+/// Number of chords that share a bounding box.
 const CHORDS_PER_BOX: usize = 32;
 
 /// The place of a recorded motion that is farthest from a planned one.

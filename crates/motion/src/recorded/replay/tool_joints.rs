@@ -33,9 +33,9 @@ pub struct StepTool {
     pub(super) depth: Option<f64>,
     /// True if the tool stays lowered after the step.
     pub(super) stays_lowered: bool,
-    /// How the object is held that is carried during the motion.
+    /// Grip of the object that is carried during the motion.
     pub(super) carried: Option<Holding>,
-    /// How the object is held that is picked at the end of the motion.
+    /// Grip of the object that is picked at the end of the motion.
     pub(super) picked: Option<Holding>,
     pub(super) turn_before: Option<RecordedTurn>,
     pub(super) turn: Option<RecordedTurn>,
