@@ -208,9 +208,9 @@ impl Drawn {
             };
         }
         // The oracle knows only obstacles of the world; `own_bodies` attacks the robot's own body.
-        let _ = writeln!(text, "[robot]\nown_body = false");
+        text += "robot.own_body = false\n";
         if (self.at, self.angle) != ([0.0; 2], 0.0) {
-            let _ = writeln!(text, "at = {:?}\nangle = {:?}", self.at, self.angle);
+            let _ = writeln!(text, "robot.at = {:?}\nrobot.angle = {:?}", self.at, self.angle);
         }
         for Obstacle { outline, at, angle, height } in &self.obstacles {
             let _ = writeln!(text, "[[obstacle]]\nat = {at:?}\nangle = {angle:?}");
