@@ -96,7 +96,7 @@ impl<'a> ToolMotion<'a> {
                     let turned = |(part, own): (usize, &Part)| {
                         let is_turned = joint.bodies.contains(&own.body) && !is_round(&own.shape, axis);
                         let (shape, pieces) = (own.shape.clone(), values.pieces());
-                        is_turned.then(|| Turn { part, shape, axis, pieces, rest: joint.value, sign })
+                        is_turned.then_some(Turn { part, shape, axis, pieces, rest: joint.value, sign })
                     };
                     turns.extend(scene.own_parts(1).iter().enumerate().filter_map(turned));
                 }
