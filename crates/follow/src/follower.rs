@@ -65,6 +65,7 @@ pub(crate) struct Follower<'a> {
 }
 
 /// The result of one attempt.
+#[expect(clippy::large_enum_variant, reason = "one exists at a time")]
 enum Attempt {
     Found(Found),
     /// A motion that is not proven to be within the tolerance.

@@ -47,7 +47,7 @@ plan are reported, in joint space and of the tip. Times are not compared.
 Examples:
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv \\
-    --plan plan.json
+    --plan planned.csv
   cplan verify robots/planar_2r_continuous.urdf workspaces/wrap_around.toml \\
     turns.csv --unwrap --clearance 0.01
   cplan verify robots/scara.urdf workspaces/tasks/kitting_cell.toml kit.json

@@ -57,6 +57,7 @@ fn every_command_has_examples_and_they_run() {
         copy(&root.join(folder), &place.path(folder));
     }
     place.write("recorded.csv", "time,shoulder,elbow\n0,-0.9,0.4\n1,-1.0,0.5\n");
+    place.write("planned.csv", "time,shoulder,elbow\n0,-0.9,0.4\n1,-1.0,0.5\n");
     place.write("turns.csv", "time,shoulder,elbow\n0,0.0,3.1\n1,0.0,-3.1\n");
     place.write("problems.jsonl", r#"{"urdf": "robots/planar_2r.urdf", "world": "workspaces/shelf.toml"}"#);
     let mut helps = vec![("main".to_owned(), place.run(&["--help"], "").stdout)];

@@ -38,7 +38,7 @@ fn paths_that_lead_through_walls_are_searched_again() {
     place.write("crane.urdf", format!("<robot name=\"crane\"><link name=\"base\"/>{links}{joints}</robot>"));
     place.write(
         "w.toml",
-        "clearance = 1.0\n[start]\njoints = [-0.836678, -785.563]\n[goal]\njoints = [0.983404, -590.242]\n[[obstacle]]\n\
+        "clearance = 1.0\nrobot.own_body = false\n[start]\njoints = [-0.836678, -785.563]\n[goal]\njoints = [0.983404, -590.242]\n[[obstacle]]\n\
          polyline = [[513, -13], [987, 889], [-18, 717], [-729, 1447], [-876, 438], [-1790, -13], [-876, -464], [-729, -1473], \
          [-18, -743], [987, -916], [513, -13]]\n",
     );

@@ -123,9 +123,7 @@ fn parts_are_stacked_and_taken_off_again() {
         let taken = format!("{upper}{first}[[step]]\npick = \"part\"\n[[step]]\nplace = {{ at = [0.1, 0.4] }}\n");
         let lift = if hand == Hand::Stroke { 0.1 } else { 0.0 };
         let done = plan_and_check(&place, &Cell { lift, ..Cell::new(hand) }.world(&taken));
-        // If top and bottom just touch, neither is proven.
-        let code = if hand == Hand::Stroke { 3 } else { 4 };
-        assert_eq!(done.code, code, "{hand:?}: {}{}", done.stdout, done.stderr);
+        assert_eq!(done.code, 3, "{hand:?}: {}{}", done.stdout, done.stderr);
         assert!(done.stdout.contains("hits obstacle \"lid\""), "{}", done.stdout);
     }
 }
