@@ -37,7 +37,7 @@ fn residual(p: &[f64]) -> f64 {
 fn printed_over_relaxation_diverges_and_the_corrected_one_is_harmonic() {
     let w = 2.0 / (1.0 + (PI / N as f64).sin());
     let printed = swept(200, |p, c| p[c] - w * (sum(p, c) - 4.0 * p[c]) / 4.0);
-    assert!(printed.iter().any(|value| !(value.abs() < 1e9)), "{:?}", &printed[N..2 * N]);
+    assert!(printed.iter().any(|value| value.is_nan() || value.abs() >= 1e9), "{:?}", &printed[N..2 * N]);
     let corrected = swept(200, |p, c| p[c] + w * (sum(p, c) - 4.0 * p[c]) / 4.0);
     assert!(residual(&corrected) < 1e-12);
     // Line 18 of tables 10, 11, 14 and 15, with a preference of 0. A factor of 0.5 lets it converge at all.

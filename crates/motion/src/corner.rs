@@ -24,12 +24,6 @@ use cplan_core::space::Configuration;
 /// Number of spans into which a blend is cut initially.
 const INITIAL_SPANS: usize = 8;
 
-/// Number of spans into which a blend that turns little is cut initially. Curves in many pieces have many such blends.
-const INITIAL_FLAT_SPANS: usize = 2;
-
-/// Greatest difference between the unit directions of the legs of a blend that turns little.
-const MAX_FLAT_TURN: f64 = 0.1;
-
 /// Number of spans of a straight stretch that may begin or end at rest.
 const INITIAL_LINE_SPANS: usize = 32;
 
@@ -91,16 +85,14 @@ impl Corner {
         let limits = &limits.scaled(share);
         let directions = [blend.corner - blend.from, blend.to - blend.corner].map(|leg| leg / leg[0].hypot(leg[1]));
         let (radius, fastest) = (blend.radius(), f64::INFINITY);
-        let is_flat = (directions[1] - directions[0]).norm() <= MAX_FLAT_TURN && limits.wrist.is_none();
-        let spans = if is_flat { INITIAL_FLAT_SPANS } else { INITIAL_SPANS };
-        let corner = Self { blend, radius, directions, spans, fastest, share, tip_share: 1.0, wrist };
+        let corner = Self { blend, radius, directions, spans: INITIAL_SPANS, fastest, share, tip_share: 1.0, wrist };
         let bend = corner.second_derivative();
         let turning = (0..2).map(|k| limits.acceleration[k] / bend[k].abs()).fold(f64::INFINITY, f64::min);
         let turning = turning.min(limits.wrist_along(corner.wrist_bend())[1]).sqrt();
         let fastest = directions.map(|d| limits.speed_along(d)).into_iter().fold(turning, f64::min);
         let fastest =
             corner.wrist_slopes().into_iter().map(|slope| limits.wrist_along(slope)[0]).fold(fastest, f64::min);
-        (corner.length() / fastest >= shortest(spans)).then_some(Self { fastest, ..corner })
+        (corner.length() / fastest >= shortest(INITIAL_SPANS)).then_some(Self { fastest, ..corner })
     }
 
     /// Prepares a straight stretch. Returns `None` if it is too small.

@@ -53,6 +53,7 @@ impl Printed {
         let mut p: Vec<f64> = domain.kinds().iter().map(|&kind| f64::from(u8::from(kind == Cell::Obstacle))).collect();
         let mut vector = vec![[0.0; 2]; p.len()];
         let mut sweeps = [0; 2];
+        #[expect(clippy::needless_range_loop, reason = "the stages of the printed algorithm")]
         for stage in 0..2 {
             if stage == 1 {
                 for c in (0..p.len()).filter(|&c| domain.kinds()[c] == Cell::Free) {

@@ -226,10 +226,10 @@ fn places_beside_the_reach_are_followed_or_named_with_a_tolerance_that_works() {
     };
     assert_eq!(follow(1800.008, "").code, 0);
     assert_eq!(follow(1800.011, "").code, 3);
-    let unknown = follow(1800.009_999_9, "");
+    let unknown = follow(1_800.009_999_9, "");
     assert_eq!(unknown.code, 4, "{}", unknown.stdout);
     let (before, after) = unknown.stdout.split_once("; with `").expect("advice");
     assert!(before.contains("800.0 mm of the line (line 3 of the file) is 0.010 mm out of reach"), "{before}");
     let (advice, _) = after.split_once('`').expect("advice");
-    assert_eq!(follow(1800.009_999_9, advice).code, 0, "{advice}");
+    assert_eq!(follow(1_800.009_999_9, advice).code, 0, "{advice}");
 }
