@@ -74,7 +74,7 @@ fn the_demo_of_a_line_follows_it() {
     let place = Place::new();
     let done = place.run(&["demo"], "--kind follow");
     assert_eq!((done.code, done.stderr.as_str()), (0, ""));
-    assert!(done.stdout.contains("found and certified: at most 0.009 mm from the line"), "{}", done.stdout);
+    assert!(done.stdout.contains("found and certified: at most 0.008 mm from the line"), "{}", done.stdout);
     assert!(place.read("plan.html").contains("The tip follows the line within"));
     let files =
         ["robots/planar_2r.urdf", "workspaces/follow/engraving.toml", "workspaces/follow/plate.gcode"].map(shipped);
