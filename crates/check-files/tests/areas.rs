@@ -27,7 +27,7 @@ fn judge(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
 }
 
 fn world(areas: &str) -> String {
-    format!("start.joints = [-1, 0]\ngoal.areas = [{areas}]\n")
+    format!("robot.own_body = false\nstart.joints = [-1, 0]\ngoal.areas = [{areas}]\n")
 }
 
 fn motion(last: &str) -> String {

@@ -423,7 +423,7 @@ fn a_mesh_is_its_hull() {
     let sizes = [[1.0, 0.125, 0.125], [0.75, 0.125, 0.25]];
     let boxes = sizes.map(|[x, y, z]: [f32; 3]| format!("<box size=\"{x} {y} {z}\"/>"));
     std::fs::create_dir_all(place.0.join("package/meshes")).unwrap();
-    let world = "[[obstacle]]\npolygon = [[0.7, 0.9], [1.2, 0.8], [1, 1.3]]\nheight = [-0.1, 0.15]\n[[obstacle]]\n\
+    let world = "robot.own_body = false\n[[obstacle]]\npolygon = [[0.7, 0.9], [1.2, 0.8], [1, 1.3]]\nheight = [-0.1, 0.15]\n[[obstacle]]\n\
                  circle = { center = [-0.9, -0.9], radius = 0.2 }\n[[obstacle]]\npolyline = [[0.5, -1.6], [0.3, -1.9]]\nheight = [0.1, 1]\n";
     let mut free = 0;
     let ends =

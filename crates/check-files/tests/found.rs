@@ -184,7 +184,7 @@ fn distances_are_exact_for_all_joint_types() {
         let world = |gap: f64| {
             let at = farthest + gap;
             format!(
-                "start.joints = [-1, -1]\ngoal.joints = [1, 1]\n[[obstacle]]\ncircle = {{ center = [0, 0], radius = 0.001 }}\nheight = [1, 2]\n\
+                "robot.own_body = false\nstart.joints = [-1, -1]\ngoal.joints = [1, 1]\n[[obstacle]]\ncircle = {{ center = [0, 0], radius = 0.001 }}\nheight = [1, 2]\n\
                      [[obstacle]]\npolyline = [[{at}, -5], [{at}, 5]]\n"
             )
         };

@@ -238,3 +238,18 @@ fn links_that_the_robot_does_not_have_are_refused() {
         assert!(done.stderr.contains("world.toml: line 3"), "{}", done.stderr);
     }
 }
+
+/// Checks a link of a box and of a bar that replaces an unreadable mesh. The base always meets the bar, which begins at
+/// the axis, but not the box, although both have the number 0.
+#[test]
+fn a_bar_is_no_layer_of_a_box() {
+    let base = r#"<link name="base"> <collision> <origin xyz="0.15 0 0.1"/> <geometry> <box size="0.4 0.1 0.1"/> </geometry> </collision> </link>"#;
+    let mesh = r#"<collision> <geometry> <mesh filename="missing.stl"/> </geometry> </collision>"#;
+    let link = r#"<link name="L1"> <collision> <origin xyz="0.2 0 0"/> <geometry> <box size="0.4 0.04 0.04"/>"#;
+    let urdf = on_a_base(base, 0.01, 0.05);
+    let urdf = urdf.replace(link, &link.replace("0.2 0 0", "0.3 0 0").replace("0.4 0.04", "0.1 0.04"));
+    let urdf = urdf.replace("</link>\n<joint name=\"j2\"", &format!("{mesh} </link>\n<joint name=\"j2\""));
+    assert!(urdf.contains("missing.stl") && urdf.contains("0.3 0 0"));
+    let (_, done) = swing(&urdf, "[robot]\nbar = 0.01");
+    assert_eq!(done.code, 3, "{}{}", done.stdout, done.stderr);
+}

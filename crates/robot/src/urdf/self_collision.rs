@@ -159,7 +159,12 @@ fn uncut(arm: &Arm) -> (Arm, [Layers; 2], Layers) {
     let parts_of = whole.links.each_mut().map(|link| {
         let mut layers = Layers::new();
         for (number, part) in std::mem::take(&mut link.parts).into_iter().enumerate() {
-            let is_same = |known: &&mut Part| (&known.body, known.number) == (&part.body, part.number);
+            // A bar has the number of the link's first shape, but is round. Layers of meshes are polygons.
+            let is_polygon = |shape: &Convex| shape.radius() == 0.0;
+            let is_same = |known: &&mut Part| {
+                let is_named_alike = (&known.body, known.number) == (&part.body, part.number);
+                is_named_alike && is_polygon(&known.shape) && is_polygon(&part.shape)
+            };
             match link.parts.last_mut().filter(|known| is_same(known)) {
                 Some(known) => {
                     known.shape = joined(&known.shape, &part.shape);
