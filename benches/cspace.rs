@@ -18,7 +18,7 @@ fn slices(c: &mut Criterion) {
     c.bench_function("one row of intervals, 20 obstacles", |b| {
         b.iter(|| {
             step = (step + 37) % 1024;
-            slices.slice(black_box(f64::from(step) * 0.006 - 3.0), 0.0, &mut slice);
+            slice.compute(&slices, black_box(f64::from(step) * 0.006 - 3.0), 0.0);
             slice.merged.len()
         });
     });

@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // that collide.
     let start = loaded.problem.start();
     let mut slice = cplan::cspace::Slice::default();
-    Contacts::new(scene).slice(start[0], 0.0, &mut slice);
+    slice.compute(&Contacts::new(scene), start[0], 0.0);
     println!("with {} at {:.4}, {} must stay out of", scene.arm().joints[0].name, start[0], scene.arm().joints[1].name);
     for interval in &slice.merged {
         println!("  [{:8.4}, {:8.4}] {}", interval[0], interval[1], scene.arm().joints[1].unit());

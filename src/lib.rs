@@ -32,7 +32,7 @@
 //!
 //! Long loops can be stopped from outside, see [`interrupt`].
 //!
-//! Modules import downwards only; [`check`] imports geometry, space and model alone, so that it judges planners and
+//! Crates import downwards only. The judge imports geometry and the model alone, so that it judges planners and
 //! searches independently. A test checks this.
 //!
 //! # Conventions
@@ -45,7 +45,6 @@
 #[cfg(feature = "program")]
 pub mod cli;
 pub use cplan_compare as report;
-pub use cplan_core::cspace;
 pub use cplan_explore as explore;
 pub use cplan_geometry as geometry;
 pub use cplan_interrupt as interrupt;
@@ -56,6 +55,7 @@ pub use cplan_motion as motion;
 use cplan_options as grammar;
 #[cfg(feature = "program")]
 use cplan_parallel as parallel;
+pub use cplan_planners::cspace;
 pub use cplan_proofs as search;
 #[cfg(feature = "study")]
 pub use cplan_study as study;
@@ -74,7 +74,6 @@ pub use space::Configuration;
 /// Data of a problem: the arm, its workspace, and the scene of both; also tasks, the robot's other joints, masses and
 /// torques, and a sensor.
 pub mod model {
-    pub use cplan_core::model::*;
     pub use cplan_dynamics::{Torques, TorquesAt, keep_efforts};
     pub use cplan_handling::{
         Action, Arch, BlendsClaim, Claims, Driver, Drives, EventClaim, FollowedLine, HeldEffect, HeldJoint, HeldMotion,
@@ -83,22 +82,23 @@ pub mod model {
         Step, StepClaims, Stop, Stroke, Task, TaskClaims, TaskError, TimedScene, TimedWorkspace, ToolAngle, ToolJoint,
         ToolValues, Wrist, WristGuide, WristJoint,
     };
+    pub use cplan_model::*;
     pub use cplan_robot::AssumedLimits;
     pub use cplan_world::{Mount, Sensor};
 }
 
 /// Configurations and motions, and the topology of the configuration space.
 pub mod space {
-    pub use cplan_core::space::*;
     pub use cplan_handling::{
         Derivative, INTERPOLATION, Interpolation, Piece, Recording, RecordingError, SMOOTH_INTERPOLATION, State,
     };
+    pub use cplan_model::space::*;
     pub use cplan_motion::{BLEND_TOLERANCE, Blend, BlendedPath, Stretch};
 }
 
 /// Independent checks: certifies paths, and checks proofs, bounds and recorded motions.
 pub mod check {
-    pub use cplan_core::check::*;
+    pub use cplan_judge::*;
     pub use cplan_motion::recorded::*;
     pub use cplan_motion::{CertifiedCurve, Place, Rounding, Span, blend};
 }
@@ -131,14 +131,13 @@ pub mod engine {
 
 /// Planners: pure functions that propose a path through a space for a query.
 pub mod planner {
-    pub use cplan_core::planner::*;
     pub use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner, RELATIVE_TOLERANCE, field_domain};
+    pub use cplan_planners::planner::*;
     pub use cplan_roadmaps::{Prm, PrmMap, Triangles, TrianglesMap, Voronoi, VoronoiMap};
 }
 
 /// Waves over the cells of a grid, and potential fields on a grid.
 pub mod field {
-    pub use cplan_core::waves::{FreeCells, Move, Neighborhood, StepLabels, search};
     pub use cplan_fields::*;
     pub use cplan_harmonic::{
         Component, Field, Guide, Lattice, LatticePoint, LocalMaximum, Place, Potential, PotentialGuide, Room,
@@ -146,6 +145,7 @@ pub mod field {
         harmonic_path, residual,
     };
     pub use cplan_multigrid as multigrid;
+    pub use cplan_planners::waves::{FreeCells, Move, Neighborhood, StepLabels, search};
 }
 
 /// This compiles and runs the README's example as a documentation test.

@@ -40,12 +40,13 @@ pub fn slices(py: Python<'_>, arm: &Arm, world: &World, q1: Vec<f64>) -> PyResul
     let found = interruptible(py, |_| {
         let scene = arm.among(world)?.scene;
         let (contacts, grow) = (Contacts::new(&scene), scene.workspace().clearance);
-        let (bands, domain) = (contacts.bands(grow), scene.arm().topology().ranges.map(|range| range.domain()));
+        let (bands, domain) =
+            (Slice::bands(&contacts, grow), scene.arm().topology().ranges.map(|range| range.domain()));
         let mut slice = Slice::default();
         let of = |q1: f64| match bands.forbids(q1) {
             true => vec![<[f64; 2]>::from(domain[1])],
             false => {
-                contacts.slice(q1, grow, &mut slice);
+                slice.compute(&contacts, q1, grow);
                 slice.merged.clone()
             }
         };

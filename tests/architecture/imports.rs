@@ -1,5 +1,5 @@
-//! Checks that the checker of certificates shares no code with the planner. Cargo checks all other boundaries: a crate
-//! can use only the dependencies in its manifest.
+//! Checks that the checker of certificates shares no code with the planner, and that the judge sees no planner. Cargo
+//! checks all other boundaries: a crate can use only the dependencies in its manifest.
 
 use std::path::Path;
 
@@ -23,4 +23,10 @@ fn the_checker_shares_no_crate_with_the_planner() {
     assert_eq!(workspace_dependencies("crates/check-files", "dependencies"), ["cplan-check", "cplan-check-line"]);
     // Its tests share only the choice of random cases.
     assert_eq!(workspace_dependencies("crates/check-files", "dev-dependencies"), ["cplan-cases"]);
+}
+
+#[test]
+fn the_judge_sees_only_shapes_and_joints() {
+    assert_eq!(workspace_dependencies("crates/judge", "dependencies"), ["cplan-geometry", "cplan-model"]);
+    assert_eq!(workspace_dependencies("crates/judge", "dev-dependencies"), [""; 0]);
 }

@@ -159,10 +159,10 @@ proptest! {
     fn slices_and_bands_agree_with_clearances(scene in any_scene(), s in 0.0..1.0f64, grow in prop_oneof![Just(0.0), 0.0..0.2f64]) {
         let slices = Contacts::new(&scene);
         let [first, second] = scene.arm().topology().ranges;
-        let bands = slices.bands(grow);
+        let bands = Slice::bands(&slices, grow);
         let mut slice = Slice::default();
         let q1 = at(first, s);
-        slices.slice(q1, grow, &mut slice);
+        slice.compute(&slices, q1, grow);
         for k in 0..=200 {
             let t = f64::from(k) / 200.0;
             let q = Configuration::new(q1, at(second, t));

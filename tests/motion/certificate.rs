@@ -2,7 +2,7 @@
 
 use crate::common::{all_kinds, clutter, disc, q, scene};
 use crate::curve;
-use cplan::check::{CollisionCheck, blend, certify, check_collision, limit_violations};
+use cplan::check::{CollisionCheck, blend, certify, certify_at, check_collision, limit_violations};
 use cplan::model::Scene;
 use cplan::motion::{Limits, time};
 use cplan::space::{Configuration, Path, Recording};
@@ -37,7 +37,7 @@ proptest! {
         let place = |k: usize, t: f64| domain[k].0 + t * (domain[k].1 - domain[k].0);
         let near = |k: usize, t: f64| place(k, corners[0][k] + reach * (t - corners[0][k]));
         let waypoints: Vec<_> = corners.iter().map(|c| q(near(0, c[0]), near(1, c[1]))).collect();
-        let Ok(path) = certify(&scene, Path::new(waypoints.clone()), asked) else { return Ok(()) };
+        let Ok(path) = certify_at(&scene, Path::new(waypoints.clone()), asked) else { return Ok(()) };
         let curve = blend(&scene, &path, f64::INFINITY, asked);
         let radii = curve.curve().radii();
         prop_assert!(radii[1..radii.len() - 1].iter().all(|radius| *radius > 0.0), "room for some radius: {radii:?}");
@@ -72,7 +72,7 @@ fn the_clearance_bounds_the_radius() {
     gantry.links[1] = crate::common::link("tool", vec![disc(cplan::geometry::Point::zeros(), 0.1)]);
     let post = disc(cplan::geometry::Point::new(0.8, 0.2), 0.05);
     let scene = scene(gantry, vec![post]);
-    let path = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.0, 0.0), q(1.0, 1.0)]), 0.0).unwrap();
+    let path = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.0, 0.0), q(1.0, 1.0)])).unwrap();
     // The segments pass the post at 0.2 - 0.15 = 0.05. The middle of a blend of radius r passes it at (0.2 - r / 4)
     // sqrt 2 - 0.15, along the diagonal.
     let curve = blend(&scene, &path, f64::INFINITY, 0.0);

@@ -37,7 +37,7 @@ fn empty(velocity: [f64; 2], acceleration: [f64; 2]) -> Scene {
 
 fn certified(scene: &Scene, waypoints: &[[f64; 2]]) -> CertifiedPath {
     let path = Path::new(waypoints.iter().map(|&[a, b]| q(a, b)).collect());
-    certify(scene, path, 0.0).expect("an empty room")
+    certify(scene, path).expect("an empty room")
 }
 
 fn curve(scene: &Scene, waypoints: &[[f64; 2]], radius: f64) -> CertifiedCurve {

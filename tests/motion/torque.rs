@@ -237,7 +237,7 @@ fn motions_with_corners_keep_the_efforts_as_they_are_played() {
         let dynamics = arm.dynamics.expect("drawn");
         let corners: Vec<Configuration> = (0..4).map(|_| random_configuration(&mut dice, &arm).into()).collect();
         let scene = scene(arm.clone(), vec![]);
-        let path = certify(&scene, Path::new(corners), 0.0).expect("nothing is in the way");
+        let path = certify(&scene, Path::new(corners)).expect("nothing is in the way");
         let optimize = if n % 3 == 2 { Objective::Time } else { Objective::Length };
         let drive = Drive { optimize, ..Drive::default() };
         let timed = drive.along(&scene, &path, 1.0).expect("the efforts hold it");

@@ -65,7 +65,7 @@ fn scene(obstacle: bool) -> Scene {
 
 fn certified(scene: &Scene, waypoints: &[[f64; 2]]) -> CertifiedPath {
     let path = Path::new(waypoints.iter().map(|&[a, b]| Configuration::new(a, b)).collect());
-    certify(scene, path, 0.0).expect("nothing is near")
+    certify(scene, path).expect("nothing is near")
 }
 
 fn driven(waypoints: &[[f64; 2]]) -> TimedMotion {

@@ -3,7 +3,9 @@
 use crate::common::{
     Benchmark, all_kinds, arm, benchmark, clutter, disc, joint, link, q, recheck, rectangle, rr, scene, wall,
 };
-use cplan::check::{CertifiedPath, CollisionBox, Deviation, Posture, ProofError, Rejection, StraightMotions, certify};
+use cplan::check::{
+    CertifiedPath, CollisionBox, Deviation, Posture, ProofError, Rejection, StraightMotions, certify, certify_at,
+};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{JointType, Scene};
 use cplan::search::{Connectivity, Occupancy, connectivity, explore};
@@ -43,7 +45,7 @@ proptest! {
         prop_assert!(!keeps(0.1) || seen >= 0.1);
         prop_assert!(keeps(0.1) || seen < 0.1 + 8.0 / 4000.0);
         let is_free = keeps(0.0);
-        match certify(&scene, path, 0.0) {
+        match certify(&scene, path) {
             Ok(certified) => {
                 prop_assert!(is_free && certified.clearance() > 0.0);
                 prop_assert!(certified.clearance() <= seen + 1e-12);
@@ -107,7 +109,7 @@ fn a_touching_motion_is_refused() {
     let arm = rr([JointRange::Circle, JointRange::Circle]);
     let tip = Point::new(1.8, 0.05);
     let scene = scene(arm, vec![wall(tip, Point::new(3.0, 0.05))]);
-    let verdict = certify(&scene, Path::new(vec![q(-0.5, 0.0), q(0.0, 0.0)]), 0.0);
+    let verdict = certify(&scene, Path::new(vec![q(-0.5, 0.0), q(0.0, 0.0)]));
     assert!(matches!(verdict, Err(Rejection::TooClose(_))), "{verdict:?}");
 }
 
@@ -115,7 +117,7 @@ fn a_touching_motion_is_refused() {
 fn thin_walls_between_samples_are_found() {
     // A wall that only the motion meets, because it is very thin and far from both ends of the segment.
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![disc(Point::new(1.2, 1.2), 1e-9)]);
-    let verdict = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.5, 0.0)]), 0.0);
+    let verdict = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.5, 0.0)]));
     assert!(matches!(verdict, Err(Rejection::TooClose(_))), "{verdict:?}");
 }
 
@@ -126,18 +128,18 @@ fn requested_clearance_is_certified_or_refused() {
     // At q = 0, the tip is 0.1 m from the wall, and later its corners are slightly nearer.
     let reach = (1.8_f64 * 1.8 + 0.05 * 0.05).sqrt();
     let truth = 1.9 - reach;
-    let certified = certify(&scene, path(), 0.0985).unwrap();
+    let certified = certify_at(&scene, path(), 0.0985).unwrap();
     assert!(certified.clearance() >= 0.0985 && certified.clearance() <= truth);
-    assert!(matches!(certify(&scene, path(), truth + 1e-6), Err(Rejection::TooClose(_))));
+    assert!(matches!(certify_at(&scene, path(), truth + 1e-6), Err(Rejection::TooClose(_))));
 }
 
 #[test]
 fn a_path_outside_the_limits_is_refused() {
     let range = JointRange::Interval { lower: -1.0, upper: 1.0 };
     let scene = scene(rr([range, range]), vec![]);
-    let verdict = certify(&scene, Path::new(vec![q(0.0, 0.0), q(0.5, 1.5)]), 0.0);
+    let verdict = certify(&scene, Path::new(vec![q(0.0, 0.0), q(0.5, 1.5)]));
     assert_eq!(verdict.unwrap_err(), Rejection::OutOfLimits { waypoint: 1, joint: 1 });
-    let free: CertifiedPath = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.0, 1.0)]), 0.0).unwrap();
+    let free: CertifiedPath = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.0, 1.0)])).unwrap();
     assert_eq!(free.clearance(), f64::INFINITY);
     assert!(free.nearest().is_none());
 }
@@ -152,7 +154,7 @@ fn benchmark_problems_are_decided() {
         let path = channel.path();
         assert_eq!(path.start(), start);
         assert!(scene.arm().topology().distance(path.goal(), goal) < 1e-12);
-        certify(&scene, path, 0.0).expect("a chain of free boxes is free");
+        certify(&scene, path).expect("a chain of free boxes is free");
     }
     for which in [Benchmark::Inf, Benchmark::T] {
         let (scene, start, goal) = benchmark(which);

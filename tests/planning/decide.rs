@@ -36,7 +36,7 @@ fn a_path_among_20_000_pieces_is_found_and_certified() {
     let problem = ring(20_000, 3.0);
     let verdict = decide(&problem, 20_000);
     let Outcome::Found(path) = verdict else { panic!("an arm that folds gets there: {verdict:?}") };
-    assert_eq!(certify(problem.scene(), path.path().clone(), 0.0).expect("free").path(), path.path());
+    assert_eq!(certify(problem.scene(), path.path().clone()).expect("free").path(), path.path());
     let certified_ends = [path.path().start(), path.path().goal()];
     assert!(
         certified_ends

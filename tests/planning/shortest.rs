@@ -30,7 +30,7 @@ fn shortest_paths_in_random_worlds_are_within_a_ten_thousandth_of_the_optimum() 
                 continue;
             };
             found += 1;
-            let again = certify(problem.scene(), path.path().clone(), clearance);
+            let again = certify(problem.scene(), path.path().clone());
             assert_eq!(again.unwrap_or_else(|why| panic!("{kind} {seed}: {why:?}")).path(), path.path());
             let given = own.bound().expect("it is bounded");
             assert_eq!(given.upper, path.path().length(), "{kind} {seed}");

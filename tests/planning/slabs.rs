@@ -6,7 +6,7 @@ use crate::common::{
     recheck, rectangle, rr, scene, wall,
 };
 use cplan::Outcome;
-use cplan::check::{Cell, CertifiedPath, CheckedProof, certify};
+use cplan::check::{Cell, CertifiedPath, CheckedProof, certify, certify_at};
 use cplan::engine::{Method, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
@@ -37,7 +37,7 @@ fn check(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: f64) -
                     assert!(distance > 0.0 && distance >= clearance, "{distance} at {at:?}");
                 }
             }
-            let certified = certify(scene, path.clone(), clearance).unwrap_or_else(|why| panic!("{why:?}"));
+            let certified = certify_at(scene, path.clone(), clearance).unwrap_or_else(|why| panic!("{why:?}"));
             assert_eq!(certified.path(), &path);
             Some(true)
         }
@@ -277,7 +277,7 @@ fn short_paths_are_within_a_ten_thousandth_of_the_optimum() {
         let length = certified.path().length();
         // The published optima have four decimals.
         assert!(length > optimum - 1e-4 && length < optimum * 1.0001 + 1e-4, "{which:?}: {length}");
-        let again = certify(problem.scene(), certified.path().clone(), 0.0).expect("free");
+        let again = certify(problem.scene(), certified.path().clone()).expect("free");
         assert_eq!(again.path(), certified.path());
     }
 }

@@ -8,7 +8,7 @@
 use super::row::Row;
 use super::study::Study;
 use super::{Comparison, Family};
-use cplan_core::model::Status;
+use cplan_model::Status;
 
 /// Words of OMPL for the state of a planner, in the order of its `PlannerStatus`.
 const OMPL_STATUS_WORDS: [&str; 10] = [

@@ -3,9 +3,9 @@
 use super::best::Better;
 use super::row::Row;
 use super::table::{Align, Column, Emphasis, MAX_TABLE_WIDTH, PLAIN, Table, fixed, quoted};
-use cplan_core::model::Status;
-use cplan_core::planner::{PathKind, Size};
-use cplan_core::space::Configuration;
+use cplan_model::Status;
+use cplan_model::space::Configuration;
+use cplan_planners::planner::{PathKind, Size};
 use cplan_text::{percent, plain, round_down, wrapped};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -287,7 +287,7 @@ fn quotient(a: f64, b: f64) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::Family;
-    use cplan_core::planner::Note;
+    use cplan_planners::planner::Note;
 
     fn example() -> Comparison {
         let visibility = Row {

@@ -4,7 +4,7 @@ use super::best::Better;
 use super::comparison::Comparison;
 use super::recommendation::Purpose;
 use super::study::Study;
-use cplan_core::model::Status;
+use cplan_model::Status;
 use cplan_text::{counted, length_down, percent};
 
 /// Greatest difference of two values that count as equal, as a fraction of the values.

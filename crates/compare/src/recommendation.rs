@@ -3,7 +3,7 @@
 use super::best::Better;
 use super::comparison::Comparison;
 use super::row::Row;
-use cplan_core::model::Status;
+use cplan_model::Status;
 
 /// A purpose for which one planner is the best.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The result of one planner on one problem.
 
-use cplan_core::model::Status;
-use cplan_core::planner::{Note, PathKind, Size};
+use cplan_model::Status;
+use cplan_planners::planner::{Note, PathKind, Size};
 use cplan_solver::Family;
 
 /// Length and clearance of a planner's second path, which is of the other kind than the row's own.

@@ -4,7 +4,7 @@ use super::comparison::Comparison;
 use super::measure::Measure;
 use super::row::Row;
 use super::spread::Spread;
-use cplan_core::model::Status;
+use cplan_model::Status;
 
 /// Start-goal pairs that are drawn at random, instead of those of the world files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use super::row::Row;
 use super::study::{Refusal, Study};
 use super::table::{Align, Column, Emphasis, MAX_TABLE_WIDTH, PLAIN, Table, quoted};
 use super::words::words;
-use cplan_core::model::Status;
+use cplan_model::Status;
 use cplan_text::{plain, plain_line, wrapped};
 use serde_json::{Value, json};
 

@@ -5,8 +5,8 @@ use super::measure::Measure;
 use super::sign::sign_test;
 use super::spread::Spread;
 use super::study::Study;
-use cplan_core::model::Status;
-use cplan_core::planner::PathKind;
+use cplan_model::Status;
+use cplan_planners::planner::PathKind;
 use cplan_text::{counted, percent};
 
 /// Greatest p-value of the sign test with which a side is called better.

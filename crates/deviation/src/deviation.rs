@@ -15,9 +15,9 @@
 use crate::free_space::{FreeSpace, Part};
 use crate::kinematics::Kinematics;
 use crate::line::Line;
-use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Vector, perpendicular};
 use cplan_handling::{Derivative, Piece};
+use cplan_model::space::Configuration;
 use cplan_toolpath::Curve;
 
 /// Allowance for rounding, as a share of the lengths that occur.

@@ -1,8 +1,8 @@
 //! Bounds on the motion of the tip, and on the joint values that put the tip near a point.
 
-use cplan_core::model::{Arm, JointType, inverse};
-use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Vector, cross};
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, JointType, inverse};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Joint values are widened by this, radians or metres, for rounding in proofs.

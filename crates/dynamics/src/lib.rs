@@ -11,9 +11,9 @@
 //! section 7.1). Revolute joints have torques in N m, prismatic joints have forces in N. Friction, gears and the
 //! inertia of the rotors are not included.
 
-use cplan_core::model::{Arm, Body, Dynamics, JointType, Scene};
-use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, Vector, perpendicular};
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, Body, Dynamics, JointType, Scene};
 
 /// Greatest magnitudes of derivatives over a part of a curve: of each joint's value by the parameter of the curve.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! The fastest motion along several paths.
 
-use cplan_core::model::MotionProblem;
-use cplan_core::space::Metric;
+use cplan_model::MotionProblem;
+use cplan_model::space::Metric;
 use cplan_motion::{DurationOptimality, Limits, TimedMotion, TimingError, least_duration};
 use cplan_solver::{BoundedPath, Criterion, Options, bound, solve};
 

@@ -1,9 +1,9 @@
 //! The settings of a field, as in the result.
 
-use cplan_core::planner::{Note, Size};
 use cplan_fields::{Difference, Factor, Khatib, Limits, Measure, Relaxation, Scheme};
 use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
 use cplan_motion::FieldReport;
+use cplan_planners::planner::{Note, Size};
 use cplan_solver::{Answer, Space};
 
 /// Reports the settings of the field, and how its computation ended.

@@ -1,8 +1,8 @@
 //! The motion along a path that was found.
 
 use super::fastest::fastest;
-use cplan_core::model::{MotionProblem, Outcome};
 use cplan_handling::ObstacleTrajectory;
+use cplan_model::{MotionProblem, Outcome};
 use cplan_motion::{DurationOptimality, Objective, TimedMotion, TimingError};
 use cplan_movers::{Timing, TimingRequirements, time_among_moving_obstacles};
 use cplan_solver::{Answer, BoundedPath, Options};

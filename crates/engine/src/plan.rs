@@ -4,11 +4,11 @@ use super::clock::Clock;
 use super::motion::{Motion, driven};
 use super::problem::{MotionOrTask, Problem};
 use super::result::{MessageError, Messages};
-use cplan_core::check::CheckedProof;
-use cplan_core::cspace::{NotPolygons, not_polygons};
-use cplan_core::model::{Arm, MotionProblem, Outcome, Scene, Status};
 use cplan_handling::{ObstacleTrajectory, RobotJoints, Task};
+use cplan_judge::CheckedProof;
+use cplan_model::{Arm, MotionProblem, Outcome, Scene, Status};
 use cplan_motion::{TimingError, Trajectory};
+use cplan_planners::cspace::{NotPolygons, not_polygons};
 use cplan_solver::{Answer, NamedJoints, Options, Replay, solve};
 use cplan_tasks::{FailedStep, TaskAnswer, TaskMotion, TaskReplay};
 use cplan_text::{length, percent};
@@ -51,7 +51,7 @@ pub enum Refutation<'a> {
 /// as a new one.
 ///
 /// ```
-/// use cplan_core::model::{Arm, Obstacle, Workspace};
+/// use cplan_model::{Arm, Obstacle, Workspace};
 /// use cplan_engine::{Plan, Problem, plan};
 /// use cplan_solver::Options;
 ///

@@ -1,9 +1,9 @@
 //! Problems: a motion, or a sequence of steps, of a robot in a world.
 
-use cplan_core::model::{Arm, MotionProblem, MotionProblemError, Scene, SceneError};
-use cplan_core::space::{Configuration, GoalSet};
 use cplan_handling::{ObstacleTrajectory, RobotJoints, Task, TimedScene, TimedWorkspace};
 use cplan_interrupt::Instant;
+use cplan_model::space::{Configuration, GoalSet};
+use cplan_model::{Arm, MotionProblem, MotionProblemError, Scene, SceneError};
 use cplan_robot::{InputError, RobotFile, RobotReport};
 use cplan_world::{self, LoadedProblem, LoadedScene, LoadedTask, Overrides};
 use std::path::Path;

@@ -11,11 +11,11 @@
 
 use super::plan::{Plan, plan};
 use super::problem::{MotionOrTask, Problem, ProblemError, motion_among};
-use cplan_core::model::{Additions, Arm, Attachment, MotionProblem, Scene};
-use cplan_core::space::{Configuration, GoalSet};
 use cplan_handling::{
     Driver, MovingObstacle, ObstacleTrajectory, RobotJoints, Task, TaskError, TimedWorkspace, ToolJoint,
 };
+use cplan_model::space::{Configuration, GoalSet};
+use cplan_model::{Additions, Arm, Attachment, MotionProblem, Scene};
 use cplan_robot::RobotReport;
 use cplan_solver::Options;
 use serde::de::Error;

@@ -3,9 +3,9 @@
 use super::change::Change;
 use super::element::Element;
 use super::question::MotionQuestion;
-use cplan_core::check::{CertifiedPath, CheckedProof, CollisionBox, Disconnection};
-use cplan_core::model::{Outcome, Scene, Status};
 use cplan_interrupt::checkpoint;
+use cplan_judge::{CertifiedPath, CheckedProof, CollisionBox, Disconnection};
+use cplan_model::{Outcome, Scene, Status};
 
 /// Largest number of blocking sets. Each set is computed in a world without the obstacles of the sets before it.
 const MAX_SETS: usize = 8;

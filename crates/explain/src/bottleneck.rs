@@ -4,9 +4,9 @@
 use super::change::{fineness, middle, shrunk_pieces};
 use super::question::MotionQuestion;
 use super::threshold::{Threshold, threshold};
-use cplan_core::model::{Contact, Obstruction};
-use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, separation};
+use cplan_model::space::Configuration;
+use cplan_model::{Contact, Obstruction};
 
 /// The narrowest place of the path that is the first to open. To open it, the clearance is reduced first, and then all
 /// obstacles shrink by one distance.

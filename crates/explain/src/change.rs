@@ -3,8 +3,8 @@
 use super::element::Element;
 use super::question::{MotionQuestion, farthest};
 use super::threshold::{Threshold, threshold};
-use cplan_core::model::{Obstacle, Outcome};
 use cplan_geometry::{Convex, Point, Pose, Vector};
+use cplan_model::{Obstacle, Outcome};
 use serde::Serialize;
 use std::f64::consts::TAU;
 

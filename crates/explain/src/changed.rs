@@ -4,8 +4,8 @@ use super::blockers::BlockingSet;
 use super::change::{Change, ChangeContext, ChangeKind, middle, shrunk_pieces};
 use super::element::Element;
 use super::question::MotionQuestion;
-use cplan_core::model::{Obstacle, Scene, Shape};
 use cplan_geometry::{Convex, Point, Pose, Vector};
+use cplan_model::{Obstacle, Scene, Shape};
 
 impl Change {
     /// Returns the explained question with this change. `set` is the blocking set that the change is for. If the change

@@ -1,7 +1,7 @@
 //! Elements of a world that can block a motion.
 
-use cplan_core::model::{Arm, Scene};
-use cplan_core::space::JointRange;
+use cplan_model::space::JointRange;
+use cplan_model::{Arm, Scene};
 use cplan_text::chosen_length;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -27,7 +27,7 @@ pub enum Element {
     },
     /// A static link of the robot.
     Link {
-        /// Index of its first layer, as in [`cplan_core::model::Pair::obstacle`].
+        /// Index of its first layer, as in [`cplan_model::Pair::obstacle`].
         number: usize,
     },
     /// One end of a joint's range. Removing limits does not make whole turns of a revolute joint equal: a goal that is

@@ -1,10 +1,10 @@
 //! Starts and goals that are blocked or out of reach, and the nearest free configurations.
 
 use super::question::{MotionQuestion, Target};
-use cplan_core::cspace::{NearestFree, nearest_free};
-use cplan_core::model::{Arm, Obstruction, Scene, inverse};
-use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
+use cplan_model::space::{Configuration, JointRange};
+use cplan_model::{Arm, Obstruction, Scene, inverse};
+use cplan_planners::cspace::{NearestFree, nearest_free};
 use cplan_tasks::StandstillScene;
 use serde::Serialize;
 

@@ -2,10 +2,10 @@
 
 use super::motion_tree::Origin;
 use super::reach::{Access, Reach};
-use cplan_core::check::certify;
-use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, Path};
 use cplan_interrupt::checkpoint;
+use cplan_judge::certify;
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, Path};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
@@ -172,6 +172,6 @@ impl<'a> Solutions<'a> {
     /// direction.
     fn is_straight_motion_free(&self, from: Configuration, to: Configuration) -> bool {
         let displacement = self.scene.arm().topology().displacement(from, to);
-        certify(self.scene, Path::new(vec![from, from + displacement]), self.scene.workspace().clearance).is_ok()
+        certify(self.scene, Path::new(vec![from, from + displacement])).is_ok()
     }
 }

@@ -4,9 +4,9 @@ use super::{
     BlockedEnd, Blocker, Bottleneck, Change, Element, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach,
     Saving, StepFailure,
 };
-use cplan_core::check::ProofBox;
-use cplan_core::model::{Obstruction, Outcome, Scene, Status};
-use cplan_core::space::Configuration;
+use cplan_judge::ProofBox;
+use cplan_model::space::Configuration;
+use cplan_model::{Obstruction, Outcome, Scene, Status};
 use serde_json::{Map, Value, json};
 
 impl Explanation {

@@ -3,9 +3,9 @@
 //!
 //! ```
 //! use cplan_explain::{MotionQuestion, explain};
-//! use cplan_core::model::{Arm, Joint, Obstacle, Outcome, Scene, Workspace};
-//! use cplan_core::space::{Configuration, GoalSet};
-//! use cplan_core::model::Status;
+//! use cplan_model::{Arm, Joint, Obstacle, Outcome, Scene, Workspace};
+//! use cplan_model::space::{Configuration, GoalSet};
+//! use cplan_model::Status;
 //! use cplan_solver::Options;
 //!
 //! // A post that blocks the first link, and one far away that blocks nothing.

@@ -1,7 +1,7 @@
 //! Certified motions from the home configuration to many IK solutions, as a tree: each solution is reached by a
 //! straight motion from another one, or from the end of a planned route.
 
-use cplan_core::space::{Configuration, Path, Topology};
+use cplan_model::space::{Configuration, Path, Topology};
 
 /// Origin of the straight motion that ends in a solution. Solutions are counted through all cells, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,11 +2,11 @@
 
 use super::element::{Element, Side, widened};
 use super::ends::End;
-use cplan_core::check::{CertifiedPath, CheckedProof};
-use cplan_core::model::{Arm, Goal, JointType, MotionProblem, Outcome, Scene, Workspace, area_goals, inverse};
-use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::{Convex, Point};
 use cplan_interrupt::{Instant, Interrupt};
+use cplan_judge::{CertifiedPath, CheckedProof};
+use cplan_model::space::{Configuration, GoalSet, Segment};
+use cplan_model::{Arm, Goal, JointType, MotionProblem, Outcome, Scene, Workspace, area_goals, inverse};
 use cplan_solver::decide;
 use cplan_tasks::{FailedStep, Standstill, StandstillScene};
 use std::f64::consts::TAU;

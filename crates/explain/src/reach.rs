@@ -3,11 +3,11 @@
 
 use super::flood::Solutions;
 use super::motion_tree::MotionTree;
-use cplan_core::check::certify;
-use cplan_core::model::{Arm, MotionProblem, Outcome, Scene, inverse};
-use cplan_core::space::{Configuration, GoalSet, Measure, Metric, Path, Segment};
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
+use cplan_judge::certify;
+use cplan_model::space::{Configuration, GoalSet, Measure, Metric, Path, Segment};
+use cplan_model::{Arm, MotionProblem, Outcome, Scene, inverse};
 use cplan_solver::decide;
 use serde::{Serialize, Serializer};
 
@@ -192,7 +192,7 @@ fn tip_bounds(arm: &Arm) -> Option<[[f64; 2]; 2]> {
 
 /// Returns true if a configuration is certified to keep the clearance.
 fn is_free(scene: &Scene, q: Configuration) -> bool {
-    certify(scene, Path::new(vec![q]), scene.workspace().clearance).is_ok()
+    certify(scene, Path::new(vec![q])).is_ok()
 }
 
 /// Decides for all free solutions whether a motion from home leads to them: set by set, beginning with the solution
@@ -253,7 +253,7 @@ fn solution_with_free_joint(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::model::{Joint, Obstacle, Workspace};
+    use cplan_model::{Joint, Obstacle, Workspace};
 
     /// A post that the arm must go around, and a first joint that turns without end.
     fn scene() -> Scene {
@@ -276,7 +276,7 @@ mod tests {
             reachable += 1;
             assert_eq!(motion.start(), home);
             assert!(scene.arm().topology().distance(motion.goal(), solution.joints) < 1e-9, "{solution:?}");
-            assert!(certify(&scene, motion, scene.workspace().clearance).is_ok(), "{solution:?}");
+            assert!(certify(&scene, motion).is_ok(), "{solution:?}");
         }
         assert!(reachable > 500 && reachable < reach.solutions().count());
     }

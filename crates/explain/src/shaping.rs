@@ -2,8 +2,8 @@
 
 use super::element::Element;
 use super::question::MotionQuestion;
-use cplan_core::space::Path;
 use cplan_interrupt::checkpoint;
+use cplan_model::space::Path;
 use cplan_solver::{Answer, Bound, Options, solve};
 
 /// An element that makes the shortest path longer.

@@ -1,8 +1,8 @@
 //! The amount of a change at which a path opens, enclosed between a certified path and a proof.
 
-use cplan_core::check::{CertifiedPath, CheckedProof};
-use cplan_core::model::Outcome;
 use cplan_interrupt::checkpoint;
+use cplan_judge::{CertifiedPath, CheckedProof};
+use cplan_model::Outcome;
 
 /// Bounds on the amount of a change at which a path opens.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,12 +6,12 @@ use super::reach::{Reach, free_around, join, places, straight_motions, tightened
 use super::result::Ending;
 use super::settings::Strategy;
 use super::wall::{self, Heading, Place};
-use cplan_core::check::{CertifiedPath, certify};
-use cplan_core::cspace::Grid;
-use cplan_core::model::{MotionProblem, Outcome, Scene};
-use cplan_core::space::{Configuration, GoalSet, Path, Segment};
 use cplan_harmonic::{Component, Lattice, harmonic_path};
 use cplan_interrupt::checkpoint;
+use cplan_judge::{CertifiedPath, certify};
+use cplan_model::space::{Configuration, GoalSet, Path, Segment};
+use cplan_model::{MotionProblem, Outcome, Scene};
+use cplan_planners::cspace::Grid;
 use cplan_solver::{Options, Unknown, solve};
 use cplan_text::{counted, listed};
 use std::collections::{BTreeSet, HashSet};
@@ -50,7 +50,7 @@ impl Explorer<'_> {
     fn go_back(&mut self) -> Decision {
         let last = self.legs.last().filter(|_| !self.is_back).map(|leg| leg.curve.curve().path().waypoints());
         let reversed = last.map(|waypoints| Path::new(waypoints.iter().rev().copied().collect()));
-        let certified = reversed.and_then(|path| certify(&self.solid, path, self.solid.workspace().clearance).ok());
+        let certified = reversed.and_then(|path| certify(&self.solid, path).ok());
         self.is_back = true;
         certified.map_or_else(|| Decision::Done(self.too_coarse()), |path| Decision::Go(path, None))
     }
@@ -81,7 +81,7 @@ impl Explorer<'_> {
             });
             there.cells.iter().for_each(|&cell| is_reached[cell] = true);
             if is_worth {
-                let path = certify(&self.solid, Path::new(back), self.solid.workspace().clearance);
+                let path = certify(&self.solid, Path::new(back));
                 return Ok(path.map_or_else(|_| Decision::Done(self.too_coarse()), |path| Decision::Go(path, None)));
             }
         }
@@ -204,10 +204,9 @@ impl Explorer<'_> {
     /// closes it in the grid and returns `None`.
     fn move_along(&mut self, route: &[usize], most: usize) -> Option<Decision> {
         let configurations = unwrapped(&self.known.grid, self.at, route);
-        let clearance = self.solid.workspace().clearance;
         match tightened(&self.solid, &configurations, most) {
             Ok(path) => {
-                let certified = certify(&self.solid, path, clearance);
+                let certified = certify(&self.solid, path);
                 let target = route[route.len() - 1];
                 Some(
                     certified
@@ -304,7 +303,7 @@ impl Explorer<'_> {
         // path that is free to its end leads to the goal.
         let is_worth = free.len() > places.len() || free.len() > 1 && !self.is_stalled;
         let ahead = &places[(free.len() - 1).min(places.len())..];
-        match certify(&self.solid, Path::new(free), clearance) {
+        match certify(&self.solid, Path::new(free)) {
             Ok(path) if is_worth => Decision::Go(path, None),
             _ => {
                 let ahead = ahead.iter().take(PLACES_AHEAD).flat_map(|&q| self.survey.unknown_at(arm, q));

@@ -7,11 +7,11 @@ use super::reach::places;
 use super::result::{Ending, Exploration, Leg, SensorReading};
 use super::settings::{ExploreError, Settings, Strategy};
 use super::survey::Survey;
-use cplan_core::check::{CertifiedPath, certify};
-use cplan_core::model::{MotionProblem, Scene};
-use cplan_core::space::{Configuration, GoalSet, Path, SplitMix64};
 use cplan_interrupt::Instant;
 use cplan_interrupt::checkpoint;
+use cplan_judge::{CertifiedPath, certify};
+use cplan_model::space::{Configuration, GoalSet, Path, SplitMix64};
+use cplan_model::{MotionProblem, Scene};
 use cplan_motion::Trajectory;
 use cplan_solver::{Options, solve};
 use cplan_text::counted;
@@ -219,9 +219,7 @@ impl Explorer<'_> {
             return Ok(());
         }
         // Only a part of the path may have been followed. It is free, too, but needs a certificate of its own.
-        let clearance = self.solid.workspace().clearance;
-        let path =
-            certify(&self.solid, Path::new(gone), clearance).map_err(|rejection| format!("a leg: {rejection:?}"))?;
+        let path = certify(&self.solid, Path::new(gone)).map_err(|rejection| format!("a leg: {rejection:?}"))?;
         let timed =
             self.settings.options.drive.along(&self.solid, &path, 1.0).map_err(|error| format!("a leg: {error}"))?;
         match &mut self.trajectory {

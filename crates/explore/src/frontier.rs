@@ -3,8 +3,8 @@
 use super::sight::Edges;
 use super::survey::Survey;
 use super::views::SensorPose;
-use cplan_core::cspace::Grid;
-use cplan_core::model::Arm;
+use cplan_model::Arm;
+use cplan_planners::cspace::Grid;
 use cplan_world::Sensor;
 
 /// The frontier configurations of a grid: those at which a reading would show something new.

@@ -2,10 +2,10 @@
 
 use super::reach::{BlockedMoves, straight_motions};
 use super::survey::Survey;
-use cplan_core::cspace::{Grid, Proves};
-use cplan_core::model::{Arm, Scene};
-use cplan_core::waves::{FreeCells, Neighborhood};
 use cplan_interrupt::checkpoint;
+use cplan_model::{Arm, Scene};
+use cplan_planners::cspace::{Grid, Proves};
+use cplan_planners::waves::{FreeCells, Neighborhood};
 
 /// A grid of configurations. A cell of the grid is blocked if the arm, at the centre of the cell, touches a map cell
 /// that is not known to be free.

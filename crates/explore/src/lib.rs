@@ -23,8 +23,8 @@
 //!
 //! ```
 //! use cplan_explore::{Ending, Settings, Strategy, explore};
-//! use cplan_core::model::{Arm, Obstacle, Scene, Workspace};
-//! use cplan_core::space::Configuration;
+//! use cplan_model::{Arm, Obstacle, Scene, Workspace};
+//! use cplan_model::space::Configuration;
 //! use cplan_world::Sensor;
 //!
 //! let arm = Arm::rr([0.6, 0.4], 0.04)?;

@@ -1,11 +1,11 @@
 //! Shortest paths over a grid of configurations, and the motions along them.
 
-use cplan_core::check::StraightMotions;
-use cplan_core::cspace::Grid;
-use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, Path};
-use cplan_core::waves::{FreeCells, Neighborhood};
 use cplan_interrupt::checkpoint;
+use cplan_judge::StraightMotions;
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, Path};
+use cplan_planners::cspace::Grid;
+use cplan_planners::waves::{FreeCells, Neighborhood};
 use std::collections::{BTreeSet, VecDeque};
 
 /// Steps between centres of neighbouring cells that are not free, although both centres are.

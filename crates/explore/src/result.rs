@@ -2,7 +2,7 @@
 
 use super::settings::Strategy;
 use super::survey::Survey;
-use cplan_core::space::Configuration;
+use cplan_model::space::Configuration;
 use cplan_motion::CertifiedCurve;
 use cplan_motion::Trajectory;
 use std::time::Duration;

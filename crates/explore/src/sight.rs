@@ -65,9 +65,9 @@ impl Edges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::model::{Arm, Scene, Workspace};
-    use cplan_core::space::SplitMix64;
     use cplan_geometry::Point;
+    use cplan_model::space::SplitMix64;
+    use cplan_model::{Arm, Scene, Workspace};
     use cplan_world::Sensor;
     use proptest::prelude::*;
 

@@ -1,9 +1,9 @@
 //! The known part of a world, cell by cell, and its true contents.
 
 use super::views::{CELL_RADIUS, Crossing};
-use cplan_core::model::{Arm, Heights, JointType, Obstacle, Scene, Shape, Workspace};
-use cplan_core::space::{Configuration, SplitMix64};
 use cplan_geometry::{Convex, Point, Pose, Vector, shapes_meet};
+use cplan_model::space::{Configuration, SplitMix64};
+use cplan_model::{Arm, Heights, JointType, Obstacle, Scene, Shape, Workspace};
 use cplan_world::{Occupancy, OccupancyMap, Sensor};
 
 /// Largest number of cells of a map.

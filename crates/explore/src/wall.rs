@@ -1,7 +1,7 @@
 //! Wall following along the boundary of the known free space.
 
 use super::reach::BlockedMoves;
-use cplan_core::cspace::Grid;
+use cplan_planners::cspace::Grid;
 
 /// A heading, in eighths of a turn from `+q1` towards `+q2`. A wall follower moves along the axes, so its headings are
 /// even.
@@ -51,8 +51,8 @@ fn neighbor_towards(grid: &Grid, cell: usize, side: Heading) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::cspace::Proves;
-    use cplan_core::space::{JointRange, Topology};
+    use cplan_model::space::{JointRange, Topology};
+    use cplan_planners::cspace::Proves;
 
     /// Parses rows of `.` and `#`, the last row with the least `q2`.
     fn drawn(rows: &[&str], ranges: [JointRange; 2]) -> Grid {

@@ -1,8 +1,8 @@
 //! Settings of the field planner: the field, its equation, and how it is solved.
 
 use crate::{Device, Difference, Direction, Equation, Escape, Initial, Khatib, Limits, Measure, Relaxation, Stencil};
-use cplan_core::cspace::ZonedGrid;
-use cplan_core::planner::PathKind;
+use cplan_planners::cspace::ZonedGrid;
+use cplan_planners::planner::PathKind;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -81,7 +81,7 @@ pub enum FieldChoice {
 ///
 /// The field may not lead to a goal: there may be a local minimum, values may differ by less than the precision of
 /// doubles (on a GPU, of single precision), or relaxation may diverge. Then the planner gives up and reports where and
-/// why. Only [`Proposal::NoPath`](cplan_core::planner::Proposal::NoPath) means that no path leads through free cells.
+/// why. Only [`Proposal::NoPath`](cplan_planners::planner::Proposal::NoPath) means that no path leads through free cells.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FieldPlanner {

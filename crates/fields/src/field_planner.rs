@@ -5,11 +5,11 @@ use crate::{
     Cell, DeadEnd, Device, Domain, Equation, Escape, EscapedMinima, ForceField, ForceGuide, Khatib, Levels, Limits,
     Measure, RelaxError, Relaxation, RelaxedField, Scheme, Stopping, Trap, ValueGuide, relax_from, relax_on,
 };
-use cplan_core::cspace::{Grid, ZonedGrid};
-use cplan_core::planner::attach::JoinedQuery;
-use cplan_core::planner::{Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
-use cplan_core::space::{Configuration, Path};
 use cplan_harmonic::Place;
+use cplan_model::space::{Configuration, Path};
+use cplan_planners::cspace::{Grid, ZonedGrid};
+use cplan_planners::planner::attach::JoinedQuery;
+use cplan_planners::planner::{Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 
 /// Default tolerance of relaxation: relative change of values in a sweep. At this tolerance, directions of ascent no
 /// longer change, except in cells where two directions are almost equal.

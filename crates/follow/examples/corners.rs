@@ -1,8 +1,8 @@
 //! Measures motions along a line of one metre with a thousand corners: `cargo run --release -p cplan-follow --example
 //! corners`.
 
-use cplan_core::model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
 use cplan_follow::{Settings, follow};
+use cplan_model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
 use cplan_toolpath::{Curve, Piece, Source, Toolpath};
 use std::time::Instant;
 

@@ -1,8 +1,8 @@
 //! Measures the motion along a page of text in a stroke font: `cargo run --profile quick -p cplan-follow --example page`.
 //! An argument sets the number of pieces.
 
-use cplan_core::model::{Arm, Joint, Link, Outcome, Scene, Workspace};
 use cplan_follow::{Settings, follow};
+use cplan_model::{Arm, Joint, Link, Outcome, Scene, Workspace};
 use cplan_toolpath::{Curve, Piece, Point, Source, Toolpath};
 use std::time::Instant;
 

@@ -1,8 +1,8 @@
 //! Measures motions with limits on jerks along splines through many points: `cargo run --profile quick -p cplan-follow
 //! --example smooth`.
 
-use cplan_core::model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
 use cplan_follow::{Settings, follow};
+use cplan_model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
 use cplan_toolpath::{Curve, Piece, Point, Source, Toolpath, polyline, spline};
 use std::f64::consts::TAU;
 use std::time::Instant;

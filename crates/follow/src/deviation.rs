@@ -3,9 +3,9 @@
 //! Controllers join samples by polynomials of several kinds. [`Deviation`] bounds the distance for cubics; here, the
 //! differences of the others from these cubics are added.
 
-use cplan_core::space::Configuration;
 use cplan_deviation::{Deviation, Kinematics, ToolDeviation};
 use cplan_handling::{Derivative, Piece, WristJoint};
+use cplan_model::space::Configuration;
 use cplan_motion::Trajectory;
 
 /// Returns an upper bound on the distance between a line and each piece of a motion, metres. Every motion counts that

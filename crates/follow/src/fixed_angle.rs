@@ -4,8 +4,8 @@
 //! computed first, and slowed down if the wrist would be too fast.
 
 use crate::wrist::WristAlong;
-use cplan_core::model::Arm;
 use cplan_handling::{Derivative, Piece, WristJoint};
+use cplan_model::Arm;
 use cplan_motion::Trajectory;
 
 /// Adds a wrist to a motion that keeps the angle of the tool. `first` is the joint's first value, radians.

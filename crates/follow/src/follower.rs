@@ -8,11 +8,11 @@ use crate::search::{Route, Search};
 use crate::sheets::Sheets;
 use crate::wrist::{OutOfRange, Turns, WristAlong};
 use crate::{FollowError, Found, MIN_TOLERANCE, Settings};
-use cplan_core::model::{Outcome, Scene};
-use cplan_core::space::Configuration;
 use cplan_deviation::{Kinematics, Line, Place};
 use cplan_geometry::Point;
 use cplan_handling::ToolAngle;
+use cplan_model::space::Configuration;
+use cplan_model::{Outcome, Scene};
 use cplan_text::{Unit, UnknownUnit, chosen_length, length};
 
 /// Shares of the tolerance that the straight motions in joint space and the blends may use each, in the order in which they

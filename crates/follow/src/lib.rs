@@ -10,7 +10,7 @@
 //! - *unknown*, with the reason.
 //!
 //! ```
-//! use cplan_core::model::{Arm, Outcome, Scene, Workspace};
+//! use cplan_model::{Arm, Outcome, Scene, Workspace};
 //! use cplan_follow::{Settings, follow};
 //! use cplan_toolpath::{Format, Placement, read};
 //!
@@ -61,10 +61,10 @@ pub use proof::{Cause, Exclusion, Infeasible, Obstacle};
 pub use proof_wrist::WristExcess;
 pub use wrist::WristAlong;
 
-use cplan_core::model::{Outcome, Scene};
-use cplan_core::space::Configuration;
 use cplan_deviation::{Kinematics, Line};
 use cplan_handling::{MAX_WRIST_TOLERANCE, MIN_WRIST_TOLERANCE, ToolAngle};
+use cplan_model::space::Configuration;
+use cplan_model::{Outcome, Scene};
 use cplan_motion::{TimedMotion, TimingError};
 use cplan_toolpath::Toolpath;
 use follower::Follower;

@@ -8,12 +8,12 @@ use crate::search::Route;
 use crate::smooth::Stretch;
 use crate::wrist::{Turns, WristAlong};
 use crate::{FollowError, Settings};
-use cplan_core::check::{CertifiedPath, certify};
-use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, Path};
 use cplan_deviation::{Deviation, Foot, Kinematics, Line, ToolDeviation};
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
+use cplan_judge::{CertifiedPath, certify};
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, Path};
 use cplan_motion::{CurveDrive, TimedMotion, TipSpeed, WristLimit, along_curve, blend_up_to};
 
 /// Cosine of the angle between two legs beyond which the motion stops between them: it almost returns on itself.
@@ -211,8 +211,7 @@ impl Driver<'_> {
             return Ok(route.path.clone());
         }
         // The whole path is certified, so the part is as well, unless the search takes another course.
-        let clearance = self.scene.workspace().clearance;
-        certify(self.scene, Path::new(waypoints.to_vec()), clearance).map_err(|_| FollowError::Uncertified)
+        certify(self.scene, Path::new(waypoints.to_vec())).map_err(|_| FollowError::Uncertified)
     }
 
     /// Returns the options of a motion with a limit on the tip's speed, which legs use in shares.

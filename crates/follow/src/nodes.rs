@@ -1,9 +1,9 @@
 //! Places on the line, so dense that the arm can move straight in joint space from each to the next.
 
-use cplan_core::space::Configuration;
 use cplan_deviation::{Kinematics, Line, Place, sag};
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
+use cplan_model::space::Configuration;
 use cplan_toolpath::Curve;
 use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -12,12 +12,12 @@ use crate::nodes::{Nodes, chord};
 use crate::proof_wrist::{self, Winding, WristExcess};
 use crate::sheets::{LISTED_BEYOND_LIMITS, Sheets};
 use crate::wrist::WristAlong;
-use cplan_core::check::{Deviation, Posture};
-use cplan_core::model::{Pair, Scene};
-use cplan_core::space::{Configuration, JointRange};
 use cplan_deviation::{Kinematics, Line, Place, sag};
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
+use cplan_judge::{Deviation, Posture};
+use cplan_model::space::{Configuration, JointRange};
+use cplan_model::{Pair, Scene};
 use cplan_text::{length, length_down};
 
 /// Greatest difference of joint values at both ends of a part for which no whole turn can be hidden between them.

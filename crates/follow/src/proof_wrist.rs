@@ -6,9 +6,9 @@
 
 use crate::proof::{Exclusion, Obstacle, Prover};
 use crate::wrist::WristAlong;
-use cplan_core::space::{Configuration, JointRange};
 use cplan_deviation::is_sharp;
 use cplan_handling::{ToolAngle, WristJoint};
+use cplan_model::space::{Configuration, JointRange};
 use cplan_toolpath::wrapped;
 use std::f64::consts::PI;
 

@@ -7,11 +7,11 @@
 
 use crate::nodes::{Division, Nodes, chord_deviation};
 use crate::sheets::Sheets;
-use cplan_core::check::{CertifiedPath, StraightMotions, certify};
-use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, JointRange, Path};
 use cplan_deviation::{Kinematics, Line, sag};
 use cplan_interrupt::checkpoint;
+use cplan_judge::{CertifiedPath, StraightMotions, certify};
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, JointRange, Path};
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
@@ -125,8 +125,7 @@ impl<'a> Search<'a> {
     /// Returns the cheapest sequence that is certified. Returns `None` if no considered sequence is certified.
     pub fn route(&mut self) -> Option<Route> {
         let (path, nodes, solutions, changes) = self.cheapest()?;
-        let clearance = self.scene.workspace().clearance;
-        if let Ok(path) = certify(self.scene, path, clearance) {
+        if let Ok(path) = certify(self.scene, path) {
             return Some(Route { path, nodes, solutions, changes });
         }
         self.check_all();
@@ -134,7 +133,7 @@ impl<'a> Search<'a> {
         for _ in 0..self.nodes.nodes.len() {
             checkpoint();
             let (path, nodes, solutions, changes) = self.cheapest()?;
-            match certify(self.scene, path.clone(), clearance) {
+            match certify(self.scene, path.clone()) {
                 Ok(path) => return Some(Route { path, nodes, solutions, changes }),
                 Err(_) if !self.close_first_blocked(&path, &nodes, &solutions) => return None,
                 Err(_) => {}

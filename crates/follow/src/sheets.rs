@@ -1,8 +1,8 @@
 //! IK solutions as sheets: continuous functions of the place on the line, one per solution and whole turn.
 
 use crate::nodes::{Node, Nodes};
-use cplan_core::space::{Configuration, JointRange};
 use cplan_deviation::Kinematics;
+use cplan_model::space::{Configuration, JointRange};
 use std::f64::consts::TAU;
 
 /// Values beyond a limit by at most this, radians or metres, are set to the limit: such an excess is rounding.

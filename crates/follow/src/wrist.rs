@@ -7,10 +7,10 @@
 
 use crate::nodes::Nodes;
 use crate::search::Route;
-use cplan_core::model::Arm;
-use cplan_core::space::JointRange;
 use cplan_deviation::{Line, is_sharp};
 use cplan_handling::{ToolAngle, WristGuide, WristJoint};
+use cplan_model::Arm;
+use cplan_model::space::JointRange;
 use cplan_toolpath::wrapped;
 use std::f64::consts::TAU;
 

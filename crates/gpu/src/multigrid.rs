@@ -53,7 +53,8 @@ impl Gpu {
     /// The residual bounds the error: for Laplace's equation in a corridor of `n` cells, by a factor of at most `n^2 /
     /// 2`.
     ///
-    /// # Errors [`GpuError::Refused`] for [`Stencil::Altered`], which is not linear. [`GpuError::TooLarge`] and
+    /// # Errors
+    /// [`GpuError::Refused`] for [`Stencil::Altered`], which is not linear. [`GpuError::TooLarge`] and
     /// [`GpuError::Failed`] if the GPU cannot solve the problem. A lack of convergence is not an error;
     /// [`Solution::converged`] reports it. It occurs with drifts of 2 or more per cell by central differences, and if
     /// no given value reaches some unknowns.

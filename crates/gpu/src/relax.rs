@@ -57,7 +57,8 @@ impl Gpu {
     /// Relaxes the problem from its initial values until the stopping rule is satisfied. Takes `O(cells)` per sweep,
     /// and 12 to 28 bytes per cell on the GPU.
     ///
-    /// # Errors [`GpuError::Refused`] if settings are invalid. [`GpuError::Diverged`] if values grow without bound.
+    /// # Errors
+    /// [`GpuError::Refused`] if settings are invalid. [`GpuError::Diverged`] if values grow without bound.
     /// [`GpuError::TooLarge`] and [`GpuError::Failed`] if the GPU cannot solve the problem. A lack of convergence is
     /// not an error; the [`Ending`] reports it.
     pub fn relax(&self, problem: &GridEquations, settings: &Settings) -> Result<RelaxedField, GpuError> {

@@ -1,6 +1,6 @@
 //! Claims: statements of a file about its motion or task, in addition to the samples.
 
-use cplan_core::space::{Configuration, Metric};
+use cplan_model::space::{Configuration, Metric};
 use std::ops::RangeInclusive;
 
 /// A recorded turn of the wrist.

@@ -1,8 +1,8 @@
 //! Moving obstacles, and their trajectories.
 
-use cplan_core::check::Drift;
-use cplan_core::model::{LooseObstacle, Obstacle, are_small};
 use cplan_geometry::{Interval, Point, Pose, Vector, merge_in_place};
+use cplan_judge::Drift;
+use cplan_model::{LooseObstacle, Obstacle, are_small};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 

@@ -1,9 +1,9 @@
 //! The object that the arm carries.
 
 use super::{Object, Stroke, Task, TimedWorkspace};
-use cplan_core::model::{Additions, Arm, AttachedPart, Attachment, Body, Grip, Heights, Pair, Scene};
 use cplan_dynamics::{joined, spread};
 use cplan_geometry::{Convex, Pose, inset_union};
+use cplan_model::{Additions, Arm, AttachedPart, Attachment, Body, Grip, Heights, Pair, Scene};
 use std::collections::BTreeSet;
 
 /// An object of a task while the arm carries it.

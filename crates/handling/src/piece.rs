@@ -1,7 +1,7 @@
 //! Pieces of motions: polynomials in time.
 
 use super::bernstein::Polynomial;
-use cplan_core::space::Configuration;
+use cplan_model::space::Configuration;
 
 /// The value of a motion, or one of its derivatives by time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Recordings: motions given by samples.
 
 use super::{Derivative, Interpolation, Piece};
-use cplan_core::space::{Configuration, Path, Topology};
+use cplan_model::space::{Configuration, Path, Topology};
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
@@ -318,7 +318,7 @@ fn outside(value: f64, limit: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::space::JointRange;
+    use cplan_model::space::JointRange;
 
     fn q(a: f64, b: f64) -> Configuration {
         Configuration::new(a, b)

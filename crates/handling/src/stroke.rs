@@ -1,8 +1,8 @@
 //! A tool that is lowered at picks and places, and a wrist that turns it.
 
 use super::Object;
-use cplan_core::model::{Arm, Heights, OutlineSource, check_range};
-use cplan_core::space::JointRange;
+use cplan_model::space::JointRange;
+use cplan_model::{Arm, Heights, OutlineSource, check_range};
 use serde::{Deserialize, Serialize};
 
 /// Displacement of a joint of the tool, radians or metres, that is due to rounding. The joint does not move by so little.

@@ -4,9 +4,9 @@ use super::{
     FollowedLine, MovingObstacle, ObstacleTrajectory, Payload, Stroke, TimedWorkspace, ToolLimits, ToolValues,
     WristJoint,
 };
-use cplan_core::model::{Arm, Goal, Heights, Obstacle, Shape};
-use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Interval, Point, Pose};
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, Goal, Heights, Obstacle, Shape};
 use cplan_text::{length, short};
 use serde::{Deserialize, Serialize};
 

@@ -1,10 +1,10 @@
 //! Checks that an arm, objects and steps form a task.
 
 use super::{Action, Holding, Item, MAX_STOP_TIME, Object, Step, Stroke, Task, TimedScene, ToolLimits, ToolValues};
-use cplan_core::model::{
+use cplan_geometry::Point;
+use cplan_model::{
     Goal, MAX_COORDINATE, MotionProblem, MotionProblemError, Scene, SceneError, are_small, is_pose, is_small,
 };
-use cplan_geometry::Point;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 

@@ -1,9 +1,9 @@
 //! Workspaces and scenes with moving obstacles.
 
 use super::{MovingObstacle, ObstacleTrajectory};
-use cplan_core::model::{Additions, Arm, Obstacle, Obstruction, Pair, Scene, SceneError, Workspace};
-use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
+use cplan_model::space::Configuration;
+use cplan_model::{Additions, Arm, Obstacle, Obstruction, Pair, Scene, SceneError, Workspace};
 use serde::{Deserialize, Serialize};
 
 /// A workspace with moving obstacles.

@@ -1,7 +1,7 @@
 //! The angle of a tool that a wrist turns along a line.
 
-use cplan_core::model::{Arm, JointType};
-use cplan_core::space::JointRange;
+use cplan_model::space::JointRange;
+use cplan_model::{Arm, JointType};
 use serde::{Deserialize, Serialize};
 
 /// Tolerance of the tool's angle for lines that state none, radians: about half a degree.

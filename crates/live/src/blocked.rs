@@ -2,8 +2,8 @@
 //! files.
 
 use super::protocol::{AnswerReply, BlockedReply, ErrorSubject, HitReply};
-use cplan_core::model::{Goal, Obstruction, Scene, inverse};
-use cplan_core::space::{Configuration, Segment};
+use cplan_model::space::{Configuration, Segment};
+use cplan_model::{Goal, Obstruction, Scene, inverse};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_world::LoadedScene;
 

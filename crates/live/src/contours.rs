@@ -1,8 +1,8 @@
 //! Contours of C-obstacles. They are cached between answers, because only one or two obstacles change at a time.
 
-use cplan_core::cspace::CObstacle;
-use cplan_core::model::{Arm, Heights, Obstacle, Scene, Workspace};
 use cplan_geometry::Convex;
+use cplan_model::{Arm, Heights, Obstacle, Scene, Workspace};
+use cplan_planners::cspace::CObstacle;
 use cplan_view::output;
 use std::cell::RefCell;
 

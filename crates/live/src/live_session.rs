@@ -14,10 +14,10 @@ use super::protocol::{
     AnswerReply, Begin, ErrorSubject, Files, JointReply, Message, Pair, PieceReply, PlanRequest, Reply, Request,
     WorldReply,
 };
-use cplan_core::model::{Arm, equivalent_values, inverse};
-use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
 use cplan_interrupt::{Instant, Interrupt, Interrupted};
+use cplan_model::space::{Configuration, JointRange};
+use cplan_model::{Arm, equivalent_values, inverse};
 use cplan_solver::Method;
 use cplan_world::{LoadedScene, Overrides};
 use serde_json::value::RawValue;

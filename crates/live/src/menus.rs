@@ -6,9 +6,9 @@
 use super::options::Options;
 use super::protocol::{OptionReply, PlannerReply};
 use clap::{Arg, Command};
-use cplan_core::planner::GridSearch;
-use cplan_core::waves::Neighborhood;
 use cplan_options::Named;
+use cplan_planners::planner::GridSearch;
+use cplan_planners::waves::Neighborhood;
 use cplan_roadmaps::Prm;
 use cplan_solver::{DEFAULT_CELLS, GridSpace, Method, Planner, Setting};
 

@@ -1,7 +1,7 @@
 //! Parses planner and options of the page by the grammar of the command line.
 
 use clap::{Command, CommandFactory, Parser};
-use cplan_core::model::Scene;
+use cplan_model::Scene;
 use cplan_options::{MotionArgs, PlannerArgs, word};
 use cplan_solver::Method;
 

@@ -2,11 +2,11 @@
 
 use super::contours::Contours;
 use super::protocol::{AnswerReply, Figures};
-use cplan_core::cspace::CObstacle;
-use cplan_core::model::{Scene, Status};
-use cplan_core::space::{Configuration, Segment};
 use cplan_engine::{Detail, Problem, plan};
 use cplan_handling::TimedScene;
+use cplan_model::space::{Configuration, Segment};
+use cplan_model::{Scene, Status};
+use cplan_planners::cspace::CObstacle;
 use cplan_solver::Options;
 use cplan_view::output;
 use cplan_view::output::{replayed, view_with};

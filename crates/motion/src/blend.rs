@@ -1,7 +1,7 @@
 //! Blends: parabolas that round the corners of a path.
 
-use cplan_core::space::{Configuration, Path};
 use cplan_handling::Piece;
+use cplan_model::space::{Configuration, Path};
 
 /// Greatest deviation of a motion from a blend's parabola, in each joint, as a share of the blend's radius.
 /// Certificates cover this whole tube around the parabola. So they are also valid if a program joins the samples by

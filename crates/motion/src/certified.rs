@@ -2,10 +2,10 @@
 
 use super::blend::{BLEND_TOLERANCE, Blend, BlendedPath};
 use super::span::tube_about_part;
-use cplan_core::check::{CertifiedPath, CurveSearch, Nearest, Rejection, Vicinity};
-use cplan_core::model::Scene;
-use cplan_core::space::Path;
 use cplan_handling::Piece;
+use cplan_judge::{CertifiedPath, CurveSearch, Nearest, Rejection, Vicinity};
+use cplan_model::Scene;
+use cplan_model::space::Path;
 
 /// Fraction of the excess clearance that must remain when corners are rounded. The excess is the difference between the
 /// clearance of the straight path and the required one. It is one half, so that a motion on blends is proven to keep at

@@ -19,7 +19,7 @@ use super::profile::{Phase, State};
 use super::sample::{MIN_INTERVAL, MIN_PERIODIC_INTERVAL};
 use super::tip::{Part, TIP_SPEED_STEP};
 use crate::{BLEND_TOLERANCE, Blend};
-use cplan_core::space::Configuration;
+use cplan_model::space::Configuration;
 
 /// Number of spans into which a blend is cut initially.
 const INITIAL_SPANS: usize = 8;

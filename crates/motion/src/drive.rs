@@ -6,8 +6,8 @@ use super::shape::ShapeSearch;
 use super::smooth::smoothed;
 use super::{Limits, TimedMotion, TimingError, TipSpeed, TorqueLimit, WristLimit, time};
 use crate::{CertifiedCurve, blend};
-use cplan_core::check::CertifiedPath;
-use cplan_core::model::Scene;
+use cplan_judge::CertifiedPath;
+use cplan_model::Scene;
 use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 

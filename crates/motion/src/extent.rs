@@ -1,7 +1,7 @@
 //! Extents of a motion at the corners of its path.
 
-use cplan_core::space::{Configuration, Path};
 use cplan_handling::Piece;
+use cplan_model::space::{Configuration, Path};
 
 /// Distance from the path, radians or metres, up to which a motion is on the path. It exceeds the rounding of splines on
 /// straight pieces.

@@ -12,11 +12,11 @@ use super::retime::Rate;
 use super::sample::{TimedMotion, Trajectory};
 use super::spline::Spline;
 use super::{CurveDrive, Rounding, TorqueLimit};
-use cplan_core::check::CertifiedPath;
-use cplan_core::model::Scene;
-use cplan_core::space::Configuration;
 use cplan_handling::Piece;
 use cplan_interrupt::checkpoint;
+use cplan_judge::CertifiedPath;
+use cplan_model::Scene;
+use cplan_model::space::Configuration;
 
 /// Least number of intervals of the rate along a curve. On curves with fewer pieces, a piece has several intervals.
 const MIN_INTERVALS: usize = 192;

@@ -9,7 +9,7 @@ const TIME_HALVINGS: usize = 64;
 const ROUNDING: f64 = 1e-9;
 
 /// Returns a lower bound on the duration, in seconds, of every motion from rest to rest on a path. `length` is the time
-/// that the path takes at the joints' top speeds ([`cplan_core::space::Metric::Time`]), seconds.
+/// that the path takes at the joints' top speeds ([`cplan_model::space::Metric::Time`]), seconds.
 ///
 /// Let `f(t)` be the greatest fraction of its top speed that a joint can reach `t` seconds after rest, by its
 /// acceleration and jerk. At the time `t` of a motion of `T` seconds, no joint exceeds the fraction `min(1, f(t), f(T -

@@ -21,15 +21,17 @@
 //! from the motion by at most `a h^2 / 8`, where `a` is the greatest acceleration.
 //!
 //! ```
-//! use cplan_core::check::certify;
-//! use cplan_core::model::{Arm, Scene, Workspace};
+//! use cplan_judge::certify;
+//! use cplan_model::{Arm, Scene, Workspace};
 //! use cplan_motion::Drive;
-//! use cplan_core::space::{Configuration, Path};
+//! use cplan_model::space::{Configuration, Path};
 //!
-//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([]))?; let corners = [[0.0, 0.0], [1.0, 0.0],
-//! [1.0, 1.0]]; let path = certify(&scene, Path::new(corners.map(Configuration::from).to_vec()), 0.0).expect("nothing
-//! is in the way"); let timed = Drive::default().along(&scene, &path, 1.0)?; let stopping = Drive { blend: 0.0,
-//! ..Drive::default() }.along(&scene, &path, 1.0)?; // The corner is rounded, which is faster than to stop there.
+//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([]))?;
+//! let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]].map(Configuration::from);
+//! let path = certify(&scene, Path::new(corners.to_vec())).expect("nothing is in the way");
+//! let timed = Drive::default().along(&scene, &path, 1.0)?;
+//! let stopping = Drive { blend: 0.0, ..Drive::default() }.along(&scene, &path, 1.0)?;
+//! // The corner is rounded, which is faster than to stop there.
 //! assert!(timed.trajectory.duration() < stopping.trajectory.duration());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -2,8 +2,8 @@
 
 use super::tip::TipSpeed;
 use super::torque::TorqueLimit;
-use cplan_core::model::Joint;
-use cplan_core::space::Configuration;
+use cplan_model::Joint;
+use cplan_model::space::Configuration;
 
 /// Limits of a motion, for the joints from base to tip. All are positive, in radians or metres and seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]

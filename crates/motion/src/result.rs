@@ -1,8 +1,8 @@
 //! Records in results about paths and searches.
 
 use crate::CertifiedCurve;
-use cplan_core::model::Joint;
 use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
+use cplan_model::Joint;
 use serde::Serialize;
 
 /// Describes how to interpolate trajectories of these joints.

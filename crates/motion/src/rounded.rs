@@ -12,10 +12,10 @@ use super::sample::{TimedMotion, Trajectory};
 use super::schedule::stopping_at;
 use super::spline::Spline;
 use crate::{BlendedPath, Rounding};
-use cplan_core::check::CertifiedPath;
-use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, Path};
 use cplan_handling::Piece;
+use cplan_judge::CertifiedPath;
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, Path};
 
 /// Share of the allowed distance at which the curve leaves a leg. The motion leaves it up to two steps earlier.
 const USED_SHARE: f64 = 0.95;

@@ -8,7 +8,7 @@ use super::profile::{Phase, State, passing, rest_to_rest};
 use super::sample::{MIN_INTERVAL, MIN_PERIODIC_INTERVAL, Trajectory, sample};
 use super::tip::{Part, TIP_SPEED_STEP};
 use crate::{Blend, BlendedPath};
-use cplan_core::space::Configuration;
+use cplan_model::space::Configuration;
 use std::ops::Range;
 
 /// Greatest number of parts of a straight stretch.

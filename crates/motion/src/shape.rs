@@ -4,9 +4,9 @@
 //! slightly are passed several times as fast, on a path that is longer only by about the square of that distance.
 
 use super::sample::TimedMotion;
-use cplan_core::check::{CertifiedPath, StraightMotions, certify};
-use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, Path};
+use cplan_judge::{CertifiedPath, StraightMotions, certify};
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, Path};
 
 /// Distances by which all corners are first moved off the obstacles, as fractions of the greatest distance.
 const LIFT_SHARES: [f64; 8] = [1.0 / 128.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0, 1.0];
@@ -91,7 +91,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
                 self.motions.is_free(moved[w - 1], moved[w])
             }
         };
-        is_free.then(|| certify(self.scene, Path::new(moved), self.scene.workspace().clearance).ok()).flatten()
+        is_free.then(|| certify(self.scene, Path::new(moved)).ok()).flatten()
     }
 
     /// Replaces `best` by the motion along a path if that is faster. Returns true if it is.
@@ -115,7 +115,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
             let barred: Vec<usize> =
                 (1..q.len()).filter(|&w| is_moved(w) && !self.motions.is_free(moved[w - 1], moved[w])).collect();
             if barred.is_empty() {
-                return certify(self.scene, Path::new(moved), self.scene.workspace().clearance).ok();
+                return certify(self.scene, Path::new(moved)).ok();
             }
             let share = if round + 1 < MAX_LIFT_HALVINGS { 0.5 } else { 0.0 };
             barred.iter().for_each(|&w| (lifts[w - 1], lifts[w]) = (share * lifts[w - 1], share * lifts[w]));

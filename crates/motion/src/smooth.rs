@@ -12,10 +12,10 @@ use super::schedule::{TimedTrack, schedule, stopping_at};
 use super::spline::Spline;
 use crate::BlendedPath;
 use crate::{Rounding, blend};
-use cplan_core::check::CertifiedPath;
-use cplan_core::model::Scene;
-use cplan_core::space::Configuration;
 use cplan_handling::Piece;
+use cplan_judge::CertifiedPath;
+use cplan_model::Scene;
+use cplan_model::space::Configuration;
 use std::collections::BTreeSet;
 
 /// Factor by which the speed at a corner is reduced if the motion near it is not shown to be free.

@@ -1,8 +1,8 @@
 //! Spans of a motion, and the deviation of a span from the configuration in its middle.
 
-use cplan_core::check::Deviation;
-use cplan_core::space::Configuration;
 use cplan_handling::Piece;
+use cplan_judge::Deviation;
+use cplan_model::space::Configuration;
 
 /// Least length of a span, as a share of its piece. For a long piece it corresponds to a nanosecond. It is far greater
 /// than the rounding of a share.

@@ -19,8 +19,8 @@ use super::retime::{CONDITION_POSITIONS, Condition, Rate};
 use super::sample::{MIN_INTERVAL, MIN_PERIODIC_INTERVAL, Trajectory};
 use super::schedule::{TimedTrack, duration, places};
 use super::torque::TorqueLimit;
-use cplan_core::space::Configuration;
 use cplan_handling::Piece;
+use cplan_model::space::Configuration;
 
 /// Number of time steps in a smoothing window. The motion takes one step longer than the window, so with more and
 /// shorter steps it is faster.
@@ -318,7 +318,7 @@ mod tests {
     use super::super::schedule::schedule;
     use super::*;
     use crate::BlendedPath;
-    use cplan_core::space::Path;
+    use cplan_model::space::Path;
     use proptest::prelude::*;
 
     fn limits(velocity: f64, acceleration: f64, jerk: [Option<f64>; 2]) -> Limits<'static> {

@@ -2,9 +2,9 @@
 
 use super::sample::time_curve;
 use super::{Limits, MAX_SAMPLES, MIN_INTERVAL, TimingError, Trajectory};
-use cplan_core::model::{Joint, JointType};
-use cplan_core::space::{Configuration, JointRange, Path};
 use cplan_geometry::Vector;
+use cplan_model::space::{Configuration, JointRange, Path};
+use cplan_model::{Joint, JointType};
 use proptest::prelude::*;
 
 fn joint(revolute: bool, velocity: f64, acceleration: f64) -> Joint {

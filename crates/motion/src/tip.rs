@@ -1,8 +1,8 @@
 //! Limit on the speed of the tip.
 
-use cplan_core::model::{Arm, JointType};
-use cplan_core::space::Configuration;
 use cplan_handling::{Derivative, Piece};
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, JointType};
 
 /// Greatest share of the tip's speed limit that is lost because one bound holds for a whole part of a curve. It
 /// determines how finely curves are cut.

@@ -3,10 +3,10 @@
 use super::sample::{TimingError, Trajectory};
 use super::tip::Part;
 use crate::recorded::torque_samples;
-use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, Path};
 use cplan_dynamics::{Curvature, Rates, Torques};
 use cplan_handling::Piece;
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, Path};
 
 /// Fraction of an effort by which the torque may be overestimated on a part of a curve. It determines how finely curves
 /// are cut.

@@ -1,14 +1,14 @@
 //! Times at which moving obstacles block the arm at a configuration. They are exact in time, as slices are exact in
 //! joint space.
 
-use cplan_core::check::{Deviation, Posture};
-use cplan_core::model::{Pair, Scene};
-use cplan_core::space::Configuration;
 use cplan_geometry::{
     Convex, Interval, Point, Pose, Vector, cross, merge_in_place, separation, separation_at, sliding,
 };
 use cplan_handling::{Leg, TimedScene};
 use cplan_interrupt::checkpoint;
+use cplan_judge::{Deviation, Posture};
+use cplan_model::space::Configuration;
+use cplan_model::{Pair, Scene};
 use std::cell::OnceCell;
 
 /// Fraction of the lengths involved by which shapes are enlarged. It is far more than rounding, but too little to

@@ -1,10 +1,10 @@
 //! Times at which a motion may depart without meeting a moving obstacle.
 
 use super::blocked::{MovingObstacles, NO_DEVIATION, PartDeviation};
-use cplan_core::check::Posture;
 use cplan_geometry::{Interval, merge_in_place};
 use cplan_handling::Piece;
 use cplan_interrupt::checkpoint;
+use cplan_judge::Posture;
 use cplan_motion::{Place, Span};
 
 /// Largest motion of a point of the arm in half of a stretch of a motion, as a fraction of the arm's reach. A stretch

@@ -20,10 +20,10 @@ pub use blocked::MovingObstacles;
 pub use place_time::{MotionPart, PlaceTime, TimedPlace, WaitReason};
 pub use schedule::{TimingRequirements, Wait};
 
-use cplan_core::check::{CertifiedPath, Nearest, certify};
-use cplan_core::model::{MotionProblem, Outcome};
-use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_handling::{Interpolation, ObstacleTrajectory, Recording, TimedScene};
+use cplan_judge::{CertifiedPath, Nearest, certify};
+use cplan_model::space::{Configuration, GoalSet, Segment};
+use cplan_model::{MotionProblem, Outcome};
 use cplan_motion::recorded::{CollisionCheck, certify_in_time, first_moving_contact};
 use cplan_motion::{Limits, TimedMotion, TimingError, Trajectory};
 use cplan_solver::{Options, solve};
@@ -121,7 +121,7 @@ pub fn time_among_moving_obstacles(
         let planner = options.planner.with_gap(options.planner.gap().unwrap_or(PATH_GAP));
         let looser = Options { bounded: false, planner, ..*options };
         let Outcome::Found(other) = solve(&around, &looser, &mut |_| ()).outcome else { break };
-        let Ok(other) = certify(scene, other.path().clone(), scene.workspace().clearance) else { break };
+        let Ok(other) = certify(scene, other.path().clone()) else { break };
         let whole = options.drive.along(scene, &other, demand.speed)?;
         alternative = Some((other, whole));
     }

@@ -3,10 +3,10 @@
 
 use super::blocked::MovingObstacles;
 use super::schedule::Wait;
-use cplan_core::space::Configuration;
 use cplan_geometry::Interval;
 use cplan_handling::TimedScene;
 use cplan_interrupt::checkpoint;
+use cplan_model::space::Configuration;
 use cplan_motion::Trajectory;
 
 /// Number of places on the whole motion. With it, a row of a small chart is less than a pixel high.

@@ -1,11 +1,11 @@
 //! Proofs that no timing along a path avoids the moving obstacles.
 
 use super::blocked::{MovingObstacles, PartDeviation, complement};
-use cplan_core::check::{Deviation, Posture};
-use cplan_core::model::Arm;
-use cplan_core::space::{Configuration, Path};
 use cplan_geometry::{Interval, OrderedF64, merge_in_place};
 use cplan_interrupt::checkpoint;
+use cplan_judge::{Deviation, Posture};
+use cplan_model::Arm;
+use cplan_model::space::{Configuration, Path};
 use std::cell::OnceCell;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};

@@ -2,10 +2,10 @@
 
 use super::blocked::MovingObstacles;
 use super::departures::{blocked_departures, first_departure};
-use cplan_core::check::{CertifiedPath, Posture};
-use cplan_core::space::{Metric, Path};
 use cplan_geometry::{Interval, OrderedF64};
 use cplan_interrupt::checkpoint;
+use cplan_judge::{CertifiedPath, Posture};
+use cplan_model::space::{Metric, Path};
 use cplan_motion::CertifiedCurve;
 use cplan_motion::{Drive, Limits, TimedMotion, TimingError, Trajectory, least_duration};
 use serde::Serialize;

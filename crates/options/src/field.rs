@@ -5,12 +5,12 @@ use super::number::{finite, positive};
 use super::readers::{listed, require};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
-use cplan_core::planner::PathKind;
 use cplan_fields::{
     Attraction, Device, Difference, Direction, Escape, Factor, Initial, Khatib, Limits, Lines, Measure, Order,
     RELATIVE_TOLERANCE, Relaxation, Repulsion, Scan, Stencil,
 };
 use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
+use cplan_planners::planner::PathKind;
 use cplan_solver::{Method, Setting};
 
 /// Equations of fields.

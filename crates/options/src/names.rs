@@ -1,10 +1,10 @@
 //! Names of planners, paths, searches and other choices, so that help and shells can list them.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use cplan_core::planner::{GridSearch, PathKind, VisibilityGraph};
-use cplan_core::waves::search::Ties;
 use cplan_fields::{Device, Difference, Initial, Limits, Measure, Stencil};
 use cplan_motion::Objective;
+use cplan_planners::planner::{GridSearch, PathKind, VisibilityGraph};
+use cplan_planners::waves::search::Ties;
 use cplan_solver::{GridSpace, Method, NamedJoints};
 use std::ffi::OsStr;
 use std::marker::PhantomData;

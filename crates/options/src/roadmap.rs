@@ -4,7 +4,7 @@ use super::names::word;
 use super::planner::to_i64_range;
 use super::readers::{readers, require};
 use clap::Args;
-use cplan_core::planner::{GridSearch, RoadmapSearch, SearchOrder, VisibilityGraph};
+use cplan_planners::planner::{GridSearch, RoadmapSearch, SearchOrder, VisibilityGraph};
 use cplan_solver::{ALLOWED_NEIGHBORS, ALLOWED_SAMPLES, Method, Planner, Setting};
 use std::sync::LazyLock;
 

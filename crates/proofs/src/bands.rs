@@ -1,11 +1,11 @@
 //! Bands: intervals of `q1` in which link 1 collides, whatever `q2` is.
 
 use super::slab::{CLOSED_FORM_ERROR, is_collision};
-use cplan_core::check::Cell;
-use cplan_core::check::CollisionBox;
-use cplan_core::check::{Deviation, Posture};
-use cplan_core::model::{Contacts, on_axis};
 use cplan_geometry::{Vector, merge_in_place};
+use cplan_judge::Cell;
+use cplan_judge::CollisionBox;
+use cplan_judge::{Deviation, Posture};
+use cplan_model::{Contacts, on_axis};
 
 /// Places where a wall of configurations is sought, as shares of the interval of `q1` in which a pair collides. Shapes
 /// usually overlap most in the middle.

@@ -1,10 +1,10 @@
 //! Subdivision of the configuration space into free boxes, collision boxes and undecided boxes.
 
 use super::chain::{Mosaic, Openness};
-use cplan_core::check::{Cell, Deviation, Posture};
-use cplan_core::model::{Pair, Scene};
-use cplan_core::space::{Configuration, Segment, Topology};
 use cplan_interrupt::checkpoint;
+use cplan_judge::{Cell, Deviation, Posture};
+use cplan_model::space::{Configuration, Segment, Topology};
+use cplan_model::{Pair, Scene};
 
 /// Returns the two halves of a box along `axis`.
 fn halves(cell: &Cell, axis: usize) -> [Cell; 2] {

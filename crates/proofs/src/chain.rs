@@ -5,10 +5,10 @@
 //! heap. And the cost of a path depends on where it enters a box.
 
 use super::boxes::portal;
-use cplan_core::check::Cell;
-use cplan_core::space::{Configuration, GoalSet, Measure, Metric, Segment, Topology};
 use cplan_geometry::OpenList;
 use cplan_interrupt::checkpoint;
+use cplan_judge::Cell;
+use cplan_model::space::{Configuration, GoalSet, Measure, Metric, Segment, Topology};
 use std::collections::VecDeque;
 
 const NO_BOX: u32 = u32::MAX;

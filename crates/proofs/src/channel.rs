@@ -2,7 +2,7 @@
 
 use super::boxes::{Portal, portal};
 use super::chain::{End, Mosaic, ends_in};
-use cplan_core::space::{Configuration, Measure, Metric, Path, Segment};
+use cplan_model::space::{Configuration, Measure, Metric, Path, Segment};
 
 /// A chain of adjacent free boxes. Each box is convex, so any path that runs straight from portal to portal is free.
 #[derive(Debug, Clone, PartialEq)]

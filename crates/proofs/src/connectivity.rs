@@ -4,10 +4,10 @@ use super::boxes::{State, Subdivision};
 use super::chain::{Mosaic, all_of_fewest_undecided, ends, fewest_undecided, shortest};
 use super::channel::Channel;
 use super::separating::separating;
-use cplan_core::check::Cell;
-use cplan_core::check::Disconnection;
-use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, GoalSet};
+use cplan_judge::Cell;
+use cplan_judge::Disconnection;
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, GoalSet};
 use std::borrow::Cow;
 
 /// The answer of [`connectivity`].

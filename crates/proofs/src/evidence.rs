@@ -11,9 +11,9 @@
 mod blocked_part;
 
 use blocked_part::held;
-use cplan_core::model::{Pair, Scene};
-use cplan_core::space::Configuration;
 use cplan_interrupt::checkpoint;
+use cplan_model::space::Configuration;
+use cplan_model::{Pair, Scene};
 
 /// An interval of joint 2 on a slice in which a pair of shapes collides.
 #[derive(Debug, Clone, Copy)]

@@ -1,6 +1,6 @@
 //! Search for proofs and bounds: slabs and boxes decide whether a path exists, and lower bounds limit how short a path
-//! can be. The results pass [`cplan_core::check`], which shares with this crate only the kernels of geometry and its
-//! bounds on distances ([`cplan_core::check::Posture`], [`cplan_core::check::Deviation`]).
+//! can be. The results pass [`cplan_judge`], which shares with this crate only the kernels of geometry and its
+//! bounds on distances ([`cplan_judge::Posture`], [`cplan_judge::Deviation`]).
 //!
 //! The question goes to [`slab_connectivity`] first. Within a slab of `q1`, contact angles with obstacles grown by the
 //! slab's motion give the values of joint 2 that are free all over the slab. Contact angles with shapes eroded by that
@@ -15,9 +15,9 @@
 //! square of their spacing. [`short_motion`] is the same search among obstacles that are grown slightly.
 //!
 //! ```
-//! use cplan_core::model::{Arm, MotionProblem, Obstacle, Scene, Workspace};
+//! use cplan_model::{Arm, MotionProblem, Obstacle, Scene, Workspace};
 //! use cplan_proofs::{Connectivity, slab_connectivity};
-//! use cplan_core::space::Configuration;
+//! use cplan_model::space::Configuration;
 //!
 //! // Two posts leave less space between them than the arm is thick, so nothing beyond the elbow can pass.
 //! let posts = [Obstacle::circle("left", [0.55, 0.35], 0.2)?, Obstacle::circle("right", [0.55, -0.35], 0.2)?];

@@ -2,8 +2,8 @@
 
 use super::boxes::{State, Subdivision};
 use super::chain::Mosaic;
-use cplan_core::check::{CollisionBox, Disconnection};
-use cplan_core::space::{Configuration, GoalSet};
+use cplan_judge::{CollisionBox, Disconnection};
+use cplan_model::space::{Configuration, GoalSet};
 
 /// Selects the collision boxes that separate start and goals. Precondition: the other boxes of the subdivision do not
 /// connect them.

@@ -5,11 +5,11 @@
 //! moves by at most a chord `m` about the base. So if the pair keeps more than `m` apart at the middle, it is free all
 //! over the slab. If a point of it lies more than `m` deep in both shapes, the pair collides all over the slab.
 
-use cplan_core::check::Cell;
-use cplan_core::check::{Deviation, Posture};
-use cplan_core::model::{CarriedPart, Contacts, Pair, Scene, on_axis};
 use cplan_geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
 use cplan_interrupt::checkpoint;
+use cplan_judge::Cell;
+use cplan_judge::{Deviation, Posture};
+use cplan_model::{CarriedPart, Contacts, Pair, Scene, on_axis};
 
 /// Assumed error of closed forms, metres: twice the error that they state. The second half covers the rounding of a few
 /// sums of lengths and of angles with whole turns.
@@ -222,12 +222,10 @@ pub(super) fn is_collision(scene: &Scene, pair: Pair, cell: &Cell, clearance: f6
 mod tests {
     use super::super::tiles::tile;
     use super::*;
-    use cplan_core::model::{
-        Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace,
-    };
-    use cplan_core::space::Configuration;
-    use cplan_core::space::JointRange;
     use cplan_geometry::hull;
+    use cplan_model::space::Configuration;
+    use cplan_model::space::JointRange;
+    use cplan_model::{Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
     use nalgebra::Vector3;
     use proptest::prelude::*;
 

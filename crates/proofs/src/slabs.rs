@@ -12,11 +12,11 @@ use super::chain::{Mosaic, Openness, all_of_fewest_undecided, ends, fewest_undec
 use super::channel::Channel;
 use super::connectivity::{Connectivity, Occupancy, proven};
 use super::slab::{SecondLink, Verdicts};
-use cplan_core::check::Cell;
-use cplan_core::check::CollisionBox;
-use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, GoalSet, Segment, Topology};
 use cplan_geometry::merge_in_place;
+use cplan_judge::Cell;
+use cplan_judge::CollisionBox;
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, GoalSet, Segment, Topology};
 
 /// Number of initial slabs over the domain. Slabs beside values of joint 1 at which link 1 collides are narrower. All
 /// later slabs are made by halving. There must be at least three, so that no slab is its own neighbour across a seam.

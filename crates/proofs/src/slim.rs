@@ -1,6 +1,6 @@
 //! Proofs with fewer boxes.
 
-use cplan_core::check::{CheckedProof, CollisionBox, Disconnection};
+use cplan_judge::{CheckedProof, CollisionBox, Disconnection};
 
 /// Number of boxes up to which proofs are not reduced.
 const MAX_UNREDUCED_BOXES: usize = 256;

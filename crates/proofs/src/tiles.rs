@@ -6,9 +6,9 @@
 //! collides everywhere, and is halved otherwise, across the joint that moves the shapes more.
 
 use super::slab::is_collision;
-use cplan_core::check::{Cell, CollisionBox, Deviation, Posture};
-use cplan_core::model::{Pair, Scene};
 use cplan_interrupt::checkpoint;
+use cplan_judge::{Cell, CollisionBox, Deviation, Posture};
+use cplan_model::{Pair, Scene};
 
 /// Maximum number of boxes for a colliding interval of a slab. Where shapes overlap little, the height of boxes must be
 /// about the width of the slab.

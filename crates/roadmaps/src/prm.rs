@@ -1,15 +1,15 @@
 //! The probabilistic roadmap.
 
 use super::triangles::taut;
-use cplan_core::cspace::Regions;
-use cplan_core::planner::mesh::Mesh;
-use cplan_core::planner::roadmap::{self, Nearby, QueryGraph, Roadmap, RoadmapSearch};
-use cplan_core::planner::terminals::Terminals;
-use cplan_core::planner::{GraphKind, PathKind, Planner, Proposal, Query, Run};
-use cplan_core::space::{Measure, Metric, Path, Segment, SplitMix64};
 use cplan_geometry::Point;
 use cplan_geometry::planar::Boundary;
 use cplan_interrupt::checkpoint;
+use cplan_model::space::{Measure, Metric, Path, Segment, SplitMix64};
+use cplan_planners::cspace::Regions;
+use cplan_planners::planner::mesh::Mesh;
+use cplan_planners::planner::roadmap::{self, Nearby, QueryGraph, Roadmap, RoadmapSearch};
+use cplan_planners::planner::terminals::Terminals;
+use cplan_planners::planner::{GraphKind, PathKind, Planner, Proposal, Query, Run};
 use cplan_text::counted;
 use petgraph::graph::NodeIndex;
 

@@ -1,13 +1,13 @@
 //! Paths through the triangles of free space, from the middle of one side to that of another.
 
-use cplan_core::cspace::Regions;
-use cplan_core::planner::mesh::Mesh;
-use cplan_core::planner::roadmap::{Roadmap, RoadmapSearch};
-use cplan_core::planner::terminals::Terminals;
-use cplan_core::planner::{CellKind, ChannelPoints, PathKind, Planner, Proposal, Query, Run, Size, Trace};
-use cplan_core::space::{Configuration, Measure, Metric, Path, Portal, Segment, funnel_path, nearest_end};
 use cplan_geometry::Point;
 use cplan_geometry::planar::{Boundary, NO_ENTRY};
+use cplan_model::space::{Configuration, Measure, Metric, Path, Portal, Segment, funnel_path, nearest_end};
+use cplan_planners::cspace::Regions;
+use cplan_planners::planner::mesh::Mesh;
+use cplan_planners::planner::roadmap::{Roadmap, RoadmapSearch};
+use cplan_planners::planner::terminals::Terminals;
+use cplan_planners::planner::{CellKind, ChannelPoints, PathKind, Planner, Proposal, Query, Run, Size, Trace};
 use petgraph::graph::NodeIndex;
 use std::sync::Arc;
 

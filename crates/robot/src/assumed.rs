@@ -1,6 +1,6 @@
 //! Limits that are assumed because the files state none, and their description.
 
-use cplan_core::model::DEFAULT_TIME_TO_TOP_SPEED;
+use cplan_model::DEFAULT_TIME_TO_TOP_SPEED;
 use cplan_text::short;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

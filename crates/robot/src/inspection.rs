@@ -1,9 +1,9 @@
 //! The report on a robot, whether it is usable for planning or not.
 
 use super::error::InputError;
-use cplan_core::model::{OutlineSource, Scene};
 use cplan_geometry::Point;
 use cplan_handling::ObstacleTrajectory;
+use cplan_model::{OutlineSource, Scene};
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::path::PathBuf;

@@ -1,8 +1,8 @@
 //! The report to the user on how the robot was read.
 
 use crate::AssumedLimits;
-use cplan_core::model::Arm;
 use cplan_handling::{HeldJoint, RobotJoints};
+use cplan_model::Arm;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 

@@ -4,11 +4,11 @@
 //! configuration that is free in the space, at the end of a short, certified straight motion. That motion completes the
 //! planner's path, and the result is judged as a whole, like any other path.
 
-use cplan_core::check::certify;
-use cplan_core::cspace::{Grid, Regions, ZonedGrid, free_stretches};
-use cplan_core::model::{MotionProblem, Scene};
-use cplan_core::planner::Query;
-use cplan_core::space::{Configuration, Path, Segment, Topology};
+use cplan_judge::certify;
+use cplan_model::space::{Configuration, Path, Segment, Topology};
+use cplan_model::{MotionProblem, Scene};
+use cplan_planners::cspace::{Grid, Regions, ZonedGrid, free_stretches};
+use cplan_planners::planner::Query;
 use std::f64::consts::TAU;
 
 /// A planner's representation of free space. It may refuse a start or goal that is free, because it is not exact. Then
@@ -60,7 +60,7 @@ fn stand_in(scene: &Scene, space: &impl EndAdmission, q: Configuration) -> Confi
         let length = SHORTEST_STEP * (1_u32 << step) as f64;
         for k in 0..STAND_IN_DIRECTIONS {
             let there = q + direction(k) * length;
-            let direct = || certify(scene, Path::new(vec![q, there]), scene.workspace().clearance);
+            let direct = || certify(scene, Path::new(vec![q, there]));
             if space.admits(there) && direct().is_ok() {
                 return there;
             }

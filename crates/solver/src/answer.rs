@@ -1,10 +1,10 @@
 //! The outcome of a planner's search, with the steps that led to it.
 
 use super::{Bound, Method, Space, Stages};
-use cplan_core::check::{CertifiedPath, CheckedProof};
-use cplan_core::model::Outcome;
-use cplan_core::planner::{PathKind, Planner as _, Run, Trace, Visibility};
-use cplan_core::space::{Configuration, Path};
+use cplan_judge::{CertifiedPath, CheckedProof};
+use cplan_model::Outcome;
+use cplan_model::space::{Configuration, Path};
+use cplan_planners::planner::{PathKind, Planner as _, Run, Trace, Visibility};
 use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::fmt;

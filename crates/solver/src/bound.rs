@@ -1,10 +1,10 @@
 //! Upper bound on how much longer a path is than the shortest one.
 
 use super::rungs::extent;
-use cplan_core::cspace::inner_regions;
-use cplan_core::model::MotionProblem;
-use cplan_core::planner::{Planner as _, Proposal, Query, Visibility};
-use cplan_core::space::{Metric, Path};
+use cplan_model::MotionProblem;
+use cplan_model::space::{Metric, Path};
+use cplan_planners::cspace::inner_regions;
+use cplan_planners::planner::{Planner as _, Proposal, Query, Visibility};
 use cplan_proofs::{BoundEvidence, MotionQuery, bound_evidence, least_length};
 
 /// The length of a path, and a proven lower bound on the length of all paths for the same problem.

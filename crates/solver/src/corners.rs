@@ -4,10 +4,10 @@
 //! the pieces before and after it are extended until they meet. The new corner lies away from the obstacle, and the
 //! path has one corner less.
 
-use cplan_core::check::{CertifiedPath, Rejection, certify};
-use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, Metric, Path, Topology};
 use cplan_geometry::OpenList;
+use cplan_judge::{CertifiedPath, Rejection, certify};
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, Metric, Path, Topology};
 
 /// Largest number of attempts to certify a path with fewer corners. Some pieces were removed where the refused path
 /// comes too near to an obstacle. The next attempt keeps these pieces.
@@ -30,7 +30,7 @@ pub(super) fn fewer_corners(scene: &Scene, path: &Path, metric: Metric, budget: 
         if fewer.len() == path.waypoints().len() {
             return None;
         }
-        match certify(scene, Path::new(fewer), scene.workspace().clearance) {
+        match certify(scene, Path::new(fewer)) {
             Ok(path) => return Some(path),
             Err(Rejection::TooClose(nearest) | Rejection::Undecided(nearest)) => too_near.push(nearest.at),
             Err(Rejection::OutOfLimits { .. }) => return None,
@@ -137,7 +137,7 @@ fn is_near(q: Configuration, others: &[Configuration; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::space::JointRange;
+    use cplan_model::space::JointRange;
     use std::f64::consts::FRAC_PI_2;
 
     const WIDE: Topology = Topology { ranges: [JointRange::Interval { lower: -2.0, upper: 2.0 }; 2] };

@@ -3,8 +3,8 @@
 use super::ladder::explain;
 use super::subdivision::certify_shortest_in_channel;
 use super::thinned::ThinnedProblem;
-use cplan_core::check::{CertifiedPath, CheckedProof, Disconnection};
-use cplan_core::model::{MotionProblem, Outcome, Pair};
+use cplan_judge::{CertifiedPath, CheckedProof, Disconnection};
+use cplan_model::{MotionProblem, Outcome, Pair};
 use cplan_proofs::{Connectivity, connectivity, slab_connectivity, slimmed};
 
 /// Largest number of slabs; enough for all but contrived questions. A few thousand slabs take some milliseconds.

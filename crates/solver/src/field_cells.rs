@@ -3,10 +3,10 @@
 use super::admission::Ends;
 use super::rungs::zoned_cells;
 use super::{CellCounts, GridSpace};
-use cplan_core::cspace::ZonedGrid;
-use cplan_core::model::MotionProblem;
 use cplan_fields::field_domain;
 use cplan_fields::{Cell, Domain, Limits};
+use cplan_model::MotionProblem;
+use cplan_planners::cspace::ZonedGrid;
 
 /// Returns the cells of a problem's first level with the world's preferences, and marks which of them are free,
 /// obstacles and goals. The planner `harmonic` relaxes an equation on such cells. `cells` are those of the

@@ -3,10 +3,10 @@
 use super::decision::decide;
 use super::ladder::Request;
 use super::{Answer, Method, Space, Stages};
-use cplan_core::check::{CertifiedPath, CheckedProof};
-use cplan_core::model::Outcome;
-use cplan_core::planner::{PathKind, Proposal, Run, Size, Trace};
 use cplan_interrupt::Instant;
+use cplan_judge::{CertifiedPath, CheckedProof};
+use cplan_model::Outcome;
+use cplan_planners::planner::{PathKind, Proposal, Run, Size, Trace};
 
 /// Answers a request by [`decide`].
 pub(super) fn solve(Request { problem, options, .. }: Request) -> Answer {

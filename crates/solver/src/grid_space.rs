@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "snake_case")]
 pub enum GridSpace {
     /// Exact slices. Each size of cells is tried twice. In the first attempt, a cell counts as free only if all of it
-    /// is free. In the second, it counts as free if its centre is free. [`Proves`](cplan_core::cspace::Proves) states
+    /// is free. In the second, it counts as free if its centre is free. [`Proves`](cplan_planners::cspace::Proves) states
     /// which of the two applies.
     #[default]
     Rows,
@@ -16,7 +16,7 @@ pub enum GridSpace {
     /// Exact slices. A cell counts as free if its centre is free, from the first attempt on, as usual in the
     /// literature.
     Centers,
-    /// Collision checks by parry2d at the centres of cells ([`Proves::Sampled`](cplan_core::cspace::Proves::Sampled)),
+    /// Collision checks by parry2d at the centres of cells ([`Proves::Sampled`](cplan_planners::cspace::Proves::Sampled)),
     /// for comparison with other libraries. Slower than slices by the number of cells per slice.
     Sampled,
 }

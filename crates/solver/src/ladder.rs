@@ -5,13 +5,13 @@ use super::bound::{Bound, bound};
 use super::decision::decide;
 use super::rungs::{Describe, grid_cells, polygons, zoned_cells};
 use super::{Answer, BoundedPath, Options, Settings, Space, Stages, Unknown};
-use cplan_core::check::{CertifiedPath, CheckedProof, Rejection, certify};
-use cplan_core::cspace::{Grid, Regions, ZonedGrid, not_polygons};
-use cplan_core::model::{MotionProblem, Outcome, Scene};
-use cplan_core::planner::{Note, Planner, Proposal, Query, Run, Visibility};
-use cplan_core::space::{Metric, Path, Segment};
 use cplan_fields::FieldChoice;
 use cplan_interrupt::Instant;
+use cplan_judge::{CertifiedPath, CheckedProof, Rejection, certify};
+use cplan_model::space::{Metric, Path, Segment};
+use cplan_model::{MotionProblem, Outcome, Scene};
+use cplan_planners::cspace::{Grid, Regions, ZonedGrid, not_polygons};
+use cplan_planners::planner::{Note, Planner, Proposal, Query, Run, Visibility};
 use cplan_text::percent;
 
 /// Number of boxes of the first search for a proof, after the first attempt has failed. It suffices if a proof is easy,
@@ -38,7 +38,7 @@ pub fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMu
     let Some(near) = scene.within_reach() else { return answered(problem, options, progress) };
     let near = MotionProblem::trusted(near, problem.start(), problem.goals().clone());
     let mut answer = answered(&near, options, progress);
-    let among_all = |path: &CertifiedPath| certify(scene, path.path().clone(), scene.workspace().clearance).ok();
+    let among_all = |path: &CertifiedPath| certify(scene, path.path().clone()).ok();
     match &mut answer.outcome {
         Outcome::Found(path) => match among_all(&path.certified) {
             Some(certified) => path.certified = certified,
@@ -226,7 +226,7 @@ impl Climb<'_> {
     /// start and goal. The direct motion is tried first, then the motion through the stand-in.
     fn certify_proposal(&mut self, ends: &Ends, proposal: &Path) -> Result<CertifiedPath, Rejection> {
         let clock = Instant::now();
-        let judge = |path| certify(self.problem.scene(), path, self.problem.scene().workspace().clearance);
+        let judge = |path| certify(self.problem.scene(), path);
         let straight = ends.past_stand_ins(proposal).and_then(|path| judge(path).ok());
         let certified = straight.map_or_else(|| judge(ends.complete(proposal)), Ok);
         self.stages.certify += clock.elapsed();

@@ -2,7 +2,7 @@
 //! If no path is found, it looks for a proof that no path exists.
 //!
 //! Planners see approximations of the configuration space, so their paths are only proposals. Every path that this
-//! crate reports as found has passed [`cplan_motion::recorded`]. Every answer reported as infeasible is proven.
+//! crate reports as found has passed [`cplan_judge::certify`]. Every answer reported as infeasible is proven.
 //!
 //! # The ladder
 //!
@@ -85,7 +85,7 @@ pub use setting::{
     ALLOWED_CELLS, ALLOWED_NEIGHBORS, ALLOWED_SAMPLES, Criterion, DEFAULT_CELLS, MAX_MARGIN, Setting, Settings,
 };
 
-use cplan_core::cspace::{Grid, Regions};
+use cplan_planners::cspace::{Grid, Regions};
 use std::ops::Add;
 use std::time::Duration;
 

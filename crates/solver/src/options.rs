@@ -1,8 +1,8 @@
 //! Planning options: the planner with its settings, the settings for driving, and the content of the output files.
 
 use super::{Method, Planner};
-use cplan_core::model::{Arm, Joint};
 use cplan_dynamics::keep_efforts;
+use cplan_model::{Arm, Joint};
 use cplan_motion::{Drive, MIN_INTERVAL};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;

@@ -1,11 +1,11 @@
 //! A planner with its settings.
 
 use super::{CellCounts, Criterion, GridSpace, Method, Setting, Settings};
-use cplan_core::model::Arm;
-use cplan_core::planner::{PathKind, RoadmapSearch, VisibilityGraph};
-use cplan_core::space::Metric;
-use cplan_core::waves::search::Order;
 use cplan_fields::{FieldChoice, FieldPlanner};
+use cplan_model::Arm;
+use cplan_model::space::Metric;
+use cplan_planners::planner::{PathKind, RoadmapSearch, VisibilityGraph};
+use cplan_planners::waves::search::Order;
 use serde::de::Error;
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};

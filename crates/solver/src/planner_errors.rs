@@ -2,9 +2,9 @@
 
 use super::setting::{ALLOWED_NEIGHBORS, ALLOWED_SAMPLES, MAX_MARGIN};
 use super::{Criterion, Planner, Setting};
-use cplan_core::model::Preference;
-use cplan_core::planner::{GridSearch, PathKind};
 use cplan_fields::{EquationChoice, FieldChoice};
+use cplan_model::Preference;
+use cplan_planners::planner::{GridSearch, PathKind};
 use std::ops::RangeInclusive;
 
 impl Planner {

@@ -7,8 +7,8 @@ use Setting::{
     Cells, Criterion, Field, Forward, Gap, Graph, GridSearch, Margin, Nearest, Neighborhood, Path, Samples, Search,
     Seed, Space, Ties,
 };
-use cplan_core::planner::{Harmonic, PathKind, Planner, Trapezoid, Visibility, Wavefront};
 use cplan_fields::FieldPlanner;
+use cplan_planners::planner::{Harmonic, PathKind, Planner, Trapezoid, Visibility, Wavefront};
 use cplan_roadmaps::{Prm, Triangles, Voronoi};
 use std::fmt;
 use std::str::FromStr;

@@ -7,12 +7,12 @@
 use super::admission::Ends;
 use super::ladder::FIRST_BOXES;
 use super::{Answer, BoundedPath, Options, Space, solve};
-use cplan_core::cspace::ZonedGrid;
-use cplan_core::model::{MotionProblem, Outcome};
-use cplan_core::planner::{CellKind, GraphKind, Note, PathKind, Proposal, Size, Trace};
-use cplan_core::space::{Configuration, Path};
 use cplan_fields::{Device, Measure, RELATIVE_TOLERANCE, Stopping, relax_watched};
 use cplan_fields::{FieldChoice, field_domain};
+use cplan_model::space::{Configuration, Path};
+use cplan_model::{MotionProblem, Outcome};
+use cplan_planners::cspace::ZonedGrid;
+use cplan_planners::planner::{CellKind, GraphKind, Note, PathKind, Proposal, Size, Trace};
 use cplan_proofs::{Occupancy, slab_boxes};
 use cplan_text::{counted, percent};
 
@@ -86,8 +86,7 @@ pub struct SlabBoxes {
 /// A field after some of its sweeps, at some cells of the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweeps {
-    /// One entry per frame: the number of sweeps so far, and the natural logarithms of the values. They are minus
-    /// infinity where the field is still zero.
+    /// Number of cells of each frame along the two axes.
     pub cells: [usize; 2],
     /// For each frame, the number of sweeps so far and the natural logarithms of the values, which are minus infinity
     /// where the field is still zero.
@@ -237,9 +236,8 @@ impl Phases {
         let clearance = scene.workspace().clearance;
         let all = slab_boxes(scene, problem.start(), problem.goals(), clearance, MAX_REPLAY_SLABS);
         let extents = scene.arm().topology().ranges.map(|axis| axis.extent());
-        let sides = |(cell, _): &(cplan_core::check::Cell, Occupancy)| {
-            [0, 1].map(|k| (cell.upper[k] - cell.lower[k]) / extents[k])
-        };
+        let sides =
+            |(cell, _): &(cplan_judge::Cell, Occupancy)| [0, 1].map(|k| (cell.upper[k] - cell.lower[k]) / extents[k]);
         let mut seen: Vec<_> =
             all.into_iter().filter(|one| sides(one).iter().all(|&side| side >= MIN_BOX_WIDTH)).collect();
         // Slabs of one level have equal widths. The sort is stable, so slabs of one level stay in order from left to

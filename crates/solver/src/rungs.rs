@@ -2,11 +2,11 @@
 
 use super::setting::DEFAULT_CELLS;
 use super::{CellCounts, GridSpace, Space};
-use cplan_core::cspace::{
+use cplan_model::{Arm, MotionProblem};
+use cplan_planners::cspace::{
     Grid, Proves, Regions, ZonedGrid, exact_regions, grid_from_slices, not_polygons, outer_grid, regions, sampled_grid,
     traced_pairs,
 };
-use cplan_core::model::{Arm, MotionProblem};
 
 /// Largest number of cells along an axis on levels after the first. With more than 2048 x 2048 cells, fields take
 /// minutes.

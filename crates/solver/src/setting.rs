@@ -1,11 +1,11 @@
 //! The settings of planners. Each planner reads some of them, as its descriptor says.
 
 use super::{CellCounts, GridSpace};
-use cplan_core::model::Arm;
-use cplan_core::planner::{self, PathKind, RoadmapSearch, VisibilityGraph};
-use cplan_core::space::Metric;
-use cplan_core::waves::{self, search};
 use cplan_fields::FieldPlanner;
+use cplan_model::Arm;
+use cplan_model::space::Metric;
+use cplan_planners::planner::{self, PathKind, RoadmapSearch, VisibilityGraph};
+use cplan_planners::waves::{self, search};
 use cplan_roadmaps::Prm;
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize};

@@ -13,10 +13,10 @@ use super::decision::decide;
 use super::first::answer;
 use super::ladder::{CLOSE_GAP, FIRST_BOXES, Request, by_visibility};
 use super::{Answer, BoundedPath, Method, Options, Stages};
-use cplan_core::check::{CertifiedPath, certify};
-use cplan_core::model::{MotionProblem, Outcome};
-use cplan_core::planner::{Size, Trace};
 use cplan_interrupt::Instant;
+use cplan_judge::{CertifiedPath, certify};
+use cplan_model::{MotionProblem, Outcome};
+use cplan_planners::planner::{Size, Trace};
 use cplan_proofs::{MotionQuery, ProposedPath, RefusalReason, short_motion};
 use std::time::Duration;
 
@@ -152,7 +152,7 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
         let mut tries = 0;
         let judge = |ProposedPath { path: proposal, slices, is_shortest }: ProposedPath| {
             let length = metric.length(&proposal);
-            let certificate = || certify(scene, proposal.clone(), motions.clearance).map_err(RefusalReason::By);
+            let certificate = || certify(scene, proposal.clone()).map_err(RefusalReason::By);
             // The first proposed path is usually good, and then only the one with fewer corners needs a certificate.
             tries += 1;
             let certified = if tries > 1 { Some(certificate()?) } else { None };

@@ -3,12 +3,12 @@
 use super::decision::accepted_smaller_proof;
 use super::ladder::{Request, explain};
 use super::{Answer, Method, Space, Stages, Unknown};
-use cplan_core::check::CertifiedPath;
-use cplan_core::check::{Rejection, certify};
-use cplan_core::model::{MotionProblem, Outcome};
-use cplan_core::planner::{PathKind, Proposal, Run, Size, Trace};
-use cplan_core::space::{Configuration, Path, Portal, funnel_path, nearest_end};
 use cplan_interrupt::Instant;
+use cplan_judge::CertifiedPath;
+use cplan_judge::{Rejection, certify};
+use cplan_model::space::{Configuration, Path, Portal, funnel_path, nearest_end};
+use cplan_model::{MotionProblem, Outcome};
+use cplan_planners::planner::{PathKind, Proposal, Run, Size, Trace};
 use cplan_proofs::{Channel, Connectivity, Exploration, Occupancy, explore};
 
 /// Answers a request by [`explore`]: with a path, with a proof, or with neither if
@@ -28,7 +28,7 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let (proposal, outcome) = match exploration.answer {
         Connectivity::Connected(channel) => {
             let certified = match options.planner.path_kind() {
-                PathKind::Own | PathKind::Middles => certify(scene, channel.path(), clearance),
+                PathKind::Own | PathKind::Middles => certify(scene, channel.path()),
                 PathKind::Taut => certify_shortest_in_channel(problem, &channel),
             };
             stages.certify = clock.elapsed();
@@ -72,8 +72,7 @@ pub(super) fn certify_shortest_in_channel(
     problem: &MotionProblem,
     channel: &Channel,
 ) -> Result<CertifiedPath, Rejection> {
-    let clearance = problem.scene().workspace().clearance;
-    certify(problem.scene(), taut(channel), clearance).or_else(|_| certify(problem.scene(), channel.path(), clearance))
+    certify(problem.scene(), taut(channel)).or_else(|_| certify(problem.scene(), channel.path()))
 }
 
 /// Returns the channel's shortest path.

@@ -1,7 +1,7 @@
 //! Problems with fewer pieces of obstacles. If there is no path past fewer pieces, there is none past all pieces.
 
-use cplan_core::model::{MotionProblem, Obstacle, Pair};
 use cplan_geometry::{Convex, Point};
+use cplan_model::{MotionProblem, Obstacle, Pair};
 use std::collections::HashMap;
 
 /// A problem with only some of the pieces of its obstacles.

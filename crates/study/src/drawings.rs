@@ -2,9 +2,9 @@
 
 use super::Study;
 use super::row::Row;
-use cplan_core::model::{Arm, Scene};
-use cplan_core::space::{Configuration, Metric};
 use cplan_geometry::Convex;
+use cplan_model::space::{Configuration, Metric};
+use cplan_model::{Arm, Scene};
 use cplan_parallel::caught;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 //! Finds obstacles that overlap in a layout.
 
-use cplan_core::model::Obstacle;
 use cplan_geometry::{Bounds, BoxTree, Convex, separation};
+use cplan_model::Obstacle;
 
 /// Depth up to which overlapping obstacles count as only touching, in metres. It covers the rounding of numbers in
 /// files and of moved shapes.
@@ -56,8 +56,8 @@ fn meet(a: &Bounds, b: &Bounds) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::model::Heights;
-    use cplan_core::space::SplitMix64;
+    use cplan_model::Heights;
+    use cplan_model::space::SplitMix64;
 
     fn square(name: &str, at: [f64; 2]) -> Obstacle {
         let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];

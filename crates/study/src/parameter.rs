@@ -1,6 +1,6 @@
 //! Parameters of a study, and their values.
 
-use cplan_core::space::SplitMix64;
+use cplan_model::space::SplitMix64;
 
 /// A number that differs from layout to layout.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! The result of a layout.
 
-use cplan_core::model::Status;
+use cplan_model::Status;
 use serde::{Deserialize, Serialize};
 
 /// A layout's row of the table.

@@ -4,7 +4,7 @@ use super::Study;
 use super::measure::Objective;
 use super::row::Row;
 use super::swarm::minimize;
-use cplan_core::space::SplitMix64;
+use cplan_model::space::SplitMix64;
 use cplan_parallel::run_in_order;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;

@@ -1,6 +1,6 @@
 //! Particle swarm optimisation (Kennedy and Eberhart 1995), with the coefficients of Clerc's standard swarm (2006).
 
-use cplan_core::space::SplitMix64;
+use cplan_model::space::SplitMix64;
 use std::f64::consts::LN_2;
 
 /// Fraction of its speed that a particle keeps from one generation to the next. This is Clerc's value.

@@ -10,8 +10,8 @@ use super::motion_cache::{Refusal, require_unobstructed};
 use super::plan::Found;
 use super::state::{Candidate, Candidates, State};
 use super::stroke::stroke;
-use cplan_core::model::{Outcome, Shape};
 use cplan_handling::{Action, Item, Step, Task};
+use cplan_model::{Outcome, Shape};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

@@ -8,8 +8,8 @@
 use super::end_sequence::{End, EndSequence};
 use super::state::{Candidate, State, turns_on_the_way};
 use super::stroke::ToolStroke;
-use cplan_core::model::Grip;
 use cplan_handling::{ArchScene, Payload, Recording, Task};
+use cplan_model::Grip;
 use cplan_motion::recorded::{TurnCover, WristTurn};
 use cplan_motion::{TimedMotion, round_down};
 use cplan_movers::recordings;

@@ -4,10 +4,10 @@ use super::motion_cache::{Refusal, scene_after};
 use super::standstill::{Standstill, raising_of};
 use super::state::{Candidate, State};
 use super::stroke::stroke_scene;
-use cplan_core::check::CheckedProof;
-use cplan_core::model::{Arm, Joint, Scene};
-use cplan_core::space::Configuration;
 use cplan_handling::{Step, Task};
+use cplan_judge::CheckedProof;
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, Joint, Scene};
 use std::sync::Arc;
 
 /// Largest number of start configurations that a reason names.

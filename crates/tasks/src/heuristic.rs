@@ -4,10 +4,10 @@ use super::ik_solutions::{goal_ik_solutions, ik_solutions};
 use super::least_time::{least_line_time, least_time};
 use super::state::Progress;
 use super::stroke::{least_raising_at_start, least_rest, least_without_strokes, most_overlap, stroke_depth};
-use cplan_core::model::Arm;
-use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{Action, Holding, Item, Object, Step, Task};
+use cplan_model::Arm;
+use cplan_model::space::Configuration;
 use nalgebra::Rotation2;
 
 /// The target of a step, at which the arm stops.
@@ -311,9 +311,9 @@ fn targets(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::model::{Joint, JointType, Link, OutlineSource, Plane};
-    use cplan_core::space::JointRange;
     use cplan_geometry::Vector;
+    use cplan_model::space::JointRange;
+    use cplan_model::{Joint, JointType, Link, OutlineSource, Plane};
     use nalgebra::Vector3;
     use proptest::prelude::*;
 

@@ -1,8 +1,8 @@
 //! The configurations that put a point of the arm at a target.
 
-use cplan_core::model::{Arm, Goal, equivalent_values, inverse};
-use cplan_core::space::Configuration;
 use cplan_geometry::Point;
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, Goal, equivalent_values, inverse};
 
 /// Displacement of a joint, radians or metres, that is due to rounding. It is far above the rounding of IK solutions and
 /// of units, and far below the resolution of controllers. A joint does not move by so little.

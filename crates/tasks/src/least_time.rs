@@ -1,9 +1,9 @@
 //! Lower bounds on the durations of motions.
 
 use super::ik_solutions::JOINT_ROUNDING;
-use cplan_core::model::Arm;
-use cplan_core::space::Configuration;
 use cplan_handling::{Action, Step, ToolLimits};
+use cplan_model::Arm;
+use cplan_model::space::Configuration;
 
 /// Returns the time that a joint takes for a distance from rest to rest, in seconds. It accelerates constantly until it
 /// reaches its top speed.

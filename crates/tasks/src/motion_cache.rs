@@ -7,12 +7,12 @@ use super::state::{Candidate, State, turns_on_the_way};
 use super::stroke::{ToolStroke, raising_first, stroke};
 use super::tool_turn::turned_first;
 use super::wrist::WristMotion;
-use cplan_core::check::{CertifiedPath, CheckedProof, certify};
-use cplan_core::model::{Grip, MotionProblem, Outcome, Scene};
-use cplan_core::space::{Configuration, Path};
 use cplan_follow::{Found, Settings, WristAlong, follow_between};
 use cplan_geometry::Pose;
 use cplan_handling::{Action, FollowedLine, Payload, Step, Task, WristGuide};
+use cplan_judge::{CertifiedPath, CheckedProof, certify};
+use cplan_model::space::{Configuration, Path};
+use cplan_model::{Grip, MotionProblem, Outcome, Scene};
 use cplan_motion::recorded::{WristTurn, wrist_turn};
 use cplan_motion::{TimedMotion, TorqueLimit, nanoseconds, seconds, single};
 use cplan_proofs::{Connectivity, slab_connectivity};
@@ -517,7 +517,7 @@ fn plan_among_few(
             Err(refusal) if refusal.proven => return Some(Err(refusal)),
             Err(_) => return None,
         };
-        if let Ok(path) = certify(scene, found.clone(), scene.workspace().clearance) {
+        if let Ok(path) = certify(scene, found.clone()) {
             return Some(Ok(path));
         }
         let before = among.len();
@@ -579,7 +579,7 @@ fn scene_with_objects(scene: &Scene, own: usize, among: &BTreeSet<usize>) -> Sce
 /// Returns the straight path between two configurations. `None` if it is not certified.
 fn certified_straight_path(scene: &Scene, from: Configuration, to: Configuration) -> Option<CertifiedPath> {
     let straight = Path::new(vec![from, scene.arm().topology().lift(to, from)]);
-    certify(scene, straight, scene.workspace().clearance).ok()
+    certify(scene, straight).ok()
 }
 
 /// Examines the path between two configurations by inexpensive checks.

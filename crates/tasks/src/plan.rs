@@ -13,8 +13,8 @@ use super::sequence::Sequence;
 use super::state::State;
 use super::stroke::{least_raising_at_start, least_stroke};
 use super::wrist::least_turn;
-use cplan_core::model::Outcome;
 use cplan_handling::{Item, Task};
+use cplan_model::Outcome;
 use cplan_solver::Options;
 use std::collections::BTreeSet;
 

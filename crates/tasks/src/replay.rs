@@ -2,8 +2,8 @@
 
 use super::answer::{Leg, TaskAnswer};
 use super::motion_cache::{of_legs, planned_again};
-use cplan_core::planner::Trace;
 use cplan_handling::{Action, Task};
+use cplan_planners::planner::Trace;
 use cplan_solver::{Options, Phase, Replay, Shows};
 use std::sync::Arc;
 
@@ -74,7 +74,7 @@ impl MotionReplay {
 mod tests {
     use super::*;
     use crate::plan;
-    use cplan_core::model::Outcome;
+    use cplan_model::Outcome;
     use cplan_robot::Source;
     use cplan_world::{Overrides, scene_from};
 

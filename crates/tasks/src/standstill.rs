@@ -2,9 +2,9 @@
 
 use super::state::State;
 use super::stroke::raising_scene;
-use cplan_core::model::Scene;
-use cplan_core::space::Configuration;
 use cplan_handling::Task;
+use cplan_model::Scene;
+use cplan_model::space::Configuration;
 
 /// A configuration at an end of a motion, with the scenes in which the arm stands still there: while its tool is
 /// lowered, or after objects have changed their places. The obstacles of all scenes have the numbers that they have

@@ -2,10 +2,10 @@
 
 use super::answer::Event;
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
-use cplan_core::model::{Grip, Scene};
-use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
 use cplan_handling::{Action, Holding, Item, Object, Payload, Step, Task};
+use cplan_model::space::Configuration;
+use cplan_model::{Grip, Scene};
 use cplan_motion::recorded::WristTurn;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;

@@ -5,10 +5,10 @@ use super::least_time::least_of_tool;
 use super::motion_cache::{Refusal, require_unobstructed};
 use super::standstill::StandstillScene;
 use super::state::{Candidate, State};
-use cplan_core::check::certify;
-use cplan_core::model::{Grip, Scene};
-use cplan_core::space::{Configuration, Path};
 use cplan_handling::{Item, Step, Stroke, Task};
+use cplan_judge::certify;
+use cplan_model::space::{Configuration, Path};
+use cplan_model::{Grip, Scene};
 use cplan_motion::single;
 
 /// The time of a stroke, as a phrase for messages.
@@ -139,7 +139,7 @@ fn no_tool() -> Refusal {
 /// Returns a proven lower bound, in metres, on the distance to obstacles in a configuration in which the arm stands still.
 fn clearance_at(StandstillScene { when, scene }: &StandstillScene, q: Configuration) -> Result<f64, Refusal> {
     require_unobstructed(scene, q, when)?;
-    let certified = certify(scene, Path::new(vec![q, q]), scene.workspace().clearance);
+    let certified = certify(scene, Path::new(vec![q, q]));
     let certified = certified.map_err(|_| Refusal::new(format!("no proof that it is free {when} was found"), false))?;
     Ok(certified.clearance())
 }

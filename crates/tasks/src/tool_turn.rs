@@ -5,8 +5,8 @@
 //! tool has an angle, the motion itself has the joint's values.
 
 use super::state::State;
-use cplan_core::model::{Arm, Scene};
 use cplan_handling::{Holding, Task, Wrist, WristJoint};
+use cplan_model::{Arm, Scene};
 use cplan_motion::recorded::WristTurn;
 use cplan_motion::{TimedMotion, TorqueLimit, Trajectory};
 use std::sync::Arc;

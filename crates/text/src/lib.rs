@@ -1,6 +1,5 @@
 //! Formats text for people: safe names, markup, numbers, counts, long lists, columns, wrapped lines and units of
-//! length. Also reads and
-//! writes infinite numbers in data. This crate uses no other crate of the workspace.
+//! length. Also reads and writes infinite numbers in data. This crate uses no other crate of the workspace.
 
 mod base64;
 mod columns;

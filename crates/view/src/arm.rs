@@ -4,9 +4,9 @@ use super::axes::Frame;
 use super::figure::{Item, Step, Style};
 use super::shapes::union;
 use super::view::PayloadView;
-use cplan_core::model::Arm;
-use cplan_core::space::Configuration;
 use cplan_geometry::Convex;
+use cplan_model::Arm;
+use cplan_model::space::Configuration;
 use cplan_theme::{ACCENT, GRAY, INFEASIBLE, INK, PALE, Rgb, WHITE};
 
 /// Colours and line widths with which an arm is drawn.

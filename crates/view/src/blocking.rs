@@ -7,9 +7,9 @@ use super::figure::{Item, Pen, Step, Style};
 use super::key::{Key, Sign};
 use super::shapes;
 use super::view::WorldView;
-use cplan_core::model::Arm;
-use cplan_core::space::Configuration;
 use cplan_geometry::Point;
+use cplan_model::Arm;
+use cplan_model::space::Configuration;
 use cplan_theme::{INFEASIBLE, WHITE};
 use serde::{Serialize, Serializer};
 

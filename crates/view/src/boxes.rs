@@ -4,7 +4,7 @@ use super::axes::Frame;
 use super::figure::{Item, Rect, Step, Style, rectangle};
 use super::key::{Key, Sign};
 use super::view::Chain;
-use cplan_core::space::Configuration;
+use cplan_model::space::Configuration;
 use cplan_theme::{EDGE, FREE, PROOF, UNDECIDED, WHITE};
 
 /// Width in pixels below which boxes are drawn without sides. The sides would hide the colours of such boxes.

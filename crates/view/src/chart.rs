@@ -4,9 +4,9 @@ use super::axes::{Frame, Unit};
 use super::copies::Window;
 use super::figure::{Item, Rect, Step, Style, chain};
 use super::view::{Chain, ContourView};
-use cplan_core::model::{Arm, Joint};
-use cplan_core::space::{Configuration, Topology};
 use cplan_geometry::cross;
+use cplan_model::space::{Configuration, Topology};
+use cplan_model::{Arm, Joint};
 
 /// Largest ratio of the joints' ranges for which both axes have the same scale. The joints must also be of the same
 /// kind.

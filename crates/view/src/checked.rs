@@ -7,10 +7,10 @@ use super::figure::{Item, Pen, Step, Style};
 use super::key::{Key, Sign};
 use super::output::checked_words;
 use super::view::WorldView;
-use cplan_core::model::{Arm, Contact, Scene};
-use cplan_core::space::Configuration;
 use cplan_engine::findings::{ConfigurationFindings, PairFinding};
 use cplan_geometry::Convex;
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, Contact, Scene};
 use cplan_theme::{GRAY, INFEASIBLE, INK, WHITE};
 use serde::Serialize;
 

@@ -1,7 +1,7 @@
 //! Copies of shapes and paths by whole turns, cut to the visible part of joint space.
 
 use super::axes::Range;
-use cplan_core::space::Configuration;
+use cplan_model::space::Configuration;
 use std::f64::consts::TAU;
 
 /// Largest number of copies. A panel is some 500 pixels wide. With more copies, a turn would be narrower than half a

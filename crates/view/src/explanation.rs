@@ -2,8 +2,8 @@
 
 use super::blocking::BlockingView;
 use super::view::{ContourView, ObstacleView, PathView};
-use cplan_core::model::Shape;
 use cplan_geometry::Point;
+use cplan_model::Shape;
 use serde::{Serialize, Serializer};
 
 /// An explanation on a page.

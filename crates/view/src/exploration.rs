@@ -1,9 +1,9 @@
 //! The page that plays an exploration: the known and seen parts of the workspace, and the growing configuration space.
 
 use super::view::{View, drawing, sealed};
-use cplan_core::model::Scene;
-use cplan_core::space::Configuration;
 use cplan_explore::{Ending, Exploration};
+use cplan_model::Scene;
+use cplan_model::space::Configuration;
 use cplan_world::{Occupancy, Sensor};
 use serde_json::{Value, json};
 

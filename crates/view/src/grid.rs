@@ -4,7 +4,7 @@ use super::chart::{self, Chart};
 use super::cspace;
 use super::figure::{Anchor, Item, Rect, bold, label, shortened};
 use super::view::{PanelView, View};
-use cplan_core::model::Arm;
+use cplan_model::Arm;
 use cplan_theme::{GRAY, INK};
 
 /// Gaps between columns (for the values at the ends of the axes) and between rows (for titles), in pixels.

@@ -8,8 +8,8 @@ use super::axes::Frame;
 use super::figure::{Anchor, Item, Label, Rect, Step, Style, bold_text_width, shortened};
 use super::regions::RegionRaster;
 use super::view::bounding_box;
-use cplan_core::model::Shape;
 use cplan_geometry::{Convex, Point, separation};
+use cplan_model::Shape;
 use cplan_theme::{GRAY, INK, WHITE};
 
 const NAME_SIZE: f64 = 12.0;

@@ -7,7 +7,7 @@ use super::key::{Key, Sign};
 use super::labels::{self, Placer};
 use super::view::{ObstacleView, RoundingSteps, bounding_box};
 use super::{page, shapes, svg_writer};
-use cplan_core::model::Obstacle;
+use cplan_model::Obstacle;
 use cplan_text::markup;
 
 /// Margin on each side of the obstacles, as a fraction of their extent.

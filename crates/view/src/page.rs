@@ -6,7 +6,7 @@ use super::key::Key;
 use super::legend;
 use super::view::{PanelView, View};
 use super::{chart, cspace, followed, steps, strip, workspace};
-use cplan_core::model::Status;
+use cplan_model::Status;
 use cplan_theme::{FOUND, GRAY, INFEASIBLE, INK, Rgb};
 
 /// Width of every picture, in pixels.

@@ -3,8 +3,8 @@
 use super::axes::Frame;
 use super::figure::{Item, Step, Style, chain};
 use super::view::ObstacleView;
-use cplan_core::model::Shape;
 use cplan_geometry::{Convex, Point, Vector};
+use cplan_model::Shape;
 
 /// Dashes of objects that will be placed later, and of obstacles that links may enter, in pixels.
 pub const ABSENT_DASH: &[f64] = &[5.0, 3.0];

@@ -5,7 +5,7 @@ use super::axes::{Frame, Unit};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, bold, chain, label, lines};
 use super::labels::{NamedRegion, Placer};
 use super::view::{StripView, View};
-use cplan_core::space::Configuration;
+use cplan_model::space::Configuration;
 use cplan_theme::{ACCENT, GRAY, INK, Rgb};
 
 /// Height of the strip with its heading and its axes, in pixels.

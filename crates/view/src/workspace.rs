@@ -7,8 +7,8 @@ use super::labels::{self, Named, Placer};
 use super::tags::{self, Tag};
 use super::view::{ObstacleView, PathView, View, bounding_box, reach_shape, titles};
 use super::{blocking, checked, followed, frames, preferences, reach, shapes};
-use cplan_core::model::{Arm, Shape};
-use cplan_core::space::Configuration;
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, Shape};
 use cplan_theme::{GRAY, INFEASIBLE, INK, PALE, WHITE};
 
 /// Radius of the dot at the end of a step, in pixels.

@@ -1,7 +1,7 @@
 //! Start and goals of a motion, as far as they are given.
 
 use super::{LoadedScene, Overrides};
-use cplan_core::model::Goal;
+use cplan_model::Goal;
 use cplan_robot::InputError;
 
 impl LoadedScene {

@@ -2,8 +2,8 @@
 
 use super::{LoadedScene, Overrides};
 use crate::Sensor;
-use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, GoalSet};
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, GoalSet};
 use cplan_robot::{DiagnosticKind, InputError, RobotReport};
 
 /// A world to explore, and how it was read.

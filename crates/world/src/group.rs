@@ -1,9 +1,9 @@
 //! The steps of a world file as nested groups, with objects and supports by their numbers.
 
 use super::object::Supports;
-use cplan_core::model::Goal;
 use cplan_geometry::{Interval, Point};
 use cplan_handling::{FollowedLine, ToolValues};
+use cplan_model::Goal;
 use std::collections::BTreeSet;
 use std::ops::Range;
 

@@ -1,6 +1,6 @@
 //! Values of both joints as in the world file.
 
-use cplan_core::model::Joint;
+use cplan_model::Joint;
 use cplan_robot::{Diagnostic, Source};
 use std::ops::Range;
 

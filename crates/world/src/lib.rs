@@ -74,8 +74,8 @@ pub use trajectory::{AllJoints, LoadedRecording, load_recording, load_topic, rea
 pub use values::{JointValues, Overrides, TipPoint};
 pub use world::{World, in_toml_words, world_schema};
 
-use cplan_core::model::{Arm, Goal, MotionProblem, Scene};
 use cplan_handling::{ObstacleTrajectory, RobotJoints, TimedScene, ToolJoint, Wrist, WristJoint};
+use cplan_model::{Arm, Goal, MotionProblem, Scene};
 use cplan_robot::{Diagnostic, InputError, Inspection, RobotFile, RobotReport, RobotTable, Source};
 use std::path::{Path, PathBuf};
 

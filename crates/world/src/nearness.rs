@@ -1,8 +1,8 @@
 //! Checks whether obstacles are near the arm at all. Drawings and maps may use other units, or another origin.
 
-use cplan_core::model::Scene;
-use cplan_core::space::JointRange;
 use cplan_geometry::{Convex, separation};
+use cplan_model::Scene;
+use cplan_model::space::JointRange;
 use cplan_text::format_distinct;
 
 /// Returns a warning if all obstacles are out of the arm's reach. Stops at the first obstacle that may be within reach.

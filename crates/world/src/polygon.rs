@@ -1,8 +1,8 @@
 //! Polygons and polylines of the world file, as people and exporters write them.
 
 use super::reader::Reader;
-use cplan_core::model::Shape;
 use cplan_geometry::{Convex, Point, Polygon, Pose, RingError, SimplePolygon};
+use cplan_model::Shape;
 use cplan_robot::{Diagnostic, Number};
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};

@@ -3,8 +3,8 @@
 use super::polygon::{Ring, simple_polygon};
 use super::reader::Reader;
 use super::schema::Corners;
-use cplan_core::model::{Preference, Region};
 use cplan_geometry::SimplePolygon;
+use cplan_model::{Preference, Region};
 use cplan_robot::{Diagnostic, Number, NumberPair, Numbers};
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -6,9 +6,9 @@ use super::reasons::{
     help_for_reach, obstructions, within_limits,
 };
 use super::{LoadedProblem, LoadedScene, Overrides};
-use cplan_core::model::{BlockedStretch, Freedom, Goal, MotionProblem, Scene, area_goals, inverse};
-use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::Point;
+use cplan_model::space::{Configuration, GoalSet, Segment};
+use cplan_model::{BlockedStretch, Freedom, Goal, MotionProblem, Scene, area_goals, inverse};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::{first_lines, listed};
 use std::ops::Range;

@@ -1,8 +1,8 @@
 //! The query of an explanation. Its start and goal may be blocked.
 
 use super::{LoadedScene, Overrides};
-use cplan_core::model::{Goal, Scene};
-use cplan_core::space::Configuration;
+use cplan_model::space::Configuration;
+use cplan_model::{Goal, Scene};
 use cplan_robot::{DiagnosticKind, InputError, RobotReport};
 
 /// Scene, start and goals, and how they were read.

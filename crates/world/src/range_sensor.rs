@@ -1,7 +1,7 @@
 //! A range sensor on an arm.
 
-use cplan_core::model::Arm;
 use cplan_geometry::{Point, Vector};
+use cplan_model::Arm;
 use nalgebra::Rotation2;
 use serde::Serialize;
 use std::f64::consts::TAU;

@@ -3,9 +3,9 @@
 use super::goal_table::GoalTable;
 use super::joint_pair::JointPair;
 use super::notes::Corrections;
-use cplan_core::model::{Goal, Heights};
-use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose, Vector};
+use cplan_model::space::Configuration;
+use cplan_model::{Goal, Heights};
 use cplan_robot::{Diagnostic, Number, Numbers, Source, Written};
 use std::cell::RefCell;
 use std::ops::Range;

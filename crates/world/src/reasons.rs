@@ -1,8 +1,8 @@
 //! Describes why a configuration is outside the limits or blocked, and why no IK solution reaches a point.
 
-use cplan_core::model::{Freedom, Inverse, Obstruction, Scene, equivalent_values};
-use cplan_core::space::{Configuration, JointRange, Segment};
 use cplan_geometry::Point;
+use cplan_model::space::{Configuration, JointRange, Segment};
+use cplan_model::{Freedom, Inverse, Obstruction, Scene, equivalent_values};
 use cplan_text::{fixed, format_distinct};
 
 /// Returns the IK solutions of `solved` that the joint limits allow, shifted by all whole turns that they allow. Also

@@ -1,7 +1,7 @@
 //! Requirements of steps on the arm. Repeated steps have each of theirs once.
 
-use cplan_core::space::Configuration;
 use cplan_geometry::Point;
+use cplan_model::space::Configuration;
 use std::collections::BTreeSet;
 use std::ops::Range;
 

@@ -5,9 +5,9 @@ use super::reasons::{
     describe, describe_out_of_reach, help_for_ik_solutions, help_for_reach, obstructions, within_limits,
 };
 use super::{LoadedScene, Overrides};
-use cplan_core::model::{Goal, inverse};
-use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
+use cplan_model::space::{Configuration, JointRange};
+use cplan_model::{Goal, inverse};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::listed;
 

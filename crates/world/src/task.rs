@@ -6,10 +6,10 @@ use super::reasons::{
 use super::requirement::{Required, Requirement};
 use super::tool_values::require_free_lowered;
 use super::{LoadedScene, Overrides, World};
-use cplan_core::model::{Goal, Scene, inverse};
-use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
 use cplan_handling::{Payload, Stroke, Task};
+use cplan_model::space::{Configuration, JointRange};
+use cplan_model::{Goal, Scene, inverse};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError, RobotReport};
 use cplan_text::listed;
 

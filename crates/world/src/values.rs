@@ -1,10 +1,10 @@
 //! Joint values and points given on the command line.
 
 use super::LoadedScene;
-use cplan_core::model::{Joint, SceneError};
-use cplan_core::space::Configuration;
 use cplan_dynamics::keep_efforts;
 use cplan_geometry::Point;
+use cplan_model::space::Configuration;
+use cplan_model::{Joint, SceneError};
 use cplan_robot::{Diagnostic, InputError, MAX_LENGTH};
 use std::fmt;
 use std::str::FromStr;
@@ -156,9 +156,9 @@ fn finite(text: &str) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::model::JointType;
-    use cplan_core::space::JointRange;
     use cplan_geometry::Vector;
+    use cplan_model::JointType;
+    use cplan_model::space::JointRange;
 
     fn joints() -> [Joint; 2] {
         let joint = |name: &str, motion| Joint {

@@ -15,9 +15,9 @@ use super::step::{StepReader, StepTable, TaskTable};
 use super::table::Table;
 use super::tool_values::StatedTool;
 use super::world_map::{self, MapTable};
-use cplan_core::model::{Goal, Workspace};
 use cplan_geometry::Pose;
 use cplan_handling::{Holding, Object, TimedWorkspace, Wrist};
+use cplan_model::{Goal, Workspace};
 use cplan_robot::{
     AngleOrLength, Diagnostic, InputError, Number, NumberPair, Numbers, RobotSettings, RobotTable, Source, Written,
 };

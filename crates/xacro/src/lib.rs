@@ -109,8 +109,9 @@ impl Expansion {
 
 /// Expands a file, which may also be a plain URDF.
 ///
-/// # Errors If a file cannot be read or is not XML, if xacro itself would refuse it, if it uses something that this
-/// crate does not support, or if the expansion exceeds the limits on its size.
+/// # Errors
+/// A file that cannot be read or is not XML, that xacro itself would refuse, that uses something this crate does not
+/// support, or whose expansion exceeds the limits on its size.
 pub fn expand(path: &Path, settings: &Settings) -> Result<Expansion, Error> {
     expander::Expander::new(settings).run(path.to_owned())
 }

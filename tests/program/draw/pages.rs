@@ -65,7 +65,7 @@ fn a_plan_is_shown_unchanged() {
     let scene = planar_scene();
     let contours = c_obstacles(&scene, 2e-3, 2e-3);
     let path = Path::new(vec![configuration(1.6, 0.3), configuration(1.75, 0.5), configuration(1.85, 0.2)]);
-    let timed = Drive::default().along(&scene, &certify(&scene, path.clone(), 0.0).unwrap(), 1.0).unwrap();
+    let timed = Drive::default().along(&scene, &certify(&scene, path.clone()).unwrap(), 1.0).unwrap();
     let goals = [path.goal().into()];
     let picture = Picture {
         title: vec!["plan </script><script>alert(1)</script>".to_owned()],

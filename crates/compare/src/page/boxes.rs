@@ -101,7 +101,7 @@ fn describe_chart(name: &str, spread: &Spread) -> String {
 mod tests {
     use super::*;
     use crate::{Family, Row};
-    use cplan_core::model::Status;
+    use cplan_model::Status;
 
     /// Returns a study of one planner with these durations.
     fn study(durations: &[f64]) -> Study {

@@ -26,7 +26,7 @@ use super::measure::Measure;
 use super::study::Study;
 use super::table::Table;
 use super::words::words;
-use cplan_core::model::Status;
+use cplan_model::Status;
 use cplan_text::{counted, markup};
 
 /// A picture that a page includes.

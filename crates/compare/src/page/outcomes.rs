@@ -1,7 +1,7 @@
 //! Outcomes of each problem, as a matrix.
 
 use crate::{Comparison, Measure, Row, Study};
-use cplan_core::model::Status;
+use cplan_model::Status;
 use cplan_text::markup;
 
 /// Returns the legend of the signs.

@@ -7,7 +7,7 @@ use super::paths::PathPictures;
 use super::quantities::{clearance, computing_time, duration, excess, memory, path_length};
 use super::ranking::{RankedColumn, RankedRow, table};
 use crate::{Better, Comparison, Family, Measure, Purpose, Row, Study, hue};
-use cplan_core::model::Status;
+use cplan_model::Status;
 use cplan_text::markup;
 
 /// Writes the pictures and the table of one problem, which light each other up.

@@ -7,9 +7,9 @@
 //! is made by computing the shortest paths once more, among the walls alone, with every leg counted slightly shorter
 //! than it is. Walls that bar no leg are then dropped.
 
-use cplan_core::space::{Configuration, JointRange, Metric, Topology};
 use cplan_geometry::OpenList;
 use cplan_interrupt::checkpoint;
+use cplan_model::space::{Configuration, JointRange, Metric, Topology};
 use cplan_proofs::ClosedSegment;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;

@@ -1,9 +1,9 @@
 //! The shapes and parts of obstacles to which the evidence of a certificate refers.
 
 use super::{Evidence, lines, reaching_out};
-use cplan_core::check::CollisionBox;
-use cplan_core::model::{Heights, OutlineSource, Pair, Part, Scene, SelfObstacle, Shape};
 use cplan_geometry::Convex;
+use cplan_judge::CollisionBox;
+use cplan_model::{Heights, OutlineSource, Pair, Part, Scene, SelfObstacle, Shape};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

@@ -3,11 +3,11 @@
 use super::contacts::Contacts;
 use super::motion::{motion_member, written_inward};
 use super::{BOX_MARGINS, Evidence, NoCertificate, lines, robot_members, written};
-use cplan_core::check::{Cell, CollisionBox};
-use cplan_core::model::{Arm, Pair, Scene};
-use cplan_core::space::Configuration;
 use cplan_deviation::{Deviation, Foot, Kinematics, Line, Place};
 use cplan_handling::{FollowedLine, Piece};
+use cplan_judge::{Cell, CollisionBox};
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, Pair, Scene};
 use cplan_motion::Trajectory;
 use cplan_toolpath::{Curve, Toolpath};
 use cplan_world::{Digests, Overrides};

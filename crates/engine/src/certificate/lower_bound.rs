@@ -3,10 +3,10 @@
 use super::bound::{LeastLength, PathLimits, Potential};
 use super::contacts::Contacts;
 use super::{Evidence, blocked_solutions, inward, lines};
-use cplan_core::check::CollisionBox;
-use cplan_core::model::{Arm, MotionProblem, inverse};
-use cplan_core::space::{Configuration, Metric, Segment};
 use cplan_geometry::cross;
+use cplan_judge::CollisionBox;
+use cplan_model::space::{Configuration, Metric, Segment};
+use cplan_model::{Arm, MotionProblem, inverse};
 use cplan_proofs::ClosedSegment;
 use cplan_solver::Bound;
 use cplan_world::Overrides;

@@ -2,9 +2,9 @@
 
 use super::task::{checkable, steps_of_recording};
 use super::{NoCertificate, inward, lines, robot_members, written};
-use cplan_core::model::{Arm, Goal, Scene};
-use cplan_core::space::{Configuration, Topology};
 use cplan_handling::{Interpolation, RecordedStep, Recording, Task};
+use cplan_model::space::{Configuration, Topology};
+use cplan_model::{Arm, Goal, Scene};
 use cplan_motion::Trajectory;
 use cplan_world::{Digests, Overrides, TipPoint};
 use serde_json::{Value, json};

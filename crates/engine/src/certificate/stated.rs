@@ -3,8 +3,8 @@
 use super::contacts::Contacts;
 use super::lower_bound::LowerBound;
 use super::{blocked_solutions, members, robot_members, written};
-use cplan_core::check::CollisionBox;
-use cplan_core::model::MotionProblem;
+use cplan_judge::CollisionBox;
+use cplan_model::MotionProblem;
 use cplan_solver::Bound;
 use cplan_world::Overrides;
 

@@ -1,9 +1,9 @@
 //! Findings about a configuration, as data.
 
-use cplan_core::cspace::{NearestFree, nearest_free};
-use cplan_core::model::{Contact, Scene};
-use cplan_core::space::Configuration;
 use cplan_geometry::{CornerInside, Point, polygon_test, shapes_meet};
+use cplan_model::space::Configuration;
+use cplan_model::{Contact, Scene};
+use cplan_planners::cspace::{NearestFree, nearest_free};
 use nalgebra::Vector3;
 use serde::Serialize;
 

@@ -11,9 +11,9 @@ pub use motion::{CollisionFinding, EncounterFinding, Judgement, LimitFinding, Mo
 pub use plan::{FarthestFinding, PlanFinding};
 pub use task::{StepFinding, TurnContactFinding, TurnFinding};
 
-use cplan_core::model::Scene;
 use cplan_dynamics::Torques;
 use cplan_handling::{Claims, HeldMotion, RecordedStep, Recording};
+use cplan_model::Scene;
 use cplan_motion::recorded::{
     END_TOLERANCE, check_collision, check_collision_with, endpoint_errors, false_claims, limit_violations,
     misplaced_joints, replay, torque_violations,

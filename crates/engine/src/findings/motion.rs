@@ -1,8 +1,8 @@
 //! Findings about a motion, as data.
 
 use super::{PlanFinding, StepFinding};
-use cplan_core::model::{Joint, Scene};
 use cplan_handling::{Claims, Recording};
+use cplan_model::{Joint, Scene};
 use cplan_motion::recorded::{CollisionCheck, Encounter, Limit, LimitViolation, Moment, Touch};
 use cplan_robot::AssumedLimits;
 use serde::Serialize;

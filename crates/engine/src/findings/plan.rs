@@ -1,8 +1,8 @@
 //! The distance of a recorded motion from a plan, as data.
 
 use super::motion::{MomentFinding, moment};
-use cplan_core::model::Arm;
 use cplan_handling::Recording;
+use cplan_model::Arm;
 use cplan_motion::recorded::{FarthestPlace, farthest_from_plan};
 use serde::Serialize;
 

@@ -1,8 +1,8 @@
 //! Findings about a task, step by step.
 
 use super::motion::{CollisionFinding, ExceededLimits, Judgement, LimitFinding, MotionFindings, limits, verdict};
-use cplan_core::model::Scene;
 use cplan_handling::{Claims, RecordedStep, Recording, Task};
+use cplan_model::Scene;
 use cplan_motion::recorded::{
     OrderDeviation, Replay, ReplayedStep, ReplayedTurn, StepTool, false_step_claims, false_task_claims,
 };

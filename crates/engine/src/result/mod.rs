@@ -10,12 +10,12 @@ pub(crate) use messages::Messages;
 pub(crate) use step_report::{StepReport, step_reports};
 
 use super::plan::{Detail, Plan};
-use cplan_core::model::Status;
-use cplan_core::planner::VisibilityGraph;
-use cplan_core::space::{Metric, Path};
 use cplan_handling::Task;
+use cplan_model::Status;
+use cplan_model::space::{Metric, Path};
 use cplan_motion::{LengthOptimality, SearchReport, Trajectory};
 use cplan_movers::Timing;
+use cplan_planners::planner::VisibilityGraph;
 use cplan_solver::{Bound, Planner, Setting, Settings};
 use cplan_tasks::FailedStep;
 

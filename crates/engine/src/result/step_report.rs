@@ -1,8 +1,8 @@
 //! The steps of a task in the JSON of a result.
 
 use super::finite;
-use cplan_core::check::CheckedProof;
 use cplan_handling::{Action, Task};
+use cplan_judge::CheckedProof;
 use cplan_motion::BlendReport;
 use cplan_motion::recorded::WristTurn;
 use cplan_tasks::{Event, FailedStep, Leg, RefusedIkSolution, Sequence, TaskAnswer, ToolStroke, WristMotion};

@@ -1,8 +1,8 @@
 //! The repulsion by all obstacle cells together, computed as two convolutions by the fast Fourier transform.
 
 use super::Limits;
-use cplan_core::cspace::Grid;
 use cplan_interrupt::checkpoint;
+use cplan_planners::cspace::Grid;
 use std::f64::consts::TAU;
 
 /// The effect of all obstacle cells on every cell, as that of charges. It has the sum of `1 / d`, and the sum of the

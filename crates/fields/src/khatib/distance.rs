@@ -1,7 +1,7 @@
 //! Finds the nearest obstacle of every cell, by an exact Euclidean distance transform.
 
 use super::Limits;
-use cplan_core::cspace::Grid;
+use cplan_planners::cspace::Grid;
 
 /// Returns, for every cell, the displacement from its centre to the centre of the nearest blocked cell, radians or
 /// metres. For continuous joints, it is in the shorter direction. It is zero for a blocked cell, and infinite if no
@@ -131,8 +131,8 @@ fn crossing(a: &Site, b: &Site) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::cspace::Proves;
-    use cplan_core::space::{JointRange, Topology};
+    use cplan_model::space::{JointRange, Topology};
+    use cplan_planners::cspace::Proves;
     use proptest::prelude::*;
 
     proptest! {

@@ -4,9 +4,9 @@
 //! random walks, and a search that fills the basin of the minimum.
 
 use super::ForceField;
-use cplan_core::space::SplitMix64;
 use cplan_geometry::OpenList;
 use cplan_interrupt::checkpoint;
+use cplan_model::space::SplitMix64;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;

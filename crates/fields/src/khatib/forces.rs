@@ -3,8 +3,8 @@
 
 use super::charges::Charges;
 use super::{Limits, nearest_obstacles};
-use cplan_core::cspace::Grid;
-use cplan_core::space::Configuration;
+use cplan_model::space::Configuration;
+use cplan_planners::cspace::Grid;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 

@@ -98,7 +98,8 @@ const DIVERGENCE_CHECK_INTERVAL: usize = 16;
 /// # Ok::<(), RelaxError>(())
 /// ```
 ///
-/// # Errors [`RelaxError::Refused`] if equation and domain differ in size, or if a factor is not positive.
+/// # Errors
+/// [`RelaxError::Refused`] if equation and domain differ in size, or if a factor is not positive.
 /// [`RelaxError::Diverged`] if values grow without bound. A relaxation that neither diverges nor converges ends after
 /// `stopping.max_sweeps` sweeps of a stage, which its [`Convergence`] reports.
 pub fn relax(

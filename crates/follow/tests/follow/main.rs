@@ -7,9 +7,9 @@ mod smooth;
 mod tiny;
 mod wrist;
 
-use cplan_core::model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
-use cplan_core::space::Configuration;
 use cplan_follow::{Cause, FollowError, Found, Infeasible, Settings, follow, follow_between};
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
 use cplan_toolpath::{Format, Placement, Toolpath, read};
 use oracle::{Bars, Point, pass_together, played, points};
 

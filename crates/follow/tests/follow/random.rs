@@ -3,8 +3,8 @@
 use super::oracle::{Bars, Point, played, points};
 use super::{check, scene_of};
 use cplan_cases::dice::Dice;
-use cplan_core::model::{Obstacle, Outcome, Scene};
 use cplan_follow::{Settings, follow};
+use cplan_model::{Obstacle, Outcome, Scene};
 use cplan_toolpath::{Curve, Piece, Source, Toolpath};
 use std::f64::consts::TAU;
 

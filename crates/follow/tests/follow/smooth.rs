@@ -3,8 +3,8 @@
 use super::oracle::{Bars, Point, points};
 use super::{BARS, check, found, line, scene_of};
 use cplan_cases::dice::Dice;
-use cplan_core::model::{Obstacle, Outcome, Scene};
 use cplan_follow::{Settings, follow};
+use cplan_model::{Obstacle, Outcome, Scene};
 use cplan_motion::Trajectory;
 use cplan_toolpath::{Curve, Piece, Source, Toolpath, polyline, spline};
 

@@ -3,8 +3,8 @@
 use super::oracle::{Bars, Point, pass_together, played, points};
 use super::{BARS, check, scene_of};
 use cplan_cases::dice::Dice;
-use cplan_core::model::{Arm, Joint, Link, Outcome, Scene, Workspace};
 use cplan_follow::{Cause, Found, Settings, follow, metres};
+use cplan_model::{Arm, Joint, Link, Outcome, Scene, Workspace};
 use cplan_toolpath::{Curve, Format, Piece, Placement, Source, Toolpath, read};
 use std::f64::consts::TAU;
 

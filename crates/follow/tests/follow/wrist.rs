@@ -4,10 +4,10 @@
 use super::oracle::{Bars, Point, pass_together_if};
 use super::{BARS, line, scene_of};
 use cplan_cases::dice::Dice;
-use cplan_core::model::{Outcome, Scene};
-use cplan_core::space::JointRange;
 use cplan_follow::{Cause, Exclusion, FollowError, Found, Obstacle, Settings, WristAlong, WristExcess, follow};
 use cplan_handling::{ToolAngle, WristGuide, WristJoint};
+use cplan_model::space::JointRange;
+use cplan_model::{Outcome, Scene};
 use cplan_motion::Trajectory;
 use cplan_toolpath::{Curve, Piece, Source, Toolpath};
 use std::f64::consts::{PI, TAU};

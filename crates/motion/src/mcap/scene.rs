@@ -1,8 +1,8 @@
 //! The stage shown while a motion runs: bodies, each with a frame, and the poses of the frames.
 
 use super::super::clock::nanoseconds;
-use cplan_core::model::{Heights, Plane};
 use cplan_geometry::{Convex, Point, Pose, Vector};
+use cplan_model::{Heights, Plane};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use std::f64::consts::TAU;
 

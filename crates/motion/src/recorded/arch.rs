@@ -3,8 +3,8 @@
 use super::CollisionCheck;
 use super::collision::{check_stroke, keeps_during_stroke};
 use crate::{phase_at, single};
-use cplan_core::space::Configuration;
 use cplan_handling::{ArchScene, HeldEffect, HeldJoint, HeldMotion, Recording, Stroke};
+use cplan_model::space::Configuration;
 
 /// Least time between two samples at which a motion and a stroke are joined, seconds. A stroke changes its acceleration
 /// at most this long after a sample, so it deviates from its profile by less than rounding.

@@ -2,12 +2,12 @@
 
 use super::tool::{ToolMotion, TurnedShapes};
 use crate::{Place, Span};
-use cplan_core::check::{Deviation, Drift, Posture, SpanPair};
-use cplan_core::model::{Contact, Pair, Scene};
-use cplan_core::space::Configuration;
 use cplan_geometry::Separation;
 use cplan_handling::{ArchScene, HeldMotion, Piece, Recording, TimedScene};
 use cplan_interrupt::checkpoint;
+use cplan_judge::{Deviation, Drift, Posture, SpanPair};
+use cplan_model::space::Configuration;
+use cplan_model::{Contact, Pair, Scene};
 use std::borrow::Cow;
 
 /// Least ratio of the proven clearance to the true one, as for [`super::certify`].

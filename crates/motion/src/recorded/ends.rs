@@ -1,8 +1,8 @@
 //! The check of a motion's start and goal.
 
-use cplan_core::model::{Arm, Goal};
-use cplan_core::space::Configuration;
 use cplan_handling::Recording;
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, Goal};
 use cplan_text::length;
 use thiserror::Error;
 

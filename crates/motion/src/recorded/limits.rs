@@ -2,10 +2,10 @@
 
 use super::collision::Moment;
 use super::torque::torque_samples;
-use cplan_core::model::{Joint, Scene};
-use cplan_core::space::{Configuration, JointRange};
 use cplan_dynamics::Torques;
 use cplan_handling::{Derivative, Piece, Recording};
+use cplan_model::space::{Configuration, JointRange};
+use cplan_model::{Joint, Scene};
 
 /// Relative excess over a limit that is tolerated. Programs that plan up to a limit exceed it by rounding and by
 /// printing six digits. No drive can distinguish such values.

@@ -6,11 +6,11 @@
 //! the search.
 
 use super::Moment;
-use cplan_core::model::Arm;
-use cplan_core::space::Configuration;
 use cplan_geometry::Point;
 use cplan_handling::{Piece, Recording};
 use cplan_interrupt::checkpoint;
+use cplan_model::Arm;
+use cplan_model::space::Configuration;
 use std::cell::Cell;
 use std::f64::consts::TAU;
 

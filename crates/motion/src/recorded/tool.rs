@@ -6,10 +6,10 @@
 
 use super::cover::cover_about;
 use crate::{Place, Span};
-use cplan_core::check::Deviation;
-use cplan_core::model::{Heights, OutlineSource, Pair, Part, Scene};
 use cplan_geometry::{Convex, Point};
 use cplan_handling::{ArchScene, HeldEffect, HeldMotion, Piece};
+use cplan_judge::Deviation;
+use cplan_model::{Heights, OutlineSource, Pair, Part, Scene};
 use std::borrow::Cow;
 
 /// Greatest distance of the centre of a round part from its axis of rotation, metres. It allows for rounding.

@@ -1,8 +1,8 @@
 //! Torques along a motion.
 
-use cplan_core::space::Configuration;
 use cplan_dynamics::{Rates, Torques};
 use cplan_handling::{Derivative, Piece};
+use cplan_model::space::Configuration;
 
 /// Greatest number of samples of a piece.
 const MAX_SAMPLES_PER_PIECE: f64 = 4096.0;

@@ -8,11 +8,11 @@ use super::arch::{MIN_GAP, times_between};
 use super::collision::{CollisionCheck, Encounter, Moment, Touch, proven_clearance};
 use super::cover::cover;
 use crate::{phase_at, single};
-use cplan_core::check::Posture;
-use cplan_core::model::{Arm, AttachedPart, Contact, Grip, JointType, Scene};
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{Derivative, Recording, Wrist};
 use cplan_interrupt::checkpoint;
+use cplan_judge::Posture;
+use cplan_model::{Arm, AttachedPart, Contact, Grip, JointType, Scene};
 
 /// Least angle, in radians, at which a span is halved. The covers of smaller spans hardly differ from the payload.
 const MIN_ANGLE: f64 = 1e-4;

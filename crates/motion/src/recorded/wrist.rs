@@ -1,9 +1,9 @@
 //! A turn of a payload by a wrist while the arm is at rest.
 
-use cplan_core::model::{Arm, Workspace};
-use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::{Features, Hits, Point, Pose, ROUNDING, Vector, turning_from};
 use cplan_handling::{Payload, Task};
+use cplan_model::space::{Configuration, JointRange};
+use cplan_model::{Arm, Workspace};
 use std::f64::consts::TAU;
 
 /// A turn of a payload about the tip, proven free.

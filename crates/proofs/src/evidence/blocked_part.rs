@@ -1,9 +1,9 @@
 //! Parts of straight motions along which a pair of shapes is too near.
 
-use cplan_core::check::{Deviation, Posture};
-use cplan_core::model::{Pair, Scene};
-use cplan_core::space::Configuration;
 use cplan_geometry::penetration_depth;
+use cplan_judge::{Deviation, Posture};
+use cplan_model::space::Configuration;
+use cplan_model::{Pair, Scene};
 
 /// Margin by which an overlap depth must exceed the motion, as a share of the lengths in the computation. It is far
 /// greater than rounding errors.

@@ -2,11 +2,11 @@
 //! one value of joint 1. Proves that straight motions are closed.
 
 use crate::slab::{CLOSED_FORM_ERROR, ErodedShape};
-use cplan_core::check::{COLLISION_ROUNDING, Deviation, Posture};
-use cplan_core::model::{Contacts, Pair, Scene, on_axis};
-use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Hits, Point, Pose, Vector, common, merge_in_place, perpendicular, separation};
 use cplan_interrupt::checkpoint;
+use cplan_judge::{COLLISION_ROUNDING, Deviation, Posture};
+use cplan_model::space::Configuration;
+use cplan_model::{Contacts, Pair, Scene, on_axis};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;

@@ -3,8 +3,8 @@
 
 use super::closed::Wall;
 use super::strips::{MIN_STRIP_WIDTH, PORTAL_TOLERANCE, Strips};
-use cplan_core::model::Pair;
 use cplan_geometry::Point;
+use cplan_model::Pair;
 use std::f64::consts::TAU;
 
 /// Least share of a wall's change over a strip that occurs in one half of the strip if the wall jumps there. At a

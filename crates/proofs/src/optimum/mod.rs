@@ -11,10 +11,10 @@ mod strips;
 
 use crate::evidence::BoundEvidence;
 use closed::MAX_PAIRS;
-use cplan_core::check::{CertifiedPath, Rejection, Vicinity};
-use cplan_core::model::{Pair, Scene};
-use cplan_core::space::{Configuration, GoalSet, Measure, Metric, Path, Segment, Topology, funnel_path};
 use cplan_geometry::{OrderedF64, Point};
+use cplan_judge::{CertifiedPath, Rejection, Vicinity};
+use cplan_model::space::{Configuration, GoalSet, Measure, Metric, Path, Segment, Topology, funnel_path};
+use cplan_model::{Pair, Scene};
 use refine::{PathTolerance, RefinedPieces, crossed_strips};
 use search::{Search, SearchResult};
 use std::f64::consts::TAU;

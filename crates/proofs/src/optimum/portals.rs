@@ -1,6 +1,6 @@
 //! Portals: intervals of joint 2 on a slice that are not closed.
 
-use cplan_core::space::JointRange;
+use cplan_model::space::JointRange;
 use std::f64::consts::TAU;
 
 /// An interval of joint 2 that is not closed on a slice. Its ends are infinite if nothing is closed.

@@ -5,9 +5,9 @@
 
 use super::portals::Portal;
 use super::strips::{Cell, Strips};
-use cplan_core::space::{Measure, Segment};
 use cplan_geometry::{OpenList, Point};
 use cplan_interrupt::checkpoint;
+use cplan_model::space::{Measure, Segment};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::hash::{BuildHasherDefault, Hasher};

@@ -1,8 +1,8 @@
 //! Finds the portals that a path passes among strips that were cut after the path was found.
 
 use super::strips::{Cell, Strips};
-use cplan_core::space::Portal;
 use cplan_geometry::Point;
+use cplan_model::space::Portal;
 
 /// Returns a free interval of joint 2 on a slice as a portal. `ahead` is true if paths pass it with joint 1 growing,
 /// false if falling.

@@ -3,10 +3,10 @@
 use super::closed::Wall as FoundWall;
 use super::strips::Strips;
 use crate::evidence::{Barrier, Slice, Wall};
-use cplan_core::check::{Deviation, Posture};
-use cplan_core::model::{Pair, Scene};
-use cplan_core::space::Configuration;
 use cplan_geometry::OrderedF64;
+use cplan_judge::{Deviation, Posture};
+use cplan_model::space::Configuration;
+use cplan_model::{Pair, Scene};
 
 impl Strips<'_> {
     /// Returns all slices that were examined, with their walls and barriers. If link 1 collides throughout a strip,

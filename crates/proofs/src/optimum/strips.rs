@@ -2,9 +2,9 @@
 
 use super::closed::{SecondLinkWalls, Wall};
 use super::portals::{Portal, free_portals, within_domain};
-use cplan_core::model::{Pair, Scene};
-use cplan_core::space::{Configuration, JointRange, Segment, Topology};
 use cplan_geometry::merge_in_place;
+use cplan_model::space::{Configuration, JointRange, Segment, Topology};
+use cplan_model::{Pair, Scene};
 use std::f64::consts::{PI, TAU};
 
 /// Number of initial strips over the domain. Strips beside values of joint 1 at which link 1 collides are narrower. The

@@ -3,10 +3,10 @@
 use super::{LEVEL_TOLERANCE, Slab, Slabs, Span, half_of_level, index};
 use crate::chain::{Mosaic, ends};
 use crate::tiles::{SlabCollision, add_boxes};
-use cplan_core::check::{CollisionBox, Disconnection};
-use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::merge_in_place;
 use cplan_interrupt::checkpoint;
+use cplan_judge::{CollisionBox, Disconnection};
+use cplan_model::space::{Configuration, GoalSet, Segment};
 
 impl Slabs<'_> {
     /// Returns, for each span, whether it is connected with any of the places through free and undecided spans.

@@ -1,12 +1,12 @@
 //! The diagram as a roadmap, and the connection of queries to it.
 
 use super::diagram::{Chord, Diagram};
-use cplan_core::planner::mesh::Mesh;
-use cplan_core::planner::roadmap::{QueryGraph, Roadmap};
-use cplan_core::planner::terminals::Terminals;
-use cplan_core::space::{Measure, Metric};
 use cplan_geometry::{OrderedF64, Point};
 use cplan_interrupt::checkpoint;
+use cplan_model::space::{Measure, Metric};
+use cplan_planners::planner::mesh::Mesh;
+use cplan_planners::planner::roadmap::{QueryGraph, Roadmap};
+use cplan_planners::planner::terminals::Terminals;
 use petgraph::graph::NodeIndex;
 use std::collections::{BTreeMap, BTreeSet};
 

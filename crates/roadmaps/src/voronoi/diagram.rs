@@ -4,11 +4,11 @@ use super::bisector::Bisector;
 use super::cell::{Arc, border};
 use super::chord_graph::MIN_CHORD_CLEARANCE;
 use super::site::{CONTACT_DISTANCE, Site};
-use cplan_core::cspace::Regions;
-use cplan_core::planner::mesh::Mesh;
-use cplan_core::space::{Configuration, JointRange, Segment};
 use cplan_geometry::{Bounds, BoxTree, Point};
 use cplan_interrupt::checkpoint;
+use cplan_model::space::{Configuration, JointRange, Segment};
+use cplan_planners::cspace::Regions;
+use cplan_planners::planner::mesh::Mesh;
 use std::f64::consts::{PI, TAU};
 
 /// Greatest distance of a chord from its parabola, radians or metres.

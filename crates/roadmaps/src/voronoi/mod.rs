@@ -12,12 +12,12 @@ mod chord_graph;
 
 use crate::prm::propose_along;
 use chord_graph::ChordGraph;
-use cplan_core::cspace::Regions;
-use cplan_core::planner::mesh::Mesh;
-use cplan_core::planner::roadmap::{self, RoadmapSearch};
-use cplan_core::planner::terminals::Terminals;
-use cplan_core::planner::{GraphKind, PathKind, Planner, Proposal, Query, Run};
 use cplan_geometry::planar::Boundary;
+use cplan_planners::cspace::Regions;
+use cplan_planners::planner::mesh::Mesh;
+use cplan_planners::planner::roadmap::{self, RoadmapSearch};
+use cplan_planners::planner::terminals::Terminals;
+use cplan_planners::planner::{GraphKind, PathKind, Planner, Proposal, Query, Run};
 use diagram::Diagram;
 
 /// The *generalised Voronoi diagram* of C-obstacles and joint limits, also called the medial axis of free space. The

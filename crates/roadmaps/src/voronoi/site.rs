@@ -1,8 +1,8 @@
 //! Sites of the Voronoi diagram of free space: the open sides of its boundary, and its corners.
 
-use cplan_core::planner::mesh::Corner;
-use cplan_core::space::Segment;
 use cplan_geometry::{Point, Vector, cross, perpendicular};
+use cplan_model::space::Segment;
+use cplan_planners::planner::mesh::Corner;
 
 /// Distance below which two points count as in contact, radians or metres. It exceeds the rounding of coordinates.
 pub(super) const CONTACT_DISTANCE: f64 = 1e-12;

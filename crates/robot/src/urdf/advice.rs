@@ -3,9 +3,9 @@
 use super::limits::key;
 use super::reduction::Reduction;
 use crate::quantity::find;
-use cplan_core::model::{Arm, Joint};
-use cplan_core::space::JointRange;
 use cplan_geometry::Point;
+use cplan_model::space::JointRange;
+use cplan_model::{Arm, Joint};
 use cplan_text::{counted, short};
 
 /// Greatest plausible top speed of a revolute joint, in rad/s. The fastest axes of robots turn at 45 rad/s.
@@ -92,7 +92,7 @@ fn length(arm: &Arm) -> Option<String> {
 /// Returns the warning about shapes that reach far beyond the arm's joints.
 fn outreach(arm: &Arm) -> Option<String> {
     let usual = (MAX_PLAUSIBLE_OUTREACH * lengths(arm).iter().sum::<f64>()).max(MIN_COMPARED_OUTREACH);
-    let reach = |part: &cplan_core::model::Part| part.shape.reach_from(Point::zeros());
+    let reach = |part: &cplan_model::Part| part.shape.reach_from(Point::zeros());
     let parts: Vec<_> = arm.links.iter().flat_map(|link| &link.parts).filter(|part| reach(part) > usual).collect();
     let first = parts.first()?;
     let farthest = parts.iter().map(|part| reach(part)).fold(0.0, f64::max);

@@ -5,8 +5,8 @@ use super::plane::project;
 use super::reduction::Reduction;
 use super::tool::PARALLEL_TOLERANCE;
 use super::tree;
-use cplan_core::model::Plane;
 use cplan_handling::{HeldEffect, HeldJoint};
+use cplan_model::Plane;
 use urdf_rs::JointType;
 
 impl Reduction<'_> {

@@ -5,7 +5,7 @@ use super::limits::{Limits, Range};
 use crate::error::{Diagnostic, InputError};
 use crate::quantity::Quantity;
 use crate::quantity::find;
-use cplan_core::space::JointRange;
+use cplan_model::space::JointRange;
 use urdf_rs::{JointType, Mimic};
 
 /// Values of all joints, with the list of held joints whose values affect the arm.

@@ -2,7 +2,7 @@
 
 use super::limits::{Limits, key};
 use super::reduction::Reduction;
-use cplan_core::model::Plane;
+use cplan_model::Plane;
 
 /// Returns the entries of `[robot]` that make these two joints usable, one per line. They name the joints, and have
 /// placeholders for missing or invalid ranges and for unusable geometry. Returns `None` if no entry is needed.

@@ -4,7 +4,7 @@ use super::chain::is_movable;
 use super::document::Document;
 use super::reduction::Reduction;
 use crate::error::quoted;
-use cplan_core::model::{Link, OutlineSource};
+use cplan_model::{Link, OutlineSource};
 use cplan_text::counted;
 
 /// Lists elements that are neither links nor joints.

@@ -7,9 +7,9 @@ use super::tree::isometry;
 use crate::error::Diagnostic;
 use crate::quantity::find;
 use crate::settings::RobotSettings;
-use cplan_core::model::{Arm, Body, Dynamics};
 use cplan_dynamics::{Torques, joined};
 use cplan_geometry::Vector;
+use cplan_model::{Arm, Body, Dynamics};
 use nalgebra::{Matrix3, Vector3};
 
 /// Default acceleration of free fall in the root frame, whose z axis points up, in m/s2.

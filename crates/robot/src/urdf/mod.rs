@@ -39,7 +39,7 @@ use crate::error::InputError;
 use crate::report::RobotReport;
 use crate::settings::RobotSettings;
 use crate::source::Source;
-use cplan_core::model::Arm;
+use cplan_model::Arm;
 use document::Document;
 use reduction::Reduction;
 use std::collections::BTreeSet;

@@ -8,7 +8,7 @@ use super::tree::Tree;
 use crate::quantity::PerJoint;
 use crate::robot_table::RobotTable;
 use crate::settings::RobotSettings;
-use cplan_core::model::Plane;
+use cplan_model::Plane;
 use urdf_rs::JointType;
 
 /// Largest number of pairs that a message lists.

@@ -1,7 +1,7 @@
 //! The plane that an arm moves in.
 
-use cplan_core::model::{JointType, Plane};
 use cplan_geometry::{Point, Vector};
+use cplan_model::{JointType, Plane};
 use nalgebra::Vector3;
 
 /// Largest angle, in radians, between directions that count as parallel. Also the largest difference from a right angle

@@ -12,10 +12,10 @@ use super::tree::{self, Tree};
 use crate::RobotReport;
 use crate::error::{Diagnostic, InputError};
 use crate::settings::RobotSettings;
-use cplan_core::model::{Arm, Dynamics, Joint, Plane};
-use cplan_core::space::JointRange;
 use cplan_dynamics::keep_efforts;
 use cplan_geometry::Point;
+use cplan_model::space::JointRange;
+use cplan_model::{Arm, Dynamics, Joint, Plane};
 use nalgebra::Isometry3;
 
 /// A chain and the poses of its links.

@@ -10,9 +10,9 @@ use super::shapes::PlacedShape;
 use super::solid::MIN_LAYER_THICKNESS;
 use super::tree::Tree;
 use crate::error::{Diagnostic, quoted};
-use cplan_core::check::permanent_contacts;
-use cplan_core::model::{Arm, Carrier, Obstacle, Pair, Part, Scene, SelfObstacle, Shape, Workspace};
 use cplan_geometry::{Convex, Point, hull};
+use cplan_judge::permanent_contacts;
+use cplan_model::{Arm, Carrier, Obstacle, Pair, Part, Scene, SelfObstacle, Shape, Workspace};
 use std::collections::{BTreeMap, BTreeSet};
 use urdf_rs::JointType;
 

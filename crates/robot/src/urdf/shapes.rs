@@ -5,7 +5,7 @@ use super::mesh;
 use super::solid::Solid;
 use super::tree::isometry;
 use crate::error::Diagnostic;
-use cplan_core::model::Heights;
+use cplan_model::Heights;
 use nalgebra::{Isometry3, Vector3};
 use std::ops::Range;
 use urdf_rs::Geometry;

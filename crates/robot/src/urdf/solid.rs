@@ -2,8 +2,8 @@
 
 use super::mesh::Mesh;
 use super::plane::project;
-use cplan_core::model::{Heights, Plane};
 use cplan_geometry::{Convex, Point, Vector, hull};
+use cplan_model::{Heights, Plane};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// A collision or visual shape, centred at the origin of its frame. Lengths are in metres. The axis of a cylinder or a

@@ -19,8 +19,8 @@ use crate::quantity::find;
 use crate::robot_file::RobotFile;
 use crate::robot_table::RobotTable;
 use crate::settings::RobotSettings;
-use cplan_core::model::{Arm, Carrier, Link, OutlineSource, Plane, Scene, SelfObstacle, Workspace};
-use cplan_core::space::{Configuration, JointRange};
+use cplan_model::space::{Configuration, JointRange};
+use cplan_model::{Arm, Carrier, Link, OutlineSource, Plane, Scene, SelfObstacle, Workspace};
 use nalgebra::Vector3;
 use urdf_rs::JointType;
 

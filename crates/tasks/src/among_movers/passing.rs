@@ -1,9 +1,9 @@
 //! Passages of moving objects through the reach of the arm.
 
-use cplan_core::model::{Arm, JointType};
-use cplan_core::space::JointRange;
 use cplan_geometry::{Interval, Point};
 use cplan_handling::{Leg, Object, ObstacleTrajectory};
+use cplan_model::space::JointRange;
+use cplan_model::{Arm, JointType};
 
 /// Fraction by which radii are enlarged, to make up for rounding.
 const RADIUS_ENLARGEMENT: f64 = 1e-9;

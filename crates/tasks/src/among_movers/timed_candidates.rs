@@ -4,11 +4,11 @@ use super::super::least_time::least_time;
 use super::super::motion_cache::Refusal;
 use super::super::state::{Candidate, State};
 use super::passing::{Passage, passages};
-use cplan_core::check::Posture;
-use cplan_core::model::Scene;
-use cplan_core::space::Configuration;
 use cplan_geometry::Interval;
 use cplan_handling::{Action, ObstacleTrajectory, Step, Task, TimedScene};
+use cplan_judge::Posture;
+use cplan_model::Scene;
+use cplan_model::space::Configuration;
 use cplan_motion::{MIN_INTERVAL, nanoseconds, nearest_within, round_down, round_up, seconds};
 use cplan_movers::MovingObstacles;
 

@@ -4,10 +4,10 @@
 use super::super::state::State;
 use super::Group;
 use super::condition::{Condition, Precedence};
-use cplan_core::model::Scene;
-use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
 use cplan_handling::{Action, Item, Step, Task};
+use cplan_model::Scene;
+use cplan_model::space::Configuration;
 use std::sync::Arc;
 
 /// Poses of all objects; `None` for a carried object. If the orientation of an object depends on IK solutions, its

@@ -3,10 +3,10 @@
 use super::super::heuristic::{Stop, Stops};
 use super::super::least_time::least_time;
 use super::condition::Condition;
-use cplan_core::model::Arm;
-use cplan_core::space::Configuration;
 use cplan_geometry::OrderedF64;
 use cplan_handling::Task;
+use cplan_model::Arm;
+use cplan_model::space::Configuration;
 
 /// Greatest length of a run of pairs that is moved to another position when an order is improved.
 const MAX_MOVED_RUN: usize = 3;

@@ -11,8 +11,8 @@ use crate::key::{Key, Sign};
 use crate::labels::Named;
 use crate::shapes;
 use crate::view::{View, reach_shape};
-use cplan_core::space::Configuration;
 use cplan_geometry::Point;
+use cplan_model::space::Configuration;
 use cplan_theme::{GHOST, GRAY, INFEASIBLE, INK, PALE, WHITE};
 
 /// Width of the line below the path of the tip, and of that path, in pixels.

@@ -1,7 +1,7 @@
 //! The limits that keep a motion from being faster.
 
-use cplan_core::model::Arm;
 use cplan_handling::{Derivative, Piece};
+use cplan_model::Arm;
 use cplan_motion::Trajectory;
 
 /// Share of a limit from which it counts as reached: within two per cent.

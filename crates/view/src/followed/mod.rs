@@ -20,8 +20,8 @@ pub use played::Played;
 pub use solutions::{SolutionPart, solutions};
 pub use view::{LineDocument, LineView};
 
-use cplan_core::model::Arm;
 use cplan_handling::Piece;
+use cplan_model::Arm;
 use cplan_motion::Trajectory;
 use cplan_toolpath::Toolpath;
 

@@ -1,8 +1,8 @@
 //! The motion between the samples, as controllers interpolate them.
 
-use cplan_core::model::Arm;
-use cplan_core::space::Configuration;
 use cplan_handling::Piece;
+use cplan_model::Arm;
+use cplan_model::space::Configuration;
 use cplan_motion::Trajectory;
 
 /// Number of parts of a piece whose ends a path shows.

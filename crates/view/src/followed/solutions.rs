@@ -1,7 +1,7 @@
 //! The IK solutions along a line.
 
-use cplan_core::model::{Arm, Scene, inverse};
-use cplan_core::space::{Configuration, JointRange};
+use cplan_model::space::{Configuration, JointRange};
+use cplan_model::{Arm, Scene, inverse};
 use cplan_toolpath::Toolpath;
 use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -3,9 +3,9 @@
 use super::limits::ActiveLimit;
 use super::solutions::other_solution;
 use super::{Played, Tracker, active_limits, solutions, stops, stretches};
-use cplan_core::model::{Arm, Obstacle, Scene, Workspace};
-use cplan_core::space::Configuration;
 use cplan_handling::Piece;
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, Obstacle, Scene, Workspace};
 use cplan_motion::Trajectory;
 use cplan_toolpath::{Curve, Format, Placement, Toolpath, read};
 

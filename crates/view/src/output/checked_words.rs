@@ -1,9 +1,9 @@
 //! The words for a checked configuration: the answer in a sentence, and key figures.
 
 use super::explained_words::{joint_name, obstacle_name, part_of_pair};
-use cplan_core::model::Scene;
-use cplan_core::space::{Configuration, JointRange};
 use cplan_engine::findings::ConfigurationFindings;
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, JointRange};
 use cplan_text::{chosen_length, length, length_unlike};
 
 /// Returns a distance with three significant digits, or with more if it would look like the required one.

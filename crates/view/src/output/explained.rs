@@ -5,10 +5,10 @@ use super::explained_words::{bounds, headline, instruction};
 use super::picture::{contours, title_of};
 use super::summary::{Line, configuration, format_columns, goal_lines};
 use crate::{Picture, View};
-use cplan_core::model::{Outcome, Scene, Status};
 use cplan_explain::{
     BlockedEnd, Bottleneck, End, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach, TIME_LIMIT, Target,
 };
+use cplan_model::{Outcome, Scene, Status};
 use cplan_solver::BoundedPath;
 use cplan_text::{fixed, length, length_down, length_up, listed, percent, round_down, round_up, short};
 

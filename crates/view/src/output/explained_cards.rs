@@ -6,12 +6,12 @@ use crate::BlockingView;
 use crate::ExplanationView;
 use crate::explanation::{CardView, Edit, EditedShape};
 use crate::view::{ContourView, ObstacleView, PathView, RoundingSteps, bounding_box, contour_views};
-use cplan_core::model::{Outcome, Scene};
-use cplan_core::space::{Configuration, Path};
 use cplan_explain::{
     BlockedEnd, BlockingSet, Bottleneck, Change, ChangeContext, Element, End, Explanation, FoundExplanation,
     InfeasibleExplanation, MotionQuestion, OutOfReach, Saving, Side,
 };
+use cplan_model::space::{Configuration, Path};
+use cplan_model::{Outcome, Scene};
 use cplan_text::{headline_length, length};
 
 /// Largest share of the visible workspace by which it grows on a side to include changed obstacles.

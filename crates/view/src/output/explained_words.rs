@@ -1,10 +1,10 @@
 //! The sentences of an explanation: the obstacles in the way, and the changes that open a path.
 
-use cplan_core::model::{Arm, Joint, Obstruction, Outcome, Pair, Scene};
 use cplan_explain::{
     BlockedEnd, BlockingSet, Change, ChangeContext, ChangeKind, Element, End, Explanation, FoundExplanation,
     InfeasibleExplanation, Saving, Side,
 };
+use cplan_model::{Arm, Joint, Obstruction, Outcome, Pair, Scene};
 use cplan_text::{chosen_length, fixed, headline_length, headline_number, length_down, length_up};
 
 /// Largest number of things that a headline names. More are only counted.

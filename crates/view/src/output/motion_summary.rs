@@ -2,16 +2,16 @@
 
 use super::summary::{Line, SummaryLines, configuration, field, goal_lines, non_empty, torque};
 use crate::view::plane_of_motion;
-use cplan_core::cspace::{Grid, Proves};
-use cplan_core::model::{Arm, MotionProblem, Outcome, Scene};
-use cplan_core::planner::{Proposal, VisibilityGraph};
-use cplan_core::space::{Configuration, Metric};
 use cplan_engine::{Motion, Plan};
 use cplan_explain::{BlockingSet, MotionQuestion, blocking_set};
 use cplan_handling::TimedScene;
+use cplan_model::space::{Configuration, Metric};
+use cplan_model::{Arm, MotionProblem, Outcome, Scene};
 use cplan_motion::CertifiedCurve;
 use cplan_motion::{DurationOptimality, TimedMotion};
 use cplan_movers::{PlaceTime, Timing, Wait};
+use cplan_planners::cspace::{Grid, Proves};
+use cplan_planners::planner::{Proposal, VisibilityGraph};
 use cplan_solver::{Answer, Bound, GridSpace, Space};
 use cplan_text::{counted, length_down, percent, round_down};
 

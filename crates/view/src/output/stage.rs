@@ -1,10 +1,10 @@
 //! The scene of a recording: the arm's links, obstacles and objects, and their places over time.
 
-use cplan_core::model::{Grip, Obstacle, Part};
-use cplan_core::space::Configuration;
 use cplan_engine::{Detail, Plan};
 use cplan_geometry::Pose;
 use cplan_handling::{ObstacleTrajectory, Task};
+use cplan_model::space::Configuration;
+use cplan_model::{Grip, Obstacle, Part};
 use cplan_motion::{Body, Solid, Stage};
 use cplan_tasks::{Event, Leg, TaskAnswer, TimedTurn};
 use cplan_theme::{GRAY, INK, Rgb, obstacle as obstacle_color};

@@ -1,9 +1,9 @@
 //! The summary of a plan for people.
 
 use super::{motion_summary, task_summary};
-use cplan_core::model::{Arm, Joint};
-use cplan_core::space::{Configuration, GoalSet, JointRange, Segment};
 use cplan_engine::{Detail, Plan};
+use cplan_model::space::{Configuration, GoalSet, JointRange, Segment};
+use cplan_model::{Arm, Joint};
 use cplan_motion::Trajectory;
 use cplan_solver::Options;
 use cplan_text::{Columns, first_lines};

@@ -4,9 +4,9 @@ use super::motion_summary::among_movers;
 use super::step_lines::{StepLine, step_lines};
 use super::summary::{Line, SummaryLines, configuration, field, non_empty, torque};
 use crate::view::plane_of_task;
-use cplan_core::model::Outcome;
 use cplan_engine::Plan;
 use cplan_handling::Task;
+use cplan_model::Outcome;
 use cplan_tasks::{FailedStep, Leg, TaskAnswer, TaskMotion};
 use cplan_text::{counted, length_down, percent, round_down, short};
 

@@ -2,9 +2,9 @@
 
 use super::numbers::{RoundingSteps, ShapeView};
 use crate::chart;
-use cplan_core::model::{Arm, JointType, Part, Plane, Scene};
-use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, cross};
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, JointType, Part, Plane, Scene};
 use nalgebra::Vector3;
 use serde::{Serialize, Serializer};
 

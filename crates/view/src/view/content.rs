@@ -15,10 +15,10 @@ use crate::checked::CheckedView;
 use crate::explanation::ExplanationView;
 use crate::flow::FieldLines;
 use crate::followed::LineView;
-use cplan_core::model::{Arm, Status};
-use cplan_core::space::Configuration;
 use cplan_explain::Reach;
 use cplan_handling::WristJoint;
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, Status};
 use cplan_motion::Trajectory;
 use serde::{Serialize, Serializer};
 

@@ -1,9 +1,9 @@
 //! The visible part of the workspace.
 
 use crate::axes::Range;
-use cplan_core::model::Scene;
-use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, Pose};
+use cplan_model::Scene;
+use cplan_model::space::Configuration;
 
 /// Number of samples along each axis from which the extent of the arm's motion is computed.
 const SAMPLES_PER_AXIS: usize = 17;

@@ -1,7 +1,7 @@
 //! Lines of steepest ascent through a field, from starting points all over it.
 
 use super::isolines::Samples;
-use cplan_core::space::Topology;
+use cplan_model::space::Topology;
 
 /// Number of starting points along each axis.
 const STARTS_PER_AXIS: usize = 16;
@@ -106,7 +106,7 @@ fn place(samples: &Samples, at: [f64; 2]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::space::JointRange;
+    use cplan_model::space::JointRange;
 
     fn topology() -> Topology {
         Topology { ranges: [JointRange::Interval { lower: -1.0, upper: 1.0 }; 2] }

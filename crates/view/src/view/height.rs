@@ -1,8 +1,8 @@
 //! The strips of the tool's height and of the wrist's turns against time.
 
 use super::numbers::{Chain, number};
-use cplan_core::space::Configuration;
 use cplan_handling::Task;
+use cplan_model::space::Configuration;
 use cplan_motion::recorded::{turn_angle, turn_profile};
 use cplan_motion::{phase_at, single};
 use cplan_tasks::{Event, Leg, TimedTurn};

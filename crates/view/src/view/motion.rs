@@ -2,7 +2,7 @@
 
 use super::numbers::{Chain, RoundingSteps};
 use crate::figure::Pen;
-use cplan_core::space::{Configuration, Path};
+use cplan_model::space::{Configuration, Path};
 use cplan_motion::Trajectory;
 use cplan_theme::{GRAY, INK, PlannerPen, Rgb, role_or_hex};
 use serde::{Serialize, Serializer};

@@ -1,9 +1,9 @@
 //! Numbers rounded to visible precision, and their form in a document, where a list of places is a flat list of
 //! coordinates.
 
-use cplan_core::model::{Arm, Shape};
-use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point};
+use cplan_model::space::Configuration;
+use cplan_model::{Arm, Shape};
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 

@@ -6,7 +6,7 @@ use super::phase::{MotionReplayView, PhaseView, ShowsView};
 use super::trace::TraceView;
 use super::waves::{self, Waves};
 use super::world::WorldView;
-use cplan_core::space::{Configuration, Topology};
+use cplan_model::space::{Configuration, Topology};
 use cplan_solver::{Phase, Replay, Shows, SlabBoxes, Sweeps};
 use cplan_tasks::TaskReplay;
 

@@ -1,8 +1,8 @@
 //! Fields that paths follow upwards, and the values of their equipotentials.
 
 use super::isolines::Samples;
-use cplan_core::planner::Trace;
-use cplan_core::space::Topology;
+use cplan_model::space::Topology;
+use cplan_planners::planner::Trace;
 use std::borrow::Cow;
 
 /// Number of equipotentials that are drawn.
@@ -86,7 +86,7 @@ fn samples(cells: [usize; 2], potential: &[f64], topology: &Topology) -> Samples
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_core::space::JointRange;
+    use cplan_model::space::JointRange;
 
     #[test]
     fn lines_cross_the_seam_of_a_circle() {

@@ -1,7 +1,7 @@
 //! Payload states: the motions with one payload state and the same C-obstacles share a panel.
 
 use super::steps::Order;
-use cplan_core::space::{Configuration, Topology};
+use cplan_model::space::{Configuration, Topology};
 use cplan_tasks::Leg;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

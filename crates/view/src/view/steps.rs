@@ -1,8 +1,8 @@
 //! The steps of a task, in words.
 
 use super::task_picture::TaskPicture;
-use cplan_core::model::Outcome;
 use cplan_handling::{Object, Step};
+use cplan_model::Outcome;
 use cplan_tasks::{Leg, TaskAnswer};
 use cplan_theme::{GRAY, INFEASIBLE, INK, Rgb};
 

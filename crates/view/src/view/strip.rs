@@ -2,9 +2,9 @@
 
 use super::numbers::{Chain, number};
 use super::world::WorldView;
-use cplan_core::space::Configuration;
 use cplan_geometry::Interval;
 use cplan_handling::{ObstacleTrajectory, Task, TimedScene};
+use cplan_model::space::Configuration;
 use cplan_motion::Trajectory;
 use cplan_movers::{MotionPart, PlaceTime, Wait, WaitReason};
 use cplan_tasks::{Event, Leg};

@@ -13,10 +13,10 @@ use super::task_picture::TaskPicture;
 use super::tool_angle::ToolAngleView;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use crate::FieldLines;
-use cplan_core::model::{Additions, Obstacle, Outcome, Scene};
-use cplan_core::space::Configuration;
 use cplan_geometry::Pose;
 use cplan_handling::{Object, ObstacleTrajectory, Task, TimedScene};
+use cplan_model::space::Configuration;
+use cplan_model::{Additions, Obstacle, Outcome, Scene};
 use cplan_tasks::{Event, FailedStep, Leg, Sequence};
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
 //! The data for a picture of a task.
 
-use cplan_core::cspace::CObstacle;
-use cplan_core::model::{Scene, Status};
 use cplan_handling::{Task, TimedScene};
+use cplan_model::{Scene, Status};
+use cplan_planners::cspace::CObstacle;
 use cplan_tasks::TaskAnswer;
 
 /// C-obstacles of moving obstacles at several times, in seconds.

@@ -1,9 +1,9 @@
 //! The strip of the tool's angle along lines against time.
 
 use super::numbers::{Chain, number};
-use cplan_core::model::Arm;
-use cplan_core::space::Configuration;
 use cplan_handling::{Task, WristJoint};
+use cplan_model::Arm;
+use cplan_model::space::Configuration;
 use cplan_motion::Trajectory;
 use cplan_tasks::Leg;
 use serde::Serialize;

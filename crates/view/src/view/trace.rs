@@ -4,8 +4,8 @@ use super::flow;
 use super::numbers::{Chain, RoundingSteps, number};
 use super::slope::Slope;
 use super::waves::Waves;
-use cplan_core::planner::{Trace, VisibilityGraph};
-use cplan_core::space::{Configuration, Topology};
+use cplan_model::space::{Configuration, Topology};
+use cplan_planners::planner::{Trace, VisibilityGraph};
 use serde::Serialize;
 
 /// Lines on which a field has one value.

@@ -2,12 +2,12 @@
 
 use super::numbers::{Chain, RoundingSteps, ShapeView, number, outline};
 use super::trace::{ScaleView, TraceView};
-use cplan_core::check::CheckedProof;
-use cplan_core::cspace::CObstacle;
-use cplan_core::model::{Carrier, Grip, LooseObstacle, Obstacle, Pair, Preference, Region, Scene, Shape};
-use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point};
 use cplan_handling::{ObstacleTrajectory, TimedScene};
+use cplan_judge::CheckedProof;
+use cplan_model::space::Configuration;
+use cplan_model::{Carrier, Grip, LooseObstacle, Obstacle, Pair, Preference, Region, Scene, Shape};
+use cplan_planners::cspace::CObstacle;
 use cplan_theme::Rgb;
 use serde::{Serialize, Serializer};
 

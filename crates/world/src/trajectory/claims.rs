@@ -1,8 +1,8 @@
 //! The claims that a result of cplan makes about its samples.
 
 use crate::parsers::json_diagnostic;
-use cplan_core::space::Configuration;
 use cplan_handling::{BlendsClaim, Claims, EventClaim, OptimumClaim, StepClaims, TaskClaims};
+use cplan_model::space::Configuration;
 use cplan_robot::{Diagnostic, InputError, Source};
 use serde::{Deserialize, Deserializer};
 

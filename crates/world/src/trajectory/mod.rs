@@ -18,9 +18,9 @@ mod steps;
 mod units;
 
 use super::LoadedScene;
-use cplan_core::model::JointType;
-use cplan_core::space::Configuration;
 use cplan_handling::{Claims, HeldMotion, Interpolation, RecordedJoints, RecordedStep, Recording};
+use cplan_model::JointType;
+use cplan_model::space::Configuration;
 use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use samples::{Names, Samples, Series, misplaced};
 use std::path::Path;

@@ -1,9 +1,9 @@
 //! Recorded joints other than the arm's two.
 
 use super::samples::{Names, Samples, Series, misplaced};
-use cplan_core::model::{OutlineSource, Scene};
-use cplan_core::space::Configuration;
 use cplan_handling::{HeldEffect, HeldJoint, HeldMotion, Interpolation, Recording, RecordingError};
+use cplan_model::space::Configuration;
+use cplan_model::{OutlineSource, Scene};
 use cplan_robot::{Diagnostic, Source};
 
 /// Largest deviation of a recorded value from the value at which the world holds the joint, in radians or metres, for

@@ -1,7 +1,7 @@
 //! The check whether a motion follows a path.
 
-use cplan_core::space::{Configuration, Path};
 use cplan_handling::Recording;
+use cplan_model::space::{Configuration, Path};
 
 /// Largest deviation of a motion from its path, in each joint, radians or metres. It is a thousand times the rounding
 /// of either, and equals the tolerance of blends.

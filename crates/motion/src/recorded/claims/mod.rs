@@ -8,10 +8,10 @@ mod steps;
 pub use steps::{false_step_claims, false_task_claims};
 
 use super::collision::{CollisionCheck, check_collision};
-use cplan_core::check::{Rejection, certify};
-use cplan_core::model::{Arm, Scene};
-use cplan_core::space::{Configuration, Path};
 use cplan_handling::{BlendsClaim, Claims, OptimumClaim, Recording, TimedScene};
+use cplan_judge::{Rejection, certify, certify_at};
+use cplan_model::space::{Configuration, Path};
+use cplan_model::{Arm, Scene};
 use cplan_text::length_unlike;
 use follow::follows;
 use std::fmt::Display;
@@ -115,7 +115,7 @@ impl Ledger {
                 );
             }
         }
-        match certify(scene, path, scene.workspace().clearance) {
+        match certify(scene, path) {
             Err(Rejection::TooClose(nearest)) => {
                 let (pair, at) = (scene.describe(nearest.contact.pair), nearest.at);
                 let distance = nearest.contact.separation.distance;
@@ -182,8 +182,8 @@ fn nearer(
     recording: &Recording,
     stated: f64,
     seen: f64,
-    pair: cplan_core::model::Pair,
-) -> Option<(f64, cplan_core::model::Pair)> {
+    pair: cplan_model::Pair,
+) -> Option<(f64, cplan_model::Pair)> {
     // Two methods of computing a distance may differ by this.
     let stated = stated - NUMBER_TOLERANCE * stated.abs() - NUMBER_TOLERANCE * f64::EPSILON.sqrt();
     if seen < stated {
@@ -261,7 +261,7 @@ impl Ledger {
 
     fn clearance_of_path(&mut self, scene: &Scene, path: Path, stated: f64) {
         let asked = stated - NUMBER_TOLERANCE * stated.abs() - NUMBER_TOLERANCE * f64::EPSILON.sqrt();
-        if let Err(Rejection::TooClose(nearest)) = certify(scene, path, asked.max(0.0)) {
+        if let Err(Rejection::TooClose(nearest)) = certify_at(scene, path, asked.max(0.0)) {
             let (pair, distance) = (scene.describe(nearest.contact.pair), nearest.contact.separation.distance);
             self.note(
                 "clearance",

@@ -4,9 +4,9 @@ use super::{FalseClaim, Ledger, TIME_TOLERANCE};
 use crate::recorded::replay::{PLACE_TOLERANCE, angle_between};
 use crate::recorded::wrist::turn_resolution;
 use crate::recorded::{GripperEvent, ReplayedStep};
-use cplan_core::space::Configuration;
 use cplan_geometry::Point;
 use cplan_handling::{Action, Claims, EventClaim, RecordedStep, Recording, Task, TimedScene};
+use cplan_model::space::Configuration;
 use cplan_text::length_unlike;
 
 /// Returns the false claims of a result about the step with this `index`, given its replay.

@@ -1,6 +1,6 @@
 //! Differences between a recorded task and the requested one.
 
-use cplan_core::space::Configuration;
+use cplan_model::space::Configuration;
 use cplan_text::{length, length_up};
 use thiserror::Error;
 

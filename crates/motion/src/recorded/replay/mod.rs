@@ -18,10 +18,10 @@ pub use tool_joints::{MisplacedJoint, StepTool, misplaced_joints};
 use super::{
     CollisionCheck, Limit, LimitViolation, TurnContact, WristTurn, check_collision, limit_violations, torque_violations,
 };
-use cplan_core::model::{Goal, Scene};
-use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::{Interval, Point, Pose};
 use cplan_handling::{Action, ObstacleTrajectory, RecordedStep, RecordedTurn, Recording, Step, Task, TimedScene};
+use cplan_model::space::{Configuration, JointRange};
+use cplan_model::{Goal, Scene};
 use order::{MatchedStep, match_steps};
 use overlap::{Overlaps, PartialStroke, turn_faults, turning_at_rest};
 use state::{State, lowering_seconds, wrist_faults};

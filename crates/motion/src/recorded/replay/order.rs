@@ -1,8 +1,8 @@
 //! The match of recorded steps with those of the task.
 
 use super::OrderDeviation;
-use cplan_core::space::Configuration;
 use cplan_handling::{Item, RecordedStep, Recording, Step, Task};
+use cplan_model::space::Configuration;
 
 /// A step of the task at its place in the record.
 #[derive(Debug, Clone)]

@@ -3,8 +3,8 @@
 use super::state::{State, lowering_seconds};
 use super::{CollisionCheck, Fault, TIME_TOLERANCE};
 use crate::recorded::{StrokeDuringMotion, TurnCover, TurnDuringMotion, seconds_to_rise};
-use cplan_core::model::Scene;
 use cplan_handling::{RecordedOverlap, RecordedStep, RecordedTurn, Recording, Task, Wrist};
+use cplan_model::Scene;
 
 /// A stroke that overlaps with a motion, and by how many seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]

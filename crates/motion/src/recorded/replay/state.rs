@@ -2,13 +2,13 @@
 
 use super::super::{WristTurn, judge_given_turn, turn_angle, turn_profile};
 use super::{Fault, PLACE_TOLERANCE, ReplayedTurn, TIME_TOLERANCE, angle_between};
-use cplan_core::model::{Grip, Scene};
-use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{
     Action, ArchScene, Holding, Object, ObstacleTrajectory, Payload, RecordedOverlap, RecordedTurn, RecordedWrist,
     Step, Stroke, Task, ToolLimits,
 };
+use cplan_model::space::Configuration;
+use cplan_model::{Grip, Scene};
 
 /// The places of the objects, and the load.
 #[derive(Debug, Clone)]

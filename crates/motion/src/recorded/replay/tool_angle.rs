@@ -2,10 +2,10 @@
 
 use super::Fault;
 use crate::recorded::limits::{Limit, LimitViolation, limit_violations};
-use cplan_core::model::{Joint, JointType};
-use cplan_core::space::{Configuration, JointRange};
 use cplan_deviation::{Deviation, Foot, Kinematics, Line, ToolDeviation};
 use cplan_handling::{FollowedLine, Recording, RecordingError, Task, Wrist, WristGuide, WristJoint};
+use cplan_model::space::{Configuration, JointRange};
+use cplan_model::{Joint, JointType};
 
 /// Returns the faults of the wrist along a line: it exceeds its limits, or the tool is not proven to keep the angle that
 /// the line asks for. `wrist` has the joint's values, velocities and accelerations at the samples of the motion.

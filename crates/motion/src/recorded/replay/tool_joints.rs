@@ -8,11 +8,11 @@
 use super::overlap::PartialStroke;
 use crate::recorded::{turn_angle, turn_profile};
 use crate::single;
-use cplan_core::space::Configuration;
 use cplan_handling::{
     Drives, Holding, RecordedJoints, RecordedStep, RecordedTurn, Recording, RobotJoints, Stroke, Task, ToolJoint,
     WristJoint,
 };
+use cplan_model::space::Configuration;
 use thiserror::Error;
 
 /// Largest difference between a recorded and a stated value, radians or metres. It exceeds the difference between readers

@@ -1,9 +1,9 @@
 //! Compares motions that are reported as closed with distances by brute force.
 
 use super::*;
-use cplan_core::model::{Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
-use cplan_core::space::JointRange;
 use cplan_geometry::hull;
+use cplan_model::space::JointRange;
+use cplan_model::{Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use std::f64::consts::TAU;

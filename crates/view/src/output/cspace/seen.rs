@@ -1,8 +1,8 @@
 //! Data of planners in a configuration space: roadmaps, cells, boxes and grids.
 
 use super::Values;
-use cplan_core::cspace::Proves;
-use cplan_core::space::Configuration;
+use cplan_model::space::Configuration;
+use cplan_planners::cspace::Proves;
 use cplan_solver::Space;
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};

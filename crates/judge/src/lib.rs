@@ -1,0 +1,43 @@
+//! The judge: continuous collision checks of planned motions, and of proofs that there is no path.
+//!
+//! The judge uses only the scene's exact outlines. It knows neither planners nor C-obstacles, so a fault of a
+//! planner or of the search for proofs cannot hide here.
+//!
+//! - [`certify`] judges a path by bisection: [`Deviation`] bounds how much closer two shapes can come along a
+//!   segment. Only `certify` makes a [`CertifiedPath`] from a path; `then`, `part` and `within` derive others.
+//! - [`CurveSearch`] does the same for any curve, given bounds on its parts. The crate `motion` judges rounded
+//!   corners with it.
+//! - [`permanent_contacts`] proves which shapes of the robot's own body meet in every configuration. Their contact
+//!   is ignored.
+//! - [`Disconnection::checked`] judges a proof that there is no path. It joins the gaps between the collision boxes by
+//!   petgraph's union-find.
+//!
+//! ```
+//! use cplan_judge::{Rejection, certify};
+//! use cplan_model::{Arm, Obstacle, Scene, Workspace};
+//! use cplan_model::space::{Configuration, Path};
+//!
+//! let workspace = Workspace::new([Obstacle::circle("post", [1.5, 0.0], 0.1)?]);
+//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, workspace)?;
+//! let path = |q2: f64| Path::new(vec![Configuration::new(-0.6, q2), Configuration::new(0.6, q2)]);
+//! // Folded, the arm passes below the post on the whole continuous motion. Stretched, it hits the post.
+//! assert!(certify(&scene, path(2.5)).is_ok_and(|certified| certified.clearance() > 0.3));
+//! assert!(matches!(certify(&scene, path(0.0)), Err(Rejection::TooClose(_))));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod cell;
+mod deviation;
+mod drift;
+mod motion;
+mod permanent;
+mod proof;
+mod vicinity;
+
+pub use cell::Cell;
+pub use deviation::{COLLISION_ROUNDING, Deviation, Posture, SeparationBound, SpanPair};
+pub use drift::Drift;
+pub use motion::{CertifiedPath, CurveSearch, Nearest, Rejection, StraightMotions, certify, certify_at};
+pub use permanent::permanent_contacts;
+pub use proof::{CheckedProof, CollisionBox, Disconnection, ProofBox, ProofError, ProofFormatError, read_proof};
+pub use vicinity::Vicinity;

@@ -1,0 +1,316 @@
+//! The configuration space as polygons.
+
+use super::coarse::coarse;
+use super::curves::Curves;
+use super::union::{blocked_space, free_space};
+use super::{Proves, translation};
+use cplan_geometry::{Hits, Point, cross};
+use cplan_interrupt::checkpoint;
+use cplan_model::space::{Configuration, JointRange, Topology};
+use cplan_model::{Contacts, Joint, Pair, Scene};
+use std::borrow::Cow;
+use std::f64::consts::{PI, TAU};
+
+/// Fraction of the margin that contours of [`regions`] are proven to keep from obstacles. Chords may use the rest,
+/// which allows fewer corners.
+const PROVEN_MARGIN_SHARE: f64 = 0.25;
+
+/// Greatest simplification of shapes with many corners, as a multiple of the margin that contours keep.
+const COARSENESS_PER_MARGIN: f64 = 2.0;
+
+/// Overlap of bands at the seam of a turn, relative to the distance by which obstacles are grown. It is far above
+/// the rounding of the union.
+const SEAM_OVERLAP: f64 = 1e-3;
+
+/// A simple polygon with holes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PolygonWithHoles {
+    /// The outer contour, counter-clockwise.
+    pub outer: Vec<Point>,
+    /// Contours of the holes, clockwise.
+    pub holes: Vec<Vec<Point>>,
+}
+
+impl PolygonWithHoles {
+    /// Returns the area of the polygon, its holes excluded, in the product of the axes' units.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        signed_area(&self.outer) + self.holes.iter().map(|hole| signed_area(hole)).sum::<f64>()
+    }
+
+    /// Returns true if `p` is inside, by the parity of crossings. For points on a contour the result may be either.
+    /// Linear in the number of corners.
+    #[must_use]
+    pub fn contains(&self, p: Point) -> bool {
+        let contours = std::iter::once(&self.outer).chain(&self.holes);
+        contours.filter(|contour| crossings(contour, p) % 2 == 1).count() % 2 == 1
+    }
+}
+
+fn signed_area(contour: &[Point]) -> f64 {
+    let n = contour.len();
+    (0..n).map(|i| cross(contour[i] - contour[0], contour[(i + 1) % n] - contour[0])).sum::<f64>() / 2.0
+}
+
+/// Returns the number of sides that the ray from `p` along the first axis crosses.
+fn crossings(contour: &[Point], p: Point) -> usize {
+    let n = contour.len();
+    (0..n)
+        .filter(|&i| {
+            let (a, b) = (contour[i], contour[(i + 1) % n]);
+            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y))
+        })
+        .count()
+}
+
+/// The polygon that one pair of shapes contributes to a C-obstacle, in unwrapped joint values. One pair may contribute
+/// several. On a circle, its copies by whole turns are implied. Used for pictures, and as input of the union.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CObstacle {
+    /// Index of the obstacle, as in [`Pair::obstacle`].
+    pub obstacle: usize,
+    /// The link that would touch the obstacle, as in [`Pair::link`].
+    pub link: usize,
+    /// Corners with coordinates `(q1, q2)`, counter-clockwise.
+    pub contour: Vec<Point>,
+}
+
+/// Free space as polygons over a *window* of unwrapped joint values. On an interval the window has the joint's
+/// limits; on a circle it has some turns around the start, in which obstacles repeat. So a planner on a torus can
+/// plan in the plane, with all copies of the goal within the window as goals.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Regions {
+    /// Topology of the configuration space.
+    pub topology: Topology,
+    /// What free and blocked configurations prove.
+    pub proves: Proves,
+    /// Lower and upper end of the window along each axis.
+    pub window: [(f64, f64); 2],
+    /// The contributions of all obstacles, each once and not clipped to the window.
+    pub obstacles: Vec<CObstacle>,
+    /// The window without all obstacles: one polygon per connected component.
+    pub free: Vec<PolygonWithHoles>,
+}
+
+impl Regions {
+    /// Returns the contours of free space. Free space is to the left of each.
+    #[must_use]
+    pub fn contours(&self) -> Vec<&[Point]> {
+        self.free.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes)).map(Vec::as_slice).collect()
+    }
+
+    /// Returns the component of free space that contains `q`, which must be within the window. Linear in the number
+    /// of corners.
+    #[must_use]
+    pub fn component(&self, q: Configuration) -> Option<usize> {
+        self.free.iter().position(|polygon| polygon.contains(q))
+    }
+}
+
+/// Computes free space among obstacles that are grown by the scene's clearance and at most `margin` metres more. The
+/// window has the limits of intervals, and `periods` turns to either side of `center` on circles.
+///
+/// On the boundary of free space, and so within it, arm and obstacles are at least the clearance plus a quarter of
+/// `margin` apart; [`c_obstacles`] has the argument. Every configuration that keeps the clearance plus three times
+/// `margin` is free. The number of vertices grows like `1 / sqrt(margin)`.
+///
+/// # Panics
+/// If `margin` is not positive.
+#[must_use]
+pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize) -> Regions {
+    assert!(margin > 0.0, "a margin for the flattening of curves");
+    let obstacles = c_obstacles(scene, PROVEN_MARGIN_SHARE * margin, (1.0 - PROVEN_MARGIN_SHARE) * margin);
+    within_window(scene, Proves::Outer { margin }, window(scene, center, periods), obstacles)
+}
+
+/// Reasons why C-obstacles are not polygons.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NotPolygons {
+    /// The arm is not a gantry: a joint turns, or both joints slide in the same direction.
+    Arm,
+    /// The required clearance makes the corners of C-obstacles round.
+    Clearance,
+    /// In this pair, the link's shape is round: a circle, or a shape with rounded corners.
+    RoundLink(Pair),
+    /// In this pair, the obstacle's shape is round.
+    RoundObstacle(Pair),
+}
+
+/// Returns the reason why the C-obstacles of a scene are not polygons; `None` if they are. They are if both joints are
+/// prismatic, and all shapes have straight sides.
+#[must_use]
+pub fn not_polygons(scene: &Scene) -> Option<NotPolygons> {
+    if translation::joint_map(scene.arm()).is_none() {
+        return Some(NotPolygons::Arm);
+    }
+    // Pairs of one link that only slides along one axis give bands, whose sides are straight for all shapes.
+    scene.pairs().iter().filter(|pair| pair.link == 1).find_map(|&pair| {
+        if scene.part(pair).radius() > 0.0 {
+            return Some(NotPolygons::RoundLink(pair));
+        }
+        if scene.piece(pair).radius() > 0.0 {
+            return Some(NotPolygons::RoundObstacle(pair));
+        }
+        (scene.workspace().clearance > 0.0).then_some(NotPolygons::Clearance)
+    })
+}
+
+/// Computes the exact C-obstacles of a gantry. Returns `None` if they are not polygons; [`not_polygons`] has the reason.
+///
+/// Each is a Minkowski difference of two polygons, found by a sweep over their normals. Nothing is grown and no
+/// corner is added. Corners are differences of given corners, rounded once, in joint values.
+#[must_use]
+pub fn exact_c_obstacles(scene: &Scene) -> Option<Vec<CObstacle>> {
+    not_polygons(scene).is_none().then(|| trace_contours(scene, scene.workspace().clearance, 0.0))
+}
+
+/// Computes the free space of a gantry among [`exact_c_obstacles`], within the limits of its joints. Returns `None`
+/// without exact C-obstacles.
+///
+/// At configurations on the boundary of free space the arm touches an obstacle.
+#[must_use]
+pub fn exact_regions(scene: &Scene) -> Option<Regions> {
+    let obstacles = exact_c_obstacles(scene)?;
+    Some(within_window(scene, Proves::Exact, window(scene, Configuration::zeros(), 0), obstacles))
+}
+
+/// Computes the free space of a gantry, within the limits of its joints, with obstacles shrunk by at most `margin`
+/// metres. It contains every configuration that keeps the scene's clearance. It contains no configuration that
+/// violates the clearance by more than `margin`.
+///
+/// Returns `None` for other arms, if link 1 can touch an obstacle, and for shapes too thin to be shrunk: walls
+/// without thickness together with a link that is a point. The number of vertices grows like `1 / sqrt(margin)`.
+#[must_use]
+pub fn inner_regions(scene: &Scene, margin: f64) -> Option<Regions> {
+    let map = translation::joint_map(scene.arm())?;
+    let level = scene.workspace().clearance;
+    let contour = |pair: &Pair| {
+        checkpoint();
+        if pair.link != 1 {
+            return None;
+        }
+        let (part, piece) = (scene.part(*pair), scene.piece(*pair));
+        let contour = translation::inner_contour(scene.arm(), &map, part, piece, level, margin)?;
+        Some(CObstacle { obstacle: pair.obstacle, link: pair.link, contour })
+    };
+    let obstacles: Option<Vec<CObstacle>> = scene.pairs().iter().map(contour).collect();
+    Some(within_window(scene, Proves::Inner { margin }, window(scene, Configuration::zeros(), 0), obstacles?))
+}
+
+/// Returns the limits of intervals, and `periods` turns to either side of `center` on circles.
+fn window(scene: &Scene, center: Configuration, periods: usize) -> [(f64, f64); 2] {
+    let topology = scene.arm().topology();
+    let turns = TAU * periods as f64;
+    [0, 1].map(|k| match topology.ranges[k] {
+        JointRange::Interval { lower, upper } => (lower, upper),
+        JointRange::Circle => (center[k] - turns, center[k] + turns),
+    })
+}
+
+fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacles: Vec<CObstacle>) -> Regions {
+    let free = free_space(window, periods(scene), obstacles.iter().map(|o| o.contour.as_slice()));
+    Regions { topology: scene.arm().topology(), proves, window, obstacles, free }
+}
+
+/// Returns the period after which poses repeat, for each joint; `None` for prismatic joints.
+fn periods(scene: &Scene) -> [Option<f64>; 2] {
+    scene.arm().joints.each_ref().map(|joint| joint.joint_type.is_revolute().then_some(TAU))
+}
+
+/// Returns the blocked regions of each obstacle of the workspace, then of each of the arm's self obstacles.
+/// `contours` are the scene's [`c_obstacles`]. The regions are disjoint polygons per obstacle within the limits, on
+/// circles within `[-pi, pi]`, and are cut at the seams.
+#[must_use]
+pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<PolygonWithHoles>> {
+    let window = scene.arm().topology().ranges.map(JointRange::domain);
+    let of = |number: usize| contours.iter().filter(move |c| c.obstacle == number).map(|c| c.contour.as_slice());
+    let obstacles = (0..scene.workspace().obstacles.len()).chain(scene.self_obstacles());
+    obstacles.map(|number| blocked_space(window, periods(scene), of(number))).collect()
+}
+
+/// Returns contours that cover every configuration in which a pair of the scene is at most the clearance plus
+/// `margin` apart. They cover almost no configuration in which all pairs are more than `2 * tolerance` farther
+/// apart. `margin` and `tolerance` are in metres; `tolerance` must be positive.
+///
+/// A pair may have several contours, and contours of one obstacle may overlap. Shapes with many corners are
+/// simplified unless the margin is 0, so contours around them may be another two margins away.
+///
+/// Link 1 gives bands of `q1`, in closed form. Gantries give Minkowski differences, which are exact up to arcs: with
+/// margin, clearance and radii zero they are the exact C-obstacles. Otherwise chords approximate curves between
+/// exact slices.
+///
+/// The coverage is proven, not sampled. Let `S` be the set to cover. Slices are exact, and chords keep their
+/// distance from `S` (proven in the module `chord`). So no point of `S` lies on the boundary of the union, and every
+/// connected part of `S` is as a whole either inside or outside. Each part has a point inside. Either the part
+/// reaches the end of the range of `q1`, where there is a slice, or it has a point of least `q1`, where there is a
+/// slice as well (module `events`).
+///
+/// # Panics
+/// If `tolerance` is not positive.
+#[must_use]
+pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle> {
+    assert!(tolerance > 0.0, "a tolerance for the flattening of curves");
+    trace_contours(&coarsened(scene, margin, tolerance), scene.workspace().clearance + margin, tolerance)
+}
+
+/// Returns contours around the configurations in which a pair of shapes is within `level`, with this tolerance.
+fn trace_contours(scene: &Scene, level: f64, tolerance: f64) -> Vec<CObstacle> {
+    let slices = Contacts::new(scene);
+    let map = translation::joint_map(scene.arm());
+    let mut obstacles = Vec::new();
+    for (index, pair) in scene.pairs().iter().enumerate() {
+        checkpoint();
+        let contours = match (pair.link, &map) {
+            (0 | 2, _) => bands(&slices, index, level + tolerance, SEAM_OVERLAP * level.min(1.0)),
+            (_, Some(map)) => {
+                let (part, piece) = (scene.part(*pair), scene.piece(*pair));
+                vec![translation::contour(scene.arm(), map, part, piece, level, tolerance)]
+            }
+            (_, None) => Curves::new(&slices, index, level, tolerance).contours(),
+        };
+        let (obstacle, link) = (pair.obstacle, pair.link);
+        obstacles.extend(contours.into_iter().map(|contour| CObstacle { obstacle, link, contour }));
+    }
+    obstacles
+}
+
+/// Returns the scene with simpler shapes, whose contours are traced.
+fn coarsened(scene: &Scene, margin: f64, tolerance: f64) -> Cow<'_, Scene> {
+    coarse(scene, COARSENESS_PER_MARGIN * margin, scene.workspace().clearance + margin + 4.0 * tolerance)
+}
+
+/// Returns the number of pairs of shapes that [`regions`] traces with this `margin`. A greater margin makes shapes
+/// with many corners coarser.
+#[must_use]
+pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
+    coarsened(scene, PROVEN_MARGIN_SHARE * margin, (1.0 - PROVEN_MARGIN_SHARE) * margin).pairs().len()
+}
+
+/// Returns the bands of `q1` in which a pair of link 1 is within `level`, over all values of `q2`. They extend by `pad`
+/// beyond either end of `q2`, so that copies a whole turn apart overlap. For a pair of link 2 and link 1, returns bands
+/// of `q2` over all values of `q1`.
+fn bands(slices: &Contacts, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
+    let domain = |joint: &Joint| if joint.joint_type.is_revolute() { (-PI, PI) } else { joint.range.domain() };
+    let folds = slices.scene().pairs()[index].link == 2;
+    let mut joints: Vec<&Joint> = slices.scene().arm().joints.iter().collect();
+    if folds {
+        joints.reverse();
+    }
+    let mut spans = Vec::new();
+    let hits = match folds {
+        true => slices.second_link(index, 0.0, level, &mut spans),
+        false => slices.first_link(index, level, &mut spans),
+    };
+    if hits == Hits::Always {
+        spans = vec![<[f64; 2]>::from(domain(joints[0]))];
+    }
+    let (lower, upper) = domain(joints[1]);
+    let corners = |[a, b]: [f64; 2]| {
+        let corners = match folds {
+            true => [(lower - pad, a), (upper + pad, a), (upper + pad, b), (lower - pad, b)],
+            false => [(a, lower - pad), (b, lower - pad), (b, upper + pad), (a, upper + pad)],
+        };
+        corners.map(|(x, y)| Point::new(x, y)).to_vec()
+    };
+    spans.into_iter().map(corners).collect()
+}

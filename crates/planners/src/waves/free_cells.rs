@@ -1,0 +1,250 @@
+//! The free cells of a grid, one bit each, and the moves between them.
+
+use crate::cspace::Grid;
+use serde::{Deserialize, Serialize};
+
+/// The cells that count as neighbours of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Neighborhood {
+    /// Cells that share a side.
+    #[default]
+    Four,
+    /// Cells that share a side or a corner. A diagonal move needs both adjacent cells free. It passes through the
+    /// corner that all four cells share, and touching a blocked cell is contact.
+    Eight,
+}
+
+impl Neighborhood {
+    /// Returns the number of neighbours.
+    #[must_use]
+    pub fn count(self) -> u8 {
+        match self {
+            Self::Four => 4,
+            Self::Eight => 8,
+        }
+    }
+}
+
+/// A move between neighbouring cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Move {
+    /// Index of the cell to which the move leads.
+    pub to: usize,
+    /// True for a move through a corner.
+    pub is_diagonal: bool,
+}
+
+/// The free cells of a grid, one bit each. 4096 x 4096 cells take 2 MiB, which fits in the cache. Cell `(i, j)` has
+/// its index in the grid, `i * cells[1] + j`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FreeCells {
+    cells: [usize; 2],
+    circles: [bool; 2],
+    /// Number of words per row. Each row begins in a new word.
+    words: usize,
+    /// One bit per cell, 1 if free. Bits beyond the last column are 0.
+    bits: Vec<u64>,
+}
+
+impl FreeCells {
+    /// Collects the free cells. Linear in the number of cells.
+    ///
+    /// # Panics
+    /// If there are `2^32 - 1` cells or more.
+    #[must_use]
+    pub fn new(grid: &Grid) -> Self {
+        let [rows, columns] = grid.cells;
+        assert!(rows.saturating_mul(columns) < u32::MAX as usize, "the grid has too many cells for 32-bit labels");
+        let packed = |chunk: &[bool]| chunk.iter().enumerate().fold(0, |word, (k, &b)| word | u64::from(!b) << k);
+        let lines = grid.blocked.chunks_exact(columns.max(1));
+        Self {
+            cells: grid.cells,
+            circles: grid.topology.ranges.map(|axis| axis.is_circle()),
+            words: columns.div_ceil(64),
+            bits: lines.flat_map(|line| line.chunks(64)).map(packed).collect(),
+        }
+    }
+
+    /// Returns the number of rows and columns.
+    #[must_use]
+    pub fn cells(&self) -> [usize; 2] {
+        self.cells
+    }
+
+    /// Returns, for each axis, true if its last row or column borders on the first.
+    #[must_use]
+    pub fn circles(&self) -> [bool; 2] {
+        self.circles
+    }
+
+    /// Returns the number of free cells.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.bits.iter().map(|word| word.count_ones() as usize).sum()
+    }
+
+    /// Returns true if cell `index` is free.
+    #[must_use]
+    pub fn is_free(&self, index: usize) -> bool {
+        self.has(index / self.cells[1], index % self.cells[1])
+    }
+
+    /// Iterates over the moves from cell `from`, also across the seams of circles. Moves to cells that share a side
+    /// come first, in the order `-q1, +q1, -q2, +q2`, then diagonal ones: `-q1 -q2`, `-q1 +q2`, `+q1 -q2`,
+    /// `+q1 +q2`.
+    pub fn moves(&self, from: usize, neighborhood: Neighborhood) -> impl Iterator<Item = Move> + use<> {
+        let columns = self.cells[1];
+        let (i, j) = (from / columns, from % columns);
+        let (rows, around) = (self.adjacent_lines(0, i), self.adjacent_lines(1, j));
+        let free = |i: Option<usize>, j: Option<usize>| match (i, j) {
+            (Some(i), Some(j)) if self.has(i, j) => Some(i * columns + j),
+            _ => None,
+        };
+        let straight = [(rows[0], Some(j)), (rows[1], Some(j)), (Some(i), around[0]), (Some(i), around[1])];
+        let straight = straight.map(|(i, j)| free(i, j));
+        let diagonal = |(a, b): (usize, usize)| {
+            let allowed = neighborhood == Neighborhood::Eight && straight[a].and(straight[2 + b]).is_some();
+            if allowed { free(rows[a], around[b]) } else { None }
+        };
+        let diagonals = [(0, 0), (0, 1), (1, 0), (1, 1)].map(diagonal);
+        let moves = |to: [Option<usize>; 4], is_diagonal: bool| {
+            to.into_iter().flatten().map(move |to| Move { to, is_diagonal })
+        };
+        moves(straight, false).chain(moves(diagonals, true))
+    }
+
+    /// Returns the rows or columns before and after number `at`. Returns `None` for one that lies beyond a limit.
+    pub(super) fn adjacent_lines(&self, axis: usize, at: usize) -> [Option<usize>; 2] {
+        let (last, is_circle) = (self.cells[axis] - 1, self.circles[axis]);
+        let before = if at > 0 { Some(at - 1) } else { is_circle.then_some(last) };
+        let after = if at < last { Some(at + 1) } else { is_circle.then_some(0) };
+        [before, after]
+    }
+
+    /// Returns the number of words per row.
+    pub(super) fn words(&self) -> usize {
+        self.words
+    }
+
+    /// Returns the bits of all rows.
+    pub(super) fn bits(&self) -> &[u64] {
+        &self.bits
+    }
+
+    fn has(&self, i: usize, j: usize) -> bool {
+        self.bits[i * self.words + j / 64] >> (j % 64) & 1 == 1
+    }
+
+    fn row(&self, i: usize) -> &[u64] {
+        &self.bits[i * self.words..(i + 1) * self.words]
+    }
+
+    /// Returns the number of runs in all rows. A run is a sequence of free cells in a row that cannot be extended.
+    pub(super) fn runs(&self) -> usize {
+        let mut runs = 0;
+        for line in self.bits.chunks_exact(self.words.max(1)) {
+            let mut before = 0;
+            for &word in line {
+                runs += (word & !(word << 1 | before)).count_ones() as usize;
+                before = word >> 63;
+            }
+        }
+        runs
+    }
+
+    /// Returns the first column from `from` to before `to` that is free (or blocked, if `free` is false). Returns `to`
+    /// if there is none.
+    pub(super) fn next(&self, i: usize, from: usize, to: usize, free: bool) -> usize {
+        if from >= to {
+            return to;
+        }
+        let flip = if free { 0 } else { u64::MAX };
+        let line = self.row(i);
+        let mut mask = u64::MAX << (from % 64);
+        for (k, &word) in line.iter().enumerate().take(to.div_ceil(64)).skip(from / 64) {
+            let word = (word ^ flip) & mask;
+            if word != 0 {
+                return (k * 64 + word.trailing_zeros() as usize).min(to);
+            }
+            mask = u64::MAX;
+        }
+        to
+    }
+
+    /// Returns the first column of the free run that ends before column `end`. Returns `end` if the cell before is
+    /// blocked.
+    pub(super) fn run_start(&self, i: usize, end: usize) -> usize {
+        let line = self.row(i);
+        let mut start = end;
+        while start > 0 {
+            // The bits of the word up to the previous column, shifted to the top of the word.
+            let held = (start - 1) % 64 + 1;
+            let ones = ((line[(start - 1) / 64] << (64 - held)).leading_ones() as usize).min(held);
+            start -= ones;
+            if ones < held {
+                break;
+            }
+        }
+        start
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cspace::Proves;
+    use cplan_model::space::{JointRange, Topology};
+    use proptest::prelude::*;
+
+    fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
+        let axes =
+            circles.map(|c| if c { JointRange::Circle } else { JointRange::Interval { lower: 0.0, upper: 1.0 } });
+        Grid { topology: Topology { ranges: axes }, proves: Proves::Sampled, cells, blocked }
+    }
+
+    #[test]
+    fn no_move_cuts_a_corner() {
+        // . #
+        // . .
+        let free = FreeCells::new(&grid([2, 2], [false; 2], vec![false, true, false, false]));
+        let to = |from| free.moves(from, Neighborhood::Eight).map(|m| m.to).collect::<Vec<_>>();
+        assert_eq!((to(0), to(2), to(3)), (vec![2], vec![0, 3], vec![2]));
+        let open = FreeCells::new(&grid([2, 2], [false; 2], vec![false; 4]));
+        let moves: Vec<Move> = open.moves(0, Neighborhood::Eight).collect();
+        assert_eq!(
+            moves.iter().map(|m| (m.to, m.is_diagonal)).collect::<Vec<_>>(),
+            [(2, false), (1, false), (3, true)]
+        );
+    }
+
+    #[test]
+    fn moves_cross_the_seams_of_circles() {
+        let free = FreeCells::new(&grid([3, 4], [true, true], vec![false; 12]));
+        let to: Vec<usize> = free.moves(0, Neighborhood::Eight).map(|m| m.to).collect();
+        assert_eq!(to, [8, 4, 3, 1, 11, 9, 7, 5]);
+        let free = FreeCells::new(&grid([3, 4], [false, true], vec![false; 12]));
+        let to: Vec<usize> = free.moves(0, Neighborhood::Eight).map(|m| m.to).collect();
+        assert_eq!(to, [4, 3, 1, 7, 5]);
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(256))]
+
+        #[test]
+        fn scans_agree_with_tests_cell_by_cell(
+            blocked in proptest::collection::vec(proptest::bool::weighted(0.03), 1..300), at in 0..300_usize, to in 0..300_usize,
+        ) {
+            let n = blocked.len();
+            let (at, to) = (at.min(n), to.min(n));
+            let free = FreeCells::new(&grid([1, n], [false; 2], blocked.clone()));
+            prop_assert_eq!(free.count(), blocked.iter().filter(|b| !**b).count());
+            prop_assert_eq!(free.runs(), (0..n).filter(|&j| !blocked[j] && (j == 0 || blocked[j - 1])).count());
+            for wanted in [false, true] {
+                let expected = (at..to).find(|&j| blocked[j] != wanted).unwrap_or(to);
+                prop_assert_eq!(free.next(0, at, to, wanted), expected);
+            }
+            prop_assert_eq!(free.run_start(0, at), (0..at).rev().find(|&j| blocked[j]).map_or(0, |j| j + 1));
+        }
+    }
+}
