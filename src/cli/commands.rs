@@ -3,7 +3,8 @@
 use clap::Command;
 use std::fmt::Write as _;
 
-/// Defines `Command`, clap's enum of the subcommands, and `Command::run`, which calls the `run` of a subcommand's file.
+/// Defines `Command`, clap's enum of the subcommands, `Command::read_alone`, and `Command::run`, which calls the
+/// `run` of a subcommand's file.
 /// The input consists of groups of lines `Name(file::Args)`. If `run` also takes the
 /// [`Program`](super::program::Program), the line is `Name(file::Args, program)`. `GROUPS` lists the names in each
 /// group.
@@ -21,6 +22,17 @@ macro_rules! commands {
         const GROUPS: &[(&str, &[&str])] = &[$(($group, &[$($(#[$cfg])? stringify!($name),)+])),+];
 
         impl Command {
+            /// Reads the command line of a subcommand, which is its first word, by the grammar of this subcommand alone.
+            /// `None` if the line is wrong or asks for help.
+            fn read_alone(line: &[OsString]) -> Option<Self> {
+                let name = line.first()?;
+                $($($(#[$cfg])?
+                if name == stringify!($name).to_lowercase().as_str() {
+                    return read(line).map(Self::$name);
+                })+)+
+                None
+            }
+
             /// Runs the subcommand, and returns the exit code.
             fn run(&mut self, $program: &Program) -> Result<u8, Failure> {
                 match self {

@@ -57,7 +57,7 @@ pub use words::read_words;
 use crate::engine::Method;
 use crate::grammar::PlannerWords;
 use clap::error::ErrorKind;
-use clap::{CommandFactory, FromArgMatches, Parser};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use commands::commands;
 use error_json::ErrorJson;
 use exit::USAGE;
@@ -149,6 +149,18 @@ struct Cli {
 }
 
 impl Cli {
+    /// Returns the command of a command line.
+    fn read(arguments: &[OsString]) -> Result<Command, clap::Error> {
+        let cli = Self::from_arg_matches(&Self::for_messages().try_get_matches_from(arguments)?)?;
+        match (cli.command, cli.files) {
+            (Some(command), _) => Ok(command),
+            (None, Some(files)) => Ok(Command::Plan(PlanCommand { files, plan: cli.plan })),
+            (None, None) => {
+                Err(Self::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required"))
+            }
+        }
+    }
+
     /// Returns the grammar for help and error messages. Subcommands are in groups. Only `cplan planners` shows the options of
     /// planners.
     fn for_messages() -> clap::Command {
@@ -192,28 +204,15 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
 pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     let in_json = arguments.iter().any(|argument| argument == "--json");
     let first = arguments.get(1).cloned();
-    // To arrange the help takes as long as to read the command line, so that is done only for messages.
-    let reread = |_| {
-        let matches = Cli::for_messages().try_get_matches_from(&arguments);
-        matches.and_then(|matches| Cli::from_arg_matches(&matches))
-    };
-    let cli = match Cli::try_parse_from(&arguments).or_else(reread) {
-        Ok(cli) => cli,
+    let mut command = match read_alone(&arguments).map_or_else(|| Cli::read(&arguments), Ok) {
+        Ok(command) => command,
         Err(error) => {
             let is_word = matches!(error.kind(), ErrorKind::ArgumentConflict | ErrorKind::MissingRequiredArgument);
             let misspelled = first.filter(|_| is_word).and_then(misspelled_command_error);
             return unread(&misspelled.unwrap_or(error), in_json);
         }
     };
-    let done = match (cli.command, cli.files) {
-        (Some(mut command), _) => command.run(&Program { grammar: Cli::command, meter }),
-        (None, Some(files)) => plan::run(&PlanCommand { files, plan: cli.plan }),
-        (None, None) => {
-            let error = Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required");
-            return unread(&error, in_json);
-        }
-    };
-    done.unwrap_or_else(|failure: Failure| {
+    command.run(&Program { grammar: Cli::command, meter }).unwrap_or_else(|failure: Failure| {
         if in_json && !failure.is_reported() {
             // If stdout is closed, the error cannot be reported there.
             let _ = sinks::print(&ErrorJson::of_failure(&failure).text());
@@ -221,6 +220,24 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
         sinks::print_status(&format!("error: {failure}"));
         failure.exit_code()
     })
+}
+
+/// Reads a command line by the grammar of its subcommand alone, since to build the grammar of all subcommands takes as
+/// long as to plan. `None` if the whole grammar must decide, also for help and error messages.
+fn read_alone(arguments: &[OsString]) -> Option<Command> {
+    let is_command = |word: &str| word == "help" || Command::has_subcommand(word);
+    let is_named = |word: &OsString| word.to_str().is_some_and(is_command);
+    if arguments.get(1).is_some_and(is_named) {
+        return Command::read_alone(&arguments[1..]);
+    }
+    let is_plan = !arguments.iter().any(is_named);
+    is_plan.then(|| read(arguments)).flatten().map(Command::Plan)
+}
+
+/// Reads the arguments of one command. `None` if they are wrong.
+fn read<A: Args>(line: &[OsString]) -> Option<A> {
+    let grammar = A::augment_args(clap::Command::new("cplan"));
+    A::from_arg_matches(&grammar.try_get_matches_from(line).ok()?).ok()
 }
 
 /// Returns an error if the first word is neither a subcommand nor a file. Without this check, clap would take the third

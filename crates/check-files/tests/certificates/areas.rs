@@ -1,10 +1,7 @@
 //! Goals that are areas for the tip.
 
-#[path = "common/two_bars.rs"]
-mod two_bars;
-
+use crate::common::two_bars::{LIMIT, TWO_BARS};
 use cplan_check_files::{CheckError, check};
-use two_bars::{LIMIT, TWO_BARS};
 
 /// Makes an arm of two bars that slide along x and y. The tip is at `(1.8 + a, b)`.
 fn sliding() -> String {

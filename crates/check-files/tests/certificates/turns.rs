@@ -1,12 +1,9 @@
 //! Certificates of tasks in which the wrist turns the load while the arm moves.
 
+use crate::common::gantry::{GANTRY, KNOTS, assert_fails, assert_holds, judge_steps};
 #[allow(dead_code, reason = "other tests use more of it")]
-#[path = "common/gantry.rs"]
-mod gantry;
-
 use cplan_cases as random;
 use cplan_cases::dice::Dice;
-use gantry::{GANTRY, KNOTS, assert_fails, assert_holds, judge_steps};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Half the sides of the block, which is carried at its own height. The grasp is its middle.

@@ -2,13 +2,10 @@
 //! shares no code with the checker: dense samples of motion and line (discrete Fréchet distance), and IK solutions at
 //! samples of a disc.
 
+use crate::common::two_bars::{LIMIT, TWO_BARS};
 use cplan_cases as random;
-#[path = "common/two_bars.rs"]
-mod two_bars;
-
 use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
-use two_bars::{LIMIT, TWO_BARS};
 
 type P = [f64; 2];
 

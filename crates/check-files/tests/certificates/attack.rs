@@ -1,13 +1,10 @@
 //! Falsified certificates. Each must be refused, or its statement must still be true. A floating-point oracle that
 //! shares no code with the checker decides this: it samples the boxes, and floods the cells between their ends.
 
+use crate::common::two_bars::{LIMIT, TWO_BARS};
 use cplan_cases as random;
-#[path = "common/two_bars.rs"]
-mod two_bars;
-
 use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
-use two_bars::{LIMIT, TWO_BARS};
 
 /// Corners of both bars, relative to their joints.
 const BARS: [[[f64; 2]; 4]; 2] =

@@ -1,10 +1,7 @@
 //! Meshes are cut in layers at the heights of the links that they must not hit.
 
-#[path = "common/scara.rs"]
-mod scara;
-
+use crate::common::scara::{LIMITS, QUILL, fails, folded, folding_certificate, holds, output, scara, world};
 use cplan_check_files::check_files;
-use scara::{LIMITS, QUILL, fails, folded, folding_certificate, holds, output, scara, world};
 use std::path::{Path, PathBuf};
 
 /// A separate folder for each test.

@@ -1,12 +1,9 @@
 //! Certificates of tasks with lines, written by hand, and falsified ones.
 
+use crate::common::gantry::{assert_fails as fails, assert_holds as holds, assert_refused as is_refused};
 #[allow(dead_code, reason = "other tests use more of it")]
-#[path = "common/gantry.rs"]
-mod gantry;
-
 use cplan_cases::{dice, seeds};
 use cplan_check_files::{CheckError, check};
-use gantry::{assert_fails as fails, assert_holds as holds, assert_refused as is_refused};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt::Write as _;
 

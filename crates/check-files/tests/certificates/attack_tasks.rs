@@ -3,14 +3,11 @@
 //! be right up to a small margin. A certificate that is right by more than the margin must hold. There are honest
 //! certificates, falsified ones, and arbitrary ones.
 
+use crate::common::two_bars::{LIMIT, TWO_BARS};
 use cplan_cases as random;
-#[path = "common/two_bars.rs"]
-mod two_bars;
-
 use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
 use std::fmt::Write;
-use two_bars::{LIMIT, TWO_BARS};
 
 type P = [f64; 2];
 

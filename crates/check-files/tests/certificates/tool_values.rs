@@ -1,12 +1,9 @@
 //! Certificates of motions that begin and end with a lowered tool.
 
+use crate::common::gantry::{GANTRY, assert_fails, assert_holds, assert_refused, judge_steps};
 #[allow(dead_code, reason = "other tests use more of it")]
-#[path = "common/gantry.rs"]
-mod gantry;
-
 use cplan_cases as random;
 use cplan_check_files::{CheckError, check};
-use gantry::{GANTRY, assert_fails, assert_holds, assert_refused, judge_steps};
 
 /// Values of the stroke's joint at the start and the goal, metres. Greater values are lower.
 const ENDS: [f64; 2] = [0.2, 0.3];

@@ -2,13 +2,10 @@
 //! that shares no code with the checker decides this: it samples the motion by its own power series, and measures
 //! distances of sides and corners.
 
+use crate::common::two_bars::{LIMIT, TWO_BARS};
 use cplan_cases as random;
-#[path = "common/two_bars.rs"]
-mod two_bars;
-
 use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
-use two_bars::{LIMIT, TWO_BARS};
 
 const START: [f64; 2] = [-1.0, 0.2];
 const GOAL: [f64; 2] = [1.0, -0.3];

@@ -1,10 +1,7 @@
 //! The robot's own body: static links, and links that joint 1 carries, are obstacles for other links.
 
-#[path = "common/scara.rs"]
-mod scara;
-
+use crate::common::scara::{LIMITS, QUILL, fails, folded, folding_certificate, holds, output, scara, world};
 use cplan_check_files::check;
-use scara::{LIMITS, QUILL, fails, folded, folding_certificate, holds, output, scara, world};
 
 /// Adds a link beside the base.
 fn with_link_beside_base(scara: &str, kind: &str, shape: &str) -> String {

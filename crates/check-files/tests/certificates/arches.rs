@@ -1,12 +1,9 @@
 //! Certificates of tasks in which the tool is lowered and raised while the arm moves.
 
+use crate::common::gantry::{GANTRY, KNOTS, assert_fails, assert_holds, assert_refused, judge_steps};
 #[allow(dead_code, reason = "other tests use more of it")]
-#[path = "common/gantry.rs"]
-mod gantry;
-
 use cplan_cases as random;
 use cplan_cases::dice::Dice;
-use gantry::{GANTRY, KNOTS, assert_fails, assert_holds, assert_refused, judge_steps};
 
 /// Depth of the strokes, which is the lift of the block.
 const DEPTH: f64 = 0.3;

@@ -1,9 +1,6 @@
 //! Lower bounds written by hand, and falsified ones.
 
-#[path = "common/code.rs"]
-mod code;
-
-use code::code;
+use crate::common::code::code;
 use cplan_cases as random;
 use cplan_cases::dice::Dice;
 use cplan_check_files::check;

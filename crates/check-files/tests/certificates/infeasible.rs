@@ -1,9 +1,6 @@
 //! Certificates written by hand, and falsified ones.
 
-#[path = "common/code.rs"]
-mod code;
-
-use code::code;
+use crate::common::code::code;
 use cplan_cases as random;
 use cplan_check_files::{CheckError, Input, check};
 
