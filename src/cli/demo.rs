@@ -141,7 +141,7 @@ fn follow_args(plan: &mut PlanArgs) -> Result<FollowArgs, Failure> {
     std::mem::swap(&mut follow.theme, &mut plan.theme);
     unset.print = PrintArgs { json, quiet };
     // All other options must have their defaults.
-    if format!("{plan:?}") == format!("{unset:?}") {
+    if *plan == unset {
         return Ok(follow);
     }
     let all = "--kind follow takes only --output, --picture, --clearance, --theme, --json, --quiet and --verbose";

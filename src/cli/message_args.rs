@@ -6,7 +6,7 @@ use crate::grammar::word;
 use clap::Args;
 
 /// Content of tables and messages.
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 #[command(next_help_heading = OUTPUT)]
 pub struct MessageArgs {
     /// Joints in ROS 2 files (.yaml, .mcap).

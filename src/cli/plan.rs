@@ -54,7 +54,7 @@ pub struct PlanCommand {
 }
 
 /// Options for planning, also of `cplan demo`.
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 pub struct PlanArgs {
     #[command(flatten)]
     pub query: QueryArgs,

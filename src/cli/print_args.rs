@@ -6,7 +6,7 @@ use super::sinks;
 use clap::Args;
 
 /// Options for printed output.
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 #[command(next_help_heading = OUTPUT)]
 pub struct PrintArgs {
     /// Print the result as JSON, and nothing else, on stdout.

@@ -6,7 +6,7 @@ use crate::input::{JointValues, Overrides, TipPoint};
 use clap::Args;
 
 /// Values that replace those of the world file.
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 #[command(next_help_heading = QUERY)]
 pub struct QueryArgs {
     /// Start configuration instead of the world's, such as 0.3,-1 or 20deg,-60deg.

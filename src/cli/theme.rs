@@ -13,7 +13,7 @@ pub enum Theme {
 }
 
 /// The background of pictures.
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 pub struct ThemeArgs {
     /// Background of pictures (.svg, .png, .gif). Pages follow the reader's system.
     #[arg(long, value_enum, value_name = "THEME", default_value_t = Theme::Light)]

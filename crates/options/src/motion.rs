@@ -6,7 +6,7 @@ use clap::Args;
 use cplan_motion::{Drive, Objective};
 
 /// Options for the motion along a path.
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 #[command(next_help_heading = "Motion limits")]
 pub struct MotionArgs {
     /// Quantity to minimise: the length of the path, or the time of the motion, which reshapes the path.

@@ -16,7 +16,7 @@ use std::ops::RangeInclusive;
 use std::sync::LazyLock;
 
 /// Options for the resolution of any planner.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, PartialEq, Args)]
 #[command(next_help_heading = "Resolution")]
 pub struct EffortArgs {
     /// Initial number of grid cells along each axis, from 8 to 2048, or one number per joint, such as 128x512. Grids of
@@ -98,7 +98,7 @@ static OPTIMUM_HEADING: LazyLock<String> =
     LazyLock::new(|| format!("Shortest paths (planners {})", readers(&[Setting::Gap], " and ")));
 
 /// Options for the optimum: the measure and the gap.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, PartialEq, Args)]
 #[command(next_help_heading = OPTIMUM_HEADING.as_str())]
 pub struct OptimumArgs {
     /// Measure of length.
@@ -118,7 +118,7 @@ pub struct OptimumArgs {
 pub struct Weights(pub [f64; 2]);
 
 /// Options for the kind of path and the search of a grid.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, PartialEq, Args)]
 #[command(next_help_heading = "Paths and grids")]
 pub struct PathArgs {
     /// Kind of path.
@@ -176,7 +176,7 @@ fn space_help() -> String {
 }
 
 /// All options of planners.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, PartialEq, Args)]
 pub struct PlannerArgs {
     /// Resolution and number of attempts.
     #[command(flatten)]

@@ -12,7 +12,7 @@ static HEADING: LazyLock<String> =
     LazyLock::new(|| format!("Roadmaps (planners {})", readers(&[Setting::Search], ", ")));
 
 /// Options for the construction and the search of roadmaps, except `--search`, which grids have, too.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, PartialEq, Args)]
 #[command(next_help_heading = HEADING.as_str())]
 pub struct RoadmapArgs {
     /// Search from the goals to the start. Planner wavefront does so by default.
