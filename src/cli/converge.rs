@@ -114,16 +114,16 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     let problem = Problem::of_scene(loaded, &args.query.overrides())?;
     let motion = problem.motion().ok_or_else(|| {
         let world = args.files.world.display();
-        Failure::Option(format!(
+        Failure::Refused(format!(
             "{world}: a world with steps has a different field for each motion\n  hint: use a world with a start and a goal"
         ))
     })?;
     let (space, domain) = field_on_cells(motion, args.cells, args.limits)
-        .map_err(|reason| Failure::Option(format!("{reason}\n  hint: more --cells")))?;
+        .map_err(|reason| Failure::Refused(format!("{reason}\n  hint: more --cells")))?;
     let domain = domain.with_initial(args.initial);
-    let setup = args.setup(title_of(problem.scene()), &space, &domain).map_err(Failure::Option)?;
+    let setup = args.setup(title_of(problem.scene()), &space, &domain).map_err(Failure::Refused)?;
     let measured = convergence(&setup, &mut |text| args.print.print_status(&format!("{text} ...")))
-        .map_err(|error| Failure::Option(error.to_string()))?;
+        .map_err(|error| Failure::Refused(error.to_string()))?;
     let json = || sinks::pretty(&measured.to_json());
     let mut written = Vec::new();
     for (path, is_csv) in &outputs {

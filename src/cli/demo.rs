@@ -152,7 +152,7 @@ fn follow_args(plan: &mut PlanArgs) -> Result<FollowArgs, Failure> {
 fn built_in_line() -> Result<FollowedLine, Failure> {
     let [name, text] = FOLLOW_FILES[2];
     let line = read(text.as_bytes(), Format::GCode, &Placement::default());
-    line.map(FollowedLine::from).map_err(|error| Failure::Option(format!("{name}: {}", error.message)))
+    line.map(FollowedLine::from).map_err(|error| Failure::Refused(format!("{name}: {}", error.message)))
 }
 
 /// Returns the path of a file in the folder. If the folder is the current one, leaves it out.

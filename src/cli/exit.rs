@@ -12,3 +12,6 @@ pub const INFEASIBLE: u8 = 3;
 pub const REFUTED: u8 = 3;
 /// Exit code: neither a path nor a proof was found.
 pub const UNKNOWN: u8 = 4;
+/// Exit code of a study that Ctrl-C ends, the same as in shells.
+#[cfg(feature = "study")]
+pub const INTERRUPTED: u8 = 130;

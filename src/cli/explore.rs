@@ -197,14 +197,14 @@ impl ExploreArgs {
                 "use a map that --map wrote for this world, arm and sensor",
             ),
         };
-        Failure::Option(format!("{}: {error}\n  hint: {cure}", file.display()))
+        Failure::Refused(format!("{}: {error}\n  hint: {cure}", file.display()))
     }
 
     fn settings(&self, has_goal: bool) -> Result<Settings, Failure> {
         let usual = Settings::default();
         let strategy = self.strategy.map_or(if has_goal { Strategy::Goal } else { Strategy::View }, Strategy::from);
         let planner = self.options.planner(self.planner).map_err(Failure::Usage)?;
-        self.options.missing().map_or(Ok(()), |missing| Err(Failure::Option(missing)))?;
+        self.options.missing().map_or(Ok(()), |missing| Err(Failure::Refused(missing)))?;
         if let Some(error) = self.grid.error() {
             return Err(Failure::Usage(format!("--grid: {error}")));
         }

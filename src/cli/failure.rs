@@ -33,9 +33,12 @@ pub enum Failure {
     /// A picture cannot be drawn.
     #[error(transparent)]
     Draw(#[from] DrawError),
-    /// An option cannot take effect.
+    /// A file, folder, address or stream that is not available, and the reason.
     #[error("{0}")]
-    Option(String),
+    Io(String),
+    /// A request that cannot be carried out, and the reason.
+    #[error("{0}")]
+    Refused(String),
     /// A defect of the input that is part of a JSON report on stdout.
     #[error(transparent)]
     Reported(InputError),
@@ -60,7 +63,7 @@ impl From<FormatError> for Failure {
     fn from(error: FormatError) -> Self {
         match error {
             FormatError::Unknown { .. } => Self::Usage(error.to_string()),
-            FormatError::WithoutMcap { .. } => Self::Option(error.to_string()),
+            FormatError::WithoutMcap { .. } => Self::Refused(error.to_string()),
         }
     }
 }
@@ -69,7 +72,7 @@ impl From<PictureFormatError> for Failure {
     fn from(error: PictureFormatError) -> Self {
         match error {
             PictureFormatError::Unknown { .. } => Self::Usage(error.to_string()),
-            PictureFormatError::WithoutPng { .. } => Self::Option(error.to_string()),
+            PictureFormatError::WithoutPng { .. } => Self::Refused(error.to_string()),
         }
     }
 }

@@ -14,7 +14,7 @@ pub fn folder(path: &Path) -> Result<(), Failure> {
     }
     fs::create_dir_all(path).map_err(|error| {
         let why = if path.exists() { "it exists and is not a folder".into() } else { error.kind().to_string() };
-        Failure::Option(format!("cannot make the folder {}: {why}", path.display()))
+        Failure::Io(format!("cannot make the folder {}: {why}", path.display()))
     })
 }
 
@@ -30,7 +30,7 @@ pub fn refuse_existing_files(files: &[PathBuf], force: bool, elsewhere: &str) ->
         return Ok(());
     }
     let (exist, them) = if there.len() == 1 { ("exists", "it") } else { ("exist", "them") };
-    Err(Failure::Option(format!(
+    Err(Failure::Refused(format!(
         "{} {exist} already; nothing was written\n  hint: --force replaces {them}, {elsewhere}",
         there.join(" and ")
     )))

@@ -36,7 +36,7 @@ pub fn run(args: &ManArgs, program: &Program) -> Result<u8, Failure> {
     let mut command = (program.grammar)().disable_help_subcommand(true);
     // This gives the subcommands their full names.
     command.build();
-    let failed = |error: io::Error| Failure::Option(format!("manual page: {error}"));
+    let failed = |error: io::Error| Failure::Io(format!("manual page: {error}"));
     let Some(dir) = &args.dir else {
         sinks::print(&String::from_utf8_lossy(&page(&command).map_err(failed)?))?;
         return Ok(DONE);

@@ -6,8 +6,6 @@ mod compare;
 mod commands;
 mod completions;
 mod converge;
-#[cfg(feature = "study")]
-mod ctrl_c;
 mod demo;
 mod error_json;
 mod exit;
@@ -38,6 +36,8 @@ mod result_files;
 mod schema;
 #[cfg(feature = "serve")]
 mod serve;
+#[cfg(any(feature = "serve", feature = "study"))]
+mod signals;
 mod sinks;
 #[cfg(feature = "study")]
 mod study;

@@ -316,7 +316,7 @@ pub fn options(
     message: &MessageArgs,
 ) -> Result<Options, Failure> {
     let planner = options.planner(planner).map_err(Failure::Usage)?;
-    options.missing().map_or(Ok(()), |missing| Err(Failure::Option(missing)))?;
+    options.missing().map_or(Ok(()), |missing| Err(Failure::Refused(missing)))?;
     Ok(Options {
         levels: options.levels(&planner),
         planner,

@@ -92,7 +92,7 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     world.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     let cell = args.cell.unwrap_or(world.scene.arm().reach() / DEFAULT_CELLS);
     let reach = reach(&world.scene, world.start, cell).ok_or_else(|| {
-        Failure::Option(format!("--cell {cell} gives more than {MAX_PLACES} cells: choose a larger size"))
+        Failure::Refused(format!("--cell {cell} gives more than {MAX_PLACES} cells: choose a larger size"))
     })?;
     let mut written = Vec::new();
     for (path, is_json) in &tables {

@@ -83,7 +83,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
 
 /// Creates a failure about the file with the evidence.
 fn evidence_failure(args: &RecheckArgs, why: impl Display) -> Failure {
-    Failure::Option(format!("{}: {why}", args.proof.display()))
+    Failure::Refused(format!("{}: {why}", args.proof.display()))
 }
 
 /// For each kind of evidence, whether a file has it.
@@ -120,7 +120,7 @@ impl Evidence {
 /// Evidence that does not hold, and files that the checker does not understand.
 fn check_certificate(args: &RecheckArgs, what: &str, certificate: &str) -> Result<String, Failure> {
     let (robot, world) = (args.files.robot(), &args.files.world);
-    let at = |path: &Path, why: &dyn Display| Failure::Option(format!("{}{why}", path.display()));
+    let at = |path: &Path, why: &dyn Display| Failure::Refused(format!("{}{why}", path.display()));
     let whole = |path: &Path| std::fs::read_to_string(path).map_err(|error| at(path, &format!(": {error}")));
     let urdf = robot.read()?;
     let urdf = if urdf.is_expanded() { urdf.text().to_owned() } else { whole(&robot.path)? };

@@ -3,7 +3,7 @@
 use super::exit::DONE;
 use super::failure::Failure;
 use super::files::XacroArgs;
-use super::{demo, sinks};
+use super::{demo, signals, sinks};
 use crate::grammar::number_in;
 use crate::input::{Source, scene_from};
 use crate::live::serve;
@@ -91,7 +91,7 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
             ErrorKind::AddrNotAvailable => "give --bind an address of this machine, or 0.0.0.0 for all its addresses",
             _ => "--port 0 takes any free port",
         };
-        Failure::Option(format!("cannot listen at {wanted}: {error}\n  hint: {cure}"))
+        Failure::Io(format!("cannot listen at {wanted}: {error}\n  hint: {cure}"))
     })?;
     scene.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     if !args.bind.is_loopback() {
@@ -100,10 +100,11 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
         );
     }
     let host = Host::new(urdf, world, scene, args.with.clone(), args.time_limit)
-        .ok_or_else(|| Failure::Option("the world is no TOML".into()))?;
+        .ok_or_else(|| Failure::Refused("the world is no TOML".into()))?;
     sinks::print(&format!("http://{address}/\n"))?;
     sinks::print_status("open this address in a browser; Ctrl-C ends the server");
-    serve::run(listener, host).map_err(|error| Failure::Option(format!("cannot serve: {error}")))?;
+    signals::run_before_exit(&[signals::SIGTERM], || DONE.into());
+    serve::run(&listener, host).map_err(|error| Failure::Io(format!("cannot serve: {error}")))?;
     Ok(DONE)
 }
 
@@ -113,7 +114,7 @@ const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
 /// Writes the page with the program inside it.
 fn export(args: &ServeArgs, [urdf, world]: [Source; 2], page: &Path, engine: &Path) -> Result<u8, Failure> {
     let cure = "\n  hint: build it with .ci/page in cplan's sources";
-    let wrong = |what: String| Failure::Option(format!("{}: {what}{cure}", engine.display()));
+    let wrong = |what: String| Failure::Io(format!("{}: {what}{cure}", engine.display()));
     let program = std::fs::read(engine).map_err(|error| wrong(format!("cannot be read: {error}")))?;
     if !program.starts_with(&GZIP_MAGIC) {
         return Err(wrong("is not packed by gzip".into()));

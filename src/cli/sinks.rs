@@ -97,7 +97,7 @@ pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failu
         if let Some((other, _)) = known.iter().find(|(_, other)| other.is_same_file(&identity)) {
             let (one, other) = (path.display(), other.display());
             let message = format!("the outputs {other} and {one} are the same file; nothing was written");
-            return Err(Failure::Option(format!("{message}\n  hint: give each output its own file")));
+            return Err(Failure::Refused(format!("{message}\n  hint: give each output its own file")));
         }
         known.push((path, identity));
     }
@@ -120,7 +120,7 @@ pub fn refuse_to_overwrite_inputs<'a>(
     onto.map_or(Ok(()), |(path, input)| {
         let (path, input) = (path.display(), input.display());
         let message = format!("the output {path} is the input file {input}; nothing was written");
-        Err(Failure::Option(format!("{message}\n  hint: choose another file for the output")))
+        Err(Failure::Refused(format!("{message}\n  hint: choose another file for the output")))
     })
 }
 
@@ -175,7 +175,7 @@ pub fn sum_up(text: &str, code: u8) -> Result<(), Failure> {
 /// # Errors
 /// A value that JSON cannot represent.
 pub fn pretty(value: &impl Serialize) -> Result<String, Failure> {
-    let json = serde_json::to_string_pretty(value).map_err(|error| Failure::Option(error.to_string()))?;
+    let json = serde_json::to_string_pretty(value).map_err(|error| Failure::Refused(error.to_string()))?;
     Ok(json + "\n")
 }
 
@@ -197,7 +197,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
 
 fn printed(mut stdout: impl Write, text: &str) -> Result<(), Failure> {
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Option(format!("stdout: {error}"))),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Io(format!("stdout: {error}"))),
         _ => Ok(()),
     }
 }

@@ -1,12 +1,11 @@
 //! `cplan study`: plans in many layouts, with one row per layout.
 
-use super::ctrl_c;
-use super::exit::DONE;
+use super::exit::{DONE, INTERRUPTED};
 use super::failure::Failure;
 use super::headings::OUTPUT;
 use super::print_args::PrintArgs;
 use super::progress::Progress;
-use super::sinks;
+use super::{signals, sinks};
 use crate::motion::write_whole_set;
 use crate::study::{Journal, JournalError, Row, Study, Summary, pictures};
 use crate::text::{counted, for_a_shell};
@@ -108,9 +107,12 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     }
     let total = study.count() + study.searched;
     let kept = SharedRows::new(journal, rows.len());
-    ctrl_c::run_before_exit({
+    signals::run_before_exit(&[], {
         let kept = kept.clone();
-        move || sinks::print_status(&kept.stopped(total))
+        move || {
+            sinks::print_status(&kept.stopped(total));
+            i32::from(INTERRUPTED)
+        }
     });
     let progress = Progress::new(total.saturating_sub(rows.len()), "layouts", false, args.print.quiet);
     let jobs = args.jobs.map_or_else(|| available_parallelism().map_or(1, NonZeroUsize::get), usize::from);
@@ -185,7 +187,7 @@ fn refuse_parquet(outputs: &[PathBuf]) -> Result<(), Failure> {
     let is_parquet = |path: &&PathBuf| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("parquet"));
     outputs.iter().find(is_parquet).map_or(Ok(()), |path| {
         let description = "this program was built without Parquet; use .csv, or build with --features parquet";
-        Err(Failure::Option(format!("{}: {description}", path.display())))
+        Err(Failure::Refused(format!("{}: {description}", path.display())))
     })
 }
 
@@ -202,7 +204,7 @@ fn write_layout(study: &Study, layout: usize, files: &[(PathBuf, Content)]) -> R
         let message = format!(
             "--layout {layout}: the study has {count}, numbered from 0; --output best.toml writes the best layout of the search"
         );
-        return Err(Failure::Option(message));
+        return Err(Failure::Refused(message));
     }
     let [world, urdf] = texts(study, layout, &study.values(layout), files);
     if files.is_empty() {
@@ -241,7 +243,7 @@ fn bytes(
     Ok(match content {
         Content::Csv => Some(study.csv(rows).into_bytes()),
         #[cfg(feature = "parquet")]
-        Content::Parquet => Some(study.parquet(rows).map_err(|error| Failure::Option(format!("Parquet: {error}")))?),
+        Content::Parquet => Some(study.parquet(rows).map_err(|error| Failure::Refused(format!("Parquet: {error}")))?),
         Content::Page => Some(study.html(rows, &pictures(study, rows)).into_bytes()),
         Content::Summary => Some(sinks::pretty(&summary.to_json())?.into_bytes()),
         Content::World => best(0),

@@ -114,7 +114,7 @@ pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
     let count = turns.end()?;
     if count.lines > 0 && count.objects == 0 {
         let cure = r#"write one problem per line, such as {"urdf": "arm.urdf", "world": "world.toml"}"#;
-        return Err(Failure::Option(format!("{input}: no line is a JSON object\n  hint: {cure}")));
+        return Err(Failure::Refused(format!("{input}: no line is a JSON object\n  hint: {cure}")));
     }
     Ok(DONE)
 }
@@ -123,11 +123,11 @@ fn open_input(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
     let Some(path) = &args.problems else { return Ok(Box::new(io::stdin())) };
     if path.is_dir() {
         let cure = "give a file of JSON lines, or send the lines of several files to stdin";
-        return Err(Failure::Option(format!("{}: cannot be read: it is a folder\n  hint: {cure}", path.display())));
+        return Err(Failure::Io(format!("{}: cannot be read: it is a folder\n  hint: {cure}", path.display())));
     }
     let refused = |error| {
         let cure = "check the path and the file's permissions";
-        Failure::Option(format!("{}: cannot be read: {error}\n  hint: {cure}", path.display()))
+        Failure::Io(format!("{}: cannot be read: {error}\n  hint: {cure}", path.display()))
     };
     Ok(Box::new(File::open(path).map_err(refused)?))
 }

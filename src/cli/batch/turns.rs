@@ -115,12 +115,12 @@ impl<R: BufRead, W: Write> Turns<R, W> {
             match read {
                 Err(error) => {
                     let cure = "check that it is a complete text file";
-                    return Err(Failure::Option(format!("{} cannot be read: {error}\n  hint: {cure}", place())));
+                    return Err(Failure::Io(format!("{} cannot be read: {error}\n  hint: {cure}", place())));
                 }
                 Ok(0) => return Ok(None),
                 Ok(bytes) if bytes as u64 > MAX_LINE_BYTES => {
                     let message = format!("{} is longer than {} MiB", place(), MAX_LINE_BYTES >> 20);
-                    return Err(Failure::Option(format!("{message}\n  hint: write each problem on its own line")));
+                    return Err(Failure::Refused(format!("{message}\n  hint: write each problem on its own line")));
                 }
                 Ok(_) if text.trim_ascii().is_empty() => (),
                 Ok(_) => {
@@ -146,7 +146,7 @@ impl<R: BufRead, W: Write> Turns<R, W> {
         }
         match output.write(&ready) {
             Err(error) if error.kind() == ErrorKind::BrokenPipe => output.end(Ok(())),
-            Err(error) => output.end(Err(Failure::Option(format!("stdout: {error}")))),
+            Err(error) => output.end(Err(Failure::Io(format!("stdout: {error}")))),
             Ok(()) => (),
         }
         self.turn_changed.notify_all();

@@ -121,11 +121,11 @@ impl Cases {
                     world += 1;
                 }
                 Err(reason) if args.suite.is_some() => refused.push(Refusal { problem: name, kind: "input", reason }),
-                Err(reason) => return Err(Failure::Option(reason)),
+                Err(reason) => return Err(Failure::Refused(reason)),
             }
         }
         if let ([], Some(Refusal { reason, .. })) = (&cases[..], refused.first()) {
-            return Err(Failure::Option(reason.clone()));
+            return Err(Failure::Refused(reason.clone()));
         }
         let title = match sampling {
             Some(Sampling { queries, seed }) if args.suite.is_some() => {

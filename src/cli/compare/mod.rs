@@ -117,7 +117,7 @@ fn run_planners(
     let runner = Runner { entries: &entries, jobs, meter, progress: &progress };
     let mut done = runner.run(cases).map_err(|(name, error)| match error {
         error if args.is_single() => Failure::Plan(error),
-        error => Failure::Option(format!("{name}: {error}")),
+        error => Failure::Refused(format!("{name}: {error}")),
     })?;
     let study = Study {
         title: cases.title.clone(),
@@ -153,7 +153,7 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
     });
     let plain: Vec<Entry> = plain.collect();
     if let Some(missing) = args.with.iter().find_map(Variant::missing) {
-        return Err(Failure::Option(missing));
+        return Err(Failure::Refused(missing));
     }
     let of = |case: &Case| {
         let mut entries = plain.clone();

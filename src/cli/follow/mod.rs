@@ -89,6 +89,6 @@ pub fn answer(
 fn refused(error: FollowError) -> Failure {
     match error {
         FollowError::Timing(error) => Failure::Trajectory(error),
-        error => Failure::Option(error.to_string()),
+        error => Failure::Refused(error.to_string()),
     }
 }

@@ -73,7 +73,7 @@ impl Layers<'_> {
             (false, 0) => format!("the drawing has {}, and the world's own names", known.join(", ")),
             (false, more) => format!("the drawing has {} and {more} more", known.join(", ")),
         };
-        Err(Failure::Option(format!("{option}: the drawing has no layer or part \"{name}\"\n  hint: {known}")))
+        Err(Failure::Refused(format!("{option}: the drawing has no layer or part \"{name}\"\n  hint: {known}")))
     }
 
     /// Returns true if the options select an obstacle that has one of these names.

@@ -1,116 +1,128 @@
 //! The HTTP server. It serves one page with its parts and its WebSocket, and refuses requests that come from other
 //! pages.
 
-use super::{Server, socket};
-use axum::Router;
-use axum::extract::{Request, State, WebSocketUpgrade};
-use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
-use axum::middleware::{self, Next};
-use axum::response::{Html, IntoResponse, Response};
-use axum::routing::get;
-use hyper_util::rt::{TokioIo, TokioTimer};
-use hyper_util::service::TowerToHyperService;
-use std::net::{IpAddr, SocketAddr};
-use std::sync::Arc;
-use std::time::Duration;
-use tokio::net::TcpListener;
-use tokio::sync::Semaphore;
-
-/// Largest number of simultaneous connections. A browser opens some six.
-const MAX_CONNECTIONS: usize = 32;
-
-/// Time limit for a client to send the head of a request.
-const HEAD_TIME: Duration = Duration::from_secs(10);
+use super::request::{Request, RequestError};
+use super::{Permit, Server, socket};
+use std::io::{self, Read, Write};
+use std::net::{IpAddr, Shutdown, SocketAddr, TcpStream};
+use std::time::{Duration, Instant};
+use tungstenite::handshake::derive_accept_key;
 
 /// Time limit of a connection, except for WebSockets, which have their own. After it, a browser simply opens another
 /// connection. Without the limit, clients that send requests but never read responses would block all others.
 const CONNECTION_TIME: Duration = Duration::from_secs(10);
 
-/// Largest size of the head of a request, in bytes.
-const MAX_HEAD_BYTES: usize = 16 << 10;
+/// Time limit for a client to close a connection after the response. If the server closed it at once, bytes that it has
+/// not read could destroy the response.
+const CLOSING_TIME: Duration = Duration::from_millis(500);
+
+/// Size of the pieces in which a response is sent, in bytes. The time limit is checked before each piece.
+const PIECE_BYTES: usize = 64 << 10;
 
 /// Headers of every response. The page is one file that is the same for every world. Data comes over the WebSocket and
 /// is never treated as HTML. So it is safe that scripts and styles are inline, and nothing is loaded from elsewhere.
-const HEADERS: [(HeaderName, &str); 6] = [
-    (
-        header::CONTENT_SECURITY_POLICY,
-        "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src blob: data:; font-src data:; \
-         connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
-    ),
-    (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
-    (header::REFERRER_POLICY, "no-referrer"),
-    (header::CACHE_CONTROL, "no-store"),
-    (HeaderName::from_static("cross-origin-opener-policy"), "same-origin"),
-    (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
-];
+const HEADERS: &str = "\
+content-security-policy: default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src blob: data:; \
+font-src data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r
+x-content-type-options: nosniff\r
+referrer-policy: no-referrer\r
+cache-control: no-store\r
+cross-origin-opener-policy: same-origin\r
+cross-origin-resource-policy: same-origin\r
+";
 
-/// Serves until the process ends.
-pub async fn serve(listener: TcpListener, server: Arc<Server>) {
-    let page = Arc::<str>::from(crate::page());
-    let router = Router::new()
-        .route("/", get(async move || Html(page.to_string())))
-        .route("/live", get(upgrade))
-        .layer(middleware::from_fn_with_state(Arc::clone(&server), refuse_foreign_requests))
-        .with_state(server);
-    let room = Arc::new(Semaphore::new(MAX_CONNECTIONS));
-    loop {
-        // This cannot fail, because the semaphore is never closed.
-        let Ok(permit) = Arc::clone(&room).acquire_owned().await else { return };
-        let stream = match listener.accept().await {
-            Ok((stream, _)) => stream,
-            Err(_) => {
-                // The process has too many open files, or the client has disconnected already.
-                tokio::time::sleep(Duration::from_millis(50)).await;
-                continue;
+/// The refusal of requests from other pages.
+const FOREIGN: Response = Response("403 Forbidden", "text/plain", "this server answers only its own page\n");
+
+/// A response: its status, and type and text of its body.
+#[derive(Clone, Copy)]
+struct Response<'a>(&'static str, &'static str, &'a str);
+
+impl Response<'_> {
+    /// Sends the response, without its body for the method HEAD.
+    fn send(self, stream: &mut TcpStream, is_head: bool, until: Instant) -> io::Result<()> {
+        let Self(status, kind, body) = self;
+        let length = body.len();
+        let allowed = if status.starts_with("405") { "allow: GET, HEAD\r\n" } else { "" };
+        let mut response = format!(
+            "HTTP/1.1 {status}\r\n{HEADERS}{allowed}content-type: {kind}; charset=utf-8\r\ncontent-length: {length}\r\n\
+             connection: close\r\n\r\n"
+        );
+        if !is_head {
+            response.push_str(body);
+        }
+        for piece in response.as_bytes().chunks(PIECE_BYTES) {
+            let left = until.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                return Err(io::ErrorKind::TimedOut.into());
             }
-        };
-        // Messages are small and go in both directions, so collecting data before sending it gains nothing.
-        let _ = stream.set_nodelay(true);
-        let service = TowerToHyperService::new(router.clone());
-        tokio::spawn(async move {
-            let mut http = hyper::server::conn::http1::Builder::new();
-            http.timer(TokioTimer::new()).header_read_timeout(HEAD_TIME).max_buf_size(MAX_HEAD_BYTES);
-            // Errors of the client are ignored.
-            let _ = tokio::time::timeout(
-                CONNECTION_TIME,
-                http.serve_connection(TokioIo::new(stream), service).with_upgrades(),
-            )
-            .await;
-            drop(permit);
-        });
+            stream.set_write_timeout(Some(left))?;
+            stream.write_all(piece)?;
+        }
+        stream.shutdown(Shutdown::Write)?;
+        stream.set_read_timeout(Some(CLOSING_TIME))?;
+        io::copy(&mut stream.take(PIECE_BYTES as u64), &mut io::sink()).map(drop)
     }
 }
 
-/// Refuses requests that the page never makes. Adds [`HEADERS`] to all responses.
-async fn refuse_foreign_requests(State(server): State<Arc<Server>>, request: Request, next: Next) -> Response {
-    let mut response = match refusal(&server, request.headers()) {
-        Some((status, why)) => (status, why).into_response(),
-        None => next.run(request).await,
+/// Answers one request: with the page, with a refusal, or by opening the WebSocket. Errors of the client are ignored.
+pub fn answer(mut stream: TcpStream, server: &Server, permit: Permit) {
+    // Messages are small and go in both directions, so collecting data before sending it gains nothing.
+    let _ = stream.set_nodelay(true);
+    let until = Instant::now() + CONNECTION_TIME;
+    let (response, is_head) = match Request::read(&mut stream, until) {
+        Ok(request) => match respond(&request, server) {
+            Err(Upgrade { key, page }) => {
+                drop(permit);
+                return upgrade(stream, server, &key, page);
+            }
+            Ok(response) => (response, request.method == "HEAD"),
+        },
+        Err(RequestError::Closed) => return,
+        Err(RequestError::TooLong) => (Response("431 Request Header Fields Too Large", "text/plain", ""), false),
+        Err(RequestError::Malformed) => (Response("400 Bad Request", "text/plain", ""), false),
     };
-    for (name, value) in HEADERS {
-        response.headers_mut().insert(name, HeaderValue::from_static(value));
-    }
-    response
+    let _ = response.send(&mut stream, is_head, until);
+}
+
+/// A request that opens the WebSocket.
+struct Upgrade {
+    /// The client's key.
+    key: String,
+    /// The permit of the page.
+    page: Permit,
+}
+
+/// Returns the response to a request, or the WebSocket that it opens as an error.
+fn respond<'a>(request: &Request, server: &'a Server) -> Result<Response<'a>, Upgrade> {
+    let path = request.path.split('?').next().unwrap_or_default();
+    let is_read = ["GET", "HEAD"].contains(&request.method.as_str());
+    Ok(match path {
+        _ if let Some(refusal) = refusal(server, request) => refusal,
+        "/" | "/live" if !is_read => Response("405 Method Not Allowed", "text/plain", ""),
+        "/" => Response("200 OK", "text/html", &server.page),
+        "/live" => return open(request, server),
+        _ => Response("404 Not Found", "text/plain", ""),
+    })
 }
 
 /// Returns the reason why a request is refused. `None` if it is accepted.
-fn refusal(server: &Server, headers: &HeaderMap) -> Option<(StatusCode, &'static str)> {
-    let named = headers.get(header::HOST).and_then(|value| value.to_str().ok());
+fn refusal(server: &Server, request: &Request) -> Option<Response<'static>> {
+    let named = request.header("host");
     if !named.is_some_and(|named| names_this_server(named, server.address)) {
-        return Some((
-            StatusCode::MISDIRECTED_REQUEST,
-            "this server answers only at its address, not at other host names\n",
-        ));
+        let why = "this server answers only at its address, not at other host names\n";
+        return Some(Response("421 Misdirected Request", "text/plain", why));
     }
     // Only WebSockets and requests of other pages have the header `Origin`.
-    if let Some(origin) = headers.get(header::ORIGIN)
-        && origin.to_str().ok().and_then(|origin| origin.strip_prefix("http://")) != named
+    if let Some(origin) = request.header("origin")
+        && origin.strip_prefix("http://") != named
     {
-        return Some((StatusCode::FORBIDDEN, "this server answers only its own page\n"));
+        return Some(FOREIGN);
     }
-    let has_body = headers.get(header::CONTENT_LENGTH).is_some_and(|length| length != "0")
-        || headers.contains_key(header::TRANSFER_ENCODING);
-    has_body.then_some((StatusCode::PAYLOAD_TOO_LARGE, "this server accepts no request with a body\n"))
+    let has_body = request.header("content-length").is_some_and(|length| length != "0")
+        || request.header("transfer-encoding").is_some();
+    let why = "this server accepts no request with a body\n";
+    has_body.then_some(Response("413 Payload Too Large", "text/plain", why))
 }
 
 /// Returns true if a `Host` header names this server by its address or as `localhost`. Another name may be one that a
@@ -129,18 +141,35 @@ fn names_this_server(named: &str, here: SocketAddr) -> bool {
     known && port == Some(here.port())
 }
 
-/// Opens the WebSocket. Browsers always send their origin, so a client that does not is refused.
-async fn upgrade(State(server): State<Arc<Server>>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
-    if !headers.contains_key(header::ORIGIN) {
-        return (StatusCode::FORBIDDEN, "this server answers only its own page\n").into_response();
+/// Returns the WebSocket that a request opens as an error, or a refusal. Browsers always send their origin, so a client
+/// that does not is refused.
+fn open(request: &Request, server: &Server) -> Result<Response<'static>, Upgrade> {
+    if request.header("origin").is_none() {
+        return Ok(FOREIGN);
     }
-    let Ok(permit) = Arc::clone(&server.sessions).try_acquire_owned() else {
-        return (StatusCode::SERVICE_UNAVAILABLE, "too many pages are open\n").into_response();
+    let is_upgrade = request.method == "GET"
+        && request.lists("connection", "upgrade")
+        && request.lists("upgrade", "websocket")
+        && request.header("sec-websocket-version") == Some("13");
+    let Some(key) = request.header("sec-websocket-key").filter(|_| is_upgrade) else {
+        return Ok(Response("400 Bad Request", "text/plain", "this address is for WebSockets\n"));
     };
-    upgrade
-        .max_message_size(socket::MAX_MESSAGE_BYTES)
-        .max_frame_size(socket::MAX_MESSAGE_BYTES)
-        .on_upgrade(move |socket| socket::session(socket, Arc::clone(&server.host), permit))
+    match server.pages.take() {
+        Some(page) => Err(Upgrade { key: key.to_owned(), page }),
+        None => Ok(Response("503 Service Unavailable", "text/plain", "too many pages are open\n")),
+    }
+}
+
+/// Opens the WebSocket, and serves its page until it is closed.
+fn upgrade(mut stream: TcpStream, server: &Server, key: &str, page: Permit) {
+    let accept = derive_accept_key(key.as_bytes());
+    let response = format!(
+        "HTTP/1.1 101 Switching Protocols\r\n{HEADERS}connection: upgrade\r\nupgrade: websocket\r\n\
+         sec-websocket-accept: {accept}\r\n\r\n"
+    );
+    if stream.write_all(response.as_bytes()).is_ok() {
+        socket::serve(stream, &server.host, page);
+    }
 }
 
 #[cfg(test)]

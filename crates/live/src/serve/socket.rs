@@ -1,23 +1,25 @@
 //! An open page: its WebSocket, and the worker that plans for it.
 
+use super::Permit;
 use super::mailbox::Mailbox;
 use crate::{Host, LiveSession, Reply, Request, TimeSpent};
-use axum::body::Bytes;
-use axum::extract::ws::{Message, Utf8Bytes, WebSocket};
+use std::io::{self, Read, Write};
+use std::net::{Shutdown, TcpStream};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
-use tokio::sync::{OwnedSemaphorePermit, mpsc};
-use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
+use tungstenite::protocol::{Role, WebSocketConfig};
+use tungstenite::{Bytes, Message, Utf8Bytes, WebSocket};
 
 /// Largest size of a message from a page, in bytes. It suffices for a world of a megabyte.
-pub const MAX_MESSAGE_BYTES: usize = 1 << 20;
+const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
 /// Largest number of messages that wait to be sent to the page. If there are more, the worker waits.
 const MAX_QUEUED_MESSAGES: usize = 4;
 
-/// Time limit for the page to receive a message.
+/// Time limit for the page to receive a part of a message.
 const SEND_TIME: Duration = Duration::from_secs(20);
 
 /// Interval at which the server checks whether a page is still connected.
@@ -29,60 +31,107 @@ const MAX_SILENCE: Duration = Duration::from_secs(70);
 /// Size of a worker's stack, in bytes. It is that of the main thread.
 const WORKER_STACK_BYTES: usize = 8 << 20;
 
+/// A part of the stream to the page.
+enum Outgoing {
+    Message(Message),
+    /// Bytes of a whole frame: an answer to a ping, or to the page's closing.
+    Frame(Vec<u8>),
+}
+
+/// The page's side of the connection. Its frames go through the queue, so that none is sent in the middle of another.
+struct Incoming {
+    stream: TcpStream,
+    frame: Vec<u8>,
+    queue: SyncSender<Outgoing>,
+}
+
+impl Read for Incoming {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.stream.read(buffer)
+    }
+}
+
+impl Write for Incoming {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.frame.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let frame = std::mem::take(&mut self.frame);
+        if !frame.is_empty() {
+            self.queue.send(Outgoing::Frame(frame)).map_err(|_| io::ErrorKind::BrokenPipe)?;
+        }
+        Ok(())
+    }
+}
+
 /// Serves one page until it is closed. `permit` is the page's permit, one for each open page.
-pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaphorePermit) {
+pub fn serve(stream: TcpStream, host: &Arc<Host>, permit: Permit) {
+    let limits = [stream.set_read_timeout(Some(MAX_SILENCE)), stream.set_write_timeout(Some(SEND_TIME))];
+    let Ok(ours) = stream.try_clone() else { return };
+    if limits.iter().any(Result::is_err) {
+        return;
+    }
     let mailbox = Arc::new(Mailbox::default());
-    let (send, mut replies) = mpsc::channel(MAX_QUEUED_MESSAGES);
+    let (queue, outgoing) = sync_channel(MAX_QUEUED_MESSAGES);
+    let sender = thread::Builder::new().name("sender".into()).spawn(move || send_all(ours, &outgoing));
     let worker = {
-        let mailbox = Arc::clone(&mailbox);
+        let (mailbox, host, queue) = (Arc::clone(&mailbox), Arc::clone(host), queue.clone());
         thread::Builder::new().name("planner".into()).stack_size(WORKER_STACK_BYTES).spawn(move || {
-            work(&mailbox, host, &send);
+            work(&mailbox, host, &queue);
             // The permit is released when the work has finished, which may be later than the end of the connection.
             drop(permit);
         })
     };
-    if worker.is_err() {
-        return;
+    if sender.is_ok() && worker.is_ok() {
+        receive_all(Incoming { stream, frame: Vec::new(), queue }, &mailbox);
     }
-    let mut ping = interval(PING_INTERVAL);
-    ping.set_missed_tick_behavior(MissedTickBehavior::Delay);
-    let mut heard = Instant::now();
-    loop {
-        tokio::select! {
-            message = socket.recv() => {
-                heard = Instant::now();
-                let request = match message {
-                    Some(Ok(Message::Text(text))) => serde_json::from_str::<Request>(&text),
-                    Some(Ok(Message::Ping(_) | Message::Pong(_))) => continue,
-                    _ => break,
-                };
-                let wrong = match request {
-                    Ok(request) => (!mailbox.post(request)).then(|| "too many requests wait".to_owned()),
-                    Err(error) => Some(format!("not a valid request: {error}")),
-                };
-                if let Some(error) = wrong && !send_message(&mut socket, error_message(0, error)).await {
-                    break;
-                }
-            }
-            reply = replies.recv() => {
-                let Some(message) = reply else { break };
-                if !send_message(&mut socket, message).await {
-                    break;
-                }
-            }
-            _ = ping.tick() => {
-                if heard.elapsed() > MAX_SILENCE || !send_message(&mut socket, Message::Ping(Bytes::new())).await {
-                    break;
-                }
-            }
-        }
-    }
+    // The worker ends, and then the sender, which closes the connection.
     mailbox.close();
 }
 
-/// Sends a message. Returns false if the page does not receive it.
-async fn send_message(socket: &mut WebSocket, message: Message) -> bool {
-    matches!(timeout(SEND_TIME, socket.send(message)).await, Ok(Ok(())))
+/// Passes the page's requests to the mailbox until the page is closed or silent for too long.
+fn receive_all(page: Incoming, mailbox: &Mailbox) {
+    let queue = page.queue.clone();
+    let limits =
+        WebSocketConfig::default().max_message_size(Some(MAX_MESSAGE_BYTES)).max_frame_size(Some(MAX_MESSAGE_BYTES));
+    let mut socket = WebSocket::from_raw_socket(page, Role::Server, Some(limits));
+    loop {
+        let request = match socket.read() {
+            Ok(Message::Text(text)) => serde_json::from_str::<Request>(&text),
+            Ok(Message::Ping(_) | Message::Pong(_)) => continue,
+            Err(tungstenite::Error::Io(error)) if error.kind() == io::ErrorKind::Interrupted => continue,
+            _ => break,
+        };
+        let wrong = match request {
+            Ok(request) => (!mailbox.post(request)).then(|| "too many requests wait".to_owned()),
+            Err(error) => Some(format!("not a valid request: {error}")),
+        };
+        if let Some(error) = wrong
+            && queue.send(Outgoing::Message(error_message(0, error))).is_err()
+        {
+            break;
+        }
+    }
+}
+
+/// Sends messages to the page until it does not receive them or nobody sends more. Between them, sends pings.
+fn send_all(stream: TcpStream, outgoing: &Receiver<Outgoing>) {
+    let mut socket = WebSocket::from_raw_socket(stream, Role::Server, None);
+    loop {
+        let sent = match outgoing.recv_timeout(PING_INTERVAL) {
+            Ok(Outgoing::Message(message)) => socket.send(message),
+            Ok(Outgoing::Frame(frame)) => socket.get_mut().write_all(&frame).map_err(Into::into),
+            Err(RecvTimeoutError::Timeout) => socket.send(Message::Ping(Bytes::new())),
+            Err(RecvTimeoutError::Disconnected) => break,
+        };
+        if sent.is_err() {
+            break;
+        }
+    }
+    // The thread that receives then ends, too.
+    let _ = socket.get_mut().shutdown(Shutdown::Both);
 }
 
 /// Converts a message for the socket.
@@ -98,9 +147,9 @@ fn error_message(id: u64, error: String) -> Message {
 }
 
 /// Handles the page's requests in sequence, until the mailbox is closed.
-fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
+fn work(mailbox: &Mailbox, host: Arc<Host>, queue: &SyncSender<Outgoing>) {
     // If the page is gone, the message is lost; the mailbox is then closed, too.
-    let send_message = |message: Message| drop(send.blocking_send(message));
+    let send_message = |message: Message| drop(queue.send(Outgoing::Message(message)));
     let mut session = LiveSession::new(host);
     while let Some((request, interrupt)) = mailbox.next_request() {
         let work = || {
