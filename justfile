@@ -48,10 +48,9 @@ bench NAME="":
 pictures:
     cargo run --locked --release --example pictures
 
-# Schema and reference of world files, the pages of the library; and the book, where mdBook is installed
+# Schemas of files, reference of world files, the pages of the library; and the book, where mdBook is installed
 docs:
-    cargo run --locked -- schema > target/world.schema.json
-    mv target/world.schema.json docs/world.schema.json
+    CPLAN_WRITE_SCHEMAS=1 cargo test --locked --lib -p cplan-world -p cplan-study -p cplan-view the_schema_agrees_with_its_file
     cargo run --locked --example world_reference
     RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps
     .ci/book

@@ -106,10 +106,9 @@ pub mod check {
 /// Input: reads robots, worlds, maps and recordings, and returns problems, or errors with file, line and help.
 pub mod input {
     pub use cplan_robot::{
-        AngleOrLength, BodyEntry, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry,
-        LimitEntry, LimitSource, LinkEntry, MAX_LENGTH, OutlineEntry, PairEntry, PlaneEntry, Position, Quantity,
-        RateEntry, RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source, meshes_elsewhere,
-        read_bytes,
+        BodyEntry, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry, LimitEntry,
+        LimitSource, LinkEntry, MAX_LENGTH, OutlineEntry, PairEntry, PlaneEntry, Position, Quantity, RateEntry,
+        RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source, meshes_elsewhere, read_bytes,
     };
     pub use cplan_world::*;
 }

@@ -6,14 +6,15 @@
 
 mod page;
 
-use cplan::input::world_schema;
 use cplan::motion::write_whole;
 use std::error::Error;
 use std::path::Path;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/world_reference.md");
-    write_whole(&file, page::page(&world_schema()).as_bytes())?;
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let schema = serde_json::from_str(&std::fs::read_to_string(docs.join("world.schema.json"))?)?;
+    let file = docs.join("world_reference.md");
+    write_whole(&file, page::page(&schema).as_bytes())?;
     println!("{}", file.display());
     Ok(())
 }

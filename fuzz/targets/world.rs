@@ -10,7 +10,7 @@ mod shipped;
 use cplan::Options;
 use cplan::engine::Method;
 use cplan::engine::task::plan;
-use cplan::input::{LoadedScene, Overrides, load, load_scene};
+use cplan::input::{LoadedScene, Overrides, Rules, load, load_scene};
 use files::Files;
 use libfuzzer_sys::fuzz_target;
 use shipped::shipped;
@@ -23,8 +23,8 @@ const MAX_STEPS: usize = 4;
 
 /// Reads the task of a world with steps. It must be refused with a message, or it can be planned and reported.
 fn task(scene: LoadedScene) {
-    let task = match scene.task(&Overrides::default()) {
-        Ok(loaded) => loaded.task,
+    let task = match scene.resolve(&Overrides::default(), Rules::Plan) {
+        Ok(loaded) => loaded.task.expect("a world with steps"),
         Err(error) => return assert!(!error.to_string().is_empty()),
     };
     assert!(task.start.iter().all(|v| v.is_finite()));

@@ -14,7 +14,7 @@ use crate::draw::View;
 use crate::engine::explain::{Explanation, MotionQuestion, StepFailure, TIME_LIMIT, explain, explain_step};
 use crate::engine::task::raising_at_start;
 use crate::engine::{Options, Plan, Problem, plan};
-use crate::input::{self, DiagnosticKind, InputError, LoadedEnds, LoadedScene, Overrides};
+use crate::input::{self, DiagnosticKind, InputError, LoadedScene, Overrides, Rules};
 use crate::model::{Action, Status};
 use crate::output::PlanOutput as _;
 use crate::output::explained;
@@ -101,7 +101,7 @@ pub fn hint(files: &Files, query: &QueryArgs) -> Option<String> {
     let overrides = query.overrides();
     let has_ends = match loaded.is_task() {
         true => Problem::of_scene(loaded.clone(), &overrides).map_or_else(|error| is_about_start(&error), |_| true),
-        false => loaded.clone().query(&overrides).is_ok(),
+        false => loaded.clone().resolve(&overrides, Rules::Unchecked).is_ok(),
     };
     let words = ["cplan".to_owned(), "explain".to_owned()].into_iter().chain(files.words()).chain(query.words());
     let command = words.map(|word| for_a_shell(&word)).collect::<Vec<_>>().join(" ");
@@ -140,8 +140,7 @@ impl ExplanationResult {
                 Err(error) => return Err(error.into()),
             }
         } else {
-            let query = loaded.query(overrides)?;
-            (MotionQuestion::of_goals(query.scene, query.start, &query.goals), query.notes)
+            question_of(loaded, overrides, Rules::Unchecked)?
         };
         Ok(Self::Motion(Box::new(explain(&question.with_time_limit(limit), &options)), notes))
     }
@@ -188,14 +187,26 @@ fn is_about_start(error: &InputError) -> bool {
     error.diagnostics().iter().all(|found| found.kind == DiagnosticKind::Start)
 }
 
+/// Returns the question about the motion that these rules read, and notes about the input.
+fn question_of(
+    loaded: LoadedScene,
+    overrides: &Overrides,
+    rules: Rules,
+) -> Result<(MotionQuestion, Vec<String>), InputError> {
+    let query = loaded.resolve(overrides, rules)?;
+    let start = query.problem.start();
+    Ok((MotionQuestion::of_goals(query.problem.into_scene(), start, &query.stated_goals), query.notes))
+}
+
 /// Returns the question about the blocked start of a task, with the tool at its height there, and notes about the input.
 fn blocked_start(loaded: LoadedScene, overrides: &Overrides) -> Result<(MotionQuestion, Vec<String>), InputError> {
     // Another defect of the world may hide the values of the tool's joints.
-    let raising = loaded.clone().recorded_task(overrides).ok().and_then(|loaded| raising_at_start(&loaded.task));
-    let LoadedEnds { scene, start, goals, mut notes, .. } = loaded.start_alone(overrides)?;
+    let task = loaded.clone().resolve(overrides, Rules::Recording).ok().and_then(|loaded| loaded.task);
+    let raising = task.as_ref().and_then(raising_at_start);
+    let (question, mut notes) = question_of(loaded, overrides, Rules::Start)?;
     notes.push("the start is blocked, so no step can begin: this explanation is about the start alone".into());
     let standstills = [raising.into_iter().collect(), Vec::new()];
-    Ok((MotionQuestion::of_goals(scene, start, &goals).with_standstills(standstills), notes))
+    Ok((question.with_standstills(standstills), notes))
 }
 
 /// Explains the failed step of a task. Also returns a note that describes the step. `None` if no step fails.

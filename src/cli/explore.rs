@@ -12,7 +12,7 @@ use crate::draw::{self, Picture, View};
 use crate::engine::{CellCounts, Method, Options};
 use crate::explore::{Ending, Exploration, ExploreError, Settings, Strategy, explore, map_description, map_picture};
 use crate::grammar::{PlannerArgs, positive, word};
-use crate::input::{self, Explorable, OccupancyMap};
+use crate::input::{self, LoadedProblem, OccupancyMap, Rules};
 use crate::model::{Scene, Status};
 use crate::motion::{Format, JointMotion, Trajectory, check_writable, csv, ros_yaml, write_whole_set};
 use crate::output::{Line, contours, format_columns, title_of};
@@ -135,18 +135,20 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     sinks::distinct(files())?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
     let mut inputs = loaded.files();
-    let world = loaded.explorable(&args.query.overrides())?;
+    let sensor = loaded.sensor();
+    let world = loaded.resolve(&args.query.overrides(), Rules::Exploration)?;
     world.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
     args.options.ignored(args.planner).iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
-    let settings = args.settings(world.goals.is_some())?;
+    let goals = Some(world.problem.goals()).filter(|goals| !goals.is_empty());
+    let settings = args.settings(goals.is_some())?;
     inputs.extend(args.known.clone());
     inputs.extend(settings.known.as_ref().and_then(|map| map.picture.clone()));
     sinks::refuse_to_overwrite_inputs(files(), &inputs)?;
     let mut print_status = |text: &str| args.print.print_status(&format!("{text} ..."));
-    let done = explore(&world.scene, &world.sensor, world.start, world.goals.as_ref(), &settings, &mut print_status)
+    let done = explore(world.problem.scene(), &sensor, world.problem.start(), goals, &settings, &mut print_status)
         .map_err(|error| args.refused(&error))?;
-    let joints = world.scene.arm().joints.each_ref().map(|joint| joint.name.clone());
-    let json = || done.to_json(joints.each_ref().map(String::as_str), &world.sensor, args.timings).to_string() + "\n";
+    let joints = world.problem.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
+    let json = || done.to_json(joints.each_ref().map(String::as_str), &sensor, args.timings).to_string() + "\n";
     let mut files = Vec::new();
     for sink in &sinks {
         match sink {
@@ -166,7 +168,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
                 let svg = || draw::svg(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
                 // The page plays the readings, and needs no times of the motion.
                 let page_view = || view(&world, &done, None);
-                let page = || draw::exploration_page(&page_view(), &world.scene, &world.sensor, &done, args.timings);
+                let page = || draw::exploration_page(&page_view(), world.problem.scene(), &sensor, &done, args.timings);
                 files.push((path.clone(), format.bytes_of(svg, page)?));
             }
         }
@@ -240,9 +242,9 @@ fn explored_path(done: &Exploration, start: Configuration) -> JointPath {
     JointPath::new(std::iter::once(start).chain(legs).collect())
 }
 
-fn view(world: &Explorable, done: &Exploration, trajectory: Option<&Trajectory>) -> View {
-    let scene: &Scene = &world.scene;
-    let explored_path = explored_path(done, world.start);
+fn view(world: &LoadedProblem, done: &Exploration, trajectory: Option<&Trajectory>) -> View {
+    let scene: &Scene = world.problem.scene();
+    let explored_path = explored_path(done, world.problem.start());
     let status = match done.ending {
         Ending::Reached | Ending::Explored { .. } => Status::Found,
         Ending::Unreachable(_) => Status::Infeasible,
@@ -261,11 +263,11 @@ fn view(world: &Explorable, done: &Exploration, trajectory: Option<&Trajectory>)
         status: verdict,
         ending: Some(status),
         facts: facts(done).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
-        goals: world.goals.as_ref().filter(|_| done.strategy == Strategy::Goal).map_or(&[], |goals| goals.pieces()),
+        goals: if done.strategy == Strategy::Goal { world.problem.goals().pieces() } else { &[] },
         paths: vec![("path".to_owned(), &explored_path)],
         trajectory,
         c_obstacles: &contours(scene),
-        ..Picture::new(scene, world.start)
+        ..Picture::new(scene, world.problem.start())
     })
 }
 
@@ -296,7 +298,7 @@ fn facts(done: &Exploration) -> Vec<Line> {
     facts
 }
 
-fn summary(world: &Explorable, done: &Exploration, timed: bool) -> String {
+fn summary(world: &LoadedProblem, done: &Exploration, timed: bool) -> String {
     let ending = match &done.ending {
         Ending::Reached => "reached: the arm is at the goal".to_owned(),
         Ending::Explored { configurations, given_up } => {
@@ -320,5 +322,5 @@ fn summary(world: &Explorable, done: &Exploration, timed: bool) -> String {
         lines.push(("decision", format!("{median:.1} ms (median), {most:.1} ms (99 %), {longest:.1} ms (longest)")));
     }
     lines.extend(world.notes.iter().map(|note| ("note", note.clone())));
-    format!("{}\n{}", title_of(&world.scene), format_columns(&lines))
+    format!("{}\n{}", title_of(world.problem.scene()), format_columns(&lines))
 }

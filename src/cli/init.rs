@@ -218,7 +218,7 @@ pub fn run(args: &InitArgs) -> Result<u8, Failure> {
     let files = [
         (robot.clone(), args.kind.robot().to_owned()),
         (world.clone(), args.kind.world()),
-        (schema_file.clone(), schema::text()),
+        (schema_file.clone(), schema::WORLD_SCHEMA.to_owned()),
     ];
     write_whole_set(&files)?;
     sinks::report(&description(&robot, &world, &schema_file))?;

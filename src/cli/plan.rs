@@ -176,9 +176,7 @@ pub fn answer(
     let begun = Instant::now();
     // If start or goal was given by a place of the tip, or was moved to a limit, the certificate states its joint
     // values.
-    let start = problem.motion().map(MotionProblem::start).or(problem.task().map(|task| task.start));
-    let goal = problem.motion().filter(|_| stated_ends[1].is_some()).map(|motion| motion.goals().pieces()[0].ends()[0]);
-    let asked = with_ends(asked, stated_ends, [start, goal]);
+    let asked = with_ends(asked, stated_ends, problem.query());
     let hint = if plan.status() == Status::Infeasible { explanation() } else { None };
     let written = written(&plan, &sinks, &files, (&asked, about.as_ref()), hint.as_deref(), args)?;
     let after = [("write", begun.elapsed())];
@@ -207,14 +205,11 @@ fn with_hint_to_explain(error: InputError, hint: impl FnOnce() -> Option<String>
 
 /// Returns the overrides. If the files do not state start and goal as joint values, adds the joint values that were
 /// found for them.
-pub fn with_ends(
-    asked: Overrides,
-    stated_ends: [Option<Configuration>; 2],
-    [start, goal]: [Option<Configuration>; 2],
-) -> Overrides {
+pub fn with_ends(asked: Overrides, stated_ends: [Option<Configuration>; 2], query: &MotionProblem) -> Overrides {
+    let goal = stated_ends[1].and(query.goals().pieces().first()).map(|goal| goal.ends()[0]);
     let implied = |end: Option<Configuration>, stated_ends| end.filter(|_| end != stated_ends).map(JointValues::from);
     Overrides {
-        start: asked.start.or(implied(start, stated_ends[0])),
+        start: asked.start.or(implied(Some(query.start()), stated_ends[0])),
         goal: asked.goal.or(implied(goal, stated_ends[1]).filter(|_| asked.goal_tip.is_none())),
         ..asked
     }

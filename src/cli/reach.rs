@@ -11,7 +11,7 @@ use super::values::clearance;
 use crate::draw::{Picture, View};
 use crate::engine::{Access, MAX_PLACES, Reach, reach};
 use crate::grammar::positive;
-use crate::input::{self, Explorable, JointValues, Overrides};
+use crate::input::{self, JointValues, LoadedProblem, Overrides, Rules};
 use crate::model::Status;
 use crate::motion::{check_writable, write_whole_set};
 use crate::output::{PictureFormat, contours, format_columns, title_of};
@@ -87,11 +87,11 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     let overrides = Overrides { start: args.home, clearance: args.clearance, ..Overrides::default() };
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
     sinks::refuse_to_overwrite_inputs(files(), &loaded.files())?;
-    let world = loaded.explorable(&overrides);
+    let world = loaded.resolve(&overrides, Rules::Exploration);
     let world = world.map_err(|error| error.with_option("--start", "--home"))?;
     world.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
-    let cell = args.cell.unwrap_or(world.scene.arm().reach() / DEFAULT_CELLS);
-    let reach = reach(&world.scene, world.start, cell).ok_or_else(|| {
+    let cell = args.cell.unwrap_or(world.problem.scene().arm().reach() / DEFAULT_CELLS);
+    let reach = reach(world.problem.scene(), world.problem.start(), cell).ok_or_else(|| {
         Failure::Refused(format!("--cell {cell} gives more than {MAX_PLACES} cells: choose a larger size"))
     })?;
     let mut written = Vec::new();
@@ -107,11 +107,11 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-fn names(world: &Explorable) -> [&str; 2] {
-    world.scene.arm().joints.each_ref().map(|joint| joint.name.as_str())
+fn names(world: &LoadedProblem) -> [&str; 2] {
+    world.problem.scene().arm().joints.each_ref().map(|joint| joint.name.as_str())
 }
 
-fn object(world: &Explorable, reach: &Reach) -> Value {
+fn object(world: &LoadedProblem, reach: &Reach) -> Value {
     let area = reach.cell * reach.cell;
     let tally: Value =
         Access::ALL.iter().zip(reach.tally()).map(|(access, n)| (access.name().to_owned(), json!(n))).collect();
@@ -120,7 +120,7 @@ fn object(world: &Explorable, reach: &Reach) -> Value {
 }
 
 /// Returns CSV with one line per solution: centre of the cell, joint values, and reachability.
-fn csv(world: &Explorable, reach: &Reach) -> String {
+fn csv(world: &LoadedProblem, reach: &Reach) -> String {
     let [a, b] = names(world).map(crate::report::quoted);
     let mut text = format!("x,y,{a},{b},access\n");
     for (place, solutions) in reach.places.iter().enumerate() {
@@ -140,8 +140,8 @@ fn csv(world: &Explorable, reach: &Reach) -> String {
 }
 
 /// Returns names and descriptions of the facts about the places.
-fn facts(world: &Explorable, reach: &Reach) -> Vec<(&'static str, String)> {
-    let [joints, units] = [names(world), world.scene.arm().joints.each_ref().map(|joint| joint.unit())];
+fn facts(world: &LoadedProblem, reach: &Reach) -> Vec<(&'static str, String)> {
+    let [joints, units] = [names(world), world.problem.scene().arm().joints.each_ref().map(|joint| joint.unit())];
     let several = reach.best().filter(|(_, access, count)| *access == Access::Reachable && *count > 1).count();
     let [reachable, unknown, unreachable, blocked] = reach.tally();
     let area = reach.cell * reach.cell;
@@ -173,10 +173,10 @@ fn facts(world: &Explorable, reach: &Reach) -> Vec<(&'static str, String)> {
     facts
 }
 
-fn summary(world: &Explorable, reach: &Reach) -> String {
+fn summary(world: &LoadedProblem, reach: &Reach) -> String {
     let mut lines = facts(world, reach);
     lines.extend(world.notes.iter().map(|note| ("note", note.clone())));
-    format!("{}\n{}", title_of(&world.scene), format_columns(&lines))
+    format!("{}\n{}", title_of(world.problem.scene()), format_columns(&lines))
 }
 
 /// Returns the headline: the part of the workspace that the tip reaches, among all cells with an IK solution.
@@ -190,9 +190,9 @@ fn headline(reach: &Reach) -> String {
     format!("The tip reaches {at_least}{} of the arm's workspace", percent(reachable as f64 / all as f64))
 }
 
-fn view(world: &Explorable, reach: &Reach) -> View {
+fn view(world: &LoadedProblem, reach: &Reach) -> View {
     let [_, unknown, ..] = reach.tally();
-    let joints = &world.scene.arm().joints;
+    let joints = &world.problem.scene().arm().joints;
     let minus = |text: &str| text.replace('-', "\u{2212}");
     let value = |k: usize| match joints[k].joint_type.is_revolute() {
         true => format!("{} {}\u{b0}", joints[k].name, minus(&fixed(reach.home[k].to_degrees(), 1))),
@@ -204,12 +204,12 @@ fn view(world: &Explorable, reach: &Reach) -> View {
     ];
     let notes = world.notes.iter().map(|note| ["note".to_owned(), note.clone()]);
     let picture = Picture {
-        title: vec![headline(reach), title_of(&world.scene)],
+        title: vec![headline(reach), title_of(world.problem.scene())],
         status: if unknown == 0 { "every cell decided".into() } else { counted(unknown, "cell") + " unknown" },
         ending: Some(if unknown == 0 { Status::Found } else { Status::Unknown }),
         facts: facts.map(|(name, value)| [name.to_owned(), value]).into_iter().chain(notes).collect(),
-        c_obstacles: &contours(&world.scene),
-        ..Picture::new(&world.scene, world.start)
+        c_obstacles: &contours(world.problem.scene()),
+        ..Picture::new(world.problem.scene(), world.problem.start())
     };
     View::of_picture(&picture).with_reach(reach)
 }

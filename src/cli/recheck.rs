@@ -65,7 +65,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
         format!("the certificate holds: {}", check_certificate(args, "certificate", source.text())?)
     } else {
         let problem = scene.clone().problem(&asked)?.problem;
-        let asked = complete_overrides(&problem, &scene, asked);
+        let asked = with_ends(asked, scene.resolved_ends(), &problem);
         match read_proof(source.text()) {
             Ok(claim) => proof_holds(args, &problem, claim.collision_boxes(), &asked)?,
             Err(missing @ ProofFormatError::Missing) => {
@@ -133,14 +133,6 @@ fn check_certificate(args: &RecheckArgs, what: &str, certificate: &str) -> Resul
             at(path, &format!("{line}: {message}"))
         }
     })
-}
-
-/// Returns the overrides. If the world does not state start and goal as joint values, adds the joint values that were
-/// found for them.
-fn complete_overrides(problem: &MotionProblem, scene: &LoadedScene, asked: Overrides) -> Overrides {
-    let stated_ends = scene.resolved_ends();
-    let goal = stated_ends[1].map(|_| problem.goals().pieces()[0].ends()[0]);
-    with_ends(asked, stated_ends, [Some(problem.start()), goal])
 }
 
 /// Reads the lower bound that a result file states. Returns `None` if there is none.

@@ -3,9 +3,10 @@
 use super::exit::DONE;
 use super::failure::Failure;
 use super::sinks;
-use crate::input::world_schema;
-use crate::output::cspace_schema;
 use clap::{Args, ValueEnum};
+
+/// The schema of world files. Like the others, a test of the crate with the types writes it.
+pub const WORLD_SCHEMA: &str = include_str!("../../docs/world.schema.json");
 
 /// Print the JSON schema of worlds, studies or configuration spaces.
 #[derive(Debug, Args)]
@@ -45,16 +46,11 @@ enum SchemaKind {
 /// # Errors
 /// I/O.
 pub fn run(args: &SchemaArgs) -> Result<u8, Failure> {
-    sinks::print(&match args.of {
-        SchemaKind::World => text(),
+    sinks::print(match args.of {
+        SchemaKind::World => WORLD_SCHEMA,
         #[cfg(feature = "study")]
-        SchemaKind::Study => format!("{:#}\n", crate::study::study_schema()),
-        SchemaKind::Cspace => format!("{:#}\n", cspace_schema()),
+        SchemaKind::Study => include_str!("../../docs/study.schema.json"),
+        SchemaKind::Cspace => include_str!("../../docs/cspace.schema.json"),
     })?;
     Ok(DONE)
-}
-
-/// Returns the schema of worlds as the text of a file.
-pub fn text() -> String {
-    format!("{:#}\n", world_schema())
 }

@@ -1,8 +1,8 @@
 //! Values of the tool's joints in `[start]` and `[goal]`: how they are read, and which are refused.
 
 use cplan::engine::Options;
-use cplan::input::{InputError, LoadedTask, Overrides, Source, load_recording, scene_from};
-use cplan::model::{Action, Goal};
+use cplan::input::{InputError, Overrides, Rules, Source, load_recording, scene_from};
+use cplan::model::{Action, Goal, Task};
 use cplan::{Outcome, Problem, plan};
 use std::path::Path;
 
@@ -15,8 +15,9 @@ fn scara() -> Source {
     Source::read(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/robots/scara.urdf"))).unwrap()
 }
 
-fn task(world: &str, overrides: &Overrides) -> Result<LoadedTask, InputError> {
-    scene_from(scara(), Source::in_memory("world.toml", world))?.task(overrides)
+fn task(world: &str, overrides: &Overrides) -> Result<Task, InputError> {
+    let scene = scene_from(scara(), Source::in_memory("world.toml", world))?;
+    Ok(scene.resolve(overrides, Rules::Plan)?.task.expect("values of the tool"))
 }
 
 #[track_caller]
@@ -28,7 +29,7 @@ fn refused(world: &str, parts: &[&str]) {
 #[test]
 fn values_make_the_motion_a_task_of_one_move() {
     let world = [ROBOT, START, GOAL].concat();
-    let task = task(&world, &Overrides::default()).unwrap().task;
+    let task = task(&world, &Overrides::default()).unwrap();
     let steps: Vec<_> = task.steps().collect();
     let [step] = steps[..] else { panic!("{steps:?}") };
     assert!(matches!(step.action, Action::Move(Goal::Joints(q)) if [q[0], q[1]] == [-0.8, -0.9]), "{step:?}");
@@ -42,7 +43,7 @@ fn values_make_the_motion_a_task_of_one_move() {
 fn a_goal_on_the_command_line_keeps_the_values() {
     let world = [ROBOT, START, GOAL].concat();
     let overrides = Overrides { goal: Some("0.1,0.2".parse().unwrap()), ..Overrides::default() };
-    let task = task(&world, &overrides).unwrap().task;
+    let task = task(&world, &overrides).unwrap();
     let step = task.steps().next().unwrap();
     assert!(matches!(step.action, Action::Move(Goal::Joints(q)) if [q[0], q[1]] == [0.1, 0.2]), "{step:?}");
     assert_eq!(step.tool.depth, 0.06);
@@ -56,7 +57,7 @@ fn a_goal_on_the_command_line_keeps_the_values() {
 fn a_wrist_without_a_value_at_the_goal_stays() {
     let goal = GOAL.replace("wrist = \"90deg\"\n", "");
     let world = [ROBOT, START, "wrist = 0.7\n", &goal].concat();
-    let task = task(&world, &Overrides::default()).unwrap().task;
+    let task = task(&world, &Overrides::default()).unwrap();
     let step = task.steps().next().unwrap();
     assert_eq!((task.start_tool.wrist, step.tool.wrist), (Some(0.7), Some(0.7)));
 }

@@ -8,7 +8,7 @@ use crate::random_tasks::replay;
 use cplan::Outcome;
 use cplan::engine::task::{TaskAnswer, plan};
 use cplan::engine::{Method, Options};
-use cplan::input::{InputError, Overrides, Source, scene_from};
+use cplan::input::{InputError, Overrides, Rules, Source, scene_from};
 use cplan::model::{Action, FollowedLine, RecordedOverlap, RecordedStep, RecordedTurn, Task, ToolAngle};
 use cplan::motion::Trajectory;
 use cplan::space::{Configuration, Recording};
@@ -29,7 +29,7 @@ fn load(world: &str) -> Result<Task, InputError> {
 fn load_for(robot: &str, world: &str) -> Result<Task, InputError> {
     let urdf = format!("{}/robots/{robot}.urdf", env!("CARGO_MANIFEST_DIR"));
     let scene = scene_from(Source::read(urdf.as_ref())?, Source::in_memory("world.toml", world))?;
-    Ok(scene.task(&Overrides::default())?.task)
+    Ok(scene.resolve(&Overrides::default(), Rules::Plan)?.task.expect("a world with steps"))
 }
 
 /// Returns a world with two posts, perhaps an object that is picked first, and lines of all kinds.

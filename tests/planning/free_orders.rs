@@ -10,7 +10,7 @@ use cplan::Outcome;
 use cplan::engine::Method;
 use cplan::engine::task::{TaskAnswer, plan};
 use cplan::geometry::{Point, Pose};
-use cplan::input::{Overrides, load_scene};
+use cplan::input::{Overrides, Rules, load_scene};
 use cplan::model::{Action, Heights, Item, Object, Step, Task};
 use cplan::motion::Drive;
 use serde_json::Value;
@@ -188,7 +188,8 @@ fn impossible_picks_and_places_are_found_before_orders() {
     ];
     for (post, failure) in posts {
         std::fs::write(&file, cell_with_post(post)).unwrap();
-        let task = load_scene(&robot, &file).unwrap().task(&Overrides::default()).unwrap().task;
+        let task =
+            load_scene(&robot, &file).unwrap().resolve(&Overrides::default(), Rules::Plan).unwrap().task.unwrap();
         let mut messages = Vec::new();
         let options = Options { drive: Drive { period: 0.1, ..Drive::default() }, ..Method::Visibility.into() };
         let answer = plan(&task, &options, &mut |message| messages.push(message.to_owned()));
@@ -210,7 +211,7 @@ fn task(world: &str) -> Option<Task> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("world.toml");
     std::fs::write(&file, world).unwrap();
-    Some(load_scene(robot(), &file).unwrap().task(&Overrides::default()).ok()?.task)
+    Some(load_scene(robot(), &file).unwrap().resolve(&Overrides::default(), Rules::Plan).ok()?.task.unwrap())
 }
 
 fn plan_task(task: &Task) -> TaskAnswer {

@@ -3,7 +3,7 @@
 use cplan::Outcome;
 use cplan::engine::task::plan;
 use cplan::engine::{Answer, Method, Options, Planner, solve};
-use cplan::input::{Overrides, load, load_scene};
+use cplan::input::{Overrides, Rules, load, load_scene};
 use cplan::interrupt::{Interrupt, Interrupted};
 use cplan::model::MotionProblem;
 use cplan::planner::Proposal;
@@ -92,7 +92,7 @@ fn proofs_and_tasks_stop_too() {
     assert!(stopped(&mut || drop(connectivity(scene, start, goals, 0.0, usize::MAX))));
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let (robot, world) = (root.join("robots/scara.urdf"), root.join("workspaces/tasks/kitting_cell.toml"));
-    let task = load_scene(&robot, &world).unwrap().task(&Overrides::default()).unwrap().task;
+    let task = load_scene(&robot, &world).unwrap().resolve(&Overrides::default(), Rules::Plan).unwrap().task.unwrap();
     let drive = cplan::motion::Drive::default();
     let options = Options { drive, ..Method::Visibility.into() };
     assert!(stopped(&mut || drop(plan(&task, &options, &mut |_| ()))));

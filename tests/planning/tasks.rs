@@ -32,8 +32,8 @@ fn load(file: &Path) -> (Task, String) {
     };
     let urdf = folder().join("../../robots").join(format!("{}.urdf", stated("robot")));
     let scene = input::load_scene(&urdf, file).unwrap_or_else(|e| panic!("{e}"));
-    let loaded = scene.task(&Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
-    (loaded.task, stated("expect"))
+    let loaded = scene.resolve(&Overrides::default(), input::Rules::Plan).unwrap_or_else(|e| panic!("{e}"));
+    (loaded.task.expect("a world with steps"), stated("expect"))
 }
 
 fn shipped_task(name: &str) -> Task {

@@ -2,17 +2,20 @@
 
 use super::clock::Clock;
 use super::motion::{Motion, driven};
-use super::problem::{MotionOrTask, Problem};
+use super::problem::Problem;
 use super::result::{MessageError, Messages};
-use cplan_handling::{ObstacleTrajectory, RobotJoints, Task};
+use cplan_handling::{RobotJoints, Task};
 use cplan_judge::CheckedProof;
+use cplan_model::space::Path;
 use cplan_model::{Arm, MotionProblem, Outcome, Scene, Status};
 use cplan_motion::{TimingError, Trajectory};
+use cplan_movers::Timing;
 use cplan_planners::cspace::{NotPolygons, not_polygons};
 use cplan_solver::{Answer, NamedJoints, Options, Replay, solve};
-use cplan_tasks::{FailedStep, TaskAnswer, TaskMotion, TaskReplay};
+use cplan_tasks::{FailedStep, Leg, TaskAnswer, TaskMotion, TaskReplay};
 use cplan_text::{length, percent};
 use std::borrow::Cow;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// Reason why planning is refused. A plan with the status "unknown" is no error.
@@ -83,17 +86,27 @@ pub enum Detail {
     /// A single motion.
     Motion {
         /// The problem.
-        problem: MotionProblem,
+        problem: Arc<MotionProblem>,
         /// The answer.
         answer: Answer<Motion>,
     },
     /// A sequence of steps.
     Task {
         /// The task.
-        task: Task,
+        task: Arc<Task>,
         /// The answer.
         answer: TaskAnswer,
     },
+}
+
+/// The motion of a plan.
+pub(super) struct Found<'a> {
+    pub trajectory: &'a Trajectory,
+    /// The paths of the motion from stop to stop, before corners are rounded.
+    pub paths: Vec<&'a Path>,
+    /// Proven lower bound on the distance to obstacles at all times, in metres. Infinite if no obstacle is within reach.
+    pub clearance: f64,
+    pub timing: Option<&'a Timing>,
 }
 
 /// Plans a problem. The result is a certified motion, a proof that no motion exists, or neither if the effort that the
@@ -120,15 +133,12 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
         return Err(PlanError::Robot(lack));
     }
     let mut clock = Clock::starting_after(problem.read_in().map(|time| ("load", time)).into_iter().collect());
-    let detail = match problem.content() {
-        MotionOrTask::Motion(motion) => {
-            plan_motion(motion, problem.timed().trajectories, options, &mut clock, progress)?
-        }
-        MotionOrTask::Task(task, _) => {
-            plan_task(task, &joints_in_messages(problem, options), options, &mut clock, progress)?
-        }
+    let problem = problem.clone().with_limits(options);
+    let detail = match &problem.task {
+        None => plan_motion(&problem, options, &mut clock, progress)?,
+        Some(task) => plan_task(task, &joints_in_messages(&problem, options), options, &mut clock, progress)?,
     };
-    Ok(Plan { problem: problem.clone(), options: *options, detail: Box::new(detail), clock })
+    Ok(Plan { problem, options: *options, detail: Box::new(detail), clock })
 }
 
 /// Returns the reason why the options do not suit the robot. `None` if they do.
@@ -163,15 +173,13 @@ fn curved_because(curved: NotPolygons, scene: &Scene) -> String {
 
 /// Plans a single motion.
 fn plan_motion(
-    motion: &MotionProblem,
-    trajectories: &[ObstacleTrajectory],
+    problem: &Problem,
     options: &Options,
     clock: &mut Clock,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Detail, PlanError> {
-    let mut problem = motion.clone();
-    options.override_limits(problem.arm_mut());
-    let answer = solve(&problem, options, progress);
+    let motion = &problem.query;
+    let answer = solve(motion, options, progress);
     clock.solved(&answer.stages);
     if let (Some(bound), Some(gap)) = (answer.bound(), options.planner.gap())
         && bound.gap() > gap
@@ -184,35 +192,33 @@ fn plan_motion(
             options.levels
         ));
     }
-    let answer = driven(&problem, trajectories, answer, options)?;
+    let answer = driven(motion, problem.timed().trajectories, answer, options)?;
     if let Some(motion) = answer.outcome.found().filter(|_| options.accelerations) {
         motion.timed.trajectory.check_accelerations().map_err(MessageError::from)?;
     }
     clock.stage("trajectory");
-    Ok(Detail::Motion { problem, answer })
+    Ok(Detail::Motion { problem: motion.clone(), answer })
 }
 
 /// Plans the steps of a task. Checks that ROS messages can name the robot's joints.
 fn plan_task(
-    task: &Task,
+    task: &Arc<Task>,
     robot: &RobotJoints,
     options: &Options,
     clock: &mut Clock,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Detail, PlanError> {
-    let mut task = task.clone();
-    options.override_limits(&mut task.arm);
-    let answer = cplan_tasks::plan(&task, options, progress);
+    let answer = cplan_tasks::plan(task, options, progress);
     clock.stage("plan");
     if let Some(TaskMotion { sequence, .. }) = answer.outcome.found() {
-        let messages = Messages::new(robot, &task, &answer.legs, sequence)?;
+        let messages = Messages::new(robot, task, &answer.legs, sequence)?;
         if options.accelerations {
             sequence.trajectory.check_accelerations().map_err(MessageError::from)?;
             messages.check_accelerations(robot)?;
         }
     }
     clock.stage("report");
-    Ok(Detail::Task { task, answer })
+    Ok(Detail::Task { task: task.clone(), answer })
 }
 
 /// Returns the joints that ROS messages name.
@@ -230,18 +236,15 @@ impl Plan {
     /// Returns the answer: a certified motion, a proof that there is no motion, or the reason why neither is known.
     #[must_use]
     pub fn outcome(&self) -> Outcome<&Trajectory, Refutation<'_>> {
-        let reason = || self.reason().unwrap_or_default();
-        match &*self.detail {
-            Detail::Motion { answer, .. } => match &answer.outcome {
-                Outcome::Found(motion) => Outcome::Found(&motion.timed.trajectory),
-                Outcome::Infeasible(proof) => Outcome::Infeasible(Refutation::Motion(proof)),
-                Outcome::Unknown(_) => Outcome::Unknown(reason()),
-            },
-            Detail::Task { answer, .. } => match &answer.outcome {
-                Outcome::Found(motion) => Outcome::Found(&motion.sequence.trajectory),
-                Outcome::Infeasible(failed) => Outcome::Infeasible(Refutation::Step(failed)),
-                Outcome::Unknown(_) => Outcome::Unknown(reason()),
-            },
+        match (self.found(), &*self.detail) {
+            (Some(found), _) => Outcome::Found(found.trajectory),
+            (None, Detail::Motion { answer: Answer { outcome: Outcome::Infeasible(proof), .. }, .. }) => {
+                Outcome::Infeasible(Refutation::Motion(proof))
+            }
+            (None, Detail::Task { answer: TaskAnswer { outcome: Outcome::Infeasible(failed), .. }, .. }) => {
+                Outcome::Infeasible(Refutation::Step(failed))
+            }
+            _ => Outcome::Unknown(self.reason().unwrap_or_default()),
         }
     }
 
@@ -254,13 +257,29 @@ impl Plan {
         }
     }
 
+    /// Returns the motion of the arm, if there is one.
+    pub(super) fn found(&self) -> Option<Found<'_>> {
+        Some(match &*self.detail {
+            Detail::Motion { answer, .. } => {
+                let Motion { path, timed, timing, .. } = answer.outcome.found()?;
+                let (trajectory, clearance) = (&timed.trajectory, timed.curve.clearance());
+                Found { trajectory, paths: vec![path.path()], clearance, timing: timing.as_ref() }
+            }
+            Detail::Task { answer, .. } => {
+                let TaskMotion { sequence, timing, .. } = answer.outcome.found()?;
+                let (trajectory, paths) = (&sequence.trajectory, answer.legs.iter().map(Leg::path).collect());
+                Found { trajectory, paths, clearance: answer.clearance(), timing: timing.as_ref() }
+            }
+        })
+    }
+
     /// Returns the motion, if there is one.
     #[must_use]
     pub fn trajectory(&self) -> Option<&Trajectory> {
-        self.outcome().found().copied()
+        self.found().map(|found| found.trajectory)
     }
 
-    /// Returns the problem.
+    /// Returns the problem. Limits that the options override have the options' values.
     #[must_use]
     pub fn problem(&self) -> &Problem {
         &self.problem
@@ -314,9 +333,6 @@ impl Plan {
     /// Returns the arm. Limits that the options override have the options' values.
     #[must_use]
     pub fn arm(&self) -> &Arm {
-        match &*self.detail {
-            Detail::Motion { problem, .. } => problem.scene().arm(),
-            Detail::Task { task, .. } => &task.arm,
-        }
+        self.problem.scene().arm()
     }
 }

@@ -5,7 +5,8 @@ use cplan_interrupt::Instant;
 use cplan_model::space::{Configuration, GoalSet};
 use cplan_model::{Arm, MotionProblem, MotionProblemError, Scene, SceneError};
 use cplan_robot::{InputError, RobotFile, RobotReport};
-use cplan_world::{self, LoadedProblem, LoadedScene, LoadedTask, Overrides};
+use cplan_solver::Options;
+use cplan_world::{self, LoadedProblem, LoadedScene, Overrides, Rules};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -16,7 +17,10 @@ use thiserror::Error;
 /// is checked like one that was created in code, and its numbers keep all bits.
 #[derive(Debug, Clone)]
 pub struct Problem {
-    content: Arc<MotionOrTask>,
+    /// Scene, start and goals. A task has no goals, and its objects are at their initial places.
+    pub(super) query: Arc<MotionProblem>,
+    /// The task. `None` for a single motion.
+    pub(super) task: Option<Arc<Task>>,
     /// The trajectories of the scene's loose obstacles.
     trajectories: Arc<[ObstacleTrajectory]>,
     robot: Arc<RobotReport>,
@@ -34,15 +38,6 @@ pub enum ProblemError {
     /// The start or a goal is invalid.
     #[error(transparent)]
     Ends(#[from] MotionProblemError),
-}
-
-/// The problem of a single motion, or a task. A task comes with its initial scene: the gripper is empty, and objects
-/// are at their initial places.
-#[derive(Debug)]
-#[expect(clippy::large_enum_variant, reason = "a problem shares one")]
-pub(super) enum MotionOrTask {
-    Motion(MotionProblem),
-    Task(Task, Scene),
 }
 
 impl Problem {
@@ -73,7 +68,7 @@ impl Problem {
     /// # Errors
     /// A start or goal that is missing, out of reach or not free, and a step that an arm of this kind cannot do.
     pub fn of_scene(loaded: LoadedScene, overrides: &Overrides) -> Result<Self, InputError> {
-        Ok(if loaded.is_task() { loaded.task(overrides)?.into() } else { loaded.problem(overrides)?.into() })
+        Ok(loaded.resolve(overrides, Rules::Plan)?.into())
     }
 
     /// Creates the problem of moving an arm in a workspace from `start` to any of `goals`. Moving obstacles are at
@@ -89,8 +84,7 @@ impl Problem {
     ) -> Result<Self, ProblemError> {
         let workspace = workspace.into();
         let trajectories = workspace.trajectories();
-        let problem = motion_among(workspace.scene(arm)?, &trajectories, start.into(), goals)?;
-        Ok(Self { trajectories: trajectories.into(), ..problem.into() })
+        Ok(Self::of_motion(motion_among(workspace.scene(arm)?, &trajectories, start.into(), goals)?, trajectories))
     }
 
     /// Returns the problem, with the time since `begun` as the time of reading.
@@ -99,9 +93,13 @@ impl Problem {
         Self { read_in: Some(begun.elapsed()), ..self }
     }
 
-    /// Returns the requested motion or task.
-    pub(super) fn content(&self) -> &MotionOrTask {
-        &self.content
+    /// Returns the problem with the limits of these options.
+    pub(super) fn with_limits(mut self, options: &Options) -> Self {
+        options.override_limits(Arc::make_mut(&mut self.query).arm_mut());
+        if let Some(task) = &mut self.task {
+            options.override_limits(&mut Arc::make_mut(task).arm);
+        }
+        self
     }
 
     /// Returns the time that reading the files took. `None` if the problem was made in code.
@@ -112,22 +110,25 @@ impl Problem {
     /// Returns the arm among its obstacles. For a task, objects are at their initial places.
     #[must_use]
     pub fn scene(&self) -> &Scene {
-        match &*self.content {
-            MotionOrTask::Motion(motion) => motion.scene(),
-            MotionOrTask::Task(_, scene) => scene,
-        }
+        self.query.scene()
+    }
+
+    /// Returns scene, start and goals. A task has no goals, and its objects are at their initial places.
+    #[must_use]
+    pub fn query(&self) -> &MotionProblem {
+        &self.query
     }
 
     /// Returns the problem of a single motion. `None` for a task.
     #[must_use]
     pub fn motion(&self) -> Option<&MotionProblem> {
-        if let MotionOrTask::Motion(motion) = &*self.content { Some(motion) } else { None }
+        self.task.is_none().then_some(&self.query)
     }
 
     /// Returns the task. `None` for a single motion.
     #[must_use]
     pub fn task(&self) -> Option<&Task> {
-        if let MotionOrTask::Task(task, _) = &*self.content { Some(task) } else { None }
+        self.task.as_deref()
     }
 
     /// Returns the report on how the robot was read.
@@ -149,14 +150,12 @@ impl Problem {
         TimedScene { scene: self.scene(), trajectories: &self.trajectories }
     }
 
-    pub(super) fn read(
-        content: MotionOrTask,
-        trajectories: Vec<ObstacleTrajectory>,
-        robot: RobotReport,
-        notes: Vec<String>,
-    ) -> Self {
-        let (content, trajectories, robot) = (Arc::new(content), trajectories.into(), Arc::new(robot));
-        Self { content, trajectories, robot, notes: notes.into(), read_in: None }
+    /// Creates the problem of a robot whose two joints are its only movable ones.
+    fn of_motion(problem: MotionProblem, trajectories: Vec<ObstacleTrajectory>) -> Self {
+        let names = problem.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
+        let robot = RobotReport { joints: RobotJoints::only_planned(&names), ..RobotReport::default() };
+        let (stated_goals, notes) = (Vec::new(), Vec::new());
+        LoadedProblem { problem, stated_goals, task: None, trajectories, robot, notes }.into()
     }
 }
 
@@ -179,23 +178,15 @@ pub(super) fn motion_among(
 }
 
 impl From<LoadedProblem> for Problem {
-    fn from(LoadedProblem { problem, trajectories, robot, notes }: LoadedProblem) -> Self {
-        Self::read(MotionOrTask::Motion(problem), trajectories, robot, notes)
-    }
-}
-
-impl From<LoadedTask> for Problem {
-    fn from(LoadedTask { task, scene, robot, notes }: LoadedTask) -> Self {
-        let trajectories = task.initial_trajectories();
-        Self::read(MotionOrTask::Task(task, scene), trajectories, robot, notes)
+    fn from(LoadedProblem { problem, task, trajectories, robot, notes, .. }: LoadedProblem) -> Self {
+        let (query, task, robot) = (Arc::new(problem), task.map(Arc::new), Arc::new(robot));
+        Self { query, task, trajectories: trajectories.into(), robot, notes: notes.into(), read_in: None }
     }
 }
 
 impl From<MotionProblem> for Problem {
     /// Creates the problem of a robot that has no movable joints besides its two. Loose obstacles are ignored.
     fn from(motion: MotionProblem) -> Self {
-        let names = motion.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
-        let robot = RobotReport { joints: RobotJoints::only_planned(&names), ..RobotReport::default() };
-        Self::read(MotionOrTask::Motion(motion), Vec::new(), robot, Vec::new())
+        Self::of_motion(motion, Vec::new())
     }
 }

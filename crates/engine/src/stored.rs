@@ -10,14 +10,15 @@
 //! was changed, or written by another version of cplan.
 
 use super::plan::{Plan, plan};
-use super::problem::{MotionOrTask, Problem, ProblemError, motion_among};
+use super::problem::{Problem, ProblemError, motion_among};
 use cplan_handling::{
-    Driver, MovingObstacle, ObstacleTrajectory, RobotJoints, Task, TaskError, TimedWorkspace, ToolJoint,
+    Driver, MovingObstacle, ObstacleTrajectory, RobotJoints, Task, TaskError, TimedScene, TimedWorkspace, ToolJoint,
 };
 use cplan_model::space::{Configuration, GoalSet};
 use cplan_model::{Additions, Arm, Attachment, MotionProblem, Scene};
 use cplan_robot::RobotReport;
 use cplan_solver::Options;
+use cplan_world::LoadedProblem;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
@@ -62,8 +63,8 @@ struct SceneRecord {
 }
 
 impl MotionRecord {
-    fn new(motion: &MotionProblem, trajectories: &[ObstacleTrajectory]) -> Self {
-        let scene = motion.scene();
+    fn new(problem: &Problem) -> Self {
+        let TimedScene { scene, trajectories } = problem.timed();
         let Additions { loose, attachment, allowed_contacts } = scene.additions().clone();
         let (arm, workspace) = scene.clone().into_parts();
         let movers = loose.into_iter().zip(trajectories.iter().cloned());
@@ -71,7 +72,7 @@ impl MotionRecord {
             movers.map(|(loose, trajectory)| MovingObstacle { obstacle: loose.obstacle, trajectory }).collect();
         let workspace = TimedWorkspace { fixed: workspace, movers };
         let scene = SceneRecord { arm, workspace, attachment, allowed_contacts };
-        Self { scene, start: motion.start(), goals: motion.goals().clone() }
+        Self { scene, start: problem.query.start(), goals: problem.query.goals().clone() }
     }
 
     /// Returns the problem of a motion, and the trajectories of its loose obstacles.
@@ -87,9 +88,9 @@ impl MotionRecord {
 
 impl Serialize for Problem {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let asked = match self.content() {
-            MotionOrTask::Motion(motion) => TargetRecord::Motion(MotionRecord::new(motion, self.timed().trajectories)),
-            MotionOrTask::Task(task, _) => TargetRecord::Task(Cow::Borrowed(task)),
+        let asked = match self.task() {
+            None => TargetRecord::Motion(MotionRecord::new(self)),
+            Some(task) => TargetRecord::Task(Cow::Borrowed(task)),
         };
         ProblemRecord { asked, robot: self.robot().clone(), notes: self.notes().to_vec() }.serialize(serializer)
     }
@@ -103,10 +104,10 @@ impl<'de> Deserialize<'de> for Problem {
                 "the robot's joints need finite numbers within their ranges, and planned ones are 0 and 1",
             ));
         }
-        let (content, trajectories) = match asked {
+        let (problem, task, trajectories) = match asked {
             TargetRecord::Motion(record) => {
                 let (motion, trajectories) = record.motion().map_err(D::Error::custom)?;
-                (MotionOrTask::Motion(motion), trajectories)
+                (motion, None, trajectories)
             }
             TargetRecord::Task(task) => {
                 let mut task = task.into_owned();
@@ -116,10 +117,10 @@ impl<'de> Deserialize<'de> for Problem {
                     return Err(D::Error::custom("the robot's stroke is not the task's"));
                 }
                 let (scene, trajectories) = (scene.map_err(D::Error::custom)?, task.initial_trajectories());
-                (MotionOrTask::Task(task, scene), trajectories)
+                (MotionProblem::trusted(scene, task.start, GoalSet::default()), Some(task), trajectories)
             }
         };
-        Ok(Self::read(content, trajectories, robot, notes))
+        Ok(LoadedProblem { problem, stated_goals: Vec::new(), task, trajectories, robot, notes }.into())
     }
 }
 

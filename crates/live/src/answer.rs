@@ -11,7 +11,7 @@ use cplan_interrupt::{Instant, Interrupt, Interrupted};
 use cplan_model::Goal;
 use cplan_model::space::{Configuration, Measure, Metric, Segment};
 use cplan_solver::Options;
-use cplan_world::{LoadedProblem, LoadedScene, Overrides};
+use cplan_world::{LoadedProblem, LoadedScene};
 use serde::Deserialize;
 use std::time::Duration;
 
@@ -105,13 +105,9 @@ impl Answering<'_> {
     ///
     /// # Errors
     /// A newer request has arrived.
-    pub fn task(self, loaded: LoadedScene) -> Result<AnswerReply, Interrupted> {
-        let problem = match Problem::of_scene(loaded, &Overrides::default()) {
-            Ok(problem) => problem,
-            Err(error) => return Ok(refused(ErrorSubject::World, error.to_string())),
-        };
+    pub fn task(self, problem: &Problem) -> Result<AnswerReply, Interrupted> {
         let Self { options, contours, deadlines, think, toml } = self;
-        match deadlines.plan.run(|| result::full_answer(&problem, options, contours, think)) {
+        match deadlines.plan.run(|| result::full_answer(problem, options, contours, think)) {
             Ok(Ok(answer)) => Ok(AnswerReply { toml, ..answer }),
             Ok(Err(error)) => Ok(refused(ErrorSubject::Options, error)),
             Err(stopped) => Ok(AnswerReply { toml, ..deadlines.timed_out(stopped)? }),

@@ -4,7 +4,7 @@ use super::blocked;
 use cplan_explain::{MotionQuestion, TIME_LIMIT, explain};
 use cplan_solver::Options;
 use cplan_view::output::explained;
-use cplan_world::{LoadedScene, Overrides};
+use cplan_world::{LoadedScene, Overrides, Rules};
 use serde_json::value::RawValue;
 use std::time::Duration;
 
@@ -17,8 +17,10 @@ pub fn explanation(loaded: LoadedScene, limit: Duration) -> Result<Box<RawValue>
     if loaded.is_task() || !loaded.trajectories.is_empty() {
         return Err("Worlds with steps or moving obstacles are explained only by `cplan explain`.".into());
     }
-    let query = loaded.query(&Overrides::default()).map_err(|error| blocked::without_places(&error))?;
-    let question = MotionQuestion::of_goals(query.scene, query.start, &query.goals);
+    let query = loaded.resolve(&Overrides::default(), Rules::Unchecked);
+    let query = query.map_err(|error| blocked::without_places(&error))?;
+    let (start, goals) = (query.problem.start(), &query.stated_goals);
+    let question = MotionQuestion::of_goals(query.problem.into_scene(), start, goals);
     let question = question.with_time_limit(limit.min(TIME_LIMIT));
     let view = explained::view(&explain(&question, &Options::default()));
     let json = view.explanation().map(|explanation| explanation.json()).unwrap_or_default();

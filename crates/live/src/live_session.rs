@@ -19,7 +19,7 @@ use cplan_interrupt::{Instant, Interrupt, Interrupted};
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Arm, equivalent_values, inverse};
 use cplan_solver::Method;
-use cplan_world::{LoadedScene, Overrides};
+use cplan_world::{LoadedScene, Overrides, Rules};
 use serde_json::value::RawValue;
 use std::sync::Arc;
 
@@ -223,12 +223,11 @@ impl LiveSession {
         let toml = ask.is_final.then_some(text);
         let (contours, think) = (&self.contours, ask.think);
         let answering = Answering { options, contours, deadlines: &deadlines, think, toml };
-        if loaded.is_task() {
-            return answering.task(loaded);
-        }
-        match loaded.clone().problem(&Overrides::default()) {
+        match loaded.clone().resolve(&Overrides::default(), Rules::Plan) {
+            Ok(problem) if problem.task.is_some() => answering.task(&problem.into()),
             Ok(problem) if ask.is_final => answering.full_answer(problem, send),
             Ok(problem) => answering.quick_answer(problem, &self.pace),
+            Err(error) if loaded.is_task() => Ok(refused(ErrorSubject::World, error.to_string())),
             Err(error) => {
                 let start = ask.state.as_ref().and_then(|state| self.begin(state.start));
                 answering.blocked(&loaded, &error, start.or_else(|| self.document.start()))

@@ -32,11 +32,10 @@ pub fn without_path(
 /// The reason, if the requested trajectory cannot be made.
 pub fn quick_answer(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
     let plan = plan(problem, &Options { bounded: false, ..*options }).map_err(|error| error.to_string())?;
-    let timed = problem.timed();
     let Some((problem, answer)) = plan.motion() else {
         return Err("this page does not plan steps among moving obstacles".into());
     };
-    let timed = TimedScene { scene: problem.scene(), ..timed };
+    let timed = plan.problem().timed();
     let contours = contours.of(timed.scene);
     let mut picture = Picture {
         trace: Some(&answer.run.trace),

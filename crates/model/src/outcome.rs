@@ -1,5 +1,6 @@
 //! The answers of cplan: found, infeasible, or unknown.
 
+#[cfg(feature = "schema")]
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
@@ -66,8 +67,9 @@ impl<F, I, U> Outcome<F, I, U> {
 }
 
 /// An answer without its data.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 pub enum Status {
     /// There is a certified path.
     Found,

@@ -9,8 +9,8 @@
 //! [`load`] stops at the first stage that fails; [`survey`] reports all stages. The other readers use the same errors
 //! ([`InputError`], [`Diagnostic`]), files ([`Source`]) and numbers ([`Quantity`]).
 //!
-//! Reading order for the code: `error` and `source`, then `robot_table` and `quantity`, then `urdf`, whose module
-//! documentation lists the stages.
+//! Reading order for the code: `error` and `source`, then `toml_values`, `robot_table` and `quantity`, then `urdf`, whose
+//! module documentation lists the stages.
 
 mod assumed;
 mod error;
@@ -20,10 +20,12 @@ mod quantity;
 mod report;
 mod robot_file;
 mod robot_table;
-mod schema;
+#[cfg(feature = "schema")]
+pub mod schema;
 mod settings;
 mod source;
 mod stroke;
+mod toml_values;
 mod urdf;
 mod wrist;
 
@@ -38,9 +40,9 @@ pub use quantity::{MAX_LENGTH, Number, Numbers, PerJoint, Quantity, Written};
 pub use report::RobotReport;
 pub use robot_file::RobotFile;
 pub use robot_table::RobotTable;
-pub use schema::{AngleOrLength, HeldAs, NumberPair, Positive};
 pub use settings::RobotSettings;
 pub use source::{Cursor, Position, Source, read_bounded, read_bytes, read_recorded};
 pub use stroke::StrokeTable;
+pub use toml_values::{Fields, FromToml, TomlError, TomlValue, key_of, number};
 pub use urdf::{load, meshes_elsewhere, survey};
 pub use wrist::WristTable;

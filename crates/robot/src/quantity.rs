@@ -2,10 +2,8 @@
 
 use super::error::Diagnostic;
 use super::source::Source;
-use serde::de::{Error, Visitor};
-use serde::{Deserialize, Deserializer};
+use super::toml_values::{FromToml, TomlError, TomlValue, number};
 use std::collections::BTreeMap;
-use std::fmt;
 use toml::Spanned;
 
 /// A joint's value or an angle, in radians or metres. The file may state it in degrees.
@@ -38,34 +36,23 @@ pub(crate) fn find<'a, T>(table: &'a PerJoint<T>, name: &str) -> Option<&'a T> {
 /// that large.
 pub const MAX_LENGTH: f64 = 1e6;
 
-impl<'de> Deserialize<'de> for Quantity {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(QuantityVisitor)
+impl Quantity {
+    /// Returns the angle that a text states in degrees, such as "30deg".
+    #[must_use]
+    pub fn degrees(text: &str) -> Option<Self> {
+        let degrees: f64 = text.trim().strip_suffix("deg")?.trim_end().parse().ok()?;
+        Some(Self { value: degrees.to_radians(), in_degrees: true })
     }
 }
 
-struct QuantityVisitor;
-
-impl Visitor<'_> for QuantityVisitor {
-    type Value = Quantity;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a number, or an angle such as \"30deg\"")
-    }
-
-    fn visit_f64<E>(self, value: f64) -> Result<Quantity, E> {
-        Ok(Quantity { value, in_degrees: false })
-    }
-
-    fn visit_i64<E>(self, value: i64) -> Result<Quantity, E> {
-        Ok(Quantity { value: value as f64, in_degrees: false })
-    }
-
-    fn visit_str<E: Error>(self, text: &str) -> Result<Quantity, E> {
-        let wrong = || E::custom(format!("expected a number, or an angle such as \"30deg\", found \"{text}\""));
-        let degrees = text.trim().strip_suffix("deg").ok_or_else(wrong)?;
-        let degrees: f64 = degrees.trim_end().parse().map_err(|_| wrong())?;
-        Ok(Quantity { value: degrees.to_radians(), in_degrees: true })
+impl FromToml for Quantity {
+    fn read(value: &TomlValue) -> Result<Self, TomlError> {
+        let expected = "a number, or an angle such as \"30deg\"";
+        match value.get_ref().as_str() {
+            Some(text) => Self::degrees(text)
+                .ok_or_else(|| TomlError::new(value, format!("expected {expected}, found \"{text}\""))),
+            None => Ok(Self { value: number(value, expected)?, in_degrees: false }),
+        }
     }
 }
 

@@ -1,80 +1,74 @@
 //! The world file's `[robot]` table.
 
 use crate::quantity::{Number, Numbers, PerJoint, Written};
-use crate::schema::{AngleOrLength, HeldAs, NumberPair, Positive};
+#[cfg(feature = "schema")]
+use crate::schema::*;
 use crate::stroke::{ArchValue, StrokeTable};
+use crate::toml_table;
 use crate::wrist::WristTable;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use std::collections::BTreeMap;
 use toml::Spanned;
 
-/// Settings that complete or override the URDF. All keys are optional.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "robot")]
-pub struct RobotTable {
-    /// Position of the robot's root frame in the world, m; by default [0, 0].
-    #[schemars(with = "Option<NumberPair>")]
-    pub at: Option<Numbers>,
-    /// Angle of its root frame, rad; by default 0.
-    #[schemars(with = "Option<AngleOrLength>")]
-    pub angle: Option<Written>,
-    /// The two joints that move, from the base to the tip; needed only if the URDF has more than two that can.
-    #[schemars(with = "Option<[String; 2]>")]
-    pub joints: Option<Spanned<Vec<Spanned<String>>>>,
-    /// Link whose origin is the tip; by default the end of the chain.
-    #[schemars(with = "Option<String>")]
-    pub tip: Option<Spanned<String>>,
-    /// Values of the other movable joints, by name, rad or m; by default 0, clamped into their limits.
-    #[serde(default)]
-    #[schemars(with = "BTreeMap<String, AngleOrLength>")]
-    pub fixed: PerJoint<Written>,
-    /// Least and greatest value of a joint, by name, rad or m, instead of the URDF's.
-    #[serde(default)]
-    #[schemars(with = "BTreeMap<String, [AngleOrLength; 2]>")]
-    pub limits: PerJoint<Spanned<Vec<Written>>>,
-    /// Top speed of a joint, by name, rad/s or m/s, instead of the URDF's.
-    #[serde(default)]
-    #[schemars(with = "BTreeMap<String, Positive>")]
-    pub velocity: PerJoint<Number>,
-    /// Greatest acceleration of a joint, by name, rad/s2 or m/s2; by default top speed is reached in 0.25 s.
-    #[serde(default)]
-    #[schemars(with = "BTreeMap<String, Positive>")]
-    pub acceleration: PerJoint<Number>,
-    /// Greatest jerk of a joint, by name, rad/s3 or m/s3; a joint without has no such limit.
-    #[serde(default)]
-    #[schemars(with = "BTreeMap<String, Positive>")]
-    pub jerk: PerJoint<Number>,
-    /// Greatest torque or force of a joint, by name, N m or N, instead of the URDF's.
-    #[serde(default)]
-    #[schemars(with = "BTreeMap<String, Positive>")]
-    pub effort: PerJoint<Number>,
-    /// True if motions respect the joints' efforts, with the masses of the URDF.
-    #[serde(default)]
-    pub dynamics: bool,
-    /// Acceleration of free fall in the robot's root frame, m/s2; by default [0, 0, -9.81].
-    #[schemars(with = "Option<[f64; 3]>")]
-    pub gravity: Option<Numbers>,
-    /// Whether links of the robot are obstacles to its other links; by default true.
-    pub(crate) own_body: Option<bool>,
-    /// Pairs of the robot's links that may touch each other.
-    #[schemars(with = "Option<Vec<[String; 2]>>")]
-    pub ignore_contact: Option<Vec<Spanned<Vec<Spanned<String>>>>>,
-    /// Radius of the capsule that stands in for a link without geometry, m.
-    #[schemars(with = "Option<Positive>")]
-    pub bar: Option<Number>,
-    /// The wrist that keeps or changes the orientation of objects carried with payload "level".
-    pub wrist: Option<WristTable>,
-    /// Motion of the tool down and up at picks and places; by default it does not move.
-    #[schemars(with = "Option<StrokeTable>")]
-    pub stroke: Option<StrokeTable>,
-    /// Overlap of strokes and turns of the wrist with motions of the arm.
-    #[schemars(with = "Option<ArchValue>")]
-    pub(crate) arch: Option<Spanned<ArchValue>>,
-    /// How objects are held unless they say otherwise; by default "rigid".
-    #[schemars(with = "Option<HeldAs>")]
-    pub payload: Option<Spanned<String>>,
+toml_table! {
+    /// Settings that complete or override the URDF. All keys are optional.
+    #[derive(Debug, Clone, Default, PartialEq)]
+    #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "robot"))]
+    pub struct RobotTable {
+        /// Position of the robot's root frame in the world, m; by default [0, 0].
+        #[cfg_attr(feature = "schema", schemars(with = "Option<NumberPair>"))]
+        pub at: Option<Numbers>,
+        /// Angle of its root frame, rad; by default 0.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<AngleOrLength>"))]
+        pub angle: Option<Written>,
+        /// The two joints that move, from the base to the tip; needed only if the URDF has more than two that can.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<[String; 2]>"))]
+        pub joints: Option<Spanned<Vec<Spanned<String>>>>,
+        /// Link whose origin is the tip; by default the end of the chain.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
+        pub tip: Option<Spanned<String>>,
+        /// Values of the other movable joints, by name, rad or m; by default 0, clamped into their limits.
+        #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, AngleOrLength>"))]
+        pub fixed: PerJoint<Written>,
+        /// Least and greatest value of a joint, by name, rad or m, instead of the URDF's.
+        #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, [AngleOrLength; 2]>"))]
+        pub limits: PerJoint<Spanned<Vec<Written>>>,
+        /// Top speed of a joint, by name, rad/s or m/s, instead of the URDF's.
+        #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
+        pub velocity: PerJoint<Number>,
+        /// Greatest acceleration of a joint, by name, rad/s2 or m/s2; by default top speed is reached in 0.25 s.
+        #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
+        pub acceleration: PerJoint<Number>,
+        /// Greatest jerk of a joint, by name, rad/s3 or m/s3; a joint without has no such limit.
+        #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
+        pub jerk: PerJoint<Number>,
+        /// Greatest torque or force of a joint, by name, N m or N, instead of the URDF's.
+        #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
+        pub effort: PerJoint<Number>,
+        /// True if motions respect the joints' efforts, with the masses of the URDF.
+        #[cfg_attr(feature = "schema", schemars(default))]
+        pub dynamics: bool,
+        /// Acceleration of free fall in the robot's root frame, m/s2; by default [0, 0, -9.81].
+        #[cfg_attr(feature = "schema", schemars(with = "Option<[f64; 3]>"))]
+        pub gravity: Option<Numbers>,
+        /// Whether links of the robot are obstacles to its other links; by default true.
+        pub(crate) own_body: Option<bool>,
+        /// Pairs of the robot's links that may touch each other.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<[String; 2]>>"))]
+        pub ignore_contact: Option<Vec<Spanned<Vec<Spanned<String>>>>>,
+        /// Radius of the capsule that stands in for a link without geometry, m.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<Positive>"))]
+        pub bar: Option<Number>,
+        /// The wrist that keeps or changes the orientation of objects carried with payload "level".
+        pub wrist: Option<WristTable>,
+        /// Motion of the tool down and up at picks and places; by default it does not move.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<StrokeTable>"))]
+        pub stroke: Option<StrokeTable>,
+        /// Overlap of strokes and turns of the wrist with motions of the arm.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<ArchValue>"))]
+        pub(crate) arch: Option<Spanned<ArchValue>>,
+        /// How objects are held unless they say otherwise; by default "rigid".
+        #[cfg_attr(feature = "schema", schemars(with = "Option<HeldAs>"))]
+        pub payload: Option<Spanned<String>>,
+    }
 }
 
 impl RobotTable {

@@ -1,4 +1,65 @@
-//! Types that represent fields in the JSON schema of files in TOML.
+//! JSON schemas of files in TOML, derived from the types that read them, and their files in `docs`. Only tests need them.
+
+pub use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use schemars::transform::{Transform, transform_subschemas};
+use schemars::{Schema, SchemaGenerator};
+use serde_json::Value;
+pub use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+/// Returns a generator of JSON schemas of files in TOML, in draft 7, which editors of TOML support.
+#[must_use]
+pub fn toml_schemas() -> SchemaGenerator {
+    let mut settings = SchemaSettings::draft07();
+    // First, because the draft's own transforms may apply to its result.
+    settings.transforms.insert(0, Box::new(TomlSchema));
+    settings.into_generator()
+}
+
+/// Compares a schema with its file in `docs`. If the environment has `CPLAN_WRITE_SCHEMAS`, writes the file instead.
+///
+/// # Panics
+/// A schema that differs from its file.
+pub fn compare_with_file(schema: Schema, name: &str) {
+    let mut schema = schema.to_value();
+    // In any order of serde_json's maps, which other crates may choose.
+    schema.sort_all_objects();
+    let text = format!("{schema:#}\n");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs").join(name);
+    if std::env::var_os("CPLAN_WRITE_SCHEMAS").is_some() {
+        fs::write(&file, &text).unwrap();
+    }
+    assert_eq!(text, fs::read_to_string(file).unwrap(), "run `just docs`");
+}
+
+/// Takes back that optional keys may be null, as TOML has no null, and the formats of numbers, which are Rust's.
+#[derive(Debug, Clone)]
+struct TomlSchema;
+
+impl Transform for TomlSchema {
+    fn transform(&mut self, schema: &mut Schema) {
+        transform_subschemas(self, schema);
+        let Some(object) = schema.as_object_mut() else { return };
+        object.remove("format");
+        if let Some(Value::Array(types)) = object.get_mut("type") {
+            types.retain(|name| name != "null");
+            if let [only] = &types[..] {
+                let only = only.clone();
+                object.insert("type".into(), only);
+            }
+        }
+        if let Some(Value::Array(choices)) = object.get_mut("anyOf") {
+            choices.retain(|choice| choice.get("type").is_none_or(|name| name != "null"));
+            if let [Value::Object(only)] = &choices[..] {
+                let only = only.clone();
+                object.remove("anyOf");
+                object.extend(only);
+            }
+        }
+    }
+}
 
 /// Two numbers.
 pub type NumberPair = [f64; 2];

@@ -3,34 +3,35 @@
 use super::assumed::assumed_acceleration_note;
 use super::error::Diagnostic;
 use super::quantity::{Number, PerJoint, find};
-use super::schema::Positive;
+#[cfg(feature = "schema")]
+use super::schema::*;
 use super::source::Source;
+use crate::toml_table;
 use cplan_handling::Wrist;
 use cplan_model::assumed_acceleration;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use toml::Spanned;
 
-/// The wrist's limits. It keeps the orientation of objects that are carried level, and turns them before a place with
-/// another angle. It turns while the arm moves, as far as that is free and both motions together are within these limits;
-/// with `arch = false`, while the arm is at rest.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "wrist")]
-pub struct WristTable {
-    /// The joint that it is, so that ROS 2 files have its values; without it they hold it still. Lines along which the tool
-    /// has an angle need it.
-    #[schemars(with = "Option<String>")]
-    pub joint: Option<Spanned<String>>,
-    /// Top speed, rad/s.
-    #[schemars(with = "Positive")]
-    pub velocity: Number,
-    /// Greatest acceleration, rad/s2; by default top speed is reached in 0.25 s.
-    #[schemars(with = "Option<Positive>")]
-    pub acceleration: Option<Number>,
-    /// Greatest jerk of its turns, rad/s3; by default the joint's, or else without limit.
-    #[schemars(with = "Option<Positive>")]
-    pub jerk: Option<Number>,
+toml_table! {
+    /// The wrist's limits. It keeps the orientation of objects that are carried level, and turns them before a place with
+    /// another angle. It turns while the arm moves, as far as that is free and both motions together are within these limits;
+    /// with `arch = false`, while the arm is at rest.
+    #[derive(Debug, Clone, PartialEq)]
+    #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "wrist"))]
+    pub struct WristTable {
+        /// The joint that it is, so that ROS 2 files have its values; without it they hold it still. Lines along which the tool
+        /// has an angle need it.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
+        pub joint: Option<Spanned<String>>,
+        /// Top speed, rad/s.
+        #[cfg_attr(feature = "schema", schemars(with = "Positive"))]
+        pub velocity: Number,
+        /// Greatest acceleration, rad/s2; by default top speed is reached in 0.25 s.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<Positive>"))]
+        pub acceleration: Option<Number>,
+        /// Greatest jerk of its turns, rad/s3; by default the joint's, or else without limit.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<Positive>"))]
+        pub jerk: Option<Number>,
+    }
 }
 
 impl WristTable {

@@ -61,14 +61,9 @@ impl Drawings {
             }
         }
         self.obstacles = self.obstacles.max(scene.workspace().obstacles.len());
-        let (start, goal) = match (problem.motion(), problem.task()) {
-            (Some(motion), _) => {
-                let topology = scene.arm().topology();
-                (Some(motion.start()), motion.goals().nearest(&topology, Metric::Euclidean, motion.start()))
-            }
-            (None, task) => (task.map(|task| task.start), None),
-        };
-        for (role, q) in [(GOAL, goal), (START, start)] {
+        let (start, goals) = (problem.query().start(), problem.query().goals());
+        let goal = goals.nearest(&scene.arm().topology(), Metric::Euclidean, start);
+        for (role, q) in [(GOAL, goal), (START, Some(start))] {
             if let Some(q) = q {
                 placed.extend(outlines(scene.arm(), scene, q).map(|outline| self.place(role, &outline)));
             }

@@ -8,7 +8,7 @@ use super::schema::{ParameterTable, StudyFile, Text};
 use super::template::{Place, Setting, Template, place};
 use cplan_robot::{Diagnostic, InputError, Quantity, RobotFile, Source};
 use cplan_solver::Options;
-use cplan_world::{Overrides, in_toml_words, scene_from};
+use cplan_world::{Overrides, scene_from};
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
@@ -126,14 +126,8 @@ fn usual_objective(measures: &[Measure]) -> Option<Objective> {
 
 impl Reader<'_> {
     fn parse(&self) -> Result<StudyFile, Diagnostic> {
-        toml::from_str(self.source.text()).map_err(|error| {
-            let message = in_toml_words(error.message());
-            let diagnostic = match error.span() {
-                Some(span) => self.source.diagnostic_at(span, message),
-                None => self.source.diagnostic(message),
-            };
-            diagnostic.help("`cplan help study` shows a study; `cplan schema study` prints the schema for editors")
-        })
+        let hint = "`cplan help study` shows a study; `cplan schema study` prints the schema for editors";
+        self.source.toml(&|_, _| hint)
     }
 
     fn parameters(&self, tables: &[Spanned<ParameterTable>]) -> Result<Vec<Parameter>, Diagnostic> {

@@ -37,7 +37,6 @@ pub use measure::{Condition, Measure, Objective};
 pub use parameter::{Parameter, Values};
 pub use pictures::pictures;
 pub use row::{Ending, Row};
-pub use schema::study_schema;
 pub use summary::Summary;
 
 use cplan_engine::{Plan, Problem, plan};

@@ -76,7 +76,7 @@ mod tests {
     use crate::plan;
     use cplan_model::Outcome;
     use cplan_robot::Source;
-    use cplan_world::{Overrides, scene_from};
+    use cplan_world::{Overrides, Rules, scene_from};
 
     fn plan_task(urdf: &str, world: &str, options: &Options) -> (Task, TaskAnswer) {
         let read = |file: &str| {
@@ -84,7 +84,7 @@ mod tests {
             Source::read(&path).unwrap()
         };
         let scene = scene_from(read(urdf), read(world)).unwrap();
-        let task = scene.task(&Overrides::default()).unwrap().task;
+        let task = scene.resolve(&Overrides::default(), Rules::Plan).unwrap().task.unwrap();
         let answer = plan(&task, options, &mut |_| ());
         (task, answer)
     }

@@ -19,7 +19,6 @@
 
 mod digest;
 mod ends;
-mod explorable;
 mod goal_table;
 mod group;
 mod help;
@@ -40,11 +39,11 @@ mod polygon;
 mod preference;
 mod preference_map;
 mod problem;
-mod query;
 mod range_sensor;
 mod reader;
 mod reasons;
 mod requirement;
+#[cfg(test)]
 mod schema;
 mod sensor;
 mod sequence;
@@ -60,21 +59,18 @@ mod world;
 mod world_map;
 
 pub use digest::Digests;
-pub use explorable::Explorable;
 pub use line_map::{Chain, LineMap};
 pub use line_table::{line_diagnostic, read_line};
 pub use occupancy::{MAX_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
-pub use query::LoadedEnds;
+pub use problem::Rules;
 pub use range_sensor::{Mount, Sensor};
-pub use schema::toml_schema;
 pub use suite::{ExcludedWorld, LoadedProblems, MANIFEST_NAME, Member, RefusedProblem, Suite, load_folder, load_suite};
-pub use task::LoadedTask;
 pub use trajectory::{AllJoints, LoadedRecording, load_recording, load_topic, read_recording};
 pub use values::{JointValues, Overrides, TipPoint};
-pub use world::{World, in_toml_words, world_schema};
+pub use world::World;
 
-use cplan_handling::{ObstacleTrajectory, RobotJoints, TimedScene, ToolJoint, Wrist, WristJoint};
+use cplan_handling::{ObstacleTrajectory, RobotJoints, Task, TimedScene, ToolJoint, Wrist, WristJoint};
 use cplan_model::{Arm, Goal, MotionProblem, Scene};
 use cplan_robot::{Diagnostic, InputError, Inspection, RobotFile, RobotReport, RobotTable, Source};
 use std::path::{Path, PathBuf};
@@ -105,21 +101,25 @@ pub struct LoadedScene {
     pub robot: RobotReport,
 }
 
-/// A planning problem, and how it was read.
+/// A motion or a task, and how it was read.
 #[derive(Debug, Clone)]
 pub struct LoadedProblem {
-    /// Scene, start and goals. Start and goals are free and within the limits.
+    /// Scene, start and goals. Unless the [`Rules`] say otherwise, start and goals are free and within the limits. A task
+    /// has no goals, and its objects are at their initial places.
     pub problem: MotionProblem,
+    /// The stated goals, which may be out of reach. Empty if the rules check goals.
+    pub stated_goals: Vec<Goal>,
+    /// The task. `None` for a motion.
+    pub task: Option<Task>,
     /// The trajectories of the scene's loose obstacles.
     pub trajectories: Vec<ObstacleTrajectory>,
     /// Report on how the robot was read.
     pub robot: RobotReport,
-    /// Notes for the user about the goal: blocked IK solutions, joints whose value does not matter.
+    /// Notes for the user: defaults, blocked IK solutions of the goal, joints whose value does not matter.
     pub notes: Vec<String>,
 }
 
-/// Reads a robot and a world. Does not check start, goal and steps: see [`LoadedScene::problem`] and
-/// [`LoadedScene::task`].
+/// Reads a robot and a world. Does not check start, goal and steps: see [`LoadedScene::resolve`].
 ///
 /// # Errors
 /// [`InputError`] with all defects of the files themselves.
@@ -219,6 +219,13 @@ impl LoadedScene {
         })
     }
 
+    /// Returns the sensor of the world. Properties that the world file does not state are those of [`Sensor::default_for`].
+    #[must_use]
+    pub fn sensor(&self) -> Sensor {
+        let turn = self.world.place.as_ref().map_or(0.0, |place| place.rotation.angle());
+        self.world.sensor.completed_by(Sensor { turn, ..Sensor::default_for(self.scene.arm()) })
+    }
+
     /// Returns the paths of all files that were read: those of the robot, then those of the world.
     #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
@@ -308,12 +315,10 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
             let trajectories = inspection.trajectories.clone();
             LoadedScene { scene, trajectories, world: file, arm, robot: RobotReport::default() }
         });
-        let overrides = Overrides::default();
-        let query = loaded.and_then(|l| match l.is_task() {
-            // The joints of the tool are not known here.
-            true if !l.has_steps() => None,
-            true => l.task(&overrides).err().map(|e| ("task", e)),
-            false => l.problem(&overrides).err().map(|e| ("start and goal", e)),
+        // The joints of the tool are not known here.
+        let query = loaded.filter(|loaded| loaded.has_steps() || !loaded.is_task()).and_then(|loaded| {
+            let what = if loaded.has_steps() { "task" } else { "start and goal" };
+            loaded.resolve(&Overrides::default(), Rules::Plan).err().map(|error| (what, error))
         });
         if let Some((what, error)) = query {
             inspection.warnings.extend(error.diagnostics().iter().map(|d| format!("{what}: {}", d.message)));

@@ -2,68 +2,63 @@
 
 use super::line_wrist::{self, WristValue};
 use super::reader::Reader;
-use super::schema::NotNegative;
-use super::world::in_toml_words;
+#[cfg(test)]
+use super::schema::*;
 use cplan_handling::{DEFAULT_TOLERANCE, FollowedLine, MIN_TOLERANCE};
-use cplan_robot::{
-    AngleOrLength, Diagnostic, InputError, Number, NumberPair, Numbers, Position, Positive, Source, Written, read_bytes,
-};
+use cplan_robot::{Diagnostic, InputError, Number, Numbers, Position, Source, Written, read_bytes, toml_table};
 use cplan_toolpath::{Curve, Error, Format, Leg, Piece, Placement, Toolpath, Unit, arc_through, polyline, spline};
-use schemars::JsonSchema;
-use serde::Deserialize;
 use std::ops::Range;
 use std::sync::Arc;
 use toml::Spanned;
 
-/// A line for the tip: exactly one of file, points, arc and spline. It is scaled, then turned, then moved.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "follow", extend(
-    "oneOf" = [{ "required": ["file"] }, { "required": ["points"] }, { "required": ["arc"] }, { "required": ["spline"] }],
-    "dependencies" = { "radius": ["points"], "unit": ["file"], "wrist_tolerance": ["wrist"] },
-))]
-pub(super) struct LineTable {
-    /// G-code (.gcode, .nc, .ngc, .tap) or a drawing (.svg), named relative to this file.
-    #[schemars(with = "Option<String>")]
-    file: Option<Spanned<String>>,
-    /// Points that straight lines join, m.
-    #[schemars(with = "Option<Vec<NumberPair>>", length(min = 2))]
-    points: Option<Spanned<Vec<Numbers>>>,
-    /// Radius of the arcs that replace the corners of `points`, m; by default 0.
-    #[schemars(with = "Option<NotNegative>")]
-    radius: Option<Number>,
-    /// An arc of a circle from the first point through the second to the third, m.
-    #[schemars(with = "Option<[NumberPair; 3]>")]
-    arc: Option<Spanned<Vec<Numbers>>>,
-    /// Points that a smooth curve joins, m: a cubic spline. It is closed if the last point is the first.
-    #[schemars(with = "Option<Vec<NumberPair>>", length(min = 2))]
-    spline: Option<Spanned<Vec<Numbers>>>,
-    /// Greatest speed of the tip, m/s; by default the speeds of the file, and else as fast as the joints allow.
-    #[schemars(with = "Option<Positive>")]
-    speed: Option<Number>,
-    /// Greatest distance of the tip from the line, m; by default 0.00001.
-    #[schemars(with = "Option<Positive>")]
-    tolerance: Option<Number>,
-    /// Unit of the file's numbers, such as "mm"; by default the unit that the file states.
-    #[schemars(with = "Option<String>")]
-    unit: Option<Spanned<String>>,
-    /// Factor by which the line is scaled about its origin; by default 1.
-    #[schemars(with = "Option<Positive>")]
-    scale: Option<Number>,
-    /// Angle by which the line is turned about its origin, rad; by default 0.
-    #[schemars(with = "Option<AngleOrLength>")]
-    turn: Option<Written>,
-    /// Position of the line's origin, m; by default [0, 0].
-    #[serde(rename = "move")]
-    #[schemars(with = "Option<NumberPair>")]
-    shift: Option<Numbers>,
-    /// Angle of the tool along the line.
-    #[schemars(with = "Option<WristValue>")]
-    wrist: Option<Spanned<WristValue>>,
-    /// Greatest difference from that angle, rad; by default 0.01. The arm rests at corners where the line turns by more,
-    /// while the tool turns.
-    #[schemars(with = "Option<AngleOrLength>")]
-    wrist_tolerance: Option<Written>,
+toml_table! {
+    /// A line for the tip: exactly one of file, points, arc and spline. It is scaled, then turned, then moved.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "follow", extend(
+        "oneOf" = [{ "required": ["file"] }, { "required": ["points"] }, { "required": ["arc"] }, { "required": ["spline"] }],
+        "dependencies" = { "radius": ["points"], "unit": ["file"], "wrist_tolerance": ["wrist"] },
+    )))]
+    pub(super) struct LineTable {
+        /// G-code (.gcode, .nc, .ngc, .tap) or a drawing (.svg), named relative to this file.
+        #[cfg_attr(test, schemars(with = "Option<String>"))]
+        file: Option<Spanned<String>>,
+        /// Points that straight lines join, m.
+        #[cfg_attr(test, schemars(with = "Option<Vec<NumberPair>>", length(min = 2)))]
+        points: Option<Spanned<Vec<Numbers>>>,
+        /// Radius of the arcs that replace the corners of `points`, m; by default 0.
+        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
+        radius: Option<Number>,
+        /// An arc of a circle from the first point through the second to the third, m.
+        #[cfg_attr(test, schemars(with = "Option<[NumberPair; 3]>"))]
+        arc: Option<Spanned<Vec<Numbers>>>,
+        /// Points that a smooth curve joins, m: a cubic spline. It is closed if the last point is the first.
+        #[cfg_attr(test, schemars(with = "Option<Vec<NumberPair>>", length(min = 2)))]
+        spline: Option<Spanned<Vec<Numbers>>>,
+        /// Greatest speed of the tip, m/s; by default the speeds of the file, and else as fast as the joints allow.
+        #[cfg_attr(test, schemars(with = "Option<Positive>"))]
+        speed: Option<Number>,
+        /// Greatest distance of the tip from the line, m; by default 0.00001.
+        #[cfg_attr(test, schemars(with = "Option<Positive>"))]
+        tolerance: Option<Number>,
+        /// Unit of the file's numbers, such as "mm"; by default the unit that the file states.
+        #[cfg_attr(test, schemars(with = "Option<String>"))]
+        unit: Option<Spanned<String>>,
+        /// Factor by which the line is scaled about its origin; by default 1.
+        #[cfg_attr(test, schemars(with = "Option<Positive>"))]
+        scale: Option<Number>,
+        /// Angle by which the line is turned about its origin, rad; by default 0.
+        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
+        turn: Option<Written>,
+        /// Position of the line's origin, m; by default [0, 0].
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        r#move: Option<Numbers>,
+        /// Angle of the tool along the line.
+        #[cfg_attr(test, schemars(with = "Option<WristValue>"))]
+        wrist: Option<Spanned<WristValue>>,
+        /// Greatest difference from that angle, rad; by default 0.01. The arm rests at corners where the line turns by more,
+        /// while the tool turns.
+        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
+        wrist_tolerance: Option<Written>,
+    }
 }
 
 /// A function that returns the curves through points.
@@ -74,12 +69,7 @@ type LegsThrough<'a> = &'a dyn Fn(&[[f64; 2]]) -> Result<Vec<Leg>, Error>;
 /// # Errors
 /// Malformed TOML, unknown keys, invalid values, and defects of the file that it names.
 pub fn read_line(source: &Source) -> Result<FollowedLine, InputError> {
-    let table: LineTable = toml::from_str(source.text()).map_err(|error| {
-        let at = error.span().unwrap_or(0..0);
-        source
-            .diagnostic_at(at, in_toml_words(error.message()))
-            .help("points = [[x, y], [x, y]], with keys as in `follow` of a step")
-    })?;
+    let table: LineTable = source.toml(&|_, _| "points = [[x, y], [x, y]], with keys as in `follow` of a step")?;
     Ok(table.read(&Reader::new(source), 0..0)?)
 }
 
@@ -145,7 +135,7 @@ impl LineTable {
         });
         let scale = self.scale.as_ref().map(|scale| positive(reader, scale, "scale")).transpose()?;
         let turn = self.turn.as_ref().map(|turn| reader.quantity(turn, "turn")).transpose()?;
-        let shift = self.shift.as_ref().map(|shift| reader.number_pair(shift, "move")).transpose()?;
+        let shift = self.r#move.as_ref().map(|shift| reader.number_pair(shift, "move")).transpose()?;
         Ok(Placement {
             unit: unit.transpose()?,
             scale: scale.unwrap_or(1.0),

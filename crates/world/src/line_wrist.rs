@@ -1,22 +1,19 @@
 //! The angle of the tool along a line: the keys `wrist` and `wrist_tolerance`.
 
 use super::reader::Reader;
+#[cfg(test)]
+use super::schema::*;
 use cplan_handling::{DEFAULT_WRIST_TOLERANCE, MAX_WRIST_TOLERANCE, MIN_WRIST_TOLERANCE, ToolAngle, WristGuide};
-use cplan_robot::{AngleOrLength, Diagnostic, Written};
-use schemars::JsonSchema;
-use serde::de::value::{F64Deserializer, MapAccessDeserializer, StrDeserializer};
-use serde::de::{Error, MapAccess, Visitor};
-use serde::{Deserialize, Deserializer};
-use std::fmt::{self, Formatter};
+use cplan_robot::{Diagnostic, FromToml, Quantity, TomlError, TomlValue, Written, number, toml_table};
 use toml::Spanned;
+use toml::de::DeValue;
 
 /// Angle of the tool, which the wrist keeps along the line: rad from the x axis; "tangent" for the direction of the line; or
 /// an angle from that direction. By default any. It needs [robot] wrist with a joint.
-#[derive(JsonSchema)]
-#[schemars(inline, untagged)]
+#[cfg_attr(test, derive(JsonSchema), schemars(inline, untagged))]
 pub(super) enum WristValue {
     /// Angle of the tool from the x axis, rad.
-    Fixed(#[schemars(with = "AngleOrLength")] f64),
+    Fixed(#[cfg_attr(test, schemars(with = "AngleOrLength"))] f64),
     /// The tool points along the line.
     Tangent(TangentWord),
     /// The tool's angle from the direction of the line.
@@ -24,57 +21,33 @@ pub(super) enum WristValue {
 }
 
 /// The word for the direction of the line.
-#[derive(JsonSchema)]
-#[schemars(inline)]
-#[serde(rename_all = "snake_case")]
+#[cfg_attr(test, derive(JsonSchema), schemars(inline, rename_all = "snake_case"))]
 pub(super) enum TangentWord {
     Tangent,
 }
 
-/// The angle of the tool from the direction of the line.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "tangent")]
-pub(super) struct TangentTable {
-    /// Angle from the direction of the line to the tool, rad, counter-clockwise.
-    #[schemars(with = "AngleOrLength")]
-    tangent: Written,
+toml_table! {
+    /// The angle of the tool from the direction of the line.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "tangent"))]
+    pub(super) struct TangentTable {
+        /// Angle from the direction of the line to the tool, rad, counter-clockwise.
+        #[cfg_attr(test, schemars(with = "AngleOrLength"))]
+        tangent: Written,
+    }
 }
 
-impl<'de> Deserialize<'de> for WristValue {
-    /// Reads the value without a buffer, so that its numbers keep their places in the file.
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct ValueVisitor;
-        impl<'de> Visitor<'de> for ValueVisitor {
-            type Value = WristValue;
-
-            fn expecting(&self, formatter: &mut Formatter) -> fmt::Result {
-                formatter.write_str("an angle, \"tangent\", or { tangent = 0.5 }")
+impl FromToml for WristValue {
+    fn read(value: &TomlValue) -> Result<Self, TomlError> {
+        match value.get_ref() {
+            DeValue::String(word) if word == "tangent" => Ok(Self::Tangent(TangentWord::Tangent)),
+            DeValue::String(text) => {
+                let wrong = || format!("expected an angle such as \"30deg\", or \"tangent\", found \"{text}\"");
+                let angle = Quantity::degrees(text).ok_or_else(|| TomlError::new(value, wrong()))?;
+                Ok(Self::Fixed(angle.value))
             }
-
-            fn visit_f64<E: Error>(self, value: f64) -> Result<WristValue, E> {
-                f64::deserialize(F64Deserializer::new(value)).map(WristValue::Fixed)
-            }
-
-            fn visit_i64<E: Error>(self, value: i64) -> Result<WristValue, E> {
-                self.visit_f64(value as f64)
-            }
-
-            fn visit_str<E: Error>(self, text: &str) -> Result<WristValue, E> {
-                if text == "tangent" {
-                    return Ok(WristValue::Tangent(TangentWord::Tangent));
-                }
-                let wrong =
-                    || E::custom(format!("expected an angle such as \"30deg\", or \"tangent\", found \"{text}\""));
-                let angle = cplan_robot::Quantity::deserialize(StrDeserializer::<E>::new(text)).map_err(|_| wrong())?;
-                Ok(WristValue::Fixed(angle.value))
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<WristValue, A::Error> {
-                TangentTable::deserialize(MapAccessDeserializer::new(map)).map(WristValue::Offset)
-            }
+            DeValue::Table(_) => TangentTable::read(value).map(Self::Offset),
+            _ => number(value, "an angle, \"tangent\", or { tangent = 0.5 }").map(Self::Fixed),
         }
-        deserializer.deserialize_any(ValueVisitor)
     }
 }
 

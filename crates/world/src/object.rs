@@ -5,69 +5,68 @@ use super::obstacle_trajectory::ObstacleTrajectoryTable;
 use super::pallet::Pallets;
 use super::polygon::{Ring, polygon};
 use super::reader::Reader;
-use super::schema::{NotNegative, Rings};
+#[cfg(test)]
+use super::schema::*;
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{Holding, MovingObstacle, Object, ObstacleTrajectory};
 use cplan_model::Obstacle;
-use cplan_robot::{AngleOrLength, Diagnostic, HeldAs, Number, NumberPair, Numbers, Written, quoted};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use cplan_robot::{Diagnostic, Number, Numbers, Written, quoted, toml_table};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 
-/// Something that can be picked and placed; an obstacle wherever it lies.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "object", extend("allOf" = [
-    { "oneOf": [{ "required": ["polygon"] }, { "required": ["circle"] }] },
-    { "oneOf": [{ "required": ["at"] }, { "required": ["pallet"] }] }
-]))]
-pub(super) struct ObjectTable {
-    /// Unique name among objects and obstacles. For objects on a pallet it is the part before row and column: "NAME
-    /// 2,3".
-    #[schemars(with = "String")]
-    name: Spanned<String>,
-    /// Corners in its own frame, in order round the shape, m; may be non-convex and touch itself in points, but not cross
-    /// itself. Or a list of such rings: the outer one, then holes.
-    #[schemars(with = "Option<Rings>")]
-    polygon: Option<Ring>,
-    /// A disc in its own frame.
-    circle: Option<CircleTable>,
-    /// Initial position of its origin, m.
-    #[schemars(with = "Option<NumberPair>")]
-    at: Option<Numbers>,
-    /// Instead of `at`: a pallet that has one such object on each place initially.
-    #[schemars(with = "Option<String>")]
-    pallet: Option<Spanned<String>>,
-    /// Initial angle, rad, relative to the pallet if there is one; by default 0.
-    #[schemars(with = "Option<AngleOrLength>")]
-    angle: Option<Written>,
-    /// Its extent along the plane's normal at its resting place, m; by default all heights.
-    #[schemars(with = "Option<NumberPair>")]
-    height: Option<Numbers>,
-    /// Height by which it is raised while it is carried, m; by default 0.
-    #[schemars(with = "Option<NotNegative>")]
-    lift: Option<Number>,
-    /// Its mass, kg, distributed evenly over its outline; by default 0. Used for torques.
-    #[schemars(with = "Option<NotNegative>")]
-    mass: Option<Number>,
-    /// How the gripper holds the object; by default as `payload` in [robot] says.
-    #[schemars(with = "Option<HeldAs>")]
-    payload: Option<Spanned<String>>,
-    /// The point of it that the tip goes to, in its own frame, m; by default its origin.
-    #[schemars(with = "Option<NumberPair>")]
-    grasp: Option<Numbers>,
-    /// Obstacles and objects that it may touch where it is picked and placed.
-    #[schemars(with = "Option<Vec<String>>")]
-    supports: Option<NameList>,
-    /// True if each repetition of the steps that pick it finds a new one at its initial place. The old one disappears
-    /// when the arm moves on.
-    #[serde(default)]
-    renew: bool,
-    /// Its motion from `at`, until it is picked; by default it is static.
-    #[schemars(with = "Option<ObstacleTrajectoryTable>")]
-    motion: Option<Spanned<ObstacleTrajectoryTable>>,
+toml_table! {
+    /// Something that can be picked and placed; an obstacle wherever it lies.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "object", extend("allOf" = [
+        { "oneOf": [{ "required": ["polygon"] }, { "required": ["circle"] }] },
+        { "oneOf": [{ "required": ["at"] }, { "required": ["pallet"] }] }
+    ])))]
+    pub(super) struct ObjectTable {
+        /// Unique name among objects and obstacles. For objects on a pallet it is the part before row and column: "NAME
+        /// 2,3".
+        #[cfg_attr(test, schemars(with = "String"))]
+        name: Spanned<String>,
+        /// Corners in its own frame, in order round the shape, m; may be non-convex and touch itself in points, but not cross
+        /// itself. Or a list of such rings: the outer one, then holes.
+        #[cfg_attr(test, schemars(with = "Option<Rings>"))]
+        polygon: Option<Ring>,
+        /// A disc in its own frame.
+        circle: Option<CircleTable>,
+        /// Initial position of its origin, m.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        at: Option<Numbers>,
+        /// Instead of `at`: a pallet that has one such object on each place initially.
+        #[cfg_attr(test, schemars(with = "Option<String>"))]
+        pallet: Option<Spanned<String>>,
+        /// Initial angle, rad, relative to the pallet if there is one; by default 0.
+        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
+        angle: Option<Written>,
+        /// Its extent along the plane's normal at its resting place, m; by default all heights.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        height: Option<Numbers>,
+        /// Height by which it is raised while it is carried, m; by default 0.
+        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
+        lift: Option<Number>,
+        /// Its mass, kg, distributed evenly over its outline; by default 0. Used for torques.
+        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
+        mass: Option<Number>,
+        /// How the gripper holds the object; by default as `payload` in [robot] says.
+        #[cfg_attr(test, schemars(with = "Option<HeldAs>"))]
+        payload: Option<Spanned<String>>,
+        /// The point of it that the tip goes to, in its own frame, m; by default its origin.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        grasp: Option<Numbers>,
+        /// Obstacles and objects that it may touch where it is picked and placed.
+        #[cfg_attr(test, schemars(with = "Option<Vec<String>>"))]
+        supports: Option<NameList>,
+        /// True if each repetition of the steps that pick it finds a new one at its initial place. The old one disappears
+        /// when the arm moves on.
+        #[cfg_attr(test, schemars(default))]
+        renew: bool,
+        /// Its motion from `at`, until it is picked; by default it is static.
+        #[cfg_attr(test, schemars(with = "Option<ObstacleTrajectoryTable>"))]
+        motion: Option<Spanned<ObstacleTrajectoryTable>>,
+    }
 }
 
 /// A list of names, each with its position in the file.

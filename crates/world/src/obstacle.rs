@@ -4,71 +4,68 @@ use super::obstacle_trajectory::ObstacleTrajectoryTable;
 use super::occupancy::OccupancyMap;
 use super::polygon::{Ring, polygon, polyline};
 use super::reader::Reader;
-use super::schema::{Corners, Rings, UnknownAs};
+#[cfg(test)]
+use super::schema::*;
 use cplan_geometry::{Convex, Pose};
 use cplan_handling::MovingObstacle;
 use cplan_model::{Obstacle, Shape};
-use cplan_robot::{AngleOrLength, Diagnostic, InputError, Number, NumberPair, Numbers, Positive, Written};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use cplan_robot::{Diagnostic, InputError, Number, Numbers, Written, toml_table};
 use toml::Spanned;
 
-/// An obstacle, which the arm must not touch: exactly one of polygon, circle, polyline and image.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "obstacle", extend(
-    "oneOf" = [
-        { "required": ["polygon"] }, { "required": ["circle"] }, { "required": ["polyline"] }, { "required": ["image"] }
-    ],
-    "dependencies" = { "unknown": ["image"], "holes": ["polygon"] },
-))]
-pub(super) struct ObstacleTable {
-    /// Name in messages and pictures. Several obstacles may have the same name.
-    name: Option<String>,
-    /// Corners in order round the shape, m; may be non-convex and touch itself in points, but not cross itself. Or, as in
-    /// GeoJSON, a list of such rings: the outer one, then holes.
-    #[schemars(with = "Option<Rings>")]
-    polygon: Option<Ring>,
-    /// Rings of corners inside the polygon, whose insides are free.
-    #[schemars(with = "Option<Vec<Corners>>")]
-    holes: Option<Spanned<Vec<Ring>>>,
-    /// A disc.
-    circle: Option<CircleTable>,
-    /// Points of a thin wall, m: no area, still solid.
-    #[schemars(with = "Option<Vec<NumberPair>>", length(min = 2))]
-    polyline: Option<Ring>,
-    /// An occupancy map: the YAML of ROS's map server, which names a PGM or PNG. Relative to this file.
-    #[schemars(with = "Option<String>")]
-    image: Option<Spanned<String>>,
-    /// Kind of the unknown cells of an image; by default "solid".
-    #[schemars(with = "Option<UnknownAs>")]
-    unknown: Option<Spanned<String>>,
-    /// Origin of its own frame, in which its points are given, m; by default that of the world.
-    #[schemars(with = "Option<NumberPair>")]
-    at: Option<Numbers>,
-    /// Angle of its frame, rad; by default 0.
-    #[schemars(with = "Option<AngleOrLength>")]
-    angle: Option<Written>,
-    /// Motion of its frame in time; by default it is static.
-    #[schemars(with = "Option<ObstacleTrajectoryTable>")]
-    motion: Option<Spanned<ObstacleTrajectoryTable>>,
-    /// Its extent along the plane's normal, m. Only parts of the arm at these heights can touch it; by default all
-    /// heights.
-    #[schemars(with = "Option<NumberPair>")]
-    height: Option<Numbers>,
-}
+toml_table! {
+    /// An obstacle, which the arm must not touch: exactly one of polygon, circle, polyline and image.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "obstacle", extend(
+        "oneOf" = [
+            { "required": ["polygon"] }, { "required": ["circle"] }, { "required": ["polyline"] }, { "required": ["image"] }
+        ],
+        "dependencies" = { "unknown": ["image"], "holes": ["polygon"] },
+    )))]
+    pub(super) struct ObstacleTable {
+        /// Name in messages and pictures. Several obstacles may have the same name.
+        name: Option<String>,
+        /// Corners in order round the shape, m; may be non-convex and touch itself in points, but not cross itself. Or, as in
+        /// GeoJSON, a list of such rings: the outer one, then holes.
+        #[cfg_attr(test, schemars(with = "Option<Rings>"))]
+        polygon: Option<Ring>,
+        /// Rings of corners inside the polygon, whose insides are free.
+        #[cfg_attr(test, schemars(with = "Option<Vec<Corners>>"))]
+        holes: Option<Spanned<Vec<Ring>>>,
+        /// A disc.
+        circle: Option<CircleTable>,
+        /// Points of a thin wall, m: no area, still solid.
+        #[cfg_attr(test, schemars(with = "Option<Vec<NumberPair>>", length(min = 2)))]
+        polyline: Option<Ring>,
+        /// An occupancy map: the YAML of ROS's map server, which names a PGM or PNG. Relative to this file.
+        #[cfg_attr(test, schemars(with = "Option<String>"))]
+        image: Option<Spanned<String>>,
+        /// Kind of the unknown cells of an image; by default "solid".
+        #[cfg_attr(test, schemars(with = "Option<UnknownAs>"))]
+        unknown: Option<Spanned<String>>,
+        /// Origin of its own frame, in which its points are given, m; by default that of the world.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        at: Option<Numbers>,
+        /// Angle of its frame, rad; by default 0.
+        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
+        angle: Option<Written>,
+        /// Motion of its frame in time; by default it is static.
+        #[cfg_attr(test, schemars(with = "Option<ObstacleTrajectoryTable>"))]
+        motion: Option<Spanned<ObstacleTrajectoryTable>>,
+        /// Its extent along the plane's normal, m. Only parts of the arm at these heights can touch it; by default all
+        /// heights.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        height: Option<Numbers>,
+    }
 
-/// A disc.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "circle")]
-pub(super) struct CircleTable {
-    /// Coordinates of its centre, m.
-    #[schemars(with = "NumberPair")]
-    center: Numbers,
-    /// Radius, m.
-    #[schemars(with = "Positive")]
-    radius: Number,
+    /// A disc.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "circle"))]
+    pub(super) struct CircleTable {
+        /// Coordinates of its centre, m.
+        #[cfg_attr(test, schemars(with = "NumberPair"))]
+        center: Numbers,
+        /// Radius, m.
+        #[cfg_attr(test, schemars(with = "Positive"))]
+        radius: Number,
+    }
 }
 
 /// Largest number of convex pieces of a map. With more pieces, each planner takes minutes.

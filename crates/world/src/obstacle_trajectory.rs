@@ -1,44 +1,41 @@
 //! The key `motion` of `[[obstacle]]` and `[[object]]` in the world file: how the obstacle moves while the arm does.
 
 use super::reader::Reader;
-use super::schema::NotNegative;
+#[cfg(test)]
+use super::schema::*;
 use cplan_geometry::{Pose, Vector};
 use cplan_handling::{ObstacleTrajectory, ObstacleTrajectoryError, Stop};
-use cplan_robot::{AngleOrLength, Diagnostic, Number, NumberPair, Numbers, Written};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use cplan_robot::{Diagnostic, Number, Numbers, Written, toml_table};
 use toml::Spanned;
 
-/// The motion of an obstacle: straight and at constant speed from stop to stop, then at a constant velocity. At least
-/// one of both keys.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "motion", extend("anyOf" = [{ "required": ["stops"] }, { "required": ["velocity"] }]))]
-pub(super) struct ObstacleTrajectoryTable {
-    /// Positions at increasing times. Before the first the obstacle waits there. By default there is a single stop at
-    /// time 0.
-    #[schemars(with = "Option<Vec<StopTable>>", length(min = 1))]
-    stops: Option<Spanned<Vec<Spanned<StopTable>>>>,
-    /// Velocity after the last stop, m/s, as on a conveyor. By default the obstacle stays there.
-    #[schemars(with = "Option<NumberPair>")]
-    velocity: Option<Numbers>,
-}
+toml_table! {
+    /// The motion of an obstacle: straight and at constant speed from stop to stop, then at a constant velocity. At least
+    /// one of both keys.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "motion", extend("anyOf" = [{ "required": ["stops"] }, { "required": ["velocity"] }])))]
+    pub(super) struct ObstacleTrajectoryTable {
+        /// Positions at increasing times. Before the first the obstacle waits there. By default there is a single stop at
+        /// time 0.
+        #[cfg_attr(test, schemars(with = "Option<Vec<StopTable>>", length(min = 1)))]
+        stops: Option<Spanned<Vec<Spanned<StopTable>>>>,
+        /// Velocity after the last stop, m/s, as on a conveyor. By default the obstacle stays there.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        velocity: Option<Numbers>,
+    }
 
-/// The position of an obstacle at a time.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "stop")]
-pub(super) struct StopTable {
-    /// Seconds since the arm's motion begins.
-    #[schemars(with = "NotNegative")]
-    time: Number,
-    /// The origin of its own frame then, m; by default the obstacle's `at`.
-    #[schemars(with = "Option<NumberPair>")]
-    at: Option<Numbers>,
-    /// Angle of its frame at that time, rad; by default the obstacle's `angle`. It turns by the difference, including
-    /// whole turns.
-    #[schemars(with = "Option<AngleOrLength>")]
-    angle: Option<Written>,
+    /// The position of an obstacle at a time.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "stop"))]
+    pub(super) struct StopTable {
+        /// Seconds since the arm's motion begins.
+        #[cfg_attr(test, schemars(with = "NotNegative"))]
+        time: Number,
+        /// The origin of its own frame then, m; by default the obstacle's `at`.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        at: Option<Numbers>,
+        /// Angle of its frame at that time, rad; by default the obstacle's `angle`. It turns by the difference, including
+        /// whole turns.
+        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
+        angle: Option<Written>,
+    }
 }
 
 impl ObstacleTrajectoryTable {

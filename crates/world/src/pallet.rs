@@ -1,37 +1,37 @@
 //! The world file's `[[pallet]]`: places in rows and columns.
 
 use super::reader::Reader;
+#[cfg(test)]
+use super::schema::*;
 use cplan_geometry::{Point, Pose};
-use cplan_robot::{AngleOrLength, Diagnostic, NumberPair, Numbers, Written, quoted};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use cplan_robot::{Diagnostic, Numbers, Written, quoted, toml_table};
 use std::collections::BTreeMap;
 use toml::Spanned;
 
-/// Places in rows and columns, for objects to lie on and to be placed on: "NAME 1,1", "NAME 1,2", and so on, row and column
-/// from 1.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "pallet")]
-pub(super) struct PalletTable {
-    /// A name that no other pallet has.
-    #[schemars(with = "String")]
-    name: Spanned<String>,
-    /// Number of rows.
-    #[schemars(with = "i64", range(min = 1))]
-    rows: Spanned<i64>,
-    /// Number of places per row.
-    #[schemars(with = "i64", range(min = 1))]
-    columns: Spanned<i64>,
-    /// Distances between columns, along the pallet's x, and between rows, along its y, m; may be negative.
-    #[schemars(with = "NumberPair")]
-    pitch: Numbers,
-    /// Position of the place in row 1 and column 1, m.
-    #[schemars(with = "NumberPair")]
-    at: Numbers,
-    /// Angle of the pallet about that place, rad; by default 0. Objects on it turn with it.
-    #[schemars(with = "Option<AngleOrLength>")]
-    angle: Option<Written>,
+toml_table! {
+    /// Places in rows and columns, for objects to lie on and to be placed on: "NAME 1,1", "NAME 1,2", and so on, row and column
+    /// from 1.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "pallet"))]
+    pub(super) struct PalletTable {
+        /// A name that no other pallet has.
+        #[cfg_attr(test, schemars(with = "String"))]
+        name: Spanned<String>,
+        /// Number of rows.
+        #[cfg_attr(test, schemars(with = "i64", range(min = 1)))]
+        rows: Spanned<i64>,
+        /// Number of places per row.
+        #[cfg_attr(test, schemars(with = "i64", range(min = 1)))]
+        columns: Spanned<i64>,
+        /// Distances between columns, along the pallet's x, and between rows, along its y, m; may be negative.
+        #[cfg_attr(test, schemars(with = "NumberPair"))]
+        pitch: Numbers,
+        /// Position of the place in row 1 and column 1, m.
+        #[cfg_attr(test, schemars(with = "NumberPair"))]
+        at: Numbers,
+        /// Angle of the pallet about that place, rad; by default 0. Objects on it turn with it.
+        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
+        angle: Option<Written>,
+    }
 }
 
 /// Largest number of places of a pallet. No machine has more.

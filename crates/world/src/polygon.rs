@@ -3,10 +3,7 @@
 use super::reader::Reader;
 use cplan_geometry::{Convex, Point, Polygon, Pose, RingError, SimplePolygon};
 use cplan_model::Shape;
-use cplan_robot::{Diagnostic, Number};
-use serde::de::{SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer};
-use std::fmt;
+use cplan_robot::{Diagnostic, FromToml, Number, TomlError, TomlValue, number};
 use toml::Spanned;
 
 /// A number, or a list of coordinates. So it can be a point, a ring, or GeoJSON's list of rings.
@@ -18,35 +15,12 @@ pub(super) enum Coordinates {
 /// Coordinates with their position in the file.
 pub(super) type Ring = Spanned<Coordinates>;
 
-impl<'de> Deserialize<'de> for Coordinates {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(CoordinatesVisitor)
-    }
-}
-
-struct CoordinatesVisitor;
-
-impl<'de> Visitor<'de> for CoordinatesVisitor {
-    type Value = Coordinates;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a list of points: [[x, y], ...]")
-    }
-
-    fn visit_f64<E>(self, value: f64) -> Result<Coordinates, E> {
-        Ok(Coordinates::Number(value))
-    }
-
-    fn visit_i64<E>(self, value: i64) -> Result<Coordinates, E> {
-        Ok(Coordinates::Number(value as f64))
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Coordinates, A::Error> {
-        let mut items = Vec::new();
-        while let Some(item) = list.next_element()? {
-            items.push(item);
+impl FromToml for Coordinates {
+    fn read(value: &TomlValue) -> Result<Self, TomlError> {
+        match value.get_ref().as_array() {
+            Some(_) => FromToml::read(value).map(Self::List),
+            None => number(value, "a list of points: [[x, y], ...]").map(Self::Number),
         }
-        Ok(Coordinates::List(items))
     }
 }
 

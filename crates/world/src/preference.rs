@@ -2,33 +2,32 @@
 
 use super::polygon::{Ring, simple_polygon};
 use super::reader::Reader;
-use super::schema::Corners;
+#[cfg(test)]
+use super::schema::*;
 use cplan_geometry::SimplePolygon;
 use cplan_model::{Preference, Region};
-use cplan_robot::{Diagnostic, Number, NumberPair, Numbers};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use cplan_robot::{Diagnostic, Number, Numbers, toml_table};
 use toml::Spanned;
 
-/// A region that field planners prefer or avoid: where the tip is, or a region in joint space. Where several overlap the last one counts.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "preference", extend("oneOf" = [{ "required": ["configurations"] }, { "required": ["polygon"] }]))]
-pub(super) struct PreferenceTable {
-    /// Name in messages and pictures.
-    name: Option<String>,
-    /// Strength per grid cell; fields bvp and bvp2 avoid a region above 0 and seek one below.
-    #[schemars(with = "f64")]
-    epsilon: Number,
-    /// Direction in joint space, of any length, for the field local.
-    #[schemars(with = "Option<NumberPair>")]
-    direction: Option<Numbers>,
-    /// Corners of a region in joint space, rad or m.
-    #[schemars(with = "Option<Corners>")]
-    configurations: Option<Ring>,
-    /// Corners of the region where the tip is, m.
-    #[schemars(with = "Option<Corners>")]
-    polygon: Option<Ring>,
+toml_table! {
+    /// A region that field planners prefer or avoid: where the tip is, or a region in joint space. Where several overlap the last one counts.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "preference", extend("oneOf" = [{ "required": ["configurations"] }, { "required": ["polygon"] }])))]
+    pub(super) struct PreferenceTable {
+        /// Name in messages and pictures.
+        name: Option<String>,
+        /// Strength per grid cell; fields bvp and bvp2 avoid a region above 0 and seek one below.
+        #[cfg_attr(test, schemars(with = "f64"))]
+        epsilon: Number,
+        /// Direction in joint space, of any length, for the field local.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        direction: Option<Numbers>,
+        /// Corners of a region in joint space, rad or m.
+        #[cfg_attr(test, schemars(with = "Option<Corners>"))]
+        configurations: Option<Ring>,
+        /// Corners of the region where the tip is, m.
+        #[cfg_attr(test, schemars(with = "Option<Corners>"))]
+        polygon: Option<Ring>,
+    }
 }
 
 /// Largest extent of a region of configurations, in radians or metres. On a circle, the region is searched in every

@@ -28,40 +28,108 @@ impl Place<'_> {
     }
 }
 
+/// The requirements of a command on start, goal and steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rules {
+    /// The task of a world with steps, or with values of the tool's joints; otherwise a motion. The start is free, and
+    /// the goals of a motion are, too.
+    Plan,
+    /// A motion. Start and goals are free.
+    Motion,
+    /// A motion that may have no goal. Start and goals are free, and no obstacle moves.
+    Exploration,
+    /// The stated start and goals, which may be blocked.
+    Unchecked,
+    /// The start alone, which may be blocked. The goal is the start. The world may have steps.
+    Start,
+    /// The task with which a recording is compared. Its start may be outside the limits or blocked; the check of the
+    /// recording reports that.
+    Recording,
+}
+
 impl LoadedScene {
-    /// Reads start and goal for this scene. Values on the command line override those of the world file.
+    /// Reads the motion or the task of this scene. Values on the command line override those of the world file.
     ///
     /// # Errors
-    /// A world with steps. A start or goal that is missing, outside the joint limits, in contact with an obstacle or
-    /// nearer to one than the clearance. A goal of the tip that no IK solution reaches. The message states which link
-    /// hits which obstacle, and how deep.
-    pub fn problem(self, overrides: &Overrides) -> Result<LoadedProblem, InputError> {
-        if self.is_task() {
+    /// - A world with steps or values of the tool's joints, unless the rules allow a task.
+    /// - A goal on the command line for a world with steps.
+    /// - A start that is missing.
+    /// - Unless the rules say otherwise: a goal that is missing; a start or goal outside the joint limits, in contact
+    ///   with an obstacle or nearer to one than the clearance; a goal of the tip that no IK solution reaches. The
+    ///   message states which link hits which obstacle, and how deep.
+    /// - Values of the tool's joints that are outside their limits, or of joints that the world does not name.
+    /// - A step that requires joint values outside the limits, or a point out of the tip's reach.
+    /// - A step that requires that an object rests on something, although the object is too thin.
+    pub fn resolve(self, overrides: &Overrides, rules: Rules) -> Result<LoadedProblem, InputError> {
+        if rules == Rules::Exploration {
+            self.require_static_obstacles("explorations are for worlds without moving obstacles")?;
+        }
+        let may_be_task = matches!(rules, Rules::Plan | Rules::Start | Rules::Recording);
+        let overrides_goal = overrides.goal.is_some() || overrides.goal_tip.is_some();
+        if self.is_task() && !may_be_task || self.has_steps() && overrides_goal {
             return Err(self.has_no_goal(overrides).into());
         }
         let loaded = self.with_clearance(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, place) = loaded.start(overrides, &mut notes)?;
-        let is_free = loaded.require("the start", start, &place).and_then(|()| loaded.require_clear(start, &place));
-        is_free.map_err(|diagnostic| diagnostic.with_kind(DiagnosticKind::Start))?;
-        let about = |diagnostic: Diagnostic| diagnostic.with_kind(DiagnosticKind::Goal);
-        let (asked, place) = loaded.goals(overrides).map_err(|error| error.with_kind(DiagnosticKind::Goal))?;
+        let is_checked = matches!(rules, Rules::Plan | Rules::Motion | Rules::Exploration);
+        if is_checked {
+            let is_free = loaded.require("the start", start, &place).and_then(|()| loaded.require_clear(start, &place));
+            is_free.map_err(|diagnostic| diagnostic.with_kind(DiagnosticKind::Start))?;
+        }
+        let (mut stated_goals, mut goals, mut task) = (Vec::new(), GoalSet::default(), None);
+        match rules {
+            Rules::Start => stated_goals.push(Goal::Joints(start)),
+            Rules::Unchecked => stated_goals = loaded.stated_goals(overrides, &mut notes)?,
+            Rules::Exploration if loaded.world.goals.is_none() && !overrides_goal => {}
+            _ if loaded.is_task() => task = Some(loaded.task(overrides, (start, &place), is_checked, &mut notes)?),
+            _ => goals = loaded.free_goals(overrides, start, &mut notes)?,
+        }
+        let Self { scene, trajectories, robot, .. } = loaded;
+        let problem = MotionProblem::trusted(scene, start, goals);
+        Ok(LoadedProblem { problem, stated_goals, task, trajectories, robot, notes })
+    }
+
+    /// Reads start and goal of a motion: [`LoadedScene::resolve`] by [`Rules::Motion`].
+    ///
+    /// # Errors
+    /// The errors of [`LoadedScene::resolve`].
+    pub fn problem(self, overrides: &Overrides) -> Result<LoadedProblem, InputError> {
+        self.resolve(overrides, Rules::Motion)
+    }
+
+    /// Returns the stated goals. An excess over a limit that is due to rounding is removed, with a note.
+    fn stated_goals(&self, overrides: &Overrides, notes: &mut Vec<String>) -> Result<Vec<Goal>, InputError> {
+        let (mut goals, _) = self.goals(overrides)?;
+        for goal in &mut goals {
+            if let Goal::Joints(q) = goal {
+                *q = self.at_limits("the goal", *q, notes);
+            }
+        }
+        Ok(goals)
+    }
+
+    /// Returns the configurations that reach any goal and are not known to be blocked, at least one.
+    fn free_goals(
+        &self,
+        overrides: &Overrides,
+        start: Configuration,
+        notes: &mut Vec<String>,
+    ) -> Result<GoalSet, InputError> {
+        let (asked, place) = self.goals(overrides)?;
         let (mut goals, mut refused) = (Vec::new(), Vec::new());
         for goal in &asked {
-            match loaded.configurations(*goal, start, &place, &mut notes) {
+            match self.configurations(*goal, start, &place, notes) {
                 Ok(found) => goals.extend_from_slice(found.pieces()),
                 Err(diagnostic) => refused.push(diagnostic),
             }
         }
         if goals.is_empty() {
             // There is at least one goal, so there is at least one reason.
-            let first = refused.swap_remove(0);
-            return Err(about(first).into());
+            return Err(refused.swap_remove(0).with_kind(DiagnosticKind::Goal).into());
         }
         notes.extend(refused.iter().map(|diagnostic| format!("a goal is ruled out: {}", diagnostic.message)));
-        let goals: GoalSet = goals.into_iter().collect();
-        let LoadedScene { scene, trajectories, robot, .. } = loaded;
-        Ok(LoadedProblem { problem: MotionProblem::trusted(scene, start, goals), trajectories, robot, notes })
+        Ok(goals.into_iter().collect())
     }
 
     /// Returns the configurations that reach a goal and are not known to be blocked.
@@ -117,6 +185,10 @@ impl LoadedScene {
 
     /// Returns the alternative goals, at least one.
     pub(super) fn goals(&self, overrides: &Overrides) -> Result<(Vec<Goal>, Place<'_>), InputError> {
+        self.given_goals(overrides).map_err(|error| error.with_kind(DiagnosticKind::Goal))
+    }
+
+    fn given_goals(&self, overrides: &Overrides) -> Result<(Vec<Goal>, Place<'_>), InputError> {
         match (&overrides.goal, &overrides.goal_tip) {
             (Some(_), Some(_)) => {
                 let diagnostic = Diagnostic::new("--goal and --goal-tip", "both options give a goal");

@@ -1,11 +1,10 @@
 //! The range sensor in the world file's `[sensor]`.
 
 use super::reader::Reader;
-use super::schema::{NotNegative, SensorOn};
+#[cfg(test)]
+use super::schema::*;
 use crate::{Mount, Sensor};
-use cplan_robot::{AngleOrLength, Diagnostic, Number, Positive, Written};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use cplan_robot::{Diagnostic, Number, Written, toml_table};
 use std::f64::consts::TAU;
 use toml::Spanned;
 
@@ -16,35 +15,36 @@ const MAX_RAYS: u64 = 100_000;
 /// readings.
 const MIN_READING_STEP: f64 = 1e-4;
 
-/// The sensor of an exploration (`cplan explore`). Every key has a default. Rays are as wide as the map cells that they
-/// cross.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "sensor")]
-pub(super) struct SensorTable {
-    /// Where it is attached: "tip" (the default; straight ahead is from joint 2 to the tip) or "base".
-    #[schemars(with = "Option<SensorOn>")]
-    on: Option<Spanned<String>>,
-    /// Number of rays; by default 360.
-    #[schemars(with = "Option<u64>", range(min = 1, max = 100_000))]
-    rays: Option<Spanned<u64>>,
-    /// Angle over which they are spread, rad, at most a whole turn, which is the default.
-    #[schemars(with = "Option<AngleOrLength>")]
-    field_of_view: Option<Written>,
-    /// Range, m; by default half the arm's reach.
-    #[schemars(with = "Option<Positive>")]
-    range: Option<Number>,
-    /// Distance between readings on the path, in joint space, mixing rad and m; by default 0.1.
-    #[schemars(with = "Option<Positive>")]
-    step: Option<Number>,
-    /// Greatest error of a distance, m: errors are uniform within it; by default 0.
-    #[schemars(with = "Option<NotNegative>")]
-    noise: Option<Number>,
-    /// Seed of the errors; by default 0.
-    seed: Option<u64>,
-    /// Side of the cells of the map, m; by default a fortieth of the arm's reach.
-    #[schemars(with = "Option<Positive>")]
-    cell: Option<Number>,
+toml_table! {
+    /// The sensor of an exploration (`cplan explore`). Every key has a default. Rays are as wide as the map cells that they
+    /// cross.
+    #[derive(Debug, Clone)]
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "sensor"))]
+    pub(super) struct SensorTable {
+        /// Where it is attached: "tip" (the default; straight ahead is from joint 2 to the tip) or "base".
+        #[cfg_attr(test, schemars(with = "Option<SensorOn>"))]
+        on: Option<Spanned<String>>,
+        /// Number of rays; by default 360.
+        #[cfg_attr(test, schemars(with = "Option<u64>", range(min = 1, max = 100_000)))]
+        rays: Option<Spanned<u64>>,
+        /// Angle over which they are spread, rad, at most a whole turn, which is the default.
+        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
+        field_of_view: Option<Written>,
+        /// Range, m; by default half the arm's reach.
+        #[cfg_attr(test, schemars(with = "Option<Positive>"))]
+        range: Option<Number>,
+        /// Distance between readings on the path, in joint space, mixing rad and m; by default 0.1.
+        #[cfg_attr(test, schemars(with = "Option<Positive>"))]
+        step: Option<Number>,
+        /// Greatest error of a distance, m: errors are uniform within it; by default 0.
+        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
+        noise: Option<Number>,
+        /// Seed of the errors; by default 0.
+        seed: Option<u64>,
+        /// Side of the cells of the map, m; by default a fortieth of the arm's reach.
+        #[cfg_attr(test, schemars(with = "Option<Positive>"))]
+        cell: Option<Number>,
+    }
 }
 
 /// The properties of a sensor that the file states.

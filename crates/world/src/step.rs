@@ -6,74 +6,72 @@ use super::line_table::LineTable;
 use super::object::{MovableObject, NameList, Names};
 use super::pallet::Pallets;
 use super::reader::Reader;
-use super::schema::{DoneIn, NotNegative, Share};
+#[cfg(test)]
+use super::schema::*;
 use super::table::Table;
 use cplan_geometry::Pose;
 use cplan_handling::{MAX_STOP_TIME, Object, ToolValues};
 use cplan_model::Goal;
-use cplan_robot::{AngleOrLength, Cursor, Diagnostic, Number, NumberPair, Numbers, Written};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use cplan_robot::{Cursor, Diagnostic, Number, Numbers, Written, toml_table};
 use std::collections::BTreeSet;
 use std::ops::Range;
 use toml::Spanned;
 
-/// A step or several: exactly one of pick, place, move, follow, transfer and steps.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "step", extend(
-    "oneOf" = [
-        { "required": ["pick"] }, { "required": ["place"] }, { "required": ["move"] }, { "required": ["follow"] },
-        { "required": ["transfer"] }, { "required": ["steps"] }
-    ],
-    "dependencies" = {
-        "grasp": ["pick"], "supports": ["pick"], "at": ["pick"], "window": ["pick"], "repeat": ["steps"], "order": ["steps"]
-    },
-))]
-pub(super) struct StepTable {
-    /// Name of the object to pick.
-    #[schemars(with = "Option<String>")]
-    pick: Option<Spanned<String>>,
-    /// Where to place the carried object.
-    #[schemars(with = "Option<PlaceTable>")]
-    place: Option<Table<PlaceTable>>,
-    /// Where to move, with or without an object.
-    #[serde(rename = "move")]
-    #[schemars(with = "Option<GoalTable>")]
-    goal: Option<Spanned<Table<GoalTable>>>,
-    /// A line for the tip, with or without an object. These are two steps: a move to where the line begins, and the line.
-    #[schemars(with = "Option<LineTable>")]
-    follow: Option<Spanned<Table<LineTable>>>,
-    /// Picks and places, one after the other: all objects on a pallet, to the places of another.
-    #[schemars(with = "Option<TransferTable>")]
-    transfer: Option<Table<TransferTable>>,
-    /// A group; its speed and dwell are the defaults of its steps.
-    #[schemars(with = "Option<Vec<StepTable>>", length(min = 1))]
-    steps: Option<Vec<Spanned<StepTable>>>,
-    /// For a pick: the point of the object to which the tip moves, in the object's frame, m; by default the `grasp` of the object.
-    #[schemars(with = "Option<NumberPair>")]
-    grasp: Option<Numbers>,
-    /// For a pick: obstacles and objects that the object may touch; by default the `supports` of the object.
-    #[schemars(with = "Option<Vec<String>>")]
-    supports: Option<NameList>,
-    /// For the pick of a moving object: position of its origin at the pick, m; by default the earliest one possible.
-    #[schemars(with = "Option<NumberPair>")]
-    at: Option<Numbers>,
-    /// For the pick of a moving object: the earliest and the latest time of the pick, s; by default any time.
-    #[schemars(with = "Option<NumberPair>")]
-    window: Option<Numbers>,
-    /// For a group: number of repetitions of its steps.
-    #[schemars(with = "Option<i64>", range(min = 1))]
-    repeat: Option<Spanned<i64>>,
-    /// For a group: "free" to do pairs of a pick and a place in the fastest order; by default "fixed".
-    #[schemars(with = "Option<DoneIn>")]
-    order: Option<Spanned<String>>,
-    /// Share of the joints' top speeds, above 0 and at most 1; by default 1.
-    #[schemars(with = "Option<Share>")]
-    speed: Option<Number>,
-    /// Time for which the arm stands still at the end, s; by default 0.
-    #[schemars(with = "Option<NotNegative>")]
-    dwell: Option<Number>,
+toml_table! {
+    /// A step or several: exactly one of pick, place, move, follow, transfer and steps.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "step", extend(
+        "oneOf" = [
+            { "required": ["pick"] }, { "required": ["place"] }, { "required": ["move"] }, { "required": ["follow"] },
+            { "required": ["transfer"] }, { "required": ["steps"] }
+        ],
+        "dependencies" = {
+            "grasp": ["pick"], "supports": ["pick"], "at": ["pick"], "window": ["pick"], "repeat": ["steps"], "order": ["steps"]
+        },
+    )))]
+    pub(super) struct StepTable {
+        /// Name of the object to pick.
+        #[cfg_attr(test, schemars(with = "Option<String>"))]
+        pick: Option<Spanned<String>>,
+        /// Where to place the carried object.
+        #[cfg_attr(test, schemars(with = "Option<PlaceTable>"))]
+        place: Option<Table<PlaceTable>>,
+        /// Where to move, with or without an object.
+        #[cfg_attr(test, schemars(with = "Option<GoalTable>"))]
+        r#move: Option<Spanned<Table<GoalTable>>>,
+        /// A line for the tip, with or without an object. These are two steps: a move to where the line begins, and the line.
+        #[cfg_attr(test, schemars(with = "Option<LineTable>"))]
+        follow: Option<Spanned<Table<LineTable>>>,
+        /// Picks and places, one after the other: all objects on a pallet, to the places of another.
+        #[cfg_attr(test, schemars(with = "Option<TransferTable>"))]
+        transfer: Option<Table<TransferTable>>,
+        /// A group; its speed and dwell are the defaults of its steps.
+        #[cfg_attr(test, schemars(with = "Option<Vec<StepTable>>", length(min = 1)))]
+        steps: Option<Vec<Spanned<StepTable>>>,
+        /// For a pick: the point of the object to which the tip moves, in the object's frame, m; by default the `grasp` of the object.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        grasp: Option<Numbers>,
+        /// For a pick: obstacles and objects that the object may touch; by default the `supports` of the object.
+        #[cfg_attr(test, schemars(with = "Option<Vec<String>>"))]
+        supports: Option<NameList>,
+        /// For the pick of a moving object: position of its origin at the pick, m; by default the earliest one possible.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        at: Option<Numbers>,
+        /// For the pick of a moving object: the earliest and the latest time of the pick, s; by default any time.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        window: Option<Numbers>,
+        /// For a group: number of repetitions of its steps.
+        #[cfg_attr(test, schemars(with = "Option<i64>", range(min = 1)))]
+        repeat: Option<Spanned<i64>>,
+        /// For a group: "free" to do pairs of a pick and a place in the fastest order; by default "fixed".
+        #[cfg_attr(test, schemars(with = "Option<DoneIn>"))]
+        order: Option<Spanned<String>>,
+        /// Share of the joints' top speeds, above 0 and at most 1; by default 1.
+        #[cfg_attr(test, schemars(with = "Option<Share>"))]
+        speed: Option<Number>,
+        /// Time for which the arm stands still at the end, s; by default 0.
+        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
+        dwell: Option<Number>,
+    }
 }
 
 impl StepTable {
@@ -82,7 +80,7 @@ impl StepTable {
         let given = [
             self.pick.is_some(),
             self.place.is_some(),
-            self.goal.is_some(),
+            self.r#move.is_some(),
             self.follow.is_some(),
             self.transfer.is_some(),
             self.steps.is_some(),
@@ -91,61 +89,57 @@ impl StepTable {
     }
 }
 
-/// A place for an object: a point, or a place of a pallet.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "place", extend("oneOf" = [{ "required": ["at"] }, { "required": ["on"] }]))]
-struct PlaceTable {
-    /// Position for the object's origin, m.
-    #[schemars(with = "Option<NumberPair>")]
-    at: Option<Numbers>,
-    /// The place of a pallet that its origin goes to: "NAME 2,3".
-    #[schemars(with = "Option<String>")]
-    on: Option<Spanned<String>>,
-    /// Angle of a level payload there, rad; by default unchanged.
-    #[schemars(with = "Option<AngleOrLength>")]
-    angle: Option<Written>,
-    /// Obstacles and objects that it may touch there; by default those of the object.
-    #[schemars(with = "Option<Vec<String>>")]
-    supports: Option<NameList>,
-}
+toml_table! {
+    /// A place for an object: a point, or a place of a pallet.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "place", extend("oneOf" = [{ "required": ["at"] }, { "required": ["on"] }])))]
+    struct PlaceTable {
+        /// Position for the object's origin, m.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        at: Option<Numbers>,
+        /// The place of a pallet that its origin goes to: "NAME 2,3".
+        #[cfg_attr(test, schemars(with = "Option<String>"))]
+        on: Option<Spanned<String>>,
+        /// Angle of a level payload there, rad; by default unchanged.
+        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
+        angle: Option<Written>,
+        /// Obstacles and objects that it may touch there; by default those of the object.
+        #[cfg_attr(test, schemars(with = "Option<Vec<String>>"))]
+        supports: Option<NameList>,
+    }
 
-/// Objects that go from one pallet to another: the first one, row by row, to the first place, and so on.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "transfer")]
-struct TransferTable {
-    /// Name of the objects, without row and column.
-    #[schemars(with = "String")]
-    objects: Spanned<String>,
-    /// Name of the pallet that they go to, which has as many places.
-    #[schemars(with = "String")]
-    to: Spanned<String>,
-    /// Angle of level payloads there, rad; by default unchanged.
-    #[schemars(with = "Option<AngleOrLength>")]
-    angle: Option<Written>,
-    /// Obstacles and objects that they may touch there; by default those of the objects.
-    #[schemars(with = "Option<Vec<String>>")]
-    supports: Option<NameList>,
-}
+    /// Objects that go from one pallet to another: the first one, row by row, to the first place, and so on.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "transfer"))]
+    struct TransferTable {
+        /// Name of the objects, without row and column.
+        #[cfg_attr(test, schemars(with = "String"))]
+        objects: Spanned<String>,
+        /// Name of the pallet that they go to, which has as many places.
+        #[cfg_attr(test, schemars(with = "String"))]
+        to: Spanned<String>,
+        /// Angle of level payloads there, rad; by default unchanged.
+        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
+        angle: Option<Written>,
+        /// Obstacles and objects that they may touch there; by default those of the objects.
+        #[cfg_attr(test, schemars(with = "Option<Vec<String>>"))]
+        supports: Option<NameList>,
+    }
 
-/// Settings of all steps.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "task")]
-pub(super) struct TaskTable {
-    /// Number of repetitions of the steps; by default one.
-    #[schemars(with = "Option<i64>", range(min = 1))]
-    repeat: Option<Spanned<i64>>,
-    /// "free" for pairs of a pick and a place in the order that is fastest; by default "fixed".
-    #[schemars(with = "Option<DoneIn>")]
-    order: Option<Spanned<String>>,
-    /// Share of the joints' top speeds, above 0 and at most 1; by default 1.
-    #[schemars(with = "Option<Share>")]
-    speed: Option<Number>,
-    /// Time for which the arm stands still at the end of each step, s; by default 0.
-    #[schemars(with = "Option<NotNegative>")]
-    dwell: Option<Number>,
+    /// Settings of all steps.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "task"))]
+    pub(super) struct TaskTable {
+        /// Number of repetitions of the steps; by default one.
+        #[cfg_attr(test, schemars(with = "Option<i64>", range(min = 1)))]
+        repeat: Option<Spanned<i64>>,
+        /// "free" for pairs of a pick and a place in the order that is fastest; by default "fixed".
+        #[cfg_attr(test, schemars(with = "Option<DoneIn>"))]
+        order: Option<Spanned<String>>,
+        /// Share of the joints' top speeds, above 0 and at most 1; by default 1.
+        #[cfg_attr(test, schemars(with = "Option<Share>"))]
+        speed: Option<Number>,
+        /// Time for which the arm stands still at the end of each step, s; by default 0.
+        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
+        dwell: Option<Number>,
+    }
 }
 
 /// Largest number of steps of a task, with repetitions counted. A robot would take some days for them.
@@ -307,7 +301,7 @@ impl<'a> StepReader<'a> {
         if let Some(follow) = &step.follow {
             return self.follow(follow, pace, table.span());
         }
-        let actions = match (&step.pick, &step.place, &step.goal, &step.transfer, &step.steps) {
+        let actions = match (&step.pick, &step.place, &step.r#move, &step.transfer, &step.steps) {
             (None, None, None, None, Some(steps)) => {
                 let manner = Manner { repeat: step.repeat.as_ref(), order: step.order.as_ref() };
                 return self.group(steps, &manner, pace, table.span()).map(|group| vec![Node::Group(group)]);

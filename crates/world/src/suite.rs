@@ -1,9 +1,7 @@
 //! Many problems: those that a manifest lists, or one robot in all worlds of a folder.
 
-use super::world::in_toml_words;
 use super::{LoadedProblem, LoadedScene, Overrides, RobotFile, load_scene};
-use cplan_robot::{Diagnostic, InputError, Source};
-use serde::Deserialize;
+use cplan_robot::{Diagnostic, InputError, Source, toml_table};
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
@@ -52,20 +50,17 @@ pub struct Member {
     pub scene: LoadedScene,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ManifestFile {
-    name: Option<String>,
-    #[serde(default)]
-    problem: Vec<ProblemTable>,
-}
+toml_table! {
+    struct ManifestFile {
+        name: Option<String>,
+        problem: Vec<ProblemTable>,
+    }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ProblemTable {
-    name: Option<Spanned<String>>,
-    robot: Spanned<String>,
-    world: Spanned<String>,
+    struct ProblemTable {
+        name: Option<Spanned<String>>,
+        robot: Spanned<String>,
+        world: Spanned<String>,
+    }
 }
 
 /// A robot file and a world file that have not been read yet.
@@ -102,14 +97,8 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
         return Err(Diagnostic::new(place.display().to_string(), message).help(help).into());
     }
     let source = Source::read(&manifest)?;
-    let file: ManifestFile = toml::from_str(source.text()).map_err(|error| {
-        let message = in_toml_words(error.message());
-        match error.span() {
-            Some(span) => source.diagnostic_at(span, message),
-            None => source.diagnostic(message),
-        }
-        .help("a manifest is TOML: a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\" for each")
-    })?;
+    let hint = "a manifest is TOML: a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\" for each";
+    let file: ManifestFile = source.toml(&|_, _| hint)?;
     let beside = |name: &Spanned<String>, what: &str| {
         let path = manifest.with_file_name("").join(name.get_ref());
         if path.is_file() {

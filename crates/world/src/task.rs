@@ -1,5 +1,6 @@
 //! Converts the steps of a world to a task for its arm.
 
+use super::problem::Place;
 use super::reasons::{
     HELP_FOR_LIMITS, HELP_FOR_TIP, beyond_limits, describe_out_of_reach, help_for_reach, within_limits,
 };
@@ -7,24 +8,11 @@ use super::requirement::{Required, Requirement};
 use super::tool_values::require_free_lowered;
 use super::{LoadedScene, Overrides, World};
 use cplan_geometry::Point;
-use cplan_handling::{Payload, Stroke, Task};
+use cplan_handling::{Item, Payload, Stroke, Task, ToolValues};
 use cplan_model::space::{Configuration, JointRange};
-use cplan_model::{Goal, Scene, inverse};
-use cplan_robot::{Diagnostic, DiagnosticKind, InputError, RobotReport};
+use cplan_model::{Goal, inverse};
+use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::listed;
-
-/// A task, and how it was read.
-#[derive(Debug, Clone)]
-pub struct LoadedTask {
-    /// The task. Its start is within the limits and free, unless it comes from [`LoadedScene::recorded_task`].
-    pub task: Task,
-    /// The arm, empty-handed, among obstacles and objects at their initial places.
-    pub scene: Scene,
-    /// Report on how the robot was read.
-    pub robot: RobotReport,
-    /// Notes for the user about defaults.
-    pub notes: Vec<String>,
-}
 
 impl LoadedScene {
     /// Returns true if the world is a task: it has steps, or its start or goal states values of the tool's joints. Then the
@@ -40,95 +28,63 @@ impl LoadedScene {
         self.world.steps.is_some()
     }
 
-    /// Returns the task of the world's steps, or of its move from the start to the goal. A start on the command line overrides that of the world.
-    ///
-    /// # Errors
-    /// - A world that is no task, or a goal on the command line for a world with steps.
-    /// - Values of the tool's joints that are outside their limits, or of joints that the world does not name.
-    /// - A start that is missing, outside the limits or blocked.
-    /// - A step that requires joint values outside the limits, or a point out of the tip's reach.
-    /// - A step that requires that an object rests on something, although the object is too thin.
-    pub fn task(self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
-        self.task_from(overrides, true)
-    }
-
-    /// Returns the task with which a recording is compared. Its start may be outside the limits or blocked; the check
-    /// of the recording reports that.
-    ///
-    /// # Errors
-    /// The errors of [`LoadedScene::task`] that do not concern the start.
-    pub fn recorded_task(self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
-        self.task_from(overrides, false)
-    }
-
-    fn task_from(self, overrides: &Overrides, is_checked: bool) -> Result<LoadedTask, InputError> {
-        if !self.is_task() {
-            let diagnostic = self.world.source.diagnostic("there are no steps");
-            return Err(diagnostic.help("[[step]] pick = \"NAME\", and so on").into());
-        }
-        if self.world.steps.is_some() && (overrides.goal.is_some() || overrides.goal_tip.is_some()) {
-            return Err(self.has_no_goal(overrides).into());
-        }
-        let loaded = self.with_clearance(overrides.clearance)?;
-        let mut notes = loaded.world.notes.clone();
-        let (start, place) = loaded.start(overrides, &mut notes)?;
-        if is_checked {
-            let is_free = loaded.require("the start", start, &place).and_then(|()| loaded.require_clear(start, &place));
-            is_free.map_err(|diagnostic| diagnostic.with_kind(DiagnosticKind::Start))?;
-        }
-        let [start_tool, goal_tool] = loaded.tool_values()?;
-        let start_refused = place.diagnostic(String::new()).with_kind(DiagnosticKind::Start);
-        let own_move = if loaded.world.steps.is_none() {
-            let (goals, place) = loaded.goals(overrides).map_err(|error| error.with_kind(DiagnosticKind::Goal))?;
-            let step = LoadedScene::move_to_goal(&goals, &place, goal_tool)?;
-            if let [Goal::Joints(q)] = goals[..] {
-                let outside = beyond_limits(&loaded.scene, q);
-                let message = format!("the goal is outside the joint limits: {}", outside.join("; "));
-                InputError::check(
-                    (!outside.is_empty())
-                        .then(|| place.diagnostic(message).help(HELP_FOR_LIMITS))
-                        .into_iter()
-                        .collect(),
-                )?;
-            }
-            Some(step)
-        } else {
-            None
+    /// Returns the task of the world's steps, or of its move from the start to the goal. Unless `is_checked`, the tool may
+    /// hit something at the start.
+    pub(super) fn task(
+        &self,
+        overrides: &Overrides,
+        (start, place): (Configuration, &Place),
+        is_checked: bool,
+        notes: &mut Vec<String>,
+    ) -> Result<Task, InputError> {
+        let [start_tool, goal_tool] = self.tool_values()?;
+        let items = match &self.world.steps {
+            Some(steps) => steps.items.clone(),
+            None => vec![self.own_move(overrides, goal_tool)?],
         };
-        let requirements = loaded.world.steps.iter().flat_map(|steps| &steps.requirements);
-        InputError::check(requirements.filter_map(|r| loaded.unmet_requirement(r, start)).collect())?;
-        let wrist = loaded.wrist();
-        let Self { scene, world, robot, .. } = loaded;
-        let stroke = robot.joints.stroke.clone();
+        let requirements = self.world.steps.iter().flat_map(|steps| &steps.requirements);
+        InputError::check(requirements.filter_map(|r| self.unmet_requirement(r, start)).collect())?;
+        let stroke = self.robot.joints.stroke.clone();
         if let Some(stroke) = &stroke {
-            InputError::check(too_deep(stroke, &world).collect())?;
+            InputError::check(too_deep(stroke, &self.world).collect())?;
         }
-        let mut workspace = world.workspace;
-        workspace.fixed.clearance = scene.workspace().clearance;
-        let items = world.steps.map_or_else(|| own_move.into_iter().collect(), |steps| steps.items);
-        notes.extend(world.wrist.and_then(|(_, note)| note));
+        let mut workspace = self.world.workspace.clone();
+        workspace.fixed.clearance = self.scene.workspace().clearance;
+        notes.extend(self.world.wrist.iter().filter_map(|(_, note)| note.clone()));
         let task = Task {
-            arm: scene.arm().clone(),
+            arm: self.scene.arm().clone(),
             workspace,
-            objects: world.objects,
+            objects: self.world.objects.clone(),
             start,
             items,
-            wrist,
+            wrist: self.wrist(),
             stroke,
             start_tool,
         };
         if let Some((mover, why)) = task.static_only_feature() {
             let help = "remove its motion, or the feature that needs static obstacles";
-            return Err(world.source.diagnostic(format!("\"{mover}\" moves, and {why}")).help(help).into());
+            return Err(self.world.source.diagnostic(format!("\"{mover}\" moves, and {why}")).help(help).into());
         }
         if let Err(error) = task.check_tool() {
             let help = "raise the limits of [robot] stroke and wrist, or of their joints";
-            return Err(world.source.diagnostic(error.to_string()).help(help).into());
+            return Err(self.world.source.diagnostic(error.to_string()).help(help).into());
         }
         if is_checked {
-            require_free_lowered(&task, start_refused)?;
+            require_free_lowered(&task, place.diagnostic(String::new()).with_kind(DiagnosticKind::Start))?;
         }
-        Ok(LoadedTask { task, scene, robot, notes })
+        Ok(task)
+    }
+
+    /// Returns the only step of a world without steps: a move to the goal.
+    fn own_move(&self, overrides: &Overrides, tool: ToolValues) -> Result<Item, InputError> {
+        let (goals, place) = self.goals(overrides)?;
+        let step = Self::move_to_goal(&goals, &place, tool)?;
+        if let [Goal::Joints(q)] = goals[..]
+            && let Some((message, help)) = self.beyond_limits("the goal", q)
+        {
+            return Err(place.diagnostic(message).help(help).into());
+        }
+        Ok(step)
     }
 
     /// Returns the reason why the arm cannot satisfy a requirement. `None` if it can.

@@ -8,7 +8,8 @@ use super::obstacle::{ObstacleKind, ObstacleTable};
 use super::pallet::{PalletTable, Pallets};
 use super::preference::PreferenceTable;
 use super::reader::Reader;
-use super::schema::{NotNegative, toml_schema};
+#[cfg(test)]
+use super::schema::*;
 use super::sensor::{SensorTable, SensorWishes};
 use super::sequence::{Sequence, WristOfWorld, write_out};
 use super::step::{StepReader, StepTable, TaskTable};
@@ -18,12 +19,7 @@ use super::world_map::{self, MapTable};
 use cplan_geometry::Pose;
 use cplan_handling::{Holding, Object, TimedWorkspace, Wrist};
 use cplan_model::{Goal, Workspace};
-use cplan_robot::{
-    AngleOrLength, Diagnostic, InputError, Number, NumberPair, Numbers, RobotSettings, RobotTable, Source, Written,
-};
-use schemars::JsonSchema;
-use serde::Deserialize;
-use serde_json::Value;
+use cplan_robot::{Diagnostic, InputError, Number, Numbers, RobotSettings, RobotTable, Source, Written, toml_table};
 use std::ops::Range;
 use std::path::PathBuf;
 use toml::Spanned;
@@ -106,79 +102,61 @@ impl World {
     }
 }
 
-/// A workspace for cplan: obstacles, where the arm starts and where it is to go, or the steps that it is to do. Lengths are
-/// in metres, angles in radians, coordinates in the arm's plane.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "cplan world", extend("dependencies" = {
-    "task": ["step"], "step": { "not": { "required": ["goal"] } }
-}))]
-pub(super) struct WorldFile {
-    /// Title of summaries and pictures; by default the file's name.
-    name: Option<String>,
-    /// Least distance to keep from every obstacle, m; by default 0: any proven distance above zero.
-    #[schemars(with = "Option<NotNegative>")]
-    clearance: Option<Number>,
-    #[serde(default)]
-    robot: RobotTable,
-    #[schemars(with = "Option<StartTable>")]
-    start: Option<Spanned<Table<StartTable>>>,
-    #[schemars(with = "Option<GoalTable>")]
-    goal: Option<Spanned<Table<GoalTable>>>,
-    map: Option<MapTable>,
-    sensor: Option<SensorTable>,
-    /// Obstacles, which the arm must not touch.
-    #[serde(default)]
-    #[schemars(with = "Vec<ObstacleTable>")]
-    obstacle: Vec<Spanned<ObstacleTable>>,
-    /// Regions that field planners prefer or avoid; other planners do not look at them.
-    #[serde(default)]
-    #[schemars(with = "Vec<PreferenceTable>")]
-    preference: Vec<Spanned<PreferenceTable>>,
-    /// Places in rows and columns.
-    #[serde(default)]
-    #[schemars(with = "Vec<PalletTable>")]
-    pallet: Vec<Spanned<PalletTable>>,
-    /// Objects that steps pick and place.
-    #[serde(default)]
-    #[schemars(with = "Vec<ObjectTable>")]
-    object: Vec<Spanned<ObjectTable>>,
-    /// The steps of the task, in order, instead of a goal.
-    #[serde(default)]
-    #[schemars(with = "Vec<StepTable>")]
-    step: Vec<Spanned<StepTable>>,
-    #[schemars(with = "Option<TaskTable>")]
-    task: Option<Spanned<TaskTable>>,
-}
+toml_table! {
+    /// A workspace for cplan: obstacles, where the arm starts and where it is to go, or the steps that it is to do. Lengths are
+    /// in metres, angles in radians, coordinates in the arm's plane.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "cplan world", extend("dependencies" = {
+        "task": ["step"], "step": { "not": { "required": ["goal"] } }
+    })))]
+    pub(super) struct WorldFile {
+        /// Title of summaries and pictures; by default the file's name.
+        name: Option<String>,
+        /// Least distance to keep from every obstacle, m; by default 0: any proven distance above zero.
+        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
+        clearance: Option<Number>,
+        #[cfg_attr(test, schemars(default, with = "RobotTable"))]
+        robot: Option<RobotTable>,
+        #[cfg_attr(test, schemars(with = "Option<StartTable>"))]
+        start: Option<Spanned<Table<StartTable>>>,
+        #[cfg_attr(test, schemars(with = "Option<GoalTable>"))]
+        goal: Option<Spanned<Table<GoalTable>>>,
+        map: Option<MapTable>,
+        sensor: Option<SensorTable>,
+        /// Obstacles, which the arm must not touch.
+        #[cfg_attr(test, schemars(default, with = "Vec<ObstacleTable>"))]
+        obstacle: Vec<Spanned<ObstacleTable>>,
+        /// Regions that field planners prefer or avoid; other planners do not look at them.
+        #[cfg_attr(test, schemars(default, with = "Vec<PreferenceTable>"))]
+        preference: Vec<Spanned<PreferenceTable>>,
+        /// Places in rows and columns.
+        #[cfg_attr(test, schemars(default, with = "Vec<PalletTable>"))]
+        pallet: Vec<Spanned<PalletTable>>,
+        /// Objects that steps pick and place.
+        #[cfg_attr(test, schemars(default, with = "Vec<ObjectTable>"))]
+        object: Vec<Spanned<ObjectTable>>,
+        /// The steps of the task, in order, instead of a goal.
+        #[cfg_attr(test, schemars(default, with = "Vec<StepTable>"))]
+        step: Vec<Spanned<StepTable>>,
+        #[cfg_attr(test, schemars(with = "Option<TaskTable>"))]
+        task: Option<Spanned<TaskTable>>,
+    }
 
-/// Start of the arm: joint values, or a tip position with a single IK solution.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "start", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }]))]
-struct StartTable {
-    /// Values of both joints, base to tip, rad or m.
-    #[schemars(with = "Option<[AngleOrLength; 2]>")]
-    joints: Option<Spanned<Vec<Written>>>,
-    /// Coordinates of the tip, m. Exactly one IK solution must be within the limits and free.
-    #[schemars(with = "Option<NumberPair>")]
-    tip: Option<Numbers>,
-    /// Value of the joint that lowers the tool, m; by default it is raised.
-    #[schemars(with = "Option<f64>")]
-    stroke: Option<Number>,
-    /// Value of the wrist's joint, rad; by default its `fixed` value.
-    #[schemars(with = "Option<AngleOrLength>")]
-    wrist: Option<Written>,
-}
-
-/// Returns the schema of world files, in JSON Schema draft 7, which editors of TOML support. It has every key with its
-/// meaning and unit. It refuses unknown and missing keys. Where a file must have exactly one shape, region or kind of
-/// goal, it refuses none and several.
-///
-/// Other conditions are checked only when the file is read: polygons are simple, names and files exist, numbers are not
-/// too large, and the arm can take the values.
-#[must_use]
-pub fn world_schema() -> Value {
-    toml_schema::<WorldFile>()
+    /// Start of the arm: joint values, or a tip position with a single IK solution.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "start", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }])))]
+    struct StartTable {
+        /// Values of both joints, base to tip, rad or m.
+        #[cfg_attr(test, schemars(with = "Option<[AngleOrLength; 2]>"))]
+        joints: Option<Spanned<Vec<Written>>>,
+        /// Coordinates of the tip, m. Exactly one IK solution must be within the limits and free.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        tip: Option<Numbers>,
+        /// Value of the joint that lowers the tool, m; by default it is raised.
+        #[cfg_attr(test, schemars(with = "Option<f64>"))]
+        stroke: Option<Number>,
+        /// Value of the wrist's joint, rad; by default its `fixed` value.
+        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
+        wrist: Option<Written>,
+    }
 }
 
 /// Reads a world.
@@ -190,14 +168,11 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         let diagnostic = source.diagnostic("this is XML, not a world file (TOML)");
         return Err(diagnostic.help("give the URDF first and the world file second").into());
     }
-    let file: WorldFile = toml::from_str(source.text()).map_err(|error| match error.span() {
-        Some(span) => {
-            let is_unknown = error.message().contains("unknown field");
-            let help = if is_unknown { "use a known key, or remove this one" } else { help(source.text(), span.start) };
-            source.diagnostic_at(span, in_toml_words(error.message())).help(help)
-        }
-        None => source.diagnostic(in_toml_words(error.message())).help(help("", 0)),
+    let mut file: WorldFile = source.toml(&|message, at| {
+        let is_unknown = message.contains("unknown field");
+        if is_unknown { "use a known key, or remove this one" } else { help(source.text(), at) }
     })?;
+    let robot = file.robot.take().unwrap_or_default();
     let reader = Reader::new(&source);
     let clearance = file.clearance.as_ref().map(|c| reader.not_negative(c, "clearance")).transpose()?.unwrap_or(0.0);
     let start = file.start.as_ref().map(|s| {
@@ -226,25 +201,25 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let preferences = file.preference.iter().enumerate().map(|(i, p)| PreferenceTable::read(&reader, i, p));
     let mut preferences = preferences.collect::<Result<Vec<_>, _>>()?;
     preferences.extend(map.preferences);
-    let wrist = file.robot.wrist.as_ref().map(|table| {
-        let wrist = table.read(&source, &file.robot.jerk, file.robot.allows_arches())?;
+    let wrist = robot.wrist.as_ref().map(|table| {
+        let wrist = table.read(&source, &robot.jerk, robot.allows_arches())?;
         Ok::<_, Diagnostic>((wrist, table.note(&wrist)))
     });
     let wrist = wrist.transpose()?;
     let sensor = file.sensor.as_ref().map(|table| table.read(&reader)).transpose()?.unwrap_or_default();
-    let payload = file.robot.payload.as_ref().map(|p| object::parse_holding(&reader, p)).transpose()?;
+    let payload = robot.payload.as_ref().map(|p| object::parse_holding(&reader, p)).transpose()?;
     let pallets = Pallets::read(&reader, &file.pallet)?;
     let held = payload.unwrap_or(Holding::Rigid);
     let (movables, names) = object::read(&reader, &file.object, &pallets, &obstacles, &movers, held)?;
     let of_wrist = match &wrist {
         None => WristOfWorld::None,
-        Some(_) if file.robot.wrist_joint().is_none() => WristOfWorld::Nameless,
+        Some(_) if robot.wrist_joint().is_none() => WristOfWorld::Nameless,
         Some((wrist, _)) if wrist.jerk.is_some() => WristOfWorld::WithJerk,
         Some(_) => WristOfWorld::Named,
     };
     let steps = steps(&reader, &file, &pallets, &names, &movables, of_wrist)?;
     let stem = source.stem().unwrap_or_else(|| "world".to_owned());
-    let place = reader.pose(file.robot.at.as_ref(), file.robot.angle.as_ref(), "[robot]")?;
+    let place = reader.pose(robot.at.as_ref(), robot.angle.as_ref(), "[robot]")?;
     let mut notes = reader.taken.lines();
     notes.extend(place.as_ref().map(|place| {
         let (at, angle) = (place.translation, place.rotation.angle());
@@ -266,7 +241,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         wrist,
         wrist_turns: false,
         place,
-        robot: file.robot,
+        robot,
         source,
     })
 }
@@ -296,12 +271,12 @@ fn steps(
     write_out(reader, names, movables, wrist, &group, at).map(Some)
 }
 
-/// Returns the deserialiser's message in TOML's words for keys and numbers. Rust's words are replaced.
-pub fn in_toml_words(message: &str) -> String {
-    message
-        .replace("unknown field", "unknown key")
-        .replace("missing field", "missing key")
-        .replace("expected f64", "expected a number")
-        .replace("map, expected a sequence", "one table, expected a list of tables: [[...]]")
-        .replace("expected i64", "expected a whole number")
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_schema_agrees_with_its_file() {
+        compare_with_file(toml_schemas().into_root_schema_for::<WorldFile>(), "world.schema.json");
+    }
 }

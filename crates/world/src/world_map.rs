@@ -4,37 +4,37 @@ use super::line_map::LineMap;
 use super::obstacle::MAX_PIECES;
 use super::preference_map::{PreferenceMap, PreferenceRectangle};
 use super::reader::Reader;
+#[cfg(test)]
+use super::schema::*;
 use cplan_geometry::{Convex, Point, SimplePolygon, Vector};
 use cplan_model::{Goal, Obstacle, Preference, Region, Shape};
-use cplan_robot::{InputError, MAX_LENGTH, Number, NumberPair, Numbers, Positive};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use cplan_robot::{InputError, MAX_LENGTH, Number, Numbers, toml_table};
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 
-/// Walls from a line map as MobileSim draws them. Files are named relative to this one.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "map")]
-pub(super) struct MapTable {
-    /// The line map.
-    #[schemars(with = "String")]
-    file: Spanned<String>,
-    /// A preference file: its alternative goals, unless the world has a goal, and rectangles for field planners.
-    #[schemars(with = "Option<String>")]
-    preferences: Option<Spanned<String>>,
-    /// Metres a unit, of both files; by default 0.001.
-    #[schemars(with = "Option<Positive>")]
-    scale: Option<Number>,
-    /// Added to all coordinates after scaling, m; by default [0, 0].
-    #[schemars(with = "Option<NumberPair>")]
-    offset: Option<Numbers>,
-    /// True if the bounds of the map are walls, too; by default true.
-    frame: Option<bool>,
-    /// Extent of the walls along the plane's normal, m; by default all heights.
-    #[schemars(with = "Option<NumberPair>")]
-    height: Option<Numbers>,
+toml_table! {
+    /// Walls from a line map as MobileSim draws them. Files are named relative to this one.
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "map"))]
+    pub(super) struct MapTable {
+        /// The line map.
+        #[cfg_attr(test, schemars(with = "String"))]
+        file: Spanned<String>,
+        /// A preference file: its alternative goals, unless the world has a goal, and rectangles for field planners.
+        #[cfg_attr(test, schemars(with = "Option<String>"))]
+        preferences: Option<Spanned<String>>,
+        /// Metres a unit, of both files; by default 0.001.
+        #[cfg_attr(test, schemars(with = "Option<Positive>"))]
+        scale: Option<Number>,
+        /// Added to all coordinates after scaling, m; by default [0, 0].
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        offset: Option<Numbers>,
+        /// True if the bounds of the map are walls, too; by default true.
+        frame: Option<bool>,
+        /// Extent of the walls along the plane's normal, m; by default all heights.
+        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
+        height: Option<Numbers>,
+    }
 }
 
 /// The obstacles, goals and preferences that a map adds to a world, in metres.

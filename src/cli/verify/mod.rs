@@ -13,7 +13,7 @@ use super::theme::ThemeArgs;
 use crate::draw::{Picture, View};
 use crate::engine::certificate_of_recording;
 use crate::engine::findings::{Judgement, MotionFindings, PlanFinding, verify};
-use crate::input::{self, Digests, JointValues, Overrides, TipPoint};
+use crate::input::{self, Digests, JointValues, Overrides, Rules, TipPoint};
 use crate::model::TimedScene;
 use crate::motion::write_whole;
 use crate::output::{contours, title_of};
@@ -158,8 +158,8 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
             Sink::Certificate(path) if matches!(findings.verdict, Judgement::Free) => {
                 let (start, goals) = if args.anywhere { (None, Vec::new()) } else { loaded.ends(&overrides(args))? };
                 let (steps, asked) = (recorded.steps.as_deref(), (&overrides(args), &about));
-                let task = steps.map(|_| loaded.clone().task(&overrides(args))).transpose()?;
-                let steps = task.as_ref().map(|loaded| &loaded.task).zip(steps);
+                let task = steps.map(|_| loaded.clone().resolve(&overrides(args), Rules::Plan)).transpose()?;
+                let steps = task.as_ref().and_then(|loaded| loaded.task.as_ref()).zip(steps);
                 match certificate_of_recording(scene, recording, steps, asked, [start, goals.first().copied()]) {
                     Ok(certificate) => write_whole(path, certificate.as_bytes())?,
                     Err(why) => sinks::print_status(&format!("warning: {} is not written: {why}", path.display())),

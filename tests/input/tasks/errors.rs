@@ -1,7 +1,7 @@
 //! Invalid objects and steps. They are refused with the place, the defect, and a hint.
 
 use super::{CELL, task_of, with_world};
-use cplan::input::{Inspection, Overrides, inspect, load};
+use cplan::input::{Inspection, Overrides, Rules, inspect, load};
 
 /// Steps for the cell. The first one is on line 24.
 const STEPS: &str = r#"[[step]]
@@ -326,7 +326,7 @@ fn a_world_has_either_steps_or_a_goal() {
     refused(&valid_world(), &goal, &["--goal: this world has steps"]);
     let tip = Overrides { goal_tip: Some("1,1".parse().unwrap()), ..Overrides::default() };
     refused(&valid_world(), &tip, &["--goal-tip: this world has steps"]);
-    refused(CELL, &none, &["world.toml: there are no steps", "hint: "]);
+    refused(CELL, &none, &["world.toml: there is no goal", "hint: "]);
 }
 
 #[test]
@@ -378,12 +378,12 @@ fn defects_of_the_file_of_a_line_are_reported_there() {
     let load = |file: &str| {
         write("world.toml", &format!("[start]\njoints = [0.3, 1.2]\n[[step]]\nfollow = {{ file = \"{file}\" }}\n"));
         let scene = cplan::input::load_scene(std::path::Path::new(urdf), &folder.path().join("world.toml"));
-        scene.and_then(|scene| scene.task(&Overrides::default())).map_err(|error| error.to_string())
+        scene.and_then(|scene| scene.resolve(&Overrides::default(), Rules::Plan)).map_err(|error| error.to_string())
     };
     write("good.gcode", "G21 G0 X1100 Y0\nG1 X1200\n");
     write("bad.gcode", "G21 G0 X1100 Y0\nG1 X1200 A90\n");
     write("line.txt", "");
-    assert_eq!(load("good.gcode").unwrap().task.items.len(), 2);
+    assert_eq!(load("good.gcode").unwrap().task.unwrap().items.len(), 2);
     let error = load("bad.gcode").unwrap_err();
     assert!(error.contains("bad.gcode: line 2, column 10: A turns the tool"), "{error}");
     let error = load("line.txt").unwrap_err();

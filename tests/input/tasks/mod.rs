@@ -1,8 +1,8 @@
 //! Objects and steps of the world file, read into a task.
 
 use cplan::geometry::Point;
-use cplan::input::{InputError, LoadedTask, Overrides, load, load_scene};
-use cplan::model::{Action, Goal, Holding, Item, Obstacle, Shape, Step};
+use cplan::input::{InputError, Overrides, Rules, load, load_scene};
+use cplan::model::{Action, Goal, Holding, Item, Obstacle, Scene, Shape, Step, Task};
 use cplan::space::Configuration;
 use std::fs;
 use std::path::Path;
@@ -45,8 +45,18 @@ fn with_world<T>(world: &str, read: impl Fn(&Path, &Path) -> T) -> T {
     read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("robots/planar_2r.urdf"), &file)
 }
 
+/// A task, its scene, and the notes about it.
+#[derive(Debug)]
+struct LoadedTask {
+    task: Task,
+    scene: Scene,
+    notes: Vec<String>,
+}
+
 fn task_of(world: &str, overrides: &Overrides) -> Result<LoadedTask, InputError> {
-    with_world(world, |urdf, world| load_scene(urdf, world)?.task(overrides))
+    let loaded = with_world(world, |urdf, world| load_scene(urdf, world)?.resolve(overrides, Rules::Plan))?;
+    let task = loaded.task.expect("a world with steps");
+    Ok(LoadedTask { task, scene: loaded.problem.into_scene(), notes: loaded.notes })
 }
 
 fn task(steps: &str) -> LoadedTask {

@@ -1,7 +1,7 @@
 //! Places in rows and columns, objects on them, and frames that move all of them.
 
 use super::errors::refused;
-use super::{step_texts, task_of};
+use super::{LoadedTask, step_texts, task_of};
 use cplan::input::Overrides;
 use cplan::model::Item;
 use std::f64::consts::FRAC_PI_2;
@@ -83,7 +83,7 @@ fn a_transfer_is_its_picks_and_places_written_out() {
         let at = written(&|i| format!("at = [{}, {}]", places[i][0], places[i][1]));
         assert_eq!(step_texts(&short), step_texts(&on));
         assert_eq!(step_texts(&short), step_texts(&at));
-        let same = |a: &cplan::input::LoadedTask, b: &cplan::input::LoadedTask| {
+        let same = |a: &LoadedTask, b: &LoadedTask| {
             let steps = a.task.steps().zip(b.task.steps());
             steps.for_each(|(a, b)| {
                 assert_eq!(

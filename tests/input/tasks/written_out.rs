@@ -1,7 +1,7 @@
 //! Random nested groups against a plain expansion; damaged worlds, which must not crash the program.
 
-use super::{CELL, step_texts, task_of};
-use cplan::input::{LoadedTask, Overrides};
+use super::{CELL, LoadedTask, step_texts, task_of};
+use cplan::input::Overrides;
 use cplan::model::{Action, Item, Step};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};

@@ -3,19 +3,21 @@
 use super::*;
 use serde_json::Value;
 
-fn schema() -> String {
-    std::fs::read_to_string(shipped("docs/cspace.schema.json")).unwrap()
+fn schema(kind: &str) -> String {
+    std::fs::read_to_string(shipped(&format!("docs/{kind}.schema.json"))).unwrap()
 }
 
 #[test]
-fn the_committed_schema_is_up_to_date() {
-    let printed = Place::new().run(&["schema", "cspace"], "");
-    assert_eq!((printed.code, printed.stdout), (0, schema()), "run `cplan schema cspace > docs/cspace.schema.json`");
+fn schemas_are_those_of_the_book() {
+    for kind in ["world", "cspace"] {
+        let printed = Place::new().run(&["schema", kind], "");
+        assert_eq!((printed.code, printed.stdout), (0, schema(kind)));
+    }
 }
 
 #[test]
 fn files_satisfy_the_schema() {
-    let schema: Value = serde_json::from_str(&schema()).unwrap();
+    let schema: Value = serde_json::from_str(&schema("cspace")).unwrap();
     let validator = jsonschema::draft202012::new(&schema).unwrap();
     let place = Place::new();
     let task = [shipped("robots/scara.urdf"), shipped("workspaces/tasks/kitting_cell.toml")];

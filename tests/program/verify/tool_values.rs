@@ -2,7 +2,7 @@
 
 use super::judged::{Question, judge, plan_result};
 use cplan::engine::Options;
-use cplan::input::{Overrides, load_scene};
+use cplan::input::{Overrides, Rules, load_scene};
 use cplan::{Problem, plan};
 use cplan_cases::dice::Dice;
 use cplan_check_files::check;
@@ -291,7 +291,7 @@ impl Files {
     /// Returns the result of a world. `None` if its start is refused.
     fn plan(&self, query: &Query, seed: u64) -> Option<Value> {
         std::fs::write(&self.world, query.world()).unwrap();
-        match load_scene(&self.robot, &self.world).and_then(|scene| scene.task(&Overrides::default())) {
+        match load_scene(&self.robot, &self.world).and_then(|scene| scene.resolve(&Overrides::default(), Rules::Plan)) {
             Ok(_) => Some(plan_result(&self.robot, &self.world, "")),
             Err(error) => {
                 let [one, two, stroke, wrist] = query.ends[0];

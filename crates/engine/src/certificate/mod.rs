@@ -66,19 +66,21 @@ impl Plan {
     /// # Errors
     /// [`NoCertificate`].
     pub fn certificate(&self, asked: &Overrides, files: Option<&Digests>) -> Result<String, NoCertificate> {
-        match self.detail() {
-            Detail::Motion { problem, answer } => certificate_of_motion(problem, answer, asked, files),
-            Detail::Task { task, answer } => certificate_of_task(task, answer, asked, files),
-        }
+        let (word, evidence) = match self.detail() {
+            Detail::Motion { problem, answer } => evidence_of_motion(problem, answer, asked)?,
+            Detail::Task { task, answer } => ("found", evidence_of_task(task, answer, asked)?),
+        };
+        let members = [robot_members(files, self.arm()), members(&self.problem().query, asked)].concat();
+        Ok(written(word, members, evidence))
     }
 }
 
-fn certificate_of_motion(
+/// Returns the status that the answer claims, and the evidence for it.
+fn evidence_of_motion(
     problem: &MotionProblem,
     answer: &Answer<Motion>,
     asked: &Overrides,
-    files: Option<&Digests>,
-) -> Result<String, NoCertificate> {
+) -> Result<(&'static str, Evidence), NoCertificate> {
     let mut contacts = Contacts::new(problem.scene());
     let (word, evidence) = match &answer.outcome {
         Outcome::Found(motion) => {
@@ -93,16 +95,11 @@ fn certificate_of_motion(
         }
         Outcome::Unknown(_) => return Err(NoCertificate::Answer(Status::Unknown)),
     };
-    let members = [robot_members(files, problem.scene().arm()), members(problem, asked)].concat();
-    Ok(written(word, members, contacts.named().into_iter().chain(evidence)))
+    Ok((word, contacts.named().into_iter().chain(evidence).collect()))
 }
 
-fn certificate_of_task(
-    task: &Task,
-    answer: &TaskAnswer,
-    asked: &Overrides,
-    files: Option<&Digests>,
-) -> Result<String, NoCertificate> {
+/// Returns the evidence for a task that was found.
+fn evidence_of_task(task: &Task, answer: &TaskAnswer, asked: &Overrides) -> Result<Evidence, NoCertificate> {
     if matches!(answer.outcome, Outcome::Infeasible(_)) {
         return Err(NoCertificate::Task);
     }
@@ -111,13 +108,9 @@ fn certificate_of_task(
         return Err(NoCertificate::Goal);
     }
     let Outcome::Found(motion) = &answer.outcome else { return Err(NoCertificate::Answer(Status::Unknown)) };
-    let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
-    let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
-    let members = robot_members(files, &task.arm).into_iter().chain(start).chain(clearance).collect();
     let (steps, _) = step_reports(task, answer);
     let trajectory = &motion.sequence.trajectory;
-    let evidence = [motion::evidence(&task.arm, trajectory), task::steps(task, &steps, trajectory)];
-    Ok(written("found", members, evidence))
+    Ok(vec![motion::evidence(&task.arm, trajectory), task::steps(task, &steps, trajectory)])
 }
 
 /// Members of a certificate's JSON object: names, and values as JSON texts.

@@ -12,14 +12,14 @@ pub use plan::{FarthestFinding, PlanFinding};
 pub use task::{StepFinding, TurnContactFinding, TurnFinding};
 
 use cplan_dynamics::Torques;
-use cplan_handling::{Claims, HeldMotion, RecordedStep, Recording};
+use cplan_handling::{Claims, HeldMotion, RecordedStep, Recording, Task};
 use cplan_model::Scene;
 use cplan_motion::recorded::{
     END_TOLERANCE, check_collision, check_collision_with, endpoint_errors, false_claims, limit_violations,
     misplaced_joints, replay, torque_violations,
 };
 use cplan_robot::InputError;
-use cplan_world::{AllJoints, LoadedRecording, LoadedScene, LoadedTask, Overrides};
+use cplan_world::{AllJoints, LoadedRecording, LoadedScene, Overrides, Rules};
 
 /// Judges a recording. It must lead from the world's start to its goal, or to those of `overrides`. If `anywhere` is
 /// true, it may begin and end at any configuration. A recording with steps is judged as the world's task.
@@ -38,8 +38,12 @@ pub fn verify(
     let turns = describe_jumps(&loaded.scene, recording);
     let assumed = recording.times().map(|_| loaded.robot.assumptions(loaded.scene.arm())).unwrap_or_default();
     let notes = loaded.world.notes.iter().chain(read).cloned().chain(turns).chain(assumed).collect();
-    let findings = match steps {
-        Some(steps) => judge_task(loaded, (recording, steps, all_joints.as_ref()), claims, overrides, notes)?,
+    let read = steps.as_ref().map(|_| loaded.clone().resolve(overrides, Rules::Recording)).transpose()?;
+    let task = read.as_ref().and_then(|read| Some((read.task.as_ref()?, read.problem.scene())));
+    let findings = match steps.as_ref().zip(task) {
+        Some((steps, task)) => {
+            judge_task(loaded, task, (recording, steps, all_joints.as_ref()), claims, overrides, notes)?
+        }
         None => judge_motion(loaded, (recording, held), claims, overrides, anywhere, notes)?,
     };
     Ok(findings.leaving(claims))
@@ -134,23 +138,23 @@ fn tool_errors(loaded: &LoadedScene, recording: &Recording, held: &[HeldMotion])
 /// Judges the recording as the world's task.
 fn judge_task(
     loaded: &LoadedScene,
+    (task, scene): (&Task, &Scene),
     (recording, steps, all_joints): (&Recording, &[RecordedStep], Option<&AllJoints>),
     claims: &Claims,
     overrides: &Overrides,
     mut notes: Vec<String>,
 ) -> Result<MotionFindings, InputError> {
-    let LoadedTask { task, scene, .. } = loaded.clone().recorded_task(overrides)?;
     notes.push(
         "each step is judged by itself: it must be a step of the world, in an order that the world allows. Its motion is \
          judged with its payload, and with the objects where they lie at that time. Limits, grasps, places, turns and \
          rests are judged, too, and the file's statements about steps and events"
             .into(),
     );
-    let replay = replay(&task, recording, steps);
+    let replay = replay(task, recording, steps);
     let assumed = &loaded.robot.assumed;
-    let (findings, tools) = task::judge_steps(&task, &scene, assumed, (recording, steps), replay, claims, notes);
+    let (findings, tools) = task::judge_steps(task, scene, assumed, (recording, steps), replay, claims, notes);
     let Some(AllJoints { joints, held }) = all_joints else { return Ok(findings) };
-    let misplaced = misplaced_joints(&task, &loaded.robot.joints, recording, (steps, &tools), joints);
+    let misplaced = misplaced_joints(task, &loaded.robot.joints, recording, (steps, &tools), joints);
     if misplaced.is_empty() || loaded.has_steps() {
         return Ok(findings.with_faults(Judgement::Task, misplaced));
     }

@@ -1,7 +1,7 @@
 //! The result in file formats.
 
 use super::Messages;
-use crate::plan::{Detail, Plan, joints_in_messages};
+use crate::plan::{Plan, joints_in_messages};
 use cplan_handling::{Driver, RobotJoint};
 use cplan_motion::{Format, JointMotion, Trajectory, csv, csv_of_joints, ros_yaml};
 #[cfg(feature = "mcap")]
@@ -94,13 +94,13 @@ impl Plan {
     /// Returns the content of ROS messages. A single motion counts as one step.
     fn messages(&self) -> Option<Messages> {
         let robot = joints_in_messages(self.problem(), self.options());
-        let messages = match self.detail() {
-            Detail::Motion { answer, .. } => {
-                let whole = JointMotion::new(&robot, &answer.outcome.found()?.timed.trajectory, true);
+        let messages = match self.task() {
+            None => {
+                let whole = JointMotion::new(&robot, self.trajectory()?, true);
                 Messages { steps: vec![(0.0, whole.clone())], whole }
             }
             // Planning refuses joints that messages cannot name.
-            Detail::Task { task, answer } => {
+            Some((task, answer)) => {
                 Messages::new(&robot, task, &answer.legs, &answer.outcome.found()?.sequence).ok()?
             }
         };

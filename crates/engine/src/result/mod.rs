@@ -9,7 +9,7 @@ pub use messages::MessageError;
 pub(crate) use messages::Messages;
 pub(crate) use step_report::{StepReport, step_reports};
 
-use super::plan::{Detail, Plan};
+use super::plan::Plan;
 use cplan_handling::Task;
 use cplan_model::Status;
 use cplan_model::space::{Metric, Path};
@@ -24,9 +24,9 @@ impl Plan {
     /// motion.
     #[must_use]
     pub fn reason(&self) -> Option<String> {
-        match self.detail() {
-            Detail::Motion { answer, .. } => answer.reason(),
-            Detail::Task { task, answer } => answer.failed().map(|failed| reason(task, failed, self.status())),
+        match self.task() {
+            None => self.motion().and_then(|(_, answer)| answer.reason()),
+            Some((task, answer)) => answer.failed().map(|failed| reason(task, failed, self.status())),
         }
     }
 
@@ -34,30 +34,20 @@ impl Plan {
     /// returns those of all its motions.
     #[must_use]
     pub fn waypoints(&self) -> Option<Vec<[f64; 2]>> {
-        match self.detail() {
-            Detail::Motion { answer, .. } => answer.path().map(waypoints),
-            Detail::Task { answer, .. } => {
-                answer.outcome.found()?;
-                let mut whole: Vec<[f64; 2]> = Vec::new();
-                // Each motion begins where the one before ends.
-                for path in answer.legs.iter().map(|leg| waypoints(leg.path())) {
-                    let shared = usize::from(whole.last() == path.first());
-                    whole.extend(&path[shared..]);
-                }
-                Some(whole)
-            }
+        let mut whole: Vec<[f64; 2]> = Vec::new();
+        // Each motion begins where the one before ends.
+        for path in self.found()?.paths {
+            let path: Vec<[f64; 2]> = path.waypoints().iter().map(|q| [q[0], q[1]]).collect();
+            let shared = usize::from(whole.last() == path.first());
+            whole.extend(&path[shared..]);
         }
+        Some(whole)
     }
 
     /// Returns the Euclidean length of the path in joint space. For a task, returns the total length of all its paths.
     #[must_use]
     pub fn length(&self) -> Option<f64> {
-        match self.detail() {
-            Detail::Motion { answer, .. } => answer.path().map(Path::length),
-            Detail::Task { answer, .. } => {
-                answer.outcome.found().map(|_| answer.legs.iter().map(|leg| leg.path().length()).sum())
-            }
-        }
+        self.found().map(|found| found.paths.into_iter().map(Path::length).sum())
     }
 
     /// Returns the duration of the motion, in seconds.
@@ -70,11 +60,7 @@ impl Plan {
     /// no motion, or no obstacle is within reach.
     #[must_use]
     pub fn clearance(&self) -> Option<f64> {
-        match self.detail() {
-            Detail::Motion { answer, .. } => answer.outcome.found().map(|motion| motion.timed.curve.clearance()),
-            Detail::Task { answer, .. } => answer.outcome.found().map(|_| answer.clearance()),
-        }
-        .and_then(finite)
+        self.found().and_then(|found| finite(found.clearance))
     }
 
     /// Describes the link and the obstacle that come closest in a single motion.
@@ -94,10 +80,7 @@ impl Plan {
     /// Returns how the motion passes moving obstacles. `None` if there are none.
     #[must_use]
     pub fn timing(&self) -> Option<&Timing> {
-        match self.detail() {
-            Detail::Motion { answer, .. } => answer.outcome.found()?.timing.as_ref(),
-            Detail::Task { answer, .. } => answer.outcome.found()?.timing.as_ref(),
-        }
+        self.found()?.timing
     }
 
     /// Returns how the planner searched its grid. For a roadmap, only a search other than the usual one is reported.
@@ -105,10 +88,6 @@ impl Plan {
     pub fn search(&self) -> Option<SearchReport> {
         search_used(&self.options().planner)
     }
-}
-
-fn waypoints(path: &Path) -> Vec<[f64; 2]> {
-    path.waypoints().iter().map(|q| [q[0], q[1]]).collect()
 }
 
 /// Describes the step that fails and the reason, in a sentence.

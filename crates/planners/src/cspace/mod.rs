@@ -49,6 +49,7 @@ mod translation;
 mod union;
 mod zones;
 
+#[cfg(feature = "schema")]
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -66,8 +67,9 @@ pub use stretches::free_stretches;
 pub use zones::{Zone, ZonedGrid};
 
 /// What a representation of free space proves about the true free space.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 pub enum Proves {
     /// A free configuration is free and a blocked one is blocked, up to rounding.
     Exact,

@@ -19,7 +19,7 @@ mod task_summary;
 
 pub use cspace::{
     Axis, Boxes, CSpace, CSpaceFormat, CSpaces, Cells, FieldGrid, FreeRegion, ObstacleRegion, PathData, Polygons,
-    Roadmap, Values, cspace_schema,
+    Roadmap, Values,
 };
 pub use file::{FileFormat, SaveError};
 pub use picture::{PictureFormat, PictureFormatError};

@@ -1,10 +1,8 @@
 //! The summary of a single motion for people.
 
-use super::summary::{Line, SummaryLines, configuration, field, goal_lines, non_empty, torque};
-use crate::view::plane_of_motion;
+use super::summary::{Line, configuration, torque};
 use cplan_engine::{Motion, Plan};
 use cplan_explain::{BlockingSet, MotionQuestion, blocking_set};
-use cplan_handling::TimedScene;
 use cplan_model::space::{Configuration, Metric};
 use cplan_model::{Arm, MotionProblem, Outcome, Scene};
 use cplan_motion::CertifiedCurve;
@@ -15,28 +13,17 @@ use cplan_planners::planner::{Proposal, VisibilityGraph};
 use cplan_solver::{Answer, Bound, GridSpace, Space};
 use cplan_text::{counted, length_down, percent, round_down};
 
-/// Returns the lines of the summary: the planner's result and work, and the query.
-pub(super) fn summary_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> SummaryLines {
-    let (scene, arm) = (problem.scene(), plan.arm());
-    let moving = match scene.loose_obstacles().len() {
-        0 => String::new(),
-        count => format!(", {count} moving"),
-    };
-    let obstacles = counted(scene.workspace().obstacles.len(), "obstacle") + &moving;
-    let mut asked = vec![
-        ("world", format!("{}, {obstacles}", non_empty(&scene.workspace().name))),
-        ("start", configuration(arm, problem.start())),
-    ];
-    asked.extend(goal_lines(arm, problem.goals()));
-    SummaryLines { found: found_lines(plan, problem, answer), asked }
-}
-
-fn found_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Vec<Line> {
-    let mut lines = match &answer.outcome {
-        Outcome::Found(motion) => motion_lines(plan, problem, answer, motion),
+/// Returns the lines about the result. The verdict comes first.
+pub(super) fn result_lines(problem: &MotionProblem, answer: &Answer<Motion>) -> Vec<Line> {
+    match &answer.outcome {
+        Outcome::Found(motion) => motion_lines(problem, answer, motion),
         Outcome::Infeasible(proof) => vec![("result", format!("infeasible: there is no path; {}", proof.describe()))],
         Outcome::Unknown(unknown) => vec![("result", format!("unknown: {}", unknown.reason))],
-    };
+    }
+}
+
+/// Returns the lines about the work of the planner.
+pub(super) fn work_lines(plan: &Plan, answer: &Answer<Motion>) -> Vec<Line> {
     let graph = plan.options().planner.graph();
     let has_all_nodes = graph == Some(VisibilityGraph::Full);
     let graph = graph.map(|graph| format!("{} graph", graph.name()));
@@ -44,13 +31,12 @@ fn found_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) ->
     let search = (!search.is_empty()).then(|| format!(" ({})", search.join(", ")));
     let space = plan.options().planner.space().and_then(GridSpace::reported_name).map(|space| format!(", {space}"));
     let how = search.unwrap_or_default() + &space.unwrap_or_default();
-    lines.push(("planner", format!("{}{how}: {}", answer.method, answer.run.size)));
+    let mut lines = vec![("planner", format!("{}{how}: {}", answer.method, answer.run.size))];
     lines.extend(has_all_nodes.then(|| ("nodes", FULL_GRAPH_NODES.to_owned())));
     lines.extend(cells(plan, answer));
     lines.extend(second_attempt(plan, answer).map(|text| ("attempts", text)));
     lines.extend(exact(plan, answer));
     lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
-    lines.extend(field(plan.options()));
     lines
 }
 
@@ -58,9 +44,8 @@ fn found_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) ->
 const FULL_GRAPH_NODES: &str = "start, goal, and the corners of C-obstacles, which are cut off at joint limits";
 
 /// Returns the lines about a motion that was found, with the properties that are proven.
-fn motion_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motion) -> Vec<Line> {
+fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motion) -> Vec<Line> {
     let (scene, arm, path) = (problem.scene(), problem.scene().arm(), motion.path.path());
-    let timed = TimedScene { scene, ..plan.problem().timed() };
     let TimedMotion { curve, trajectory } = &motion.timed;
     let kind = if answer.method.has_own_path() { format!(", {} path", answer.path_kind) } else { String::new() };
     let pieces = counted(path.segments().count(), "straight piece");
@@ -75,8 +60,6 @@ fn motion_lines(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, m
     lines.extend(torque(arm, trajectory));
     lines.extend(motion.fastest.as_ref().map(|fastest| ("fastest", least_time(fastest))));
     lines.push(("clearance", clearance(scene, curve)));
-    let plane = motion.timing.as_ref().and_then(|_| plane_of_motion(timed, trajectory));
-    lines.extend(motion.timing.iter().flat_map(|timing| among_movers(arm, timing, plane.as_ref())));
     lines
 }
 

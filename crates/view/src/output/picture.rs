@@ -135,7 +135,7 @@ impl PictureFormat {
 #[must_use]
 pub fn view(plan: &Plan) -> View {
     let mut view = view_with(plan, contours_of(plan.options()));
-    if let Detail::Motion { problem, answer } = plan.detail()
+    if let Some((problem, answer)) = plan.motion()
         && let Some(set) = blocking(problem, answer)
     {
         view.title.insert(0, format!("No path: {}", blame_in_words(problem.scene(), &set)));
@@ -171,11 +171,9 @@ fn key_figures(plan: &Plan) -> KeyFigures {
     if plan.status() != Status::Found {
         return KeyFigures::default();
     }
-    let (gap, fastest) = match plan.detail() {
-        Detail::Motion { answer, .. } => {
-            (answer.outcome.found().and_then(|motion| motion.path.bound.as_ref().map(Bound::gap)), false)
-        }
-        Detail::Task { answer, .. } => (answer.gap(), true),
+    let (gap, fastest) = match plan.task() {
+        None => (plan.bound().as_ref().map(Bound::gap), false),
+        Some((_, answer)) => (answer.gap(), true),
     };
     let is_static = plan.problem().timed().scene.loose_obstacles().is_empty();
     let gap = gap.filter(|gap| is_static && gap.is_finite());
@@ -184,7 +182,7 @@ fn key_figures(plan: &Plan) -> KeyFigures {
 
 fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, contours: &[CObstacle]) -> View {
     let scene = problem.scene();
-    let timed = TimedScene { scene, ..plan.problem().timed() };
+    let timed = plan.problem().timed();
     let moments =
         plan.duration().map_or_else(Vec::new, |duration| contours_in_time(timed, [0.0, duration], MAX_MOMENTS));
     let method = answer.method;

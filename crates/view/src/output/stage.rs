@@ -1,8 +1,8 @@
 //! The scene of a recording: the arm's links, obstacles and objects, and their places over time.
 
-use cplan_engine::{Detail, Plan};
+use cplan_engine::Plan;
 use cplan_geometry::Pose;
-use cplan_handling::{ObstacleTrajectory, Task};
+use cplan_handling::{Task, TimedScene};
 use cplan_model::space::Configuration;
 use cplan_model::{Grip, Obstacle, Part};
 use cplan_motion::{Body, Solid, Stage};
@@ -17,10 +17,12 @@ const FIRST_OBJECT: usize = 3;
 /// Returns the bodies and their poses during the motion; `None` if there is no motion.
 pub(super) fn stage(plan: &Plan) -> Option<Stage> {
     let (arm, trajectory) = (plan.arm(), plan.trajectory()?);
-    let obstacles = match plan.detail() {
-        Detail::Motion { problem, .. } => &problem.scene().workspace().obstacles,
-        Detail::Task { task, .. } => &task.workspace.fixed.obstacles,
-    };
+    let TimedScene { scene, trajectories } = plan.problem().timed();
+    // Objects are bodies of their own.
+    let task = plan.problem().task();
+    let [objects, movers] = task.map_or([0, usize::MAX], |task| [task.objects.len(), task.workspace.movers.len()]);
+    let obstacles = &scene.workspace().obstacles;
+    let obstacles = &obstacles[..obstacles.len() - objects];
     let mut stage = Stage {
         plane: arm.plane,
         bodies: vec![Body {
@@ -32,45 +34,25 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
     };
     for (number, link) in arm.links.iter().enumerate() {
         // A payload is a body of its own, so it is not among the parts of the arm.
-        let parts = match plan.detail() {
-            Detail::Motion { problem, .. } => problem.scene().own_parts(number),
-            Detail::Task { .. } => &link.parts,
-        };
-        stage.bodies.push(of_link(&link.name, parts));
+        stage.bodies.push(of_link(&link.name, scene.own_parts(number)));
     }
     for (&time, &q) in trajectory.time.iter().zip(&trajectory.position) {
         let poses = arm.poses(q.into());
         let moved = poses.into_iter().enumerate().map(|(link, pose)| (time, FIRST_LINK + link, pose, 0.0));
         stage.poses.extend(moved);
     }
-    match plan.detail() {
-        Detail::Motion { problem, .. } => {
-            let loose = problem.scene().loose_obstacles().iter().map(|loose| &loose.obstacle);
-            with_movers(&mut stage, obstacles.len(), loose.zip(plan.problem().timed().trajectories), &trajectory.time);
-        }
-        Detail::Task { task, answer } => {
-            with_objects(&mut stage, task, answer, &trajectory.time);
-            let movers = task.workspace.movers.iter().map(|mover| (&mover.obstacle, &mover.trajectory));
-            with_movers(&mut stage, obstacles.len(), movers, &trajectory.time);
-        }
+    if let Some((task, answer)) = plan.task() {
+        with_objects(&mut stage, task, answer, &trajectory.time);
+    }
+    let movers = scene.loose_obstacles().iter().take(movers).map(|loose| &loose.obstacle).zip(trajectories);
+    for (number, (obstacle, path)) in movers.enumerate() {
+        let solid = placed_solid((obstacles.len() + number, obstacle));
+        let body = stage.bodies.len();
+        stage.bodies.push(Body { name: format!("moving/{}", obstacle.name), solids: vec![solid] });
+        stage.poses.extend(trajectory.time.iter().map(|&time| (time, body, path.pose(time), 0.0)));
     }
     stage.poses.sort_by(|a, b| a.0.total_cmp(&b.0));
     Some(stage)
-}
-
-/// Adds moving obstacles, which are numbered after the static ones. Each gets a pose for each of `times`.
-fn with_movers<'a>(
-    stage: &mut Stage,
-    standing: usize,
-    movers: impl Iterator<Item = (&'a Obstacle, &'a ObstacleTrajectory)>,
-    times: &[f64],
-) {
-    for (number, (obstacle, trajectory)) in movers.enumerate() {
-        let solid = placed_solid((standing + number, obstacle));
-        let body = stage.bodies.len();
-        stage.bodies.push(Body { name: format!("moving/{}", obstacle.name), solids: vec![solid] });
-        stage.poses.extend(times.iter().map(|&time| (time, body, trajectory.pose(time), 0.0)));
-    }
 }
 
 /// Adds the objects with their poses over time. They are at their initial places or on their trajectories, then

@@ -1,12 +1,13 @@
 //! The summary of a plan for people.
 
-use super::{motion_summary, task_summary};
+use super::motion_summary::{self, among_movers};
+use super::task_summary;
+use crate::view::{plane_of_motion, plane_of_task};
 use cplan_engine::{Detail, Plan};
 use cplan_model::space::{Configuration, GoalSet, JointRange, Segment};
 use cplan_model::{Arm, Joint};
 use cplan_motion::Trajectory;
-use cplan_solver::Options;
-use cplan_text::{Columns, first_lines};
+use cplan_text::{Columns, counted, first_lines};
 use std::time::Duration;
 
 /// Returns the values of both joints by name.
@@ -117,18 +118,45 @@ pub(super) fn facts(plan: &Plan) -> Vec<[String; 2]> {
 }
 
 fn summary_lines(plan: &Plan) -> SummaryLines {
-    match plan.detail() {
-        Detail::Motion { problem, answer } => motion_summary::summary_lines(plan, problem, answer),
-        Detail::Task { task, answer } => task_summary::summary_lines(plan, task, answer),
-    }
+    let (problem, arm) = (plan.problem(), plan.arm());
+    let moving = match problem.scene().loose_obstacles().len() {
+        0 => String::new(),
+        count => format!(", {count} moving"),
+    };
+    let (things, mut found, work, target, plane) = match plan.detail() {
+        Detail::Motion { problem, answer } => (
+            counted(problem.scene().workspace().obstacles.len(), "obstacle"),
+            motion_summary::result_lines(problem, answer),
+            motion_summary::work_lines(plan, answer),
+            goal_lines(arm, problem.goals()),
+            plan.timing()
+                .zip(plan.trajectory())
+                .and_then(|(_, motion)| plane_of_motion(plan.problem().timed(), motion)),
+        ),
+        Detail::Task { task, answer } => (
+            counted(task.workspace.fixed.obstacles.len(), "obstacle") + ", " + &counted(task.objects.len(), "object"),
+            task_summary::result_lines(plan, task, answer),
+            task_summary::work_lines(plan, answer),
+            task_summary::steps(task, answer),
+            plan.timing().and_then(|_| plane_of_task(task, &answer.legs)),
+        ),
+    };
+    found.extend(plan.timing().iter().flat_map(|timing| among_movers(arm, timing, plane.as_ref())));
+    found.extend(work);
+    found.extend(plan.options().planner.field().map(|field| ("field", field.to_string())));
+    let name = non_empty(&problem.scene().workspace().name);
+    let mut asked =
+        vec![("world", format!("{name}, {things}{moving}")), ("start", configuration(arm, problem.query().start()))];
+    asked.extend(target);
+    SummaryLines { found, asked }
 }
 
-/// The lines of a summary that are specific to a single motion or a task.
-pub(super) struct SummaryLines {
+/// The lines of a summary that are about the result or the problem.
+struct SummaryLines {
     /// Lines about the result, which pages show as well. The verdict comes first.
-    pub found: Vec<Line>,
+    found: Vec<Line>,
     /// Lines about the problem.
-    pub asked: Vec<Line>,
+    asked: Vec<Line>,
 }
 
 /// A line of the summary: its key and its text. The key is empty if the line continues the one before.
@@ -163,11 +191,6 @@ pub(super) fn torque(arm: &Arm, trajectory: &Trajectory) -> Option<Line> {
     Some(("torque", format!("at most {}, {}", joint(0), joint(1))))
 }
 
-/// Describes the requested field.
-pub(super) fn field(options: &Options) -> Option<Line> {
-    options.planner.field().map(|field| ("field", field.to_string()))
-}
-
 /// Formats lines in two columns.
 pub fn format_columns(lines: &[Line]) -> String {
     let mut columns = Columns::default();
@@ -176,6 +199,6 @@ pub fn format_columns(lines: &[Line]) -> String {
 }
 
 /// Returns a title, or a placeholder if the title is empty.
-pub(super) fn non_empty(name: &str) -> &str {
+fn non_empty(name: &str) -> &str {
     if name.is_empty() { "(no name)" } else { name }
 }

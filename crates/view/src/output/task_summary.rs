@@ -1,43 +1,33 @@
 //! The summary of a task for people.
 
-use super::motion_summary::among_movers;
 use super::step_lines::{StepLine, step_lines};
-use super::summary::{Line, SummaryLines, configuration, field, non_empty, torque};
-use crate::view::plane_of_task;
+use super::summary::{Line, torque};
 use cplan_engine::Plan;
 use cplan_handling::Task;
 use cplan_model::Outcome;
 use cplan_tasks::{FailedStep, Leg, TaskAnswer, TaskMotion};
 use cplan_text::{counted, length_down, percent, round_down, short};
 
-/// Returns the results of the steps, and the task.
-pub(super) fn summary_lines(plan: &Plan, task: &Task, answer: &TaskAnswer) -> SummaryLines {
-    let moving = match (task.workspace.movers.len(), task.initially_moving().count()) {
-        (0, 0) => String::new(),
-        (obstacles, objects) => format!(", {} moving", obstacles + objects),
-    };
-    let things =
-        [counted(task.workspace.fixed.obstacles.len(), "obstacle"), counted(task.objects.len(), "object") + &moving];
-    let (motions, states) = (counted(answer.motions, "motion"), counted(answer.expanded, "state"));
-    let mut asked = vec![
-        ("world", format!("{}, {}", non_empty(&task.workspace.fixed.name), things.join(", "))),
-        ("start", configuration(&task.arm, task.start)),
-    ];
-    asked.extend(steps(task, answer).into_iter().map(|step| ("step", step)));
-    let mut found = match &answer.outcome {
+/// Returns the lines about the result. The verdict comes first.
+pub(super) fn result_lines(plan: &Plan, task: &Task, answer: &TaskAnswer) -> Vec<Line> {
+    match &answer.outcome {
         Outcome::Found(motion) => motion_lines(task, answer, motion),
         Outcome::Infeasible(failed) | Outcome::Unknown(failed) => failure_lines(plan, answer, failed),
-    };
-    found.push(("planner", format!("{}: {motions} planned, {states} examined", plan.options().planner.method())));
-    found.extend(field(plan.options()));
-    SummaryLines { found, asked }
+    }
+}
+
+/// Returns a line about the work of the planner.
+pub(super) fn work_lines(plan: &Plan, answer: &TaskAnswer) -> Vec<Line> {
+    let (motions, states) = (counted(answer.motions, "motion"), counted(answer.expanded, "state"));
+    vec![("planner", format!("{}: {motions} planned, {states} examined", plan.options().planner.method()))]
 }
 
 /// Returns the lines of the steps. Late repetitions are merged.
-fn steps(task: &Task, answer: &TaskAnswer) -> Vec<String> {
+pub(super) fn steps(task: &Task, answer: &TaskAnswer) -> Vec<Line> {
     let repeated = answer.legs.iter().any(|leg| leg.step.cycle > 1);
     let line = |leg: &Leg| StepLine { cycle: leg.step.cycle, is_listed: false, columns: row(task, leg, repeated) };
-    step_lines(&answer.legs.iter().map(line).collect::<Vec<_>>())
+    let lines = step_lines(&answer.legs.iter().map(line).collect::<Vec<_>>());
+    lines.into_iter().map(|step| ("step", step)).collect()
 }
 
 /// Returns number, action, payload and motion of a step.
@@ -76,7 +66,6 @@ fn failure_lines(plan: &Plan, answer: &TaskAnswer, failed: &FailedStep) -> Vec<L
 
 /// Returns the lines about the whole motion, with its proven duration and clearance.
 fn motion_lines(task: &Task, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Line> {
-    let arm = &task.arm;
     let count = counted(answer.legs.len(), "step");
     let trajectory = &motion.sequence.trajectory;
     let samples = trajectory.time.len();
@@ -99,13 +88,11 @@ fn motion_lines(task: &Task, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Li
         ("result", format!("found and certified: {count}")),
         ("motion", format!("{:.3} s{still}, {samples} samples", trajectory.duration())),
     ];
-    lines.extend(torque(arm, trajectory));
+    lines.extend(torque(&task.arm, trajectory));
     lines.push(("optimum", proven));
     lines.extend(answer.legs.first().and_then(bounded_motions).map(|about| ("optimum", about)));
     lines.push(("optimum", choice.into()));
     lines.extend(clearance(answer));
-    let plane = motion.timing.as_ref().and_then(|_| plane_of_task(task, &answer.legs));
-    lines.extend(motion.timing.iter().flat_map(|timing| among_movers(arm, timing, plane.as_ref())));
     lines
 }
 

@@ -1,18 +1,17 @@
 //! A task: its worlds, the times of its events, and the motions that a still picture shows together.
 
-use super::arm;
-use super::content::{KeyFigures, PanelView, StillContent, View};
+use super::content::{PanelView, StillContent, View};
 use super::extent;
 use super::height::{HeightView, TurnsView};
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::RoundingSteps;
+use super::picture::Picture;
 use super::states::{PayloadGroup, PayloadState, describe, grouped, hand, payload_states};
 use super::steps::{Order, rounds, rows, words};
 use super::strip::{StripView, plane_of_task};
 use super::task_picture::TaskPicture;
 use super::tool_angle::ToolAngleView;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
-use crate::FieldLines;
 use cplan_geometry::Pose;
 use cplan_handling::{Object, ObstacleTrajectory, Task, TimedScene};
 use cplan_model::space::Configuration;
@@ -71,17 +70,6 @@ impl View {
         let placed = placed.iter().map(|(object, o)| ObstacleView::new(o, task.obstacle_number(*object), grain));
         let last = legs.last().map(|leg| (leg, motions[legs.len() - 1].world));
         let still = StillContent {
-            time: 0.0,
-            now: None,
-            reach: None,
-            line: None,
-            stuck: None,
-            explanation: None,
-            checked: None,
-            is_dark: false,
-            lights_paths: false,
-            top_paths: Vec::new(),
-            field_lines: FieldLines::default(),
             panels: panels(picture, &order, (&paths, &worlds.views), world, grain),
             placed: placed.collect(),
             // An object that the last motion releases lies at its place in the final picture.
@@ -89,32 +77,23 @@ impl View {
                 .zip(paths.last())
                 .map(|((leg, world), path)| (path.goal().into(), if leg.event.is_some() { 0 } else { world })),
             steps: rows(picture),
+            ..StillContent::default()
         };
         let (title, status) = words(picture);
         let strip = strip(picture, &worlds.views);
+        let (ending, facts) = (picture.ending, picture.facts.clone());
         Self {
-            title,
-            status,
-            ending: picture.ending,
-            facts: picture.facts.clone(),
-            figures: KeyFigures::default(),
-            arm: arm::empty_handed(&overview, grain),
             frame: extent::sides(&overview, &shown).map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
-            start: grain.configuration(task.start),
-            goals: Vec::new(),
-            goal_lines: Vec::new(),
             worlds: worlds.views,
             paths,
             motions,
             clock: (!legs.is_empty()).then(|| Clock::new(&Sequence::of(legs).trajectory, grain)),
-            frames: Vec::new(),
             strip,
             height: HeightView::of_task(task, legs),
             turns: TurnsView::of_task(task, legs),
             tool: ToolAngleView::of_task(task, legs),
-            replay: Vec::new(),
-            replays: Vec::new(),
             still,
+            ..Self::of_picture(&Picture { title, status, ending, facts, ..Picture::new(&overview, task.start) })
         }
     }
 }

@@ -23,8 +23,8 @@ use cplan_planners::waves::FreeCells;
 use cplan_planners::waves::search::Estimates;
 use cplan_solver::{Answer, Space};
 use cplan_tasks::TaskAnswer;
+#[cfg(test)]
 use schemars::JsonSchema;
-use schemars::generate::SchemaSettings;
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -32,7 +32,8 @@ use std::sync::Arc;
 pub type Values = [f64; 2];
 
 /// The configuration spaces of a plan. Numbers have all their digits; units are radians and metres.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub struct CSpaces {
     /// Title of the workspace; may be empty.
     pub name: String,
@@ -47,7 +48,8 @@ pub struct CSpaces {
 }
 
 /// The values of one joint.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub struct Axis {
     /// Name of the joint in the URDF.
     pub joint: String,
@@ -64,7 +66,8 @@ pub struct Axis {
 }
 
 /// A configuration space and its content. Data that a planner does not make is omitted.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub struct CSpace {
     /// Name of the payload in a task; otherwise empty.
     pub payload: String,
@@ -113,7 +116,8 @@ pub struct CSpace {
 pub type Polygons = Vec<Vec<Vec<Values>>>;
 
 /// The C-obstacle of an obstacle.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub struct ObstacleRegion {
     /// Name of the obstacle; may be empty.
     pub obstacle: String,
@@ -122,7 +126,8 @@ pub struct ObstacleRegion {
 }
 
 /// A path.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub struct PathData {
     /// Name of the planner, or the step of a task.
     pub name: String,
@@ -133,7 +138,8 @@ pub struct PathData {
 }
 
 /// Free space of a planner on polygons.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub struct FreeRegion {
     /// Guarantee of free and blocked here.
     pub proves: Proves,
@@ -141,15 +147,6 @@ pub struct FreeRegion {
     pub window: [Values; 2],
     /// Connected components.
     pub polygons: Polygons,
-}
-
-/// Returns the schema of [`CSpaces`] as JSON, JSON Schema draft 2020-12.
-#[must_use]
-pub fn cspace_schema() -> serde_json::Value {
-    let settings = SchemaSettings::draft2020_12().for_serialize();
-    let mut schema = settings.into_generator().into_root_schema_for::<CSpaces>().to_value();
-    schema.sort_all_objects();
-    schema
 }
 
 /// Returns the planner's configuration space as data. Computes the C-obstacles again, which takes as long as for a
@@ -392,4 +389,17 @@ fn boxes_of(proof: &CheckedProof) -> Vec<[Values; 2]> {
 fn polygons(polygons: &[PolygonWithHoles]) -> Polygons {
     let closed = |ring: &Vec<Point>| ring.iter().chain(ring.first()).map(|p| [p.x, p.y]).collect();
     polygons.iter().map(|polygon| std::iter::once(&polygon.outer).chain(&polygon.holes).map(closed).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_robot::schema::compare_with_file;
+    use schemars::generate::SchemaSettings;
+
+    #[test]
+    fn the_schema_agrees_with_its_file() {
+        let generator = SchemaSettings::draft2020_12().for_serialize().into_generator();
+        compare_with_file(generator.into_root_schema_for::<CSpaces>(), "cspace.schema.json");
+    }
 }

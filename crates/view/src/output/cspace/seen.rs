@@ -4,12 +4,14 @@ use super::Values;
 use cplan_model::space::Configuration;
 use cplan_planners::cspace::Proves;
 use cplan_solver::Space;
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use std::collections::HashMap;
 
 /// A graph of straight motions.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub struct Roadmap {
     /// Vertices, each once.
     pub vertices: Vec<Values>,
@@ -24,7 +26,8 @@ pub struct Roadmap {
 }
 
 /// Cells of free space.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub struct Cells {
     /// Corners of each cell, counter-clockwise.
     pub corners: Vec<Vec<Values>>,
@@ -39,7 +42,8 @@ pub struct Cells {
 }
 
 /// Boxes: least and greatest values of each.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub struct Boxes {
     /// Boxes without any collision.
     pub free: Vec<[Values; 2]>,
@@ -50,7 +54,8 @@ pub struct Boxes {
 }
 
 /// Cells in rows of joint 2: cell `(i, j)` is number `i * shape[1] + j`, and its least values are `lower + (i, j) * size`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
 pub struct FieldGrid {
     /// Number of cells along each axis.
     pub shape: [usize; 2],
@@ -64,14 +69,14 @@ pub struct FieldGrid {
     pub free: &'static str,
     /// One value per cell: 1 if it is blocked, otherwise 0.
     #[serde(serialize_with = "bits")]
-    #[schemars(with = "Vec<u8>")]
+    #[cfg_attr(test, schemars(with = "Vec<u8>"))]
     pub blocked: Vec<bool>,
     /// The meaning of `values`: `steps` to the goal, `steps_from_start`, `ln_potential` (the natural logarithm `ln(1 -
     /// p)` of a potential `p` that is 0 at the goals and 1 at obstacles), or `height` (descended by the path). Steps
     /// begin at 0, or at the number of `--labels-from`.
     pub quantity: &'static str,
     /// One value per cell; infinite (null in JSON) if there is no value. Empty if there is no field.
-    #[schemars(with = "Vec<Option<f64>>")]
+    #[cfg_attr(test, schemars(with = "Vec<Option<f64>>"))]
     pub values: Vec<f64>,
     /// Estimated cost from each cell to the end of the search, without obstacles. Only for A\* and greedy searches.
     #[serde(skip_serializing_if = "Vec::is_empty")]
