@@ -146,7 +146,6 @@ impl ExplanationResult {
     }
 
     /// Returns the status of the motion or task.
-    #[must_use]
     pub fn status(&self) -> Status {
         match self {
             Self::Motion(explanation, _) => explanation.status(),
@@ -155,7 +154,6 @@ impl ExplanationResult {
     }
 
     /// Returns the explanation as a JSON object.
-    #[must_use]
     pub fn to_json(&self) -> Value {
         match self {
             Self::Motion(explanation, _) => explanation.to_json(),
@@ -164,7 +162,6 @@ impl ExplanationResult {
     }
 
     /// Returns the explanation as text.
-    #[must_use]
     pub fn summary(&self) -> String {
         match self {
             Self::Motion(explanation, notes) => explained::summary(explanation, notes),
@@ -173,7 +170,6 @@ impl ExplanationResult {
     }
 
     /// Returns the content of pictures and pages.
-    #[must_use]
     pub fn view(&self) -> View {
         match self {
             Self::Motion(explanation, _) => explained::view(explanation),

@@ -25,7 +25,6 @@ pub struct QueryArgs {
 
 impl QueryArgs {
     /// Returns the stated options as words of a command line.
-    #[must_use]
     pub fn words(&self) -> Vec<String> {
         let Self { start, goal, goal_tip, clearance } = self;
         let words = [
@@ -38,7 +37,6 @@ impl QueryArgs {
     }
 
     /// Converts the options to overrides of the world file.
-    #[must_use]
     pub fn overrides(&self) -> Overrides {
         Overrides { start: self.start, goal: self.goal, goal_tip: self.goal_tip, clearance: self.clearance }
     }

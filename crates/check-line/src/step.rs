@@ -38,14 +38,12 @@ impl StepLine {
     }
 
     /// Returns true if both lines have the same pieces.
-    #[must_use]
     pub fn has_pieces_of(&self, other: &Self) -> bool {
         self.0.pieces == other.0.pieces
     }
 
     /// Returns an upper bound on the distance between the tip at a knot and the beginning of the line, in units of
     /// [`Interval`].
-    #[must_use]
     pub fn distance_from_start(&self, arm: &Arm, knot: &[Decimal]) -> BigInt {
         let tip = tip::at(arm, &[1, 2].map(|k| Interval::from(&knot[k])));
         length(&minus(&tip, &self.0.pieces[0].at(&Interval::whole(0)))).upper
@@ -61,7 +59,6 @@ impl StepLine {
     }
 
     /// Returns true if the line consists of the straight lines that join the points.
-    #[must_use]
     pub fn joins(&self, points: &[Point]) -> bool {
         let is_between = |(piece, ends): (&Curve, &[Point])| {
             let is_straight = matches!(piece, Curve::Bezier(control) if control.len() == 2);
@@ -72,7 +69,6 @@ impl StepLine {
 
     /// Returns true if the line is an arc from the first point through the second one to the third one, of at most a whole
     /// circle.
-    #[must_use]
     pub fn is_arc_through(&self, [from, through, to]: &[Point; 3]) -> bool {
         let [piece @ Curve::Arc(arc)] = &self.0.pieces[..] else { return false };
         let is_circle = arc.growth == Interval::whole(0);

@@ -70,7 +70,6 @@ impl Study {
     /// Writes the log of a benchmark in OMPL's format. `started` is date and time in words, `seconds` the total
     /// duration. The log states limits of 0 for time and memory, because planners had none, and does not name the
     /// machine.
-    #[must_use]
     pub fn to_arena_log(&self, started: &str, seconds: f64) -> String {
         let mut log = format!("cplan version {}\n", env!("CARGO_PKG_VERSION"));
         log += &format!("Experiment {}\n0 experiment properties\nRunning on localhost\n", word(&self.title));

@@ -27,7 +27,6 @@ pub struct Comparison {
 
 impl Comparison {
     /// Returns the least length of all paths. `None` if no planner found a path.
-    #[must_use]
     pub fn best(&self) -> Option<f64> {
         self.rows.iter().filter_map(|r| r.length).filter(|l| l.is_finite()).min_by(f64::total_cmp)
     }
@@ -35,28 +34,24 @@ impl Comparison {
     /// Returns the ratio of this row's length to the least length, which is 1 for the shortest path. If the least
     /// length is zero (the goal is the start), returns 1 for paths of length zero, and `None` for longer ones. Returns
     /// `None` if there is no path.
-    #[must_use]
     pub fn ratio(&self, row: &Row) -> Option<f64> {
         quotient(row.length?, self.best()?)
     }
 
     /// Returns the ratio of this row's length to the proven lower bound. The path is longer than the optimum by at most
     /// this factor.
-    #[must_use]
     pub fn over_optimum(&self, row: &Row) -> Option<f64> {
         quotient(row.length?, self.bound?)
     }
 
     /// Returns true if one planner found a certified path and another proved that no path exists, so that one of them is
     /// wrong.
-    #[must_use]
     pub fn is_contradictory(&self) -> bool {
         let has = |outcome| self.rows.iter().any(|row| row.outcome == outcome);
         has(Status::Found) && has(Status::Infeasible)
     }
 
     /// Summarises the results in words.
-    #[must_use]
     pub fn outcome(&self) -> String {
         let all = self.rows.len();
         let [found, proved, unknown] =
@@ -70,7 +65,6 @@ impl Comparison {
     }
 
     /// Describes the contradiction between two planners. `None` if there is none.
-    #[must_use]
     pub fn alarm(&self) -> Option<String> {
         let named = |outcome| {
             let names = self.rows.iter().filter(|row| row.outcome == outcome).map(|row| row.planner.as_str());
@@ -89,14 +83,12 @@ impl Comparison {
 
     /// Returns an aligned table of the most important columns, 80 characters wide. Headers contain the units, and `-`
     /// stands for a missing value. The planners' notes follow, one per line. The text ends in a newline.
-    #[must_use]
     pub fn to_text(&self) -> String {
         self.to_text_with(PLAIN)
     }
 
     /// Returns the same text as [`Comparison::to_text`] for a terminal, with an emphasis on the best value of each column.
     /// Control characters in names are escaped.
-    #[must_use]
     pub fn to_text_with(&self, emphasis: Emphasis) -> String {
         let remarks = self.remarks().map(|line| wrapped(&plain(&line), MAX_TABLE_WIDTH, 2) + "\n");
         let table = self.table().of_columns(&LEADING_COLUMNS);
@@ -104,13 +96,11 @@ impl Comparison {
     }
 
     /// Returns the table with all columns, without a limit on its width.
-    #[must_use]
     pub fn to_wide_text(&self) -> String {
         self.to_wide_text_with(PLAIN)
     }
 
     /// Returns the same text as [`Comparison::to_wide_text`] for a terminal, as [`Comparison::to_text_with`] does.
-    #[must_use]
     pub fn to_wide_text_with(&self, emphasis: Emphasis) -> String {
         self.table().to_text_with(emphasis)
             + &self.remarks().map(|line| plain(&line).into_owned() + "\n").collect::<String>()
@@ -121,13 +111,11 @@ impl Comparison {
     }
 
     /// Returns the table in Markdown.
-    #[must_use]
     pub fn to_markdown(&self) -> String {
         self.table().to_markdown()
     }
 
     /// Returns comma-separated values (RFC 4180) in SI units with full precision; missing values are empty.
-    #[must_use]
     pub fn to_csv(&self) -> String {
         let rows = self.rows.iter().map(|row| self.csv_row(row) + "\n");
         format!("{CSV_HEADER}\n{}", rows.collect::<String>())
@@ -149,7 +137,6 @@ impl Comparison {
     }
 
     /// Returns a JSON object in SI units; missing values are null.
-    #[must_use]
     pub fn to_json(&self) -> Value {
         let mut object = json!({
             "problem": self.problem,

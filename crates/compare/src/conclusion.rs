@@ -13,7 +13,6 @@ const EQUALITY_TOLERANCE: f64 = 1e-6;
 impl Study {
     /// Returns the conclusion in one sentence: about the paths if there is one problem, and otherwise about the number of
     /// problems in which each planner is the best. Names of planners are between backticks.
-    #[must_use]
     pub fn conclusion(&self) -> String {
         match &self.comparisons[..] {
             [] => "No problem was run.".to_owned(),
@@ -42,7 +41,6 @@ impl Study {
     }
 
     /// Returns the number of problems in which a planner is the best for a purpose, or as good as the best.
-    #[must_use]
     pub fn wins(&self, planner: usize, purpose: Purpose) -> usize {
         let is_best = |comparison: &&Comparison| {
             let value = |row: usize| comparison.rows.get(row).and_then(|row| purpose.value(row));
@@ -56,7 +54,6 @@ impl Study {
 
     /// Returns the planner that is the best for a purpose in most problems, and their number. `None` if no planner found a
     /// path.
-    #[must_use]
     pub fn most_recommended(&self, purpose: Purpose) -> Option<(usize, usize)> {
         let wins: Vec<usize> = (0..self.planners().len()).map(|planner| self.wins(planner, purpose)).collect();
         let best = Better::More.first_best(wins.iter().map(|&wins| (wins > 0).then_some(wins as f64)))?;
@@ -66,7 +63,6 @@ impl Study {
 
 impl Comparison {
     /// Returns the conclusion in one sentence, with names of planners between backticks.
-    #[must_use]
     pub fn conclusion(&self) -> String {
         let count = |outcome| self.rows.iter().filter(|row| row.outcome == outcome).count();
         let (found, all) = (count(Status::Found), self.rows.len());

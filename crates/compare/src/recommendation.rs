@@ -47,7 +47,6 @@ impl Purpose {
 impl Comparison {
     /// Returns the index of the row that is the best for a purpose, or the first one of equal ones. `None` if no planner
     /// found a path.
-    #[must_use]
     pub fn recommended(&self, purpose: Purpose) -> Option<usize> {
         purpose.better().first_best(self.rows.iter().map(|row| purpose.value(row)))
     }

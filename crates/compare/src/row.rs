@@ -83,7 +83,6 @@ impl Row {
     }
 
     /// Returns length and clearance of the planner's path of this kind, if both are known.
-    #[must_use]
     pub fn of_kind(&self, kind: PathKind) -> Option<(f64, Option<f64>)> {
         let other = self.other_path?;
         if self.path_kind == kind {
@@ -95,7 +94,6 @@ impl Row {
 
     /// Returns the numbers of nodes, edges, cells, sweeps and expanded cells, each `None` if the planner has no such
     /// number.
-    #[must_use]
     pub fn counts(&self) -> [Option<usize>; 5] {
         let figures = self.size.map_or_else(Vec::new, Size::figures);
         let of = |name: &str| figures.iter().find(|figure| figure.0 == name).map(|figure| figure.1);

@@ -34,7 +34,6 @@ impl Spread {
     }
 
     /// Returns least value, lower quartile, median, upper quartile, greatest value and mean, as the tables list them.
-    #[must_use]
     pub fn numbers(&self) -> [f64; 6] {
         [self.min, self.lower_quartile, self.median, self.upper_quartile, self.max, self.mean]
     }

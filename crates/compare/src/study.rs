@@ -43,7 +43,6 @@ pub struct Refusal {
 
 impl Study {
     /// Returns the planners' names, in the order of the tables.
-    #[must_use]
     pub fn planners(&self) -> Vec<&str> {
         self.comparisons.first().map_or_else(Vec::new, |c| c.rows.iter().map(|row| row.planner.as_str()).collect())
     }
@@ -54,20 +53,17 @@ impl Study {
     }
 
     /// Returns the number of a planner's runs by status, in the order of [`Status::ALL`].
-    #[must_use]
     pub fn tally(&self, planner: usize) -> [usize; 3] {
         Status::ALL.map(|outcome| self.runs(planner).filter(|(_, row)| row.outcome == outcome).count())
     }
 
     /// Returns the distribution of a planner's values, or `None` if it has no values.
-    #[must_use]
     pub fn spread(&self, planner: usize, measure: Measure) -> Option<Spread> {
         Spread::of(self.runs(planner).filter_map(|(comparison, row)| measure.of(comparison, row)))
     }
 
     /// Counts problems by the outcome that all planners together found, in the order of [`Status::ALL`]: a path, a
     /// proof that there is none, or neither. A contradictory problem counts as one with a path.
-    #[must_use]
     pub fn outcome_counts(&self) -> [usize; 3] {
         let mut counts = [0; 3];
         for comparison in &self.comparisons {
@@ -80,7 +76,6 @@ impl Study {
     }
 
     /// Describes each contradiction between planners.
-    #[must_use]
     pub fn alarms(&self) -> Vec<String> {
         self.comparisons.iter().filter_map(Comparison::alarm).collect()
     }

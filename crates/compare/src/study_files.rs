@@ -19,26 +19,22 @@ const MAX_REMARKS: usize = 12;
 impl Study {
     /// Returns tables for a terminal: outcomes, the distribution of each measure, and the summary in words. Lists the
     /// problems one by one if they differ in more than start and goal. The text ends in a newline.
-    #[must_use]
     pub fn to_text(&self) -> String {
         self.to_text_with(PLAIN)
     }
 
     /// Returns the same text as [`Study::to_text`] for a terminal, with an emphasis on the best value of each column.
     /// Control characters in names are escaped.
-    #[must_use]
     pub fn to_text_with(&self, emphasis: Emphasis) -> String {
         self.text(|table| table.to_text_within_with(MAX_TABLE_WIDTH, emphasis))
     }
 
     /// Does the same as [`Study::to_text`], with tables of any width.
-    #[must_use]
     pub fn to_wide_text(&self) -> String {
         self.to_wide_text_with(PLAIN)
     }
 
     /// Returns the same text as [`Study::to_wide_text`] for a terminal, as [`Study::to_text_with`] does.
-    #[must_use]
     pub fn to_wide_text_with(&self, emphasis: Emphasis) -> String {
         self.text(|table| table.to_text_with(emphasis))
     }
@@ -54,7 +50,6 @@ impl Study {
     }
 
     /// Returns the same content as [`Study::to_text`] in Markdown.
-    #[must_use]
     pub fn to_markdown(&self) -> String {
         let mut text = format!("# {}\n", escape_markdown(&self.title));
         for paragraph in words(self) {
@@ -69,7 +64,6 @@ impl Study {
 
     /// Returns one line per run in CSV, in SI units with full precision. A line has the problem, start and goal if they
     /// were drawn, and the columns of [`Comparison::to_csv`].
-    #[must_use]
     pub fn to_csv(&self) -> String {
         let mut text = format!("problem,start_1,start_2,goal_1,goal_2,{CSV_HEADER}\n");
         for comparison in &self.comparisons {
@@ -92,7 +86,6 @@ impl Study {
 
     /// Returns a JSON object in SI units: all runs of all problems, each planner's outcomes and distributions, and the
     /// conclusions.
-    #[must_use]
     pub fn to_json(&self) -> Value {
         let mut object = json!({
             "title": self.title,
@@ -130,7 +123,6 @@ impl Study {
     }
 
     /// Returns all tables with their headings.
-    #[must_use]
     pub fn tables(&self) -> Vec<(String, Table)> {
         let mut tables = vec![("outcomes".to_owned(), self.outcomes())];
         let spreads = Measure::ALL.into_iter().map(|m| (m.heading().to_owned(), self.spreads(m)));

@@ -36,13 +36,11 @@ impl Column {
     }
 
     /// Returns the name of the column.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// Returns the alignment of the column.
-    #[must_use]
     pub fn align(&self) -> Align {
         self.align
     }

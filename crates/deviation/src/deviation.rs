@@ -88,7 +88,6 @@ pub struct Pairing {
 impl Deviation<'_> {
     /// Pairs a motion with the line. It takes `O(n)` for `n` pieces if each place of the line is near only those moments
     /// that belong to it, and more where a bound exceeds the tolerance.
-    #[must_use]
     pub fn pairing(&self, pieces: &[Piece]) -> Pairing {
         let advanced = self.with_bounds(pieces, self.advanced(pieces));
         if advanced.bounds.iter().all(|bound| *bound <= self.tolerance) {
@@ -130,7 +129,6 @@ impl Deviation<'_> {
 
     /// Returns an upper bound on the distance between the line and each piece of a motion, metres: those of
     /// [`Self::pairing`].
-    #[must_use]
     pub fn of_pieces(&self, pieces: &[Piece]) -> Vec<f64> {
         self.pairing(pieces).bounds
     }
@@ -215,7 +213,6 @@ impl Deviation<'_> {
     }
 
     /// Returns an upper bound on the distance between the line and an arm that rests, metres.
-    #[must_use]
     pub fn at_rest(&self, q: Configuration) -> f64 {
         self.of_pieces(&[Piece::line(0.0, 1.0, q, q)]).into_iter().fold(0.0, f64::max)
     }

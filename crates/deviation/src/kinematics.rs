@@ -48,7 +48,6 @@ impl<'a> Kinematics<'a> {
 
     /// Returns a bound on the second derivative of the tip's position while the joint values deviate from `q` by at most
     /// `beside`: the greatest length of its value for the two displacements `a` and `b`, metres.
-    #[must_use]
     pub fn bend(&self, q: Configuration, beside: Configuration, a: Configuration, b: Configuration) -> f64 {
         use JointType::{Prismatic, Revolute};
         let [a1, a2, b1, b2] = [a[0].abs(), a[1].abs(), b[0].abs(), b[1].abs()];
@@ -66,7 +65,6 @@ impl<'a> Kinematics<'a> {
     }
 
     /// Returns a bound like [`Self::bend`] for displacements with known magnitudes in each joint and unknown signs.
-    #[must_use]
     pub fn bend_within(&self, q: Configuration, beside: Configuration, a: Configuration, b: Configuration) -> f64 {
         use JointType::Revolute;
         let [a, b] = [a.abs(), b.abs()];
@@ -80,7 +78,6 @@ impl<'a> Kinematics<'a> {
 
     /// Returns a bound on the displacement of the tip for a displacement whose magnitude in each joint is at most `d`,
     /// to first order, while the joint values are at most `beside` from `q`.
-    #[must_use]
     pub fn motion_within(&self, q: Configuration, beside: Configuration, d: Configuration) -> f64 {
         use JointType::{Prismatic, Revolute};
         let d = d.abs();
@@ -93,7 +90,6 @@ impl<'a> Kinematics<'a> {
     }
 
     /// Returns the product of the tip's Jacobian and a displacement.
-    #[must_use]
     pub fn velocity(&self, q: Configuration, d: Configuration) -> Vector {
         let [first, second] = self.arm.jacobian(1, self.arm.tip, q);
         first * d[0] + second * d[1]
@@ -115,7 +111,6 @@ impl<'a> Kinematics<'a> {
 
     /// Returns a lower bound on the distance of a point from all places that the tip can reach, metres; 0 for a point
     /// that it reaches. Limits of joints do not count.
-    #[must_use]
     pub fn distance_out_of_reach(&self, point: Point) -> f64 {
         let away = point - self.arm.base;
         if let Some([least, most]) = self.annulus() {
@@ -131,7 +126,6 @@ impl<'a> Kinematics<'a> {
 
     /// Returns a lower bound on the distance of the curve part from all singular places, metres. The part is within `off`
     /// of the straight line between two points. At a singular place both IK solutions are the same.
-    #[must_use]
     pub fn distance_from_singular(&self, [a, b]: [Point; 2], off: f64) -> f64 {
         let base = self.arm.base;
         if let Some([least, most]) = self.annulus() {
@@ -153,7 +147,6 @@ impl<'a> Kinematics<'a> {
 
     /// Returns the point nearest to `point` that the tip can reach, without regard to limits. Returns `None` if it is
     /// farther than `slack`, metres.
-    #[must_use]
     pub fn reachable(&self, point: Point, slack: f64) -> Option<Point> {
         let off = self.distance_out_of_reach(point);
         if off == 0.0 {
@@ -176,7 +169,6 @@ impl<'a> Kinematics<'a> {
 
     /// Returns both IK solutions for a point that the tip can reach, in a fixed order, up to whole turns. At a singular
     /// place they are equal. Returns `None` if a joint is free there.
-    #[must_use]
     pub fn solutions(&self, point: Point) -> Option<[Configuration; 2]> {
         let found = inverse(self.arm, point, Configuration::zeros());
         let first = *found.branches.first().filter(|_| found.free.is_none())?;
@@ -184,14 +176,12 @@ impl<'a> Kinematics<'a> {
     }
 
     /// Returns true if the arm has two IK solutions at most places.
-    #[must_use]
     pub fn has_two_solutions(&self) -> bool {
         !self.arm.is_gantry()
     }
 
     /// Returns a box that contains, up to whole turns, all configurations of one IK solution that put the tip within
     /// `near` of a point. Returns `None` if no such box is known.
-    #[must_use]
     pub fn solution_box(&self, point: Point, solution: usize, near: f64) -> Option<SolutionBox> {
         use JointType::{Prismatic, Revolute};
         let side = if solution == 0 { 1.0 } else { -1.0 };

@@ -54,13 +54,11 @@ impl<'a> Line<'a> {
     }
 
     /// Returns the curve of a piece.
-    #[must_use]
     pub fn curve(&self, piece: usize) -> &'a Curve {
         &self.pieces[piece].curve
     }
 
     /// Returns the place at a parameter of a piece.
-    #[must_use]
     pub fn place(&self, piece: usize, u: f64) -> Place {
         let Piece { curve, source, .. } = &self.pieces[piece];
         let distance = self.begins[piece] + curve.length_to(u);

@@ -44,7 +44,6 @@ impl ToolDeviation<'_> {
     /// Returns an upper bound on the difference between the angle of the tool and the required one, for each piece of a
     /// motion, radians. `angles` has the angle of the tool as first components, in pieces of the same times. It takes `O(n)`
     /// for `n` pieces, and more where a bound exceeds the tolerance.
-    #[must_use]
     pub fn of_pieces(&self, pieces: &[Piece], angles: &[Piece]) -> Vec<f64> {
         let offset = match self.guide.angle {
             ToolAngle::Fixed(angle) => {

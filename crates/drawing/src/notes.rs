@@ -55,13 +55,11 @@ impl Notes {
     }
 
     /// Returns all notes, in the order of the first occurrence of their kinds.
-    #[must_use]
     pub fn all(&self) -> Vec<Note> {
         self.of(|_| true)
     }
 
     /// Returns the notes about the whole drawing and about selected elements.
-    #[must_use]
     pub fn of(&self, is_asked_for: impl Fn(&[String]) -> bool) -> Vec<Note> {
         let mut kinds: Vec<Note> = Vec::new();
         let asked = self.counted.iter().filter(|(whose, _)| whose.is_empty() || is_asked_for(whose));

@@ -41,7 +41,6 @@ pub struct Shape {
 
 impl Shape {
     /// Returns all names by which a user may select the shape: its layer, its name, and the layer that hides it.
-    #[must_use]
     pub fn called(&self) -> Vec<String> {
         [&self.layer, &self.name, &self.hidden_by].into_iter().flatten().cloned().collect()
     }
@@ -58,14 +57,12 @@ pub struct Frame {
 
 impl Frame {
     /// Converts a point from the frame's coordinates to those of the drawing.
-    #[must_use]
     pub fn placed(&self, [x, y]: Point) -> Point {
         let (sin, cos) = self.angle.sin_cos();
         [cos * x - sin * y + self.at[0], sin * x + cos * y + self.at[1]]
     }
 
     /// Converts a point from the drawing's coordinates to those of the frame.
-    #[must_use]
     pub fn local(&self, p: Point) -> Point {
         let (sin, cos) = self.angle.sin_cos();
         let [x, y] = [p[0] - self.at[0], p[1] - self.at[1]];

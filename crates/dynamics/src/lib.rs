@@ -113,14 +113,12 @@ impl<'a> Torques<'a> {
     }
 
     /// Computes the torques of a motion at `q` with these joint speeds and accelerations.
-    #[must_use]
     pub fn torque(&self, q: Configuration, velocity: Configuration, acceleration: Configuration) -> Configuration {
         let here = self.at(q);
         here.inertial(acceleration) + here.centrifugal(velocity) + here.holding()
     }
 
     /// Prepares the computation of torques in a configuration.
-    #[must_use]
     pub fn at(&self, q: Configuration) -> TorquesAt<'_> {
         let columns = [0, 1].map(|link| self.arm.jacobian(link, self.dynamics.bodies[link].center, q));
         TorquesAt { torques: self, columns }
@@ -128,7 +126,6 @@ impl<'a> Torques<'a> {
 
     /// Returns an upper bound on the rate of change of torques along a part of a motion. The part stays within `reach`
     /// seconds of `middle` and has these derivatives.
-    #[must_use]
     pub fn change(&self, middle: Configuration, reach: f64, rates: &Rates) -> [f64; 2] {
         let mut change = [0.0; 2];
         for (link, body) in self.dynamics.bodies.iter().enumerate() {
@@ -145,7 +142,6 @@ impl<'a> Torques<'a> {
 
     /// Returns upper bounds on the curvature of torques along a part of a curve without third derivatives. The part
     /// stays within `reach` of `middle`, measured in the parameter.
-    #[must_use]
     pub fn curvature(&self, middle: Configuration, reach: f64, rates: &Rates) -> Curvature {
         let mut curvature = Curvature::default();
         for (link, body) in self.dynamics.bodies.iter().enumerate() {
@@ -162,7 +158,6 @@ impl<'a> Torques<'a> {
     }
 
     /// Returns upper bounds on the magnitudes of the inertia matrix's entries in all configurations.
-    #[must_use]
     pub fn greatest_inertia(&self) -> [[f64; 2]; 2] {
         let mut greatest = [[0.0; 2]; 2];
         for (link, body) in self.dynamics.bodies.iter().enumerate() {
@@ -178,7 +173,6 @@ impl<'a> Torques<'a> {
 
     /// Returns upper bounds on the accelerations of motions within speeds and efforts, in all configurations. They are
     /// infinite for a joint that moves no mass.
-    #[must_use]
     pub fn greatest_accelerations(&self) -> [f64; 2] {
         let mut pull = self.dynamics.effort;
         for (link, body) in self.dynamics.bodies.iter().enumerate() {
@@ -192,7 +186,6 @@ impl<'a> Torques<'a> {
     }
 
     /// Returns a lower bound on the determinant of the inertia matrix in all configurations.
-    #[must_use]
     pub fn least_determinant(&self) -> f64 {
         use JointType::{Prismatic, Revolute};
         let (arm, [a, b]) = (self.arm, &self.dynamics.bodies);
@@ -218,7 +211,6 @@ pub struct TorquesAt<'a> {
 
 impl TorquesAt<'_> {
     /// Computes the torques of accelerations alone: the inertia matrix times the accelerations.
-    #[must_use]
     pub fn inertial(&self, acceleration: Configuration) -> Configuration {
         self.sum(|link, [first, second]| {
             let turning = turns(self.torques.arm, link).map(|turn| turn.unwrap_or(0.0));
@@ -228,13 +220,11 @@ impl TorquesAt<'_> {
     }
 
     /// Computes the torques of speeds alone: centrifugal and Coriolis forces.
-    #[must_use]
     pub fn centrifugal(&self, velocity: Configuration) -> Configuration {
         self.sum(|link, columns| (bending(self.torques.arm, link, velocity, columns), 0.0))
     }
 
     /// Computes the torques that hold the arm at rest against gravity.
-    #[must_use]
     pub fn holding(&self) -> Configuration {
         self.sum(|_, _| (-self.torques.dynamics.gravity, 0.0))
     }

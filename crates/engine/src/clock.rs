@@ -39,7 +39,6 @@ impl Clock {
     }
 
     /// Returns all stages that have ended.
-    #[must_use]
     pub fn stages(&self) -> &[(&'static str, Duration)] {
         &self.stages
     }

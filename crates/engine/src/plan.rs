@@ -234,7 +234,6 @@ pub(super) fn joints_in_messages<'a>(problem: &'a Problem, options: &Options) ->
 
 impl Plan {
     /// Returns the answer: a certified motion, a proof that there is no motion, or the reason why neither is known.
-    #[must_use]
     pub fn outcome(&self) -> Outcome<&Trajectory, Refutation<'_>> {
         match (self.found(), &*self.detail) {
             (Some(found), _) => Outcome::Found(found.trajectory),
@@ -249,7 +248,6 @@ impl Plan {
     }
 
     /// Returns the status: found, infeasible or unknown.
-    #[must_use]
     pub fn status(&self) -> Status {
         match &*self.detail {
             Detail::Motion { answer, .. } => answer.outcome.status(),
@@ -274,64 +272,54 @@ impl Plan {
     }
 
     /// Returns the motion, if there is one.
-    #[must_use]
     pub fn trajectory(&self) -> Option<&Trajectory> {
         self.found().map(|found| found.trajectory)
     }
 
     /// Returns the problem. Limits that the options override have the options' values.
-    #[must_use]
     pub fn problem(&self) -> &Problem {
         &self.problem
     }
 
     /// Returns the options.
-    #[must_use]
     pub fn options(&self) -> &Options {
         &self.options
     }
 
     /// Returns the stages with their times, in the order in which they ended.
-    #[must_use]
     pub fn timings(&self) -> &[(&'static str, std::time::Duration)] {
         self.clock.stages()
     }
 
     /// Returns the problem of a single motion, and its answer. `None` for a task.
-    #[must_use]
     pub fn motion(&self) -> Option<(&MotionProblem, &Answer<Motion>)> {
         if let Detail::Motion { problem, answer } = &*self.detail { Some((problem, answer)) } else { None }
     }
 
     /// Returns the task, and its answer. `None` for a single motion.
-    #[must_use]
     pub fn task(&self) -> Option<(&Task, &TaskAnswer)> {
         if let Detail::Task { task, answer } = &*self.detail { Some((task, answer)) } else { None }
     }
 
     /// Returns the problem of the motion or the task, and its answer.
-    #[must_use]
     pub fn detail(&self) -> &Detail {
         &self.detail
     }
 
     /// Returns the replay of how the planner found its answer. `None` for tasks. Computes some data that only the
     /// replay needs.
-    #[must_use]
     pub fn replay(&self) -> Option<Replay> {
         self.motion().map(|(problem, answer)| Replay::new(problem, &self.options, answer))
     }
 
     /// Returns the replay of how the planner found the motions of a task. To do so, plans them again. `None` for single
     /// motions and with moving obstacles.
-    #[must_use]
     pub fn task_replay(&self) -> Option<TaskReplay> {
         let standing = self.task().filter(|(task, _)| !task.has_moving_obstacles());
         standing.map(|(task, answer)| TaskReplay::new(task, &self.options, answer))
     }
 
     /// Returns the arm. Limits that the options override have the options' values.
-    #[must_use]
     pub fn arm(&self) -> &Arm {
         self.problem.scene().arm()
     }

@@ -108,44 +108,37 @@ impl Problem {
     }
 
     /// Returns the arm among its obstacles. For a task, objects are at their initial places.
-    #[must_use]
     pub fn scene(&self) -> &Scene {
         self.query.scene()
     }
 
     /// Returns scene, start and goals. A task has no goals, and its objects are at their initial places.
-    #[must_use]
     pub fn query(&self) -> &MotionProblem {
         &self.query
     }
 
     /// Returns the problem of a single motion. `None` for a task.
-    #[must_use]
     pub fn motion(&self) -> Option<&MotionProblem> {
         self.task.is_none().then_some(&self.query)
     }
 
     /// Returns the task. `None` for a single motion.
-    #[must_use]
     pub fn task(&self) -> Option<&Task> {
         self.task.as_deref()
     }
 
     /// Returns the report on how the robot was read.
-    #[must_use]
     pub fn robot(&self) -> &RobotReport {
         &self.robot
     }
 
     /// Returns notes for the user on how the world was read: defaults that apply, and IK solutions of the goal that are
     /// blocked.
-    #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
     /// Returns the scene with the trajectories of its loose obstacles.
-    #[must_use]
     pub fn timed(&self) -> TimedScene<'_> {
         TimedScene { scene: self.scene(), trajectories: &self.trajectories }
     }

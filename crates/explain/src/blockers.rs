@@ -35,13 +35,11 @@ pub struct BlockingSet {
 
 impl BlockingSet {
     /// Returns the elements of the set.
-    #[must_use]
     pub fn elements(&self) -> Vec<Element> {
         self.blockers.iter().map(|blocker| blocker.element).collect()
     }
 
     /// Describes the elements: `obstacle "shelf" and the lower limit of joint "elbow"`. Empty for an empty set.
-    #[must_use]
     pub fn describe(&self, scene: &Scene) -> String {
         let words: Vec<String> = self.blockers.iter().map(|blocker| blocker.element.describe(scene)).collect();
         match &words[..] {
@@ -54,14 +52,12 @@ impl BlockingSet {
     }
 
     /// Returns true if each element of the set is known to be needed.
-    #[must_use]
     pub fn is_irreducible(&self) -> bool {
         self.blockers.iter().all(|blocker| blocker.without.is_some())
     }
 
     /// Returns [`Status::Found`] if a motion past the other elements of the set is certified, otherwise
     /// [`Status::Unknown`].
-    #[must_use]
     pub fn without(&self, element: Element) -> Status {
         let blocker = self.blockers.iter().find(|blocker| blocker.element == element);
         if blocker.is_some_and(|b| b.without.is_some()) { Status::Found } else { Status::Unknown }

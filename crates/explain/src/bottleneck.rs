@@ -36,7 +36,6 @@ const PATH_SAMPLES: usize = 1024;
 impl Bottleneck {
     /// Returns the distance that is missing at the narrowest place, in metres. It is the sum over all obstacles that
     /// the arm hits, clearance included.
-    #[must_use]
     pub fn missing_distance(&self, clearance: f64) -> f64 {
         missing_distance(&self.hits, clearance)
     }

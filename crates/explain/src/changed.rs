@@ -10,7 +10,6 @@ use cplan_model::{Obstacle, Scene, Shape};
 impl Change {
     /// Returns the explained question with this change. `set` is the blocking set that the change is for. If the change
     /// was tried among that set only, the other elements are removed.
-    #[must_use]
     pub fn apply(&self, question: &MotionQuestion, set: &BlockingSet) -> MotionQuestion {
         let rest = match self.among {
             ChangeContext::World => question.clone(),
@@ -31,7 +30,6 @@ impl Change {
     }
 
     /// Returns the obstacle after the change. `None` if the change is not of an obstacle.
-    #[must_use]
     pub fn changed_obstacle(&self, scene: &Scene) -> Option<Obstacle> {
         let Element::Obstacle { number } = self.element else { return None };
         let obstacle = scene.workspace().obstacles.get(number)?;
@@ -56,7 +54,6 @@ impl Change {
 
 impl BlockingSet {
     /// Returns the elements of the question that are not in the set.
-    #[must_use]
     pub fn others(&self, question: &MotionQuestion) -> Vec<Element> {
         let elements = self.elements();
         question.elements().into_iter().filter(|element| !elements.contains(element)).collect()

@@ -50,7 +50,6 @@ impl BlockedEnd {
 
     /// Returns the distance, in metres, between the tip at the blocked configuration and the tip at the nearest free
     /// one. `None` if no configuration is free.
-    #[must_use]
     pub fn tip_moves(&self, arm: &Arm) -> Option<f64> {
         self.nearest.map(|nearest| (arm.tip_at(nearest.configuration) - arm.tip_at(self.at)).norm())
     }

@@ -71,7 +71,6 @@ pub struct InfeasibleExplanation {
 
 impl Explanation {
     /// Returns found, infeasible or unknown, with the same meaning as for a plan.
-    #[must_use]
     pub fn status(&self) -> Status {
         self.failure.as_ref().map_or(self.outcome.status(), |failure| failure.status)
     }

@@ -11,7 +11,6 @@ use serde_json::{Map, Value, json};
 
 impl Explanation {
     /// Returns the explanation as a JSON object, in the format that the book describes.
-    #[must_use]
     pub fn to_json(&self) -> Value {
         let scene = self.question.scene();
         let joints = scene.arm().joints.each_ref().map(|joint| joint.name.as_str());
@@ -125,7 +124,6 @@ fn of_closed(scene: &Scene, closed: &InfeasibleExplanation) -> Value {
 
 impl InfeasibleExplanation {
     /// Returns the names of the obstacles and links of the robot in the first blocking set.
-    #[must_use]
     pub fn blocking<'a>(&self, scene: &'a Scene) -> Vec<&'a str> {
         let elements = self.sets.first().map(|set| set.elements()).unwrap_or_default();
         let numbers = elements.into_iter().filter_map(Element::obstacle);

@@ -41,7 +41,6 @@ impl MotionTree {
 
     /// Returns the certified motion from home to a solution with the values `joints`. `None` if there is no
     /// certified motion. Values of a circle continue beyond a turn, so that all motions between waypoints are straight.
-    #[must_use]
     pub fn motion_to(
         &self,
         solution: usize,

@@ -131,7 +131,6 @@ impl MotionQuestion {
     }
 
     /// Returns the time limit of an explanation. `None` means that it may take any time.
-    #[must_use]
     pub fn time_limit(&self) -> Option<Duration> {
         self.time_limit
     }
@@ -156,25 +155,21 @@ impl MotionQuestion {
     }
 
     /// Returns the scene of arm and obstacles.
-    #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
     /// Returns the start.
-    #[must_use]
     pub fn start(&self) -> Configuration {
         self.start
     }
 
     /// Returns the target.
-    #[must_use]
     pub fn target(&self) -> &Target {
         &self.target
     }
 
     /// Returns true if the start is within the limits and free, also while the arm stands still there.
-    #[must_use]
     pub fn is_start_free(&self) -> bool {
         let is_free =
             self.scene.arm().topology().contains(self.start) && self.scene.obstructions(self.start).is_empty();
@@ -183,7 +178,6 @@ impl MotionQuestion {
 
     /// Returns the scene in which the arm is not free while it stands still at an end of the motion, although the motion
     /// itself may end there. `None` if it is free.
-    #[must_use]
     pub fn blocked_standstill(&self, end: End, q: Configuration) -> Option<&StandstillScene> {
         let standing = self.standstills[end as usize].iter().filter(|standing| standing.at == q);
         let blocked: Vec<_> = standing.map(|standing| Some(&standing.scenes[standing.blocked_scene()?])).collect();
@@ -192,7 +186,6 @@ impl MotionQuestion {
     }
 
     /// Returns all elements that may block the motion or the arm while it stands still, in the order of [`Element::all`].
-    #[must_use]
     pub fn elements(&self) -> Vec<Element> {
         let mut all = Element::all(&self.scene);
         let standing = self.standstills.iter().flatten().flat_map(|standing| &standing.scenes);
@@ -206,7 +199,6 @@ impl MotionQuestion {
     }
 
     /// Returns all configurations of the target that are within the limits, whether they are blocked or not.
-    #[must_use]
     pub fn ends(&self) -> Vec<Segment> {
         let topology = self.scene.arm().topology();
         match &self.target {
@@ -219,7 +211,6 @@ impl MotionQuestion {
     }
 
     /// Returns the goals within the limits that are not known to be blocked.
-    #[must_use]
     pub fn goals(&self) -> GoalSet {
         let is_open = |q| self.scene.obstructions(q).is_empty() && self.blocked_standstill(End::Goal, q).is_none();
         let open = |piece: &Segment| match piece.is_point() {
@@ -230,7 +221,6 @@ impl MotionQuestion {
     }
 
     /// Returns the motion problem. `None` unless the start and some goal are free.
-    #[must_use]
     pub fn problem(&self) -> Option<MotionProblem> {
         let goals = self.goals();
         (self.is_start_free() && !goals.is_empty())
@@ -238,7 +228,6 @@ impl MotionQuestion {
     }
 
     /// Decides the question by slabs and at most `boxes` boxes.
-    #[must_use]
     pub fn answer(&self, boxes: usize) -> Outcome<CertifiedPath, Option<CheckedProof>> {
         let Some(problem) = self.problem() else { return Outcome::Infeasible(None) };
         match self.within_time_limit(|| decide(&problem, boxes)) {
@@ -251,7 +240,6 @@ impl MotionQuestion {
 
     /// Returns how far a joint may go beyond a removed limit, in radians or metres. This is at least a whole turn for a
     /// revolute joint, and past all obstacles for a prismatic one. It also suffices for start and goals.
-    #[must_use]
     pub fn margin_beyond_limit(&self, joint: usize) -> f64 {
         self.beyond[joint]
     }

@@ -87,7 +87,6 @@ pub struct Reach {
 
 impl Reach {
     /// Returns the centre of the cell with this index.
-    #[must_use]
     pub fn center(&self, place: usize) -> Point {
         let at = [place % self.size[0], place / self.size[0]];
         Point::from([0, 1].map(|k| self.corner[k] + self.cell * (at[k] as f64 + 0.5)))
@@ -109,14 +108,12 @@ impl Reach {
 
     /// Returns the certified motion from home to the solution with this index among all solutions. `None` if it
     /// is not reached.
-    #[must_use]
     pub fn motion_to(&self, number: usize, arm: &Arm) -> Option<Path> {
         let joints: Vec<Configuration> = self.solutions().map(|solution| solution.joints).collect();
         self.motions.motion_to(number, &arm.topology(), |solution| joints[solution])
     }
 
     /// Counts cells by the best reachability of their solutions, in the order of [`Access::ALL`].
-    #[must_use]
     pub fn tally(&self) -> [usize; 4] {
         Access::ALL.map(|access| self.best().filter(|(_, best, _)| *best == access).count())
     }

@@ -109,19 +109,16 @@ impl Frontier {
     }
 
     /// Returns the sensor pose for a reading at the centre of a cell of the grid.
-    #[must_use]
     pub fn sensor_pose(&self, cell: usize) -> SensorPose {
         self.sensor_poses[cell]
     }
 
     /// Returns an upper bound on the number of new cells visible from a cell of the grid.
-    #[must_use]
     pub fn max_gain(&self, cell: usize) -> u32 {
         self.configurations[cell].most
     }
 
     /// Returns an upper bound on the number of new cells visible from any cell.
-    #[must_use]
     pub fn max_gain_anywhere(&self) -> u32 {
         self.max_gain_anywhere
     }

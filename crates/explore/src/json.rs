@@ -10,7 +10,6 @@ impl Exploration {
     ///
     /// `readings` are rows of both joints' values, the length of the path until then and the number of new cells.
     /// `decisions_ms` is present only if `timed`, so that otherwise the same input gives the same text.
-    #[must_use]
     pub fn to_json(&self, joints: [&str; 2], sensor: &Sensor, timed: bool) -> Value {
         let map = self.survey.map();
         let [free, occupied, unknown] = self.survey.counts();

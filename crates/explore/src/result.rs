@@ -29,7 +29,6 @@ pub enum Ending {
 
 impl Ending {
     /// Returns the ending as one word.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::Reached => "reached",

@@ -56,7 +56,6 @@ impl Edges {
     }
 
     /// Returns true if a ray from a cell may reach an unknown cell.
-    #[must_use]
     pub fn may_be_seen_from(&self, cell: usize) -> bool {
         self.within_sight[cell]
     }

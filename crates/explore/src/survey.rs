@@ -103,20 +103,17 @@ impl Survey {
     }
 
     /// Returns the map of what is known.
-    #[must_use]
     pub fn map(&self) -> &OccupancyMap {
         &self.known
     }
 
     /// Returns the numbers of free, occupied and unknown cells.
-    #[must_use]
     pub fn counts(&self) -> [usize; 3] {
         let count = |label| self.known.cells.iter().filter(|&&cell| cell == label).count();
         [count(Occupancy::Free), count(Occupancy::Occupied), count(Occupancy::Unknown)]
     }
 
     /// Returns the fraction of the map's cells that are known.
-    #[must_use]
     pub fn share_seen(&self) -> f64 {
         let unknown = self.known.cells.iter().filter(|&&cell| cell == Occupancy::Unknown).count();
         1.0 - unknown as f64 / self.known.cells.len() as f64
@@ -199,7 +196,6 @@ impl Survey {
 
     /// Returns a cell that is not known to be free and that the arm, grown by a margin, touches at `q`. `None` if there
     /// is no such cell.
-    #[must_use]
     pub fn obstruction(&self, arm: &Arm, q: Configuration, margin: f64) -> Option<usize> {
         self.parts(arm, q).find_map(|(part, heights)| {
             let is_solid = |cell: usize| self.solid(cell).is_some_and(|solid| solid.meet(heights));
@@ -218,7 +214,6 @@ impl Survey {
     }
 
     /// Returns the unknown cells that the arm touches at `q`, in ascending order.
-    #[must_use]
     pub fn unknown_at(&self, arm: &Arm, q: Configuration) -> Vec<usize> {
         let mut cells = self.under(arm, q, 0.0);
         cells.retain(|&cell| self.is_unknown(cell));
@@ -226,7 +221,6 @@ impl Survey {
     }
 
     /// Returns true if a cell is unknown.
-    #[must_use]
     pub fn is_unknown(&self, cell: usize) -> bool {
         self.known.cells[cell] == Occupancy::Unknown
     }
@@ -293,7 +287,6 @@ impl Survey {
 
     /// Returns the arm among everything that is not known to be free. With `unknown_is_free`, only the obstacles that
     /// have been seen are solid.
-    #[must_use]
     pub fn scene(&self, arm: &Arm, clearance: f64, unknown_is_free: bool) -> Scene {
         let seen = self.known.cells.iter().zip(&self.truth).filter(|(label, _)| **label == Occupancy::Occupied);
         let mut layers: Vec<Heights> = Vec::new();

@@ -66,7 +66,6 @@ impl Survey {
 
     /// Returns an unknown cell that a reading would show. `None` if it would show nothing new. If `edges` are given,
     /// traces only rays that may reach an unknown cell.
-    #[must_use]
     pub fn reachable_unknown(&self, sensor: &Sensor, sensor_pose: SensorPose, edges: Option<&Edges>) -> Option<usize> {
         match edges {
             Some(edges) if self.cell_at(sensor_pose.0).is_none_or(|cell| !edges.may_be_seen_from(cell)) => None,
@@ -76,7 +75,6 @@ impl Survey {
     }
 
     /// Returns true if some ray of a reading has one of the `wanted` cells as its first unknown cell.
-    #[must_use]
     pub fn shows_any(&self, sensor: &Sensor, sensor_pose: SensorPose, wanted: &CellsByRow) -> bool {
         let width = self.known.size[0];
         let is_wanted = |cell: usize| {
@@ -111,7 +109,6 @@ impl Survey {
     }
 
     /// Groups cells by row.
-    #[must_use]
     pub fn by_rows(&self, cells: &BTreeSet<usize>) -> CellsByRow {
         let width = self.known.size[0];
         rows(self.known.size[1], |y| cells.range(y * width..(y + 1) * width).map(|cell| cell % width).collect())
@@ -136,7 +133,6 @@ impl Survey {
     }
 
     /// Returns the unknown cells that rays of a reading reach first, ascending.
-    #[must_use]
     pub fn first_unknown_cells(&self, sensor: &Sensor, sensor_pose: SensorPose) -> Vec<usize> {
         let mut cells: Vec<usize> = self.first_unknown(sensor, sensor_pose).collect();
         cells.sort_unstable();
@@ -145,7 +141,6 @@ impl Survey {
     }
 
     /// Returns true if the rays of a reading cross all given cells before any known obstacle.
-    #[must_use]
     pub fn shows_all(&self, sensor: &Sensor, (from, ahead): SensorPose, cells: &[usize]) -> bool {
         cells.iter().all(|&wanted| {
             self.rays_to(sensor, from, ahead, wanted).any(|ray| {

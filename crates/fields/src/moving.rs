@@ -189,13 +189,11 @@ impl MovingField {
     }
 
     /// Returns the domain at the last moment. Before the first moment it has only the permanent walls.
-    #[must_use]
     pub fn domain(&self) -> &Domain {
         &self.domain
     }
 
     /// Returns one value per cell.
-    #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
@@ -207,14 +205,12 @@ impl MovingField {
     /// Returns the unit direction in which the field leads from a point: see [`direction()`]. Returns `None` in
     /// obstacles and goals. Also returns `None` where the field is level, as in regions from which no goal is
     /// reachable.
-    #[must_use]
     pub fn direction(&self, at: LatticePoint) -> Option<[f64; 2]> {
         direction(&self.guide(), SQUARE_SIDES, at)
     }
 
     /// Follows the field from a point for this many steps of length [`STEP_LENGTH`](cplan_harmonic::STEP_LENGTH), and
     /// returns the last point; see [`advance()`]. All points lie in free cells and goals.
-    #[must_use]
     pub fn advance(&self, from: LatticePoint, steps: usize) -> LatticePoint {
         advance(&self.guide(), SQUARE_SIDES, from, steps)
     }

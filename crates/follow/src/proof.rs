@@ -298,7 +298,6 @@ fn one_each(mut list: Vec<Exclusion>) -> Vec<Exclusion> {
 
 impl Infeasible {
     /// Describes the reason in words.
-    #[must_use]
     pub fn describe(&self) -> String {
         let at = self.place;
         match &self.cause {
@@ -317,7 +316,6 @@ impl Infeasible {
 
 impl Exclusion {
     /// Describes the exclusion in words.
-    #[must_use]
     pub fn describe(&self, scene: &Scene) -> String {
         match &self.by {
             Obstacle::Limit(joint) => {

@@ -33,7 +33,6 @@ pub enum WristExcess {
 
 impl WristExcess {
     /// Describes the reason in words.
-    #[must_use]
     pub fn describe(&self) -> String {
         match self {
             Self::Value(value, [lower, upper]) => {

@@ -193,13 +193,11 @@ impl Convex {
     }
 
     /// Returns the corners of the core, counter-clockwise.
-    #[must_use]
     pub fn core(&self) -> &[Point] {
         &self.core
     }
 
     /// Returns the distance by which the core is grown, metres.
-    #[must_use]
     pub fn radius(&self) -> f64 {
         self.radius
     }
@@ -247,13 +245,11 @@ impl Convex {
 
     /// Returns the greatest distance of a point of the shape from `pivot`, metres. With a negative radius it measures
     /// the core.
-    #[must_use]
     pub fn reach_from(&self, pivot: Point) -> f64 {
         reach(&self.core, pivot) + self.radius.max(0.0)
     }
 
     /// Returns the smallest box around the shape with sides along the axes. With a negative radius it bounds the core.
-    #[must_use]
     pub fn bounds(&self) -> Bounds {
         let radius = Vector::repeat(self.radius.max(0.0));
         let first = [self.core[0]; 2];
@@ -262,7 +258,6 @@ impl Convex {
     }
 
     /// Returns the area, square metres, by Steiner's formula: core + perimeter * r + pi r^2.
-    #[must_use]
     pub fn area(&self) -> f64 {
         let n = self.core.len();
         let (mut twice, mut perimeter) = (0.0, 0.0);

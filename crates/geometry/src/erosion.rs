@@ -16,7 +16,6 @@ impl Convex {
 
     /// Returns a lower bound on the greatest distance by which this shape can be eroded. The bound is the depth of the
     /// mean of its corners.
-    #[must_use]
     pub fn depth(&self) -> f64 {
         let core = self.core();
         if core.len() < 3 {

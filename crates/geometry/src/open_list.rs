@@ -28,7 +28,6 @@ impl<T: Ord> OpenList<T> {
     }
 
     /// Returns the entry with the least key.
-    #[must_use]
     pub fn peek(&self) -> Option<(f64, &T)> {
         self.heap.peek().map(|Reverse((OrderedF64(key), entry))| (*key, entry))
     }

@@ -105,13 +105,11 @@ impl SimplePolygon {
     }
 
     /// Returns the corners, counter-clockwise, starting with the first given one.
-    #[must_use]
     pub fn corners(&self) -> &[Point] {
         &self.corners
     }
 
     /// Returns the area, square metres.
-    #[must_use]
     pub fn area(&self) -> f64 {
         // Relative to a corner, so that a small polygon far from the origin loses no digits.
         let origin = self.corners[0];
@@ -119,14 +117,12 @@ impl SimplePolygon {
     }
 
     /// Returns true if the polygon is convex. Straight corners are allowed. Exact.
-    #[must_use]
     pub fn is_convex(&self) -> bool {
         let n = self.corners.len();
         (0..n).all(|i| turn(&self.corners, i) != Orientation::Clockwise)
     }
 
     /// Returns true if the closed polygon contains a point; exact. `O(n)`.
-    #[must_use]
     pub fn contains(&self, p: Point) -> bool {
         let n = self.corners.len();
         let mut inside = false;
@@ -147,7 +143,6 @@ impl SimplePolygon {
     /// Decomposes the polygon into strictly convex polygons with disjoint interiors, without new corners.
     ///
     /// The number of pieces is at most four times the least possible: see [`decompose`].
-    #[must_use]
     pub fn convex_pieces(&self) -> Vec<Convex> {
         decompose(self)
     }

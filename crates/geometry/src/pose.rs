@@ -52,28 +52,24 @@ impl Pose {
 
     /// Returns the image of a point under the motion, which rotates and translates it.
     #[inline]
-    #[must_use]
     pub fn point(&self, p: Point) -> Point {
         self.rotation * p + self.translation
     }
 
     /// Returns the image of a displacement under the motion, which only rotates it.
     #[inline]
-    #[must_use]
     pub fn direction(&self, v: Vector) -> Vector {
         self.rotation * v
     }
 
     /// Returns the point that the motion takes to `p`.
     #[inline]
-    #[must_use]
     pub fn inverse_point(&self, p: Point) -> Point {
         self.rotation.inverse() * (p - self.translation)
     }
 
     /// Returns the displacement that the motion takes to `v`.
     #[inline]
-    #[must_use]
     pub fn inverse_direction(&self, v: Vector) -> Vector {
         self.rotation.inverse() * v
     }

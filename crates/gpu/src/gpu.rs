@@ -96,13 +96,11 @@ impl Gpu {
     }
 
     /// Returns the adapter's name and interface, such as `NVIDIA RTX A2000 (vulkan)`.
-    #[must_use]
     pub fn adapter(&self) -> &str {
         &self.name
     }
 
     /// Returns true if the driver runs on the CPU.
-    #[must_use]
     pub fn is_software(&self) -> bool {
         self.is_software
     }

@@ -121,7 +121,6 @@ pub struct OptimumClaim {
 
 impl OptimumClaim {
     /// Returns the metric for an arm with these top speeds. Returns `None` if the name of the metric is unknown.
-    #[must_use]
     pub fn metric(&self, speeds: [f64; 2]) -> Option<Metric> {
         match (self.metric.as_str(), self.weights) {
             ("euclidean", _) => Some(Metric::Euclidean),

@@ -39,7 +39,6 @@ const CHORDS: u32 = 16;
 impl FollowedLine {
     /// Returns true if the tolerance is finite and at least [`MIN_TOLERANCE`], the speed is finite and positive, and the
     /// angle of the tool is valid.
-    #[must_use]
     pub fn is_valid(&self) -> bool {
         let is_positive = |speed: f64| speed.is_finite() && speed > 0.0;
         self.tolerance.is_finite()
@@ -49,7 +48,6 @@ impl FollowedLine {
     }
 
     /// Returns a lower bound on the duration of a motion along the line, from the speeds of the tip alone, seconds.
-    #[must_use]
     pub fn least_seconds(&self) -> f64 {
         let seconds = |piece: &Piece| {
             let speed = self.speed.or(piece.speed).filter(|_| !piece.is_travel)?;

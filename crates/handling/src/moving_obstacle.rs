@@ -98,21 +98,18 @@ pub struct Leg {
 
 impl Leg {
     /// Returns the frame's pose at a time of the leg.
-    #[must_use]
     pub fn pose(&self, time: f64) -> Pose {
         let since = time - self.from;
         Pose::new(self.start.at + self.velocity * since, self.start.angle + self.turn * since)
     }
 
     /// Returns true if the obstacle is at rest during the leg.
-    #[must_use]
     pub fn is_still(&self) -> bool {
         self.turn == 0.0 && self.velocity == Vector::zeros()
     }
 
     /// Returns an upper bound, in metres per second, on the speed of points within `reach` metres of the frame's
     /// origin.
-    #[must_use]
     pub fn speed(&self, reach: f64) -> f64 {
         self.velocity.norm() + self.turn.abs() * reach
     }
@@ -152,31 +149,26 @@ impl ObstacleTrajectory {
     }
 
     /// Returns the stops, in the order of time; at least one.
-    #[must_use]
     pub fn stops(&self) -> &[Stop] {
         &self.stops
     }
 
     /// Returns the velocity after the last stop, metres per second.
-    #[must_use]
     pub fn velocity(&self) -> Vector {
         self.velocity
     }
 
     /// Returns the legs from time 0 on, in order. The last leg never ends.
-    #[must_use]
     pub fn legs(&self) -> &[Leg] {
         &self.legs
     }
 
     /// Returns the frame's pose at a time, which must not be negative.
-    #[must_use]
     pub fn pose(&self, time: f64) -> Pose {
         self.leg(time).pose(time)
     }
 
     /// Returns a bound on the motion from one time to another.
-    #[must_use]
     pub fn drift(&self, from: f64, to: f64) -> Drift {
         let (middle, half) = (f64::midpoint(from, to), (to - from) / 2.0);
         let leg = self.leg(middle);
@@ -190,7 +182,6 @@ impl ObstacleTrajectory {
     }
 
     /// Returns true if the frame ever turns.
-    #[must_use]
     pub fn turns(&self) -> bool {
         self.legs.iter().any(|leg| leg.turn != 0.0)
     }
@@ -213,7 +204,6 @@ impl ObstacleTrajectory {
 
     /// Returns the intervals of time, in order, in which the frame's origin passes a point: when it is at the point, or
     /// nearest to it and within `within` metres.
-    #[must_use]
     pub fn passes(&self, at: Point, within: f64) -> Vec<Interval> {
         let of = |leg: &Leg| {
             let (way, speed2) = (at - leg.start.at, leg.velocity.norm_squared());
@@ -269,13 +259,11 @@ pub struct MovingObstacle {
 
 impl MovingObstacle {
     /// Returns the obstacle at its place at a time.
-    #[must_use]
     pub fn at(&self, time: f64) -> Obstacle {
         self.obstacle.at(&self.trajectory.pose(time))
     }
 
     /// Returns the obstacle in the form in which scenes contain it: without a place.
-    #[must_use]
     pub fn to_loose_obstacle(&self) -> LooseObstacle {
         let angle = (!self.trajectory.turns()).then(|| self.trajectory.stops()[0].angle);
         LooseObstacle { obstacle: self.obstacle.clone(), angle }

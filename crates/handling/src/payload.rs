@@ -37,7 +37,6 @@ impl Payload {
 
     /// Returns the payload as an attachment of the arm, at these heights. The attachment has the object's pieces, and
     /// smaller pieces that must keep away from supports.
-    #[must_use]
     pub fn attachment(&self, task: &Task, arm: &Arm, heights: Heights) -> Attachment {
         let Object { name, pieces, .. } = &task.objects[self.object];
         let part = |number: usize, shape: Convex, on_supports: bool| AttachedPart {
@@ -85,7 +84,6 @@ pub struct ArchScene {
 impl Task {
     /// Returns the scene with the objects at their poses. The objects `moving` become loose obstacles, after those of
     /// the workspace, in the order of [`Task::trajectories`]. Link 2 may touch the objects `touched`.
-    #[must_use]
     pub fn scene(
         &self,
         poses: &[Option<Pose>],
@@ -101,7 +99,6 @@ impl Task {
 
     /// Returns the scene while the tool is lowered to pick or place an object. Returns `None` if the tool is not
     /// lowered. Without a stroke, it is unknown how a placed object is lowered, so only its final pose is checked.
-    #[must_use]
     pub fn lowered_scene(
         &self,
         object: usize,
@@ -126,7 +123,6 @@ impl Task {
 
     /// Returns the scene while the empty tool is between its raised position and a depth, in metres. `None` if the world
     /// has no stroke.
-    #[must_use]
     pub fn empty_lowered_scene(
         &self,
         depth: f64,
@@ -140,7 +136,6 @@ impl Task {
 
     /// Returns the scenes for strokes to these depths, in metres, during a motion of the arm. Link 2 may touch those of the
     /// objects `touched` that it meets with the raised tool, too: others must be free whenever the arm moves.
-    #[must_use]
     pub fn arch_scene(
         &self,
         (stroke, depths): (&Stroke, &[f64]),

@@ -73,32 +73,27 @@ impl Piece {
     }
 
     /// Returns the control points, including the ends: one more than the degree.
-    #[must_use]
     pub fn control(&self) -> &[Configuration] {
         self.curve.coefficients()
     }
 
     /// Returns the degree of the polynomials: 3, 4 or 5. Straight pieces are written as cubics.
-    #[must_use]
     pub fn degree(&self) -> usize {
         self.curve.degree()
     }
 
     /// Returns the time at a share `u` of the piece.
-    #[must_use]
     pub fn time(&self, u: f64) -> f64 {
         if u == 1.0 { self.to } else { self.from + u * (self.to - self.from) }
     }
 
     /// Returns the configuration at a share `u` of the piece. It is exact at both ends.
-    #[must_use]
     pub fn at(&self, u: f64) -> Configuration {
         self.curve.at(u)
     }
 
     /// Returns the value, or a derivative by time, at a share `u` of the piece. Derivatives are zero for a piece
     /// without duration.
-    #[must_use]
     pub fn derivative(&self, of: Derivative, u: f64) -> Configuration {
         let duration = self.to - self.from;
         if of == Derivative::Position {
@@ -122,7 +117,6 @@ impl Piece {
 
     /// Returns bounds on a weighted sum of both joints' derivatives by time, between two shares of the piece. They are
     /// those of the control points, so they are exact for linear derivatives. Zero for a piece without duration.
-    #[must_use]
     pub fn bounds_of_sum(&self, of: Derivative, weights: [f64; 2], [from, to]: [f64; 2]) -> [f64; 2] {
         let (order, duration) = (of as usize, self.to - self.from);
         let Some(scaled) = self.curve.differences(order).filter(|_| duration > 0.0) else { return [0.0; 2] };
@@ -134,7 +128,6 @@ impl Piece {
 
     /// Returns a bound on the magnitude of each joint's second derivative by `u` between two shares. It is exact for
     /// cubics.
-    #[must_use]
     pub fn bend(&self, from: f64, to: f64) -> [f64; 2] {
         let factor = (self.degree() * (self.degree() - 1)) as f64;
         let Some(second) = self.curve.differences(2) else { return [0.0; 2] };

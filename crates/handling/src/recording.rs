@@ -81,7 +81,6 @@ pub enum RecordingError {
 
 impl RecordingError {
     /// Returns the index of the sample with the error. `None` if no single sample is wrong.
-    #[must_use]
     pub fn sample(&self) -> Option<usize> {
         match *self {
             RecordingError::Value { sample, .. } | RecordingError::Time { sample, .. } => Some(sample),
@@ -169,37 +168,31 @@ impl Recording {
     }
 
     /// Returns the joint values of the samples; at least one.
-    #[must_use]
     pub fn positions(&self) -> &[Configuration] {
         &self.position
     }
 
     /// Returns the times of the samples, strictly increasing, seconds. `None` if there are no times.
-    #[must_use]
     pub fn times(&self) -> Option<&[f64]> {
         self.time.as_deref()
     }
 
     /// Returns the joint velocities at the samples. `None` if they are unknown.
-    #[must_use]
     pub fn velocities(&self) -> Option<&[Configuration]> {
         self.velocity.as_deref()
     }
 
     /// Returns the joint accelerations at the samples. `None` if they are unknown.
-    #[must_use]
     pub fn accelerations(&self) -> Option<&[Configuration]> {
         self.acceleration.as_deref()
     }
 
     /// Returns the interpolation between samples.
-    #[must_use]
     pub fn interpolation(&self) -> Interpolation {
         self.interpolation
     }
 
     /// Returns the time from the first to the last sample, seconds. `None` if there are no times.
-    #[must_use]
     pub fn duration(&self) -> Option<f64> {
         self.time.as_ref().map(|t| t[t.len() - 1] - t[0])
     }
@@ -254,7 +247,6 @@ impl Recording {
 
     /// Returns the pieces of the motion: piece `k` leads from sample `k` to sample `k + 1`. A single sample gives one
     /// piece at rest. If there are no times, sample `k` is at time `k`.
-    #[must_use]
     pub fn pieces(&self) -> Vec<Piece> {
         let at = |k: usize| self.time.as_ref().map_or(k as f64, |t| t[k]);
         let q = &self.position;
@@ -280,7 +272,6 @@ impl Recording {
     /// Finds the intervals between samples in which a continuous joint moves by more than half a turn. Returns the
     /// first sample of each interval, and the joint. A recording with wrapped values has such intervals where it
     /// crosses the seam.
-    #[must_use]
     pub fn turns(&self, topology: &Topology) -> Vec<(usize, usize)> {
         let steps = self.position.windows(2).enumerate();
         let is_turn = |w: &[Configuration], k: usize| {
@@ -300,7 +291,6 @@ impl Recording {
     }
 
     /// Returns a polyline for pictures: the samples, and points between them on curved pieces.
-    #[must_use]
     pub fn outline(&self) -> Path {
         let steps: u8 = if self.interpolation == Interpolation::Linear { 1 } else { 4 };
         let between = |p: Piece| (1..=steps).map(move |i| p.at(f64::from(i) / f64::from(steps)));

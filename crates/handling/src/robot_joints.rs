@@ -70,7 +70,6 @@ impl RobotJoints {
     }
 
     /// Returns the values of the drivers while the stroke and the wrist are at rest.
-    #[must_use]
     pub fn at_rest(&self, planned: [f64; 2]) -> Drives {
         let rest = |joint: Option<&ToolJoint>| joint.map_or(0.0, |joint| joint.rest);
         Drives {
@@ -81,7 +80,6 @@ impl RobotJoints {
     }
 
     /// Returns the values of all joints, radians or metres.
-    #[must_use]
     pub fn values(&self, drives: &Drives) -> Vec<f64> {
         let value = |joint: &RobotJoint| joint.factor * joint.driver.value(drives) + joint.offset;
         self.joints.iter().map(value).collect()
@@ -89,7 +87,6 @@ impl RobotJoints {
 
     /// Returns the derivatives of all joints' values by time, given the derivatives of the drivers' values. Works for
     /// derivatives of any order.
-    #[must_use]
     pub fn rates(&self, drives: &Drives) -> Vec<f64> {
         let rate = |joint: &RobotJoint| match joint.driver {
             Driver::Held(_) => 0.0,

@@ -62,20 +62,17 @@ pub struct ToolValues {
 
 impl ToolValues {
     /// Returns true if the tool is raised and the wrist's value is not given.
-    #[must_use]
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
 
     /// Returns the distance by which the tool is lowered, metres. `None` if it is raised, up to rounding.
-    #[must_use]
     pub fn lowered_by(&self) -> Option<f64> {
         Some(self.depth).filter(|depth| depth.abs() > ROUNDING)
     }
 
     /// Returns the signed angle from the wrist's value at the start to this one, radians; 0 if they differ only by
     /// rounding. `None` unless both are given.
-    #[must_use]
     pub fn wrist_turn(&self, start: &Self) -> Option<f64> {
         let angle = self.wrist? - start.wrist?;
         Some(if angle.abs() > ROUNDING { angle } else { 0.0 })
@@ -94,7 +91,6 @@ pub struct Arch {
 
 impl Arch {
     /// Returns true if both heights are finite and not negative.
-    #[must_use]
     pub fn is_valid(&self) -> bool {
         [self.rise, self.fall].into_iter().all(|height| height.is_finite() && height >= 0.0)
     }
@@ -125,38 +121,32 @@ pub struct Stroke {
 
 impl Stroke {
     /// Returns the limits of its joint.
-    #[must_use]
     pub fn limits(&self) -> ToolLimits {
         ToolLimits { velocity: self.velocity, acceleration: self.acceleration, jerk: self.jerk }
     }
 
     /// Returns the distance by which the tool is lowered for an object, metres.
-    #[must_use]
     pub fn depth(&self, object: &Object) -> f64 {
         self.travel.unwrap_or(object.lift)
     }
 
     /// Returns true if the joint can be lowered as far as an object requires.
-    #[must_use]
     pub fn reaches(&self, object: &Object) -> bool {
         self.joint.range.contains(self.lowered(self.depth(object)))
     }
 
     /// Returns the joint's value with the tool lowered by a depth.
-    #[must_use]
     pub fn lowered(&self, depth: f64) -> f64 {
         self.joint.rest - self.joint.sign * depth
     }
 
     /// Returns the distance by which the tool is lowered at a value of the joint, metres.
-    #[must_use]
     pub fn depth_at(&self, value: f64) -> f64 {
         (self.joint.rest - value) * self.joint.sign
     }
 
     /// Returns the arm with taller shapes: each shape that the stroke moves gets all heights that it has during strokes
     /// to these depths, in metres. This includes a bar on link 2, because the bar ends at the tip.
-    #[must_use]
     pub fn swept(&self, arm: &Arm, depths: &[f64]) -> Arm {
         let lowest = depths.iter().copied().fold(0.0, f64::max);
         let highest = depths.iter().copied().fold(0.0, f64::min);

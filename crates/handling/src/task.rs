@@ -50,7 +50,6 @@ pub struct Object {
 impl Object {
     /// Returns true if the object may rest on supports: it is large enough that some part of it remains after all
     /// corners are moved inwards by the allowed penetration.
-    #[must_use]
     pub fn can_rest(&self, arm: &Arm) -> bool {
         let by = Payload::penetration_allowance(arm);
         self.pieces.iter().any(|piece| piece.eroded(by).is_some())
@@ -143,7 +142,6 @@ pub struct Wrist {
 
 impl Wrist {
     /// Returns the limits of its turns.
-    #[must_use]
     pub fn limits(&self) -> ToolLimits {
         ToolLimits { velocity: self.velocity, acceleration: self.acceleration, jerk: self.jerk }
     }
@@ -175,21 +173,18 @@ pub struct Task {
 
 impl Task {
     /// Returns true if a line of the task asks for an angle of the tool.
-    #[must_use]
     pub fn turns_tool_along_lines(&self) -> bool {
         let asks = |step: &Step| matches!(&step.action, Action::Follow(line) if line.wrist.is_some());
         self.items.iter().any(|item| matches!(item, Item::Step(step) if asks(step)))
     }
 
     /// Returns the index of an object as an obstacle: objects follow the workspace's own obstacles.
-    #[must_use]
     pub fn obstacle_number(&self, object: usize) -> usize {
         self.workspace.fixed.obstacles.len() + object
     }
 
     /// Returns the workspace with the objects at their poses, as static obstacles. A carried object has no pose. It
     /// becomes an obstacle without pieces, so that indices stay the same.
-    #[must_use]
     pub fn obstacles(&self, poses: &[Option<Pose>]) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
         workspace
@@ -201,7 +196,6 @@ impl Task {
 
     /// Returns the same workspace as [`Task::obstacles`], with the objects `moving` as moving obstacles, after those of
     /// the world.
-    #[must_use]
     pub fn surroundings(&self, poses: &[Option<Pose>], moving: &[usize]) -> TimedWorkspace {
         let mut workspace = self.obstacles(poses);
         workspace.movers.extend(moving.iter().filter_map(|&object| self.objects[object].moving()));
@@ -209,26 +203,22 @@ impl Task {
     }
 
     /// Returns the trajectories of the moving obstacles of [`Task::surroundings`], on the clock of the task.
-    #[must_use]
     pub fn trajectories(&self, moving: &[usize]) -> Vec<ObstacleTrajectory> {
         let objects = moving.iter().filter_map(|&object| self.objects[object].trajectory.clone());
         self.workspace.trajectories().into_iter().chain(objects).collect()
     }
 
     /// Returns the same trajectories on a clock that begins at the time `begin` of the task, seconds.
-    #[must_use]
     pub fn trajectories_since(&self, moving: &[usize], begin: f64) -> Vec<ObstacleTrajectory> {
         self.trajectories(moving).iter().map(|trajectory| trajectory.since(begin)).collect()
     }
 
     /// Returns the trajectories of all moving obstacles and of the objects that move initially.
-    #[must_use]
     pub fn initial_trajectories(&self) -> Vec<ObstacleTrajectory> {
         self.trajectories(&self.initially_moving().collect::<Vec<_>>())
     }
 
     /// Returns the index of an object as an obstacle while the objects `moving` move.
-    #[must_use]
     pub fn obstacle_number_among(&self, moving: &[usize], object: usize) -> usize {
         let standing = self.obstacle_number(self.objects.len()) + self.workspace.movers.len();
         let place = moving.iter().position(|&other| other == object);
@@ -241,7 +231,6 @@ impl Task {
     }
 
     /// Returns true if there are moving obstacles or moving objects.
-    #[must_use]
     pub fn has_moving_obstacles(&self) -> bool {
         !self.workspace.movers.is_empty() || self.initially_moving().next().is_some()
     }
@@ -255,7 +244,6 @@ impl Task {
 
     /// Returns the angle by which the wrist's joint turns from the start to the end of a move, radians. `None` unless the
     /// move states a value.
-    #[must_use]
     pub fn wrist_turn(&self, step: &Step) -> Option<f64> {
         step.tool.wrist_turn(&self.start_tool)
     }
@@ -272,7 +260,6 @@ impl Task {
 
 impl Object {
     /// Returns the object as an obstacle at `pose`. Without a pose, the obstacle has no pieces.
-    #[must_use]
     pub fn obstacle_at(&self, pose: Option<&Pose>) -> Obstacle {
         let (shape, pieces) = match pose {
             Some(pose) => (self.shape.at(pose), self.pieces.iter().map(|piece| piece.at(pose)).collect()),
@@ -282,13 +269,11 @@ impl Object {
     }
 
     /// Returns the object's initial pose. Returns `None` if the object moves initially.
-    #[must_use]
     pub fn initial_static_pose(&self) -> Option<Pose> {
         self.trajectory.is_none().then_some(self.at)
     }
 
     /// Returns the object as a moving obstacle. `None` if it does not move initially.
-    #[must_use]
     pub fn moving(&self) -> Option<MovingObstacle> {
         let obstacle = || {
             let (shape, pieces) = (self.shape.clone(), self.pieces.clone());
@@ -298,14 +283,12 @@ impl Object {
     }
 
     /// Returns the range of all heights that the object has while it is raised or lowered.
-    #[must_use]
     pub fn handled_heights(&self) -> Heights {
         let carried = self.carried_heights();
         Heights { lower: self.heights.lower.min(carried.lower), upper: self.heights.upper.max(carried.upper) }
     }
 
     /// Returns the object's heights while it is carried.
-    #[must_use]
     pub fn carried_heights(&self) -> Heights {
         Heights { lower: self.heights.lower + self.lift, upper: self.heights.upper + self.lift }
     }
@@ -313,7 +296,6 @@ impl Object {
 
 impl Action {
     /// Returns the index of the object that is picked. `None` for other actions.
-    #[must_use]
     pub fn picked(&self) -> Option<usize> {
         match self {
             Action::Pick { object, .. } => Some(*object),
@@ -322,7 +304,6 @@ impl Action {
     }
 
     /// Describes the action in a few words, such as `pick "part"`. Numbers have six digits.
-    #[must_use]
     pub fn describe(&self, objects: &[Object]) -> String {
         let point = |x: f64, y: f64| format!("({}, {})", short(x), short(y));
         match self {

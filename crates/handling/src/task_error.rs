@@ -106,7 +106,6 @@ impl Task {
 
     /// Returns a feature of the task that supports static obstacles only, with the name of a moving obstacle or object.
     /// Returns `None` if the task has no such feature, or nothing moves.
-    #[must_use]
     pub fn static_only_feature(&self) -> Option<(String, &'static str)> {
         let own = self.objects.iter().filter_map(|object| Some((&object.name, object.trajectory.as_ref()?)));
         let movers = self.workspace.movers.iter().map(|mover| (&mover.obstacle.name, &mover.trajectory));

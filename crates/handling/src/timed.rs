@@ -50,7 +50,6 @@ impl TimedWorkspace {
     }
 
     /// Returns the trajectories of the moving obstacles.
-    #[must_use]
     pub fn trajectories(&self) -> Vec<ObstacleTrajectory> {
         self.movers.iter().map(|mover| mover.trajectory.clone()).collect()
     }

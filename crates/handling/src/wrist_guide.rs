@@ -39,7 +39,6 @@ pub struct WristGuide {
 
 impl WristGuide {
     /// Returns true if the angle is finite, and the tolerance from [`MIN_WRIST_TOLERANCE`] to [`MAX_WRIST_TOLERANCE`].
-    #[must_use]
     pub fn is_valid(&self) -> bool {
         let (ToolAngle::Fixed(angle) | ToolAngle::Tangent(angle)) = self.angle;
         angle.is_finite() && (MIN_WRIST_TOLERANCE..=MAX_WRIST_TOLERANCE).contains(&self.tolerance)
@@ -79,13 +78,11 @@ impl WristJoint {
     }
 
     /// Returns the angle of the tool, radians, for a value of the joint.
-    #[must_use]
     pub fn tool_angle(&self, arm: &Arm, planned: [f64; 2], value: f64) -> f64 {
         self.zero + Self::link_2_angle(arm, planned) + self.sign * value
     }
 
     /// Returns the value of the joint, radians, for an angle of the tool.
-    #[must_use]
     pub fn value(&self, arm: &Arm, planned: [f64; 2], angle: f64) -> f64 {
         self.sign * (angle - self.zero - Self::link_2_angle(arm, planned))
     }

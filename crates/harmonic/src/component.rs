@@ -43,33 +43,28 @@ impl Component {
     }
 
     /// Returns the number of cells.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.places.len()
     }
 
     /// Returns true if there are no cells.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.places.is_empty()
     }
 
     /// Returns the special position that stands for all cells that are not free.
-    #[must_use]
     pub fn wall(&self) -> usize {
         self.places.len()
     }
 
     /// Returns the positions of the four neighbours, in the order `-q1, +q1, -q2, +q2`. A neighbour that is not free is
     /// [`Component::wall`].
-    #[must_use]
     pub fn neighbors(&self, position: usize) -> [usize; 4] {
         let (place, stride) = (self.places[position] as usize, self.shape[1] + 2);
         [place - stride, place + stride, place - 1, place + 1].map(|place| self.positions[place] as usize)
     }
 
     /// Returns the position of cell `index` of the grid, or `None` if the wave did not reach it.
-    #[must_use]
     pub fn position_of(&self, index: usize) -> Option<usize> {
         let [i, j] = [index / self.shape[1], index % self.shape[1]];
         Some(self.row(i)[j] as usize).filter(|&position| position != self.wall())
@@ -84,7 +79,6 @@ impl Component {
     }
 
     /// Returns the row and column of a position.
-    #[must_use]
     pub fn place(&self, position: usize) -> [usize; 2] {
         // Divisions of 32-bit numbers take a fraction of the time.
         let (place, stride) = (self.places[position], self.shape[1] as u32 + 2);
@@ -92,14 +86,12 @@ impl Component {
     }
 
     /// Returns the index in the grid of a position.
-    #[must_use]
     pub fn cell(&self, position: usize) -> usize {
         let [i, j] = self.place(position);
         i * self.shape[1] + j
     }
 
     /// Computes the room at each position, by two measures. Takes linear time.
-    #[must_use]
     pub fn room(&self) -> Room {
         let mut clearance = vec![u32::MAX; self.len()];
         let beside_wall = |&i: &u32| self.neighbors(i as usize).contains(&self.wall());

@@ -85,7 +85,6 @@ impl Lattice {
     }
 
     /// Returns the number of rows and columns.
-    #[must_use]
     pub fn cells(&self) -> [usize; 2] {
         self.cells
     }
@@ -137,7 +136,6 @@ impl Lattice {
     /// Labels all free cells that are connected to `sources` (indices in the grid) with the number of steps to the
     /// nearest source. Goes breadth-first over neighbours that share a side. This is the navigation function in the
     /// `L1` metric. Linear; a few nanoseconds per cell.
-    #[must_use]
     pub fn wave(&self, sources: &[usize]) -> Wave {
         let label = |site: &Site| match site {
             Site::Free => UNREACHED,
@@ -180,13 +178,11 @@ impl Lattice {
 
 impl Wave {
     /// Returns the number of cells reached.
-    #[must_use]
     pub fn reached(&self) -> usize {
         self.order.len()
     }
 
     /// Returns the number of steps from cell `index` of the grid to the nearest source, or [`UNREACHED`].
-    #[must_use]
     pub fn label(&self, lattice: &Lattice, index: usize) -> u32 {
         match self.labels[lattice.framed(index)] {
             WALL_LABEL.. => UNREACHED,
@@ -195,7 +191,6 @@ impl Wave {
     }
 
     /// Returns the labels of all cells of the grid, without the frame.
-    #[must_use]
     pub fn labels(&self, lattice: &Lattice) -> Vec<u32> {
         let [rows, columns] = lattice.cells;
         let mut labels = Vec::with_capacity(rows * columns);
@@ -207,7 +202,6 @@ impl Wave {
 
     /// Returns the cells from `index` to a source, always to the neighbour with the smallest label (the first of
     /// equals). This is a shortest path in the `L1` metric. Returns `None` if the wave did not reach `index`.
-    #[must_use]
     pub fn descend(&self, lattice: &Lattice, index: usize) -> Option<Vec<usize>> {
         let mut at = lattice.framed(index);
         let mut label = self.labels[at];

@@ -103,14 +103,12 @@ impl Potential {
     }
 
     /// Returns the natural logarithm of the value at `position`; minus infinity for the wall.
-    #[must_use]
     pub fn ln(&self, position: usize) -> f64 {
         let ScaledNumber { mantissa, exponent } = self.at(position);
         mantissa.ln() + f64::from(exponent) * f64::from(EXPONENT_STEP) * std::f64::consts::LN_2
     }
 
     /// Returns true if the value at `a` is strictly greater than that at `b`. Exact.
-    #[must_use]
     pub fn is_greater(&self, a: usize, b: usize) -> bool {
         let (a, b) = (self.at(a), self.at(b));
         if a.mantissa == 0.0 || b.mantissa == 0.0 {
@@ -122,7 +120,6 @@ impl Potential {
 
     /// Returns the neighbour of `position` with the greatest value (the first of equals), if it is strictly greater
     /// than at `position`.
-    #[must_use]
     pub fn ascent(&self, component: &Component, position: usize) -> Option<usize> {
         component
             .neighbors(position)
@@ -132,14 +129,12 @@ impl Potential {
 
     /// Returns true if every cell except the goals has a strictly greater neighbour. Steepest ascent then leads to a
     /// goal from everywhere. Linear.
-    #[must_use]
     pub fn navigates(&self, component: &Component) -> bool {
         (component.goals..component.len()).all(|i| component.neighbors(i).into_iter().any(|n| self.is_greater(n, i)))
     }
 
     /// Returns the positions from `from` to a goal by steepest ascent. Returns `None` if it ends in a local maximum,
     /// which [`Potential::navigates`] excludes.
-    #[must_use]
     pub fn ascend(&self, component: &Component, from: usize) -> Option<Vec<usize>> {
         let mut positions = vec![from];
         let mut at = from;

@@ -126,7 +126,6 @@ impl Interrupt {
     }
 
     /// Returns the reason to stop: the interrupt is set, or the deadline has passed. `None` to go on.
-    #[must_use]
     pub fn stop_reason(&self) -> Option<Interrupted> {
         if self.flag.load(Ordering::Relaxed) {
             return Some(Interrupted::Set);

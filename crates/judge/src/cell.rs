@@ -14,14 +14,12 @@ pub struct Cell {
 
 impl Cell {
     /// Returns the configuration in the middle of the box.
-    #[must_use]
     pub fn center(&self) -> Configuration {
         Configuration::new((self.lower[0] + self.upper[0]) / 2.0, (self.lower[1] + self.upper[1]) / 2.0)
     }
 
     /// Returns half of each side, rounded up so that a box of these half sides about the rounded centre covers the
     /// cell.
-    #[must_use]
     pub fn half(&self) -> [f64; 2] {
         [0, 1].map(|k| {
             let largest = self.upper[k].abs().max(self.lower[k].abs()).max(PI);
@@ -31,7 +29,6 @@ impl Cell {
 
     /// Returns the part of a segment that meets the cell, with its ends clamped into the cell. If rounding leaves no
     /// such part, returns the point of the segment nearest to the centre.
-    #[must_use]
     pub fn part(&self, piece: &Segment) -> Segment {
         if piece.is_point() {
             return *piece;

@@ -164,7 +164,6 @@ impl<'a> Posture<'a> {
     }
 
     /// Returns the distance of a pair at the posture, and a lower bound on it over `deviation`.
-    #[must_use]
     pub fn bound(&self, pair: Pair, deviation: Deviation) -> SeparationBound {
         self.bound_up_to(pair, deviation, |_| f64::INFINITY)
     }
@@ -254,7 +253,6 @@ impl<'a> Posture<'a> {
     /// The reason: suppose that the shapes were apart at some deviation. Then a line would separate them there. On the
     /// way back to the posture, no point moves farther than the greatest motion. So at the posture the shapes would
     /// overlap by at most that motion.
-    #[must_use]
     pub fn greatest(&self, pair: Pair, deviation: Deviation) -> f64 {
         let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
         separation_at(local, &self.poses[pair.link], piece, |corners, here| {

@@ -23,14 +23,12 @@ pub struct Drift {
 impl Drift {
     /// Returns the displacement of a point during half of the span, to first order. The point is at `p` in the middle
     /// of the span.
-    #[must_use]
     pub fn of(&self, p: Point) -> Vector {
         (self.velocity + perpendicular(p - self.origin()) * self.turn) * self.half
     }
 
     /// Returns a bound, in metres, on the difference between the actual displacement of the point at `p` and
     /// [`Drift::of`].
-    #[must_use]
     pub fn error_bound(&self, p: Point) -> f64 {
         let reach = (p - self.origin()).norm();
         let turned = self.turn * self.half;
@@ -39,7 +37,6 @@ impl Drift {
 
     /// Returns an upper bound, in metres, on the motion during half of the span of all points within `reach` of the
     /// frame's origin.
-    #[must_use]
     pub fn farthest(&self, reach: f64) -> f64 {
         (self.velocity.norm() + self.any[0] + (self.turn.abs() + self.any[1]) * reach) * self.half
     }

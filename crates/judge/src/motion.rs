@@ -54,7 +54,6 @@ pub struct Nearest {
 
 impl CertifiedPath {
     /// Returns the path that was proven to be free.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -96,13 +95,11 @@ impl CertifiedPath {
     /// Returns the proven lower bound on the distance between the arm and obstacles along the whole motion, metres;
     /// infinite if nothing can meet. It is positive and at least the required clearance. It is also at least 0.9 of
     /// the true clearance.
-    #[must_use]
     pub fn clearance(&self) -> f64 {
         self.clearance
     }
 
     /// Returns the nearest approach to an obstacle that the search found; `None` if nothing can meet.
-    #[must_use]
     pub fn nearest(&self) -> Option<Nearest> {
         self.nearest
     }
@@ -188,7 +185,6 @@ impl<'a> StraightMotions<'a> {
     }
 
     /// Returns true if the straight motion is proven to be free and within the joint limits.
-    #[must_use]
     pub fn is_free(&self, from: Configuration, to: Configuration) -> bool {
         let topology = self.scene.arm().topology();
         let within = [from, to].iter().all(|q| (0..2).all(|k| topology.ranges[k].contains(q[k])));
@@ -244,7 +240,6 @@ impl<'a> CurveSearch<'a> {
     }
 
     /// Returns the proven clearance of all pieces so far, and the nearest approach found.
-    #[must_use]
     pub fn proven_clearance(&self) -> (f64, Option<Nearest>) {
         (self.proven, self.nearest)
     }

@@ -120,19 +120,16 @@ impl Arm {
     }
 
     /// Returns the space of configurations.
-    #[must_use]
     pub fn topology(&self) -> Topology {
         Topology { ranges: [self.joints[0].range, self.joints[1].range] }
     }
 
     /// Returns true if both joints are revolute.
-    #[must_use]
     pub fn only_turns(&self) -> bool {
         self.joints.iter().all(|joint| joint.joint_type.is_revolute())
     }
 
     /// Returns `RR`, `RP`, `PR` or `PP`: the types of joints 1 and 2, R for revolute and P for prismatic.
-    #[must_use]
     pub fn kind(&self) -> &'static str {
         match (self.joints[0].joint_type.is_revolute(), self.joints[1].joint_type.is_revolute()) {
             (true, true) => "RR",
@@ -143,14 +140,12 @@ impl Arm {
     }
 
     /// Returns true if both joints are prismatic.
-    #[must_use]
     pub fn is_gantry(&self) -> bool {
         !self.joints.iter().any(|joint| joint.joint_type.is_revolute())
     }
 
     /// Returns the pose of link 1 (`index` 0), of link 2 (1), or of link 2 while joint 1 stays at zero (2), which is
     /// its pose relative to link 1.
-    #[must_use]
     pub fn pose(&self, index: usize, q: Configuration) -> Pose {
         let q = if index == 2 { Configuration::new(0.0, q[1]) } else { q };
         let first = motion(self.joints[0].joint_type, q[0]).shifted(self.base);
@@ -161,14 +156,12 @@ impl Arm {
     }
 
     /// Returns both link poses.
-    #[must_use]
     pub fn poses(&self, q: Configuration) -> [Pose; 2] {
         let [first, second, _] = self.pair_poses(q);
         [first, second]
     }
 
     /// Returns the pose of the part of every kind of pair, indexed by [`super::Pair::link`].
-    #[must_use]
     pub fn pair_poses(&self, q: Configuration) -> [Pose; 3] {
         let second = motion(self.joints[1].joint_type, q[1]).shifted(self.offset);
         let [first, at_zero] = [q[0], 0.0].map(|value| self.pose(0, Configuration::new(value, 0.0)));
@@ -177,7 +170,6 @@ impl Arm {
 
     /// Returns an upper bound, in metres and positive, on the distance from joint 1 to the tip and to any point of the
     /// links' outlines, with both joints at zero. Tolerances are multiples of this bound.
-    #[must_use]
     pub fn reach(&self) -> f64 {
         let of = |link: usize| self.links[link].parts.iter().map(|p| p.shape.reach_from(Point::zeros()));
         let first = of(0).fold(self.offset.norm(), f64::max);
@@ -186,20 +178,17 @@ impl Arm {
     }
 
     /// Returns the position of the tip in the plane.
-    #[must_use]
     pub fn tip_at(&self, q: Configuration) -> Point {
         self.pose(1, q).point(self.tip)
     }
 
     /// Returns the position of joint 2 in the plane. For a prismatic joint 2 this is the origin of its values.
-    #[must_use]
     pub fn elbow_at(&self, q1: f64) -> Point {
         self.pose(0, Configuration::new(q1, 0.0)).point(self.offset)
     }
 
     /// Returns the two columns of the Jacobian for the point `p` of link `index` (0 or 1), given in that link's
     /// frame: its velocity in the plane per unit of each joint's speed.
-    #[must_use]
     pub fn jacobian(&self, index: usize, p: Point, q: Configuration) -> [Vector; 2] {
         let poses = self.poses(q);
         let at = poses[index].point(p);

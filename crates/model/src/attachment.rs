@@ -66,7 +66,6 @@ impl Grip {
     }
 
     /// Returns the pose of the attachment's frame in the plane at `q`.
-    #[must_use]
     pub fn pose(&self, arm: &Arm, q: Configuration) -> Pose {
         match *self {
             Self::Rigid(in_link) => arm.pose(1, q) * in_link,
@@ -75,7 +74,6 @@ impl Grip {
     }
 
     /// Returns true if the attachment keeps its orientation.
-    #[must_use]
     pub fn is_level(&self) -> bool {
         matches!(self, Self::Level { .. })
     }
@@ -98,7 +96,6 @@ impl Attachment {
 
     /// Returns the distance by which `part` may come nearer to an obstacle than the clearance, metres: the whole
     /// clearance for supports, otherwise zero. Returns `None` if the two cannot meet.
-    #[must_use]
     pub fn nearer(&self, part: &AttachedPart, obstacle: usize, clearance: f64) -> Option<f64> {
         let meets = part.on_supports == self.supports.contains(&obstacle);
         meets.then_some(if part.on_supports { clearance } else { 0.0 })

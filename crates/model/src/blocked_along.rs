@@ -30,7 +30,6 @@ impl Scene {
     ///
     /// A pair collides on a whole stretch if its depth in the middle exceeds the motion of every point of the arm
     /// from there to the ends. Stretches without such a pair are halved.
-    #[must_use]
     pub fn blocked_along(&self, segment: &Segment) -> Option<Vec<BlockedStretch>> {
         let mut waiting = vec![(0.0, 1.0, 0)];
         let mut blocked: Vec<(f64, f64, Obstruction)> = Vec::new();

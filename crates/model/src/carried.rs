@@ -27,13 +27,11 @@ impl CarriedPart {
     }
 
     /// Returns the joint's kind of motion.
-    #[must_use]
     pub fn joint_type(&self) -> JointType {
         self.joint_type
     }
 
     /// Returns the part's shape, in the frame that the joint moves.
-    #[must_use]
     pub fn shape(&self) -> &Convex {
         self.features.shape()
     }

@@ -124,25 +124,21 @@ impl<'a> Contacts<'a> {
     }
 
     /// Returns the moving shape of pair `index`, with the joint that moves it.
-    #[must_use]
     pub fn moving(&self, index: usize) -> &CarriedPart {
         &self.part(self.pairs[index]).carried
     }
 
     /// Returns the fixed shape of pair `index`.
-    #[must_use]
     pub fn static_shape(&self, index: usize) -> &Features {
         self.piece(self.pairs[index])
     }
 
     /// Returns the number of the part in pair `index`. Only parts that are in some pair are numbered.
-    #[must_use]
     pub fn part_of(&self, index: usize) -> usize {
         self.pairs[index].part as usize
     }
 
     /// Returns the numbers of the parts of link 2; those of link 1 come before.
-    #[must_use]
     pub fn second_link_parts(&self) -> Range<usize> {
         self.second.0..self.parts.len()
     }
@@ -156,13 +152,11 @@ impl<'a> Contacts<'a> {
 
     /// Returns the place of joint 2, and the direction of link 1's x axis, to use for pair `index` of link 2. Both
     /// are `here` as given, or, if joint 1 carries the obstacle as well, those with joint 1 at zero.
-    #[must_use]
     pub fn frame(&self, index: usize, here: (Point, Vector)) -> (Point, Vector) {
         if self.pairs[index].link == 2 { self.at_zero } else { here }
     }
 
     /// Returns the scene that was prepared.
-    #[must_use]
     pub fn scene(&self) -> &'a Scene {
         self.scene
     }
@@ -204,14 +198,12 @@ impl<'a> Contacts<'a> {
     }
 
     /// Returns the numbers of the pairs of link 2; those of link 1 come before.
-    #[must_use]
     pub fn second_link_pairs(&self) -> Range<usize> {
         self.second.1..self.pairs.len()
     }
 
     /// Returns an upper bound, in metres, on how far points move while joint 1 moves by at most `step` and joint 2
     /// stands still. The points are those of pair `index`'s part that are within `clearance` of the piece.
-    #[must_use]
     pub fn motion(&self, index: usize, step: f64, clearance: f64) -> f64 {
         let pair = self.pairs[index];
         if pair.link == 2 {
@@ -223,7 +215,6 @@ impl<'a> Contacts<'a> {
 
     /// Returns an upper bound on the motion of all points of a part, metres, while joint 1 moves by at most `step`
     /// and joint 2 stands still.
-    #[must_use]
     pub fn motion_of(&self, part: usize, step: f64) -> f64 {
         let part = &self.parts[part];
         if part.link == 2 { 0.0 } else { self.chord(part.reach, step) }
@@ -231,7 +222,6 @@ impl<'a> Contacts<'a> {
 
     /// Returns an upper bound on the distance of pair `index`'s part from the base, metres, at any value of joint 2,
     /// while joint 1 is at zero.
-    #[must_use]
     pub fn reach(&self, index: usize) -> f64 {
         self.part(self.pairs[index]).reach
     }
@@ -247,7 +237,6 @@ impl<'a> Contacts<'a> {
 
     /// Returns an upper bound on the motion of the part of pair `index` per unit of the joint that carries its link:
     /// metres per radian or metre.
-    #[must_use]
     pub fn lever(&self, index: usize) -> f64 {
         let part = &self.part(self.pairs[index]).carried;
         match part.joint_type() {
@@ -257,7 +246,6 @@ impl<'a> Contacts<'a> {
     }
 
     /// Returns the place of joint 2 at `q1`, and the direction of link 1's x axis.
-    #[must_use]
     pub fn elbow(&self, q1: f64) -> (Point, Vector) {
         elbow(self.scene, q1)
     }

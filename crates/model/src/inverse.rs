@@ -175,7 +175,6 @@ impl Inverse {
     /// Returns all solutions within the limits. A branch has one solution per whole turn that the limits allow; a
     /// free joint gives a segment over its whole range. On circles each solution appears once. If both joints are
     /// free, all configurations are solutions, and the preferred one represents them.
-    #[must_use]
     pub fn solutions(&self, arm: &Arm) -> Vec<Segment> {
         let joints = &arm.joints;
         let copies =

@@ -113,26 +113,22 @@ impl Joint {
     }
 
     /// Returns the unit of the joint's value: `rad` or `m`.
-    #[must_use]
     pub fn unit(&self) -> &'static str {
         if self.joint_type.is_revolute() { "rad" } else { "m" }
     }
 
     /// Returns the unit of the joint's effort: `N m` or `N`.
-    #[must_use]
     pub fn effort_unit(&self) -> &'static str {
         if self.joint_type.is_revolute() { "N m" } else { "N" }
     }
 
     /// Returns a value with its unit, angles in degrees and radians: `20.00 deg (0.3491 rad)`.
-    #[must_use]
     pub fn format_value(&self, value: f64) -> String {
         let [shown] = self.format_distinct([value]);
         shown
     }
 
     /// Returns several values with their units, with enough digits that different values look different.
-    #[must_use]
     pub fn format_distinct<const N: usize>(&self, values: [f64; N]) -> [String; N] {
         let mut texts = format_distinct(values, 4);
         if self.joint_type.is_revolute() {

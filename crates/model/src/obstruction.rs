@@ -21,13 +21,11 @@ const TOUCHING_DEPTH: f64 = 1e-9;
 impl Scene {
     /// Returns the collisions of `q` with static obstacles and the distances below the clearance. Each link, and the
     /// attachment, has at most one entry per obstacle: the worst pair of shapes. Empty if `q` is free.
-    #[must_use]
     pub fn obstructions(&self, q: Configuration) -> Vec<Obstruction> {
         self.worst(q, self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair)))))
     }
 
     /// Does the same as [`Scene::obstructions`], and includes the loose obstacles, which are at `poses`.
-    #[must_use]
     pub fn obstructions_among(&self, q: Configuration, poses: &[Pose]) -> Vec<Obstruction> {
         let static_obstacles = self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair))));
         let loose = self.loose_pairs().iter().filter_map(|&pair| {
@@ -63,7 +61,6 @@ impl Scene {
     }
 
     /// Describes an obstruction in words: `link "forearm" hits obstacle "shelf", 12.00 mm deep`.
-    #[must_use]
     pub fn explain(&self, obstruction: &Obstruction) -> String {
         let Contact { pair, separation } = obstruction.contact;
         let part = self.describe_part(pair);

@@ -18,7 +18,6 @@ pub enum Outcome<F, I, U = String> {
 
 impl<F, I, U> Outcome<F, I, U> {
     /// Returns the answer without its data.
-    #[must_use]
     pub fn status(&self) -> Status {
         match self {
             Outcome::Found(_) => Status::Found,
@@ -28,7 +27,6 @@ impl<F, I, U> Outcome<F, I, U> {
     }
 
     /// Returns the answer with references to its data.
-    #[must_use]
     pub fn as_ref(&self) -> Outcome<&F, &I, &U> {
         match self {
             Outcome::Found(found) => Outcome::Found(found),
@@ -48,19 +46,16 @@ impl<F, I, U> Outcome<F, I, U> {
     }
 
     /// Returns the found value; `None` for other answers.
-    #[must_use]
     pub fn found(&self) -> Option<&F> {
         if let Outcome::Found(found) = self { Some(found) } else { None }
     }
 
     /// Returns the proof that there is no solution; `None` for other answers.
-    #[must_use]
     pub fn infeasible(&self) -> Option<&I> {
         if let Outcome::Infeasible(proof) = self { Some(proof) } else { None }
     }
 
     /// Returns the reason why the answer is unknown; `None` for other answers.
-    #[must_use]
     pub fn unknown(&self) -> Option<&U> {
         if let Outcome::Unknown(why) = self { Some(why) } else { None }
     }

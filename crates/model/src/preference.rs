@@ -34,7 +34,6 @@ pub struct Preference {
 impl Preference {
     /// Returns true if the preference applies at `q`. Exact, boundaries included, up to the rounding of the tip's
     /// position.
-    #[must_use]
     pub fn holds_at(&self, arm: &Arm, q: Configuration) -> bool {
         match &self.region {
             Region::Tip(polygon) => polygon.contains(arm.tip_at(q)),

@@ -21,7 +21,6 @@ pub enum Goal {
 
 impl Goal {
     /// Returns the place for the tip; for a rectangle this is its middle. `None` for joint values.
-    #[must_use]
     pub fn tip(&self) -> Option<Point> {
         match self {
             Self::Joints(_) => None,
@@ -31,7 +30,6 @@ impl Goal {
     }
 
     /// Returns the point for the tip that is nearest to `is`, the tip's present position. `None` for joint values.
-    #[must_use]
     pub fn nearest_tip(&self, is: Point) -> Option<Point> {
         match self {
             Self::Area([low, high]) => Some(is.sup(low).inf(high)),
@@ -135,7 +133,6 @@ impl MotionProblem {
     }
 
     /// Returns the arm and its obstacles.
-    #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -147,13 +144,11 @@ impl MotionProblem {
     }
 
     /// Returns the arm's start configuration.
-    #[must_use]
     pub fn start(&self) -> Configuration {
         self.start
     }
 
     /// Returns the goals. A path must reach one of them.
-    #[must_use]
     pub fn goals(&self) -> &GoalSet {
         &self.goals
     }

@@ -125,7 +125,6 @@ impl Scene {
 
     /// Returns the scene for proofs of collisions. It uses a part's inner shape where the outline covers more than the
     /// real part. Its pairs have heights that certainly overlap, and pieces that are not empty in exact arithmetic.
-    #[must_use]
     pub fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
         let placed =
@@ -287,31 +286,26 @@ impl Scene {
     }
 
     /// Returns the numbers of the obstacles that link 2's own parts may touch.
-    #[must_use]
     pub fn allowed_contacts(&self) -> &[usize] {
         &self.additions.allowed_contacts
     }
 
     /// Returns the optional contents of the scene.
-    #[must_use]
     pub fn additions(&self) -> &Additions {
         &self.additions
     }
 
     /// Returns the loose obstacles.
-    #[must_use]
     pub fn loose_obstacles(&self) -> &[LooseObstacle] {
         &self.additions.loose
     }
 
     /// Returns the arm, with its attachment as parts of link 2.
-    #[must_use]
     pub fn arm(&self) -> &Arm {
         &self.arm
     }
 
     /// Returns the workspace.
-    #[must_use]
     pub fn workspace(&self) -> &Workspace {
         &self.workspace
     }
@@ -323,13 +317,11 @@ impl Scene {
     }
 
     /// Returns the attachment, if any.
-    #[must_use]
     pub fn attachment(&self) -> Option<&Attachment> {
         self.additions.attachment.as_ref()
     }
 
     /// Returns the parts of a link, without those of the attachment.
-    #[must_use]
     pub fn own_parts(&self, link: usize) -> &[Part] {
         let parts = &self.arm.links[link].parts;
         if link == 1 { &parts[..self.own_parts] } else { parts }
@@ -337,39 +329,33 @@ impl Scene {
 
     /// Returns all pairs of a part and a static or self obstacle that can meet. They are ordered by link, part,
     /// obstacle and piece.
-    #[must_use]
     pub fn pairs(&self) -> &[Pair] {
         &self.pairs
     }
 
     /// Returns the pairs of a part and a loose obstacle that can meet, in the same order as [`Scene::pairs`]. Only
     /// the methods with `loose` in their names use them.
-    #[must_use]
     pub fn loose_pairs(&self) -> &[Pair] {
         &self.loose_pairs
     }
 
     /// Returns the index of a pair's obstacle among the loose ones; `None` for other obstacles.
-    #[must_use]
     pub fn loose_index(&self, pair: Pair) -> Option<usize> {
         pair.obstacle.checked_sub(self.workspace.obstacles.len()).filter(|index| *index < self.loose_obstacles().len())
     }
 
     /// Returns the link of a pair's part.
-    #[must_use]
     pub fn link(&self, pair: Pair) -> &Link {
         &self.arm.links[pair.link.min(1)]
     }
 
     /// Returns the shape of a pair's part, in the link's frame.
-    #[must_use]
     pub fn part(&self, pair: Pair) -> &Convex {
         &self.link(pair).parts[pair.part].shape
     }
 
     /// Returns the piece in a pair, or the shape derived from it for an attachment, in plane coordinates. For a
     /// loose obstacle, the coordinates are those of its own frame.
-    #[must_use]
     pub fn piece(&self, pair: Pair) -> &Convex {
         let own = &self.obstacle(pair.obstacle).pieces;
         own.get(pair.piece).unwrap_or_else(|| &self.differences[pair.obstacle][pair.piece - own.len()])
@@ -391,27 +377,23 @@ impl Scene {
     }
 
     /// Returns the pair with the least signed distance at `q`; `None` if there are no pairs.
-    #[must_use]
     pub fn closest(&self, q: Configuration) -> Option<Contact> {
         self.separations(q).min_by(|a, b| a.separation.distance.total_cmp(&b.separation.distance))
     }
 
     /// Returns the least signed distance between the arm and the obstacles at `q`, metres; infinite if there are no
     /// pairs.
-    #[must_use]
     pub fn clearance(&self, q: Configuration) -> f64 {
         self.closest(q).map_or(f64::INFINITY, |c| c.separation.distance)
     }
 
     /// Returns true if a pair's part belongs to the attachment.
-    #[must_use]
     pub fn is_attached(&self, pair: Pair) -> bool {
         pair.link > 0 && pair.part >= self.own_parts
     }
 
     /// Returns the obstacle's piece of a pair, in plane coordinates. For an attachment, a pair may use a shape that is
     /// derived from this piece; this function still returns the piece itself.
-    #[must_use]
     pub fn obstacle_piece(&self, pair: Pair) -> &Convex {
         let pieces = &self.obstacle(pair.obstacle).pieces;
         // For each attached part, the derived shapes are one full set of pieces, numbered after the pieces.

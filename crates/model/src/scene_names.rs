@@ -8,7 +8,6 @@ impl Scene {
     ///
     /// # Panics
     /// If there is no obstacle with this index.
-    #[must_use]
     pub fn obstacle(&self, number: usize) -> &Obstacle {
         let static_obstacles = self.workspace().obstacles.len();
         if let Some(obstacle) = self.workspace().obstacles.get(number) {
@@ -21,13 +20,11 @@ impl Scene {
     }
 
     /// Returns the arm's self obstacle with this index; `None` for static and loose obstacles.
-    #[must_use]
     pub fn self_obstacle(&self, number: usize) -> Option<&SelfObstacle> {
         self.arm().self_obstacles.get(number.checked_sub(self.self_obstacles().start)?)
     }
 
     /// Returns the indices of the arm's self obstacles. They follow those of the static and the loose obstacles.
-    #[must_use]
     pub fn self_obstacles(&self) -> Range<usize> {
         let first = self.workspace().obstacles.len() + self.loose_obstacles().len();
         first..first + self.arm().self_obstacles.len()
@@ -35,7 +32,6 @@ impl Scene {
 
     /// Returns the index of a link's first layer if the obstacle is one of several layers of a link of the robot.
     /// Otherwise returns `number`.
-    #[must_use]
     pub fn first_layer(&self, number: usize) -> usize {
         let name = &self.obstacle(number).name;
         let mut layers = self.self_obstacles().filter(|&layer| self.obstacle(layer).name == *name);
@@ -43,26 +39,22 @@ impl Scene {
     }
 
     /// Describes a pair in words: `link "forearm" and obstacle "shelf"`.
-    #[must_use]
     pub fn describe(&self, pair: Pair) -> String {
         format!("{} and {}", self.describe_part(pair), self.describe_obstacle(pair.obstacle))
     }
 
     /// Describes an obstacle in words: `obstacle "shelf"`, `link "base_link"`.
-    #[must_use]
     pub fn describe_obstacle(&self, number: usize) -> String {
         let kind = if self.self_obstacles().contains(&number) { "link" } else { "obstacle" };
         format!("{kind} \"{}\"", self.obstacle(number).name)
     }
 
     /// Returns the name of the obstacle in a pair.
-    #[must_use]
     pub fn obstacle_name(&self, pair: Pair) -> &str {
         &self.obstacle(pair.obstacle).name
     }
 
     /// Describes the owner of a pair's part in words: `link "forearm" (body "gripper")`, `payload "part"`.
-    #[must_use]
     pub fn describe_part(&self, pair: Pair) -> String {
         let link = self.link(pair);
         let body = &link.parts[pair.part].body;

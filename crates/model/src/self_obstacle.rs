@@ -44,7 +44,6 @@ fn is_nowhere(parts: &[Vec<usize>; 2]) -> bool {
 impl SelfObstacle {
     /// Returns true if the contact with a part of the arm is ignored. `link` is the part's link, `part` its number among
     /// the link's own parts, and `body` its URDF link.
-    #[must_use]
     pub fn ignores(&self, link: usize, part: usize, body: &str) -> bool {
         self.permanent[link].contains(&part) || self.ignored.iter().any(|ignored| ignored == body)
     }

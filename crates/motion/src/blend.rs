@@ -34,20 +34,17 @@ impl Blend {
     }
 
     /// Returns the Euclidean distance from the corner to either end, in joint space.
-    #[must_use]
     pub fn radius(&self) -> f64 {
         (self.corner - self.from).norm()
     }
 
     /// Returns the point at a share `u` of the curve. It is exact at both ends.
-    #[must_use]
     pub fn at(&self, u: f64) -> Configuration {
         let mix = |a: Configuration, b: Configuration| a * (1.0 - u) + b * u;
         mix(mix(self.from, self.corner), mix(self.corner, self.to))
     }
 
     /// Returns the same curve in cubic form.
-    #[must_use]
     pub fn piece(&self) -> Piece {
         Piece::quadratic(0.0, 1.0, [self.from, self.corner, self.to])
     }
@@ -85,19 +82,16 @@ impl From<Path> for BlendedPath {
 
 impl BlendedPath {
     /// Returns the straight path.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
     /// Returns the radius of the blend at each waypoint, in joint space (radians and metres mixed); 0 if there is none.
-    #[must_use]
     pub fn radii(&self) -> &[f64] {
         &self.radii
     }
 
     /// Returns the blend at a waypoint, if there is one.
-    #[must_use]
     pub fn blend(&self, waypoint: usize) -> Option<Blend> {
         let q = self.path.waypoints();
         let radius = self.radii[waypoint];
@@ -130,7 +124,6 @@ impl BlendedPath {
     }
 
     /// Returns the straight pieces and blends from start to goal.
-    #[must_use]
     pub fn stretches(&self) -> Vec<Stretch> {
         let q = self.path.waypoints();
         let mut stretches = Vec::new();
@@ -145,7 +138,6 @@ impl BlendedPath {
     }
 
     /// Returns a polyline for pictures, with points on the blends.
-    #[must_use]
     pub fn outline(&self) -> Path {
         let mut points = vec![self.path.start()];
         for stretch in self.stretches() {

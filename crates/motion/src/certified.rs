@@ -53,7 +53,6 @@ impl From<CertifiedPath> for CertifiedCurve {
 
 impl CertifiedCurve {
     /// Returns the path and its blends.
-    #[must_use]
     pub fn curve(&self) -> &BlendedPath {
         &self.curve
     }
@@ -61,7 +60,6 @@ impl CertifiedCurve {
     /// Returns the extent of the rounding at each waypoint, in joint units: the greatest distance from the waypoint at which
     /// the motion is off the path, such as the radius of the blend. The motion's distance from the path is at most half of
     /// it. It is 0 where the motion stops at the corner.
-    #[must_use]
     pub fn radii(&self) -> &[f64] {
         self.driven.as_ref().map_or_else(|| self.curve.radii(), |(radii, _)| radii)
     }
@@ -69,26 +67,22 @@ impl CertifiedCurve {
     /// Returns a proven lower bound on the distance between arm and obstacles, metres, along the blends and along the
     /// straight legs up to their corners. It is infinite if no shapes can meet, and never less than the required
     /// clearance.
-    #[must_use]
     pub fn clearance(&self) -> f64 {
         self.straight.clearance()
     }
 
     /// Returns the place nearest to an obstacle, among the places that the search examined. `None` if no shapes can
     /// meet.
-    #[must_use]
     pub fn nearest(&self) -> Option<Nearest> {
         self.straight.nearest()
     }
 
     /// Returns the straight path, which is proven free up to its corners.
-    #[must_use]
     pub fn straight(&self) -> &CertifiedPath {
         &self.straight
     }
 
     /// Returns a polyline for pictures.
-    #[must_use]
     pub fn outline(&self) -> Path {
         self.driven.as_ref().map_or_else(|| self.curve.outline(), |(_, outline)| outline.clone())
     }
@@ -204,7 +198,6 @@ impl<'a> Rounding<'a> {
     }
 
     /// Returns the indices of the pieces of a motion that are not shown to be free. Joint limits are not checked.
-    #[must_use]
     pub fn uncertified_pieces(&self, pieces: &[Piece]) -> Vec<usize> {
         let budget = MAX_CHECKS_PER_PIECE * self.scene.pairs().len();
         let is_open = |piece: &Piece| {
@@ -216,7 +209,6 @@ impl<'a> Rounding<'a> {
 
     /// Certifies a motion that rounds the corners of the path with these extents (see [`CertifiedCurve::radii`]).
     /// `None` if the motion is not shown to be free. Joint limits are not checked.
-    #[must_use]
     pub fn certified(&self, radii: Vec<f64>, pieces: &[Piece]) -> Option<CertifiedCurve> {
         let budget = MAX_CHECKS_PER_PIECE * self.scene.pairs().len() * pieces.len();
         let mut search = CurveSearch::continued_from(self.path, self.scene, self.required, budget);

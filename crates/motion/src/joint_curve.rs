@@ -62,7 +62,6 @@ impl JointCurve {
 
     /// Returns the pieces of the curve, one unit of its parameter each: for `n` points, there are `n + 1` pieces. Piece
     /// `i` is near the points `i - 1` and `i`.
-    #[must_use]
     pub fn pieces(&self) -> Vec<Piece> {
         self.spline.pieces()
     }

@@ -124,7 +124,6 @@ impl Limits<'_> {
 
     /// Returns true if a motion must stop at every corner. This is so if the jerk of any joint is limited, because the
     /// acceleration would jump at the start of a blend.
-    #[must_use]
     pub fn stops_at_corners(&self) -> bool {
         self.jerk.iter().any(Option::is_some)
     }

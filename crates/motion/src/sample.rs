@@ -124,7 +124,6 @@ fn described([first, second]: [f64; 2]) -> String {
 
 impl Trajectory {
     /// Returns the seconds from the first to the last sample.
-    #[must_use]
     pub fn duration(&self) -> f64 {
         self.time.last().copied().unwrap_or(0.0)
     }

@@ -210,7 +210,6 @@ impl<'a> TorqueLimit<'a> {
     }
 
     /// Returns the torques at the samples.
-    #[must_use]
     pub fn along_trajectory(&self, trajectory: &Trajectory) -> Vec<[f64; 2]> {
         let at = |i: usize| {
             let [q, v, a] =

@@ -259,7 +259,6 @@ impl<'a> MovingObstacles<'a> {
     }
 
     /// Returns the scene.
-    #[must_use]
     pub fn scene(&self) -> &'a Scene {
         self.scene
     }
@@ -271,7 +270,6 @@ impl<'a> MovingObstacles<'a> {
 
     /// Returns the times at which each moving obstacle is nearer to the arm at `q` than the clearance, in order and
     /// disjoint. They are exact up to the tolerances of this module.
-    #[must_use]
     pub fn blocked_times(&self, q: Configuration) -> Vec<Vec<Interval>> {
         let (posture, mut known) = (Posture::new(self.scene, q), None);
         let mut times = vec![Vec::new(); self.scene.loose_obstacles().len()];

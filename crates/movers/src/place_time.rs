@@ -57,7 +57,6 @@ pub struct WaitReason {
 
 impl WaitReason {
     /// Describes the duration and the reason in a few words, such as `1.46 s for cart`.
-    #[must_use]
     pub fn words(&self) -> String {
         let obstacle = self.obstacle.as_ref().map_or_else(String::new, |name| format!(" for {name}"));
         format!("{:.2} s{obstacle}", self.wait.to - self.wait.from)
@@ -115,7 +114,6 @@ impl PlaceTime {
     }
 
     /// Returns the progress of the motion at a time.
-    #[must_use]
     pub fn progress(&self, time: f64) -> f64 {
         let next = self.motion.partition_point(|[at, _]| *at <= time).clamp(1, self.motion.len() - 1);
         let [[from, low], [to, high]] = [self.motion[next - 1], self.motion[next]];
@@ -123,7 +121,6 @@ impl PlaceTime {
     }
 
     /// Returns the waits that are long enough for a word, with their reasons.
-    #[must_use]
     pub fn reasons(&self, waits: &[Wait]) -> Vec<WaitReason> {
         let long: Vec<Wait> = waits.iter().copied().filter(|wait| wait.to - wait.from >= MIN_WAIT).collect();
         let reason = |wait: &Wait| {

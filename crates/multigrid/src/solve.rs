@@ -76,7 +76,6 @@ impl Multigrid {
     }
 
     /// Allocates a workspace for solves.
-    #[must_use]
     pub fn workspace(&self) -> Workspace {
         Workspace::new(&self.red_black, self.hierarchy.as_ref().map_or_else(Stack::default, Hierarchy::stack))
     }

@@ -35,14 +35,12 @@ impl Channel {
     }
 
     /// Returns the path's start.
-    #[must_use]
     pub fn start(&self) -> Configuration {
         self.start
     }
 
     /// Returns the goal segment in the last box that is nearest to the middle of the last portal, or to the start if
     /// there is no portal. For a continuous joint it may be a copy of a goal on another turn.
-    #[must_use]
     pub fn goals(&self) -> &Segment {
         &self.goals
     }
@@ -50,13 +48,11 @@ impl Channel {
     /// Returns the pieces of sides that consecutive boxes share, in order, in unwrapped values. For each piece, the
     /// first end is to the left of the direction of passage and the second to the right, as in a plot of `q2` over
     /// `q1`.
-    #[must_use]
     pub fn portals(&self) -> &[[Configuration; 2]] {
         &self.portals
     }
 
     /// Returns the path from the start through the middles of the portals to the goal segment.
-    #[must_use]
     pub fn path(&self) -> Path {
         let middles = self.portals.iter().map(|[left, right]| (left + right) / 2.0);
         let mut places: Vec<Configuration> = std::iter::once(self.start).chain(middles).collect();

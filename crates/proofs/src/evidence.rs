@@ -75,7 +75,6 @@ impl BoundEvidence {
     /// Returns the proven parts of the walls, and the proven barriers. Each is tested at up to `looks` places in either
     /// direction from its middle. A barrier whose shapes barely overlap is shifted slightly. Segments that end at a
     /// seam are extended slightly beyond it.
-    #[must_use]
     pub fn segments(&self, scene: &Scene, clearance: f64, looks: usize) -> Vec<ClosedSegment> {
         let (scene, mut closed) = (&*scene.inner(), Vec::new());
         let seen = |ends: [Configuration; 2], pair: Pair| {

@@ -20,13 +20,11 @@ pub struct AssumedLimits {
 
 impl AssumedLimits {
     /// Returns true if no limit is assumed.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.velocity.is_empty() && self.acceleration.is_empty()
     }
 
     /// Describes all assumed limits. `joints` has name and unit of each joint.
-    #[must_use]
     pub fn notes(&self, joints: [(&str, &str); 2]) -> Vec<String> {
         let of_joint = |(name, unit): (&str, &str)| {
             let whose = format!("joint \"{name}\"");

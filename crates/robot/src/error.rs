@@ -88,7 +88,6 @@ pub struct InputError {
 
 impl InputError {
     /// Returns the diagnostics, at least one, mostly in the order of the file.
-    #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
     }

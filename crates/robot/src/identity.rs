@@ -33,7 +33,6 @@ impl FileIdentity {
     }
 
     /// Returns true if both are the same file.
-    #[must_use]
     pub fn is_same_file(&self, other: &Self) -> bool {
         self.path == other.path || (self.number.is_some() && self.number == other.number)
     }

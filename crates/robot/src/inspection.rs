@@ -69,7 +69,6 @@ pub struct Inspection {
 
 impl Inspection {
     /// Returns true if planning is possible.
-    #[must_use]
     pub fn is_plannable(&self) -> bool {
         self.errors.is_empty()
     }

@@ -36,14 +36,12 @@ pub struct RobotReport {
 impl RobotReport {
     /// Returns warnings and assumptions as lines that begin with `warning:` or `note:`. They are for programs that
     /// print no summary.
-    #[must_use]
     pub fn remarks(&self, arm: &Arm) -> Vec<String> {
         let warnings = self.warnings.iter().map(|warning| format!("warning: {warning}"));
         warnings.chain(self.assumptions(arm).iter().map(|assumption| format!("note: {assumption}"))).collect()
     }
 
     /// Describes the limits of an arm that are assumed.
-    #[must_use]
     pub fn assumptions(&self, arm: &Arm) -> Vec<String> {
         self.assumed.notes(arm.joints.each_ref().map(|joint| (joint.name.as_str(), joint.unit())))
     }

@@ -79,19 +79,16 @@ impl RobotTable {
     }
 
     /// Returns the name of the wrist's joint, if the table states it.
-    #[must_use]
     pub fn wrist_joint(&self) -> Option<&Spanned<String>> {
         self.wrist.as_ref()?.joint.as_ref()
     }
 
     /// Returns true if strokes and turns of the wrist may overlap with motions of the arm, which is the default.
-    #[must_use]
     pub fn allows_arches(&self) -> bool {
         !matches!(self.arch.as_ref().map(Spanned::get_ref), Some(ArchValue::Switch(false)))
     }
 
     /// Returns true if links of the robot are obstacles to its other links, which is the default.
-    #[must_use]
     pub fn own_body_is_obstacle(&self) -> bool {
         self.own_body != Some(false)
     }

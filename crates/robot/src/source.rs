@@ -143,14 +143,12 @@ impl Source {
     }
 
     /// Returns the path of the file, or the name of a text in memory.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
     /// Returns the paths of the files from which the text was read: its own, and those of an expansion. Empty for a
     /// text in memory.
-    #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
         let own = self.is_file.then(|| self.path.clone());
         let included = self.expansion.iter().flat_map(|e| e.files.iter().map(|file| &file.path).chain(&e.yaml));
@@ -160,7 +158,6 @@ impl Source {
     }
 
     /// Returns the whole text.
-    #[must_use]
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -178,7 +175,6 @@ impl Source {
     }
 
     /// Returns true if the text is expanded xacro.
-    #[must_use]
     pub fn is_expanded(&self) -> bool {
         self.expansion.is_some()
     }
@@ -244,7 +240,6 @@ impl Source {
 
     /// Returns line and column of a byte offset. For expanded xacro, they are those in the original file. `O(1)` after
     /// the first call, which stores positions throughout the text.
-    #[must_use]
     pub fn position(&self, offset: usize) -> Position {
         if let Some((file, range)) = self.origin(offset) {
             return file.position(range.start);
@@ -261,7 +256,6 @@ impl Source {
     }
 
     /// Returns a cursor at the beginning of the text. It finds the positions of many offsets efficiently.
-    #[must_use]
     pub fn cursor(&self) -> Cursor<'_> {
         Cursor { bytes: self.text.as_bytes(), read: 0, at: Position { line: 1, column: 1 } }
     }

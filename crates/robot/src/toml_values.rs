@@ -213,7 +213,6 @@ impl<'a> Fields<'a> {
     }
 
     /// Returns the error about an unknown key.
-    #[must_use]
     pub fn unknown(&self, key: &str) -> TomlError {
         let known = self.value.get_ref().as_table().and_then(|table| table.get_key_value(key));
         let at = known.map_or(self.value.span(), |(key, _)| key.span());

@@ -50,7 +50,6 @@ impl WristTable {
     }
 
     /// Returns a note about the acceleration limit. `None` if the file states the limit.
-    #[must_use]
     pub fn note(&self, wrist: &Wrist) -> Option<String> {
         self.acceleration.is_none().then(|| assumed_acceleration_note("wrist", wrist.acceleration, "rad"))
     }

@@ -51,14 +51,12 @@ pub struct Unknown {
 
 impl BoundedPath {
     /// Returns the waypoints of the path.
-    #[must_use]
     pub fn path(&self) -> &Path {
         self.certified.path()
     }
 
     /// Returns a proven lower bound on the distance between arm and obstacles along the path, metres. Infinite if no
     /// obstacle is within reach.
-    #[must_use]
     pub fn clearance(&self) -> f64 {
         self.certified.clearance()
     }
@@ -101,13 +99,11 @@ const MAX_DRAWN_CORNERS: usize = 5_000;
 
 impl<F: AsRef<BoundedPath>> Answer<F> {
     /// Returns the path, if one was found.
-    #[must_use]
     pub fn path(&self) -> Option<&Path> {
         self.outcome.found().map(|found| found.as_ref().path())
     }
 
     /// Returns the bounds on the path's length, if a path was found and the planner bounds it.
-    #[must_use]
     pub fn bound(&self) -> Option<Bound> {
         self.outcome.found().and_then(|found| found.as_ref().bound)
     }
@@ -115,7 +111,6 @@ impl<F: AsRef<BoundedPath>> Answer<F> {
 
 impl<F> Answer<F> {
     /// Returns the reason, in words, why there is no motion. `None` if there is one.
-    #[must_use]
     pub fn reason(&self) -> Option<String> {
         match &self.outcome {
             Outcome::Found(_) => None,
@@ -126,7 +121,6 @@ impl<F> Answer<F> {
 
     /// Returns the trace to draw: the planner's own trace. For a visibility graph, adds all arcs between corners, and
     /// first has to find them.
-    #[must_use]
     pub fn drawn(&self) -> Cow<'_, Trace> {
         if let (Trace::Roadmap { edges, whole: false }, Space::Regions(regions)) = (&self.run.trace, &self.space) {
             let map = Visibility::default().build(regions);

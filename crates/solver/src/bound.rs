@@ -21,14 +21,12 @@ pub struct Bound {
 impl Bound {
     /// Returns the share by which the path is longer than the lower bound: 0.001 for a thousandth. Infinite if no lower
     /// bound is known.
-    #[must_use]
     pub fn gap(&self) -> f64 {
         if self.upper <= self.lower { 0.0 } else { self.upper / self.lower - 1.0 }
     }
 
     /// Searches for evidence of the lower bound: walls and barriers that close all shorter paths. This repeats the
     /// search for the bound, which does not keep its evidence.
-    #[must_use]
     pub fn evidence(&self, problem: &MotionProblem) -> BoundEvidence {
         let gap = (self.gap() * EVIDENCE_GAP_SHARE).clamp(MIN_EVIDENCE_GAP, 1.0);
         bound_evidence(&motions(problem, self.metric), self.upper.max(self.lower), gap)

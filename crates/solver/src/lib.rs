@@ -117,7 +117,6 @@ pub struct Stages {
 
 impl Stages {
     /// Returns the total time.
-    #[must_use]
     pub fn total(&self) -> Duration {
         self.build + self.query + self.certify + self.prove + self.bound
     }

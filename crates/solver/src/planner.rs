@@ -27,13 +27,11 @@ impl Planner {
     }
 
     /// Returns the planner's method.
-    #[must_use]
     pub fn method(&self) -> Method {
         self.method
     }
 
     /// Returns the planner's settings.
-    #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
@@ -102,75 +100,63 @@ impl Planner {
     }
 
     /// Returns the kind of the planner's paths.
-    #[must_use]
     pub fn path_kind(&self) -> PathKind {
         self.settings.path
     }
 
     /// Returns true if the exact polygons of a gantry are requested, for files, pictures and the first attempt.
-    #[must_use]
     pub fn is_exact(&self) -> bool {
         self.settings.margin == 0.0
     }
 
     /// Returns the numbers of cells along the axes on the first level. `None` if they are not given.
-    #[must_use]
     pub fn cells(&self) -> Option<CellCounts> {
         self.settings.cells
     }
 
     /// Returns which visibility graph the planner searches. `None` if it searches none.
-    #[must_use]
     pub fn graph(&self) -> Option<VisibilityGraph> {
         self.value_if_read(Setting::Graph, self.settings.graph)
     }
 
     /// Returns the metric in which the planner measures paths of an arm.
-    #[must_use]
     pub fn metric(&self, arm: &Arm) -> Metric {
         self.settings.criterion.metric(arm)
     }
 
     /// Returns the requested gap. `None` if none was requested, or if the planner does not optimise.
-    #[must_use]
     pub fn gap(&self) -> Option<f64> {
         self.settings.gap
     }
 
     /// Returns how the planner searches its roadmap. `None` if it has no roadmap.
-    #[must_use]
     pub fn search(&self) -> Option<RoadmapSearch> {
         self.value_if_read(Setting::Search, self.settings.search)
     }
 
     /// Returns true if the planner's search minimises length.
-    #[must_use]
     pub fn optimizes(&self) -> bool {
         self.method.optimizes() && self.settings.search.order.is_optimal()
     }
 
     /// Returns how the cells of the planner's grid are decided. `None` if it has no grid.
-    #[must_use]
     pub fn space(&self) -> Option<GridSpace> {
         self.value_if_read(Setting::Space, self.settings.space)
     }
 
     /// Returns the field that the planner follows. `None` for the plain harmonic field, and for planners without a
     /// field.
-    #[must_use]
     pub fn field(&self) -> Option<&FieldPlanner> {
         self.settings.field.as_ref()
     }
 
     /// Returns true if the planner computes a potential between that of goals and that of obstacles.
-    #[must_use]
     pub fn has_potential(&self) -> bool {
         let is_relaxed = |field: &FieldPlanner| matches!(field.field, FieldChoice::Relaxed { .. });
         self.method.reads(Setting::Field) && self.field().is_none_or(is_relaxed)
     }
 
     /// Returns true if the planner's search of a grid estimates remaining costs.
-    #[must_use]
     pub fn estimates_costs(&self) -> bool {
         let order = self.settings.grid_search.order(self.settings.ties);
         self.method.reads(Setting::GridSearch) && order.is_some_and(Order::estimates)

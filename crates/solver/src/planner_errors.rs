@@ -10,7 +10,6 @@ use std::ops::RangeInclusive;
 impl Planner {
     /// Reports the first preference that the planner's field needs and the world file lacks, with a hint. `None` if
     /// none is missing.
-    #[must_use]
     pub fn missing_preference(&self, preferences: &[Preference]) -> Option<String> {
         let FieldChoice::Relaxed { equation, .. } = self.field()?.field else { return None };
         let name = match equation {

@@ -111,7 +111,6 @@ impl Journal {
     }
 
     /// Returns the path of the journal.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }

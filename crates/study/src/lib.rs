@@ -85,13 +85,11 @@ pub struct Study {
 
 impl Study {
     /// Returns warnings and assumptions about the robot, as in [`cplan_robot::RobotReport::remarks`].
-    #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         self.base.robot.remarks(self.base.scene.arm())
     }
 
     /// Returns the paths of all files that were read, beginning with the study file.
-    #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
         self.source.files().into_iter().chain(self.base.files()).collect()
     }
@@ -116,32 +114,27 @@ impl Study {
 
     /// Returns the texts of study, robot and world, from which [`Study::from_sources`] creates the same study. In the
     /// text of the world, defaults that parameters set are written out.
-    #[must_use]
     pub fn sources(&self) -> [&Source; 3] {
         [&self.source, self.urdf.source(), self.world.source()]
     }
 
     /// Returns the planning options as text.
-    #[must_use]
     pub fn options(&self) -> &[String] {
         &self.words
     }
 
     /// Returns true if parameters set numbers of the robot.
-    #[must_use]
     pub fn varies_robots(&self) -> bool {
         !self.urdf.is_fixed()
     }
 
     /// Returns the number of layouts of the study itself, whether listed or drawn. Those of the search are not
     /// included.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.design.count()
     }
 
     /// Returns the values of a layout, one per parameter.
-    #[must_use]
     pub fn values(&self, layout: usize) -> Vec<f64> {
         self.design.values(layout)
     }
@@ -152,7 +145,6 @@ impl Study {
     }
 
     /// Returns the texts of world and robot with these values of the parameters.
-    #[must_use]
     pub fn layout(&self, values: &[f64]) -> [Source; 2] {
         [self.world.filled(values), self.urdf.filled(values)]
     }
@@ -187,7 +179,6 @@ impl Study {
     }
 
     /// Plans a layout and returns its row.
-    #[must_use]
     pub fn row(&self, layout: usize) -> Row {
         self.row_of(layout, self.values(layout))
     }

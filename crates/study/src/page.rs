@@ -29,7 +29,6 @@ const MAX_CHART_POINTS: usize = 4000;
 
 impl Study {
     /// Returns the page for these rows, with pictures of some layouts. The same rows give the same bytes.
-    #[must_use]
     pub fn html(&self, rows: &[Row], pictures: &[Picture]) -> String {
         let summary = Summary::new(self, rows);
         let names: Vec<&str> = self.parameters.iter().map(|parameter| parameter.name.as_str()).collect();

@@ -15,7 +15,6 @@ pub struct Parameter {
 
 impl Parameter {
     /// Returns the name, with the unit if there is one.
-    #[must_use]
     pub fn titled(&self) -> String {
         self.unit.as_ref().map_or_else(|| self.name.clone(), |unit| format!("{}, {unit}", self.name))
     }
@@ -48,7 +47,6 @@ pub enum Values {
 
 impl Values {
     /// Returns the least and the greatest value.
-    #[must_use]
     pub fn range(&self) -> [f64; 2] {
         match self {
             Self::Listed(values) => [
@@ -60,7 +58,6 @@ impl Values {
     }
 
     /// Returns the values in order. `None` if they are drawn.
-    #[must_use]
     pub fn listed(&self) -> Option<Vec<f64>> {
         match self {
             Self::Listed(values) => Some(values.clone()),

@@ -19,7 +19,6 @@ const EXCLUDED_COST: f64 = f64::INFINITY;
 impl Study {
     /// Returns the cost of a row for the search, where less is better. It is infinite for a layout that has no motion
     /// or violates a condition.
-    #[must_use]
     pub fn cost(&self, row: &Row) -> f64 {
         let value = |objective: Objective| Some(objective.cost(row.measured[self.column(objective.measure)?]?));
         self.objective.filter(|_| row.fits).and_then(value).unwrap_or(EXCLUDED_COST)

@@ -44,38 +44,32 @@ impl<'a> Summary<'a> {
     }
 
     /// Returns the number of rows with each ending, in the order of [`Ending::ALL`].
-    #[must_use]
     pub fn tally(&self) -> [usize; 4] {
         tally(self.rows)
     }
 
     /// Returns the number of rows of the search with each ending, in the same order.
-    #[must_use]
     pub fn searched(&self) -> [usize; 4] {
         tally(&self.rows[self.designed..])
     }
 
     /// Returns the best layout. `None` if none has a motion that satisfies the conditions.
-    #[must_use]
     pub fn best(&self) -> Option<&'a Row> {
         self.ranked.first().map(|&i| &self.rows[i])
     }
 
     /// Returns the worst layout that has a motion and satisfies the conditions.
-    #[must_use]
     pub fn worst(&self) -> Option<&'a Row> {
         self.ranked.last().map(|&i| &self.rows[i])
     }
 
     /// Returns the best layout of the study itself, without the search.
-    #[must_use]
     pub fn best_designed(&self) -> Option<&'a Row> {
         self.ranked.iter().find(|&&i| i < self.designed).map(|&i| &self.rows[i])
     }
 
     /// Returns the reasons why layouts have no motion, the most frequent first: the ending, the first cause with
     /// numbers replaced, and the number of layouts.
-    #[must_use]
     pub fn reasons(&self) -> Vec<(Ending, String, usize)> {
         let mut counts: BTreeMap<(Ending, String), usize> = BTreeMap::new();
         for row in self.rows {
@@ -91,7 +85,6 @@ impl<'a> Summary<'a> {
     /// Returns the Pareto front of two measures, sorted by the first one. It has the layouts to which no other layout
     /// is better in both measures. Of layouts that are equal in one measure, only the best in the other is included.
     /// Less is better, except for the clearance.
-    #[must_use]
     pub fn pareto(&self, measures: [Measure; 2]) -> Vec<&'a Row> {
         let cost = |row: &Row, k: usize| {
             let value = row.measured[self.study.column(measures[k])?]?;
@@ -115,7 +108,6 @@ impl<'a> Summary<'a> {
 
     /// Returns one line for each parameter for which the best layout lies at an end of the range. A better layout may
     /// lie beyond.
-    #[must_use]
     pub fn edges(&self) -> Vec<String> {
         let edge = |(parameter, value, _): (&Parameter, f64, _)| {
             let [from, to] = parameter.values.range();
@@ -145,7 +137,6 @@ impl<'a> Summary<'a> {
     }
 
     /// Returns the summary for a terminal, 80 characters wide, or with full tables if `wide`. Ends in a newline.
-    #[must_use]
     pub fn to_text(&self, wide: bool) -> String {
         let study = self.study;
         let [rows, parameters] = [counted(self.rows.len(), "layout"), counted(study.parameters.len(), "parameter")];
@@ -199,7 +190,6 @@ impl<'a> Summary<'a> {
     }
 
     /// Returns the summary as a JSON object.
-    #[must_use]
     pub fn to_json(&self) -> Value {
         let counts = |tally: [usize; 4]| -> Value {
             Ending::ALL.into_iter().zip(tally).map(|(ending, count)| (ending.name().to_owned(), json!(count))).collect()

@@ -8,7 +8,6 @@ use cplan_compare::quoted;
 impl Study {
     /// Returns the names of the columns: the number of the layout, the parameters, the ending, the reason, the
     /// measures, and whether the layout satisfies all conditions.
-    #[must_use]
     pub fn columns(&self) -> Vec<String> {
         let parameters = self.parameters.iter().map(|parameter| parameter.name.clone());
         let measures = self.measures.iter().map(|measure| measure.name().to_owned());
@@ -23,7 +22,6 @@ impl Study {
     }
 
     /// Returns the table as CSV: one line per row, with all digits of each number.
-    #[must_use]
     pub fn csv(&self, rows: &[Row]) -> String {
         let mut text = self.columns().iter().map(|name| quoted(name)).collect::<Vec<_>>().join(",") + "\n";
         for row in rows {

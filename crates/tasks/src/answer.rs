@@ -33,7 +33,6 @@ pub enum Event {
 
 impl Event {
     /// Returns the object that is grasped or released.
-    #[must_use]
     pub fn object(&self) -> usize {
         match *self {
             Event::Grasp { object } | Event::Release { object, .. } => object,
@@ -86,20 +85,17 @@ pub struct Leg {
 
 impl Leg {
     /// Returns the path of the motion, before its corners are rounded.
-    #[must_use]
     pub fn path(&self) -> &Path {
         self.timed.curve.curve().path()
     }
 
     /// Returns the time from the beginning of the task to the end of the motion, in seconds.
-    #[must_use]
     pub fn arrival(&self) -> f64 {
         self.begin + self.timed.trajectory.duration()
     }
 
     /// Returns the time from the end of the motion to that of the step, when the tool is raised and turned, in seconds.
     /// The next motion may begin earlier: see [`Overlap::departure`].
-    #[must_use]
     pub fn rest(&self) -> f64 {
         let strokes = if self.event.is_some() { 2.0 } else { 1.0 };
         let waiting = self.wrist.map_or(0.0, |wrist| wrist.waiting);
@@ -108,7 +104,6 @@ impl Leg {
 
     /// Returns the time from the beginning of the task at which the wrist begins to turn, in seconds. `None` if it does
     /// not turn.
-    #[must_use]
     pub fn turn_begins(&self) -> Option<f64> {
         let (_, seconds) = self.turn?;
         let is_before = matches!(self.event, Some(Event::Release { .. }));
@@ -116,14 +111,12 @@ impl Leg {
     }
 
     /// Returns how long the wrist turns, in seconds.
-    #[must_use]
     pub fn turning(&self) -> f64 {
         self.turn.map_or(0.0, |(_, seconds)| seconds)
     }
 
     /// Returns the strokes of the step in chronological order: for each, the time from the beginning of the task at which it
     /// begins, in seconds, and the joint's values at both ends, in metres.
-    #[must_use]
     pub fn strokes(&self) -> Vec<(f64, [f64; 2])> {
         let mut strokes = Vec::new();
         if let Some(ToolStroke { raised, lowered, seconds, .. }) = self.raising {
@@ -142,19 +135,16 @@ impl Leg {
 
     /// Returns the time from the beginning of the motion back to that of the raising before it, in seconds. 0 if the tool is
     /// raised, or if it is raised while the arm already moves.
-    #[must_use]
     pub fn raising_at_rest(&self) -> f64 {
         self.raising.map_or(0.0, |raising| raising.seconds - self.overlap.raising)
     }
 
     /// Returns how long the tool takes to go down, in seconds. It takes as long to go up.
-    #[must_use]
     pub fn lowering(&self) -> f64 {
         self.stroke.map_or(0.0, |stroke| stroke.seconds)
     }
 
     /// Returns the time from the end of the motion to the grasp or release, in seconds. `None` if there is neither.
-    #[must_use]
     pub fn event_after(&self) -> Option<f64> {
         match self.event? {
             Event::Grasp { .. } => Some(self.lowering() - self.overlap.arrival()),
@@ -163,20 +153,17 @@ impl Leg {
     }
 
     /// Returns the time from the beginning of the task to the grasp or release, in seconds. `None` if there is neither.
-    #[must_use]
     pub fn event_time(&self) -> Option<f64> {
         self.event_after().map(|after| self.arrival() + after)
     }
 
     /// Returns the time from the beginning of the task to the end of the step, in seconds.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.arrival() + self.rest()
     }
 
     /// Returns a proven lower bound on the distance to obstacles during the motion, the turn and the stroke, in metres.
     /// Infinite if no obstacle is within reach.
-    #[must_use]
     pub fn clearance(&self) -> f64 {
         let turn = self.turn.map_or(f64::INFINITY, |(turn, _)| turn.clearance);
         let stroke =
@@ -199,7 +186,6 @@ pub struct TaskMotion {
 
 impl TaskMotion {
     /// Returns the duration, in seconds.
-    #[must_use]
     pub fn seconds(&self) -> f64 {
         self.sequence.trajectory.duration()
     }
@@ -224,7 +210,6 @@ pub struct TaskAnswer {
 
 impl TaskAnswer {
     /// Returns the step that fails. `None` if all steps are done.
-    #[must_use]
     pub fn failed(&self) -> Option<&FailedStep> {
         match &self.outcome {
             Outcome::Found(_) => None,
@@ -233,7 +218,6 @@ impl TaskAnswer {
     }
 
     /// Returns the lower bound on the duration of the task, in seconds. It never exceeds the actual duration.
-    #[must_use]
     pub fn least_seconds(&self) -> f64 {
         // Without blocking obstacles, both are sums of the same times in different orders, so rounding may make the
         // bound larger.
@@ -242,7 +226,6 @@ impl TaskAnswer {
 
     /// Returns the largest fraction by which the task may take longer than the fastest solution: `duration /
     /// lower_bound - 1`. `None` if not all steps are done, or if the bound is 0 and the duration is not.
-    #[must_use]
     pub fn gap(&self) -> Option<f64> {
         let (seconds, least) = (self.outcome.found()?.seconds(), self.least_seconds());
         let gap = if seconds == least { 0.0 } else { seconds / least - 1.0 };
@@ -250,14 +233,12 @@ impl TaskAnswer {
     }
 
     /// Returns the time from the beginning to the end of the last step, in seconds.
-    #[must_use]
     pub fn duration(&self) -> f64 {
         self.legs.last().map_or(0.0, Leg::end)
     }
 
     /// Returns a proven lower bound on the distance to obstacles at all times, in metres. Infinite if no obstacle is
     /// within reach.
-    #[must_use]
     pub fn clearance(&self) -> f64 {
         self.legs.iter().map(Leg::clearance).fold(f64::INFINITY, f64::min)
     }

@@ -53,19 +53,16 @@ impl Overlap {
     };
 
     /// Returns the time from the departure of the arm to the end of the raising and the turn, in seconds.
-    #[must_use]
     pub fn departure(&self) -> f64 {
         self.raising.max(self.turn_after_departure)
     }
 
     /// Returns the time from the beginning of the turn or the lowering to the arrival of the arm, in seconds.
-    #[must_use]
     pub fn arrival(&self) -> f64 {
         self.lowering.max(self.turn_before_arrival)
     }
 
     /// Returns the sum of the overlaps at both ends of the motion, in seconds.
-    #[must_use]
     pub fn seconds(&self) -> f64 {
         self.departure() + self.arrival()
     }

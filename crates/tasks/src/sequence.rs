@@ -40,7 +40,6 @@ impl Sequence {
 
     /// Returns the times at which a step's motion begins and ends, and at which the step ends, in seconds from the
     /// beginning of the task.
-    #[must_use]
     pub fn times(&self, step: usize) -> [f64; 3] {
         let time = |sample: usize| self.trajectory.time[sample];
         let end = self.samples.get(step + 1).map_or(self.trajectory.duration(), |next| time(*next.start()));
@@ -49,7 +48,6 @@ impl Sequence {
 
     /// Returns, for each sample, the index of the step to which the interval from this sample to the next one belongs.
     /// While the arm stands still, this is the step that has just been done.
-    #[must_use]
     pub fn steps(&self) -> Vec<usize> {
         let mut steps = Vec::with_capacity(self.trajectory.time.len());
         for step in 0..self.samples.len() {

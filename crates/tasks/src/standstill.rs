@@ -28,7 +28,6 @@ pub struct StandstillScene {
 
 impl Standstill {
     /// Returns the index of the first scene in which the arm is not free. `None` if it is free in all of them.
-    #[must_use]
     pub fn blocked_scene(&self) -> Option<usize> {
         self.scenes.iter().position(|standing| !standing.scene.obstructions(self.at).is_empty())
     }

@@ -35,7 +35,6 @@ impl TimedTurn {
     }
 
     /// Returns the object's orientation at a time, in radians and seconds.
-    #[must_use]
     pub fn angle(&self, time: f64) -> f64 {
         turn_angle(&self.phases, self.ends, time - self.begin)
     }

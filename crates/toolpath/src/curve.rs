@@ -52,7 +52,6 @@ pub enum Curve {
 
 impl Curve {
     /// Returns the point at a parameter, metres. It is exact at both ends, except for rounding on arcs.
-    #[must_use]
     pub fn at(&self, u: f64) -> Point {
         match *self {
             Curve::Line { from, to } => mix(from, to, u),
@@ -69,7 +68,6 @@ impl Curve {
     }
 
     /// Returns the derivative by the parameter, metres.
-    #[must_use]
     pub fn derivative(&self, u: f64) -> Point {
         match *self {
             Curve::Line { from, to } => minus(to, from),
@@ -86,7 +84,6 @@ impl Curve {
     }
 
     /// Returns a bound on the length of the second derivative by the parameter over the whole curve, metres.
-    #[must_use]
     pub fn bend(&self) -> f64 {
         match *self {
             Curve::Line { .. } => 0.0,
@@ -99,7 +96,6 @@ impl Curve {
     }
 
     /// Returns a bound like [`Curve::bend`] for the part between two parameters.
-    #[must_use]
     pub fn bend_between(&self, ends: [f64; 2]) -> f64 {
         let Curve::Cubic([a, b, c, d]) = *self else { return self.bend() };
         // The second derivative of a cubic curve is linear.
@@ -109,20 +105,17 @@ impl Curve {
     }
 
     /// Returns the first end.
-    #[must_use]
     pub fn start(&self) -> Point {
         self.at(0.0)
     }
 
     /// Returns the other end.
-    #[must_use]
     pub fn end(&self) -> Point {
         self.at(1.0)
     }
 
     /// Returns the unit direction in which the curve leaves its first end (0) or reaches its other end (1). Returns
     /// `None` if the curve has no length.
-    #[must_use]
     pub fn direction(&self, end: f64) -> Option<Point> {
         let derivative = match *self {
             // The derivative may vanish where control points coincide; the next one then gives the direction.
@@ -139,14 +132,12 @@ impl Curve {
     }
 
     /// Returns the length, metres. For a cubic curve and a spiral it is a numerical integral.
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.length_to(1.0)
     }
 
     /// Returns the length from the first end to a parameter, metres. For a cubic curve and a spiral it is a numerical
     /// integral.
-    #[must_use]
     pub fn length_to(&self, u: f64) -> f64 {
         match *self {
             Curve::Line { from, to } => u * norm(minus(to, from)),
@@ -166,7 +157,6 @@ impl Curve {
 
     /// Returns the parameter from `least` on at which the curve is near a point. It is the nearest one on lines, and on
     /// circles within half a turn. On spirals it is near the place in the same direction from the centre. On cubic curves it is the first one from which the distance grows, in small steps.
-    #[must_use]
     pub fn nearest(&self, point: Point, least: f64) -> f64 {
         match *self {
             Curve::Line { from, to } => {

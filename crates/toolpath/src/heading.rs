@@ -21,7 +21,6 @@ pub fn wrapped(angle: f64) -> f64 {
 impl Curve {
     /// Returns the direction of travel at a parameter as an angle from the x axis, radians. Returns `None` if the curve has
     /// no length, or reverses there.
-    #[must_use]
     pub fn heading(&self, u: f64) -> Option<f64> {
         let [x, y] = match *self {
             Curve::Arc { radius, from, by, growth, .. } => {
@@ -35,7 +34,6 @@ impl Curve {
 
     /// Returns bounds on the headings between two parameters. They are exact for lines and circles. Returns `None` if the
     /// headings may differ by half a turn or more, or if the curve has no length.
-    #[must_use]
     pub fn headings(&self, [from, to]: [f64; 2]) -> Option<Headings> {
         match *self {
             Curve::Line { .. } => Some(Headings { middle: self.heading(0.0)?, half: 0.0 }),

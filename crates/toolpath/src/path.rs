@@ -111,38 +111,32 @@ impl Toolpath {
     }
 
     /// Returns the pieces, in order.
-    #[must_use]
     pub fn pieces(&self) -> &[Piece] {
         &self.pieces
     }
 
     /// Returns notes for the user about omissions and assumptions of the reader.
-    #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
     /// Returns the length, metres.
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.pieces.iter().map(|piece| piece.curve.length()).sum()
     }
 
     /// Returns the point where the line begins.
-    #[must_use]
     pub fn start(&self) -> Point {
         self.pieces[0].curve.start()
     }
 
     /// Returns the point where the line ends.
-    #[must_use]
     pub fn end(&self) -> Point {
         self.pieces[self.pieces.len() - 1].curve.end()
     }
 
     /// Returns points along the line, for pictures. Each curve is within `tolerance` metres of its chords. Each inner
     /// list is a stretch without a travel.
-    #[must_use]
     pub fn outlines(&self, tolerance: f64) -> Vec<Vec<Point>> {
         const MAX_CHORDS: f64 = 1e4;
         let mut outlines: Vec<Vec<Point>> = Vec::new();

@@ -25,7 +25,6 @@ impl Default for Placement {
 
 impl Placement {
     /// Returns the curve at its place. Its lengths are already metres.
-    #[must_use]
     pub fn place(&self, curve: &Curve) -> Curve {
         curve.placed(self.scale, self.turn, self.shift)
     }

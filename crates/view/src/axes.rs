@@ -70,7 +70,6 @@ impl Frame {
     }
 
     /// Returns the place of the point `(x, y)` on the page.
-    #[must_use]
     pub fn at(&self, x: f64, y: f64) -> [f64; 2] {
         let Rect { width, height, .. } = self.rect;
         [
@@ -80,14 +79,12 @@ impl Frame {
     }
 
     /// Returns the number of pixels per unit along the lower side.
-    #[must_use]
     pub fn scale(&self) -> f64 {
         self.rect.width / (self.x.1 - self.x.0)
     }
 
     /// Draws light lines across the frame at the ticks. Callers draw them before everything else, so that they lie
     /// below it.
-    #[must_use]
     pub fn grid(&self, units: [Unit; 2]) -> Vec<Item> {
         let pen = Style::line(FAINT, 1.0);
         let [x, y] = self.ticks(units);
@@ -104,7 +101,6 @@ impl Frame {
 
     /// Draws sides, ticks and titles. Callers draw them last, so that they lie above everything else. A side is dashed
     /// if it is a seam, across which the space continues on the opposite side.
-    #[must_use]
     pub fn border(&self, units: [Unit; 2], titles: [String; 2], seams: [bool; 2]) -> Vec<Item> {
         let mut items = self.sides(seams);
         items.extend(self.tick_marks(units, [true; 2]));
@@ -113,7 +109,6 @@ impl Frame {
     }
 
     /// Draws only the sides.
-    #[must_use]
     pub fn sides(&self, seams: [bool; 2]) -> Vec<Item> {
         let Rect { x: left, y: top, .. } = self.rect;
         let (right, bottom) = (self.rect.right(), self.rect.bottom());
@@ -131,7 +126,6 @@ impl Frame {
     }
 
     /// Draws marks at the ticks, with values along the axes for which `values` is true.
-    #[must_use]
     pub fn tick_marks(&self, units: [Unit; 2], values: [bool; 2]) -> Vec<Item> {
         let (left, bottom) = (self.rect.x, self.rect.bottom());
         let mark = |a: [f64; 2], b: [f64; 2]| Item::Outline(vec![Step::Move(a), Step::Line(b)], Style::line(PALE, 1.0));
@@ -152,7 +146,6 @@ impl Frame {
 
     /// Draws the titles of the axes in the middle of the sides of `around`, outside the values at the ticks. `around`
     /// is the rectangle of this frame, or of several frames that share their titles.
-    #[must_use]
     pub fn titles(&self, around: Rect, units: [Unit; 2], [x_title, y_title]: [String; 2]) -> [Item; 2] {
         let [_, y_ticks] = self.ticks(units);
         let widest = y_ticks.iter().map(|(_, name)| super::figure::text_width(name, 13.0)).fold(0.0, f64::max);

@@ -42,27 +42,23 @@ impl Chart {
     }
 
     /// Returns for each axis whether its sides are seams, where the space continues on the opposite side.
-    #[must_use]
     pub fn seams(&self) -> [bool; 2] {
         self.paths.repeats
     }
 
     /// Returns the place of a configuration on the page.
-    #[must_use]
     pub fn place(&self, q: Configuration) -> [f64; 2] {
         let q = self.topology.wrap(q);
         self.frame.at(q[0], q[1])
     }
 
     /// Returns the outline of a path, cut at the seams.
-    #[must_use]
     pub fn outline(&self, path: &[Configuration]) -> Vec<Step> {
         let pieces = self.paths.pieces(path);
         pieces.into_iter().flat_map(|p| chain(p.iter().map(|q| self.frame.at(q[0], q[1])), false)).collect()
     }
 
     /// Returns a closed outline with the same copies on circles as paths have.
-    #[must_use]
     pub fn polygon(&self, Chain(corners): &Chain) -> Vec<Step> {
         self.copies(corners, &self.paths)
     }
@@ -74,7 +70,6 @@ impl Chart {
 
     /// Returns contours with their copies as one outline. With a style that draws the pen below the fill, the outline
     /// looks like that of their union.
-    #[must_use]
     pub fn c_obstacle<'a>(&self, contours: impl Iterator<Item = &'a ContourView>, style: Style) -> Item {
         let mut steps = Vec::new();
         for Chain(contour) in contours.map(|c| &c.contour) {

@@ -19,7 +19,6 @@ pub struct Window {
 
 impl Window {
     /// Returns all shifts by whole turns that bring a part of the box around `points` into the window.
-    #[must_use]
     pub fn shifts<'a>(&self, points: impl IntoIterator<Item = &'a Configuration>) -> Vec<Configuration> {
         let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
         for p in points {
@@ -47,7 +46,6 @@ impl Window {
 
     /// Returns the polyline and its copies, cut at the sides of the window, so that no piece leaves the window.
     /// `O(copies * corners)`.
-    #[must_use]
     pub fn pieces(&self, polyline: &[Configuration]) -> Vec<Vec<Configuration>> {
         let mut all = Vec::new();
         for shift in self.shifts(polyline) {

@@ -28,7 +28,6 @@ impl ExplanationView {
     ///
     /// # Panics
     /// Never: all keys are strings.
-    #[must_use]
     pub fn json(&self) -> String {
         serde_json::to_string(self).expect("numbers and strings")
     }

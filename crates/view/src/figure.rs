@@ -18,13 +18,11 @@ pub struct Rect {
 
 impl Rect {
     /// Returns the distance of the right side from the left edge of the page.
-    #[must_use]
     pub fn right(&self) -> f64 {
         self.x + self.width
     }
 
     /// Returns the distance of the lower side from the top of the page.
-    #[must_use]
     pub fn bottom(&self) -> f64 {
         self.y + self.height
     }
@@ -138,7 +136,6 @@ pub struct Label {
 
 impl Label {
     /// Returns the width of the text in the built-in font, in pixels.
-    #[must_use]
     pub fn width(&self) -> f64 {
         if self.is_bold { bold_text_width(&self.text, self.size) } else { text_width(&self.text, self.size) }
     }
@@ -189,7 +186,6 @@ pub struct Figure {
 
 impl Figure {
     /// Returns the colour with which a colour is shown on the background of this figure.
-    #[must_use]
     pub fn shown(&self, color: Rgb) -> Rgb {
         if self.is_dark { on_dark(color) } else { color }
     }

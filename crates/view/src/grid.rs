@@ -43,7 +43,6 @@ impl Grid {
     }
 
     /// Returns the height of all panels, from the upper side of the first to the lower side of the last, in pixels.
-    #[must_use]
     pub fn height(&self) -> f64 {
         let rows = self.count.div_ceil(self.columns) as f64;
         rows * (self.size[1] + PANEL_GAPS[1]) - PANEL_GAPS[1]
@@ -59,7 +58,6 @@ impl Grid {
 
     /// Draws the panels. Only the leftmost panels and the lowest panel of each column have values at their axes. The
     /// titles of the axes are drawn once for all panels.
-    #[must_use]
     pub fn items(&self, view: &View, panels: &[&PanelView], left_out: usize, corner: [f64; 2]) -> Vec<Item> {
         let arm = &view.arm;
         let mut items = Vec::new();

@@ -57,21 +57,18 @@ impl RegionRaster {
     ///
     /// A name that fits within the region lies as far as possible from its outline. Otherwise, its middle lies on the
     /// region, and the rest covers nothing else.
-    #[must_use]
     pub fn roomiest(&self, region: usize, size: [f64; 2]) -> Option<([f64; 2], bool)> {
         let size = size.map(|side| (side / CELL).ceil() as usize);
         Search::new(self, &self.cells, region, size)?.roomiest().map(|(at, fits)| (self.on_page(at), fits))
     }
 
     /// Returns the middle of the largest part of a region, even if it is blocked.
-    #[must_use]
     pub fn any_part(&self, region: usize) -> Option<[f64; 2]> {
         let (at, _) = Search::new(self, &self.full, region, [1, 1])?.roomiest()?;
         Some(self.on_page(at))
     }
 
     /// Returns the share of a box that lies on regions. It is sampled at 15 points.
-    #[must_use]
     pub fn covered_share(&self, place: &Rect) -> f64 {
         let spots = (0..5).flat_map(|i| (0..3).map(move |j| [(f64::from(i) + 0.5) / 5.0, (f64::from(j) + 0.5) / 3.0]));
         let is_region = |[x, y]: [f64; 2]| {

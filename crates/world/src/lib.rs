@@ -181,14 +181,12 @@ pub fn world_from(world: Source) -> Result<World, InputError> {
 
 impl LoadedScene {
     /// Returns the start and the first goal that the world file states, even if they are invalid.
-    #[must_use]
     pub fn stated_ends(&self) -> [Option<Goal>; 2] {
         let goal = self.world.goals.as_ref().and_then(|(goals, _)| goals.first().copied());
         [self.world.start.as_ref().map(|&(start, _)| start), goal]
     }
 
     /// Returns the wrist of the world, with its joint if the world names one. `None` if the world has no wrist.
-    #[must_use]
     pub fn wrist(&self) -> Option<Wrist> {
         let (wrist, _) = self.world.wrist.as_ref()?;
         let turn = self.world.place.as_ref().map_or(0.0, |place| place.rotation.angle());
@@ -220,14 +218,12 @@ impl LoadedScene {
     }
 
     /// Returns the sensor of the world. Properties that the world file does not state are those of [`Sensor::default_for`].
-    #[must_use]
     pub fn sensor(&self) -> Sensor {
         let turn = self.world.place.as_ref().map_or(0.0, |place| place.rotation.angle());
         self.world.sensor.completed_by(Sensor { turn, ..Sensor::default_for(self.scene.arm()) })
     }
 
     /// Returns the paths of all files that were read: those of the robot, then those of the world.
-    #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
         self.robot.files.iter().cloned().chain(self.world.files()).collect()
     }
@@ -256,7 +252,6 @@ impl LoadedScene {
     }
 
     /// Returns the scene with the trajectories of its loose obstacles. Their times count from time 0 of the world.
-    #[must_use]
     pub fn timed(&self) -> TimedScene<'_> {
         TimedScene { scene: &self.scene, trajectories: &self.trajectories }
     }

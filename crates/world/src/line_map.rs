@@ -55,7 +55,6 @@ impl LineMap {
 
     /// Joins the lines to as few polylines as possible. A line extends the current polyline if they share an end.
     /// Linear in the number of lines.
-    #[must_use]
     pub fn chains(&self) -> Vec<Chain> {
         let mut chains: Vec<Chain> = Vec::new();
         let mut open: VecDeque<Point> = VecDeque::new();

@@ -66,7 +66,6 @@ impl Sensor {
     }
 
     /// Returns the position of the sensor and the angle of its forward direction, in radians.
-    #[must_use]
     pub fn pose(&self, arm: &Arm, q: [f64; 2]) -> (Point, f64) {
         match self.mount {
             Mount::Base => (arm.base, self.turn),
@@ -87,7 +86,6 @@ impl Sensor {
     }
 
     /// Returns the angle of ray `k`, in radians.
-    #[must_use]
     pub fn ray(&self, ahead: f64, k: usize) -> f64 {
         let first = if self.rays == 1 { ahead } else { ahead - self.field_of_view / 2.0 };
         first + self.field_of_view * (k as f64 / self.gaps() as f64)

@@ -21,7 +21,6 @@ const MAX_LISTED_SOLUTIONS: usize = 6;
 impl LoadedScene {
     /// Returns the start and the first goal as joint values. An entry is `None` if it is missing or given as a tip
     /// position.
-    #[must_use]
     pub fn resolved_ends(&self) -> [Option<Configuration>; 2] {
         self.stated_ends().map(|end| match end {
             Some(Goal::Joints(q)) => Some(q),

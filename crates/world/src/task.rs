@@ -17,13 +17,11 @@ use cplan_text::listed;
 impl LoadedScene {
     /// Returns true if the world is a task: it has steps, or its start or goal states values of the tool's joints. Then the
     /// task is a move to the goal.
-    #[must_use]
     pub fn is_task(&self) -> bool {
         self.world.is_task()
     }
 
     /// Returns true if the world has steps. Such a world has no goal.
-    #[must_use]
     pub fn has_steps(&self) -> bool {
         self.world.steps.is_some()
     }

@@ -86,7 +86,6 @@ impl JointValues {
 
 impl JointValues {
     /// Formats the values as in the world file.
-    #[must_use]
     pub fn in_toml(&self) -> String {
         let value = |i: usize| match (self.numbers[i], self.degrees[i]) {
             (degrees, true) => format!("\"{degrees}deg\""),

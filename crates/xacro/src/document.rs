@@ -22,7 +22,6 @@ pub struct File {
 
 impl File {
     /// Returns the line of a byte, counted from 1.
-    #[must_use]
     pub fn line(&self, offset: usize) -> usize {
         1 + self.text.bytes().take(offset).filter(|byte| *byte == b'\n').count()
     }

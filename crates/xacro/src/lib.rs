@@ -96,7 +96,6 @@ pub struct Expansion {
 impl Expansion {
     /// Returns the place from which a byte of the text comes: the place of the attribute that contains it, or else that
     /// of the last start tag that begins at or before it.
-    #[must_use]
     pub fn place(&self, offset: usize) -> Option<&Place> {
         let begun = self.spans.partition_point(|span| span.range.start <= offset);
         let before = &self.spans[..begun];

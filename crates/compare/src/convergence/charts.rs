@@ -14,7 +14,6 @@ const TITLE_HEIGHT: f64 = 44.0;
 
 impl Convergence {
     /// Draws all charts as one SVG document, on a dark background if `is_dark`. The same data give the same bytes.
-    #[must_use]
     pub fn to_svg(&self, is_dark: bool) -> String {
         let light = self.light_svg();
         if is_dark { recolored(&light, |color| on_dark(color).to_string()) } else { light }

@@ -12,7 +12,6 @@ const CSV_COLUMNS: &str =
 
 impl Convergence {
     /// Returns the result as text, 80 characters wide.
-    #[must_use]
     pub fn to_text(&self) -> String {
         let [rows, columns] = self.cells;
         let mut text = format!("{}\n", plain_line(&self.title));
@@ -45,7 +44,6 @@ impl Convergence {
     }
 
     /// Returns a table with one row per relaxation.
-    #[must_use]
     pub fn table(&self) -> Table {
         let row = |run: &RelaxationRun| {
             let RelaxationRun { equation, relaxation, trace } = run;
@@ -63,7 +61,6 @@ impl Convergence {
 
     /// Returns a table with one row per equation. It has the number of sweeps with the best factor of the scan, with
     /// the formula's factor, and with Young's factor.
-    #[must_use]
     pub fn factor_table(&self) -> Table {
         let cells =
             |point: Option<Point>| [point.map(|p| format!("{:.3}", p.at)), point.map(|p| sweeps(p.sweeps, p.ending))];
@@ -77,7 +74,6 @@ impl Convergence {
 
     /// Returns a table with one row per equation: the best factor of weighted Jacobi, Jacobi itself (factor 1), and the
     /// first factor that does not converge.
-    #[must_use]
     pub fn weight_table(&self) -> Table {
         let row = |scan: &WeightScan| {
             let best = scan.best();
@@ -96,7 +92,6 @@ impl Convergence {
 
     /// Returns a table of the relaxations that have two stages. It shows how the changes in a sweep jump when
     /// preferences are added in the second stage.
-    #[must_use]
     pub fn leap_table(&self) -> Table {
         let row = |run: &RelaxationRun| {
             let leap = run.trace.leap()?;
@@ -109,7 +104,6 @@ impl Convergence {
     }
 
     /// Returns a table with one row for every fifth strength of the scan.
-    #[must_use]
     pub fn strength_table(&self) -> Table {
         let names: Vec<String> = self.strengths.iter().map(|scan| scan.difference.to_string()).collect();
         let columns = columns(&[&["epsilon"], &names.iter().map(String::as_str).collect::<Vec<_>>()[..]].concat(), 0);
@@ -126,7 +120,6 @@ impl Convergence {
     /// factor of SOR (`factor`) and of weighted Jacobi (`weight`), and for each strength of the drift (`epsilon`). For
     /// the last three kinds, `sweep` is the total number of sweeps. Columns that do not apply are empty. The last line
     /// of a relaxation has its `ending`.
-    #[must_use]
     pub fn to_csv(&self) -> String {
         let mut text = format!("{CSV_COLUMNS}\n");
         for RelaxationRun { equation, relaxation, trace } in &self.runs {
@@ -165,7 +158,6 @@ impl Convergence {
 
     /// Returns all data as a JSON object. A sample is a list of numbers. All samples have the same length, with null
     /// for a value that is unknown or infinite.
-    #[must_use]
     pub fn to_json(&self) -> Value {
         let run = |RelaxationRun { equation, relaxation, trace }: &RelaxationRun| {
             let list = |of: &dyn Fn(&Sample) -> Value| trace.samples.iter().map(of).collect::<Vec<_>>();

@@ -107,7 +107,6 @@ pub struct Point {
 
 impl Point {
     /// Returns the number of sweeps if the relaxation converged.
-    #[must_use]
     pub fn converged(&self) -> Option<usize> {
         (self.ending == Ending::Converged).then_some(self.sweeps)
     }
@@ -116,7 +115,6 @@ impl Point {
 impl FactorScan {
     /// Returns the converged point with the fewest sweeps, among the points of the scan, `formula` and `by_rate`. If
     /// several are equal, returns the one with the least factor.
-    #[must_use]
     pub fn best(&self) -> Option<Point> {
         fastest_point(self.points.iter().chain([&self.formula]).chain(&self.by_rate))
     }
@@ -124,14 +122,12 @@ impl FactorScan {
 
 impl WeightScan {
     /// Returns the converged point with the fewest sweeps. If several are equal, returns the one with the least factor.
-    #[must_use]
     pub fn best(&self) -> Option<Point> {
         fastest_point(self.points.iter())
     }
 
     /// Returns the point with the least factor from which on no relaxation of the scan converges. `None` if the last
     /// one converges.
-    #[must_use]
     pub fn divergence_start(&self) -> Option<Point> {
         divergence_start(&self.points)
     }
@@ -152,7 +148,6 @@ fn fastest_point<'a>(points: impl Iterator<Item = &'a Point>) -> Option<Point> {
 impl StrengthScan {
     /// Returns the point with the least strength from which on no relaxation of the scan converges. `None` if the last
     /// one converges.
-    #[must_use]
     pub fn divergence_start(&self) -> Option<Point> {
         divergence_start(&self.points)
     }

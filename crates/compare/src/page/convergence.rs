@@ -6,7 +6,6 @@ use crate::Convergence;
 
 impl Convergence {
     /// Returns the page as a self-contained file without scripts. The same data give the same bytes.
-    #[must_use]
     pub fn to_html(&self) -> String {
         let [rows, columns] = self.cells;
         let subtitle = format!("Relaxations on {rows} x {columns} cells, {} of them free", self.free);

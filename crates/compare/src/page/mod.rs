@@ -51,7 +51,6 @@ pub struct Page<'a> {
 
 impl Page<'_> {
     /// Returns the page. The same data give the same bytes.
-    #[must_use]
     pub fn html(&self) -> String {
         let study = self.study;
         let additions =

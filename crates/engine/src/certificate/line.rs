@@ -45,7 +45,6 @@ pub struct ExcludedSolution {
 impl CertifiedLine<'_> {
     /// Returns the certificate of a motion along the line, as controllers play it. It takes time linear in the number of
     /// samples.
-    #[must_use]
     pub fn of_motion(&self, trajectory: &Trajectory) -> String {
         let arm = self.scene.arm();
         let Trajectory { time, position, velocity, acceleration, torque: _, wrist: _ } = trajectory;

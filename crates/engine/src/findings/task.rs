@@ -103,14 +103,12 @@ impl StepFinding {
     }
 
     /// Returns a name for the step.
-    #[must_use]
     pub fn name(&self) -> String {
         format!("step {} (cycle {})", self.step, self.cycle)
     }
 
     /// Returns a proven lower bound on the distance to obstacles during the step's motion and turn, in metres. `None`
     /// if no obstacle is within reach.
-    #[must_use]
     pub fn clearance(&self) -> Option<f64> {
         let turn = self.turn.as_ref().and_then(|turn| turn.clearance);
         turn.into_iter().chain(self.collisions.clearance).reduce(f64::min)

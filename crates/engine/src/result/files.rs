@@ -15,7 +15,6 @@ impl Plan {
     /// execution. If strokes of the tool overlap with motions of the arm, it has all joints. A ROS 2 message has the whole motion. A recording has a message for each step: its motion, followed
     /// by the turns of the wrist and strokes of the tool. This recording has nothing to display; see
     /// `PlanOutput::bytes` of the crate `view` for one that has.
-    #[must_use]
     pub fn encoded(&self, format: Format) -> Option<Vec<u8>> {
         Some(match format {
             Format::Json => self.to_json().into_bytes(),
@@ -39,7 +38,6 @@ impl Plan {
 
     /// Returns the result as a recording. With `stage`, it includes the scene to display.
     #[cfg(feature = "mcap")]
-    #[must_use]
     pub fn recording(&self, stage: Option<&Stage>) -> Option<Vec<u8>> {
         let steps = self.messages()?.steps;
         Some(mcap(&steps.iter().map(|(begin, motion)| (motion, *begin)).collect::<Vec<_>>(), stage))
@@ -48,7 +46,6 @@ impl Plan {
     /// Returns the motion of each step of a task as a file of its own. The files have no waits, and their times count
     /// from the beginning of the motion. `None` for a single motion, and for formats that cannot contain single
     /// trajectories.
-    #[must_use]
     pub fn encoded_per_step(&self, format: Format) -> Option<Vec<Vec<u8>>> {
         let (_, answer) = self.task()?;
         let text: Vec<String> = match format {

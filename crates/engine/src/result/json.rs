@@ -260,13 +260,11 @@ impl Plan {
 
     /// Returns the result as a JSON object, one field per line, as the book describes it. Numbers have enough digits to
     /// restore the same `f64`.
-    #[must_use]
     pub fn to_json(&self) -> String {
         field_per_line(&self.result(&[]))
     }
 
     /// Returns the result as a JSON object, with a certificate ([`Plan::certificate`]) as its last member.
-    #[must_use]
     pub fn to_json_with(&self, certificate: &RawValue) -> String {
         field_per_line(&PlanResult { plan: self, fields: &[], certificate: Some(certificate) })
     }

@@ -22,7 +22,6 @@ use cplan_tasks::FailedStep;
 impl Plan {
     /// Returns the reason why there is no motion, or why it is not known whether there is one. `None` if there is a
     /// motion.
-    #[must_use]
     pub fn reason(&self) -> Option<String> {
         match self.task() {
             None => self.motion().and_then(|(_, answer)| answer.reason()),
@@ -32,7 +31,6 @@ impl Plan {
 
     /// Returns the waypoints of the straight segments that the motion follows, before corners are rounded. For a task,
     /// returns those of all its motions.
-    #[must_use]
     pub fn waypoints(&self) -> Option<Vec<[f64; 2]>> {
         let mut whole: Vec<[f64; 2]> = Vec::new();
         // Each motion begins where the one before ends.
@@ -45,26 +43,22 @@ impl Plan {
     }
 
     /// Returns the Euclidean length of the path in joint space. For a task, returns the total length of all its paths.
-    #[must_use]
     pub fn length(&self) -> Option<f64> {
         self.found().map(|found| found.paths.into_iter().map(Path::length).sum())
     }
 
     /// Returns the duration of the motion, in seconds.
-    #[must_use]
     pub fn duration(&self) -> Option<f64> {
         self.trajectory().map(Trajectory::duration)
     }
 
     /// Returns a proven lower bound on the distance between arm and obstacles at all times, metres. `None` if there is
     /// no motion, or no obstacle is within reach.
-    #[must_use]
     pub fn clearance(&self) -> Option<f64> {
         self.found().and_then(|found| finite(found.clearance))
     }
 
     /// Describes the link and the obstacle that come closest in a single motion.
-    #[must_use]
     pub fn closest(&self) -> Option<String> {
         let (problem, answer) = self.motion()?;
         let nearest = answer.outcome.found()?.timed.curve.nearest()?;
@@ -72,19 +66,16 @@ impl Plan {
     }
 
     /// Returns the bounds on the path length of a single motion. `None` if the planner computes none.
-    #[must_use]
     pub fn bound(&self) -> Option<Bound> {
         self.motion().and_then(|(_, answer)| answer.bound())
     }
 
     /// Returns how the motion passes moving obstacles. `None` if there are none.
-    #[must_use]
     pub fn timing(&self) -> Option<&Timing> {
         self.found()?.timing
     }
 
     /// Returns how the planner searched its grid. For a roadmap, only a search other than the usual one is reported.
-    #[must_use]
     pub fn search(&self) -> Option<SearchReport> {
         search_used(&self.options().planner)
     }

@@ -157,7 +157,6 @@ impl<'a> ForceField<'a> {
 
     /// Returns the potential in a free cell. For saturated forces, returns the potential that they would have without
     /// saturation.
-    #[must_use]
     pub fn potential(&self, cell: usize) -> f64 {
         let Khatib { attraction, repulsion, .. } = self.laws;
         let push = match &self.obstacles {
@@ -169,7 +168,6 @@ impl<'a> ForceField<'a> {
     }
 
     /// Returns the force in a free cell.
-    #[must_use]
     pub fn force(&self, cell: usize) -> [f64; 2] {
         let Khatib { attraction, repulsion, saturated } = self.laws;
         let saturate = |force: f64| if saturated { force.tanh() } else { force };

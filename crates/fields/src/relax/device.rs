@@ -31,7 +31,6 @@ impl Device {
     }
 
     /// Returns true for the CPU. Results do not mention this default.
-    #[must_use]
     pub fn is_cpu(&self) -> bool {
         *self == Self::Cpu
     }

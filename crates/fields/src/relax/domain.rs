@@ -79,7 +79,6 @@ pub enum Initial {
 
 impl Initial {
     /// Returns true if free cells start at the value of obstacles.
-    #[must_use]
     pub fn is_high(&self) -> bool {
         *self == Self::High
     }
@@ -111,7 +110,6 @@ pub enum Stencil {
 
 impl Stencil {
     /// Returns true if cells count as square.
-    #[must_use]
     pub fn is_square(&self) -> bool {
         *self == Self::Square
     }
@@ -167,7 +165,6 @@ impl Domain {
     }
 
     /// Returns the width of a cell along axis 1 divided by that along axis 2; 1 if cells count as square.
-    #[must_use]
     pub fn beta(&self) -> f64 {
         self.beta
     }
@@ -204,31 +201,26 @@ impl Domain {
     }
 
     /// Returns the numbers of rows and columns.
-    #[must_use]
     pub fn cells(&self) -> [usize; 2] {
         self.cells
     }
 
     /// Returns the kind of each cell.
-    #[must_use]
     pub fn kinds(&self) -> &[Cell] {
         &self.kinds
     }
 
     /// Returns the boundary condition of each axis.
-    #[must_use]
     pub fn boundaries(&self) -> [Boundary; 2] {
         self.boundaries
     }
 
     /// Returns the fixed values.
-    #[must_use]
     pub fn levels(&self) -> Levels {
         self.levels
     }
 
     /// Returns the neighbours of a cell, in the order `-q1, +q1, -q2, +q2`.
-    #[must_use]
     pub fn neighbors(&self, cell: usize) -> [Neighbor; 4] {
         let [rows, columns] = self.cells;
         let (i, j) = (cell / columns, cell % columns);
@@ -251,7 +243,6 @@ impl Domain {
     }
 
     /// Returns the cell at a place of the unbounded lattice, or `None` beyond the ends of an interval.
-    #[must_use]
     pub fn cell_at(&self, place: Place) -> Option<usize> {
         let index = |axis: usize| {
             let (at, n) = (place[axis], self.cells[axis] as i64);
@@ -262,7 +253,6 @@ impl Domain {
     }
 
     /// Returns the values before the first sweep.
-    #[must_use]
     pub fn start(&self) -> Vec<f64> {
         self.kinds.iter().map(|&kind| self.fixed(kind).unwrap_or(self.levels.free)).collect()
     }

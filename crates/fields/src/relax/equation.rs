@@ -157,13 +157,11 @@ pub(super) type DriftOf<'a> = Box<dyn Fn(usize) -> [f64; 2] + 'a>;
 impl Equation {
     /// Returns true if each cell's value is a mean of its neighbours' values with non-negative weights. Then no value
     /// leaves the range of the fixed values, and goals are the only minima. Cells count as square.
-    #[must_use]
     pub fn is_monotone(&self) -> bool {
         self.is_monotone_with(1.0)
     }
 
     /// Does the same as [`Equation::is_monotone`] for the cells of a domain, which need not be square.
-    #[must_use]
     pub fn is_monotone_on(&self, domain: &Domain) -> bool {
         self.is_monotone_with(domain.beta())
     }

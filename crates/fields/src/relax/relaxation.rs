@@ -192,14 +192,12 @@ impl Relaxation {
     }
 
     /// Returns the share of `epsilon` that preferences have in the limit, on a domain of this many cells.
-    #[must_use]
     pub fn preference_share(&self, cells: [usize; 2]) -> f64 {
         let is_successive = matches!(self.scheme, Scheme::Successive { .. });
         if is_successive && !self.relaxes_preferences { 1.0 / self.factor(cells).max(1.0) } else { 1.0 }
     }
 
     /// Returns the factor on a domain of this many cells.
-    #[must_use]
     pub fn factor(&self, cells: [usize; 2]) -> f64 {
         match self.scheme {
             Scheme::Simultaneous { factor } => factor,

@@ -22,7 +22,6 @@ pub enum Measure {
 
 impl Measure {
     /// Returns true for [`Measure::GreatestRelativeChange`].
-    #[must_use]
     pub fn is_relative(&self) -> bool {
         *self == Self::GreatestRelativeChange
     }

@@ -19,19 +19,16 @@ pub struct RelaxedField {
 
 impl RelaxedField {
     /// Returns the number of sweeps of all stages together.
-    #[must_use]
     pub fn sweeps(&self) -> usize {
         self.stages.iter().map(|stage| stage.sweeps).sum()
     }
 
     /// Returns true if every stage converged.
-    #[must_use]
     pub fn converged(&self) -> bool {
         self.stages.iter().all(|stage| stage.converged)
     }
 
     /// Returns the measure in the last sweep.
-    #[must_use]
     pub fn change(&self) -> f64 {
         self.stages.last().map_or(f64::INFINITY, |stage| stage.change)
     }

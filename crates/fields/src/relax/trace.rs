@@ -108,7 +108,6 @@ impl Trace {
     /// Returns the asymptotic factor by which a sweep multiplies the error: the geometric mean over the second half of
     /// the sweeps, as far as the error exceeds rounding. Returns `None` if the error is unknown or there are too few
     /// sweeps.
-    #[must_use]
     pub fn rate(&self) -> Option<f64> {
         let errors: Vec<(usize, f64)> = self
             .samples
@@ -123,7 +122,6 @@ impl Trace {
     }
 
     /// Returns the jump of the changes at the beginning of the second stage. `None` if there is no second stage.
-    #[must_use]
     pub fn leap(&self) -> Option<Leap> {
         let [last, first] = self.samples.windows(2).find_map(|pair| match pair {
             [a, b] if a.stage < b.stage => Some([a, b]),
@@ -134,7 +132,6 @@ impl Trace {
     }
 
     /// Returns the last measured error.
-    #[must_use]
     pub fn error(&self) -> Option<f64> {
         self.samples.last()?.error
     }

@@ -36,13 +36,11 @@ impl Status {
     }
 
     /// Returns the side above `side`, or the lowest side if `side` is `None`.
-    #[must_use]
     pub fn above(&self, side: Option<usize>) -> Option<usize> {
         index(side.map_or(self.first, |side| self.nodes[side].next))
     }
 
     /// Returns the side below `side`.
-    #[must_use]
     pub fn below(&self, side: usize) -> Option<usize> {
         index(self.nodes[side].previous)
     }

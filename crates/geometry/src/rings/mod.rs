@@ -118,19 +118,16 @@ impl Polygon {
 
     /// Returns the polygon as simple polygons with disjoint interiors, whose corners are corners of the rings. There is
     /// one part if the outer ring is simple and there are no holes.
-    #[must_use]
     pub fn parts(&self) -> &[SimplePolygon] {
         &self.parts
     }
 
     /// Decomposes the polygon into strictly convex polygons with disjoint interiors, without new corners.
-    #[must_use]
     pub fn convex_pieces(&self) -> Vec<Convex> {
         self.parts.iter().flat_map(SimplePolygon::convex_pieces).collect()
     }
 
     /// Returns the area, square metres.
-    #[must_use]
     pub fn area(&self) -> f64 {
         self.parts.iter().map(SimplePolygon::area).sum()
     }

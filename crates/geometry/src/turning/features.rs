@@ -110,7 +110,6 @@ impl Features {
     }
 
     /// Returns the shape.
-    #[must_use]
     pub fn shape(&self) -> &Convex {
         &self.shape
     }

@@ -35,7 +35,6 @@ pub struct CollisionBox {
 
 impl CollisionBox {
     /// Returns true if the pair is nearer than `clearance` in the whole box, with room for rounding.
-    #[must_use]
     pub fn holds(&self, scene: &Scene, clearance: f64) -> bool {
         is_collision(&scene.inner(), 0, self, clearance).is_ok()
     }
@@ -56,13 +55,11 @@ pub struct CheckedProof {
 
 impl CheckedProof {
     /// Returns the boxes that separate the start from all goals.
-    #[must_use]
     pub fn collision_boxes(&self) -> &[CollisionBox] {
         &self.stuck
     }
 
     /// Returns the proven statement in words.
-    #[must_use]
     pub fn describe(&self) -> String {
         let count = self.stuck.len();
         let boxes = if count == 1 { "box" } else { "boxes" };
@@ -111,7 +108,6 @@ impl Disconnection {
     }
 
     /// Returns the boxes of the claim.
-    #[must_use]
     pub fn collision_boxes(&self) -> &[CollisionBox] {
         &self.stuck
     }

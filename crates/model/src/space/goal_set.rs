@@ -16,7 +16,6 @@ pub struct GoalSet {
 
 impl GoalSet {
     /// Returns the segments of the set; a single configuration is a segment of length 0.
-    #[must_use]
     pub fn pieces(&self) -> &[Segment] {
         &self.pieces
     }
@@ -27,7 +26,6 @@ impl GoalSet {
     }
 
     /// Returns true if there are no goals.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.pieces.is_empty()
     }
@@ -40,7 +38,6 @@ impl GoalSet {
 
     /// Returns the goal nearest to `q`, as its copy nearest to `q`; the first if several are equally near. `None` if
     /// the set is empty.
-    #[must_use]
     pub fn nearest(&self, topology: &Topology, metric: Metric, q: Configuration) -> Option<Configuration> {
         let measure = Measure::from(metric);
         let copies = self.pieces.iter().flat_map(|piece| piece.copies_near(topology, q));
@@ -49,13 +46,11 @@ impl GoalSet {
     }
 
     /// Returns the length of the shortest displacement from `q` to a goal; infinite if there is none.
-    #[must_use]
     pub fn distance(&self, topology: &Topology, metric: Metric, q: Configuration) -> f64 {
         self.nearest(topology, metric, q).map_or(f64::INFINITY, |goal| metric.norm(goal - q))
     }
 
     /// Returns true if `q` or a copy of it is within a Euclidean distance of `tolerance` of a goal.
-    #[must_use]
     pub fn contains(&self, topology: &Topology, q: Configuration, tolerance: f64) -> bool {
         self.distance(topology, Metric::Euclidean, q) <= tolerance
     }

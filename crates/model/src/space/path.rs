@@ -22,19 +22,16 @@ impl Path {
     }
 
     /// Returns the waypoints, including start and goal.
-    #[must_use]
     pub fn waypoints(&self) -> &[Configuration] {
         &self.waypoints
     }
 
     /// Returns the first waypoint.
-    #[must_use]
     pub fn start(&self) -> Configuration {
         self.waypoints[0]
     }
 
     /// Returns the last waypoint.
-    #[must_use]
     pub fn goal(&self) -> Configuration {
         self.waypoints[self.waypoints.len() - 1]
     }
@@ -76,7 +73,6 @@ impl Path {
     }
 
     /// Returns the Euclidean length in joint space, which adds squares of radians and metres.
-    #[must_use]
     pub fn length(&self) -> f64 {
         // Not `sum`, which is -0 for an empty path.
         self.segments().map(|(a, b)| (b - a).norm()).fold(0.0, |length, piece| length + piece)

@@ -26,26 +26,22 @@ impl Segment {
     }
 
     /// Returns the two ends.
-    #[must_use]
     pub fn ends(&self) -> [Configuration; 2] {
         [self.from, self.to]
     }
 
     /// Returns true if the segment is a single configuration.
-    #[must_use]
     pub fn is_point(&self) -> bool {
         self.from == self.to
     }
 
     /// Returns the Euclidean length in joint space.
-    #[must_use]
     pub fn length(&self) -> f64 {
         (self.to - self.from).norm()
     }
 
     /// Returns the configuration at a fraction of the segment, 0 at the first end and 1 at the second. A coordinate
     /// that is equal at both ends stays exactly equal.
-    #[must_use]
     pub fn at(&self, share: f64) -> Configuration {
         match share {
             _ if share <= 0.0 => self.from,
@@ -97,7 +93,6 @@ impl Segment {
     }
 
     /// Returns true if the segment and a box have a point in common, sides included. Exact.
-    #[must_use]
     pub fn meets(&self, lower: [f64; 2], upper: [f64; 2]) -> bool {
         let overlaps = |k: usize| {
             let (least, greatest) = (self.from[k].min(self.to[k]), self.from[k].max(self.to[k]));
@@ -119,7 +114,6 @@ impl Segment {
 
     /// Returns the configuration of the segment nearest to `p`, up to rounding; the first if several are equally
     /// near.
-    #[must_use]
     pub fn nearest(&self, measure: Measure, p: Configuration) -> Configuration {
         if self.is_point() {
             return self.from;
@@ -151,7 +145,6 @@ impl Segment {
     }
 
     /// Returns the length of the shortest displacement from `p` to the segment.
-    #[must_use]
     pub fn distance(&self, measure: Measure, p: Configuration) -> f64 {
         measure.norm(self.nearest(measure, p) - p)
     }

@@ -150,31 +150,26 @@ pub struct Topology {
 
 impl Topology {
     /// Returns true if both joint values are allowed.
-    #[must_use]
     pub fn contains(&self, q: Configuration) -> bool {
         self.ranges[0].contains(q[0]) && self.ranges[1].contains(q[1])
     }
 
     /// Returns the representative of `q` in the fundamental domain.
-    #[must_use]
     pub fn wrap(&self, q: Configuration) -> Configuration {
         Configuration::new(self.ranges[0].wrap(q[0]), self.ranges[1].wrap(q[1]))
     }
 
     /// Returns the shortest displacement from `from` to `to`.
-    #[must_use]
     pub fn displacement(&self, from: Configuration, to: Configuration) -> Configuration {
         Configuration::new(self.ranges[0].displacement(from[0], to[0]), self.ranges[1].displacement(from[1], to[1]))
     }
 
     /// Returns the Euclidean length of the shortest displacement.
-    #[must_use]
     pub fn distance(&self, from: Configuration, to: Configuration) -> f64 {
         self.displacement(from, to).norm()
     }
 
     /// Returns the copy of `q` nearest to `near`; each axis follows [`JointRange::lift`].
-    #[must_use]
     pub fn lift(&self, q: Configuration, near: Configuration) -> Configuration {
         Configuration::new(self.ranges[0].lift(q[0], near[0]), self.ranges[1].lift(q[1], near[1]))
     }

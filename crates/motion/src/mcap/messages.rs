@@ -89,7 +89,6 @@ impl Type {
     /// Returns the definition in the encoding `ros2msg` (MCAP registry), so that readers can decode messages without
     /// ROS. It has the type's own fields, then those of every nested type. A line of 80 equals signs and a line with
     /// the type's name precede each nested type.
-    #[must_use]
     pub fn definition(&self) -> String {
         let parts = self.parts.iter().map(|(name, fields)| format!("{}\nMSG: {name}\n{fields}", "=".repeat(80)));
         std::iter::once(self.fields.to_owned()).chain(parts).collect()

@@ -66,13 +66,11 @@ impl StrokeDuringMotion<'_> {
     /// Returns true if parts that the stroke lowers are quickly proven to keep at least `clearance` metres during it, at the
     /// heights of each moment. Also true if the stroke and the motion do not overlap. Pairs of shapes that meet while the
     /// tool is raised, too, are not checked: their distances do not depend on the stroke.
-    #[must_use]
     pub fn keeps(&self, motion: &Recording, clearance: f64) -> bool {
         self.overlap(motion).is_none_or(|(motion, held)| keeps_during_stroke(self.scene, &motion, &held, clearance))
     }
 
     /// Checks the same pairs of shapes as [`StrokeDuringMotion::keeps`]. `None` if the stroke and the motion do not overlap.
-    #[must_use]
     pub fn check(&self, motion: &Recording) -> Option<CollisionCheck> {
         let (motion, held) = self.overlap(motion)?;
         Some(check_stroke(self.scene, &motion, &held, self.scene.raised.workspace().clearance))

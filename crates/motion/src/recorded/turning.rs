@@ -116,7 +116,6 @@ impl TurnDuringMotion<'_> {
     }
 
     /// Returns the payload's orientation at a time, radians.
-    #[must_use]
     pub fn angle(&self, time: f64) -> f64 {
         turn_angle(&self.profile(), self.ends, time - self.begin)
     }
@@ -175,14 +174,12 @@ impl TurnDuringMotion<'_> {
 
     /// Returns true if the payload is quickly proven to keep at least `clearance` metres from obstacles in the part of
     /// the motion in which it does not have the orientation of the rest of the motion.
-    #[must_use]
     pub fn keeps(&self, motion: &Recording, clearance: f64) -> bool {
         self.proven(motion, clearance, TRIAL).is_ok()
     }
 
     /// Returns a proven lower bound, metres, on the payload's distance to obstacles in the same part of the motion. It
     /// is at least `clearance`, and as large as `sought` if that can be proven. `None` if the motion is not proven free.
-    #[must_use]
     pub fn clearance(&self, motion: &Recording, clearance: f64, sought: f64) -> Option<f64> {
         let mut sought = sought;
         for _ in 0..=CLEARANCE_HALVINGS {
@@ -199,7 +196,6 @@ impl TurnDuringMotion<'_> {
 
     /// Checks the same part of the motion. Returns the check, and the scene that its pairs belong to. A collision is
     /// reported if the payload touches an obstacle at an end or in the middle of a span that is not proven free.
-    #[must_use]
     pub fn check(&self, motion: &Recording, clearance: f64, sought: f64) -> (Scene, CollisionCheck) {
         if let Some(clearance) = self.clearance(motion, clearance, sought) {
             return (self.cover.scene.clone(), CollisionCheck::Free { clearance, nearest: None });
@@ -230,7 +226,6 @@ impl TurnDuringMotion<'_> {
 
     /// Returns true if the wrist is proven to keep its limits in the part of the turn during the motion, while it also
     /// compensates the rotation of link 2. Both speeds and both accelerations add up.
-    #[must_use]
     pub fn keeps_limits(&self, arm: &Arm, motion: &Recording) -> bool {
         let weights = [0, 1].map(|k| match arm.joints[k].joint_type {
             JointType::Revolute { sign } => sign,

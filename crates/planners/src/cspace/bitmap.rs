@@ -23,7 +23,6 @@ const WORD_BITS: usize = u64::BITS as usize;
 
 impl Bitmap {
     /// Returns the number of cells along each axis.
-    #[must_use]
     pub fn cells(&self) -> [usize; 2] {
         self.cells
     }
@@ -32,14 +31,12 @@ impl Bitmap {
     ///
     /// # Panics
     /// If the cell does not exist.
-    #[must_use]
     pub fn blocked(&self, i: usize, j: usize) -> bool {
         assert!(i < self.cells[0] && j < self.cells[1], "a cell of the bitmap");
         self.bits[i * self.words + j / WORD_BITS] >> (j % WORD_BITS) & 1 == 1
     }
 
     /// Returns the number of blocked cells.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.bits.iter().map(|word| word.count_ones() as usize).sum()
     }
@@ -48,7 +45,6 @@ impl Bitmap {
     ///
     /// # Panics
     /// If the row does not exist.
-    #[must_use]
     pub fn row(&self, i: usize) -> &[u64] {
         &self.bits[i * self.words..(i + 1) * self.words]
     }

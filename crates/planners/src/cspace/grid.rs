@@ -20,13 +20,11 @@ pub struct Grid {
 
 impl Grid {
     /// Returns the side lengths of a cell, radians or metres.
-    #[must_use]
     pub fn step(&self) -> [f64; 2] {
         [0, 1].map(|k| self.topology.ranges[k].extent() / self.cells[k] as f64)
     }
 
     /// Returns the centre of cell `index`, in the fundamental domain.
-    #[must_use]
     pub fn center(&self, index: usize) -> Configuration {
         let step = self.step();
         let [i, j] = self.place(index);
@@ -38,7 +36,6 @@ impl Grid {
 
     /// Returns the index of the cell that contains `q`, or its copy in the domain. A configuration on a shared side
     /// belongs to the cell that starts there.
-    #[must_use]
     pub fn locate(&self, q: Configuration) -> usize {
         let step = self.step();
         let at = |k: usize| {
@@ -60,7 +57,6 @@ impl Grid {
 
     /// Returns the neighbour of `index` along axis `k`, in the positive direction if `up`, also across the seam of a
     /// circle. Returns `None` beyond a limit.
-    #[must_use]
     pub fn adjacent_cell(&self, index: usize, k: usize, up: bool) -> Option<usize> {
         self.adjacent_place(self.place(index), k, up)
     }

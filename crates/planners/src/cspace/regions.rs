@@ -33,14 +33,12 @@ pub struct PolygonWithHoles {
 
 impl PolygonWithHoles {
     /// Returns the area of the polygon, its holes excluded, in the product of the axes' units.
-    #[must_use]
     pub fn area(&self) -> f64 {
         signed_area(&self.outer) + self.holes.iter().map(|hole| signed_area(hole)).sum::<f64>()
     }
 
     /// Returns true if `p` is inside, by the parity of crossings. For points on a contour the result may be either.
     /// Linear in the number of corners.
-    #[must_use]
     pub fn contains(&self, p: Point) -> bool {
         let contours = std::iter::once(&self.outer).chain(&self.holes);
         contours.filter(|contour| crossings(contour, p) % 2 == 1).count() % 2 == 1
@@ -94,14 +92,12 @@ pub struct Regions {
 
 impl Regions {
     /// Returns the contours of free space. Free space is to the left of each.
-    #[must_use]
     pub fn contours(&self) -> Vec<&[Point]> {
         self.free.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes)).map(Vec::as_slice).collect()
     }
 
     /// Returns the component of free space that contains `q`, which must be within the window. Linear in the number
     /// of corners.
-    #[must_use]
     pub fn component(&self, q: Configuration) -> Option<usize> {
         self.free.iter().position(|polygon| polygon.contains(q))
     }

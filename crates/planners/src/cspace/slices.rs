@@ -69,7 +69,6 @@ impl Slice {
     }
 
     /// Returns true if the joint value is forbidden. `O(log n)`.
-    #[must_use]
     pub fn forbids(&self, value: f64) -> bool {
         let after = self.merged.partition_point(|i| i[0] <= value);
         after > 0 && value <= self.merged[after - 1][1]

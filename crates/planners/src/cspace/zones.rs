@@ -49,7 +49,6 @@ impl ZonedGrid {
     ///
     /// # Panics
     /// If the cell does not exist.
-    #[must_use]
     pub fn zone(&self, cell: usize) -> Option<&Zone> {
         self.of_cell[cell].map(|index| &self.zones[index as usize])
     }

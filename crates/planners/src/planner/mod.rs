@@ -296,7 +296,6 @@ impl Trace {
     /// Returns, for a field that paths ascend, the number of cells along each axis and the natural logarithm of the
     /// potential of each cell. The logarithm is minus infinity where there is no potential. `None` for other traces.
     /// Linear in the number of cells.
-    #[must_use]
     pub fn logarithms(&self) -> Option<([usize; 2], Cow<'_, [f64]>)> {
         match self {
             Self::Field { cells, potential } => Some((*cells, Cow::Borrowed(potential))),

@@ -117,14 +117,12 @@ impl Planner for Visibility {
 
 impl VisibilityMap {
     /// Returns the number of convex corners.
-    #[must_use]
     pub fn corners(&self) -> usize {
         self.mesh.corners().len()
     }
 
     /// Returns both ends of each edge between corners of the reduced graph. Linear in the triangles that lines of
     /// sight cross.
-    #[must_use]
     pub fn arcs(&self) -> Vec<[Configuration; 2]> {
         let corners = self.mesh.corners();
         self.pairs().into_iter().map(|pair| pair.map(|number| corners[number as usize].at)).collect()

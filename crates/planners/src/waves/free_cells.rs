@@ -67,25 +67,21 @@ impl FreeCells {
     }
 
     /// Returns the number of rows and columns.
-    #[must_use]
     pub fn cells(&self) -> [usize; 2] {
         self.cells
     }
 
     /// Returns, for each axis, true if its last row or column borders on the first.
-    #[must_use]
     pub fn circles(&self) -> [bool; 2] {
         self.circles
     }
 
     /// Returns the number of free cells.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.bits.iter().map(|word| word.count_ones() as usize).sum()
     }
 
     /// Returns true if cell `index` is free.
-    #[must_use]
     pub fn is_free(&self, index: usize) -> bool {
         self.has(index / self.cells[1], index % self.cells[1])
     }

@@ -52,7 +52,6 @@ pub enum Ties {
 
 impl Ties {
     /// Returns true for the default rule.
-    #[must_use]
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
@@ -107,7 +106,6 @@ pub struct Estimates {
 
 impl Estimates {
     /// Returns the estimate of a cell. Takes time proportional to the number of targets.
-    #[must_use]
     pub fn of(&self, free: &FreeCells, cell: usize) -> Cost {
         let costs = self.targets.iter().map(|&target| straight_cost(free, self.neighborhood, cell, target));
         costs.min_by(|a, b| a.value().total_cmp(&b.value())).unwrap_or_default()
@@ -218,21 +216,18 @@ impl Search {
     /// Returns the cost of the path by which `cell` was reached; `None` if it was not reached. For cells that
     /// Dijkstra or A\* has expanded it is the least cost. After a breadth-first search the path has the fewest
     /// moves.
-    #[must_use]
     pub fn cost(&self, cell: usize) -> Option<Cost> {
         (self.parents[cell] != UNREACHED).then(|| self.costs[cell])
     }
 
     /// Returns, for each cell, the number of moves on the path by which it was reached. It is [`UNREACHED`] for cells
     /// that were not reached.
-    #[must_use]
     pub fn labels(&self) -> Vec<u32> {
         let label = |(cost, &parent): (&Cost, &u32)| if parent == UNREACHED { UNREACHED } else { cost.moves() };
         self.costs.iter().zip(&self.parents).map(label).collect()
     }
 
     /// Returns the cells of the path from `cell` back to the source; `None` if the cell was not reached.
-    #[must_use]
     pub fn path_back(&self, cell: usize) -> Option<Vec<usize>> {
         if self.parents[cell] == UNREACHED {
             return None;

@@ -36,7 +36,6 @@ impl StepLabels {
     }
 
     /// Returns the label of each cell of the grid; [`UNREACHED`] for cells that are blocked or not connected.
-    #[must_use]
     pub fn labels(&self) -> &[u32] {
         &self.labels
     }
@@ -48,14 +47,12 @@ impl StepLabels {
     }
 
     /// Returns the number of labelled cells. Linear in the number of cells.
-    #[must_use]
     pub fn reached(&self) -> usize {
         self.labels.iter().filter(|&&label| label != UNREACHED).count()
     }
 
     /// Returns the number of levels: the greatest label plus one, or 0 without labels. Linear in the number of
     /// cells.
-    #[must_use]
     pub fn levels(&self) -> usize {
         let labels = self.labels.iter().filter(|&&label| label != UNREACHED);
         labels.max().map_or(0, |&label| label as usize + 1)
@@ -64,7 +61,6 @@ impl StepLabels {
     /// Returns the cells of a path with the fewest moves from `index` to a source. It always goes to the neighbour
     /// with the least label, to the first one if several are equal, so straight moves come before diagonal ones.
     /// Returns `None` if the wave did not reach `index`.
-    #[must_use]
     pub fn descend(&self, free: &FreeCells, index: usize) -> Option<Vec<usize>> {
         let mut label = self.labels[index];
         if label == UNREACHED {

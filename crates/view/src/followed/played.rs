@@ -40,7 +40,6 @@ impl Played {
     }
 
     /// Returns the duration, seconds.
-    #[must_use]
     pub fn duration(&self) -> f64 {
         self.pieces[self.pieces.len() - 1].to
     }
@@ -51,14 +50,12 @@ impl Played {
     }
 
     /// Returns the configuration at a time in seconds.
-    #[must_use]
     pub fn at(&self, time: f64) -> Configuration {
         let piece = &self.pieces[self.index(time)];
         piece.at(((time - piece.from) / (piece.to - piece.from).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0))
     }
 
     /// Returns the configurations between two times: both ends, and the ends of the pieces and of their parts.
-    #[must_use]
     pub fn between(&self, from: f64, to: f64) -> Vec<Configuration> {
         let parts = |piece: &'_ Piece| {
             let piece = *piece;

@@ -36,7 +36,6 @@ use std::path::Path;
 pub trait PlanOutput {
     /// Returns the planner's configuration space as data. Computes the C-obstacles again, which takes as long as for a
     /// picture.
-    #[must_use]
     fn cspaces(&self) -> CSpaces;
 
     /// Returns the plan as a file of this format. Returns `None` if the format contains only a trajectory or a grid,
@@ -54,28 +53,22 @@ pub trait PlanOutput {
     fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError>;
 
     /// Returns the content of the plan's pictures and pages.
-    #[must_use]
     fn view(&self) -> View;
 
     /// Returns the view with a replay of the planner, for formats that can show it.
-    #[must_use]
     fn view_with_replay(&self) -> View;
 
     /// Returns an SVG document with workspace and configuration space side by side, and with the steps of a task.
-    #[must_use]
     fn svg(&self) -> String;
 
     /// Returns a self-contained page that plays the motion and in which the arm can be moved.
-    #[must_use]
     fn html(&self) -> String;
 
     /// Returns the result in some ten lines for people. The verdict comes first. There is a line for each step of a
     /// task.
-    #[must_use]
     fn summary(&self) -> String;
 
     /// Returns the first line of the summary: the result, or the reason why there is none.
-    #[must_use]
     fn verdict(&self) -> String;
 }
 

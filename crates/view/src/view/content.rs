@@ -269,7 +269,6 @@ impl View {
     }
 
     /// Returns the explanation, if the view has one.
-    #[must_use]
     pub fn explanation(&self) -> Option<&ExplanationView> {
         self.still.explanation.as_ref()
     }

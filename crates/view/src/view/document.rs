@@ -35,7 +35,6 @@ impl View {
     ///
     /// # Panics
     /// Never: all keys are strings.
-    #[must_use]
     pub fn json(&self) -> String {
         let reach = self.still.reach.as_ref().map(|reach| ReachView::new(reach, RoundingSteps::of(&self.arm)));
         let line = self.still.line.as_ref().map(|line| LineDocument::new(line, RoundingSteps::of(&self.arm)));

@@ -21,7 +21,6 @@ impl Samples {
     /// Returns the polylines on which the linearly interpolated values equal `level` (marching squares: Lorensen and
     /// Cline 1987, in two dimensions). A closed line ends at its first point. A square with a corner without a value
     /// contains no line. `O(n log n)` for `n` squares.
-    #[must_use]
     pub fn isolines(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         let mut next: BTreeMap<Side, Vec<Side>> = BTreeMap::new();
         for i in 0..self.x.len().saturating_sub(1) {

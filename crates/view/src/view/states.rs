@@ -91,7 +91,6 @@ impl PayloadGroup<'_> {
 
     /// Returns a title with the payload, such as `Carrying part`, and one with steps and repetitions, such as `steps 1–2, 5`
     /// or `step 3 (×100)`. In a task of several `rounds`, the second can also be `step 4, round 2`.
-    #[must_use]
     pub fn titles(&self, rounds: usize, order: &Order) -> [String; 2] {
         let mut payloads: Vec<&str> = Vec::new();
         // The number of executions of each step.

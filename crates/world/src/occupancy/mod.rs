@@ -92,7 +92,6 @@ impl OccupancyMap {
     }
 
     /// Returns the occupancy at a point. `None` outside the picture. A cell includes its lower and its left side.
-    #[must_use]
     pub fn at(&self, place: Point) -> Option<Occupancy> {
         let cell = self.pose.inverse_point(place) / self.resolution;
         let [width, height] = self.size;
@@ -105,7 +104,6 @@ impl OccupancyMap {
     /// Returns the solid cells as rectangles with disjoint interiors. Occupied cells are solid. Unknown cells are solid
     /// as well, unless `unknown_is_free`. Returns `None` if there are more than `most` rectangles; see [`rectangles`].
     /// Corners that rectangles share are exactly equal.
-    #[must_use]
     pub fn pieces(&self, unknown_is_free: bool, most: usize) -> Option<Vec<Convex>> {
         let is_solid = |cell: usize| match self.cells[cell] {
             Occupancy::Free => false,

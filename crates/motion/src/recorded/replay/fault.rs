@@ -251,7 +251,6 @@ pub enum OrderDeviation {
 
 impl OrderDeviation {
     /// Returns the number of recorded steps before the deviation.
-    #[must_use]
     pub fn index(&self) -> usize {
         match *self {
             OrderDeviation::Order { index, .. }

@@ -156,7 +156,6 @@ impl Replay<'_> {
 
     /// Returns the point where the record deviates from the sequence of the task. `None` if the record is the whole
     /// task.
-    #[must_use]
     pub fn departure(&self) -> Option<&OrderDeviation> {
         self.departure.as_ref()
     }

@@ -64,7 +64,6 @@ pub struct RoadmapSearch {
 
 impl RoadmapSearch {
     /// Returns true for the default search: A\* from the start.
-    #[must_use]
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }

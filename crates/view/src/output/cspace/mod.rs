@@ -170,26 +170,22 @@ pub fn cspaces(plan: &Plan) -> CSpaces {
 
 impl CSpaces {
     /// Returns a JSON object, with one line per field.
-    #[must_use]
     pub fn json(&self) -> String {
         field_per_line(self)
     }
 
     /// Returns the values of the first grid as a matrix in CSV, if there is a grid.
-    #[must_use]
     pub fn csv(&self) -> Option<String> {
         self.grid().map(FieldGrid::matrix)
     }
 
     /// Returns the potential of the first grid as a matrix in CSV: 0 at the goals, 1 at obstacles. `None` if the grid
     /// has no such field.
-    #[must_use]
     pub fn potential_csv(&self) -> Option<String> {
         self.grid()?.potential_matrix()
     }
 
     /// Returns the estimates of the search of the first grid as a matrix in CSV. `None` if the search uses none.
-    #[must_use]
     pub fn heuristic_csv(&self) -> Option<String> {
         self.grid()?.estimate_matrix()
     }
@@ -206,7 +202,6 @@ impl CSpaces {
     }
 
     /// Returns a GeoJSON `FeatureCollection`, with joint values as coordinates.
-    #[must_use]
     pub fn geojson(&self) -> String {
         geojson::text(self)
     }
