@@ -32,7 +32,7 @@ pub struct SelfObstacle {
     /// URDF links that may meet the shape, because the world file allows it.
     pub ignored: Vec<String>,
     /// For each link of the arm, the numbers of the parts that are proven to meet the shape in every configuration.
-    /// Their contact is ignored. See [`crate::check::permanent_contacts`].
+    /// Their contact is ignored. The judge proves it.
     #[serde(default, skip_serializing_if = "is_nowhere")]
     pub permanent: [Vec<usize>; 2],
 }

@@ -144,9 +144,6 @@ fn names_this_server(named: &str, here: SocketAddr) -> bool {
 /// Returns the WebSocket that a request opens as an error, or a refusal. Browsers always send their origin, so a client
 /// that does not is refused.
 fn open(request: &Request, server: &Server) -> Result<Response<'static>, Upgrade> {
-    if request.header("origin").is_none() {
-        return Ok(FOREIGN);
-    }
     let is_upgrade = request.method == "GET"
         && request.lists("connection", "upgrade")
         && request.lists("upgrade", "websocket")
@@ -154,6 +151,9 @@ fn open(request: &Request, server: &Server) -> Result<Response<'static>, Upgrade
     let Some(key) = request.header("sec-websocket-key").filter(|_| is_upgrade) else {
         return Ok(Response("400 Bad Request", "text/plain", "this address is for WebSockets\n"));
     };
+    if request.header("origin").is_none() {
+        return Ok(FOREIGN);
+    }
     match server.pages.take() {
         Some(page) => Err(Upgrade { key: key.to_owned(), page }),
         None => Ok(Response("503 Service Unavailable", "text/plain", "too many pages are open\n")),
