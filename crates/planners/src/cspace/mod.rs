@@ -1,7 +1,7 @@
 //! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), which state what they
 //! prove.
 //!
-//! [`Contacts::slice`](cplan_model::Contacts::slice) computes the forbidden values of `q2` at one `q1`, exactly,
+//! [`Slice::compute`] computes the forbidden values of `q2` at one `q1`, exactly,
 //! from contact angles. Grids are made of the slices of their rows. Polygons follow the contact curves from slice to
 //! slice, between the values of `q1` at which the slices' structure changes (`events`).
 //!
