@@ -136,8 +136,7 @@ pub fn motion(dice: &mut Dice) -> Case {
     world += &placed_obstacles(dice, count, 1.5, None, rounded);
     world += &post_between(dice, lengths[0], [start[0], goal[0]]);
     if dice.chance(0.4) {
-        let [first, second] = [20.0, dice.within(5.0, 200.0)];
-        write!(world, "[robot]\njerk = {{ j0 = {first:?}, j1 = {second} }}\n").unwrap();
+        writeln!(world, "[robot]\njerk = {{ j0 = 20.0, j1 = {} }}", dice.within(5.0, 200.0)).unwrap();
     }
     let goal = (!is_place).then_some(goal);
     Case { urdf, world, start, goal, has_steps: false, has_tool: false, line: None }
