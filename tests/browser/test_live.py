@@ -130,7 +130,7 @@ def test_start_goal_and_tip_can_be_dragged(serve):
 
 def test_obstacles_come_and_go_by_keyboard(serve):
     seen = serve(*PLANAR)
-    names = "cplan.view.world.obstacles.slice(0, cplan.scene.obstacles.length).map(({ name }) => name)"
+    names = "cplan.view.world.obstacles.map(({ name }) => name)"
     assert seen.do(names) == ["shelf", "crate"]
     for button in ("add a polygon", "add a circle", "add a thin wall"):
         seen.page.get_by_role("button", name=button).click()
@@ -193,7 +193,7 @@ def test_the_configuration_space_follows_ten_obstacles(serve, tmp_path):
     world = tmp_path / "ten.toml"
     world.write_text(TEN)
     seen = serve(ROOT / "robots/planar_2r.urdf", world)
-    assert settled(seen)["certified"] and seen.do("cplan.scene.obstacles.length") == 10
+    assert settled(seen)["certified"] and seen.do("cplan.view.world.obstacles.length") == 10
     seen.do(
         """() => { Object.assign(window, { drawn: [], shapes: [] }); const take = cplan.take.bind(cplan);
              cplan.take = (message) => {
@@ -237,7 +237,7 @@ def test_three_hundred_obstacles_are_followed_ten_times_a_second(serve, tmp_path
     world = tmp_path / "crowd.toml"
     world.write_text("[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n" + "".join(blocks))
     seen = serve(ROOT / "robots/planar_2r.urdf", world)
-    assert seen.do("cplan.scene.obstacles.length") == 300
+    assert seen.do("cplan.view.world.obstacles.length") == 300
     seen.do("() => { window.drawn = []; const take = cplan.take.bind(cplan); cplan.take = (m) => { take(m); if (!m.final && m.view) drawn.push(performance.now()); }; }")
     middle = [sum(p[k] for p in seen.do("cplan.scene.obstacles[0].shape.polygon")) / 3 for k in (0, 1)]
     ends = [spot(seen, "workspace", middle), spot(seen, "workspace", [middle[0] + 0.05, middle[1] + 0.05])]

@@ -79,7 +79,8 @@ class Gallery {
     this.task = element('p', { class: 'task', role: 'status' });
     this.root = element('div', { class: 'group gallery' }, element('label', {}, 'open ', this.select), this.copy);
     window.addEventListener('hashchange', () => {
-      if (location.hash === this.linked) return;
+      // Quick steps through the history announce the last address several times.
+      if (location.hash === this.linked || location.hash.slice(1) === this.name) return;
       live.remark('');
       this.open();
     });

@@ -10,6 +10,7 @@ use cplan_model::{Carrier, Grip, LooseObstacle, Obstacle, Pair, Preference, Regi
 use cplan_planners::cspace::CObstacle;
 use cplan_theme::Rgb;
 use serde::{Serialize, Serializer};
+use std::collections::BTreeSet;
 
 /// Largest number of obstacles with names; if there are more, they are numbered.
 pub const MAX_NAMED_OBSTACLES: usize = 16;
@@ -213,18 +214,19 @@ impl WorldView {
     pub fn new(timed: TimedScene, label: String, c_obstacles: &[CObstacle], grain: RoundingSteps) -> Self {
         let scene = timed.scene;
         let standing = scene.workspace().obstacles.len();
-        let shown = |number| shown_number(scene, number);
+        let links = listed_links(scene);
+        let shown = |number| shown_number(scene, &links, number);
         let in_view = c_obstacles.iter().map(|c| CObstacle { obstacle: shown(c.obstacle), ..c.clone() });
         let contours = contours(&in_view.collect::<Vec<_>>(), grain);
         let obstacles = (0..standing).map(|number| obstacle(scene, number, number, grain));
-        let links = scene.self_obstacles().map(|number| obstacle(scene, number, shown(number), grain).of_robot());
-        let obstacles: Vec<ObstacleView> = obstacles.chain(links).collect();
+        let own = links.iter().map(|&number| obstacle(scene, number, shown(number), grain).of_robot());
+        let obstacles: Vec<ObstacleView> = obstacles.chain(own).collect();
         Self {
             label,
             clearance: scene.workspace().clearance,
             movers: movers(timed, grain),
             payload: payload(scene, grain),
-            pairs: ranges(scene),
+            pairs: ranges(scene, &links),
             obstacles,
             c_obstacles: contours,
             moments: Vec::new(),
@@ -281,11 +283,17 @@ pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Roundin
     all.into_iter().map(contour).collect()
 }
 
+/// Returns the links of the robot that something can hit, in ascending order.
+fn listed_links(scene: &Scene) -> Vec<usize> {
+    let all = scene.self_obstacles();
+    let hit: BTreeSet<usize> = scene.pairs().iter().map(|pair| pair.obstacle).filter(|k| all.contains(k)).collect();
+    hit.into_iter().collect()
+}
+
 /// Returns the index of an obstacle in the view's list. In that list, links of the robot follow the obstacles of the
 /// workspace. Moving obstacles have a list of their own.
-fn shown_number(scene: &Scene, number: usize) -> usize {
-    let links = scene.self_obstacles();
-    if links.contains(&number) { number - links.start + scene.workspace().obstacles.len() } else { number }
+fn shown_number(scene: &Scene, links: &[usize], number: usize) -> usize {
+    links.binary_search(&number).map_or(number, |k| scene.workspace().obstacles.len() + k)
 }
 
 /// Creates the view of an obstacle from its index in the scene and its index in the view. An obstacle that joint 1
@@ -329,10 +337,10 @@ fn payload(scene: &Scene, grain: RoundingSteps) -> Option<PayloadView> {
 }
 
 /// Merges pairs that consist of the same part and consecutive pieces of one obstacle.
-fn ranges(scene: &Scene) -> Vec<[usize; 5]> {
+fn ranges(scene: &Scene, links: &[usize]) -> Vec<[usize; 5]> {
     let mut ranges: Vec<[usize; 5]> = Vec::new();
     for pair in scene.pairs() {
-        let pair = Pair { obstacle: shown_number(scene, pair.obstacle), ..*pair };
+        let pair = Pair { obstacle: shown_number(scene, links, pair.obstacle), ..*pair };
         match ranges.last_mut() {
             Some([link, part, obstacle, _, end])
                 if [*link, *part, *obstacle, *end] == [pair.link, pair.part, pair.obstacle, pair.piece] =>
