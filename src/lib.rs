@@ -118,12 +118,13 @@ pub mod engine {
     pub use cplan_engine::*;
     pub use cplan_explain as explain;
     pub use cplan_explain::{Access, MAX_PLACES, Reach, Solution, reach};
-    pub use cplan_movers::{Timing, Wait};
+    pub use cplan_motion::{Timing, Wait};
     pub use cplan_solver::*;
 
     /// Plans tasks as sequences of certified motions.
     pub mod task {
         pub use cplan_engine::MessageError;
+        pub use cplan_legs::*;
         pub use cplan_tasks::*;
     }
 }

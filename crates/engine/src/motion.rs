@@ -3,8 +3,8 @@
 use super::fastest::fastest;
 use cplan_handling::ObstacleTrajectory;
 use cplan_model::{MotionProblem, Outcome};
-use cplan_motion::{DurationOptimality, Objective, TimedMotion, TimingError};
-use cplan_movers::{Timing, TimingRequirements, time_among_moving_obstacles};
+use cplan_motion::{DurationOptimality, Objective, TimedMotion, Timing, TimingError};
+use cplan_movers::{TimingRequirements, time_among_moving_obstacles};
 use cplan_solver::{Answer, BoundedPath, Options};
 
 /// A motion that is certified free of collision.

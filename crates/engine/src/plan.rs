@@ -6,13 +6,12 @@ use super::problem::Problem;
 use super::result::{MessageError, Messages};
 use cplan_handling::{RobotJoints, Task};
 use cplan_judge::CheckedProof;
+use cplan_legs::{FailedStep, Leg, TaskAnswer, TaskMotion, TaskReplay};
 use cplan_model::space::Path;
 use cplan_model::{Arm, MotionProblem, Outcome, Scene, Status};
-use cplan_motion::{TimingError, Trajectory};
-use cplan_movers::Timing;
+use cplan_motion::{Timing, TimingError, Trajectory};
 use cplan_planners::cspace::{NotPolygons, not_polygons};
 use cplan_solver::{Answer, NamedJoints, Options, Replay, solve};
-use cplan_tasks::{FailedStep, Leg, TaskAnswer, TaskMotion, TaskReplay};
 use cplan_text::{length, percent};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -316,7 +315,7 @@ impl Plan {
     /// motions and with moving obstacles.
     pub fn task_replay(&self) -> Option<TaskReplay> {
         let standing = self.task().filter(|(task, _)| !task.has_moving_obstacles());
-        standing.map(|(task, answer)| TaskReplay::new(task, &self.options, answer))
+        standing.map(|(task, answer)| cplan_tasks::replay(task, &self.options, answer))
     }
 
     /// Returns the arm. Limits that the options override have the options' values.

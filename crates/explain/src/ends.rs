@@ -2,10 +2,10 @@
 
 use super::question::{MotionQuestion, Target};
 use cplan_geometry::Point;
+use cplan_legs::StandstillScene;
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Arm, Obstruction, Scene, inverse};
 use cplan_planners::cspace::{NearestFree, nearest_free};
-use cplan_tasks::StandstillScene;
 use serde::Serialize;
 
 /// Number of values of each joint in the lattice with which the search for the tip's nearest place starts.

@@ -8,9 +8,9 @@ use super::question::MotionQuestion;
 use super::shaping::{Saving, savings};
 use cplan_handling::Action;
 use cplan_judge::CheckedProof;
+use cplan_legs::FailedStep;
 use cplan_model::{Outcome, Status};
 use cplan_solver::{Answer, Options, Unknown, solve};
-use cplan_tasks::FailedStep;
 use std::time::Duration;
 
 /// Largest number of boxes for each decision about a blocker or a change, of which there are many.

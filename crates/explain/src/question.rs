@@ -5,10 +5,10 @@ use super::ends::End;
 use cplan_geometry::{Convex, Point};
 use cplan_interrupt::{Instant, Interrupt};
 use cplan_judge::{CertifiedPath, CheckedProof};
+use cplan_legs::{FailedStep, Standstill, StandstillScene};
 use cplan_model::space::{Configuration, GoalSet, Segment};
 use cplan_model::{Arm, Goal, JointType, MotionProblem, Outcome, Scene, Workspace, area_goals, inverse};
 use cplan_solver::decide;
-use cplan_tasks::{FailedStep, Standstill, StandstillScene};
 use std::f64::consts::TAU;
 use std::time::Duration;
 

@@ -96,6 +96,7 @@ mod span;
 mod spline;
 mod tip;
 mod torque;
+mod waits;
 mod whole_file;
 
 #[cfg(test)]
@@ -126,4 +127,5 @@ pub use single::{phase_at, single};
 pub use span::{Place, Span};
 pub use tip::TipSpeed;
 pub use torque::TorqueLimit;
+pub use waits::{Timing, Wait};
 pub use whole_file::{WriteError, check_writable, write_whole, write_whole_set};

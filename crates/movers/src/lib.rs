@@ -18,19 +18,18 @@ mod schedule;
 
 pub use blocked::MovingObstacles;
 pub use place_time::{MotionPart, PlaceTime, TimedPlace, WaitReason};
-pub use schedule::{TimingRequirements, Wait};
+pub use schedule::TimingRequirements;
 
 use cplan_handling::{Interpolation, ObstacleTrajectory, Recording, TimedScene};
 use cplan_judge::{CertifiedPath, Nearest, certify};
 use cplan_model::space::{Configuration, GoalSet, Segment};
 use cplan_model::{MotionProblem, Outcome};
 use cplan_motion::recorded::{CollisionCheck, certify_in_time, first_moving_contact};
-use cplan_motion::{Limits, TimedMotion, TimingError, Trajectory};
+use cplan_motion::{Limits, TimedMotion, Timing, TimingError, Trajectory};
 use cplan_solver::{Options, solve};
 use cplan_text::counted;
 use refutation::has_no_timing;
 use schedule::{Effort, ScheduledMotion, schedule};
-use serde::Serialize;
 
 /// Largest number of paths that are tried. The first is the planner's path. The others lead around the obstacles that
 /// motions along earlier paths meet.
@@ -42,21 +41,6 @@ const PATH_GAP: f64 = 0.03;
 
 /// Difference of two times up to which they count as equal, in seconds. Times are whole nanoseconds.
 const TIME_ROUNDING: f64 = 1e-8;
-
-/// Figures about a motion among moving obstacles.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Timing {
-    /// Number of moving obstacles. In a task, objects that move until they are picked are included.
-    pub obstacles: usize,
-    /// Number of paths that were tried.
-    pub ways: usize,
-    /// Places and times at which the arm waits.
-    pub waits: Vec<Wait>,
-    /// Proven lower bound on the distance to moving obstacles, metres. `None` if none can meet the arm.
-    pub clearance: Option<f64>,
-    /// Time until which the arm may stay at the goal, seconds. `None` if it may stay for ever.
-    pub free_until: Option<f64>,
-}
 
 /// Returns the earliest motion along the paths that are tried: the certified path, and then others. The loose obstacles
 /// of the problem's scene follow `trajectories`. `first` is the motion along the certified path without

@@ -2,12 +2,11 @@
 //! between which obstacles a motion passes, and for which obstacle it waits.
 
 use super::blocked::MovingObstacles;
-use super::schedule::Wait;
 use cplan_geometry::Interval;
 use cplan_handling::TimedScene;
 use cplan_interrupt::checkpoint;
 use cplan_model::space::Configuration;
-use cplan_motion::Trajectory;
+use cplan_motion::{Trajectory, Wait};
 
 /// Number of places on the whole motion. With it, a row of a small chart is less than a pixel high.
 const PLACES: usize = 120;

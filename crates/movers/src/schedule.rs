@@ -7,8 +7,7 @@ use cplan_interrupt::checkpoint;
 use cplan_judge::{CertifiedPath, Posture};
 use cplan_model::space::{Metric, Path};
 use cplan_motion::CertifiedCurve;
-use cplan_motion::{Drive, Limits, TimedMotion, TimingError, Trajectory, least_duration};
-use serde::Serialize;
+use cplan_motion::{Drive, Limits, TimedMotion, TimingError, Trajectory, Wait, least_duration};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
@@ -48,17 +47,6 @@ pub struct TimingRequirements {
 impl TimingRequirements {
     /// The requirements on a single motion of the whole query.
     pub const UNCONSTRAINED: Self = Self { speed: 1.0, arrival: None, until: None };
-}
-
-/// A wait of the arm during a motion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Wait {
-    /// Beginning of the wait, in seconds since the start.
-    pub from: f64,
-    /// End of the wait, in seconds since the start.
-    pub to: f64,
-    /// Configuration of the arm during the wait.
-    pub at: [f64; 2],
 }
 
 /// A motion along a path, with waits.

@@ -4,13 +4,14 @@
 //! As in a [`super::part`], the objects that steps move are omitted, except the one that is picked or placed. Only the
 //! ends of motions are judged, no paths. So this takes about a millisecond per step.
 
-use super::failed_step::{FailedStep, RefusedStep, farthest};
+use super::failed_step::{RefusedStep, farthest};
 use super::ik_solutions::UNREACHABLE;
 use super::motion_cache::{Refusal, require_unobstructed};
 use super::plan::Found;
 use super::state::{Candidate, Candidates, State};
 use super::stroke::stroke;
 use cplan_handling::{Action, Item, Step, Task};
+use cplan_legs::FailedStep;
 use cplan_model::{Outcome, Shape};
 use std::collections::BTreeSet;
 use std::sync::Arc;

@@ -7,8 +7,8 @@
 
 use super::end_sequence::{End, EndSequence};
 use super::state::{Candidate, State, turns_on_the_way};
-use super::stroke::ToolStroke;
 use cplan_handling::{ArchScene, Payload, Recording, Task};
+use cplan_legs::{Overlap, ToolStroke};
 use cplan_model::Grip;
 use cplan_motion::recorded::{TurnCover, WristTurn};
 use cplan_motion::{TimedMotion, round_down};
@@ -18,55 +18,6 @@ use std::cell::LazyCell;
 /// Number of halvings in the search for the longest overlap. The overlap is then within a 64th of the stroke's
 /// duration.
 const HALVINGS: usize = 6;
-
-/// The parts of a motion during which the tool is raised or turned after the last step, or turned or lowered for the next
-/// one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Overlap {
-    /// Time from the departure of the arm to the end of the raising, in seconds.
-    pub raising: f64,
-    /// Time from the beginning of the lowering to the arrival of the arm, in seconds.
-    pub lowering: f64,
-    /// Time from the departure of the arm to the end of the turn after a pick, in seconds. The tool is raised before the
-    /// turn.
-    pub turn_after_departure: f64,
-    /// Time from the beginning of the turn before a place to the arrival of the arm, in seconds. The tool is lowered
-    /// after the turn.
-    pub turn_before_arrival: f64,
-    /// Duration of the turn, in seconds, if it overlaps with the motion. It may be longer than at rest, because the wrist
-    /// also compensates the rotation of link 2.
-    pub turn_seconds: Option<f64>,
-    /// Proven lower bound on the distance to obstacles during all of them, in metres. Infinite if no obstacle is within
-    /// reach.
-    pub clearance: f64,
-}
-
-impl Overlap {
-    /// No overlap: the arm is at rest during strokes and turns.
-    pub const NONE: Self = Self {
-        raising: 0.0,
-        lowering: 0.0,
-        turn_after_departure: 0.0,
-        turn_before_arrival: 0.0,
-        turn_seconds: None,
-        clearance: f64::INFINITY,
-    };
-
-    /// Returns the time from the departure of the arm to the end of the raising and the turn, in seconds.
-    pub fn departure(&self) -> f64 {
-        self.raising.max(self.turn_after_departure)
-    }
-
-    /// Returns the time from the beginning of the turn or the lowering to the arrival of the arm, in seconds.
-    pub fn arrival(&self) -> f64 {
-        self.lowering.max(self.turn_before_arrival)
-    }
-
-    /// Returns the sum of the overlaps at both ends of the motion, in seconds.
-    pub fn seconds(&self) -> f64 {
-        self.departure() + self.arrival()
-    }
-}
 
 /// Returns the overlap of strokes and turns with the motion to a candidate's target. `stroke` and `turn` are those at the
 /// target; the turn is `None` unless it comes before the stroke.

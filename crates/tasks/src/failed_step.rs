@@ -1,11 +1,11 @@
 //! The step of a task that fails.
 
 use super::motion_cache::{Refusal, scene_after};
-use super::standstill::{Standstill, raising_of};
+use super::standstill::raising_of;
 use super::state::{Candidate, State};
 use super::stroke::stroke_scene;
 use cplan_handling::{Step, Task};
-use cplan_judge::CheckedProof;
+use cplan_legs::{FailedStep, RefusedIkSolution, Standstill};
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, Joint, Scene};
 use std::sync::Arc;
@@ -15,41 +15,6 @@ const MAX_NAMED_STARTS: usize = 4;
 
 /// Number of decimals of joint values in messages.
 const DECIMALS: i32 = 4;
-
-/// An IK solution at the target of a step that the arm cannot reach, or is not known to reach.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RefusedIkSolution {
-    /// The values of both joints.
-    pub ik_solution: Configuration,
-    /// The reason, in words.
-    pub reason: String,
-    /// Proof that boxes of colliding configurations separate the solution from the arm's configuration. `None` if the
-    /// reason is another one.
-    pub proof: Option<CheckedProof>,
-}
-
-/// A step that cannot be done, or that is not known to be possible. The same then holds in every other order of the
-/// task.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FailedStep {
-    /// The first step that cannot be done. It is the one before which the most steps can be done.
-    pub step: Step,
-    /// Reasons in words, with the motions that were tried. Some of these motions begin with other IK solutions or other
-    /// grips than those at the end of the answer's steps.
-    pub reasons: Vec<String>,
-    /// The world after the earlier steps, with the payload of the motion that fails.
-    pub scene: Arc<Scene>,
-    /// The objects that still move by themselves at that time.
-    pub moving: Arc<[usize]>,
-    /// Configuration of the arm after the earlier steps.
-    pub from: Configuration,
-    /// The IK solutions to which motions from there were tried. Empty if no IK solution within the joint limits reaches
-    /// the target.
-    pub ik_solutions: Vec<RefusedIkSolution>,
-    /// Standstills before the motions that were tried, while the tool is raised, and after them, while it is lowered or
-    /// when objects have changed. A solution with several standstills can be used if one of them is free.
-    pub standstills: [Vec<Standstill>; 2],
-}
 
 /// A step that could not be done after some node of the search.
 pub(super) struct RefusedStep<'a> {

@@ -1,7 +1,7 @@
 //! Lower bounds on the durations of motions.
 
 use super::ik_solutions::JOINT_ROUNDING;
-use cplan_handling::{Action, Step, ToolLimits};
+use cplan_handling::{Action, Step, ToolLimits, Wrist};
 use cplan_model::Arm;
 use cplan_model::space::Configuration;
 
@@ -14,6 +14,11 @@ pub fn rest_to_rest(distance: f64, velocity: f64, acceleration: f64) -> f64 {
     } else {
         distance / velocity + velocity / acceleration
     }
+}
+
+/// Returns a lower bound on the duration of a turn, in seconds.
+pub(super) fn least_turn(wrist: &Wrist, angle: f64) -> f64 {
+    least_of_tool(angle.abs(), &wrist.limits())
 }
 
 /// Returns a lower bound, in seconds, on the duration of every motion of a joint of the tool over a distance, from rest to

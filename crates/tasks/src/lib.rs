@@ -50,7 +50,6 @@
 
 mod alone;
 mod among_movers;
-mod answer;
 mod arch;
 mod end_sequence;
 mod failed_step;
@@ -63,23 +62,12 @@ mod plan;
 mod replay;
 mod ik_solutions;
 mod search;
-mod sequence;
 mod standstill;
 mod state;
 mod stroke;
-mod timed_turn;
 mod tool_turn;
-mod wrist;
 
-pub use answer::{Event, Leg, TaskAnswer, TaskMotion};
-pub use arch::Overlap;
-pub use failed_step::{FailedStep, RefusedIkSolution};
 pub use least_time::rest_to_rest;
 pub use plan::plan;
-pub use replay::{MotionReplay, TaskReplay};
-pub use sequence::Sequence;
-pub use standstill::{Standstill, StandstillScene, raising_at_start};
-pub use stroke::ToolStroke;
-pub use timed_turn::TimedTurn;
-pub use tool_turn::wrist_state;
-pub use wrist::WristMotion;
+pub use replay::replay;
+pub use standstill::raising_at_start;

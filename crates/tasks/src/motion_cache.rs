@@ -1,16 +1,15 @@
 //! The motions of a task, each planned once.
 
-use super::arch::{Overlap, overlap};
+use super::arch::overlap;
 use super::least_time::least_of_tool;
-use super::standstill::StandstillScene;
 use super::state::{Candidate, State, turns_on_the_way};
-use super::stroke::{ToolStroke, raising_first, stroke};
+use super::stroke::{raising_first, stroke};
 use super::tool_turn::turned_first;
-use super::wrist::WristMotion;
 use cplan_follow::{Found, Settings, WristAlong, follow_between};
 use cplan_geometry::Pose;
 use cplan_handling::{Action, FollowedLine, Payload, Step, Task, WristGuide};
 use cplan_judge::{CertifiedPath, CheckedProof, certify};
+use cplan_legs::{Overlap, StandstillScene, ToolStroke, WristMotion};
 use cplan_model::space::{Configuration, Path};
 use cplan_model::{Grip, MotionProblem, Outcome, Scene};
 use cplan_motion::recorded::{WristTurn, wrist_turn};

@@ -2,18 +2,16 @@
 
 use super::alone;
 use super::among_movers;
-use super::answer::{Leg, TaskAnswer, TaskMotion};
-use super::failed_step::FailedStep;
 use super::heuristic::Heuristic;
+use super::least_time::least_turn;
 use super::motion_cache::MotionCache;
 use super::order::{OrderSearch, Orders};
 use super::part;
 use super::search::{Ending, Limits, Search};
-use super::sequence::Sequence;
 use super::state::State;
 use super::stroke::{least_raising_at_start, least_stroke};
-use super::wrist::least_turn;
 use cplan_handling::{Item, Task};
+use cplan_legs::{FailedStep, Leg, Sequence, TaskAnswer, TaskMotion};
 use cplan_model::Outcome;
 use cplan_solver::Options;
 use std::collections::BTreeSet;

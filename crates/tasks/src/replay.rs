@@ -1,73 +1,50 @@
 //! Replays: how the planner found each motion of a task.
 
-use super::answer::{Leg, TaskAnswer};
 use super::motion_cache::{of_legs, planned_again};
 use cplan_handling::{Action, Task};
-use cplan_planners::planner::Trace;
+use cplan_legs::{Leg, MotionReplay, TaskAnswer, TaskReplay};
 use cplan_solver::{Options, Phase, Replay, Shows};
 use std::sync::Arc;
 
-/// The replay of a task. A motion that the task repeats occurs only once.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TaskReplay {
-    /// The different motions.
-    pub motions: Vec<MotionReplay>,
-    /// For each leg in order, the index of its motion.
-    pub legs: Vec<usize>,
+/// Returns the replay of the answer to a task. Plans its motions again, with the same options.
+#[must_use]
+pub fn replay(task: &Task, options: &Options, answer: &TaskAnswer) -> TaskReplay {
+    let options = of_legs(options);
+    let mut reported: Vec<&Leg> = Vec::new();
+    let legs = answer.legs.iter().map(|leg| {
+        let same = |other: &&Leg| Arc::ptr_eq(&other.timed, &leg.timed) && other.scene == leg.scene;
+        reported.iter().position(same).unwrap_or_else(|| {
+            reported.push(leg);
+            reported.len() - 1
+        })
+    });
+    let legs = legs.collect();
+    TaskReplay { motions: reported.into_iter().map(|leg| replay_of_leg(task, &options, leg)).collect(), legs }
 }
 
-/// The replay of one motion, with the planner's trace.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MotionReplay {
-    /// The replay.
-    pub replay: Replay,
-    /// The trace, parts of which the replay shows. `None` for a straight motion, which needs no search.
-    pub trace: Option<Trace>,
-}
-
-impl TaskReplay {
-    /// Computes the replay of the answer to a task. Plans its motions again, with the same options.
-    #[must_use]
-    pub fn new(task: &Task, options: &Options, answer: &TaskAnswer) -> Self {
-        let options = of_legs(options);
-        let mut reported: Vec<&Leg> = Vec::new();
-        let legs = answer.legs.iter().map(|leg| {
-            let same = |other: &&Leg| Arc::ptr_eq(&other.timed, &leg.timed) && other.scene == leg.scene;
-            reported.iter().position(same).unwrap_or_else(|| {
-                reported.push(leg);
-                reported.len() - 1
-            })
-        });
-        let legs = legs.collect();
-        Self { motions: reported.into_iter().map(|leg| MotionReplay::new(task, &options, leg)).collect(), legs }
+fn replay_of_leg(task: &Task, options: &Options, leg: &Leg) -> MotionReplay {
+    if let Action::Follow(_) = leg.step.action {
+        return without_search("The line, which the tip follows within the tolerance", leg);
     }
-}
-
-impl MotionReplay {
-    fn new(task: &Task, options: &Options, leg: &Leg) -> Self {
-        if let Action::Follow(_) = leg.step.action {
-            return Self::without_search("The line, which the tip follows within the tolerance", leg);
-        }
-        let path = leg.timed.curve.curve().path();
-        let ends = [path.start(), task.arm.topology().wrap(path.goal())];
-        match planned_again(&leg.scene, task.workspace.fixed.obstacles.len(), ends, options) {
-            Some((problem, answer)) => {
-                let mut replay = Replay::new(&problem, options, &answer);
-                let gone = problem.scene() != &*leg.scene;
-                if let (true, Some(first)) = (gone, replay.phases.first_mut()) {
-                    first.caption.push_str("; objects out of the path are ignored");
-                }
-                Self { replay, trace: Some(answer.drawn().into_owned()) }
+    let path = leg.timed.curve.curve().path();
+    let ends = [path.start(), task.arm.topology().wrap(path.goal())];
+    match planned_again(&leg.scene, task.workspace.fixed.obstacles.len(), ends, options) {
+        Some((problem, answer)) => {
+            let mut replay = Replay::new(&problem, options, &answer);
+            let gone = problem.scene() != &*leg.scene;
+            if let (true, Some(first)) = (gone, replay.phases.first_mut()) {
+                first.caption.push_str("; objects out of the path are ignored");
             }
-            None => Self::without_search("The straight path: certified, and no path is shorter", leg),
+            MotionReplay { replay, trace: Some(answer.drawn().into_owned()) }
         }
+        None => without_search("The straight path: certified, and no path is shorter", leg),
     }
+}
 
-    /// Returns the replay of a motion whose path was not searched for.
-    fn without_search(caption: &str, leg: &Leg) -> Self {
-        let phase = Phase { caption: caption.to_owned(), shows: Shows::Path, events: leg.path().waypoints().len() };
-        Self { replay: Replay { phases: vec![phase] }, trace: None }
-    }
+/// Returns the replay of a motion whose path was not searched for.
+fn without_search(caption: &str, leg: &Leg) -> MotionReplay {
+    let phase = Phase { caption: caption.to_owned(), shows: Shows::Path, events: leg.path().waypoints().len() };
+    MotionReplay { replay: Replay { phases: vec![phase] }, trace: None }
 }
 
 #[cfg(test)]
@@ -120,7 +97,7 @@ mod tests {
                     leg.step.number
                 );
             }
-            let replay = TaskReplay::new(&task, &options, &answer);
+            let replay = replay(&task, &options, &answer);
             assert_eq!(replay.legs.len(), answer.legs.len());
             assert!(replay.legs.iter().all(|&reported| reported < replay.motions.len()));
             assert!(replay.motions.iter().all(|reported| reported.replay.phases.last().unwrap().shows == Shows::Path));

@@ -3,8 +3,7 @@
 //! The A* of petgraph does not fit: it needs the cost of an arc before the arc is on the open list. Here, the cost is
 //! known only after a motion has been planned, and most motions need not be planned.
 
-use super::answer::Leg;
-use super::failed_step::{FailedStep, RefusedStep, farthest};
+use super::failed_step::{RefusedStep, farthest};
 use super::heuristic::Heuristic;
 use super::ik_solutions::UNREACHABLE;
 use super::least_time::{least_line_time, least_time};
@@ -15,6 +14,7 @@ use super::tool_turn::wrist_after;
 use cplan_geometry::OpenList;
 use cplan_handling::{Action, Task};
 use cplan_interrupt::checkpoint;
+use cplan_legs::{FailedStep, Leg};
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 

@@ -1,9 +1,9 @@
 //! States of a task, and the candidates for the next step.
 
-use super::answer::Event;
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
 use cplan_geometry::Pose;
 use cplan_handling::{Action, Holding, Item, Object, Payload, Step, Task};
+use cplan_legs::Event;
 use cplan_model::space::Configuration;
 use cplan_model::{Grip, Scene};
 use cplan_motion::recorded::WristTurn;

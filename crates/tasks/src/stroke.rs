@@ -1,33 +1,17 @@
 //! The stroke that lowers the tool at picks and places.
 
-use super::answer::Event;
 use super::least_time::least_of_tool;
 use super::motion_cache::{Refusal, require_unobstructed};
-use super::standstill::StandstillScene;
 use super::state::{Candidate, State};
 use cplan_handling::{Item, Step, Stroke, Task};
 use cplan_judge::certify;
+use cplan_legs::{Event, StandstillScene, ToolStroke};
 use cplan_model::space::{Configuration, Path};
 use cplan_model::{Grip, Scene};
 use cplan_motion::single;
 
 /// The time of a stroke, as a phrase for messages.
 const WHILE_LOWERED: &str = "while the tool is lowered";
-
-/// A stroke of the tool. At a pick or a place, the tool is lowered, the gripper acts, and the tool is raised. At the end of
-/// a move it is only lowered, and at the beginning of a motion only raised.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ToolStroke {
-    /// The joint's value while the tool is raised, in metres.
-    pub raised: f64,
-    /// The joint's value while the tool is lowered, in metres.
-    pub lowered: f64,
-    /// Time for lowering the tool, in seconds, rounded to whole nanoseconds. Raising it takes as long.
-    pub seconds: f64,
-    /// Proven lower bound on the distance to obstacles during the stroke, in metres. Infinite if no obstacle is within
-    /// reach.
-    pub clearance: f64,
-}
 
 /// Returns a lower bound, in seconds, on the dwell of a step and its stroke: down and up for its object, if it has one, or
 /// only down at the end of a move. Turns of the wrist are not included. A part of the stroke may overlap with motions: see
@@ -94,7 +78,7 @@ pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result
         return if candidate.depth(task).is_some() && task.stroke.is_none() { Err(no_tool()) } else { Ok(None) };
     };
     let clearance = clearance_at(&standing, candidate.to)?;
-    Ok(task.stroke.as_ref().zip(candidate.depth(task)).map(|(stroke, depth)| ToolStroke::new(stroke, depth, clearance)))
+    Ok(task.stroke.as_ref().zip(candidate.depth(task)).map(|(stroke, depth)| tool_stroke(stroke, depth, clearance)))
 }
 
 /// Returns the scene while the tool is lowered at a candidate's target. `None` if it is not lowered.
@@ -107,18 +91,16 @@ pub(super) fn stroke_scene(task: &Task, from: &State, candidate: &Candidate) -> 
     lowered(task, from, candidate, event).map(|scene| StandstillScene { when, scene })
 }
 
-impl ToolStroke {
-    fn new(stroke: &Stroke, depth: f64, clearance: f64) -> Self {
-        let (raised, lowered) = (stroke.joint.rest, stroke.lowered(depth));
-        Self { raised, lowered, seconds: stroke_seconds(stroke, depth), clearance }
-    }
+fn tool_stroke(stroke: &Stroke, depth: f64, clearance: f64) -> ToolStroke {
+    let (raised, lowered) = (stroke.joint.rest, stroke.lowered(depth));
+    ToolStroke { raised, lowered, seconds: stroke_seconds(stroke, depth), clearance }
 }
 
 /// Returns the stroke with which the motion from a state begins, because the tool is lowered there. `None` if it is raised.
 pub(super) fn raising_first(task: &Task, from: &State) -> Result<Option<ToolStroke>, Refusal> {
     let Some(depth) = from.rising.filter(|_| from.is_lowered) else { return Ok(None) };
     let (standing, stroke) = raising_scene(task, from).zip(task.stroke.as_ref()).ok_or_else(no_tool)?;
-    Ok(Some(ToolStroke::new(stroke, depth, clearance_at(&standing, from.q)?)))
+    Ok(Some(tool_stroke(stroke, depth, clearance_at(&standing, from.q)?)))
 }
 
 /// Returns the scene while the tool is raised before the motion from a state. `None` if it is already raised.

@@ -7,10 +7,10 @@
 //! allow, or turns to the value that the step states. Along a line, it gives the tool its angle.
 
 use cplan_handling::{Derivative, Driver, Drives, Piece, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
+use cplan_legs::{Event, Leg, Sequence, ToolStroke, WristMotion, wrist_state};
 use cplan_model::space::JointRange;
 use cplan_motion::recorded::turn_profile;
 use cplan_motion::{AccelerationJump, JointMotion, nanoseconds, phase_at, seconds, single, whole_nanoseconds};
-use cplan_tasks::{Event, Leg, Sequence, ToolStroke, WristMotion, wrist_state};
 use thiserror::Error;
 
 /// Reason why messages cannot name all joints as requested.

@@ -11,13 +11,12 @@ pub(crate) use step_report::{StepReport, step_reports};
 
 use super::plan::Plan;
 use cplan_handling::Task;
+use cplan_legs::FailedStep;
 use cplan_model::Status;
 use cplan_model::space::{Metric, Path};
-use cplan_motion::{LengthOptimality, SearchReport, Trajectory};
-use cplan_movers::Timing;
+use cplan_motion::{LengthOptimality, SearchReport, Timing, Trajectory};
 use cplan_planners::planner::VisibilityGraph;
 use cplan_solver::{Bound, Planner, Setting, Settings};
-use cplan_tasks::FailedStep;
 
 impl Plan {
     /// Returns the reason why there is no motion, or why it is not known whether there is one. `None` if there is a

@@ -3,9 +3,9 @@
 use super::finite;
 use cplan_handling::{Action, Task};
 use cplan_judge::CheckedProof;
+use cplan_legs::{Event, FailedStep, Leg, RefusedIkSolution, Sequence, TaskAnswer, ToolStroke, WristMotion};
 use cplan_motion::BlendReport;
 use cplan_motion::recorded::WristTurn;
-use cplan_tasks::{Event, FailedStep, Leg, RefusedIkSolution, Sequence, TaskAnswer, ToolStroke, WristMotion};
 use serde::Serialize;
 use std::borrow::Cow;
 

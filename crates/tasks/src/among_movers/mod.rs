@@ -15,20 +15,18 @@
 mod passing;
 mod timed_candidates;
 
-use super::answer::{Event, Leg, TaskAnswer, TaskMotion};
-use super::arch::Overlap;
-use super::failed_step::{FailedStep, RefusedStep, farthest};
+use super::failed_step::{RefusedStep, farthest};
 use super::heuristic::Heuristic;
 use super::motion_cache::{MotionCache, Refusal, of_legs, require_unobstructed};
-use super::sequence::Sequence;
 use super::state::State;
 use cplan_geometry::OrderedF64;
 use cplan_handling::{Action, Item, Step, Task, TimedScene};
 use cplan_interrupt::checkpoint;
 use cplan_judge::Posture;
+use cplan_legs::{Event, FailedStep, Leg, Overlap, Sequence, TaskAnswer, TaskMotion};
 use cplan_model::{MotionProblem, Outcome};
-use cplan_motion::{Limits, TimedMotion, after_pause, nanoseconds, round_up, seconds};
-use cplan_movers::{MovingObstacles, Timing, TimingRequirements, Wait, clearance_at_rest, time_among_moving_obstacles};
+use cplan_motion::{Limits, TimedMotion, Timing, Wait, after_pause, nanoseconds, round_up, seconds};
+use cplan_movers::{MovingObstacles, TimingRequirements, clearance_at_rest, time_among_moving_obstacles};
 use cplan_solver::Options;
 use passing::passages;
 use std::cmp::Reverse;

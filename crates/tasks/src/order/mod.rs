@@ -6,13 +6,13 @@ mod ends;
 mod tour;
 mod walk;
 
-use super::answer::Leg;
 use super::heuristic::{Heuristic, stops};
 use super::least_time::least_time;
 use super::motion_cache::MotionCache;
 use super::state::State;
 use condition::Condition;
 use cplan_handling::{Item, Step, Task};
+use cplan_legs::Leg;
 use cplan_model::Arm;
 use std::collections::BTreeSet;
 use tour::Tour;

@@ -3,10 +3,10 @@
 use cplan_engine::Plan;
 use cplan_geometry::Pose;
 use cplan_handling::{Task, TimedScene};
+use cplan_legs::{Event, Leg, TaskAnswer, TimedTurn};
 use cplan_model::space::Configuration;
 use cplan_model::{Grip, Obstacle, Part};
 use cplan_motion::{Body, Solid, Stage};
-use cplan_tasks::{Event, Leg, TaskAnswer, TimedTurn};
 use cplan_theme::{GRAY, INK, Rgb, obstacle as obstacle_color};
 
 /// Index of the first link among the bodies of the recording. The workspace has index 0.

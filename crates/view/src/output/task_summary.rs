@@ -4,8 +4,8 @@ use super::step_lines::{StepLine, step_lines};
 use super::summary::{Line, torque};
 use cplan_engine::Plan;
 use cplan_handling::Task;
+use cplan_legs::{FailedStep, Leg, TaskAnswer, TaskMotion};
 use cplan_model::Outcome;
-use cplan_tasks::{FailedStep, Leg, TaskAnswer, TaskMotion};
 use cplan_text::{counted, length_down, percent, round_down, short};
 
 /// Returns the lines about the result. The verdict comes first.

@@ -2,10 +2,10 @@
 
 use super::numbers::{Chain, number};
 use cplan_handling::Task;
+use cplan_legs::{Event, Leg, TimedTurn};
 use cplan_model::space::Configuration;
 use cplan_motion::recorded::{turn_angle, turn_profile};
 use cplan_motion::{phase_at, single};
-use cplan_tasks::{Event, Leg, TimedTurn};
 use serde::Serialize;
 
 /// Number of lines that show a phase of constant jerk.

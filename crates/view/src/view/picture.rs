@@ -14,7 +14,7 @@ use cplan_judge::CheckedProof;
 use cplan_model::Status;
 use cplan_model::space::{Configuration, Measure, Metric, Path, Segment};
 use cplan_motion::Trajectory;
-use cplan_movers::Wait;
+use cplan_motion::Wait;
 use cplan_planners::cspace::CObstacle;
 use cplan_planners::planner::Trace;
 use cplan_theme::PlannerPen;

@@ -6,9 +6,9 @@ use super::phase::{MotionReplayView, PhaseView, ShowsView};
 use super::trace::TraceView;
 use super::waves::{self, Waves};
 use super::world::WorldView;
+use cplan_legs::TaskReplay;
 use cplan_model::space::{Configuration, Topology};
 use cplan_solver::{Phase, Replay, Shows, SlabBoxes, Sweeps};
-use cplan_tasks::TaskReplay;
 
 /// Shortest and longest duration of a phase, in seconds. Between these, the duration is `SECONDS_PER_ROOT` times the
 /// square root of the number of events.

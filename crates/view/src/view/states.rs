@@ -1,8 +1,8 @@
 //! Payload states: the motions with one payload state and the same C-obstacles share a panel.
 
 use super::steps::Order;
+use cplan_legs::Leg;
 use cplan_model::space::{Configuration, Topology};
-use cplan_tasks::Leg;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 

@@ -2,8 +2,8 @@
 
 use super::task_picture::TaskPicture;
 use cplan_handling::{Object, Step};
+use cplan_legs::{Leg, TaskAnswer};
 use cplan_model::Outcome;
-use cplan_tasks::{Leg, TaskAnswer};
 use cplan_theme::{GRAY, INFEASIBLE, INK, Rgb};
 
 /// Largest number of rows that are shown.

@@ -4,10 +4,11 @@ use super::numbers::{Chain, number};
 use super::world::WorldView;
 use cplan_geometry::Interval;
 use cplan_handling::{ObstacleTrajectory, Task, TimedScene};
+use cplan_legs::{Event, Leg};
 use cplan_model::space::Configuration;
 use cplan_motion::Trajectory;
-use cplan_movers::{MotionPart, PlaceTime, Wait, WaitReason};
-use cplan_tasks::{Event, Leg};
+use cplan_motion::Wait;
+use cplan_movers::{MotionPart, PlaceTime, WaitReason};
 use cplan_theme::{GRAY, Rgb};
 use serde::Serialize;
 

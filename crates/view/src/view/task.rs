@@ -14,9 +14,9 @@ use super::tool_angle::ToolAngleView;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use cplan_geometry::Pose;
 use cplan_handling::{Object, ObstacleTrajectory, Task, TimedScene};
+use cplan_legs::{Event, FailedStep, Leg, Sequence};
 use cplan_model::space::Configuration;
 use cplan_model::{Additions, Obstacle, Outcome, Scene};
-use cplan_tasks::{Event, FailedStep, Leg, Sequence};
 use std::sync::Arc;
 
 /// Distance, in metres or radians, below which two poses count as equal. It covers rounding.

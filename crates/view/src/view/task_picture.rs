@@ -1,9 +1,9 @@
 //! The data for a picture of a task.
 
 use cplan_handling::{Task, TimedScene};
+use cplan_legs::TaskAnswer;
 use cplan_model::{Scene, Status};
 use cplan_planners::cspace::CObstacle;
-use cplan_tasks::TaskAnswer;
 
 /// C-obstacles of moving obstacles at several times, in seconds.
 pub type Moments = Vec<(f64, Vec<CObstacle>)>;

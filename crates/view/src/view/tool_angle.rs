@@ -2,10 +2,10 @@
 
 use super::numbers::{Chain, number};
 use cplan_handling::{Task, WristJoint};
+use cplan_legs::Leg;
 use cplan_model::Arm;
 use cplan_model::space::Configuration;
 use cplan_motion::Trajectory;
-use cplan_tasks::Leg;
 use serde::Serialize;
 
 /// Number of points of a line's strip. Points at which the tool turns at rest do not count.

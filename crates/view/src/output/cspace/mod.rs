@@ -13,6 +13,7 @@ use cplan_engine::{Detail, Motion, Plan};
 use cplan_geometry::Point;
 use cplan_handling::Task;
 use cplan_judge::CheckedProof;
+use cplan_legs::TaskAnswer;
 use cplan_model::space::{Configuration, Path};
 use cplan_model::{Joint, MotionProblem, Scene, Status};
 use cplan_motion::CertifiedCurve;
@@ -22,7 +23,6 @@ use cplan_planners::planner::{Trace, VisibilityGraph};
 use cplan_planners::waves::FreeCells;
 use cplan_planners::waves::search::Estimates;
 use cplan_solver::{Answer, Space};
-use cplan_tasks::TaskAnswer;
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -1,6 +1,6 @@
 //! Orientations of payloads that the wrist turns, against time.
 
-use super::answer::{Event, Leg};
+use super::leg::{Event, Leg};
 use cplan_handling::Task;
 use cplan_motion::recorded::{turn_angle, turn_profile};
 

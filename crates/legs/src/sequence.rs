@@ -1,6 +1,6 @@
 //! Joins the motions of a task to one motion.
 
-use super::answer::Leg;
+use super::leg::Leg;
 use cplan_motion::Trajectory;
 use std::ops::RangeInclusive;
 
