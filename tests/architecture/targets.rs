@@ -1,7 +1,7 @@
 //! Checks that every test runs: a library without test targets must have neither tests nor examples in its
 //! documentation.
 
-use crate::rust_files;
+use crate::{files_of, rust_files};
 use std::path::Path;
 
 /// Returns the documentation text of a line, or `None` if it is not a doc comment.
@@ -22,10 +22,9 @@ fn has_example(text: &str) -> bool {
 
 #[test]
 fn libraries_without_test_targets_have_no_tests() {
-    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates");
     let (mut wrong, mut left_out) = (Vec::new(), 0);
-    for entry in std::fs::read_dir(crates).unwrap() {
-        let folder = entry.unwrap().path();
+    for manifest in files_of(&Path::new(env!("CARGO_MANIFEST_DIR")).join("crates"), &["toml"]) {
+        let Some(folder) = manifest.parent().filter(|_| manifest.ends_with("Cargo.toml")) else { continue };
         let manifest: toml::Table = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap().parse().unwrap();
         let is_off = |key: &str| manifest.get("lib").and_then(|lib| lib.get(key)?.as_bool()) == Some(false);
         left_out += usize::from(is_off("test")) + usize::from(is_off("doctest"));

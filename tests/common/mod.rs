@@ -3,7 +3,7 @@
 
 pub mod reference;
 pub mod roadmap;
-#[path = "../../crates/geometry/tests/oracles/shapes.rs"]
+#[path = "../../crates/core/geometry/tests/oracles/shapes.rs"]
 mod shapes;
 
 #[allow(unused_imports, reason = "tests use it, benchmarks do not")]

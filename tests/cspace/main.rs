@@ -7,6 +7,6 @@ mod data;
 mod gantry_cells;
 mod grids;
 mod nearest;
-#[path = "../../crates/geometry/tests/oracles/parry.rs"]
+#[path = "../../crates/core/geometry/tests/oracles/parry.rs"]
 mod parry;
 mod regions;

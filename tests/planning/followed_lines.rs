@@ -1,6 +1,6 @@
 //! Tasks with lines for the tip, compared with dense samples of the played motion.
 
-#[path = "../../crates/follow/tests/follow/oracle.rs"]
+#[path = "../../crates/companions/follow/tests/follow/oracle.rs"]
 #[allow(dead_code, reason = "the tests of the crate use more of it")]
 mod oracle;
 

@@ -4,7 +4,7 @@
 //! page -> worker: room(bytes), UTF-8 into the memory, take() -> live::Alone -> tell(at, bytes, is_text) -> worker -> page
 //! ```
 //!
-//! Orders and replies are the live page's JSON; the other side is `worker.js` of `crates/live/src/assets`. Work that takes too long ends
+//! Orders and replies are the live page's JSON; the other side is `worker.js` of `crates/companions/live/src/assets`. Work that takes too long ends
 //! the instance (`stop` throws), and the worker begins another. Built for `wasm32-unknown-unknown` alone, by `.ci/page`; for all
 //! else this crate is empty.
 #![cfg(all(target_family = "wasm", target_os = "unknown"))]

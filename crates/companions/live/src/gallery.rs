@@ -40,24 +40,24 @@ enum Free {
 }
 
 const ROBOTS: [(&str, &str); 7] = [
-    ("gantry", include_str!("../../../robots/gantry.urdf")),
-    ("planar_2r", include_str!("../../../robots/planar_2r.urdf")),
-    ("planar_2r_continuous", include_str!("../../../robots/planar_2r_continuous.urdf")),
-    ("polar", include_str!("../../../robots/polar.urdf")),
-    ("rail_arm", include_str!("../../../robots/rail_arm.urdf")),
-    ("scara", include_str!("../../../robots/scara.urdf")),
-    ("l_forearm", include_str!("../../../robots/l_forearm.urdf")),
+    ("gantry", include_str!("../../../../robots/gantry.urdf")),
+    ("planar_2r", include_str!("../../../../robots/planar_2r.urdf")),
+    ("planar_2r_continuous", include_str!("../../../../robots/planar_2r_continuous.urdf")),
+    ("polar", include_str!("../../../../robots/polar.urdf")),
+    ("rail_arm", include_str!("../../../../robots/rail_arm.urdf")),
+    ("scara", include_str!("../../../../robots/scara.urdf")),
+    ("l_forearm", include_str!("../../../../robots/l_forearm.urdf")),
 ];
 
 const CHOICES: [Choice; 14] = [
-    world("shelf", "a shelf", "planar_2r", include_str!("../../../workspaces/shelf.toml")),
-    world("workbench", "a workbench", "planar_2r", include_str!("../../../workspaces/workbench.toml")),
-    world("crowd", "a crowd of discs", "planar_2r", include_str!("../../../workspaces/crowd.toml")),
-    world("cell", "a SCARA cell", "scara", include_str!("../../../workspaces/scara_cell.toml")),
-    world("maze", "a maze for a gantry", "gantry", include_str!("../../../workspaces/gantry_maze.toml")),
-    world("hook", "a bent forearm", "l_forearm", include_str!("../../../workspaces/l_hook.toml")),
-    world("gate", "a gate for a ram", "polar", include_str!("../../../workspaces/polar_gate.toml")),
-    world("no_path", "no path", "planar_2r_continuous", include_str!("../../../workspaces/no_path.toml")),
+    world("shelf", "a shelf", "planar_2r", include_str!("../../../../workspaces/shelf.toml")),
+    world("workbench", "a workbench", "planar_2r", include_str!("../../../../workspaces/workbench.toml")),
+    world("crowd", "a crowd of discs", "planar_2r", include_str!("../../../../workspaces/crowd.toml")),
+    world("cell", "a SCARA cell", "scara", include_str!("../../../../workspaces/scara_cell.toml")),
+    world("maze", "a maze for a gantry", "gantry", include_str!("../../../../workspaces/gantry_maze.toml")),
+    world("hook", "a bent forearm", "l_forearm", include_str!("../../../../workspaces/l_hook.toml")),
+    world("gate", "a gate for a ram", "polar", include_str!("../../../../workspaces/polar_gate.toml")),
+    world("no_path", "no path", "planar_2r_continuous", include_str!("../../../../workspaces/no_path.toml")),
     puzzle(
         "close",
         "1: close the gap",
@@ -83,7 +83,7 @@ const CHOICES: [Choice; 14] = [
         "both",
         "3: both ways round",
         "planar_2r_continuous",
-        include_str!("../../../workspaces/torus_open.toml"),
+        include_str!("../../../../workspaces/torus_open.toml"),
         Puzzle {
             text: "Both joints turn without limits: block both directions with the two posts.",
             ..Puzzle::of("infeasible")
@@ -93,14 +93,14 @@ const CHOICES: [Choice; 14] = [
         "ring",
         "4: break the ring",
         "gantry",
-        include_str!("../../../workspaces/annulus_closed.toml"),
+        include_str!("../../../../workspaces/annulus_closed.toml"),
         Puzzle { text: "It is proven that the head cannot leave the ring: open a path for it.", ..Puzzle::of("found") },
     ),
     puzzle(
         "pole",
         "5: round the pole",
         "planar_2r",
-        include_str!("../../../workspaces/limits_closed.toml"),
+        include_str!("../../../../workspaces/limits_closed.toml"),
         Puzzle {
             text: "The elbow's limits keep the arm from passing the pole: move the pole so that the arm can pass it.",
             ..Puzzle::of("found")
@@ -110,7 +110,7 @@ const CHOICES: [Choice; 14] = [
         "berth",
         "6: a wide berth",
         "planar_2r",
-        include_str!("../../../workspaces/narrow_slot.toml"),
+        include_str!("../../../../workspaces/narrow_slot.toml"),
         Puzzle {
             text: "Move nothing: find the largest clearance with which a path exists, to a tenth of a millimetre.",
             free: Free::Clearance,

@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// Returns a shipped study with two parameters and four measures.
 fn study() -> Study {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../workspaces/studies/base.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../workspaces/studies/base.toml");
     Study::load(path, &|_| Ok((Options::default(), Overrides::default()))).unwrap()
 }
 

@@ -11,7 +11,7 @@ fn refused(text: &str, format: Format) -> Error {
 
 #[test]
 fn a_cut_dxf_is_never_taken_for_the_whole() {
-    let text = include_str!("../../../../workspaces/drawings/cell.dxf");
+    let text = include_str!("../../../../../workspaces/drawings/cell.dxf");
     let whole = text.trim_end().len();
     for end in (0..whole).step_by(97).chain(whole - 8..whole) {
         let error = refused(&text[..end], Format::Dxf);

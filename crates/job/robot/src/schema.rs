@@ -27,7 +27,7 @@ pub fn compare_with_file(schema: Schema, name: &str) {
     // In any order of serde_json's maps, which other crates may choose.
     schema.sort_all_objects();
     let text = format!("{schema:#}\n");
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs").join(name);
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs").join(name);
     if std::env::var_os("CPLAN_WRITE_SCHEMAS").is_some() {
         fs::write(&file, &text).unwrap();
     }

@@ -4,7 +4,7 @@
 use super::{area, length, near, notes, ring, wall};
 use cplan_drawing::{Format, Geometry, Settings, Shape, read};
 
-const CELL: &[u8] = include_bytes!("../../../../workspaces/drawings/cell.dxf");
+const CELL: &[u8] = include_bytes!("../../../../../workspaces/drawings/cell.dxf");
 
 /// The expected size of a shape. An area in mm2 comes with its allowance, a length is in mm. Both come with a layer and
 /// a block.

@@ -57,7 +57,7 @@ mod tests {
 
     fn plan_task(urdf: &str, world: &str, options: &Options) -> (Task, TaskAnswer) {
         let read = |file: &str| {
-            let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(file);
+            let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../..")).join(file);
             Source::read(&path).unwrap()
         };
         let scene = scene_from(read(urdf), read(world)).unwrap();

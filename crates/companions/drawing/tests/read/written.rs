@@ -68,7 +68,7 @@ proptest! {
     /// Tests that after parts of a file are removed, the reader refuses the file, or at least reads it without a panic.
     #[test]
     fn no_input_makes_a_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..400), at in 0_usize..20_000) {
-        let cell = include_bytes!("../../../../workspaces/drawings/cell.dxf");
+        let cell = include_bytes!("../../../../../workspaces/drawings/cell.dxf");
         let at = at.min(cell.len());
         let spoiled: Vec<u8> = [&cell[..at], &bytes, &cell[at..]].concat();
         for format in [Format::Dxf, Format::Svg, Format::GeoJson] {

@@ -85,8 +85,8 @@ mod tests {
     use super::*;
     use serde_json::{Value, json};
 
-    const URDF: &str = include_str!("../../../robots/planar_2r.urdf");
-    const WORLD: &str = include_str!("../../../workspaces/shelf.toml");
+    const URDF: &str = include_str!("../../../../robots/planar_2r.urdf");
+    const WORLD: &str = include_str!("../../../../workspaces/shelf.toml");
 
     /// Returns the messages that an order produces, as JSON.
     fn replies_to(alone: &mut StandalonePage, order: &Value) -> Vec<Value> {
