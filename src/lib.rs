@@ -117,7 +117,7 @@ pub mod input {
 pub mod engine {
     pub use cplan_engine::*;
     pub use cplan_explain as explain;
-    pub use cplan_explain::{Access, MAX_PLACES, Reach, Solution, reach};
+    pub use cplan_explain::{Access, MAX_PLACES, Reach, Solution, reach, reach_section};
     pub use cplan_motion::{Timing, Wait};
     pub use cplan_solver::*;
 

@@ -11,13 +11,12 @@ use super::sinks::{self, Sink};
 use super::theme::ThemeArgs;
 use super::values::time_limit;
 use crate::draw::View;
-use crate::engine::explain::{Explanation, MotionQuestion, StepFailure, TIME_LIMIT, explain, explain_step};
+use crate::engine::explain::{self, Explanation, MotionQuestion, StepFailure, TIME_LIMIT, explain, explain_step};
 use crate::engine::task::raising_at_start;
 use crate::engine::{Options, Plan, Problem, plan};
 use crate::input::{self, DiagnosticKind, InputError, LoadedScene, Overrides, Rules};
 use crate::model::{Action, Status};
 use crate::output::PlanOutput as _;
-use crate::output::explained;
 use crate::text::for_a_shell;
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
@@ -164,7 +163,7 @@ impl ExplanationResult {
     /// Returns the explanation as text.
     pub fn summary(&self) -> String {
         match self {
-            Self::Motion(explanation, notes) => explained::summary(explanation, notes),
+            Self::Motion(explanation, notes) => explain::summary(explanation, notes),
             Self::Done(_) => "found: all steps are planned, so there is nothing to explain\n".into(),
         }
     }
@@ -172,7 +171,7 @@ impl ExplanationResult {
     /// Returns the content of pictures and pages.
     pub fn view(&self) -> View {
         match self {
-            Self::Motion(explanation, _) => explained::view(explanation),
+            Self::Motion(explanation, _) => explain::view(explanation),
             Self::Done(plan) => plan.view(),
         }
     }

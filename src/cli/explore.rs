@@ -10,7 +10,9 @@ use super::sinks::{self, Sink};
 use super::theme::ThemeArgs;
 use crate::draw::{self, Picture, View};
 use crate::engine::{CellCounts, Method, Options};
-use crate::explore::{Ending, Exploration, ExploreError, Settings, Strategy, explore, map_description, map_picture};
+use crate::explore::{
+    Ending, Exploration, ExploreError, Settings, Strategy, exploration_page, explore, map_description, map_picture,
+};
 use crate::grammar::{PlannerArgs, positive, word};
 use crate::input::{self, LoadedProblem, OccupancyMap, Rules};
 use crate::model::{Scene, Status};
@@ -168,7 +170,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
                 let svg = || draw::svg(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
                 // The page plays the readings, and needs no times of the motion.
                 let page_view = || view(&world, &done, None);
-                let page = || draw::exploration_page(&page_view(), world.problem.scene(), &sensor, &done, args.timings);
+                let page = || exploration_page(&page_view(), world.problem.scene(), &sensor, &done, args.timings);
                 files.push((path.clone(), format.bytes_of(svg, page)?));
             }
         }

@@ -9,7 +9,7 @@ use super::sinks;
 use super::theme::ThemeArgs;
 use super::values::clearance;
 use crate::draw::{Picture, View};
-use crate::engine::{Access, MAX_PLACES, Reach, reach};
+use crate::engine::{Access, MAX_PLACES, Reach, reach, reach_section};
 use crate::grammar::positive;
 use crate::input::{self, JointValues, LoadedProblem, Overrides, Rules};
 use crate::model::Status;
@@ -211,5 +211,5 @@ fn view(world: &LoadedProblem, reach: &Reach) -> View {
         c_obstacles: &contours(world.problem.scene()),
         ..Picture::new(world.problem.scene(), world.problem.start())
     };
-    View::of_picture(&picture).with_reach(reach)
+    View::of_picture(&picture).with_section(reach_section(reach, world.problem.scene().arm()))
 }

@@ -2,8 +2,8 @@
 //! the narrowest place of that path.
 
 use super::change::{fineness, middle, shrunk_pieces};
-use super::question::MotionQuestion;
 use super::threshold::{Threshold, threshold};
+use cplan_blockers::MotionQuestion;
 use cplan_geometry::{Convex, Point, separation};
 use cplan_model::space::Configuration;
 use cplan_model::{Contact, Obstruction};

@@ -1,8 +1,8 @@
 //! The smallest change of a single blocker that opens a path.
 
-use super::element::Element;
-use super::question::{MotionQuestion, farthest};
 use super::threshold::{Threshold, threshold};
+use cplan_blockers::Element;
+use cplan_blockers::{MotionQuestion, farthest};
 use cplan_geometry::{Convex, Point, Pose, Vector};
 use cplan_model::{Obstacle, Outcome};
 use serde::Serialize;

@@ -1,9 +1,9 @@
 //! The world after a change.
 
-use super::blockers::BlockingSet;
 use super::change::{Change, ChangeContext, ChangeKind, middle, shrunk_pieces};
-use super::element::Element;
-use super::question::MotionQuestion;
+use cplan_blockers::BlockingSet;
+use cplan_blockers::Element;
+use cplan_blockers::MotionQuestion;
 use cplan_geometry::{Convex, Point, Pose, Vector};
 use cplan_model::{Obstacle, Scene, Shape};
 
@@ -49,14 +49,6 @@ impl Change {
             ChangeKind::Widened | ChangeKind::Lowered => return None,
         };
         Some(Obstacle { shape, pieces, ..obstacle.clone() })
-    }
-}
-
-impl BlockingSet {
-    /// Returns the elements of the question that are not in the set.
-    pub fn others(&self, question: &MotionQuestion) -> Vec<Element> {
-        let elements = self.elements();
-        question.elements().into_iter().filter(|element| !elements.contains(element)).collect()
     }
 }
 

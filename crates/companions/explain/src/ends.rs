@@ -1,28 +1,17 @@
 //! Starts and goals that are blocked or out of reach, and the nearest free configurations.
 
-use super::question::{MotionQuestion, Target};
+use cplan_blockers::{End, MotionQuestion, Target};
 use cplan_geometry::Point;
 use cplan_legs::StandstillScene;
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Arm, Obstruction, Scene, inverse};
 use cplan_planners::cspace::{NearestFree, nearest_free};
-use serde::Serialize;
 
 /// Number of values of each joint in the lattice with which the search for the tip's nearest place starts.
 const SAMPLES_PER_JOINT: usize = 128;
 
 /// Smallest step of the search for the tip's nearest place, as a fraction of a joint's range.
 const MIN_STEP: f64 = 1e-12;
-
-/// One of the two ends of a motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum End {
-    /// The start of the motion.
-    Start,
-    /// The goal of the motion.
-    Goal,
-}
 
 /// A start or goal that is outside the limits, or at which the arm hits or comes too near to an obstacle.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,11 +1,11 @@
 //! The complete explanation of a question.
 
-use super::blockers::{BlockingSet, blocking_sets};
 use super::bottleneck::{Bottleneck, bottleneck};
 use super::change::{Change, ChangeContext, changes};
 use super::ends::{BlockedEnd, OutOfReach, blocked_ends};
-use super::question::MotionQuestion;
 use super::shaping::{Saving, savings};
+use cplan_blockers::MotionQuestion;
+use cplan_blockers::{BlockingSet, blocking_sets};
 use cplan_handling::Action;
 use cplan_judge::CheckedProof;
 use cplan_legs::FailedStep;
@@ -65,6 +65,8 @@ pub struct InfeasibleExplanation {
     pub out_of_reach: Option<OutOfReach>,
     /// Blocking sets: each alone blocks all motions, and no two have an obstacle in common.
     pub sets: Vec<BlockingSet>,
+    /// For each set, the smallest changes of single blockers that open a path.
+    pub changes: Vec<Vec<Change>>,
     /// The narrowest place of the path that opens first when all obstacles shrink. `None` if none was found.
     pub bottleneck: Option<Bottleneck>,
 }
@@ -120,27 +122,30 @@ pub fn explain_step(failed: &FailedStep, failure: StepFailure, limit: Duration, 
 impl InfeasibleExplanation {
     /// Returns the smallest changes of single blockers, set by set.
     pub fn changes(&self) -> impl Iterator<Item = &Change> {
-        self.sets.iter().flat_map(|set| &set.blockers).flat_map(|blocker| &blocker.changes)
+        self.changes.iter().flatten()
     }
 }
 
 /// Explains why there is no motion.
 fn closed(question: &MotionQuestion, proof: Option<CheckedProof>) -> InfeasibleExplanation {
-    let mut sets = blocking_sets(question, proof.clone(), [BOXES_PER_DECISION, BOXES_FOR_LAST_DECISIONS]);
-    for set in &mut sets {
-        let others = set.others(question);
-        for blocker in &mut set.blockers {
-            let element = blocker.element;
-            let opens = matches!(question.without(&[element]).answer(BOXES_PER_DECISION), Outcome::Found(_));
-            blocker.changes = match opens {
-                true => changes(question, element, ChangeContext::World, BOXES_PER_DECISION),
-                false => changes(&question.without(&others), element, ChangeContext::Set, BOXES_PER_DECISION),
-            };
-        }
-    }
+    let sets = blocking_sets(question, proof.clone(), [BOXES_PER_DECISION, BOXES_FOR_LAST_DECISIONS]);
+    let changes = sets.iter().map(|set| changes_of_set(question, set)).collect();
     let (ends, out_of_reach) = blocked_ends(question);
     // A path of the motion does not show where an arm is stuck that stands still.
     let is_moving = ends.iter().all(|end| end.standing.is_none());
     let bottleneck = if is_moving { bottleneck(question, BOXES_PER_DECISION) } else { None };
-    InfeasibleExplanation { proof, ends, out_of_reach, sets, bottleneck }
+    InfeasibleExplanation { proof, ends, out_of_reach, sets, changes, bottleneck }
+}
+
+/// Returns the smallest changes of each blocker of a set.
+fn changes_of_set(question: &MotionQuestion, set: &BlockingSet) -> Vec<Change> {
+    let others = set.others(question);
+    let of_element = |element| {
+        let opens = matches!(question.without(&[element]).answer(BOXES_PER_DECISION), Outcome::Found(_));
+        match opens {
+            true => changes(question, element, ChangeContext::World, BOXES_PER_DECISION),
+            false => changes(&question.without(&others), element, ChangeContext::Set, BOXES_PER_DECISION),
+        }
+    };
+    set.elements().into_iter().flat_map(of_element).collect()
 }

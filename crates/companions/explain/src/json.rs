@@ -1,9 +1,10 @@
 //! An explanation as JSON.
 
 use super::{
-    BlockedEnd, Blocker, Bottleneck, Change, Element, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach,
-    Saving, StepFailure,
+    BlockedEnd, Bottleneck, Change, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach, Saving,
+    StepFailure,
 };
+use cplan_blockers::{Blocker, Element};
 use cplan_judge::ProofBox;
 use cplan_model::space::Configuration;
 use cplan_model::{Obstruction, Outcome, Scene, Status};
@@ -91,7 +92,7 @@ fn of_found(scene: &Scene, FoundExplanation { answer, savings }: &FoundExplanati
 }
 
 fn of_closed(scene: &Scene, closed: &InfeasibleExplanation) -> Value {
-    let InfeasibleExplanation { sets, bottleneck, ends, out_of_reach, .. } = closed;
+    let InfeasibleExplanation { sets, changes, bottleneck, ends, out_of_reach, .. } = closed;
     let change = |Change { cure, among, by, .. }: &Change| {
         let mut object = json!({ "opens": by.opens, "closed": by.closed, "among": among });
         if let (Value::Object(object), Ok(Value::Object(cure))) = (&mut object, serde_json::to_value(cure)) {
@@ -99,17 +100,18 @@ fn of_closed(scene: &Scene, closed: &InfeasibleExplanation) -> Value {
         }
         object
     };
-    let blocker = |Blocker { element, without, changes }: &Blocker| {
+    let blocker = |Blocker { element, without }: &Blocker, changes: &[Change]| {
         let without = if without.is_some() { "found" } else { "unknown" };
-        let changes: Vec<Value> = changes.iter().map(change).collect();
+        let changes: Vec<Value> = changes.iter().filter(|change| change.element == *element).map(change).collect();
         merged(of_element(scene, *element), json!({ "without": without, "changes": changes }))
     };
     let sets: Vec<Value> = sets
         .iter()
-        .map(|set| {
+        .zip(changes)
+        .map(|(set, changes)| {
             let proof: Option<Vec<ProofBox>> =
                 set.proof.as_ref().map(|proof| proof.collision_boxes().iter().map(ProofBox::from).collect());
-            let blockers: Vec<Value> = set.blockers.iter().map(blocker).collect();
+            let blockers: Vec<Value> = set.blockers.iter().map(|one| blocker(one, changes)).collect();
             json!({ "blockers": blockers, "proof": proof, "irreducible": set.is_irreducible() })
         })
         .collect();

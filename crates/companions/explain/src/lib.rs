@@ -21,29 +21,34 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod blockers;
 mod bottleneck;
+mod cards;
 mod change;
 mod changed;
-mod element;
 mod ends;
 mod explanation;
 mod flood;
 mod json;
 mod motion_tree;
-mod question;
+mod output;
+mod page;
 mod reach;
+mod reach_section;
 mod shaping;
 mod threshold;
+mod words;
 
-pub use blockers::{Blocker, BlockingSet, blocking_set, blocking_sets};
 pub use bottleneck::{Bottleneck, bottleneck};
 pub use change::{Change, ChangeContext, ChangeKind, changes};
-pub use element::{Element, Side};
-pub use ends::{BlockedEnd, End, OutOfReach, blocked_ends};
+pub use cplan_blockers::{
+    Blocker, BlockingSet, Element, End, MIN_CLEARANCE, MotionQuestion, Side, TIME_LIMIT, Target, blocking_set,
+    blocking_sets,
+};
+pub use ends::{BlockedEnd, OutOfReach, blocked_ends};
 pub use explanation::{Explanation, FoundExplanation, InfeasibleExplanation, StepFailure, explain, explain_step};
 pub use motion_tree::{MotionTree, Origin};
-pub use question::{MIN_CLEARANCE, MotionQuestion, TIME_LIMIT, Target};
+pub use output::{section, summary, view};
 pub use reach::{Access, MAX_PLACES, Reach, Solution, reach};
+pub use reach_section::reach_section;
 pub use shaping::{Saving, savings};
 pub use threshold::Threshold;

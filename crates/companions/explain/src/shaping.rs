@@ -1,7 +1,7 @@
 //! The elements that make the shortest path longer.
 
-use super::element::Element;
-use super::question::MotionQuestion;
+use cplan_blockers::Element;
+use cplan_blockers::MotionQuestion;
 use cplan_interrupt::checkpoint;
 use cplan_model::space::Path;
 use cplan_solver::{Answer, Bound, Options, solve};

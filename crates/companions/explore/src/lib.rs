@@ -43,6 +43,7 @@ mod frontier;
 mod json;
 mod known_space;
 mod map_files;
+mod page;
 mod reach;
 mod result;
 mod settings;
@@ -53,6 +54,7 @@ mod wall;
 
 pub use explorer::explore;
 pub use map_files::{map_description, map_picture};
+pub use page::exploration_page;
 pub use result::{Ending, Exploration, Leg, SensorReading};
 pub use settings::{ExploreError, Settings, Strategy};
 pub use survey::{MAX_CELLS, Survey};

@@ -1,9 +1,8 @@
 //! Explains to a page why there is no path.
 
 use super::blocked;
-use cplan_explain::{MotionQuestion, TIME_LIMIT, explain};
+use cplan_explain::{MotionQuestion, TIME_LIMIT, explain, section};
 use cplan_solver::Options;
-use cplan_view::output::explained;
 use cplan_world::{LoadedScene, Overrides, Rules};
 use serde_json::value::RawValue;
 use std::time::Duration;
@@ -22,7 +21,6 @@ pub fn explanation(loaded: LoadedScene, limit: Duration) -> Result<Box<RawValue>
     let (start, goals) = (query.problem.start(), &query.stated_goals);
     let question = MotionQuestion::of_goals(query.problem.into_scene(), start, goals);
     let question = question.with_time_limit(limit.min(TIME_LIMIT));
-    let view = explained::view(&explain(&question, &Options::default()));
-    let json = view.explanation().map(|explanation| explanation.json()).unwrap_or_default();
-    RawValue::from_string(json).map_err(|error| error.to_string())
+    let section = section(&explain(&question, &Options::default()));
+    RawValue::from_string(section.data).map_err(|error| error.to_string())
 }

@@ -6,7 +6,7 @@ use super::figure::{Item, Pen, Rect, Step, Style, lines, lines_by_path};
 use super::labels::{NamedRegion, Placer};
 use super::shapes::ABSENT_DASH;
 use super::view::{ContourView, MAX_NAMED_OBSTACLES, PanelView, View, WorldView};
-use super::{blocking, boxes, followed, preferences, reach, tags, trace};
+use super::{blocking, boxes, followed, preferences, tags, trace};
 use cplan_theme::{ACCENT, INK, Rgb, WHITE};
 
 /// Pen for goals along a segment.
@@ -42,7 +42,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     inside.extend(
         world.trace.iter().flat_map(|trace| trace::items_above_obstacles(trace, view.still.field_lines, chart)),
     );
-    inside.extend(view.still.reach.iter().flat_map(|reach| reach::in_cspace(reach, chart)));
+    inside.extend(view.still.sections.iter().flat_map(|section| section.in_cspace(chart)));
     inside.extend(preferences::in_cspace(&world.regions, chart));
     inside.extend(boxes::proof(&world.proof, frame));
     inside.extend(lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOAL_SEGMENT_PEN))));

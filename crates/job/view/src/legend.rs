@@ -3,8 +3,9 @@
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
 use super::flow::FieldLines;
 use super::key::{Key, KeyView, Layered, Sign};
+use super::section::Section;
 use super::view::{MAX_NAMED_OBSTACLES, ObstacleView, PathView, TraceView, View};
-use super::{blocking, boxes, channel, checked, cspace, followed, preferences, reach, shapes, trace};
+use super::{blocking, boxes, channel, checked, cspace, followed, preferences, shapes, trace};
 use cplan_theme::{GRAY, INFEASIBLE, INK, PALE};
 
 /// Height of a row, in pixels.
@@ -51,14 +52,15 @@ fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
     let world = view.first_world();
     let goal = if view.is_task() { "end of a step" } else { "goal" };
     let always = |key: Key| -> Layered { (key, &[]) };
-    let start = match (view.still.reach.is_some(), view.moves()) {
-        (true, _) => Some("home"),
-        (false, true) => Some("start"),
+    let named = view.still.sections.iter().find_map(|section| section.start);
+    let start = match (named, view.moves()) {
+        (Some(name), _) => Some(name),
+        (None, true) => Some("start"),
         // The view of an arm alone has no configuration of interest.
-        (false, false) => (view.frames.is_empty() && view.still.line.is_none()).then_some("configuration"),
+        (None, false) => (view.frames.is_empty() && view.still.line.is_none()).then_some("configuration"),
     };
     let mut keys: Vec<Layered> = start.map(|start| always((Sign::Start, start.to_owned()))).into_iter().collect();
-    if view.moves() && view.still.reach.is_none() {
+    if view.moves() && named.is_none() {
         keys.push(always((Sign::Goal, goal.to_owned())));
     }
     if view.still.line.is_none() {
@@ -77,8 +79,7 @@ fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
     let proof = view.worlds.iter().any(|world| !world.proof.0.is_empty());
     keys.extend(proof.then(|| -> Layered { (boxes::proof_key(), &["proof"]) }));
     keys.extend(preferences::keys(&world.regions).into_iter().map(|key| -> Layered { (key, &["regions"]) }));
-    let reach = view.still.reach.as_ref().map_or_else(Vec::new, reach::keys);
-    keys.extend(reach.into_iter().map(|key| -> Layered { (key, &["access"]) }));
+    keys.extend(view.still.sections.iter().flat_map(Section::keys));
     if let Some(line) = &view.still.line {
         keys.extend(followed::keys(line).into_iter().map(|key| -> Layered { (key, &["path"]) }));
         keys.extend(followed::solution_keys(line).into_iter().map(|key| -> Layered { (key, &["solutions"]) }));

@@ -25,8 +25,6 @@ mod compared;
 mod checked;
 mod copies;
 mod cspace;
-mod explanation;
-mod exploration;
 mod figure;
 mod flow;
 mod followed;
@@ -46,8 +44,8 @@ mod page;
 mod png_writer;
 mod polygon_pair;
 mod preferences;
-mod reach;
 mod regions;
+mod section;
 mod shapes;
 mod steps;
 mod strip;
@@ -64,13 +62,15 @@ mod workspace;
 pub use blocking::BlockingView;
 pub use checked::CheckedView;
 pub use compared::{ComparedPaths, SmallPicture, compared};
-pub use explanation::ExplanationView;
-pub use exploration::exploration_page;
 pub use flow::FieldLines;
 pub use followed::{LineSettings, LineView};
 pub use obstacles::{extent, obstacles, still_page};
 pub use polygon_pair::{PolygonPair, polygon_pair};
-pub use view::{AxesFrame, KeyFigures, Moments, Picture, TaskPicture, View, drawing, inspection_page, page, shell};
+pub use section::{CellLayer, Section};
+pub use view::{
+    AxesFrame, KeyFigures, Moments, Picture, TaskPicture, View, drawing, inspection_page, page, sealed, shell,
+};
+pub use view::{Chain, ContourView, ObstacleView, PathView, RoundingSteps, bounding_box, contour_views, listed_number};
 
 /// The reason why there is no picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -6,7 +6,7 @@ use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines, lines_
 use super::labels::{self, Named, Placer};
 use super::tags::{self, Tag};
 use super::view::{ObstacleView, PathView, View, bounding_box, reach_shape, titles};
-use super::{blocking, checked, followed, frames, preferences, reach, shapes};
+use super::{blocking, checked, followed, frames, preferences, shapes};
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, Shape};
 use cplan_theme::{GRAY, INFEASIBLE, INK, PALE, WHITE};
@@ -26,7 +26,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     let first = view.first_world();
     let lying = || first.obstacles.iter().chain(&still.placed).filter(|obstacle| obstacle.lies());
     let mut inside = ground(&frame, arm);
-    inside.extend(still.reach.as_ref().map(|reach| reach::in_workspace(reach, &frame)));
+    inside.extend(still.sections.iter().filter_map(|section| section.in_workspace(&frame)));
     inside.extend(view.world_now().obstacles.iter().map(|obstacle| shapes::solid(&frame, obstacle)));
     inside.extend(movers(view, &frame));
     inside.extend(still.placed.iter().map(|object| shapes::dashed(&frame, object)));

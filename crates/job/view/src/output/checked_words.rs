@@ -1,6 +1,6 @@
 //! The words for a checked configuration: the answer in a sentence, and key figures.
 
-use super::explained_words::{joint_name, obstacle_name, part_of_pair};
+use super::names::{joint_name, obstacle_name, part_of_pair};
 use cplan_engine::findings::ConfigurationFindings;
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, JointRange};

@@ -5,11 +5,9 @@
 
 mod cspace;
 pub mod checked_words;
-pub mod explained;
-mod explained_cards;
-mod explained_words;
 mod file;
 mod motion_summary;
+pub mod names;
 mod picture;
 #[cfg(feature = "mcap")]
 mod stage;
@@ -26,7 +24,7 @@ pub use picture::{PictureFormat, PictureFormatError};
 pub use picture::{contours, title_of};
 pub use picture::{replayed, status, view_with};
 pub use step_lines::{StepLine, step_lines};
-pub use summary::{Line, configuration, format_columns, range, summary_with};
+pub use summary::{Line, configuration, format_columns, goal_lines, range, summary_with};
 
 use crate::{DrawError, View};
 use cplan_engine::Plan;

@@ -1,8 +1,8 @@
 //! The summary of a single motion for people.
 
 use super::summary::{Line, configuration, torque};
+use cplan_blockers::{BlockingSet, MotionQuestion, blocking_set};
 use cplan_engine::{Motion, Plan};
-use cplan_explain::{BlockingSet, MotionQuestion, blocking_set};
 use cplan_model::space::{Configuration, Metric};
 use cplan_model::{Arm, MotionProblem, Outcome, Scene};
 use cplan_motion::CertifiedCurve;

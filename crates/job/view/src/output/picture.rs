@@ -1,7 +1,7 @@
 //! Pictures and pages of a plan.
 
-use super::explained_words::blame_in_words;
 use super::motion_summary::{blocking, second_attempt};
+use super::names::blame_in_words;
 use super::summary::facts;
 use crate::{DrawError, KeyFigures, Moments, Picture, TaskPicture, View};
 use cplan_engine::{Detail, Motion, Plan};

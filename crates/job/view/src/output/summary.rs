@@ -33,7 +33,8 @@ pub fn segment(arm: &Arm, segment: &Segment) -> String {
 }
 
 /// Returns a line for each of the first few goals, and a line with the number of the others.
-pub(super) fn goal_lines(arm: &Arm, goals: &GoalSet) -> Vec<Line> {
+#[must_use]
+pub fn goal_lines(arm: &Arm, goals: &GoalSet) -> Vec<Line> {
     let lines = goals.pieces().iter().map(|goal| segment(arm, goal)).collect();
     first_lines(lines, |more| format!("and {more} more")).into_iter().map(|line| ("goal", line)).collect()
 }

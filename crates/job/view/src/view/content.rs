@@ -12,10 +12,9 @@ use super::trace::TraceView;
 use super::world::{ObstacleView, WorldView};
 use crate::blocking::BlockingView;
 use crate::checked::CheckedView;
-use crate::explanation::ExplanationView;
 use crate::flow::FieldLines;
 use crate::followed::LineView;
-use cplan_explain::Reach;
+use crate::section::Section;
 use cplan_handling::WristJoint;
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, Status};
@@ -123,8 +122,8 @@ pub(crate) struct StillContent {
     pub field_lines: FieldLines,
     /// Objects at the places where the task puts them. Each place occurs once.
     pub placed: Vec<ObstacleView>,
-    /// The places that the tip can reach.
-    pub reach: Option<Reach>,
+    /// The sections of companions.
+    pub sections: Vec<Section>,
     /// The line that the tip should follow.
     pub line: Option<LineView>,
     /// During an animation of the motion: the arm's configuration, and the index of the current world. `None` in a
@@ -134,8 +133,6 @@ pub(crate) struct StillContent {
     pub time: f64,
     /// The obstacles that block the motion.
     pub stuck: Option<BlockingView>,
-    /// The explanation, with its cards. Pictures show only the obstacles that block the motion.
-    pub explanation: Option<ExplanationView>,
     /// The findings about a checked configuration.
     pub checked: Option<CheckedView>,
     /// True for pictures with a dark background.
@@ -207,11 +204,16 @@ impl View {
         self
     }
 
-    /// Returns the view with the places that the tip can reach.
+    /// Returns the view with a section of a companion.
     #[must_use]
-    pub fn with_reach(mut self, reach: &Reach) -> Self {
-        self.still.reach = Some(reach.clone());
+    pub fn with_section(mut self, section: Section) -> Self {
+        self.still.sections.push(section);
         self
+    }
+
+    /// Returns the visible part of the workspace: least and greatest coordinate along x and along y.
+    pub fn frame(&self) -> [[f64; 2]; 2] {
+        self.frame
     }
 
     /// Returns the view with the line that the tip should follow.
@@ -259,18 +261,6 @@ impl View {
     pub fn with_blocking(mut self, stuck: BlockingView) -> Self {
         self.still.stuck = Some(stuck);
         self
-    }
-
-    /// Returns the view with an explanation.
-    #[must_use]
-    pub fn with_explanation(mut self, explanation: ExplanationView) -> Self {
-        self.still.explanation = Some(explanation);
-        self
-    }
-
-    /// Returns the explanation, if the view has one.
-    pub fn explanation(&self) -> Option<&ExplanationView> {
-        self.still.explanation.as_ref()
     }
 
     /// Returns the view for pictures with a dark background, or a light one. Pages follow the reader's system.

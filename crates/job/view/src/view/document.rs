@@ -4,15 +4,14 @@ use super::content::{StillContent, View};
 use super::numbers::RoundingSteps;
 use crate::blocking::BlockingView;
 use crate::checked::CheckedView;
-use crate::explanation::ExplanationView;
 use crate::followed::LineDocument;
 use crate::key::KeyView;
 use crate::legend;
-use crate::reach::ReachView;
+use crate::section::{self, Section};
 use serde::Serialize;
 
-/// The data of a page: a view, its legend, the obstacles that block the motion, the findings about a checked
-/// configuration, the places that the tip can reach, and the line that it should follow.
+/// The data of a page: a view, its legend, the obstacles that block the motion, the sections of companions, the findings
+/// about a checked configuration, and the line that the tip should follow.
 #[derive(Serialize)]
 struct Document<'a> {
     #[serde(flatten)]
@@ -20,12 +19,10 @@ struct Document<'a> {
     legend: Vec<KeyView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     stuck: Option<&'a BlockingView>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    explanation: Option<&'a ExplanationView>,
+    #[serde(flatten, serialize_with = "section::by_name")]
+    sections: &'a [Section],
     #[serde(skip_serializing_if = "Option::is_none")]
     checked: Option<&'a CheckedView>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reach: Option<ReachView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<LineDocument>,
 }
@@ -36,12 +33,10 @@ impl View {
     /// # Panics
     /// Never: all keys are strings.
     pub fn json(&self) -> String {
-        let reach = self.still.reach.as_ref().map(|reach| ReachView::new(reach, RoundingSteps::of(&self.arm)));
         let line = self.still.line.as_ref().map(|line| LineDocument::new(line, RoundingSteps::of(&self.arm)));
-        let StillContent { stuck, explanation, checked, .. } = &self.still;
-        let (stuck, explanation, checked) = (stuck.as_ref(), explanation.as_ref(), checked.as_ref());
-        let document =
-            Document { view: self, legend: legend::on_pages(self), stuck, explanation, checked, reach, line };
+        let StillContent { stuck, sections, checked, .. } = &self.still;
+        let (stuck, checked) = (stuck.as_ref(), checked.as_ref());
+        let document = Document { view: self, legend: legend::on_pages(self), stuck, sections, checked, line };
         serde_json::to_string(&document).expect("numbers and strings")
     }
 }

@@ -46,9 +46,6 @@ const SCRIPTS: [&str; 37] = [
     include_str!("assets/view.js"),
 ];
 
-/// Code of the map of the tip's reach, for the pages that have one.
-const REACH_SCRIPT: &str = include_str!("assets/reach.js");
-
 /// Code of a line that the tip follows, for the pages that have one.
 const LINE_SCRIPTS: [&str; 2] = [include_str!("assets/lens.js"), include_str!("assets/follow.js")];
 
@@ -59,9 +56,9 @@ const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
 #[must_use]
 pub fn page(view: &View) -> String {
     let title = view.title.first().map_or("cplan", String::as_str);
-    let reach = if view.still.reach.is_some() { REACH_SCRIPT } else { "" };
+    let sections: String = view.still.sections.iter().map(|section| section.script).collect();
     let line = if view.still.line.is_some() { LINE_SCRIPTS.concat() } else { String::new() };
-    sealed(title, "", "view", &view.json(), &(drawing() + reach + &line + PLAN_SCRIPT))
+    sealed(title, "", "view", &view.json(), &(drawing() + &sections + &line + PLAN_SCRIPT))
 }
 
 /// Code of the page of an inspection.

@@ -36,19 +36,21 @@ mod waves;
 mod world;
 
 pub use content::{KeyFigures, View};
+pub use extent::bounding_box;
 pub use html::{drawing, inspection_page, page, sealed, shell};
 pub use picture::{AxesFrame, Picture};
 pub use task_picture::{Moments, TaskPicture};
 
 pub(super) use arm::{reach_shape, titles};
 pub(super) use content::{FrameView, PanelView};
-pub(super) use extent::bounding_box;
-pub(super) use motion::{Clock, PathView};
-pub(super) use numbers::{Chain, RoundingSteps};
+pub(super) use motion::Clock;
+pub use motion::PathView;
+pub use numbers::{Chain, RoundingSteps};
 pub(super) use states::ranges;
 pub(super) use steps::Row;
 pub(super) use strip::{StripView, plane_of_motion, plane_of_task};
 pub(super) use trace::{LevelView, ScaleView, TraceView};
 pub(super) use waves::{LEVELS, Waves};
-pub(super) use world::contours as contour_views;
-pub(super) use world::{ContourView, MAX_NAMED_OBSTACLES, ObstacleView, PayloadView, RegionView, WorldView};
+pub use world::contours as contour_views;
+pub use world::{ContourView, ObstacleView, listed_number};
+pub(super) use world::{MAX_NAMED_OBSTACLES, PayloadView, RegionView, WorldView};

@@ -17,9 +17,11 @@ const LINE_WIDTH: f64 = 1.6;
 /// A path in a world.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PathView {
+    /// Name. Empty if the path has none.
     pub name: String,
+    /// Index of the world in which it is planned.
     pub world: usize,
-    /// Colour of the line. `None` for [`color::INK`](crate::color::INK).
+    /// Colour of the line. `None` for [`cplan_theme::INK`].
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "color_name")]
     color: Option<Rgb>,
     /// Width of the line, in pixels.

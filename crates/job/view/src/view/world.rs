@@ -18,6 +18,7 @@ pub const MAX_NAMED_OBSTACLES: usize = 16;
 /// An obstacle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ObstacleView {
+    /// Name.
     pub name: String,
     /// Colour, the same in both spaces.
     pub color: Rgb,
@@ -151,8 +152,10 @@ fn grip<S: Serializer>(grip: &Grip, serializer: S) -> Result<S::Ok, S::Error> {
 /// The contour of a part of a C-obstacle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ContourView {
+    /// Index of the obstacle in the list of the world.
     pub obstacle: usize,
     link: usize,
+    /// Corners.
     pub contour: Chain,
 }
 
@@ -288,6 +291,12 @@ fn listed_links(scene: &Scene) -> Vec<usize> {
     let all = scene.self_obstacles();
     let hit: BTreeSet<usize> = scene.pairs().iter().map(|pair| pair.obstacle).filter(|k| all.contains(k)).collect();
     hit.into_iter().collect()
+}
+
+/// Returns the index of an obstacle or a link in the list of a view.
+#[must_use]
+pub fn listed_number(scene: &Scene, number: usize) -> usize {
+    shown_number(scene, &listed_links(scene), number)
 }
 
 /// Returns the index of an obstacle in the view's list. In that list, links of the robot follow the obstacles of the

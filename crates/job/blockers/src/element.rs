@@ -88,7 +88,7 @@ impl Element {
 }
 
 /// Returns a range with one end moved outwards.
-pub(super) fn widened(range: JointRange, side: Side, by: f64) -> JointRange {
+pub(crate) fn widened(range: JointRange, side: Side, by: f64) -> JointRange {
     match (range, side) {
         (JointRange::Circle, _) => range,
         (JointRange::Interval { lower, upper }, Side::Lower) => JointRange::Interval { lower: lower - by, upper },

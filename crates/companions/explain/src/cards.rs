@@ -1,18 +1,21 @@
 //! The cards of an explanation: each shows a change and the path that it opens.
 
-use super::explained_words::{bounds, evidence, headline, instruction, joined, part_name, removal, subject};
-use super::picture::contours;
-use crate::BlockingView;
-use crate::ExplanationView;
-use crate::explanation::{CardView, Edit, EditedShape};
-use crate::view::{ContourView, ObstacleView, PathView, RoundingSteps, bounding_box, contour_views};
-use cplan_explain::{
-    BlockedEnd, BlockingSet, Bottleneck, Change, ChangeContext, Element, End, Explanation, FoundExplanation,
-    InfeasibleExplanation, MotionQuestion, OutOfReach, Saving, Side,
+use super::page::{CardView, Edit, EditedShape, ExplanationView};
+use super::words::{bounds, evidence, headline, instruction, removal};
+use super::{
+    BlockedEnd, Bottleneck, Change, ChangeContext, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach,
+    Saving,
 };
+use cplan_blockers::{BlockingSet, Element, End, MotionQuestion, Side};
 use cplan_model::space::{Configuration, Path};
 use cplan_model::{Outcome, Scene};
+use cplan_planners::cspace::CObstacle;
 use cplan_text::{headline_length, length};
+use cplan_view::output::contours;
+use cplan_view::output::names::{joined, part_name, subject};
+use cplan_view::{
+    BlockingView, ContourView, ObstacleView, PathView, RoundingSteps, bounding_box, contour_views, listed_number,
+};
 
 /// Largest share of the visible workspace by which it grows on a side to include changed obstacles.
 const MAX_GROWTH: f64 = 0.35;
@@ -42,7 +45,9 @@ pub fn explanation_view(explanation: &Explanation, frame: [[f64; 2]; 2]) -> Expl
 /// Returns the obstacles in the way and the narrowest place. `None` unless there is no path.
 pub fn blocking(explanation: &Explanation) -> Option<BlockingView> {
     let Outcome::Infeasible(closed) = &explanation.outcome else { return None };
-    let blockers = closed.sets.iter().flat_map(BlockingSet::elements).filter_map(Element::obstacle).collect();
+    let scene = explanation.question.scene();
+    let numbers = closed.sets.iter().flat_map(BlockingSet::elements).filter_map(Element::obstacle);
+    let blockers = numbers.map(|number| listed_number(scene, number)).collect();
     let at = closed.bottleneck.as_ref().map(|bottleneck| (bottleneck.at, bottleneck.point));
     Some(BlockingView { blockers, at })
 }
@@ -60,10 +65,8 @@ impl CardMaker<'_> {
 
     fn of_infeasible(&self, closed: &InfeasibleExplanation) -> Vec<CardView> {
         let is_only = closed.sets.iter().map(|set| set.blockers.len()).sum::<usize>() == 1;
-        let changes = closed.sets.iter().flat_map(|set| {
-            let all = set.blockers.iter().flat_map(|blocker| &blocker.changes);
-            all.map(move |change| self.of_change(set, change, is_only))
-        });
+        let changes = closed.sets.iter().zip(&closed.changes);
+        let changes = changes.flat_map(|(set, all)| all.iter().map(move |change| self.of_change(set, change, is_only)));
         let ends = closed.ends.iter().filter_map(|end| self.of_end(end));
         let reach = closed.out_of_reach.iter().map(|out| self.of_reach(out));
         let stuck = closed.bottleneck.iter().map(|bottleneck| self.of_bottleneck(bottleneck));
@@ -74,10 +77,12 @@ impl CardMaker<'_> {
     fn of_change(&self, set: &BlockingSet, change: &Change, is_only: bool) -> CardView {
         let changed = change.apply(self.question, set);
         let obstacle = change.changed_obstacle(self.scene());
-        let number = change.element.obstacle();
+        let number = self.listed(change.element);
         let removed = match change.among {
             ChangeContext::World => Vec::new(),
-            ChangeContext::Set => set.others(self.question).into_iter().filter_map(Element::obstacle).collect(),
+            ChangeContext::Set => {
+                set.others(self.question).into_iter().filter_map(|other| self.listed(other)).collect()
+            }
         };
         let view = obstacle.as_ref().zip(number);
         let [opens, closed] = bounds(self.scene(), set, change);
@@ -130,7 +135,7 @@ impl CardMaker<'_> {
         CardView {
             title,
             note,
-            removed: saving.element.obstacle().into_iter().collect(),
+            removed: self.listed(saving.element).into_iter().collect(),
             c_obstacles: if is_limit { self.contours(changed.scene(), saving.element) } else { Vec::new() },
             domains: self.domains(changed.scene(), saving.element),
             path: Some(self.path(&saving.path)),
@@ -200,6 +205,11 @@ impl CardMaker<'_> {
         }
     }
 
+    /// Returns the index of an obstacle or link in the list of the page.
+    fn listed(&self, element: Element) -> Option<usize> {
+        element.obstacle().map(|number| listed_number(self.scene(), number))
+    }
+
     fn path(&self, path: &Path) -> PathView {
         PathView::of_several("", path, [0, 1], self.grain)
     }
@@ -229,7 +239,10 @@ impl CardMaker<'_> {
             }
         });
         let traced = contours(&reduced);
-        contour_views(traced.iter().filter(|contour| only.is_none_or(|only| contour.obstacle == only)), self.grain)
+        let shown = traced.into_iter().filter(|contour| only.is_none_or(|only| contour.obstacle == only));
+        let shown =
+            shown.map(|contour| CObstacle { obstacle: listed_number(self.scene(), contour.obstacle), ..contour });
+        contour_views(&shown.collect::<Vec<_>>(), self.grain)
     }
 
     /// Returns the values of both joints after a change of a limit. `None` for another change.

@@ -1,13 +1,14 @@
-//! Reachable places of the tip: cells of the workspace, and their IK solutions in the configuration space.
+//! Reachable places of the tip in pictures and pages: cells of the workspace, and their IK solutions in the configuration
+//! space.
 
-use super::axes::Frame;
-use super::chart::Chart;
-use super::figure::{Item, Raster, Rect, Style};
-use super::key::{Key, Sign};
-use super::view::{Chain, RoundingSteps};
-use cplan_explain::{Access, Origin, Reach, Solution};
+use super::{Access, Origin, Reach, Solution};
+use cplan_model::Arm;
 use cplan_theme::{OCCUPIED, REACHED, REACHED_TWICE, Rgb, UNKNOWN, UNREACHABLE, role_or_hex};
+use cplan_view::{CellLayer, Chain, RoundingSteps, Section};
 use serde::Serialize;
+
+/// Code that shows the section in a page.
+const SCRIPT: &str = include_str!("reach.js");
 
 /// Colour and meaning of each kind of cell: one free solution, several, proven unreachable, colliding, unknown.
 const CELL_KINDS: [(Rgb, &str); 5] = [
@@ -28,29 +29,31 @@ fn style_index(access: Access, count: usize) -> usize {
     }
 }
 
-/// Draws the cells of the workspace.
+/// Returns the section that shows where the tip of this arm can go.
 #[must_use]
-pub fn in_workspace(reach: &Reach, frame: &Frame) -> Item {
-    let [columns, rows] = reach.size;
-    let mut levels = vec![None; columns * rows];
-    for (place, access, count) in reach.best() {
-        levels[place % columns * rows + place / columns] = Some(style_index(access, count));
+pub fn reach_section(reach: &Reach, arm: &Arm) -> Section {
+    let color = |index: usize| CELL_KINDS[index].0;
+    let is_there = |kind: &usize| reach.best().any(|(_, access, count)| style_index(access, count) == *kind);
+    let kinds = (0..CELL_KINDS.len()).filter(is_there);
+    Section {
+        script: SCRIPT,
+        start: Some("home"),
+        cells: Some(cells(reach)),
+        dots: free(reach).map(|solution| (solution.joints, color(style_index(solution.access, 2)))).collect(),
+        legend: kinds.map(|kind| (color(kind), CELL_KINDS[kind].1.to_owned())).collect(),
+        layers: &["access"],
+        ..Section::of_data("reach", &ReachView::new(reach, RoundingSteps::of(arm)))
     }
-    let [left, bottom] = frame.at(reach.corner[0], reach.corner[1]);
-    let [right, top] =
-        frame.at(reach.corner[0] + reach.cell * columns as f64, reach.corner[1] + reach.cell * rows as f64);
-    let rect = Rect { x: left, y: top, width: right - left, height: bottom - top };
-    Item::Raster(Raster { rect, cells: reach.size, palette: CELL_KINDS.map(|(color, _)| color).to_vec(), levels })
 }
 
-/// Draws the free IK solutions as dots.
-#[must_use]
-pub fn in_cspace(reach: &Reach, chart: &Chart) -> Vec<Item> {
-    let dot = |solution: &Solution| {
-        let (color, _) = CELL_KINDS[style_index(solution.access, 2)];
-        Item::Disc(chart.place(solution.joints), 1.1, Style::fill(color))
-    };
-    free(reach).map(dot).collect()
+fn cells(reach: &Reach) -> CellLayer {
+    let [columns, rows] = reach.size;
+    let mut colors = vec![None; columns * rows];
+    for (place, access, count) in reach.best() {
+        colors[place % columns * rows + place / columns] = Some(style_index(access, count));
+    }
+    let palette = CELL_KINDS.map(|(color, _)| color).to_vec();
+    CellLayer { corner: reach.corner.into(), side: reach.cell, size: reach.size, palette, colors }
 }
 
 fn free(reach: &Reach) -> impl Iterator<Item = &Solution> {
@@ -110,14 +113,4 @@ impl ReachView {
             routes: reach.motions.routes.iter().map(|route| grain.configurations(route)).collect(),
         }
     }
-}
-
-/// Returns the legend of the cells.
-#[must_use]
-pub fn keys(reach: &Reach) -> Vec<Key> {
-    let is_there = |which: &usize| reach.best().any(|(_, access, count)| style_index(access, count) == *which);
-    (0..CELL_KINDS.len())
-        .filter(is_there)
-        .map(|which| (Sign::Swatch(CELL_KINDS[which].0), CELL_KINDS[which].1.to_owned()))
-        .collect()
 }

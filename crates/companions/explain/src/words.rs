@@ -1,14 +1,14 @@
 //! The sentences of an explanation: the obstacles in the way, and the changes that open a path.
 
-use cplan_explain::{
-    BlockedEnd, BlockingSet, Change, ChangeContext, ChangeKind, Element, End, Explanation, FoundExplanation,
-    InfeasibleExplanation, Saving, Side,
+use super::{
+    BlockedEnd, Change, ChangeContext, ChangeKind, Explanation, FoundExplanation, InfeasibleExplanation, Saving,
 };
-use cplan_model::{Arm, Joint, Obstruction, Outcome, Pair, Scene};
-use cplan_text::{chosen_length, fixed, headline_length, headline_number, length_down, length_up};
-
-/// Largest number of things that a headline names. More are only counted.
-const MAX_NAMED: usize = 3;
+use cplan_blockers::{BlockingSet, Element, End, Side};
+use cplan_model::{Joint, Obstruction, Outcome, Scene};
+use cplan_text::{fixed, headline_length, headline_number, length_down, length_up};
+use cplan_view::output::names::{
+    MAX_NAMED, blame_in_words, body_name, is_or_are, joined, joint_name, obstacle_name, part_name, subject,
+};
 
 /// Largest angle, in degrees, between the direction of a move and one of the eight directions that have words.
 const DIRECTION_TOLERANCE: f64 = 1.0;
@@ -64,48 +64,6 @@ fn headline_of_infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Stri
 /// Says that the elements of a set are in the way, without the full stop.
 fn blame(scene: &Scene, set: &BlockingSet) -> String {
     sentence(&blame_in_words(scene, set))
-}
-
-/// Says that the elements of a set are in the way, as a part of a sentence: `the front wall is in the way`.
-pub(super) fn blame_in_words(scene: &Scene, set: &BlockingSet) -> String {
-    let elements = set.elements();
-    let obstacles: Vec<String> = elements
-        .iter()
-        .filter(|element| element.obstacle().is_some())
-        .map(|&element| subject(scene, element))
-        .collect();
-    let mut joints: Vec<usize> = elements
-        .iter()
-        .filter_map(|element| if let Element::Limit { joint, .. } = element { Some(*joint) } else { None })
-        .collect();
-    joints.dedup();
-    let mut parts = Vec::new();
-    match obstacles.len() {
-        0 => {}
-        n if n <= MAX_NAMED => parts.push(format!("{} {} in the way", joined(&obstacles), is_or_are(n))),
-        n => parts.push(format!("{n} obstacles together are in the way")),
-    }
-    parts.extend(short_joints(scene.arm(), &joints));
-    let text = parts.join(", and ");
-    let clearance = chosen_length(scene.workspace().clearance);
-    match (elements.contains(&Element::Clearance), text.is_empty()) {
-        (false, _) => text,
-        (true, true) => format!("the clearance of {clearance} leaves no path"),
-        (true, false) => format!("with a clearance of {clearance}, {text}"),
-    }
-}
-
-/// Says that these joints end too early.
-fn short_joints(arm: &Arm, joints: &[usize]) -> Option<String> {
-    let names: Vec<String> = joints.iter().map(|&joint| joint_name(&arm.joints[joint])).collect();
-    let all_turn = joints.iter().all(|&joint| arm.joints[joint].joint_type.is_revolute());
-    let all_slide = joints.iter().all(|&joint| !arm.joints[joint].joint_type.is_revolute());
-    let verb = match (all_turn, all_slide) {
-        (true, _) => "turn",
-        (_, true) => "slide",
-        _ => "move",
-    };
-    (!names.is_empty()).then(|| format!("{} cannot {verb} far enough", joined(&names)))
 }
 
 /// Describes the defects of the start and of the first goal.
@@ -326,88 +284,15 @@ fn direction_in_words([x, y]: [f64; 2]) -> String {
     format!("{word}, at {}\u{b0}", fixed(degrees, 0))
 }
 
-/// Names an element as the subject of a sentence: `the front wall`, `the upper limit of the elbow`.
-pub(super) fn subject(scene: &Scene, element: Element) -> String {
-    match element {
-        Element::Obstacle { number } => obstacle_name(scene, number),
-        Element::Link { number } => {
-            format!("the robot\u{2019}s own {}", noun("link", &scene.obstacle(number).name).trim_start_matches("the "))
-        }
-        Element::Limit { joint, side } => {
-            let which = if side == Side::Lower { "lower" } else { "upper" };
-            format!("the {which} limit of {}", joint_name(&scene.arm().joints[joint]))
-        }
-        Element::Clearance => format!("the clearance of {}", chosen_length(scene.workspace().clearance)),
-    }
-}
-
-pub(super) fn obstacle_name(scene: &Scene, number: usize) -> String {
-    let kind = if scene.self_obstacles().contains(&number) { "link" } else { "obstacle" };
-    noun(kind, &scene.obstacle(number).name)
-}
-
-pub(super) fn joint_name(joint: &Joint) -> String {
-    noun("joint", &joint.name)
-}
-
-/// Names the part of the arm in an obstruction.
-pub(super) fn part_name(scene: &Scene, hit: &Obstruction) -> String {
-    part_of_pair(scene, hit.contact.pair)
-}
-
-/// Names the part of the arm in a pair of shapes.
-pub(super) fn part_of_pair(scene: &Scene, pair: Pair) -> String {
-    let link = scene.link(pair);
-    if scene.is_attached(pair) { noun("payload", &link.parts[pair.part].body) } else { noun("link", &link.name) }
-}
-
-/// Names the body of the robot to which the part of a pair belongs, or the payload.
-fn body_name(scene: &Scene, pair: Pair) -> String {
-    noun(if scene.is_attached(pair) { "payload" } else { "link" }, &scene.link(pair).parts[pair.part].body)
-}
-
-/// Returns a name with an article if it consists of ordinary words, and otherwise in quotation marks after its kind:
-/// `the front wall`, `obstacle "o1"`.
-pub(super) fn noun(kind: &str, name: &str) -> String {
-    let is_word =
-        |word: &str| !word.is_empty() && word.chars().all(|letter| letter.is_alphabetic() && letter.is_lowercase());
-    match name.split([' ', '_', '-']).all(is_word) && name.chars().count() > 1 {
-        true => format!("the {}", name.replace('_', " ")),
-        false => format!("{kind} \"{name}\""),
-    }
-}
-
-/// Joins names: `a, b and c`.
-pub(super) fn joined(names: &[String]) -> String {
-    match names {
-        [all @ .., before, last] => {
-            let all: String = all.iter().map(|one| format!("{one}, ")).collect();
-            format!("{all}{before} and {last}")
-        }
-        _ => names.concat(),
-    }
-}
-
 /// Begins a sentence with a capital letter.
 fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-fn is_or_are(count: usize) -> &'static str {
-    if count == 1 { "is" } else { "are" }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn ordinary_words_have_an_article() {
-        assert_eq!([noun("obstacle", "front wall"), noun("link", "upper_arm")], ["the front wall", "the upper arm"]);
-        assert_eq!([noun("obstacle", "o1"), noun("obstacle", "Vice")], ["obstacle \"o1\"", "obstacle \"Vice\""]);
-        assert_eq!(joined(&["a", "b", "c"].map(str::to_owned)), "a, b and c");
-    }
 
     #[test]
     fn directions_have_words() {

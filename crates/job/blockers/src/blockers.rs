@@ -1,6 +1,5 @@
 //! Irreducible sets of elements: sets that block all motions, and of which no element can be left out.
 
-use super::change::Change;
 use super::element::Element;
 use super::question::MotionQuestion;
 use cplan_interrupt::checkpoint;
@@ -17,8 +16,6 @@ pub struct Blocker {
     pub element: Element,
     /// A certified motion past the other elements of the set. `None` if it is not known whether there is one.
     pub without: Option<CertifiedPath>,
-    /// The smallest changes of the element that open a path. Empty until they have been computed.
-    pub changes: Vec<Change>,
 }
 
 /// A set of elements that block all motions even if the world contains nothing else. If any one of them is removed from
@@ -37,6 +34,12 @@ impl BlockingSet {
     /// Returns the elements of the set.
     pub fn elements(&self) -> Vec<Element> {
         self.blockers.iter().map(|blocker| blocker.element).collect()
+    }
+
+    /// Returns the elements of the question that are not in the set.
+    pub fn others(&self, question: &MotionQuestion) -> Vec<Element> {
+        let elements = self.elements();
+        question.elements().into_iter().filter(|element| !elements.contains(element)).collect()
     }
 
     /// Describes the elements: `obstacle "shelf" and the lower limit of joint "elbow"`. Empty for an empty set.
@@ -93,7 +96,7 @@ pub fn blocking_set(question: &MotionQuestion, proof: Option<CheckedProof>, boxe
         if filter.set.contains(&element)
             && let Err(without) = filter.try_without(&[element])
         {
-            kept.push(Blocker { element, without, changes: Vec::new() });
+            kept.push(Blocker { element, without });
         }
     }
     // A decision that was not reached among many elements may be reached among few.

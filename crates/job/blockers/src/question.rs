@@ -1,7 +1,6 @@
 //! Motion queries whose start or goal may be blocked, and the same queries with fewer elements in the world.
 
 use super::element::{Element, Side, widened};
-use super::ends::End;
 use cplan_geometry::{Convex, Point};
 use cplan_interrupt::{Instant, Interrupt};
 use cplan_judge::{CertifiedPath, CheckedProof};
@@ -9,6 +8,7 @@ use cplan_legs::{FailedStep, Standstill, StandstillScene};
 use cplan_model::space::{Configuration, GoalSet, Segment};
 use cplan_model::{Arm, Goal, JointType, MotionProblem, Outcome, Scene, Workspace, area_goals, inverse};
 use cplan_solver::decide;
+use serde::Serialize;
 use std::f64::consts::TAU;
 use std::time::Duration;
 
@@ -21,6 +21,16 @@ pub const MIN_CLEARANCE: f64 = 1e-6;
 /// Default time limit of an explanation. It begins when it is known whether there is a motion. Most explanations take
 /// tenths of a second.
 pub const TIME_LIMIT: Duration = Duration::from_secs(5);
+
+/// One of the two ends of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum End {
+    /// The start of the motion.
+    Start,
+    /// The goal of the motion.
+    Goal,
+}
 
 /// The target of a motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -136,13 +146,13 @@ impl MotionQuestion {
     }
 
     /// Returns the question with its clock started.
-    pub(super) fn started(&self) -> Self {
+    pub fn started(&self) -> Self {
         let deadline = self.time_limit.map(|limit| Instant::now() + limit);
         Self { deadline, ..self.clone() }
     }
 
     /// Returns the result of `work`. `None` if the time is up before the result is known.
-    pub(super) fn within_time_limit<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
+    pub fn within_time_limit<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
         match self.deadline {
             Some(deadline) => Interrupt::new().with_deadline(deadline).run(work).ok(),
             None => Some(work()),
@@ -150,7 +160,7 @@ impl MotionQuestion {
     }
 
     /// Returns true if the time is up.
-    pub(super) fn is_out_of_time(&self) -> bool {
+    pub fn is_out_of_time(&self) -> bool {
         self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
 
@@ -279,22 +289,22 @@ impl MotionQuestion {
     }
 
     /// Returns the question with the pieces of one obstacle replaced.
-    pub(super) fn with_pieces(&self, number: usize, pieces: Vec<Convex>) -> Self {
+    pub fn with_pieces(&self, number: usize, pieces: Vec<Convex>) -> Self {
         self.rebuilt(|_, workspace| workspace.obstacles[number].pieces.clone_from(&pieces))
     }
 
     /// Returns the question with one end of a joint's range moved outwards.
-    pub(super) fn with_wider(&self, joint: usize, side: Side, by: f64) -> Self {
+    pub fn with_wider(&self, joint: usize, side: Side, by: f64) -> Self {
         self.rebuilt(|arm, _| arm.joints[joint].range = widened(arm.joints[joint].range, side, by))
     }
 
     /// Returns the question with another clearance.
-    pub(super) fn with_clearance(&self, clearance: f64) -> Self {
+    pub fn with_clearance(&self, clearance: f64) -> Self {
         self.rebuilt(|_, workspace| workspace.clearance = clearance)
     }
 
     /// Returns the question after `edit` has changed the arm and the workspace in all scenes.
-    pub(super) fn rebuilt(&self, edit: impl Fn(&mut Arm, &mut Workspace)) -> Self {
+    pub fn rebuilt(&self, edit: impl Fn(&mut Arm, &mut Workspace)) -> Self {
         let standing =
             |standing: &StandstillScene| StandstillScene { scene: standing.scene.changed(&edit), ..*standing };
         let changed =
@@ -337,7 +347,7 @@ fn crossing(arm: &Arm) -> f64 {
 }
 
 /// Returns a distance after which a prismatic joint has passed all obstacles, from any start.
-pub(super) fn farthest(scene: &Scene) -> f64 {
+pub fn farthest(scene: &Scene) -> f64 {
     let base = scene.arm().base;
     let pieces = scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces);
     let across = pieces.map(|piece| piece.reach_from(base)).fold(0.0, f64::max);

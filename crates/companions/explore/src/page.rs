@@ -1,16 +1,16 @@
 //! The page that plays an exploration: the known and seen parts of the workspace, and the growing configuration space.
 
-use super::view::{View, drawing, sealed};
-use cplan_explore::{Ending, Exploration};
+use super::{Ending, Exploration};
 use cplan_model::Scene;
 use cplan_model::space::Configuration;
+use cplan_view::{View, drawing, sealed};
 use cplan_world::{Occupancy, Sensor};
 use serde_json::{Value, json};
 
-const STYLE: &str = include_str!("view/assets/exploration.css");
+const STYLE: &str = include_str!("exploration.css");
 
 /// Code that draws an exploration, after the code of a view.
-const SCRIPTS: [&str; 2] = [include_str!("view/assets/coverage.js"), include_str!("view/assets/exploration.js")];
+const SCRIPTS: [&str; 2] = [include_str!("coverage.js"), include_str!("exploration.js")];
 
 /// Returns an exploration as one self-contained HTML file. `view` has the arm, the real world and the facts. If `timed`,
 /// the file includes the time that each decision took.

@@ -1,16 +1,14 @@
 //! An explanation for people, in words and as a picture.
 
-use super::explained_cards::{blocking, explanation_view};
-use super::explained_words::{bounds, headline, instruction};
-use super::picture::{contours, title_of};
-use super::summary::{Line, configuration, format_columns, goal_lines};
-use crate::{Picture, View};
-use cplan_explain::{
-    BlockedEnd, Bottleneck, End, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach, TIME_LIMIT, Target,
-};
+use super::cards::{blocking, explanation_view};
+use super::words::{bounds, headline, instruction};
+use super::{BlockedEnd, Bottleneck, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach};
+use cplan_blockers::{End, TIME_LIMIT, Target};
 use cplan_model::{Outcome, Scene, Status};
 use cplan_solver::BoundedPath;
 use cplan_text::{fixed, length, length_down, length_up, listed, percent, round_down, round_up, short};
+use cplan_view::output::{Line, configuration, contours, format_columns, goal_lines, status, title_of};
+use cplan_view::{Picture, Section, View};
 
 /// If an explanation was stopped early, cplan suggests a time limit that is longer by this factor.
 const TIME_LIMIT_FACTOR: f64 = 12.0;
@@ -37,6 +35,23 @@ pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
 /// Returns the content of the explanation's pictures and pages.
 #[must_use]
 pub fn view(explanation: &Explanation) -> View {
+    let view = view_of_question(explanation);
+    let section = explanation_view(explanation, view.frame()).section();
+    let view = view.with_section(section);
+    match blocking(explanation) {
+        Some(stuck) => view.with_blocking(stuck),
+        None => view,
+    }
+}
+
+/// Returns the section of a page that shows the explanation.
+#[must_use]
+pub fn section(explanation: &Explanation) -> Section {
+    explanation_view(explanation, view_of_question(explanation).frame()).section()
+}
+
+/// Returns the view of the question and its answer, without the reasons.
+fn view_of_question(explanation: &Explanation) -> View {
     let question = &explanation.question;
     let goals = question.ends();
     let (path, proof) = match &explanation.outcome {
@@ -46,7 +61,7 @@ pub fn view(explanation: &Explanation) -> View {
     };
     let picture = Picture {
         title: vec![headline(explanation), title_of(question.scene())],
-        status: super::picture::status(explanation.status()).into(),
+        status: status(explanation.status()).into(),
         ending: Some(explanation.status()),
         facts: facts(explanation).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
         goals: &goals,
@@ -55,13 +70,7 @@ pub fn view(explanation: &Explanation) -> View {
         c_obstacles: &contours(question.scene()),
         ..Picture::new(question.scene(), question.start())
     };
-    let view = View::of_picture(&picture);
-    let cards = explanation_view(explanation, view.frame);
-    let view = view.with_explanation(cards);
-    match blocking(explanation) {
-        Some(stuck) => view.with_blocking(stuck),
-        None => view,
-    }
+    View::of_picture(&picture)
 }
 
 /// Returns the answer in a sentence.
@@ -161,11 +170,10 @@ fn infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Vec<Line> {
         }
     }
     let is_only = closed.sets.iter().map(|set| set.blockers.len()).sum::<usize>() == 1;
-    for set in &closed.sets {
-        let changes = set.blockers.iter().flat_map(|blocker| &blocker.changes);
+    for (set, changes) in closed.sets.iter().zip(&closed.changes) {
         let line =
             |change| format!("{}: {}", instruction(scene, change, is_only), bounds(scene, set, change).join("; "));
-        lines.extend(changes.map(|change| ("opens", line(change))));
+        lines.extend(changes.iter().map(|change| ("opens", line(change))));
     }
     lines.extend(closed.bottleneck.iter().map(|bottleneck| ("stuck", bottleneck_line(scene, bottleneck))));
     lines

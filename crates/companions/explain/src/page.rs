@@ -1,9 +1,8 @@
 //! An explanation on a page: a headline, and cards of changes with their effect.
 
-use super::blocking::BlockingView;
-use super::view::{ContourView, ObstacleView, PathView};
 use cplan_geometry::Point;
 use cplan_model::Shape;
+use cplan_view::{BlockingView, ContourView, ObstacleView, PathView, Section};
 use serde::{Serialize, Serializer};
 
 /// An explanation on a page.
@@ -24,12 +23,9 @@ pub struct ExplanationView {
 }
 
 impl ExplanationView {
-    /// Returns the data that a page reads.
-    ///
-    /// # Panics
-    /// Never: all keys are strings.
-    pub fn json(&self) -> String {
-        serde_json::to_string(self).expect("numbers and strings")
+    /// Returns the section of the page, whose data is this view.
+    pub fn section(&self) -> Section {
+        Section::of_data("explanation", self)
     }
 }
 
