@@ -101,6 +101,7 @@ pub mod check {
     pub use cplan_judge::*;
     pub use cplan_motion::recorded::*;
     pub use cplan_motion::{CertifiedCurve, Place, Rounding, Span, blend};
+    pub use cplan_recordings::*;
 }
 
 /// Input: reads robots, worlds, maps and recordings, and returns problems, or errors with file, line and help.
@@ -120,6 +121,15 @@ pub mod engine {
     pub use cplan_explain::{Access, MAX_PLACES, Reach, Solution, reach, reach_section};
     pub use cplan_motion::{Timing, Wait};
     pub use cplan_solver::*;
+
+    /// Verdicts on configurations, and on recorded motions and tasks, as data.
+    pub mod findings {
+        pub use cplan_engine::findings::*;
+        pub use cplan_recordings::{
+            CollisionFinding, EncounterFinding, FarthestFinding, Judgement, LimitFinding, MomentFinding,
+            MotionFindings, PlanFinding, StepFinding, TurnContactFinding, TurnFinding, verify,
+        };
+    }
 
     /// Plans tasks as sequences of certified motions.
     pub mod task {

@@ -29,13 +29,12 @@ const RINGS: [&str; 3] = ["crates/core", "crates/job", "crates/companions"];
 
 /// Crates of the main job that still use a companion, each with that companion. The list may only become shorter. Those
 /// marked "optional" are behind a feature.
-const LEAKS: [(&str, &str); 9] = [
+const LEAKS: [(&str, &str); 8] = [
     ("engine", "deviation"),
     ("engine", "movers"),
     ("engine", "tasks"),
     // Optional.
     ("fields", "gpu"),
-    ("motion", "deviation"),
     ("robot", "xacro"),
     // Optional.
     ("toolpath", "drawing"),

@@ -6,7 +6,7 @@
 //! - `result`: the figures of a plan, its JSON, and the formats of files. `stored`: problems and plans in serialised
 //!   form.
 //! - `certificate`: evidence that a checker can judge without this program, such as [`Plan::certificate`].
-//! - [`findings`]: verdicts on given configurations and recorded motions.
+//! - [`findings`]: verdicts on given configurations.
 //!
 //! The search itself is in the crates below: `solver` for one motion, `movers` for moving obstacles, `tasks` for
 //! sequences.

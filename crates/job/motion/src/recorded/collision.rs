@@ -43,7 +43,9 @@ pub struct Moment {
 }
 
 impl Moment {
-    pub(super) fn new(index: usize, piece: &Piece, u: f64) -> Self {
+    /// Creates the moment at the share `u` of a piece, which leads from the sample `index` to the next one.
+    #[must_use]
+    pub fn new(index: usize, piece: &Piece, u: f64) -> Self {
         // The end of a piece that lasts is the next sample.
         let sample = index + usize::from(u == 1.0 && piece.to > piece.from);
         Self { time: piece.time(u), sample, at: piece.at(u) }

@@ -32,7 +32,8 @@ pub struct TurnContact {
 const CLEARANCE_HALVINGS: usize = 16;
 
 /// Returns the resolution, metres, of the clearance of a free turn, if the clearance is below the arm's reach.
-pub(super) fn turn_resolution(arm: &Arm, clearance: f64) -> f64 {
+#[must_use]
+pub fn turn_resolution(arm: &Arm, clearance: f64) -> f64 {
     (clearance + arm.reach()) / f64::from(1u32 << (CLEARANCE_HALVINGS - 1))
 }
 

@@ -5,12 +5,12 @@
 //! The distance of the recorded motion changes no faster than the motion itself, which bounds it between the places of
 //! the search.
 
-use super::Moment;
 use cplan_geometry::Point;
 use cplan_handling::{Piece, Recording};
 use cplan_interrupt::checkpoint;
 use cplan_model::Arm;
 use cplan_model::space::Configuration;
+use cplan_motion::recorded::Moment;
 use std::cell::Cell;
 use std::f64::consts::TAU;
 

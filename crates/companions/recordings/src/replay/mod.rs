@@ -15,13 +15,13 @@ mod tool_joints;
 pub use fault::{Fault, OrderDeviation};
 pub use tool_joints::{MisplacedJoint, StepTool, misplaced_joints};
 
-use super::{
-    CollisionCheck, Limit, LimitViolation, TurnContact, WristTurn, check_collision, limit_violations, torque_violations,
-};
 use cplan_geometry::{Interval, Point, Pose};
 use cplan_handling::{Action, ObstacleTrajectory, RecordedStep, RecordedTurn, Recording, Step, Task, TimedScene};
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Goal, Scene};
+use cplan_motion::recorded::{
+    CollisionCheck, Limit, LimitViolation, TurnContact, WristTurn, check_collision, limit_violations, torque_violations,
+};
 use order::{MatchedStep, match_steps};
 use overlap::{Overlaps, PartialStroke, turn_faults, turning_at_rest};
 use state::{State, lowering_seconds, wrist_faults};
@@ -127,7 +127,7 @@ pub struct Replay<'a> {
 ///   an angle of the tool, the wrist must keep it between samples, too, and stay within its limits.
 /// - The end of each step. The tip must be at the grasp, and the object or the arm at its target, within a micrometre.
 ///   A turn must start at the object's orientation, last at least as long as the wrist needs, and be free
-///   ([`super::judge_given_turn`]). The arm must rest for the dwell, the turn, and the stroke of the tool. The stroke
+///   ([`judge_given_turn`]). The arm must rest for the dwell, the turn, and the stroke of the tool. The stroke
 ///   must be free at all its heights.
 /// - The values of the tool's joints at the start and at the end of a move. The arm rests while the tool is raised and
 ///   lowered there, except in overlaps, and the wrist turns from one value to the other within its limits.
@@ -284,7 +284,7 @@ impl<'a> Iterator for Replay<'a> {
         {
             let (stays, then) = (self.state.scene(task, released), self.state.trajectories(task, times[1]));
             let timed = TimedScene { scene: &stays, trajectories: &then };
-            let found = super::check_collision(timed, &standing, task.workspace.fixed.clearance);
+            let found = check_collision(timed, &standing, task.workspace.fixed.clearance);
             if !matches!(found, CollisionCheck::Free { .. }) {
                 (scene, trajectories, collision_check) = (stays, then, shifted(found, *recorded.samples.end()));
             }
@@ -295,7 +295,7 @@ impl<'a> Iterator for Replay<'a> {
             let Some(standing) = self.recording.part(sample..=sample) else { continue };
             let then = task.workspace.trajectories();
             let timed = TimedScene { scene: &below, trajectories: &then };
-            let found = super::check_collision(timed, &standing, task.workspace.fixed.clearance);
+            let found = check_collision(timed, &standing, task.workspace.fixed.clearance);
             match (&mut collision_check, found) {
                 (CollisionCheck::Free { clearance, .. }, CollisionCheck::Free { clearance: least, .. }) => {
                     *clearance = clearance.min(least);
@@ -322,7 +322,7 @@ impl<'a> Iterator for Replay<'a> {
                 broken.extend(held);
             }
             let timed = TimedScene { scene: &after, trajectories: &then };
-            let found = super::check_collision(timed, &standing, task.workspace.fixed.clearance);
+            let found = check_collision(timed, &standing, task.workspace.fixed.clearance);
             if !matches!(found, CollisionCheck::Free { .. }) {
                 (scene, trajectories, collision_check) = (after, then, shifted(found, *recorded.samples.end()));
             }

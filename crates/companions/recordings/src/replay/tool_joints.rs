@@ -6,13 +6,13 @@
 //! judged.
 
 use super::overlap::PartialStroke;
-use crate::recorded::{turn_angle, turn_profile};
-use crate::single;
 use cplan_handling::{
     Drives, Holding, RecordedJoints, RecordedStep, RecordedTurn, Recording, RobotJoints, Stroke, Task, ToolJoint,
     WristJoint,
 };
 use cplan_model::space::Configuration;
+use cplan_motion::recorded::{turn_angle, turn_profile};
+use cplan_motion::single;
 use thiserror::Error;
 
 /// Largest difference between a recorded and a stated value, radians or metres. It exceeds the difference between readers

@@ -1,10 +1,12 @@
 //! Strokes of the tool and turns of the wrist that overlap with a recorded motion.
 
 use super::state::{State, lowering_seconds};
-use super::{CollisionCheck, Fault, TIME_TOLERANCE};
-use crate::recorded::{StrokeDuringMotion, TurnCover, TurnDuringMotion, seconds_to_rise};
+use super::{Fault, TIME_TOLERANCE};
 use cplan_handling::{RecordedOverlap, RecordedStep, RecordedTurn, Recording, Task, Wrist};
 use cplan_model::Scene;
+use cplan_motion::recorded::{
+    CollisionCheck, Encounter, StrokeDuringMotion, TurnCover, TurnDuringMotion, seconds_to_rise,
+};
 
 /// A stroke that overlaps with a motion, and by how many seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -165,7 +167,7 @@ impl Overlaps {
         let mut check = checks.reduce(worse)?;
         // The check has more samples than the recording.
         let number = |time: f64| times.partition_point(|sample| *sample <= time).saturating_sub(1);
-        let renumber = |encounter: &mut super::super::Encounter| {
+        let renumber = |encounter: &mut Encounter| {
             encounter.moment.sample = number(encounter.moment.time);
         };
         match &mut check {

@@ -1,12 +1,11 @@
 //! The check of a result's claims about the steps of a task.
 
 use super::{FalseClaim, Ledger, TIME_TOLERANCE};
-use crate::recorded::replay::{PLACE_TOLERANCE, angle_between};
-use crate::recorded::wrist::turn_resolution;
-use crate::recorded::{GripperEvent, ReplayedStep};
+use crate::replay::{GripperEvent, PLACE_TOLERANCE, ReplayedStep, angle_between};
 use cplan_geometry::Point;
 use cplan_handling::{Action, Claims, EventClaim, RecordedStep, Recording, Task, TimedScene};
 use cplan_model::space::Configuration;
+use cplan_motion::recorded::turn_resolution;
 use cplan_text::length_unlike;
 
 /// Returns the false claims of a result about the step with this `index`, given its replay.

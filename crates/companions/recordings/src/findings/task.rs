@@ -1,11 +1,10 @@
 //! Findings about a task, step by step.
 
 use super::motion::{CollisionFinding, ExceededLimits, Judgement, LimitFinding, MotionFindings, limits, verdict};
+use crate::claims::{false_step_claims, false_task_claims};
+use crate::replay::{OrderDeviation, Replay, ReplayedStep, ReplayedTurn, StepTool};
 use cplan_handling::{Claims, RecordedStep, Recording, Task};
 use cplan_model::Scene;
-use cplan_motion::recorded::{
-    OrderDeviation, Replay, ReplayedStep, ReplayedTurn, StepTool, false_step_claims, false_task_claims,
-};
 use cplan_robot::AssumedLimits;
 use serde::Serialize;
 
@@ -129,7 +128,7 @@ impl TurnFinding {
 /// Judges all steps. Collisions and clearance of the whole task are those of one step: the first that collides,
 /// otherwise the first that is undecided, otherwise the one with the least clearance. Also returns the motion of the tool in
 /// each step.
-pub(super) fn judge_steps(
+pub(crate) fn judge_steps(
     task: &Task,
     scene: &Scene,
     assumed: &AssumedLimits,

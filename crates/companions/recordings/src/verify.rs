@@ -1,23 +1,13 @@
-//! Findings about configurations and recorded motions, as data. `cplan check` and `cplan verify` print them.
+//! The verdict on a recorded motion or task.
 
-mod configuration;
-mod motion;
-mod plan;
-mod task;
-
-pub use configuration::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
-use motion::ExceededLimits;
-pub use motion::{CollisionFinding, EncounterFinding, Judgement, LimitFinding, MomentFinding, MotionFindings};
-pub use plan::{FarthestFinding, PlanFinding};
-pub use task::{StepFinding, TurnContactFinding, TurnFinding};
-
+use super::claims::false_claims;
+use super::ends::{END_TOLERANCE, endpoint_errors};
+use super::findings::{self, ExceededLimits, Judgement, MotionFindings};
+use super::replay::{misplaced_joints, replay};
 use cplan_dynamics::Torques;
 use cplan_handling::{Claims, HeldMotion, RecordedStep, Recording, Task};
 use cplan_model::Scene;
-use cplan_motion::recorded::{
-    END_TOLERANCE, check_collision, check_collision_with, endpoint_errors, false_claims, limit_violations,
-    misplaced_joints, replay, torque_violations,
-};
+use cplan_motion::recorded::{check_collision, check_collision_with, limit_violations, torque_violations};
 use cplan_robot::InputError;
 use cplan_world::{AllJoints, LoadedRecording, LoadedScene, Overrides, Rules};
 
@@ -152,7 +142,7 @@ fn judge_task(
     );
     let replay = replay(task, recording, steps);
     let assumed = &loaded.robot.assumed;
-    let (findings, tools) = task::judge_steps(task, scene, assumed, (recording, steps), replay, claims, notes);
+    let (findings, tools) = findings::judge_steps(task, scene, assumed, (recording, steps), replay, claims, notes);
     let Some(AllJoints { joints, held }) = all_joints else { return Ok(findings) };
     let misplaced = misplaced_joints(task, &loaded.robot.joints, recording, (steps, &tools), joints);
     if misplaced.is_empty() || loaded.has_steps() {

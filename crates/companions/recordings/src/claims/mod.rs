@@ -7,11 +7,11 @@ mod steps;
 
 pub use steps::{false_step_claims, false_task_claims};
 
-use super::collision::{CollisionCheck, check_collision};
 use cplan_handling::{BlendsClaim, Claims, OptimumClaim, Recording, TimedScene};
 use cplan_judge::{Rejection, certify, certify_at};
 use cplan_model::space::{Configuration, Path};
 use cplan_model::{Arm, Scene};
+use cplan_motion::recorded::{CollisionCheck, check_collision};
 use cplan_text::length_unlike;
 use follow::follows;
 use std::fmt::Display;

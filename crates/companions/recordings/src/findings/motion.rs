@@ -171,7 +171,7 @@ pub struct LimitFinding {
 }
 
 /// Limits that a motion exceeds, by their source.
-pub(super) struct ExceededLimits {
+pub(crate) struct ExceededLimits {
     /// Violations of limits that the files state.
     pub given: Vec<LimitViolation>,
     /// Violations of limits that cplan assumes.
@@ -196,7 +196,7 @@ impl ExceededLimits {
 
 impl MotionFindings {
     /// Creates the findings from the results of the checks of one motion.
-    pub(super) fn new(
+    pub(crate) fn new(
         scene: &Scene,
         recording: &Recording,
         collision_check: &CollisionCheck,
@@ -216,7 +216,7 @@ impl MotionFindings {
     }
 
     /// Creates findings about a recording before any check: free, with clearance and limits not yet judged.
-    pub(super) fn of_nothing(scene: &Scene, recording: &Recording) -> Self {
+    pub(crate) fn of_nothing(scene: &Scene, recording: &Recording) -> Self {
         let joints = &scene.arm().joints;
         Self {
             verdict: Judgement::Free,
@@ -237,7 +237,7 @@ impl MotionFindings {
     }
 
     /// Adds faults. If there are any, and the verdict is better than `verdict`, it becomes `verdict`.
-    pub(super) fn with_faults(mut self, verdict: Judgement, faults: Vec<impl ToString>) -> Self {
+    pub(crate) fn with_faults(mut self, verdict: Judgement, faults: Vec<impl ToString>) -> Self {
         if !faults.is_empty() {
             self.verdict = self.verdict.max(verdict);
         }
@@ -246,14 +246,14 @@ impl MotionFindings {
     }
 
     /// Adds the claims of the file that are not judged.
-    pub(super) fn leaving(mut self, claims: &Claims) -> Self {
+    pub(crate) fn leaving(mut self, claims: &Claims) -> Self {
         self.not_judged.clone_from(&claims.unjudged);
         self
     }
 }
 
 /// Returns the verdict on a motion.
-pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[LimitViolation]) -> Judgement {
+pub(crate) fn verdict(collision_check: &CollisionCheck, broken: &[LimitViolation]) -> Judgement {
     match collision_check {
         CollisionCheck::Collision { .. } => Judgement::Collision,
         _ if !broken.is_empty() => Judgement::Limits,
@@ -264,7 +264,7 @@ pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[LimitViolation
 
 impl CollisionFinding {
     /// Converts the result of the collision check of a motion. `timed` is true if the motion has times.
-    pub(super) fn new(scene: &Scene, collision_check: &CollisionCheck, timed: bool) -> Self {
+    pub(crate) fn new(scene: &Scene, collision_check: &CollisionCheck, timed: bool) -> Self {
         let encounter = |e: &Encounter| encounter(scene, e, timed);
         match collision_check {
             CollisionCheck::Free { clearance, nearest } => Self {
@@ -290,7 +290,7 @@ impl CollisionFinding {
 }
 
 /// Converts violations of limits.
-pub(super) fn limits(joints: &[Joint; 2], broken: &[LimitViolation], timed: bool) -> Vec<LimitFinding> {
+pub(crate) fn limits(joints: &[Joint; 2], broken: &[LimitViolation], timed: bool) -> Vec<LimitFinding> {
     broken.iter().map(|excess| limit(joints, excess, timed)).collect()
 }
 
@@ -307,7 +307,7 @@ fn encounter(scene: &Scene, e: &Encounter, timed: bool) -> EncounterFinding {
     }
 }
 
-pub(super) fn moment(m: &Moment, timed: bool) -> MomentFinding {
+pub(crate) fn moment(m: &Moment, timed: bool) -> MomentFinding {
     MomentFinding {
         time: timed.then_some(m.time),
         waypoint: (!timed).then_some(m.time),

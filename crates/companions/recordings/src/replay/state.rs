@@ -1,6 +1,5 @@
 //! The places of all objects between the steps of a record.
 
-use super::super::{WristTurn, judge_given_turn, turn_angle, turn_profile};
 use super::{Fault, PLACE_TOLERANCE, ReplayedTurn, TIME_TOLERANCE, angle_between};
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{
@@ -9,6 +8,7 @@ use cplan_handling::{
 };
 use cplan_model::space::Configuration;
 use cplan_model::{Grip, Scene};
+use cplan_motion::recorded::{WristTurn, judge_given_turn, turn_angle, turn_profile};
 
 /// The places of the objects, and the load.
 #[derive(Debug, Clone)]

@@ -1,11 +1,11 @@
 //! The angle of the tool on recorded motions along a line.
 
 use super::Fault;
-use crate::recorded::limits::{Limit, LimitViolation, limit_violations};
 use cplan_deviation::{Deviation, Foot, Kinematics, Line, ToolDeviation};
 use cplan_handling::{FollowedLine, Recording, RecordingError, Task, Wrist, WristGuide, WristJoint};
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Joint, JointType};
+use cplan_motion::recorded::{Limit, LimitViolation, limit_violations};
 
 /// Returns the faults of the wrist along a line: it exceeds its limits, or the tool is not proven to keep the angle that
 /// the line asks for. `wrist` has the joint's values, velocities and accelerations at the samples of the motion.

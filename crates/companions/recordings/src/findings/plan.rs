@@ -1,9 +1,9 @@
 //! The distance of a recorded motion from a plan, as data.
 
 use super::motion::{MomentFinding, moment};
+use crate::plan_distance::{FarthestPlace, farthest_from_plan};
 use cplan_handling::Recording;
 use cplan_model::Arm;
-use cplan_motion::recorded::{FarthestPlace, farthest_from_plan};
 use serde::Serialize;
 
 /// The greatest distances of a recorded motion from the nearest place of a plan. Times are not compared.

@@ -1,0 +1,30 @@
+//! Judges recorded motions and tasks of any origin, and the claims in their files.
+//!
+//! - [`verify`] returns the verdict on a recording with all findings, as `cplan verify` prints it.
+//! - [`replay()`] repeats a recorded task: it matches the recorded steps with the task's (`order`), tracks the objects
+//!   and the load from the recorded configurations (`state`), and judges each motion in the scene of its moment.
+//! - [`false_claims`] judges the claims of a result. The samples are the motion, and all other members are claims about
+//!   it.
+//! - [`farthest_from_plan`] compares a recorded motion with the planned one.
+//!
+//! Collisions, limits and turns are judged by [`cplan_motion::recorded`], as are the motions that cplan plans itself.
+
+mod claims;
+mod ends;
+mod findings;
+mod plan_distance;
+mod replay;
+mod verify;
+
+pub use claims::{FalseClaim, false_claims, false_step_claims, false_task_claims};
+pub use ends::{END_TOLERANCE, EndpointError, endpoint_errors};
+pub use findings::{
+    CollisionFinding, EncounterFinding, FarthestFinding, Judgement, LimitFinding, MomentFinding, MotionFindings,
+    PlanFinding, StepFinding, TurnContactFinding, TurnFinding,
+};
+pub use plan_distance::{FarthestPlace, farthest_from_plan};
+pub use replay::{
+    Fault, GripperEvent, MisplacedJoint, OrderDeviation, Replay, ReplayedStep, ReplayedTurn, StepTool,
+    misplaced_joints, replay,
+};
+pub use verify::verify;
