@@ -154,6 +154,7 @@ fn places(path: &Path, patterns: &[(Regex, &str)], fragment: &Regex, message: &R
 }
 
 #[test]
+#[ignore = "a step of .ci/run"]
 fn the_count_of_unclear_lines_does_not_grow() {
     let compiled = |pattern: &str| Regex::new(&format!("(?i){pattern}")).unwrap();
     let patterns: Vec<(Regex, &str)> = PATTERNS.iter().map(|(pattern, advice)| (compiled(pattern), *advice)).collect();

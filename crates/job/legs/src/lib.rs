@@ -1,4 +1,5 @@
-//! The motion of a task, step by step: the answer of every planner of tasks, and what results, pictures and pages read.
+//! The motion of a task, step by step: the answer of every planner of tasks, which results, pictures
+//! and pages read.
 //!
 //! - [`Leg`]: the arm's actions for one step, with the motions of the tool's own joints ([`ToolStroke`], [`WristMotion`],
 //!   [`TimedTurn`]) and their [`Overlap`] with the motion of the arm.

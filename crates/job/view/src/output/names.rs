@@ -1,4 +1,4 @@
-//! Names of obstacles, links, joints and limits in sentences, and the sentence that says what is in the way.
+//! Names of obstacles, links, joints and limits in sentences, and the sentence about those in the way.
 
 use cplan_blockers::{BlockingSet, Element, Side};
 use cplan_model::{Arm, Joint, Obstruction, Pair, Scene};
