@@ -6,8 +6,8 @@
 
 use super::failed_step::{RefusedStep, farthest};
 use super::ik_solutions::UNREACHABLE;
-use super::motion_cache::{Refusal, require_unobstructed};
 use super::plan::Found;
+use super::refusal::{Refusal, require_unobstructed};
 use super::state::{Candidate, Candidates, State};
 use super::stroke::stroke;
 use cplan_handling::{Action, Item, Step, Task};

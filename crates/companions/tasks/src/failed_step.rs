@@ -1,6 +1,7 @@
 //! The step of a task that fails.
 
-use super::motion_cache::{Refusal, scene_after};
+use super::motion_cache::scene_after;
+use super::refusal::Refusal;
 use super::standstill::raising_of;
 use super::state::{Candidate, State};
 use super::stroke::stroke_scene;

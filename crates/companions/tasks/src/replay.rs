@@ -1,6 +1,6 @@
 //! Replays: how the planner found each motion of a task.
 
-use super::motion_cache::{of_legs, planned_again};
+use super::motion_path::{of_legs, planned_again};
 use cplan_handling::{Action, Task};
 use cplan_legs::{Leg, MotionReplay, TaskAnswer, TaskReplay};
 use cplan_solver::{Options, Phase, Replay, Shows};

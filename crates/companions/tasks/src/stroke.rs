@@ -1,7 +1,7 @@
 //! The stroke that lowers the tool at picks and places.
 
 use super::least_time::least_of_tool;
-use super::motion_cache::{Refusal, require_unobstructed};
+use super::refusal::{Refusal, require_unobstructed};
 use super::state::{Candidate, State};
 use cplan_handling::{Item, Step, Stroke, Task};
 use cplan_judge::certify;

@@ -17,7 +17,9 @@ mod timed_candidates;
 
 use super::failed_step::{RefusedStep, farthest};
 use super::heuristic::Heuristic;
-use super::motion_cache::{MotionCache, Refusal, of_legs, require_unobstructed};
+use super::motion_cache::MotionCache;
+use super::motion_path::of_legs;
+use super::refusal::{Refusal, require_unobstructed};
 use super::state::State;
 use cplan_geometry::OrderedF64;
 use cplan_handling::{Action, Item, Step, Task, TimedScene};

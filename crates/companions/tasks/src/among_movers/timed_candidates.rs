@@ -1,7 +1,7 @@
 //! Possible next steps among moving obstacles, and their times.
 
 use super::super::least_time::least_time;
-use super::super::motion_cache::Refusal;
+use super::super::refusal::Refusal;
 use super::super::state::{Candidate, State};
 use super::passing::{Passage, passages};
 use cplan_geometry::Interval;

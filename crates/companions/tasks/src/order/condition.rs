@@ -1,6 +1,6 @@
 //! Conditions on the orders in which a group can be done.
 
-use super::super::motion_cache::{Blockers, Refusal};
+use super::super::refusal::{Blockers, Refusal};
 
 /// A requirement on an order: the first pair comes before the second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

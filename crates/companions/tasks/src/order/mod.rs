@@ -235,12 +235,7 @@ impl Group<'_> {
 
     /// Learns a condition from the reasons why a pair cannot be done after the first `before` pairs. Returns this pair,
     /// followed by the other pairs of the condition.
-    fn derive_condition(
-        &mut self,
-        task: &Task,
-        before: usize,
-        refusals: &[super::motion_cache::Refusal],
-    ) -> Vec<usize> {
+    fn derive_condition(&mut self, task: &Task, before: usize, refusals: &[super::refusal::Refusal]) -> Vec<usize> {
         let pair = self.order[before];
         let mut done = vec![false; self.pairs.len()];
         self.order[..before].iter().for_each(|&pair| done[pair] = true);

@@ -1,7 +1,8 @@
 //! Tries the steps of a fixed order without planning motions.
 
 use super::super::least_time::least_time;
-use super::super::motion_cache::{MotionCache, Refusal};
+use super::super::motion_cache::MotionCache;
+use super::super::refusal::Refusal;
 use super::super::state::State;
 use cplan_geometry::OrderedF64;
 use cplan_handling::Task;
