@@ -7,7 +7,7 @@ use common::{Benchmark, benchmark, problem, w20};
 use cplan::Outcome;
 use cplan::cspace::bitmap;
 use cplan::engine::decide;
-use cplan::search::slab_connectivity;
+use cplan::proofs::slab_connectivity;
 use cplan::{Options, Problem, plan};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;

@@ -5,10 +5,10 @@
 //! ```
 
 use cplan::cspace::c_obstacles;
-use cplan::draw::{Picture, View, svg};
 use cplan::input;
 use cplan::model::Contacts;
 use cplan::motion::write_whole;
+use cplan::view::{Picture, View, svg};
 use std::error::Error;
 use std::path::PathBuf;
 

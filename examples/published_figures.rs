@@ -21,10 +21,10 @@ mod row;
 #[allow(dead_code, reason = "sweep counts are for published_tables")]
 mod silva;
 
+use cplan::compare::{Setup, convergence};
 use cplan::field::{
     Difference, Direction, Equation, Factor, Lines, Measure, Order, Precision, Relaxation, Scan, Stopping, trace,
 };
-use cplan::report::{Setup, convergence};
 use silva::Kind;
 use std::error::Error;
 
@@ -113,7 +113,7 @@ fn factors() -> Result<(), Box<dyn Error>> {
                 "Figures 6.1 to 6.3, weighted Jacobi (WJR): published 1.8 for all; ours, and the first that is lost"
             );
             for scan in &measured.weights {
-                let shown = |point: Option<cplan::report::Point>| {
+                let shown = |point: Option<cplan::compare::Point>| {
                     point.map_or_else(|| "-".into(), |p| format!("{:.2} ({} sweeps)", p.at, p.sweeps))
                 };
                 println!("  {:<13} {}, lost at {}", scan.equation, shown(scan.best()), shown(scan.divergence_start()));

@@ -14,7 +14,7 @@
 //!      [cspace]           C-obstacles: Regions (polygons) or Grid (cells), with what they prove
 //!          |
 //! [field] [planner]       visibility graph, trapezoids, wavefront, harmonic field -> a proposed path
-//!          |    [search]  slabs and boxes: proofs that there is no path, bounds on the shortest
+//!          |    [proofs]  slabs and boxes: proofs that there is no path, bounds on the shortest
 //!          |     /
 //!       [check]           the judge: certifies motions, checks proofs
 //!          |
@@ -22,7 +22,7 @@
 //!          |
 //!      [engine]           plan, certify, refine: Found, Infeasible or Unknown; tasks as sequences of motions
 //!          |
-//!   [draw] [report]       pictures and tables, pure functions of results
+//!  [view] [compare]       pictures and tables, pure functions of results
 //!          |
 //!        [cli]
 //! ```
@@ -44,7 +44,7 @@
 
 #[cfg(feature = "program")]
 pub mod cli;
-pub use cplan_compare as report;
+pub use cplan_compare as compare;
 pub use cplan_explore as explore;
 pub use cplan_geometry as geometry;
 pub use cplan_interrupt as interrupt;
@@ -52,16 +52,16 @@ pub use cplan_interrupt as interrupt;
 pub use cplan_live as live;
 pub use cplan_motion as motion;
 #[cfg(feature = "program")]
-use cplan_options as grammar;
+use cplan_options as options;
 #[cfg(feature = "program")]
 use cplan_parallel as parallel;
 pub use cplan_planners::cspace;
-pub use cplan_proofs as search;
+pub use cplan_proofs as proofs;
 #[cfg(feature = "study")]
 pub use cplan_study as study;
 #[cfg(feature = "program")]
 use cplan_text as text;
-pub use cplan_view as draw;
+pub use cplan_view as view;
 pub use cplan_view::output;
 pub use engine::{Criterion, NamedJoints, Options, Plan, PlanError, Planner, Problem, ProblemError, Refutation, plan};
 pub use geometry::Point;

@@ -1,11 +1,11 @@
 //! The floor of a room, whose obstacles stop a robot's rays and its body.
 
 use cplan::cspace::c_obstacles;
-use cplan::draw::{Picture, View, svg};
 use cplan::input::{self, InputError};
 use cplan::model::{Scene, Status};
 use cplan::nalgebra::Vector2;
 use cplan::space::Path;
+use cplan::view::{Picture, View, svg};
 use cplan::{Configuration, Point};
 use std::path::Path as File;
 

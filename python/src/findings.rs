@@ -131,7 +131,7 @@ pub fn explain_drawn(
     page: bool,
     time: f64,
 ) -> PyResult<String> {
-    let draw = if page { cplan::draw::page } else { cplan::draw::svg };
+    let draw = if page { cplan::view::page } else { cplan::view::svg };
     explained(py, arm, world, options, time, |explained| draw(&explained.view()))
 }
 

@@ -6,13 +6,13 @@ use super::files::Files;
 use super::sinks::{self, Sink};
 use super::theme::ThemeArgs;
 use super::values::clearance;
-use crate::draw::{CheckedView, Picture, View};
 use crate::engine::findings::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
-use crate::grammar::number_in;
 use crate::input::{self, JointValues, LoadedScene, RobotReport};
+use crate::options::number_in;
 use crate::output::{checked_words, configuration, contours, range};
 use crate::space::{Configuration, JointRange};
 use crate::text::{Columns, chosen_length, fixed, length, length_down, length_unlike};
+use crate::view::{CheckedView, Picture, View};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 

@@ -8,15 +8,15 @@ use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
 use super::theme::ThemeArgs;
+use crate::compare::{Setup, convergence};
 use crate::cspace::ZonedGrid;
 use crate::engine::{CellCounts, Problem, field_on_cells};
 use crate::field::{Difference, Direction, Domain, Equation, Initial, Limits, Measure, Stencil, Stopping};
-use crate::grammar::{OrderName, direction, finite, positive, word};
 use crate::input;
 use crate::motion::write_whole_set;
+use crate::options::{OrderName, direction, finite, positive, word};
 use crate::output::title_of;
 use crate::planner::EquationChoice;
-use crate::report::{Setup, convergence};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 

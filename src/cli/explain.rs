@@ -10,7 +10,6 @@ use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
 use super::theme::ThemeArgs;
 use super::values::time_limit;
-use crate::draw::View;
 use crate::engine::explain::{self, Explanation, MotionQuestion, StepFailure, TIME_LIMIT, explain, explain_step};
 use crate::engine::task::raising_at_start;
 use crate::engine::{Options, Plan, Problem, plan};
@@ -18,6 +17,7 @@ use crate::input::{self, DiagnosticKind, InputError, LoadedScene, Overrides, Rul
 use crate::model::{Action, Status};
 use crate::output::PlanOutput as _;
 use crate::text::for_a_shell;
+use crate::view::View;
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::path::PathBuf;

@@ -8,18 +8,18 @@ use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
 use super::theme::ThemeArgs;
-use crate::draw::{self, Picture, View};
 use crate::engine::{CellCounts, Method, Options};
 use crate::explore::{
     Ending, Exploration, ExploreError, Settings, Strategy, exploration_page, explore, map_description, map_picture,
 };
-use crate::grammar::{PlannerArgs, positive, word};
 use crate::input::{self, LoadedProblem, OccupancyMap, Rules};
 use crate::model::{Scene, Status};
 use crate::motion::{Format, JointMotion, Trajectory, check_writable, csv, ros_yaml, write_whole_set};
+use crate::options::{PlannerArgs, positive, word};
 use crate::output::{Line, contours, format_columns, title_of};
 use crate::space::{Configuration, Path as JointPath};
 use crate::text::{chosen_length, counted};
+use crate::view::{self, Picture, View};
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 
@@ -167,7 +167,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
             },
             Sink::CSpace(..) | Sink::Certificate(_) => (),
             Sink::Picture(format, path) => {
-                let svg = || draw::svg(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
+                let svg = || view::svg(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
                 // The page plays the readings, and needs no times of the motion.
                 let page_view = || view(&world, &done, None);
                 let page = || exploration_page(&page_view(), world.problem.scene(), &sensor, &done, args.timings);

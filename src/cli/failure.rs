@@ -1,11 +1,11 @@
 //! Failures that end a command before its result. Their exit code is 1, or 2 for a wrong command line.
 
 use super::exit::{BAD_INPUT, USAGE};
-use crate::draw::DrawError;
 use crate::engine::PlanError;
 use crate::input::InputError;
 use crate::motion::{FormatError, TimingError, WriteError};
 use crate::output::PictureFormatError;
+use crate::view::DrawError;
 use thiserror::Error;
 
 /// A failure, described for the user.

@@ -2,7 +2,7 @@
 
 use super::headings::OUTPUT;
 use crate::engine::NamedJoints;
-use crate::grammar::word;
+use crate::options::word;
 use clap::Args;
 
 /// Content of tables and messages.

@@ -55,7 +55,7 @@ pub use memory::MemoryMeter;
 pub use words::read_words;
 
 use crate::engine::Method;
-use crate::grammar::PlannerWords;
+use crate::options::PlannerWords;
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use commands::commands;

@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::program::Program;
 use super::sinks;
 use crate::engine::Method;
-use crate::grammar::{PlannerArgs, word};
+use crate::options::{PlannerArgs, word};
 use clap::Args;
 
 /// List the options of each planner.

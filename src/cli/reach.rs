@@ -8,14 +8,14 @@ use super::print_args::PrintArgs;
 use super::sinks;
 use super::theme::ThemeArgs;
 use super::values::clearance;
-use crate::draw::{Picture, View};
 use crate::engine::{Access, MAX_PLACES, Reach, reach, reach_section};
-use crate::grammar::positive;
 use crate::input::{self, JointValues, LoadedProblem, Overrides, Rules};
 use crate::model::Status;
 use crate::motion::{check_writable, write_whole_set};
+use crate::options::positive;
 use crate::output::{PictureFormat, contours, format_columns, title_of};
 use crate::text::{counted, fixed, length, percent};
+use crate::view::{Picture, View};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -121,7 +121,7 @@ fn object(world: &LoadedProblem, reach: &Reach) -> Value {
 
 /// Returns CSV with one line per solution: centre of the cell, joint values, and reachability.
 fn csv(world: &LoadedProblem, reach: &Reach) -> String {
-    let [a, b] = names(world).map(crate::report::quoted);
+    let [a, b] = names(world).map(crate::compare::quoted);
     let mut text = format!("x,y,{a},{b},access\n");
     for (place, solutions) in reach.places.iter().enumerate() {
         let at = reach.center(place);

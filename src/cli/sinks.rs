@@ -2,11 +2,11 @@
 
 use super::failure::Failure;
 use super::terminal;
-use crate::draw::View;
 use crate::input::FileIdentity;
 use crate::motion::{Format, check_writable, write_whole};
 use crate::output::{CSpaceFormat, PictureFormat};
 use crate::text::{plain, plain_json};
+use crate::view::View;
 use serde::Serialize;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! The option for the background of pictures.
 
-use crate::draw::View;
+use crate::view::View;
 use clap::{Args, ValueEnum};
 
 /// Backgrounds of pictures.

@@ -1,6 +1,6 @@
 //! Parsers for numbers on the command line.
 
-use crate::grammar::{finite, number_in};
+use crate::options::{finite, number_in};
 
 /// Longest time limit that a command accepts, in seconds: some thirty years.
 const MAX_JOB_SECONDS: f64 = 1e9;

@@ -1,7 +1,7 @@
 //! A planner with its own options, as one argument of `cplan compare`.
 
 use crate::engine::Planner;
-use crate::grammar::{EffortArgs, PlannerArgs, PlannerWords};
+use crate::options::{EffortArgs, PlannerArgs, PlannerWords};
 use clap::Parser;
 
 /// A planner with options, in the grammar of `cplan plan`.

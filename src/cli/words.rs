@@ -6,8 +6,8 @@ use super::message_args::MessageArgs;
 use super::plan::{self, PlanArgs};
 use super::query_args::QueryArgs;
 use crate::engine::{Method, Options};
-use crate::grammar::{MotionArgs, PlannerArgs, word};
 use crate::input::Overrides;
+use crate::options::{MotionArgs, PlannerArgs, word};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, Command, Parser};
 

@@ -5,7 +5,7 @@ use cplan::Outcome;
 use cplan::engine::{Answer, Bound, Criterion, Method, Planner, Space, bound, solve};
 use cplan::geometry::{Convex, Point};
 use cplan::model::MotionProblem;
-use cplan::search::{MotionQuery, least_length};
+use cplan::proofs::{MotionQuery, least_length};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path};
 use std::f64::consts::TAU;
 

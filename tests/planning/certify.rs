@@ -8,7 +8,7 @@ use cplan::check::{
 };
 use cplan::geometry::{Point, Vector};
 use cplan::model::{JointType, Scene};
-use cplan::search::{Connectivity, Occupancy, connectivity, explore};
+use cplan::proofs::{Connectivity, Occupancy, connectivity, explore};
 use cplan::space::{Configuration, JointRange, Path};
 use proptest::prelude::*;
 use std::f64::consts::PI;

@@ -8,7 +8,7 @@ use cplan::Outcome;
 use cplan::engine::{Method, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Arm, JointType, MotionProblem, Scene, inverse};
-use cplan::search::{Connectivity, MotionQuery, connectivity, least_length, slab_connectivity};
+use cplan::proofs::{Connectivity, MotionQuery, connectivity, least_length, slab_connectivity};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Segment};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -7,7 +7,7 @@ use cplan::input::{Overrides, Rules, load, load_scene};
 use cplan::interrupt::{Interrupt, Interrupted};
 use cplan::model::MotionProblem;
 use cplan::planner::Proposal;
-use cplan::search::{connectivity, slab_connectivity};
+use cplan::proofs::{connectivity, slab_connectivity};
 use std::path::Path;
 use std::time::{Duration, Instant};
 

@@ -6,7 +6,7 @@ use crate::random_worlds::world;
 use cplan::Outcome;
 use cplan::check::certify;
 use cplan::engine::{Method, solve};
-use cplan::search::{MotionQuery, least_length};
+use cplan::proofs::{MotionQuery, least_length};
 use cplan::space::Metric;
 
 /// Number of worlds of each kind of arm.

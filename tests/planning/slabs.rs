@@ -11,7 +11,7 @@ use cplan::engine::{Method, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{JointType, Scene};
-use cplan::search::{Connectivity, connectivity, slab_connectivity};
+use cplan::proofs::{Connectivity, connectivity, slab_connectivity};
 use cplan::space::{Configuration, GoalSet, JointRange};
 use proptest::prelude::*;
 use std::path::Path;

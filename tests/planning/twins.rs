@@ -8,7 +8,7 @@ use cplan::engine::{Method, solve};
 use cplan::geometry::Convex;
 use cplan::input::{self, Overrides};
 use cplan::model::{MotionProblem, Scene};
-use cplan::search::{Connectivity, connectivity};
+use cplan::proofs::{Connectivity, connectivity};
 use cplan::space::{Configuration, Path};
 use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::intersection_test;

@@ -6,7 +6,7 @@ use crate::cli::query_args::QueryArgs;
 use crate::cli::theme::ThemeArgs;
 use crate::cli::variant::Variant;
 use crate::engine::Method;
-use crate::grammar::{EffortArgs, MotionArgs, word};
+use crate::options::{EffortArgs, MotionArgs, word};
 use clap::{ArgGroup, Args, ValueHint};
 use std::path::PathBuf;
 

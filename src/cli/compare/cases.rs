@@ -3,10 +3,10 @@
 use super::args::CompareArgs;
 use super::pairs::free_pairs;
 use crate::cli::failure::Failure;
+use crate::compare::{Refusal, Sampling};
 use crate::input::{self, DiagnosticKind, ExcludedWorld, LoadedScene, Overrides, RefusedProblem, Suite};
 use crate::model::MotionProblem;
 use crate::output::title_of;
-use crate::report::{Refusal, Sampling};
 use crate::space::Configuration;
 use std::borrow::Cow;
 use std::path::PathBuf;

@@ -6,12 +6,12 @@ use crate::check::CheckedProof;
 use crate::cli::failure::Failure;
 use crate::cli::sinks;
 use crate::cli::theme::ThemeArgs;
-use crate::draw::{self, Picture, View};
+use crate::compare::{Comparison, Overlay, PathPictures, Purpose, SmallPicture, Study, labels};
 use crate::engine::{Options, Problem, plan};
 use crate::model::{MotionProblem, Scene, Status};
 use crate::output::{self, PictureFormat};
-use crate::report::{Comparison, Overlay, PathPictures, Purpose, SmallPicture, Study, labels};
 use crate::space::Path;
+use crate::view::{self, Picture, View};
 
 /// Largest number of random queries for which a page has pictures. Each query has its own.
 const MAX_DRAWN_QUERIES: usize = 6;
@@ -58,8 +58,8 @@ pub fn pictures(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<P
         let top =
             Purpose::ALL.into_iter().filter_map(|purpose| comparison.path_index(comparison.recommended(purpose)?));
         let top: Vec<usize> = top.collect();
-        let draw::ComparedPaths { large, small, colors } = draw::compared(&view, &format!("problem{problem}"), &top)?;
-        let small = small.map(|draw::SmallPicture { size, ground, paths, markers }| SmallPicture {
+        let view::ComparedPaths { large, small, colors } = view::compared(&view, &format!("problem{problem}"), &top)?;
+        let small = small.map(|view::SmallPicture { size, ground, paths, markers }| SmallPicture {
             size,
             ground,
             paths,

@@ -25,10 +25,10 @@ use super::sinks::{self, Sink};
 use super::terminal::BEST_VALUE;
 use super::variant::Variant;
 use super::words::message;
+use crate::compare::{Comparison, Emphasis, Page, Refusal, Study};
 use crate::engine::{Method, Options, Planner};
 use crate::input::LoadedScene;
 use crate::motion::write_whole_set;
-use crate::report::{Comparison, Emphasis, Page, Refusal, Study};
 use cases::{Case, Cases};
 use clap::Parser;
 use runner::{ComparisonResults, Entry, Runner};
@@ -223,8 +223,8 @@ impl Results<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compare::{Family, Row};
     use crate::model::Status;
-    use crate::report::{Family, Row};
 
     fn study(outcomes: &[&[Status]]) -> Study {
         let comparison = |outcomes: &&[Status]| Comparison {

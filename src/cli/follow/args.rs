@@ -6,7 +6,7 @@ use crate::cli::headings::OUTPUT;
 use crate::cli::print_args::PrintArgs;
 use crate::cli::theme::ThemeArgs;
 use crate::cli::values::{clearance, displacement, turn};
-use crate::grammar::positive;
+use crate::options::positive;
 use clap::{Args, ValueHint};
 use cplan_follow::{MIN_TOLERANCE, Settings, metres};
 use cplan_handling::ToolAngle;

@@ -2,10 +2,10 @@
 
 use super::Answered;
 use super::words::{exclusions, facts, figures, headline};
-use crate::draw::{LineSettings, LineView, Picture, View};
 use crate::model::{Goal, Outcome, Scene};
 use crate::output::{contours, title_of};
 use crate::space::{Configuration, JointRange, Path};
+use crate::view::{LineSettings, LineView, Picture, View};
 use cplan_follow::{Exclusion, Followed};
 
 /// Returns the picture: the line, the motion or the place without one, and the configuration space.

@@ -1,10 +1,10 @@
 //! The answer in words.
 
 use super::Answered;
-use crate::draw::KeyFigures;
 use crate::model::{Arm, Outcome};
 use crate::output::{format_columns, title_of};
 use crate::text::{counted, length, length_down, length_up};
+use crate::view::KeyFigures;
 use cplan_follow::{Cause, Exclusion, Found, Infeasible, Place};
 
 /// Returns the summary on stdout.

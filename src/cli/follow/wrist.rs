@@ -3,9 +3,9 @@
 use super::FollowArgs;
 use crate::cli::failure::Failure;
 use crate::cli::values::turn;
-use crate::grammar::number_in;
 use crate::input::LoadedScene;
 use crate::motion::{JointMotion, Trajectory};
+use crate::options::number_in;
 use crate::text::short;
 use cplan_follow::WristAlong;
 use cplan_handling::{

@@ -6,7 +6,7 @@ use crate::cli::print_args::PrintArgs;
 use crate::cli::query_args::QueryArgs;
 use crate::cli::theme::ThemeArgs;
 use crate::cli::values::{displacement, turn};
-use crate::grammar::{number_in, positive};
+use crate::options::{number_in, positive};
 use clap::{Args, ValueHint};
 use cplan_drawing::{MIN_TOLERANCE, Settings, Unit};
 use std::path::PathBuf;

@@ -12,11 +12,11 @@ use super::exit::DONE;
 use super::failure::Failure;
 use super::fresh::word;
 use super::sinks::{self, Sink};
-use crate::draw;
 use crate::input::{self, Diagnostic, Position, Source, World};
 use crate::motion::{check_writable, write_whole_set};
 use crate::output::format_columns;
 use crate::text::{counted, plain_line};
+use crate::view;
 use cplan_drawing::{Drawing, Format, Note, Settings};
 use layers::Layers;
 use obstacles::{ImportedObstacle, Placement};
@@ -111,7 +111,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     for sink in &pictures {
         let Sink::Picture(format, path) = sink else { continue };
         let svg = |is_dark| picture(args, &world, &taken, is_dark);
-        let page = || draw::still_page(&args.title(), &svg(false));
+        let page = || view::still_page(&args.title(), &svg(false));
         files.push((path.clone(), format.bytes_of(|| svg(args.theme.is_dark()), page)?));
     }
     files.extend(args.output.iter().map(|path| (path.clone(), text.clone().into_bytes())));
@@ -142,7 +142,7 @@ fn picture(args: &ImportArgs, world: &World, taken: &[ImportedObstacle], is_dark
     let obstacles = &world.workspace.fixed.obstacles;
     let below = format!("{}: {}", args.drawing.display(), counted(obstacles.len(), "obstacle"));
     let layers: Vec<&str> = taken.iter().map(|taken| taken.shape.layer.as_deref().unwrap_or(&taken.name)).collect();
-    draw::obstacles(&[args.title(), below], obstacles, &layers, is_dark)
+    view::obstacles(&[args.title(), below], obstacles, &layers, is_dark)
 }
 
 /// Prints the result on stdout. If the world goes to stdout, prints the result on stderr.
@@ -172,7 +172,7 @@ fn report(
 
 /// Describes how many obstacles were imported and left out, and the next command.
 fn summary(args: &ImportArgs, taken: &[ImportedObstacle], notes: &[String], world: &World) -> String {
-    let [x, y] = draw::extent(&world.workspace.fixed.obstacles);
+    let [x, y] = view::extent(&world.workspace.fixed.obstacles);
     let size = |(low, high): (f64, f64)| format!("{low:.3} to {high:.3}");
     let mut lines = vec![
         ("drawing", format!("{}: {}", args.drawing.display(), counted(taken.len(), "obstacle"))),

@@ -11,7 +11,7 @@ use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use super::theme::ThemeArgs;
 use super::values::turn;
-use crate::draw::{self, PolygonPair};
+use crate::view::{self, PolygonPair};
 use clap::{Args, ValueHint};
 use findings::Findings;
 use std::path::PathBuf;
@@ -77,8 +77,8 @@ pub fn run(args: &PolygonsArgs) -> Result<u8, Failure> {
             b: b.polygon.corners(),
             difference: &findings.parts,
         };
-        let svg = |is_dark| draw::polygon_pair(&pair, is_dark);
-        let page = || draw::still_page(&pair.title[0], &svg(false));
+        let svg = |is_dark| view::polygon_pair(&pair, is_dark);
+        let page = || view::still_page(&pair.title[0], &svg(false));
         crate::motion::write_whole(path, &format.bytes_of(|| svg(args.theme.is_dark()), page)?)?;
     }
     args.print.report(DONE, || sinks::pretty(&findings), || report::text(&findings))?;

@@ -10,7 +10,6 @@ use super::headings::OUTPUT;
 use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use super::theme::ThemeArgs;
-use crate::draw::{Picture, View};
 use crate::engine::certificate_of_recording;
 use crate::engine::findings::{Judgement, MotionFindings, PlanFinding, verify};
 use crate::input::{self, Digests, JointValues, Overrides, Rules, TipPoint};
@@ -18,6 +17,7 @@ use crate::model::TimedScene;
 use crate::motion::write_whole;
 use crate::output::{contours, title_of};
 use crate::space::Recording;
+use crate::view::{Picture, View};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 

@@ -3,11 +3,11 @@
 
 use super::direct;
 use super::promises::{monotone, random_domain};
+use cplan::compare::{Setup, convergence};
 use cplan::field::{
     Boundary, Cell, Component, Difference, Direction, Domain, Ending, Equation, Factor, Lattice, Levels, Lines,
     Measure, Order, Relaxation, Scan, Stopping, Trace, eliminated, harmonic, relax, trace,
 };
-use cplan::report::{Setup, convergence};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 

@@ -4,7 +4,7 @@ use super::{LIMITS, ROUNDING, bound, metrics};
 use crate::common::{arm, convex, disc, joint, link, motion_problem, q, rectangle, rr, scene};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, MotionProblem};
-use cplan::search::{MotionQuery, least_length};
+use cplan::proofs::{MotionQuery, least_length};
 use cplan::space::{Configuration, JointRange, Metric};
 use std::f64::consts::{PI, TAU};
 

@@ -9,7 +9,7 @@ mod shipped;
 mod worlds;
 
 use cplan::model::MotionProblem;
-use cplan::search::{MotionQuery, least_length};
+use cplan::proofs::{MotionQuery, least_length};
 use cplan::space::Metric;
 
 /// Relative error that rounding may add to a length.

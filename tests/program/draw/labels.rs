@@ -1,8 +1,8 @@
 //! Names in the pictures of all shipped worlds: none lies on an arm, on a marker or on another name.
 
 use cplan::PlanOutput as _;
-use cplan::draw::svg;
 use cplan::engine::Method;
+use cplan::view::svg;
 use cplan::{Options, Problem, plan};
 use std::path::{Path, PathBuf};
 

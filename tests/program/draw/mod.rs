@@ -9,11 +9,11 @@ mod scenes;
 mod tasks;
 
 use crate::common::placed;
-use cplan::draw::{Picture, View, svg};
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
 use cplan::planner::{CellKind, ChannelPoints, GraphKind, Trace};
 use cplan::space::{Configuration, JointRange, Path, Segment};
+use cplan::view::{Picture, View, svg};
 use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
 use std::f64::consts::PI;
 
@@ -31,7 +31,7 @@ fn inspected(name: &str, view: &View) -> String {
         let file = |extension: &str| std::path::Path::new(&folder).join(format!("{name}.{extension}"));
         std::fs::write(file("svg"), &text).unwrap();
         #[cfg(feature = "png")]
-        std::fs::write(file("png"), cplan::draw::png(&text, 1.0).unwrap()).unwrap();
+        std::fs::write(file("png"), cplan::view::png(&text, 1.0).unwrap()).unwrap();
     }
     let tree = roxmltree::Document::parse(&text).expect("well-formed");
     for node in tree.descendants().filter(|n| n.is_element()) {
@@ -329,7 +329,7 @@ fn a_motion_that_stays_where_it_is_is_drawn() {
 #[cfg(feature = "png")]
 mod raster {
     use super::*;
-    use cplan::draw::{DrawError, png};
+    use cplan::view::{DrawError, png};
     use std::collections::BTreeSet;
 
     fn drawn(picture: &Picture) -> String {

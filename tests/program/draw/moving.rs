@@ -1,8 +1,8 @@
 //! Animated pictures: first how the planner came to its answer, then the motion.
 
 use cplan::PlanOutput as _;
-use cplan::draw::{View, moving, svg};
 use cplan::engine::Method;
+use cplan::view::{View, moving, svg};
 use cplan::{Options, Plan, Problem, plan};
 use std::path::Path;
 
@@ -54,12 +54,12 @@ fn without_a_motion_the_proof_is_the_end_and_without_a_replay_there_is_the_motio
 fn the_last_picture_of_a_gif_is_the_still_one() {
     let view = plan_shipped("planar_2r", "shelf", Method::First).view_with_replay();
     let (mut heard, width) = ((0, 0), 480);
-    let bytes = cplan::draw::gif(&view, f64::from(width), &mut |done, all| heard = (done, all)).unwrap();
-    assert_eq!(bytes, cplan::draw::gif(&view, f64::from(width), &mut |_, _| ()).unwrap(), "the same bytes each time");
+    let bytes = cplan::view::gif(&view, f64::from(width), &mut |done, all| heard = (done, all)).unwrap();
+    assert_eq!(bytes, cplan::view::gif(&view, f64::from(width), &mut |_, _| ()).unwrap(), "the same bytes each time");
     assert!(heard.0 == heard.1 && heard.1 == moving(&view).count());
     let (count, pixels) = last_picture(&bytes, width);
     assert!(count > 40 && bytes.len() < 2_000_000);
-    let still = cplan::draw::png(&svg(&view), f64::from(width) / 1400.0).unwrap();
+    let still = cplan::view::png(&svg(&view), f64::from(width) / 1400.0).unwrap();
     let still = tiny_skia::Pixmap::decode_png(&still).unwrap();
     assert_eq!(still.pixels().len(), pixels.len());
     // A palette has 255 colours, so shades between two of them differ slightly.

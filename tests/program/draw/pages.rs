@@ -4,13 +4,13 @@ use super::{configuration, plain_picture, planar_scene, torus};
 use crate::common::{Benchmark, benchmark};
 use cplan::check::certify;
 use cplan::cspace::c_obstacles;
-use cplan::draw::{AxesFrame, Picture, View, page};
 use cplan::geometry::Point;
 use cplan::model::Status;
 use cplan::motion::Drive;
 use cplan::planner::{CellKind, ChannelPoints, GraphKind, Trace};
-use cplan::search::{Connectivity, connectivity};
+use cplan::proofs::{Connectivity, connectivity};
 use cplan::space::Path;
+use cplan::view::{AxesFrame, Picture, View, page};
 use nalgebra::Vector3;
 use serde_json::Value;
 
@@ -138,7 +138,7 @@ fn other_traces_keep_their_parts() {
         serde_json::json!({ "kind": "roads", "edges": [0.0, 0.5, 1.0, -0.25], "expanded": [1.0, -0.25, 0.0, 0.5] });
     assert_eq!(shown(&roads), output);
     let picture = Picture { trace: Some(&roads), ..plain_picture(&scene, &[]) };
-    let svg = cplan::draw::svg(&View::of_picture(&picture));
+    let svg = cplan::view::svg(&View::of_picture(&picture));
     assert!(["roadmap", "expanded first", "expanded last"].iter().all(|key| svg.contains(key)), "{svg}");
     let cell = vec![configuration(0.0, 0.0), configuration(1.0, 0.0), configuration(0.0, 1.0)];
     let channel = shown(&Trace::Channel {

@@ -5,7 +5,6 @@ use super::{inspected, pages, words};
 use crate::common::{convex, disc};
 use cplan::Outcome;
 use cplan::cspace::{CObstacle, c_obstacles};
-use cplan::draw::{Picture, TaskPicture, View};
 use cplan::engine::Method;
 use cplan::engine::task::{Event, TaskAnswer, plan};
 use cplan::geometry::{Point, Pose};
@@ -13,6 +12,7 @@ use cplan::model::{
     Action, Goal, Heights, Holding, Item, Object, Obstacle, Scene, Shape, Step, Task, ToolValues, Workspace, Wrist,
 };
 use cplan::space::Configuration;
+use cplan::view::{Picture, TaskPicture, View};
 use std::collections::BTreeSet;
 
 const START: [f64; 2] = [0.2, 2.2];
