@@ -1,8 +1,6 @@
 //! Benchmarks of motions among moving obstacles, from the loaded world to a certified motion in time, or the proof that
 //! no timing helps. The first is the median over random worlds with ten moving obstacles each.
 
-#[path = "../tests/common/mod.rs"]
-mod common;
 #[path = "../tests/moving/drawn.rs"]
 #[allow(dead_code, reason = "the tests use more of it")]
 mod drawn;

@@ -2,17 +2,13 @@
 //! whole visibility graph, and one query. The textbook's visibility graph, which tests every pair of corners against
 //! every side, is measured beside them.
 
-#[path = "../tests/common/roadmap.rs"]
-#[allow(dead_code, reason = "the judges of the test suite are not needed here")]
-mod roadmap;
-
 use cplan::cspace::Regions;
 use cplan::geometry::{Point, segments_cross};
 use cplan::planner::{Planner, Proposal, Query, Trapezoid, Visibility};
 use cplan::space::Metric;
 use cplan_cases::dice::{self, Dice};
+use cplan_testkit::roadmap::{configuration, sides, star_crowd};
 use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
-use roadmap::{configuration, sides, star_crowd};
 use std::hint::black_box;
 
 /// Total numbers of corners of the scenes.

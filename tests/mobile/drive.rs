@@ -1,7 +1,5 @@
 //! The controller of a differential drive: the signs of its terms, its closed form, and plans that it follows.
 
-use crate::common::dice;
-use crate::common::random::{seeds, uses_default_cases};
 use crate::mobile::floor::Floor;
 use crate::mobile::robot::{Pose, Robot};
 use crate::mobile::tanh::{AHEAD, CYCLE, DEVIATION, Nearest, PASSED, Tanh, follow, nearest, speeds, waypoints};
@@ -10,6 +8,7 @@ use crate::plain::least_gap;
 use cplan::model::{Arm, Obstacle, Scene, Workspace};
 use cplan::nalgebra::Vector2;
 use cplan::{Options, Outcome, Point, Problem, plan};
+use cplan_cases::{dice, seeds, uses_default_cases};
 
 const LAW: Tanh = Tanh { pull: 10.0, push: 1.0, range: 0.26 };
 

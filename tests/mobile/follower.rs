@@ -1,7 +1,5 @@
 //! The wall follower: it aligns itself with walls, keeps moving, and touches nothing.
 
-use crate::common::dice;
-use crate::common::random::seeds;
 use crate::mobile::START;
 use crate::mobile::floor::Floor;
 use crate::mobile::follower::{SONARS, follow, sonar};
@@ -10,6 +8,7 @@ use crate::mobile::occupancy::Occupancy;
 use crate::mobile::robot::{Pose, Robot};
 use crate::plain::{RADIUS, gap, least_gap};
 use cplan::Point;
+use cplan_cases::{dice, seeds};
 
 fn floor(name: &str) -> Floor {
     Floor::load(&format!("explore/{name}.toml")).unwrap_or_else(|e| panic!("{e}"))

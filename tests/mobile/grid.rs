@@ -1,7 +1,5 @@
 //! The sensors and the published occupancy grid.
 
-use crate::common::dice;
-use crate::common::random::seeds;
 use crate::mobile::floor::Floor;
 use crate::mobile::forces::force;
 use crate::mobile::occupancy::{CELLS, Occupancy, SIDE, cell, place};
@@ -9,6 +7,7 @@ use crate::mobile::robot::Pose;
 use crate::plain::{RADIUS, gap};
 use cplan::Point;
 use cplan::nalgebra::Vector2;
+use cplan_cases::{dice, seeds};
 
 fn floors() -> [Floor; 2] {
     ["explore/hall.toml", "explore/house.toml"].map(|world| Floor::load(world).unwrap_or_else(|e| panic!("{e}")))
@@ -41,7 +40,7 @@ fn rays_end_where_steps_of_the_free_distance_end() {
         assert!((range - expected).abs() < 1e-3, "seed {seed}: {range} from {from} at {angle}, not {expected}");
         met += usize::from(range < 8.0);
     }
-    assert!(met > 100 || !crate::common::random::uses_default_cases(), "{met}");
+    assert!(met > 100 || !cplan_cases::uses_default_cases(), "{met}");
 }
 
 #[test]

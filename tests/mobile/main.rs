@@ -3,8 +3,6 @@
 #[path = "../../examples/published_tables/alves.rs"]
 #[allow(dead_code, reason = "notes are for readers of the tables")]
 mod alves;
-#[path = "../common/mod.rs"]
-mod common;
 mod drive;
 mod follower;
 mod grid;

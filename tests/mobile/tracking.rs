@@ -1,7 +1,5 @@
 //! The controller that follows a moving point: its closed form, and cells of a wave and of A\* that it follows.
 
-use crate::common::dice;
-use crate::common::random::seeds;
 use crate::mobile::floor::Floor;
 use crate::mobile::robot::Robot;
 use crate::mobile::tanh::{AHEAD, CYCLE, PASSED, speeds};
@@ -12,6 +10,7 @@ use cplan::engine::{CellCounts, GridSpace, Method, Planner, Setting};
 use cplan::model::{Scene, Workspace};
 use cplan::planner::{GridSearch, PathKind};
 use cplan::{Options, Point, Problem, plan};
+use cplan_cases::{dice, seeds};
 
 const LAW: Tracking = Tracking { gain: 1.0, speed: 0.5 };
 

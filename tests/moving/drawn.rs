@@ -1,7 +1,5 @@
 //! Random worlds with moving obstacles, whose poses the tests compute themselves.
 
-use crate::common::dice::Dice;
-use crate::common::{disc, rectangle};
 use crate::oracle::Oracle;
 use crate::world::{KINDS, world};
 use cplan::geometry::{Convex, Point, Vector};
@@ -11,6 +9,8 @@ use cplan::model::{
 use cplan::motion::Trajectory;
 use cplan::space::{Configuration, GoalSet};
 use cplan::{Problem, ProblemError};
+use cplan_cases::dice::Dice;
+use cplan_testkit::shapes::{disc, rectangle};
 
 /// A world with moving obstacles.
 pub struct Moving {

@@ -2,8 +2,6 @@
 //! force.
 
 mod belts;
-#[path = "../common/mod.rs"]
-mod common;
 mod drawn;
 mod found;
 mod judged;

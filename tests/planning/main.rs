@@ -4,8 +4,6 @@ mod bound;
 mod certificates;
 mod certify;
 mod checked_bounds;
-#[path = "../common/mod.rs"]
-mod common;
 mod contract;
 mod decide;
 mod explaining;

@@ -1,7 +1,5 @@
 //! Visibility graph and trapezoidal decomposition, compared with brute force, flood fill and closed forms.
 
-use crate::common::dice::Dice;
-use crate::common::roadmap::*;
 use cplan::cspace::{PolygonWithHoles, Regions};
 use cplan::geometry::Point;
 use cplan::planner::{
@@ -9,6 +7,8 @@ use cplan::planner::{
     Visibility, VisibilityGraph, Voronoi,
 };
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path, Topology};
+use cplan_cases::dice::Dice;
+use cplan_testkit::roadmap::*;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 

@@ -1,12 +1,12 @@
 //! Voronoi diagrams, and the paths of greatest clearance along them, compared with distances from all sides, with
 //! floods over grids, and with closed forms.
 
-use crate::common::dice::Dice;
-use crate::common::roadmap::*;
 use cplan::cspace::{PolygonWithHoles, Proves, Regions};
 use cplan::geometry::Point;
 use cplan::planner::{PathKind, Planner, Proposal, Query, Run, Size, Trace, Voronoi};
 use cplan::space::{Configuration, JointRange, Measure, Metric, Path, Segment, Topology};
+use cplan_cases::dice::Dice;
+use cplan_testkit::roadmap::*;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 

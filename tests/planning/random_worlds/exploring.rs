@@ -7,13 +7,13 @@ use super::flood::{Truth, connected};
 use super::oracle::Oracle;
 use super::solid::Solid;
 use super::world::{KINDS, world};
-use crate::common::random::seeds;
 use cplan::explore::{Ending, Exploration, Settings, Strategy, explore, map_description, map_picture};
 use cplan::geometry::Convex;
 use cplan::input::{Occupancy, OccupancyMap};
 use cplan::model::{MotionProblem, Mount, Scene, Sensor};
 use cplan::space::{Configuration, Path, Topology};
 use cplan::{Point, engine};
+use cplan_cases::seeds;
 use std::f64::consts::TAU;
 
 const STRATEGIES: [Strategy; 5] =

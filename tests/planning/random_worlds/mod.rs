@@ -24,10 +24,10 @@ pub mod oracle;
 pub mod solid;
 pub mod world;
 
-use crate::common::random::seeds;
 use cplan::Outcome;
 use cplan::engine::{Answer, Method, Options, Planner, solve};
 use cplan::model::MotionProblem;
+use cplan_cases::seeds;
 use flood::{Truth, connected};
 use oracle::Oracle;
 use std::sync::Mutex;

@@ -2,7 +2,6 @@
 
 use super::scenes::{TURN, arm, block, capsule, circle, interval, polygon};
 use super::{inspected, pages, words};
-use crate::common::{convex, disc};
 use cplan::Outcome;
 use cplan::cspace::{CObstacle, c_obstacles};
 use cplan::draw::{Picture, TaskPicture, View};
@@ -13,6 +12,7 @@ use cplan::model::{
     Action, Goal, Heights, Holding, Item, Object, Obstacle, Scene, Shape, Step, Task, ToolValues, Workspace, Wrist,
 };
 use cplan::space::Configuration;
+use cplan_testkit::shapes::{convex, disc};
 use std::collections::BTreeSet;
 
 const START: [f64; 2] = [0.2, 2.2];
