@@ -14,9 +14,6 @@ mod full_graph;
 mod goal_seams;
 mod goal_sets;
 mod interrupt;
-#[path = "../program/verify/judged.rs"]
-#[allow(dead_code, reason = "other test programs ask more")]
-mod judged;
 mod optimum;
 mod own_bodies;
 mod published;

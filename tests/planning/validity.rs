@@ -2,7 +2,6 @@
 //! Before these checks existed, penetrations of a clockwise square were wrong, and problems without goals, or with a
 //! start out of range, were reported as infeasible.
 
-use crate::random_worlds::world;
 use cplan::Outcome;
 use cplan::engine::{Method, solve};
 use cplan::geometry::{
@@ -19,6 +18,7 @@ use cplan_testkit::arms::{link, rr};
 use cplan_testkit::problems::motion_problem;
 use cplan_testkit::scenes::{obstacle, placed, q};
 use cplan_testkit::shapes::{disc, rectangle, wall};
+use cplan_testkit::world;
 use std::f64::consts::PI;
 
 const NAN: f64 = f64::NAN;

@@ -5,6 +5,14 @@
 
 #[cfg(feature = "cplan")]
 pub mod arms;
+#[cfg(feature = "cplan")]
+pub mod follow_oracle;
+#[cfg(feature = "program")]
+pub mod judged;
+#[cfg(feature = "cplan")]
+pub mod moving;
+#[cfg(feature = "cplan")]
+pub mod oracle;
 pub mod parry;
 #[cfg(feature = "cplan")]
 pub mod problems;
@@ -15,6 +23,10 @@ pub mod roadmap;
 #[cfg(feature = "cplan")]
 pub mod scenes;
 pub mod shapes;
+#[cfg(feature = "cplan")]
+pub mod solid;
+#[cfg(feature = "cplan")]
+pub mod world;
 
 // `roadmap` imports it from here, because `benches/peers/rust` compiles that file, too, beside a `dice` of its own.
 #[cfg(feature = "cplan")]

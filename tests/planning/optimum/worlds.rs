@@ -1,7 +1,6 @@
 //! Random worlds with all kinds of arms: no planner finds a motion that is shorter than the bound.
 
 use super::{LIMITS, ROUNDING, bound, metrics};
-use crate::random_worlds::world;
 use cplan::engine::{Criterion, Method, Options, Planner, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::MotionProblem;
@@ -10,6 +9,7 @@ use cplan_testkit::arms::all_kinds;
 use cplan_testkit::problems::motion_problem;
 use cplan_testkit::scenes::{configuration_at_fractions, scene};
 use cplan_testkit::shapes::{convex, disc, rectangle, wall};
+use cplan_testkit::world;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

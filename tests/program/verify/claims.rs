@@ -1,8 +1,8 @@
 //! Results with one false claim: the judge finds every change of each claim that it checks.
 
-use super::judged::{Question, judge, plan_result};
 use cplan::input::Overrides;
 use cplan_cases::dice::Dice;
+use cplan_testkit::judged::{Question, judge, plan_result};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 

@@ -1,9 +1,9 @@
 //! Motions of joints other than the arm's two: a quill that moves up and down, and a wrist that turns.
 
-use super::judged::{Question, judge};
 use crate::cli::Place;
 use cplan::input::{InputError, Source, scene_from};
 use cplan::space::Configuration;
+use cplan_testkit::judged::{Question, judge};
 use serde_json::Value;
 use std::fmt::Write;
 

@@ -1,7 +1,6 @@
 //! Tests of motions along lines. Each answer is compared with checks that share no code with the crate.
 
 mod gantry;
-mod oracle;
 mod random;
 mod smooth;
 mod tiny;
@@ -10,8 +9,8 @@ mod wrist;
 use cplan_follow::{Cause, FollowError, Found, Infeasible, Settings, follow, follow_between};
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
+use cplan_testkit::follow_oracle::{self as oracle, Bars, Point, pass_together, played, points};
 use cplan_toolpath::{Format, Placement, Toolpath, read};
-use oracle::{Bars, Point, pass_together, played, points};
 
 const BARS: Bars = Bars { lengths: [1.0, 0.8], width: 0.06 };
 

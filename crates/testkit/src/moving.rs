@@ -1,6 +1,7 @@
 //! Random worlds with moving obstacles, whose poses the tests compute themselves.
 
 use crate::oracle::Oracle;
+use crate::shapes::{disc, rectangle};
 use crate::world::{KINDS, world};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
@@ -10,7 +11,6 @@ use cplan::motion::Trajectory;
 use cplan::space::{Configuration, GoalSet};
 use cplan::{Problem, ProblemError};
 use cplan_cases::dice::Dice;
-use cplan_testkit::shapes::{disc, rectangle};
 
 /// A world with moving obstacles.
 pub struct Moving {

@@ -1,7 +1,7 @@
 //! The arm among its obstacles by brute force. It shares no code with the library except the types of its input:
 //! kinematics and distances are its own.
 
-use super::solid::{Solid, V, add, dot, norm, rotate, sub};
+use crate::solid::{Solid, V, add, dot, norm, rotate, sub};
 use cplan::model::{Carrier, JointType, Scene};
 use cplan::space::{Configuration, Path};
 

@@ -1,6 +1,9 @@
 //! Random worlds, the same for the same seed: all kinds of arms among touching, thin and pointed obstacles.
 
-use super::oracle::Oracle;
+use crate::oracle::Oracle;
+use crate::problems::motion_problem;
+use crate::scenes::placed;
+use crate::shapes::{convex, disc, wall};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
     Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, SelfObstacle,
@@ -8,9 +11,6 @@ use cplan::model::{
 };
 use cplan::space::{Configuration, GoalSet, JointRange};
 use cplan_cases::dice::Dice;
-use cplan_testkit::problems::motion_problem;
-use cplan_testkit::scenes::placed;
-use cplan_testkit::shapes::{convex, disc, wall};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 

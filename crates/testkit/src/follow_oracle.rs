@@ -1,6 +1,6 @@
-//! Checks that share no code with the crate: kinematics, distances, and the order of a line's points.
+//! Checks of motions along lines that share no code with the crate `follow`: kinematics, distances, and the order of a line's points.
 
-use cplan_motion::Trajectory;
+use cplan::motion::Trajectory;
 use cplan_toolpath::Toolpath;
 
 pub type Point = [f64; 2];

@@ -1,5 +1,4 @@
 //! Convex bodies and their distance, for the oracles: separating axes if they overlap, corners to sides if not.
-#![allow(dead_code, reason = "each oracle uses some of it")]
 
 use cplan::geometry::Convex;
 
