@@ -1,13 +1,13 @@
 //! The sensors and the published occupancy grid.
 
-use crate::mobile::floor::Floor;
-use crate::mobile::forces::force;
-use crate::mobile::occupancy::{CELLS, Occupancy, SIDE, cell, place};
-use crate::mobile::robot::Pose;
 use crate::plain::{RADIUS, gap};
 use cplan::Point;
 use cplan::nalgebra::Vector2;
 use cplan_cases::{dice, seeds};
+use cplan_testkit::mobile::floor::Floor;
+use cplan_testkit::mobile::forces::force;
+use cplan_testkit::mobile::occupancy::{CELLS, Occupancy, SIDE, cell, place};
+use cplan_testkit::mobile::robot::Pose;
 
 fn floors() -> [Floor; 2] {
     ["explore/hall.toml", "explore/house.toml"].map(|world| Floor::load(world).unwrap_or_else(|e| panic!("{e}")))

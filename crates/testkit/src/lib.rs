@@ -7,15 +7,23 @@
 pub mod arms;
 #[cfg(feature = "cplan")]
 pub mod follow_oracle;
+#[cfg(feature = "cplan")]
+pub mod football;
 #[cfg(feature = "program")]
 pub mod judged;
+#[cfg(feature = "cplan")]
+pub mod mobile;
 #[cfg(feature = "cplan")]
 pub mod moving;
 #[cfg(feature = "cplan")]
 pub mod oracle;
 pub mod parry;
 #[cfg(feature = "cplan")]
+pub mod pictures;
+#[cfg(feature = "cplan")]
 pub mod problems;
+#[cfg(feature = "cplan")]
+pub mod published;
 #[cfg(feature = "cplan")]
 pub mod reference;
 #[cfg(feature = "cplan")]
@@ -27,6 +35,8 @@ pub mod shapes;
 pub mod solid;
 #[cfg(feature = "cplan")]
 pub mod world;
+#[cfg(feature = "cplan")]
+pub mod world_reference;
 
 // `roadmap` imports it from here, because `benches/peers/rust` compiles that file, too, beside a `dice` of its own.
 #[cfg(feature = "cplan")]

@@ -121,7 +121,7 @@ impl Match {
     }
 
     /// Plays one frame, and returns the state at its beginning.
-    pub fn next(&mut self) -> Result<Frame, RelaxError> {
+    pub fn next_frame(&mut self) -> Result<Frame, RelaxError> {
         self.state.choose_seekers();
         let moments = [0, 1, 2, 3].map(|k| if k < 3 { self.state.of_one(k) } else { self.state.of_red() });
         let solver = Solver::Relaxation(Relaxation::sor(Factor::Given(FACTOR), Order::Lines(Scan::ROWS)));
