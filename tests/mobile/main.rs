@@ -1,4 +1,4 @@
-//! Mobile robots from the literature (`examples/mobile`), compared with geometry and formulas of the tests.
+//! Mobile robots from the literature (`crates/testkit/src/mobile`), compared with geometry and formulas of the tests.
 
 mod drive;
 mod follower;

@@ -14,7 +14,9 @@ use cplan_cases::dice::Dice;
 
 /// A world with moving obstacles.
 pub struct Moving {
+    /// The kind of arm and the seed, for messages.
     pub name: String,
+    /// The arm.
     pub arm: Arm,
     workspace: TimedWorkspace,
     start: Configuration,
@@ -49,6 +51,7 @@ impl Moving {
         Problem::new(self.arm.clone(), workspace, self.start, self.goals.clone())
     }
 
+    /// Returns the problem among the moving obstacles.
     pub fn problem(&self) -> Problem {
         self.problem_among(self.workspace.clone()).expect("a problem")
     }
