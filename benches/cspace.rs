@@ -1,17 +1,15 @@
 //! Configuration space from slices, compared with parry2d's collision tests.
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
 use cplan::cspace::{Slice, grid_from_slices, outer_grid, sampled_grid};
 use cplan::model::Contacts;
+use cplan_testkit::scenes;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
 const CELLS: [usize; 2] = [1024, 1024];
 
 fn slices(c: &mut Criterion) {
-    let scene = common::w20();
+    let scene = scenes::w20();
     let slices = Contacts::new(&scene);
     let mut slice = Slice::default();
     let mut step = 0_u32;
@@ -25,7 +23,7 @@ fn slices(c: &mut Criterion) {
 }
 
 fn grids(c: &mut Criterion) {
-    let scene = common::w20();
+    let scene = scenes::w20();
     let mut group = c.benchmark_group("W20, 1024 x 1024 cells");
     group.bench_function("from slices", |b| b.iter(|| grid_from_slices(black_box(&scene), CELLS, 0.0)));
     group.bench_function("from slices, outer", |b| b.iter(|| outer_grid(black_box(&scene), CELLS, 0.0)));

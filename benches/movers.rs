@@ -1,23 +1,10 @@
 //! Benchmarks of motions among moving obstacles, from the loaded world to a certified motion in time, or the proof that
 //! no timing helps. The first is the median over random worlds with ten moving obstacles each.
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-#[path = "../tests/moving/drawn.rs"]
-#[allow(dead_code, reason = "the tests use more of it")]
-mod drawn;
-#[path = "../tests/planning/random_worlds/oracle.rs"]
-#[allow(dead_code, reason = "the tests use more of it")]
-mod oracle;
-#[path = "../tests/planning/random_worlds/solid.rs"]
-mod solid;
-#[path = "../tests/planning/random_worlds/world.rs"]
-#[allow(dead_code, reason = "the tests use more of it")]
-mod world;
-
 use cplan::{Options, Outcome, Problem, plan};
+use cplan_testkit::moving::Moving;
+use cplan_testkit::world;
 use criterion::{Criterion, criterion_group, criterion_main};
-use drawn::Moving;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::{Duration, Instant};

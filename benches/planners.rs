@@ -1,13 +1,11 @@
 //! Benchmarks of every planner on the benchmark problem A (a narrow passage on the torus) and on a shipped workspace:
 //! the configuration space, the preparation, and one query.
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
 use cplan::cspace::{Grid, Regions, outer_grid, regions};
 use cplan::input::{self, Overrides};
 use cplan::model::MotionProblem;
 use cplan::planner::{Harmonic, Planner, Proposal, Query, Trapezoid, Visibility, Wavefront};
+use cplan_testkit::problems;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::path::Path;
@@ -52,7 +50,7 @@ fn measure<P: Planner>(c: &mut Criterion, name: &str, problem: &MotionProblem, p
 }
 
 fn planners(c: &mut Criterion) {
-    for (name, problem) in [("problem A", common::problem(common::Benchmark::A)), ("shelf", shelf())] {
+    for (name, problem) in [("problem A", problems::problem(problems::Benchmark::A)), ("shelf", shelf())] {
         let n = sufficient(&problem);
         let mut group = c.benchmark_group(format!("{name}/space"));
         group.bench_function("polygons", |b| b.iter(|| polygons(black_box(&problem))));

@@ -1,11 +1,10 @@
 //! Polygonal free space of an arm with two continuous joints, and of one with limits.
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
-use common::{Benchmark, benchmark, rr, scene, spiral, w20};
 use cplan::cspace::regions;
 use cplan::space::{Configuration, JointRange};
+use cplan_testkit::arms::rr;
+use cplan_testkit::problems::{Benchmark, benchmark};
+use cplan_testkit::scenes::{scene, spiral, w20};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 

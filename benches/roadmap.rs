@@ -2,17 +2,13 @@
 //! whole visibility graph, and one query. The textbook's visibility graph, which tests every pair of corners against
 //! every side, is measured beside them.
 
-#[path = "../tests/common/roadmap.rs"]
-#[allow(dead_code, reason = "the judges of the test suite are not needed here")]
-mod roadmap;
-
 use cplan::cspace::Regions;
 use cplan::geometry::{Point, segments_cross};
 use cplan::planner::{Planner, Proposal, Query, Trapezoid, Visibility};
 use cplan::space::Metric;
-use cplan_cases::dice::{self, Dice};
+use cplan_cases::dice::Dice;
+use cplan_testkit::roadmap::{sides, star_crowd};
 use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
-use roadmap::{configuration, sides, star_crowd};
 use std::hint::black_box;
 
 /// Total numbers of corners of the scenes.
@@ -38,7 +34,7 @@ fn queries(regions: &Regions) -> Vec<Query> {
 
 fn configuration_within(random: &mut Dice, regions: &Regions) -> cplan::space::Configuration {
     let [x, y] = regions.window.map(|(low, high)| random.within(low, high));
-    configuration(x, y)
+    cplan::space::Configuration::new(x, y)
 }
 
 fn measure<P: Planner<Space = Regions>>(criterion: &mut Criterion, name: &str, planner: &P) {

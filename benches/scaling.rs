@@ -1,12 +1,10 @@
 //! Benchmarks of the time against the number of corners of an obstacle: a thousand, ten thousand, a hundred thousand.
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
 use cplan::cspace::regions;
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Heights, Obstacle, Shape, Workspace};
 use cplan::space::JointRange;
+use cplan_testkit::{arms, scenes, shapes};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -57,7 +55,7 @@ fn spaces(c: &mut Criterion) {
         (Shape::Polygon(polygon.corners().to_vec()), polygon.convex_pieces())
     };
     let wall = |points: Vec<Point>| {
-        let pieces = points.windows(2).map(|w| common::wall(w[0], w[1])).collect();
+        let pieces = points.windows(2).map(|w| shapes::wall(w[0], w[1])).collect();
         (Shape::Polyline(points), pieces)
     };
     for count in SIZES {
@@ -67,10 +65,10 @@ fn spaces(c: &mut Criterion) {
             let workspace =
                 Workspace { name: name.into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() };
             let range = JointRange::Interval { lower: -2.8, upper: 2.8 };
-            let scene = common::placed(common::rr([range; 2]), workspace);
+            let scene = scenes::placed(arms::rr([range; 2]), workspace);
             group.throughput(Throughput::Elements(count as u64));
             group.bench_function(BenchmarkId::new(name, count), |b| {
-                b.iter(|| regions(black_box(&scene), 1.8e-3, common::q(0.0, 0.0), 1).free.len());
+                b.iter(|| regions(black_box(&scene), 1.8e-3, scenes::q(0.0, 0.0), 1).free.len());
             });
         }
     }

@@ -1,14 +1,12 @@
 //! Answers by slabs of joint 1 on the benchmark problems, and configuration spaces as bitmaps: library calls, one core.
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
-use common::{Benchmark, benchmark, problem, w20};
 use cplan::Outcome;
 use cplan::cspace::bitmap;
 use cplan::engine::decide;
 use cplan::proofs::slab_connectivity;
 use cplan::{Options, Problem, plan};
+use cplan_testkit::problems::{Benchmark, benchmark, problem};
+use cplan_testkit::scenes::w20;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 

@@ -7,17 +7,14 @@
 //!
 //! With a folder, it writes a picture of both routes there.
 
-#[path = "mobile/mod.rs"]
-mod mobile;
-
 use cplan::engine::{CellCounts, GridSpace, Method, Planner, Setting};
 use cplan::planner::{GridSearch, PathKind};
 use cplan::{Options, Problem, plan};
-use mobile::floor::Floor;
-use mobile::robot::Robot;
-use mobile::tanh::{AHEAD, DEVIATION, Drive, Tanh, follow, waypoints};
-use mobile::tracking::{Tracked, Tracking, track};
-use mobile::{START, TARGETS};
+use cplan_testkit::mobile::floor::Floor;
+use cplan_testkit::mobile::robot::Robot;
+use cplan_testkit::mobile::tanh::{AHEAD, DEVIATION, Drive, Tanh, follow, waypoints};
+use cplan_testkit::mobile::tracking::{Tracked, Tracking, track};
+use cplan_testkit::mobile::{START, TARGETS};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 

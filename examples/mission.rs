@@ -6,21 +6,13 @@
 //!
 //! With a folder, it writes pictures of the routes there.
 
-#[path = "mobile/mod.rs"]
-mod mobile;
-#[path = "published_tables/alves.rs"]
-#[allow(dead_code, reason = "the counts of the empty room are printed elsewhere")]
-mod alves;
-#[path = "published_tables/row.rs"]
-#[allow(dead_code, reason = "nothing is claimed of these counts")]
-mod row;
-
 use cplan::field::Stopping;
-use mobile::floor::Floor;
-use mobile::forces::Ending;
-use mobile::mission::{Leg, by_fields, by_forces, explored, followed, planners, way};
-use mobile::occupancy::Occupancy;
-use mobile::{START, TARGETS, fields};
+use cplan_testkit::mobile::floor::Floor;
+use cplan_testkit::mobile::forces::Ending;
+use cplan_testkit::mobile::mission::{Leg, by_fields, by_forces, explored, followed, planners, way};
+use cplan_testkit::mobile::occupancy::Occupancy;
+use cplan_testkit::mobile::{START, TARGETS, fields};
+use cplan_testkit::published::alves;
 use std::error::Error;
 use std::path::PathBuf;
 

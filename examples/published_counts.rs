@@ -9,22 +9,9 @@
 //! 100 and, without the argument, on 250 x 250 cells. The maps are those of `published_tables`. The exit code is 1 if
 //! another choice explains more than the one that the documentation names.
 
-#[path = "published_tables/deicu.rs"]
-#[allow(dead_code, reason = "what the library measures is for published_tables")]
-mod deicu;
-#[path = "published_tables/line_maps.rs"]
-mod line_maps;
-#[path = "published_counts/plain.rs"]
-mod plain;
-#[path = "published_tables/row.rs"]
-#[allow(dead_code, reason = "claims are for published_tables")]
-mod row;
-#[path = "published_counts/search.rs"]
-mod search;
-
-use deicu::{RELAXATIONS, SCALES, TABLES};
-use plain::Choice;
-use search::{Maps, OF_GAUSS_SEIDEL, OF_SOR, Tally};
+use cplan_testkit::published::deicu::{RELAXATIONS, SCALES, TABLES};
+use cplan_testkit::published::plain::Choice;
+use cplan_testkit::published::search::{self, Maps, OF_GAUSS_SEIDEL, OF_SOR, Tally};
 use std::error::Error;
 use std::process::ExitCode;
 

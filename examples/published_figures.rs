@@ -9,23 +9,12 @@
 //! Figures 39 to 47 show map 1, which is `workspaces/maps/leon.toml`. The others show a state of play of our own. The
 //! program prints numbers, and writes figures 6.1 to 6.4 as `target/figure_6_1.svg`.
 
-#[path = "published_tables/deicu.rs"]
-#[allow(dead_code, reason = "sweep counts are for published_tables")]
-mod deicu;
-#[path = "published_tables/line_maps.rs"]
-mod line_maps;
-#[path = "published_tables/row.rs"]
-#[allow(dead_code, reason = "claims are for published_tables")]
-mod row;
-#[path = "published_tables/silva.rs"]
-#[allow(dead_code, reason = "sweep counts are for published_tables")]
-mod silva;
-
 use cplan::compare::{Setup, convergence};
 use cplan::field::{
     Difference, Direction, Equation, Factor, Lines, Measure, Order, Precision, Relaxation, Scan, Stopping, trace,
 };
-use silva::Kind;
+use cplan_testkit::published::silva::Kind;
+use cplan_testkit::published::{deicu, silva};
 use std::error::Error;
 
 /// Numbers of sweeps for which the error is printed: those with which the figures of the first source begin, and later

@@ -9,18 +9,8 @@
 //! The maps printed in the source of Tables 17 to 19 are the worlds in `workspaces/maps`. The exit code is 1 if a count
 //! stated as a match, or as close, is not.
 
-#[path = "published_tables/alves.rs"]
-mod alves;
-#[path = "published_tables/deicu.rs"]
-mod deicu;
-#[path = "published_tables/line_maps.rs"]
-mod line_maps;
-#[path = "published_tables/row.rs"]
-mod row;
-#[path = "published_tables/silva.rs"]
-mod silva;
-
-use row::Count;
+use cplan_testkit::published::row::Count;
+use cplan_testkit::published::{alves, deicu, row, silva};
 use std::error::Error;
 use std::process::ExitCode;
 

@@ -6,11 +6,8 @@
 //!
 //! With a folder, it writes a picture of each room there.
 
-#[path = "mobile/mod.rs"]
-mod mobile;
-
-use mobile::floor::Floor;
-use mobile::mission::followed;
+use cplan_testkit::mobile::floor::Floor;
+use cplan_testkit::mobile::mission::followed;
 use std::error::Error;
 use std::path::PathBuf;
 

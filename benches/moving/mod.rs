@@ -1,18 +1,14 @@
 //! Fields of a match of robots, each started from that of the previous frame: sixty frames, a second of play.
 
-#[path = "../../examples/robot_football/play.rs"]
-#[allow(dead_code, reason = "pages and tables see more of a match")]
-mod play;
-
 use cplan::field::{Boundary, Difference, Factor, Moment, MovingField, Order, Relaxation, Scan, Solver};
+use cplan_testkit::football::play::{CELLS, Match, walls};
 use criterion::{Criterion, Throughput};
-use play::{CELLS, Match, walls};
 
 const FRAMES: u64 = 60;
 
 pub fn moving(c: &mut Criterion) {
     let mut game = Match::new(1).expect("a match");
-    let frames: Vec<_> = (0..FRAMES).map(|_| game.next().expect("a frame")).collect();
+    let frames: Vec<_> = (0..FRAMES).map(|_| game.next_frame().expect("a frame")).collect();
     let first = MovingField::new(CELLS, walls(), [Boundary::High; 2], Difference::Upwind).expect("a flag a cell");
     let sor = |factor: f64| Solver::Relaxation(Relaxation::sor(Factor::Given(factor), Order::Lines(Scan::ROWS)));
     let mut group = c.benchmark_group("moving");

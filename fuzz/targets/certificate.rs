@@ -2,12 +2,9 @@
 //! on a belt.
 #![no_main]
 
-#[path = "shipped.rs"]
-mod shipped;
-
 use cplan_check_files::{CheckError, check};
+use cplan_fuzz::shipped;
 use libfuzzer_sys::fuzz_target;
-use shipped::shipped;
 use std::sync::LazyLock;
 
 /// Returns the texts of a robot and a world.

@@ -2,20 +2,14 @@
 //! meshes, a picture, its description and a line map.
 #![no_main]
 
-#[path = "files.rs"]
-mod files;
-#[path = "shipped.rs"]
-mod shipped;
-
 use cplan_check_files::check_files;
-use files::Files;
+use cplan_fuzz::{Files, shipped};
 use libfuzzer_sys::fuzz_target;
-use shipped::shipped;
 use std::sync::LazyLock;
 
 /// All valid files.
 static FILES: LazyLock<Files> = LazyLock::new(|| {
-    let files = Files::new();
+    let files = Files::empty();
     let urdf = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).expect("shipped files are there");
     files.write("arm.urdf", urdf.as_bytes());
     files.write("certificate.json", CERTIFICATE.as_bytes());

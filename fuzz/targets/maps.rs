@@ -1,15 +1,12 @@
 //! Any bytes as a line map, as a preference file, and as the picture of an occupancy map.
 #![no_main]
 
-#[path = "files.rs"]
-mod files;
-
 use cplan::input::{LineMap, OccupancyMap, PreferenceMap};
-use files::Files;
+use cplan_fuzz::Files;
 use libfuzzer_sys::fuzz_target;
 use std::sync::LazyLock;
 
-static FILES: LazyLock<Files> = LazyLock::new(Files::new);
+static FILES: LazyLock<Files> = LazyLock::new(Files::empty);
 
 const YAML: &str =
     "image: picture\nresolution: 0.1\norigin: [0, 0, 0.5]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";

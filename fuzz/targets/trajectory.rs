@@ -1,19 +1,13 @@
 //! Any bytes as a recorded motion, by all three readers.
 #![no_main]
 
-#[path = "files.rs"]
-mod files;
-#[path = "shipped.rs"]
-mod shipped;
-
 use cplan::check::limit_violations;
 use cplan::input::{LoadedScene, load_recording, load_scene};
-use files::Files;
+use cplan_fuzz::{Files, shipped};
 use libfuzzer_sys::fuzz_target;
-use shipped::shipped;
 use std::sync::LazyLock;
 
-static FILES: LazyLock<Files> = LazyLock::new(Files::new);
+static FILES: LazyLock<Files> = LazyLock::new(Files::empty);
 static SCENE: LazyLock<LoadedScene> = LazyLock::new(|| {
     load_scene(&shipped("robots/planar_2r.urdf"), &shipped("workspaces/shelf.toml")).expect("shipped files are good")
 });

@@ -1,15 +1,12 @@
 //! Any bytes as a robot: loaded beside a world that asks for nothing, and examined.
 #![no_main]
 
-#[path = "files.rs"]
-mod files;
-
 use cplan::input::{inspect, load_scene};
-use files::Files;
+use cplan_fuzz::Files;
 use libfuzzer_sys::fuzz_target;
 use std::sync::LazyLock;
 
-static FILES: LazyLock<Files> = LazyLock::new(Files::new);
+static FILES: LazyLock<Files> = LazyLock::new(Files::empty);
 
 fuzz_target!(|bytes: &[u8]| {
     let robot = FILES.write("robot.urdf", bytes);

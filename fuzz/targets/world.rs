@@ -2,21 +2,15 @@
 //! little effort.
 #![no_main]
 
-#[path = "files.rs"]
-mod files;
-#[path = "shipped.rs"]
-mod shipped;
-
 use cplan::Options;
 use cplan::engine::Method;
 use cplan::engine::task::plan;
 use cplan::input::{LoadedScene, Overrides, Rules, load, load_scene};
-use files::Files;
+use cplan_fuzz::{Files, shipped};
 use libfuzzer_sys::fuzz_target;
-use shipped::shipped;
 use std::sync::LazyLock;
 
-static FILES: LazyLock<Files> = LazyLock::new(Files::new);
+static FILES: LazyLock<Files> = LazyLock::new(Files::empty);
 
 /// Largest number of steps of tasks that are planned. Longer tasks are only loaded.
 const MAX_STEPS: usize = 4;

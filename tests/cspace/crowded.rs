@@ -1,11 +1,13 @@
 //! Regions among obstacles that have more pieces than are traced one by one: noisy walls, walks and spikes. Free places
 //! are compared with distances between the arm's rectangles and every single piece, which brute force finds.
 
-use crate::common::{placed, q, rr, wall};
 use cplan::cspace::{Regions, regions, traced_pairs};
 use cplan::geometry::{Point, Pose, SimplePolygon, Vector, cross};
 use cplan::model::{Arm, Heights, Obstacle, Scene, Shape, Workspace};
 use cplan::space::{Configuration, JointRange};
+use cplan_testkit::arms::rr;
+use cplan_testkit::scenes::{placed, q};
+use cplan_testkit::shapes::wall;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -141,7 +143,7 @@ proptest! {
                 prop_assert!(distance <= 3.0 * margin, "{distance} at {at:?}");
             }
         }
-        prop_assert!(!crate::common::random::uses_default_cases() || free > 10 && blocked > 5, "{free} {blocked}");
+        prop_assert!(!cplan_cases::uses_default_cases() || free > 10 && blocked > 5, "{free} {blocked}");
     }
 }
 

@@ -1,15 +1,14 @@
 //! Configuration spaces as data, compared with distances by parry2d: free places are free, and blocked places are near
 //! obstacles, as far as the stated guarantee says.
 
-use crate::common::dice;
-use crate::common::random::times;
-use crate::parry::core_distance;
 use cplan::PlanOutput as _;
 use cplan::cli::read_words;
 use cplan::cspace::Proves;
 use cplan::model::{Carrier, Part, Scene};
 use cplan::output::{CSpaces, Polygons, Values};
 use cplan::{Configuration, Problem, plan};
+use cplan_cases::{dice, times};
+use cplan_testkit::parry::core_distance;
 use std::path::Path;
 
 /// Plans in a shipped world.

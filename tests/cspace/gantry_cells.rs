@@ -1,10 +1,11 @@
 //! The cells of gantries that are wholly free, compared with distances between swept polygons.
 
-use crate::common::{self, convex};
 use cplan::cspace::{Proves, outer_grid};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, Scene};
 use cplan::space::JointRange;
+use cplan_testkit::shapes::{self, convex};
+use cplan_testkit::{arms, scenes};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -26,11 +27,11 @@ fn polygon() -> impl Strategy<Value = Convex> {
 fn gantry(angles: [f64; 2], part: Convex, pieces: Vec<Convex>) -> Scene {
     let slide = |name, angle: f64| {
         let direction = Vector::new(angle.cos(), angle.sin());
-        common::joint(name, JointType::Prismatic { direction }, JointRange::Interval { lower: -1.3, upper: 1.5 })
+        arms::joint(name, JointType::Prismatic { direction }, JointRange::Interval { lower: -1.3, upper: 1.5 })
     };
     let joints = [slide("x", angles[0]), slide("y", angles[0] + angles[1])];
-    let links = [common::link("bridge", vec![]), common::link("head", vec![part])];
-    common::scene(common::arm(joints, links, Vector::new(0.1, -0.2), Point::zeros()), pieces)
+    let links = [arms::link("bridge", vec![]), arms::link("head", vec![part])];
+    scenes::scene(arms::arm(joints, links, Vector::new(0.1, -0.2), Point::zeros()), pieces)
 }
 
 /// Returns the greatest gap between two convex polygons over the directions normal to their sides and between their
@@ -99,8 +100,8 @@ proptest! {
 /// Checks cells whose sides lie on the sides of a C-obstacle. The coordinates are decimals that doubles cannot represent.
 #[test]
 fn a_c_obstacle_that_ends_where_a_cell_begins_leaves_the_cell_free() {
-    let part = common::rectangle(-0.05, 0.05, -0.05, 0.05);
-    let scene = gantry_along_axes(part, vec![common::rectangle(0.35, 0.55, -0.15, 0.05)]);
+    let part = shapes::rectangle(-0.05, 0.05, -0.05, 0.05);
+    let scene = gantry_along_axes(part, vec![shapes::rectangle(0.35, 0.55, -0.15, 0.05)]);
     let grid = outer_grid(&scene, [20, 20], 0.0);
     // The cells have sides of 0.1 m, and the C-obstacle fills three by three of them.
     let blocked: Vec<[usize; 2]> =
@@ -127,9 +128,9 @@ fn a_wall_between_cells_blocks_both() {
 
 fn gantry_along_axes(part: Convex, pieces: Vec<Convex>) -> Scene {
     let slide = |name, direction| {
-        common::joint(name, JointType::Prismatic { direction }, JointRange::Interval { lower: -1.0, upper: 1.0 })
+        arms::joint(name, JointType::Prismatic { direction }, JointRange::Interval { lower: -1.0, upper: 1.0 })
     };
     let joints = [slide("x", Vector::x()), slide("y", Vector::y())];
-    let links = [common::link("bridge", vec![]), common::link("head", vec![part])];
-    common::scene(common::arm(joints, links, Vector::zeros(), Point::zeros()), pieces)
+    let links = [arms::link("bridge", vec![]), arms::link("head", vec![part])];
+    scenes::scene(arms::arm(joints, links, Vector::zeros(), Point::zeros()), pieces)
 }

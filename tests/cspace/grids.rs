@@ -1,11 +1,13 @@
 //! Slices, and grids made from slices, compared with clearances and with parry2d's verdicts, for all four kinds of
 //! arms.
 
-use crate::common::{self, Benchmark, convex, disc};
 use cplan::cspace::{Bitmap, Grid, Proves, Slice, bitmap, grid_from_slices, outer_grid, sampled_grid};
 use cplan::geometry::{Convex, Hits, Point, Vector};
 use cplan::model::{Arm, Contacts, JointType, Scene};
 use cplan::space::{Configuration, JointRange};
+use cplan_testkit::problems::{self, Benchmark};
+use cplan_testkit::shapes::{self, convex, disc};
+use cplan_testkit::{arms, scenes};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -45,7 +47,7 @@ fn piece() -> impl Strategy<Value = Convex> {
 
 fn part() -> impl Strategy<Value = Convex> {
     let bar = (0.3..1.2f64, 0.02..0.1f64)
-        .prop_map(|(length, half_width)| common::rectangle(0.0, length, -half_width, half_width));
+        .prop_map(|(length, half_width)| shapes::rectangle(0.0, length, -half_width, half_width));
     let capsule = (0.3..1.2f64, 0.02..0.1f64)
         .prop_map(|(length, radius)| convex(vec![Point::zeros(), Point::new(length, 0.0)], radius));
     prop_oneof![bar, capsule, piece()]
@@ -62,11 +64,11 @@ fn any_scene() -> impl Strategy<Value = Scene> {
         prop::collection::vec(piece(), 1..5),
     )
         .prop_map(|(base, offset, [first, second], parts, pieces)| {
-            let joints = [common::joint("j1", first.0, first.1), common::joint("j2", second.0, second.1)];
-            let links = parts.map(|shapes| common::link("link", shapes));
+            let joints = [arms::joint("j1", first.0, first.1), arms::joint("j2", second.0, second.1)];
+            let links = parts.map(|shapes| arms::link("link", shapes));
             let (offset, tip) = (Vector::new(offset.0, offset.1), Point::new(1.0, 0.0));
-            let arm = Arm { base: Point::new(base.0, base.1), ..common::arm(joints, links, offset, tip) };
-            common::scene(arm, pieces)
+            let arm = Arm { base: Point::new(base.0, base.1), ..arms::arm(joints, links, offset, tip) };
+            scenes::scene(arm, pieces)
         })
 }
 
@@ -124,13 +126,13 @@ fn outside_reach_ranges_pairs_keep_their_distance(scene: &Scene, grow: f64) -> R
 fn a_limit_may_be_two_turns_below_a_reach_range() {
     let axis = JointRange::Interval { lower: -4.0, upper: 4.5 };
     let turn = JointType::Revolute { sign: 1.0 };
-    let links = [0.5, 0.9].map(|length| common::link("bar", vec![common::rectangle(0.0, length, -0.05, 0.05)]));
-    let joints = [common::joint("j1", turn, axis), common::joint("j2", turn, JointRange::Circle)];
-    let arm = common::arm(joints, links, Vector::new(0.5, 0.0), Point::new(0.9, 0.0));
+    let links = [0.5, 0.9].map(|length| arms::link("bar", vec![shapes::rectangle(0.0, length, -0.05, 0.05)]));
+    let joints = [arms::joint("j1", turn, axis), arms::joint("j2", turn, JointRange::Circle)];
+    let arm = arms::arm(joints, links, Vector::new(0.5, 0.0), Point::new(0.9, 0.0));
     let most = (0..72).map(|k| {
         let angle = TAU * f64::from(k) / 72.0;
         let piece = disc(Point::new(0.5 * angle.cos(), 0.5 * angle.sin()), 0.035);
-        let scene = common::scene(arm.clone(), vec![piece]);
+        let scene = scenes::scene(arm.clone(), vec![piece]);
         outside_reach_ranges_pairs_keep_their_distance(&scene, 0.051_387_181_940_973_81).unwrap()
     });
     assert_eq!(most.max(), Some(2), "no range is two turns off: the test has lost its case");
@@ -213,7 +215,7 @@ proptest! {
 
 #[test]
 fn w20_from_slices_equals_that_of_collision_tests() {
-    let scene = common::w20();
+    let scene = scenes::w20();
     let cells = [1024, 1024];
     let (slices, sampled) = (grid_from_slices(&scene, cells, 0.0), sampled_grid(&scene, cells, 0.0));
     let differing: Vec<usize> =
@@ -234,7 +236,7 @@ fn differing(bits: &Bitmap, grid: &Grid) -> Vec<usize> {
 
 #[test]
 fn bitmaps_of_the_benchmarks_are_their_grids() {
-    for scene in [common::benchmark(Benchmark::A).0, common::w20()] {
+    for scene in [problems::benchmark(Benchmark::A).0, scenes::w20()] {
         let cells = [2048, 2048];
         let (bits, grid) = (bitmap(&scene, cells, 0.0), grid_from_slices(&scene, cells, 0.0));
         for index in differing(&bits, &grid) {
@@ -247,7 +249,7 @@ fn bitmaps_of_the_benchmarks_are_their_grids() {
 
 #[test]
 fn bitmaps_agree_with_collision_tests() {
-    for scene in [common::benchmark(Benchmark::A).0, common::w20()] {
+    for scene in [problems::benchmark(Benchmark::A).0, scenes::w20()] {
         let cells = [256, 256];
         let (bits, sampled) = (bitmap(&scene, cells, 0.0), sampled_grid(&scene, cells, 0.0));
         for index in differing(&bits, &sampled) {

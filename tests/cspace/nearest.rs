@@ -1,11 +1,13 @@
 //! The nearest free configuration, compared with a lattice of configurations whose distances to the obstacles are
 //! computed.
 
-use crate::common::{all_kinds, arm, disc, joint, link, obstacle, placed, q, rectangle, rr, scene, wall};
 use cplan::cspace::nearest_free;
 use cplan::geometry::{Point, Vector};
 use cplan::model::{JointType, Scene, Workspace};
 use cplan::space::{Configuration, JointRange};
+use cplan_testkit::arms::{all_kinds, arm, joint, link, rr};
+use cplan_testkit::scenes::{obstacle, placed, q, scene};
+use cplan_testkit::shapes::{disc, rectangle, wall};
 
 /// Returns true if a configuration is free, computed by the definition instead of slices.
 fn is_free(scene: &Scene, at: Configuration) -> bool {

@@ -1,12 +1,13 @@
 //! Polygonal regions, compared with distances of sampled configurations.
 
-use crate::common::{convex, placed};
 use cplan::cspace::{PolygonWithHoles, Proves, Regions, c_obstacles, inner_regions, regions};
 use cplan::geometry::{Convex, Point, Vector, cross};
 use cplan::model::{
     Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
 };
 use cplan::space::{Configuration, JointRange};
+use cplan_testkit::scenes::placed;
+use cplan_testkit::shapes::convex;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};

@@ -1,20 +1,13 @@
 //! The match of `examples/robot_football`: no robot hits another, and the printed facts about its fields are true.
 
-#[path = "../../examples/robot_football/measure.rs"]
-#[allow(dead_code, reason = "the report is the example's")]
-mod measure;
-#[path = "../../examples/robot_football/page.rs"]
-mod page;
-#[path = "../../examples/robot_football/play.rs"]
-mod play;
-
 use cplan::field::{Difference, Solver};
-use measure::{Case, Kind, Run, cases, run, run_after_every_frame, sor};
-use play::{Frame, Match};
+use cplan_testkit::football::measure::{Case, Kind, Run, cases, run, run_after_every_frame, sor};
+use cplan_testkit::football::page;
+use cplan_testkit::football::play::{self, Frame, Match};
 
 fn played(seed: u64, frames: usize) -> (Match, Vec<Frame>) {
     let mut game = Match::new(seed).unwrap();
-    let frames = (0..frames).map(|_| game.next().unwrap()).collect();
+    let frames = (0..frames).map(|_| game.next_frame().unwrap()).collect();
     (game, frames)
 }
 
@@ -100,7 +93,7 @@ fn the_page_has_every_frame_and_loads_nothing() {
     let mut game = Match::new(1).unwrap();
     let mut film = page::Film::default();
     for _ in 0..6 {
-        let frame = game.next().unwrap();
+        let frame = game.next_frame().unwrap();
         film.add_frame(&frame, game.fields(), game.score);
     }
     let page = film.page(1);

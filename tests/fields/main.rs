@@ -1,7 +1,5 @@
 //! Potential fields and the planners that follow them, against solutions that share no code with the solvers.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod errata;
 mod family;
 mod football;

@@ -1,12 +1,11 @@
 //! Fields among moving obstacles, against direct solutions for each moment.
 
-use super::common::dice::Dice;
-use super::common::random;
 use super::family::direct::solution;
 use cplan::field::{
     Boundary, Cell, Difference, Direction, Disc, Domain, Equation, Factor, Influence, Levels, Measure, Moment,
     MovingField, Order, RelaxError, Relaxation, Scan, Solver, Stopping, by_multigrid, eliminated,
 };
+use cplan_cases::dice::Dice;
 
 const BOUNDARIES: [Boundary; 3] = [Boundary::High, Boundary::Reflecting, Boundary::Periodic];
 
@@ -79,7 +78,7 @@ fn greatest_difference(a: &[f64], b: &[f64]) -> f64 {
 fn each_moment_equals_a_fresh_solution() {
     let gauss_seidel = Solver::Relaxation(Relaxation::gauss_seidel(Order::Lines(Scan::ROWS)));
     let (mut compared, mut moved) = (0, 0);
-    for seed in random::seeds(24) {
+    for seed in cplan_cases::seeds(24) {
         let mut dice = Dice::new(seed);
         let cells = [dice.below(9_usize) + 3, dice.below(9_usize) + 3];
         let mut walls: Vec<bool> = (0..cells[0] * cells[1]).map(|_| dice.chance(0.1)).collect();
@@ -107,7 +106,7 @@ fn each_moment_equals_a_fresh_solution() {
         }
     }
     assert!(
-        !random::uses_default_cases() || (compared == 192 && moved > 100),
+        !cplan_cases::uses_default_cases() || (compared == 192 && moved > 100),
         "{compared} fields, {moved} with another mask"
     );
 }
@@ -144,7 +143,7 @@ fn directions_are_those_of_the_published_formula_at_centres() {
 #[test]
 fn paths_stay_in_free_cells_and_reach_the_goal() {
     let (mut arrived, cells) = (0, [16, 19]);
-    for seed in random::seeds(30) {
+    for seed in cplan_cases::seeds(30) {
         let mut dice = Dice::new(seed);
         let walls: Vec<bool> = (0..cells[0] * cells[1]).map(|_| dice.chance(0.15)).collect();
         let mut field = MovingField::new(cells, walls, [Boundary::High; 2], Difference::Upwind).unwrap();
@@ -178,7 +177,7 @@ fn paths_stay_in_free_cells_and_reach_the_goal() {
             }
         }
     }
-    assert!(!random::uses_default_cases() || arrived > 30, "only {arrived} came to a goal");
+    assert!(!cplan_cases::uses_default_cases() || arrived > 30, "only {arrived} came to a goal");
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! Loaded arms, compared with full kinematics in space. Outlines are compared with projected samples, and inverse with
 //! forward kinematics.
 
-use crate::common::{convex, disc};
 use cplan::geometry::{Point, separation};
 use cplan::input::{LoadedScene, load_scene};
 use cplan::model::{Arm, Freedom, OutlineSource, inverse};
 use cplan::space::{Configuration, JointRange};
+use cplan_testkit::shapes::{convex, disc};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use std::fs;

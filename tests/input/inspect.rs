@@ -1,7 +1,7 @@
 //! The command `inspect`: its reports on defective robots, on all shipped robots, and on published robots.
 
-use crate::common::reference::published;
 use cplan::input::{Inspection, LimitSource, RateSource, Role, inspect, load_scene};
+use cplan_testkit::reference::published;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,6 @@
 //! Reading robots, worlds, tasks and maps, and the diagnostics of invalid ones.
 
 mod arms;
-#[path = "../common/mod.rs"]
-mod common;
 mod errors;
 mod hints;
 mod inspect;

@@ -1,10 +1,9 @@
 //! Hundreds of files with a typing error. Each is read, or refused with position and hint. Reading never panics, and
 //! its result is never far larger than the file.
 
-use crate::common::dice;
-use crate::common::random::times;
 use cplan::input::{InputError, Overrides, RobotFile, Source, load_recording, scene_from};
 use cplan_cases::slips::slipped;
+use cplan_cases::{dice, times};
 
 const ARM: &str = include_str!("../../src/cli/starter/rr.urdf");
 

@@ -2,11 +2,11 @@
 //!
 //! The files are not part of the project, so these tests are ignored by default.
 
-use crate::common::reference::published;
 use cplan::input::{Overrides, load_scene};
 use cplan::model::OutlineSource::{self, Bar, Collision, Visual};
 use cplan::{Options, Problem};
 use cplan_check_files::check_files;
+use cplan_testkit::reference::published;
 use std::path::Path;
 
 enum Outcome {

@@ -1,9 +1,7 @@
 //! Checks the JSON schema of world files with an independent validator. It accepts files that the program reads, and
 //! refuses files that the program refuses for their form.
 
-#[path = "../../examples/world_reference/page.rs"]
-mod page;
-
+use cplan_testkit::world_reference::page;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -240,7 +238,7 @@ fn worlds_with_every_key_are_valid() {
 #[test]
 fn the_committed_reference_is_up_to_date() {
     let kept = std::fs::read_to_string(root().join("docs/world_reference.md")).unwrap();
-    assert_eq!(page::page(&world_schema()), kept, "run `cargo run --example world_reference`");
+    assert_eq!(page(&world_schema()), kept, "run `cargo run --example world_reference`");
     for key in keys(&world_schema()) {
         assert!(kept.contains(&format!("| `{key}`")), "the reference has no key {key}");
     }

@@ -1,15 +1,14 @@
 //! The controller of a differential drive: the signs of its terms, its closed form, and plans that it follows.
 
-use crate::common::dice;
-use crate::common::random::{seeds, uses_default_cases};
-use crate::mobile::floor::Floor;
-use crate::mobile::robot::{Pose, Robot};
-use crate::mobile::tanh::{AHEAD, CYCLE, DEVIATION, Nearest, PASSED, Tanh, follow, nearest, speeds, waypoints};
-use crate::mobile::{START, TARGETS};
 use crate::plain::least_gap;
 use cplan::model::{Arm, Obstacle, Scene, Workspace};
 use cplan::nalgebra::Vector2;
 use cplan::{Options, Outcome, Point, Problem, plan};
+use cplan_cases::{dice, seeds, uses_default_cases};
+use cplan_testkit::mobile::floor::Floor;
+use cplan_testkit::mobile::robot::{Pose, Robot};
+use cplan_testkit::mobile::tanh::{AHEAD, CYCLE, DEVIATION, Nearest, PASSED, Tanh, follow, nearest, speeds, waypoints};
+use cplan_testkit::mobile::{START, TARGETS};
 
 const LAW: Tanh = Tanh { pull: 10.0, push: 1.0, range: 0.26 };
 

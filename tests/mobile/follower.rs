@@ -1,15 +1,14 @@
 //! The wall follower: it aligns itself with walls, keeps moving, and touches nothing.
 
-use crate::common::dice;
-use crate::common::random::seeds;
-use crate::mobile::START;
-use crate::mobile::floor::Floor;
-use crate::mobile::follower::{SONARS, follow, sonar};
-use crate::mobile::mission::followed;
-use crate::mobile::occupancy::Occupancy;
-use crate::mobile::robot::{Pose, Robot};
 use crate::plain::{RADIUS, gap, least_gap};
 use cplan::Point;
+use cplan_cases::{dice, seeds};
+use cplan_testkit::mobile::START;
+use cplan_testkit::mobile::floor::Floor;
+use cplan_testkit::mobile::follower::{SONARS, follow, sonar};
+use cplan_testkit::mobile::mission::followed;
+use cplan_testkit::mobile::occupancy::Occupancy;
+use cplan_testkit::mobile::robot::{Pose, Robot};
 
 fn floor(name: &str) -> Floor {
     Floor::load(&format!("explore/{name}.toml")).unwrap_or_else(|e| panic!("{e}"))

@@ -1,14 +1,13 @@
 //! The sensors and the published occupancy grid.
 
-use crate::common::dice;
-use crate::common::random::seeds;
-use crate::mobile::floor::Floor;
-use crate::mobile::forces::force;
-use crate::mobile::occupancy::{CELLS, Occupancy, SIDE, cell, place};
-use crate::mobile::robot::Pose;
 use crate::plain::{RADIUS, gap};
 use cplan::Point;
 use cplan::nalgebra::Vector2;
+use cplan_cases::{dice, seeds};
+use cplan_testkit::mobile::floor::Floor;
+use cplan_testkit::mobile::forces::force;
+use cplan_testkit::mobile::occupancy::{CELLS, Occupancy, SIDE, cell, place};
+use cplan_testkit::mobile::robot::Pose;
 
 fn floors() -> [Floor; 2] {
     ["explore/hall.toml", "explore/house.toml"].map(|world| Floor::load(world).unwrap_or_else(|e| panic!("{e}")))
@@ -41,7 +40,7 @@ fn rays_end_where_steps_of_the_free_distance_end() {
         assert!((range - expected).abs() < 1e-3, "seed {seed}: {range} from {from} at {angle}, not {expected}");
         met += usize::from(range < 8.0);
     }
-    assert!(met > 100 || !crate::common::random::uses_default_cases(), "{met}");
+    assert!(met > 100 || !cplan_cases::uses_default_cases(), "{met}");
 }
 
 #[test]

@@ -1,14 +1,14 @@
 //! The mission: no robot ever hits anything, and each leg ends as it is reported.
 
-use crate::mobile::floor::Floor;
-use crate::mobile::forces::Ending;
-use crate::mobile::mission::{Leg, by_fields, by_forces, explored, followed, planners, way};
-use crate::mobile::{TARGETS, fields};
 use crate::plain::{gap, least_gap};
-use crate::{alves, row};
 use cplan::Point;
 use cplan::explore;
 use cplan::field::Stopping;
+use cplan_testkit::mobile::floor::Floor;
+use cplan_testkit::mobile::forces::Ending;
+use cplan_testkit::mobile::mission::{Leg, by_fields, by_forces, explored, followed, planners, way};
+use cplan_testkit::mobile::{TARGETS, fields};
+use cplan_testkit::published::{alves, row};
 
 fn floor(name: &str) -> Floor {
     Floor::load(&format!("explore/{name}.toml")).unwrap_or_else(|e| panic!("{e}"))

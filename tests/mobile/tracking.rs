@@ -1,17 +1,16 @@
 //! The controller that follows a moving point: its closed form, and cells of a wave and of A\* that it follows.
 
-use crate::common::dice;
-use crate::common::random::seeds;
-use crate::mobile::floor::Floor;
-use crate::mobile::robot::Robot;
-use crate::mobile::tanh::{AHEAD, CYCLE, PASSED, speeds};
-use crate::mobile::tracking::{Tracking, desired, track};
-use crate::mobile::{START, TARGETS};
 use crate::plain::least_gap;
 use cplan::engine::{CellCounts, GridSpace, Method, Planner, Setting};
 use cplan::model::{Scene, Workspace};
 use cplan::planner::{GridSearch, PathKind};
 use cplan::{Options, Point, Problem, plan};
+use cplan_cases::{dice, seeds};
+use cplan_testkit::mobile::floor::Floor;
+use cplan_testkit::mobile::robot::Robot;
+use cplan_testkit::mobile::tanh::{AHEAD, CYCLE, PASSED, speeds};
+use cplan_testkit::mobile::tracking::{Tracking, desired, track};
+use cplan_testkit::mobile::{START, TARGETS};
 
 const LAW: Tracking = Tracking { gain: 1.0, speed: 0.5 };
 

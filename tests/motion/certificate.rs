@@ -1,11 +1,13 @@
 //! Blends, compared with dense samples.
 
-use crate::common::{all_kinds, clutter, disc, q, scene};
 use crate::curve;
 use cplan::check::{CollisionCheck, blend, certify, certify_at, check_collision, limit_violations};
 use cplan::model::Scene;
 use cplan::motion::{Limits, time};
 use cplan::space::{Configuration, Path, Recording};
+use cplan_testkit::arms::{self, all_kinds};
+use cplan_testkit::scenes::{clutter, q, scene};
+use cplan_testkit::shapes::disc;
 use proptest::prelude::*;
 
 /// Returns the least distance at `n` places of each blend, by the definition of the curve.
@@ -69,7 +71,7 @@ proptest! {
 fn the_clearance_bounds_the_radius() {
     // A tool of radius 0.1 at (x, y), and a post inside the right angle of its path.
     let (mut gantry, _) = crate::empty([1.0, 1.0], [4.0, 4.0]).into_parts();
-    gantry.links[1] = crate::common::link("tool", vec![disc(cplan::geometry::Point::zeros(), 0.1)]);
+    gantry.links[1] = arms::link("tool", vec![disc(cplan::geometry::Point::zeros(), 0.1)]);
     let post = disc(cplan::geometry::Point::new(0.8, 0.2), 0.05);
     let scene = scene(gantry, vec![post]);
     let path = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.0, 0.0), q(1.0, 1.0)])).unwrap();

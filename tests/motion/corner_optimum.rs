@@ -7,12 +7,12 @@
 //! the integral of `z^(-1/2)`. The motion itself has `z = 1`. It begins and ends with a non-zero jerk only, so `z` need
 //! not vanish there.
 
-use crate::common::placed;
 use crate::sampled::as_vector;
 use crate::{certified, empty};
 use cplan::model::Scene;
 use cplan::motion::{Drive, Trajectory};
 use cplan::space::Configuration;
+use cplan_testkit::scenes::placed;
 
 /// Limits of each joint: velocity, acceleration and jerk.
 type Most = [[f64; 2]; 3];

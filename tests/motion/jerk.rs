@@ -1,12 +1,12 @@
 //! Motions with a limit on the jerk, compared with closed forms, integrated, and judged by `verify`.
 
-use crate::common::{placed, q};
 use crate::sampled::{as_vector, recording, state_between};
 use crate::{curve, empty, waypoints};
 use cplan::check::{Limit, limit_violations};
 use cplan::model::{Joint, Scene};
 use cplan::motion::{Limits, MIN_INTERVAL, TimedMotion, TipSpeed, time};
 use cplan::space::Configuration;
+use cplan_testkit::scenes::{placed, q};
 use proptest::prelude::*;
 
 fn room(velocity: [f64; 2], acceleration: [f64; 2], jerk: [Option<f64>; 2]) -> Scene {

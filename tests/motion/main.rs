@@ -1,8 +1,5 @@
 //! Motions on paths with blends: their curves, limits and clearances, and how near they come to the optimum.
 
-#[path = "../common/mod.rs"]
-mod common;
-
 mod certificate;
 mod corner_optimum;
 mod jerk;
@@ -16,11 +13,12 @@ mod sampled;
 mod torque;
 mod trajectory;
 
-use common::{arm, joint, link, q, scene};
 use cplan::check::{CertifiedCurve, CertifiedPath, blend, certify};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{JointType, Scene};
 use cplan::space::{JointRange, Path};
+use cplan_testkit::arms::{arm, joint, link};
+use cplan_testkit::scenes::{q, scene};
 use proptest::prelude::*;
 
 /// Returns a gantry in an empty room, where a blend can be as large as requested.

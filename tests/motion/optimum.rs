@@ -1,11 +1,12 @@
 //! Durations of motions, compared with an optimum on a fine grid. Its code shares nothing with the library's.
 
-use crate::common::q;
 use crate::{certified, curve, empty, limits, waypoints};
 use cplan::check::CertifiedCurve;
 use cplan::model::Scene;
 use cplan::motion::{Limits, TipSpeed, time};
 use cplan::space::Configuration;
+use cplan_testkit::arms;
+use cplan_testkit::scenes::{self, q};
 use proptest::prelude::*;
 
 /// A path with its first and second derivative with respect to a parameter, at equal steps of that parameter.
@@ -178,8 +179,8 @@ fn straight_motions_are_bang_bang() {
 /// little time on straight pieces.
 #[test]
 fn a_slow_tip_is_as_fast_as_it_may() {
-    for (kind, arm) in crate::common::all_kinds().into_iter().enumerate() {
-        let scene = crate::common::scene(arm, vec![]);
+    for (kind, arm) in arms::all_kinds().into_iter().enumerate() {
+        let scene = scenes::scene(arm, vec![]);
         let curve = curve(&scene, &[[-0.6, 0.2], [0.4, 0.7], [0.9, -0.1]], f64::INFINITY);
         for speed in [0.1, 0.4, 100.0] {
             let tip = Some(TipSpeed::new(scene.arm(), speed));

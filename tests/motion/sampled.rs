@@ -1,12 +1,12 @@
 //! Samples, compared with the curve, with the limits, and with each other. They are joined by the interpolation that
 //! the result states.
 
-use crate::common::q;
 use crate::{curve, empty, limits, waypoints};
 use cplan::check::{CertifiedCurve, limit_violations};
 use cplan::model::Joint;
 use cplan::motion::{Limits, MIN_INTERVAL, TimedMotion, Trajectory, time};
 use cplan::space::{BLEND_TOLERANCE, Configuration, Recording};
+use cplan_testkit::scenes::q;
 use proptest::prelude::*;
 
 /// Largest difference between the time of a sample and the beginning of its phase, in seconds. Samples lie at whole

@@ -2,9 +2,6 @@
 //! force, and with the motions that controllers execute.
 
 use super::certified;
-use super::common::dice::Dice;
-use super::common::random::times;
-use super::common::{all_kinds, arm, dice, joint, link, rectangle, scene};
 use cplan::check::certify;
 use cplan::geometry::{Point, Pose, Vector};
 use cplan::model::{
@@ -12,6 +9,11 @@ use cplan::model::{
 };
 use cplan::motion::{Drive, Objective, TimingError, Trajectory};
 use cplan::space::{Configuration, JointRange, Path};
+use cplan_cases::dice::Dice;
+use cplan_cases::{dice, times};
+use cplan_testkit::arms::{all_kinds, arm, joint, link};
+use cplan_testkit::scenes::scene;
+use cplan_testkit::shapes::rectangle;
 
 /// Returns centre and orientation of a body. Computes them with complex numbers, without the arm's own kinematics.
 fn placed(arm: &Arm, link: usize, center: Point, q: [f64; 2]) -> ([f64; 2], f64) {

@@ -1,6 +1,5 @@
 //! From a certified path to files, and back through independent readers.
 
-use crate::common::{disc, placed, shipped_feasible};
 use cplan::check::{CertifiedPath, blend, certify};
 use cplan::engine::{GridSpace, Method, Options, Plan, Planner, Problem, plan};
 use cplan::geometry::{Point, Vector};
@@ -10,6 +9,9 @@ use cplan::model::{
 };
 use cplan::motion::{BlendReport, Format, JointMotion, Limits, TimedMotion, Trajectory, csv, ros_yaml, time};
 use cplan::space::{Configuration, JointRange, Path};
+use cplan_testkit::problems::shipped_feasible;
+use cplan_testkit::scenes::placed;
+use cplan_testkit::shapes::disc;
 use nalgebra::Vector3;
 use serde_json::Value;
 

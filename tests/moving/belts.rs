@@ -1,11 +1,6 @@
 //! Random tasks among moving obstacles, in which objects are picked while they move. The tests replay them with
 //! computations of their own.
 
-use crate::common::dice::Dice;
-use crate::common::{disc, placed, rectangle};
-use crate::drawn::{mover, obstacle_at, position};
-use crate::solid::{Solid, V, add, norm, rotate, sub};
-use crate::world::world;
 use cplan::engine::task::{Event, Leg, TaskAnswer};
 use cplan::geometry::{Point, Pose, Vector};
 use cplan::model::{
@@ -13,6 +8,12 @@ use cplan::model::{
     Shape, Step, Stop, Task, TimedWorkspace, ToolValues, Workspace,
 };
 use cplan::space::Configuration;
+use cplan_cases::dice::Dice;
+use cplan_testkit::moving::{mover, obstacle_at, position};
+use cplan_testkit::scenes::placed;
+use cplan_testkit::shapes::{disc, rectangle};
+use cplan_testkit::solid::{Solid, V, add, norm, rotate, sub};
+use cplan_testkit::world::world;
 
 /// Returns a task for a kind of arm and a seed. `None` if this seed gives no task.
 pub fn drawn(kind: &str, seed: u64) -> Option<Task> {

@@ -1,8 +1,8 @@
 //! Motions that are found are free at all times, and end as early as those that brute force finds.
 
-use crate::common::random::{seeds, uses_default_cases};
-use crate::drawn::{Moving, position};
 use cplan::{Options, Outcome, plan};
+use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::moving::{Moving, position};
 
 /// Number of moments between two samples that are checked.
 const BETWEEN: usize = 3;

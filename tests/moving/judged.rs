@@ -1,10 +1,10 @@
 //! Verification of recordings among moving obstacles, against checks at single moments.
 
-use crate::common::random::{seeds, uses_default_cases};
-use crate::drawn::Moving;
 use cplan::check::{CollisionCheck, check_collision};
 use cplan::space::{Configuration, Recording};
 use cplan::{Options, plan};
+use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::moving::Moving;
 
 const LOOKS: usize = 400;
 

@@ -1,13 +1,15 @@
 //! If it is proven that no timing along a path avoids the obstacles, brute force finds none either.
 
-use crate::common::random::{seeds, uses_default_cases};
-use crate::common::{obstacle, placed, q, rectangle, rr};
-use crate::drawn::{Moving, obstacle_at as moved};
-use crate::oracle::Oracle;
 use cplan::geometry::{Point, Vector};
 use cplan::model::{MovingObstacle, ObstacleTrajectory, Stop, TimedWorkspace, Workspace};
 use cplan::space::{Configuration, JointRange, Path};
 use cplan::{Options, Outcome, Problem, plan};
+use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::arms::rr;
+use cplan_testkit::moving::{Moving, obstacle_at as moved};
+use cplan_testkit::oracle::Oracle;
+use cplan_testkit::scenes::{obstacle, placed, q};
+use cplan_testkit::shapes::rectangle;
 
 /// Number of places on the path (`PLACES`), longest time between two checks in seconds (`STEP`), and largest movement
 /// between them in metres (`GOES`).

@@ -2,11 +2,6 @@
 //! hardly later than those of brute force.
 
 use crate::belts::{drawn, frames, pose_on_trajectory, replayed};
-use crate::common::dice::Dice;
-use crate::common::disc;
-use crate::common::random::{seeds, uses_default_cases};
-use crate::solid::{Solid, V};
-use crate::world::KINDS;
 use cplan::engine::task::plan;
 use cplan::geometry::{Point, Vector};
 use cplan::model::{
@@ -15,6 +10,11 @@ use cplan::model::{
 };
 use cplan::space::Configuration;
 use cplan::{Options, Status};
+use cplan_cases::dice::Dice;
+use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::shapes::disc;
+use cplan_testkit::solid::{Solid, V};
+use cplan_testkit::world::KINDS;
 use std::f64::consts::{PI, TAU};
 
 /// Number of moments between two samples that are checked.

@@ -1,12 +1,15 @@
 //! Bounds on the optimum, compared with closed forms, with published figures, and with the paths of all other planners.
 
-use crate::common::{self, Benchmark, disc, motion_problem, obstacle, q, rr, scene, shipped_feasible};
 use cplan::Outcome;
 use cplan::engine::{Answer, Bound, Criterion, Method, Planner, Space, bound, solve};
 use cplan::geometry::{Convex, Point};
 use cplan::model::MotionProblem;
 use cplan::proofs::{MotionQuery, least_length};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path};
+use cplan_testkit::arms::{self, rr};
+use cplan_testkit::problems::{self, Benchmark, motion_problem, shipped_feasible};
+use cplan_testkit::scenes::{obstacle, q, scene};
+use cplan_testkit::shapes::{self, disc};
 use std::f64::consts::TAU;
 
 /// Planners that search for the optimum.
@@ -86,7 +89,7 @@ fn no_planner_finds_a_path_below_the_bound() {
 fn published_optima_lie_within_the_bounds() {
     for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
         for planner in PLANNERS {
-            let bound = bounded(&answer_by(planner, &common::problem(which), Criterion::Euclidean, Some(1e-4)));
+            let bound = bounded(&answer_by(planner, &problems::problem(which), Criterion::Euclidean, Some(1e-4)));
             assert!(bound.gap() <= 1e-4, "{which:?}: {bound:?}");
             // The published figures have four decimals.
             assert!(bound.lower <= optimum + 5e-5 && optimum - 5e-5 <= bound.upper, "{which:?}: {bound:?}");
@@ -135,10 +138,10 @@ fn around_a_block_the_bound_is_the_shortest_path() {
     let tool = disc(Point::zeros(), 0.0);
     let slide = |angle: f64| cplan::model::JointType::Prismatic { direction: Point::new(angle.cos(), angle.sin()) };
     let axis = JointRange::Interval { lower: -2.0, upper: 2.0 };
-    let joints = [common::joint("x", slide(0.0), axis), common::joint("y", slide(TAU / 4.0), axis)];
-    let links = [common::link("beam", Vec::new()), common::link("tool", vec![tool])];
-    let arm = common::arm(joints, links, Point::zeros(), Point::zeros());
-    let block = common::rectangle(-0.5, 0.5, -2.5, 0.25);
+    let joints = [arms::joint("x", slide(0.0), axis), arms::joint("y", slide(TAU / 4.0), axis)];
+    let links = [arms::link("beam", Vec::new()), arms::link("tool", vec![tool])];
+    let arm = arms::arm(joints, links, Point::zeros(), Point::zeros());
+    let block = shapes::rectangle(-0.5, 0.5, -2.5, 0.25);
     let problem = motion_problem(scene(arm, vec![block]), q(-1.5, 0.0), q(1.5, 0.0));
     let string = 1.0 + 2.0 * 1.0_f64.hypot(0.25);
     let found = bounded(&answer(&problem, Criterion::Euclidean, Some(1e-5)));
@@ -154,9 +157,9 @@ fn gantries_find_paths_into_spirals() {
     for turns in [2, 6] {
         let size = gap * f64::from(turns);
         let axis = JointRange::Interval { lower: -size - 3.0, upper: size + 3.0 };
-        let joints = [common::joint("x", slide(0.0), axis), common::joint("y", slide(TAU / 4.0), axis)];
-        let links = [common::link("beam", Vec::new()), common::link("tool", vec![disc(Point::zeros(), radius)])];
-        let arm = common::arm(joints, links, Point::zeros(), Point::zeros());
+        let joints = [arms::joint("x", slide(0.0), axis), arms::joint("y", slide(TAU / 4.0), axis)];
+        let links = [arms::link("beam", Vec::new()), arms::link("tool", vec![disc(Point::zeros(), radius)])];
+        let arm = arms::arm(joints, links, Point::zeros(), Point::zeros());
         // From the middle outwards. Each length occurs on two sides.
         let mut corners = vec![Point::zeros()];
         for side in 0..4 * turns {
@@ -181,7 +184,7 @@ fn gantries_find_paths_into_spirals() {
 /// Checks that the gap is that between the bound and the given path, whichever planner found the path.
 #[test]
 fn a_detour_has_a_gap() {
-    let problem = common::problem(Benchmark::A);
+    let problem = problems::problem(Benchmark::A);
     let shortest = answer(&problem, Criterion::Euclidean, Some(1e-3));
     let Outcome::Found(other) = solve(&problem, &Method::Wavefront.into(), &mut |_| {}).outcome else {
         panic!("problem A has a path")

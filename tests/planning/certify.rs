@@ -1,8 +1,5 @@
 //! The judge, compared with dense samples and with problems whose answers are known.
 
-use crate::common::{
-    Benchmark, all_kinds, arm, benchmark, clutter, disc, joint, link, q, recheck, rectangle, rr, scene, wall,
-};
 use cplan::check::{
     CertifiedPath, CollisionBox, Deviation, Posture, ProofError, Rejection, StraightMotions, certify, certify_at,
 };
@@ -10,6 +7,10 @@ use cplan::geometry::{Point, Vector};
 use cplan::model::{JointType, Scene};
 use cplan::proofs::{Connectivity, Occupancy, connectivity, explore};
 use cplan::space::{Configuration, JointRange, Path};
+use cplan_testkit::arms::{all_kinds, arm, joint, link, rr};
+use cplan_testkit::problems::{Benchmark, benchmark, recheck};
+use cplan_testkit::scenes::{clutter, q, scene};
+use cplan_testkit::shapes::{disc, rectangle, wall};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 

@@ -1,12 +1,12 @@
 //! Lower bounds, and evidence for them that is computed again. It confirms true bounds, and never a false one.
 
-use crate::common::random::{seeds, uses_default_cases};
-use crate::common::shipped_feasible;
-use crate::random_worlds::world;
 use cplan::Outcome;
 use cplan::engine::{Bound, BoundCertificate, Criterion, Method, Planner, certificate_of_bound, solve};
 use cplan::input::Overrides;
 use cplan::model::MotionProblem;
+use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::problems::shipped_feasible;
+use cplan_testkit::world;
 
 /// Fraction of a bound that may be lost when its evidence is computed again, because walls are found at finitely many
 /// points. It is that of `cplan recheck`.

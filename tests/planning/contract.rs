@@ -3,7 +3,6 @@
 //! The library's own builders turn a scene into the space that a planner works on, so arms of all kinds, intervals and
 //! circles take part. Distances on the scene alone decide whether a path is free.
 
-use crate::common::{all_kinds, arm, disc, joint, link, q, rectangle, rr, scene, wall};
 use cplan::cspace::{Grid, Proves, Regions, ZonedGrid, outer_grid, regions, sampled_grid};
 use cplan::field::search::Ties;
 use cplan::field::{
@@ -16,6 +15,9 @@ use cplan::planner::{
     RoadmapSearch, Run, SearchOrder, Size, Trace, Trapezoid, Triangles, Visibility, Voronoi, Wavefront,
 };
 use cplan::space::{Configuration, JointRange, Metric, Path};
+use cplan_testkit::arms::{all_kinds, arm, joint, link, rr};
+use cplan_testkit::scenes::{q, scene};
+use cplan_testkit::shapes::{disc, rectangle, wall};
 use std::f64::consts::TAU;
 
 /// A function that plans in a scene, in the representation that a planner needs.

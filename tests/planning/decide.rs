@@ -1,6 +1,5 @@
 //! Decisions whether there is a path at all: among thousands of pieces, and in cases that boxes cannot decide.
 
-use crate::common::{motion_problem, placed, q, recheck, rr, wall};
 use cplan::Options;
 use cplan::Outcome;
 use cplan::check::certify;
@@ -9,6 +8,10 @@ use cplan::geometry::{Point, shapes_meet};
 use cplan::input::{self, Overrides};
 use cplan::model::{Heights, MotionProblem, Obstacle, Shape, Workspace};
 use cplan::space::JointRange;
+use cplan_testkit::arms::rr;
+use cplan_testkit::problems::{motion_problem, recheck};
+use cplan_testkit::scenes::{placed, q};
+use cplan_testkit::shapes::wall;
 use std::f64::consts::TAU;
 use std::path::Path;
 

@@ -7,8 +7,6 @@
 //! CPLAN_WORLDS=250 cargo test --profile quick --test planning explaining -- --nocapture
 //! ```
 
-use crate::common::random::{seeds, uses_default_cases};
-use crate::random_worlds::world::{KINDS, world};
 use cplan::engine::explain::{BlockingSet, ChangeKind, Element, MotionQuestion, Side, blocking_set, explain};
 use cplan::engine::{Method, Planner, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
@@ -17,6 +15,8 @@ use cplan::model::{
 };
 use cplan::space::{Configuration, GoalSet, JointRange, Segment};
 use cplan::{Options, Status, engine};
+use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::world::{KINDS, world};
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 

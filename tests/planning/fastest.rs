@@ -5,15 +5,15 @@
 //! CPLAN_TIMES=50 cargo test --profile quick --test planning fastest -- --nocapture
 //! ```
 
-use crate::common::dice::Dice;
-use crate::common::random::{seeds, uses_default_cases};
-use crate::random_worlds::oracle::Oracle;
-use crate::random_worlds::world::{KINDS, world};
 use cplan::engine::{Method, Motion};
 use cplan::model::Status;
 use cplan::motion::{BlendReport, Drive, Objective, Trajectory};
 use cplan::space::{Configuration, Path};
 use cplan::{Options, Plan, Planner, Problem, plan};
+use cplan_cases::dice::Dice;
+use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::oracle::Oracle;
+use cplan_testkit::world::{KINDS, world};
 
 /// Largest difference between two computations of the same distance, in metres.
 const ROUNDING: f64 = 1e-9;

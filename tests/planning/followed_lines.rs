@@ -1,9 +1,5 @@
 //! Tasks with lines for the tip, compared with dense samples of the played motion.
 
-#[path = "../../crates/companions/follow/tests/follow/oracle.rs"]
-#[allow(dead_code, reason = "the tests of the crate use more of it")]
-mod oracle;
-
 use crate::random_tasks::replay;
 use cplan::Outcome;
 use cplan::engine::task::{TaskAnswer, plan};
@@ -13,7 +9,7 @@ use cplan::model::{Action, FollowedLine, RecordedOverlap, RecordedStep, Recorded
 use cplan::motion::Trajectory;
 use cplan::space::{Configuration, Recording};
 use cplan_cases::dice::Dice;
-use oracle::{Bars, Point, pass_together, played, points};
+use cplan_testkit::follow_oracle::{Bars, Point, pass_together, played, points};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 

@@ -1,9 +1,6 @@
 //! Groups in free order for which some orders are infeasible, because objects that are placed, or not picked yet, block
 //! others.
 
-use crate::common::dice::Dice;
-use crate::common::random::{seeds, uses_default_cases};
-use crate::judged::{self, Question};
 use crate::random_tasks::replay;
 use cplan::Options;
 use cplan::Outcome;
@@ -13,6 +10,9 @@ use cplan::geometry::{Point, Pose};
 use cplan::input::{Overrides, Rules, load_scene};
 use cplan::model::{Action, Heights, Item, Object, Step, Task};
 use cplan::motion::Drive;
+use cplan_cases::dice::Dice;
+use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::judged::{self, Question};
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

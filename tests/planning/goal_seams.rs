@@ -1,14 +1,17 @@
 //! Sets of goals that end at the seam of a circle, lie on it or cross it. The seam has no meaning, so the same set in
 //! another notation gives the same result, with every planner.
 
-use crate::common::dice::Dice;
-use crate::common::random::{seeds, uses_default_cases};
-use crate::common::{disc, motion_problem, rr, scene, wall};
 use cplan::Outcome;
 use cplan::engine::{Method, Planner, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{MotionProblem, Scene};
 use cplan::space::{Configuration, GoalSet, JointRange, Path, Segment};
+use cplan_cases::dice::Dice;
+use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::arms::rr;
+use cplan_testkit::problems::motion_problem;
+use cplan_testkit::scenes::scene;
+use cplan_testkit::shapes::{disc, wall};
 use std::f64::consts::PI;
 
 /// Number of single goals of a set for which the test plans one by one.

@@ -1,8 +1,5 @@
 //! Goals of the tip that leave a joint free, compared with goals at many values of that joint.
 
-use crate::common::dice::Dice;
-use crate::common::random::{seeds, uses_default_cases};
-use crate::common::{arm, disc, joint, link, motion_problem, recheck, rectangle, scene, wall};
 use cplan::Options;
 use cplan::Outcome;
 use cplan::engine::{Method, solve};
@@ -10,6 +7,12 @@ use cplan::geometry::{Point, Vector};
 use cplan::model::{Arm, JointType, MotionProblem, Scene, inverse};
 use cplan::proofs::{Connectivity, MotionQuery, connectivity, least_length, slab_connectivity};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Segment};
+use cplan_cases::dice::Dice;
+use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::arms::{arm, joint, link};
+use cplan_testkit::problems::{motion_problem, recheck};
+use cplan_testkit::scenes::scene;
+use cplan_testkit::shapes::{disc, rectangle, wall};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Number of values of the free joint for which the test plans one by one.

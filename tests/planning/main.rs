@@ -4,8 +4,6 @@ mod bound;
 mod certificates;
 mod certify;
 mod checked_bounds;
-#[path = "../common/mod.rs"]
-mod common;
 mod contract;
 mod decide;
 mod explaining;
@@ -16,9 +14,6 @@ mod full_graph;
 mod goal_seams;
 mod goal_sets;
 mod interrupt;
-#[path = "../program/verify/judged.rs"]
-#[allow(dead_code, reason = "other test programs ask more")]
-mod judged;
 mod optimum;
 mod own_bodies;
 mod published;

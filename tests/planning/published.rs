@@ -1,24 +1,9 @@
 //! Published sweep counts.
 
-#[path = "../../examples/published_tables/alves.rs"]
-#[allow(dead_code, reason = "notes are for readers of the tables")]
-mod alves;
-#[path = "../../examples/published_tables/deicu.rs"]
-#[allow(dead_code, reason = "notes are for readers of the tables")]
-mod deicu;
-#[path = "../../examples/published_tables/line_maps.rs"]
-mod line_maps;
-#[path = "../../examples/published_counts/plain.rs"]
-mod plain;
-#[path = "../../examples/published_tables/row.rs"]
-mod row;
-#[path = "../../examples/published_counts/search.rs"]
-#[allow(dead_code, reason = "the search itself takes minutes")]
-mod search;
-
-use plain::{Beyond, Choice, Plain, Rule};
-use row::Claim;
-use search::{Maps, OF_GAUSS_SEIDEL, OF_SOR, Tally};
+use cplan_testkit::published::plain::{Beyond, Choice, Plain, Rule};
+use cplan_testkit::published::row::{self, Claim};
+use cplan_testkit::published::search::{self, Maps, OF_GAUSS_SEIDEL, OF_SOR, Tally};
+use cplan_testkit::published::{alves, deicu};
 
 #[test]
 fn line_maps_of_100_x_100_cells_take_the_published_sweeps() {

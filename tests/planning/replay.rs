@@ -1,10 +1,10 @@
 //! Replays of planners: they show truly how a planner found its answer.
 
-use crate::common::shipped_feasible;
 use cplan::engine::{Method, Phase, Replay, Setting, Shows, SlabBoxes};
 use cplan::planner::{GridSearch, PathKind, Trace};
 use cplan::space::Configuration;
 use cplan::{Options, Plan, Planner, Problem, plan};
+use cplan_testkit::problems::shipped_feasible;
 use std::path::Path;
 
 fn plan_shipped(robot: &str, world: &str, planner: impl Into<Options>) -> Plan {

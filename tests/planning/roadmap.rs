@@ -1,7 +1,5 @@
 //! Visibility graph and trapezoidal decomposition, compared with brute force, flood fill and closed forms.
 
-use crate::common::dice::Dice;
-use crate::common::roadmap::*;
 use cplan::cspace::{PolygonWithHoles, Regions};
 use cplan::geometry::Point;
 use cplan::planner::{
@@ -9,6 +7,9 @@ use cplan::planner::{
     Visibility, VisibilityGraph, Voronoi,
 };
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path, Topology};
+use cplan_cases::dice::Dice;
+use cplan_testkit::roadmap::*;
+use cplan_testkit::scenes::q;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -18,7 +19,7 @@ const MIDDLES: Trapezoid = Trapezoid { path: PathKind::Own, search: USUAL };
 const TAUT: Trapezoid = Trapezoid { path: PathKind::Taut, search: USUAL };
 
 fn query(start: (f64, f64), goal: (f64, f64)) -> Query {
-    Query { start: configuration(start.0, start.1), goals: configuration(goal.0, goal.1).into() }
+    Query { start: q(start.0, start.1), goals: q(goal.0, goal.1).into() }
 }
 
 fn run<P: Planner<Space = Regions>>(planner: &P, regions: &Regions, query: &Query) -> Run {
@@ -327,7 +328,7 @@ mod contract {
         for at in [(0.5, 0.5), (1.0, 1.0), (1.0, 2.0), (0.0, 0.0), (1.0, 0.5)] {
             run_all_planners(|plan| {
                 let Proposal::Found(path) = plan(&square(), &query(at, at)) else { panic!("{at:?}") };
-                assert_eq!(path.waypoints(), [configuration(at.0, at.1)]);
+                assert_eq!(path.waypoints(), [q(at.0, at.1)]);
             });
         }
     }
@@ -365,12 +366,10 @@ mod contract {
     #[test]
     fn the_nearest_of_several_goals_is_taken() {
         run_all_planners(|plan| {
-            let goals = [configuration(3.5, 3.5), configuration(2.0, 2.0), configuration(0.5, 1.5)];
+            let goals = [q(3.5, 3.5), q(2.0, 2.0), q(0.5, 1.5)];
             let goals = goals.into_iter().collect();
-            let Proposal::Found(path) = plan(&square(), &Query { start: configuration(0.5, 0.5), goals }) else {
-                panic!()
-            };
-            assert_eq!(path.goal(), configuration(0.5, 1.5));
+            let Proposal::Found(path) = plan(&square(), &Query { start: q(0.5, 0.5), goals }) else { panic!() };
+            assert_eq!(path.goal(), q(0.5, 1.5));
         });
     }
 
@@ -387,8 +386,8 @@ mod contract {
         run_all_planners(|plan| {
             let Proposal::Found(path) = plan(&regions, &query((0.0, 0.0), (PI, 0.0))) else { panic!() };
             let [from, to] = path.waypoints() else { panic!("{:?}", path.waypoints()) };
-            assert_eq!(*from, configuration(0.0, 0.0));
-            assert!((to - configuration(PI - TAU, 0.0)).norm() < 1e-14, "{to}");
+            assert_eq!(*from, q(0.0, 0.0));
+            assert!((to - q(PI - TAU, 0.0)).norm() < 1e-14, "{to}");
         });
     }
 }
@@ -447,7 +446,7 @@ fn of_motions_that_take_equally_long_the_shortest_is_taken() {
     let regions = window_with_holes((0.0, 4.0), (-2.0, 2.0), vec![rectangle((1.5, 2.5), (-0.5, 0.6))]);
     let planner = Visibility { metric: Metric::Time { speeds: [1.0, 1.0] }, ..VISIBILITY };
     let path = checked_path(&planner, &regions, &query((0.0, 0.0), (4.0, 0.0))).unwrap();
-    let corners = [(0.0, 0.0), (1.5, -0.5), (2.5, -0.5), (4.0, 0.0)].map(|(x, y)| configuration(x, y));
+    let corners = [(0.0, 0.0), (1.5, -0.5), (2.5, -0.5), (4.0, 0.0)].map(|(x, y)| q(x, y));
     assert_eq!(path.waypoints(), corners);
 }
 

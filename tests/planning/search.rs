@@ -1,11 +1,11 @@
 //! Waves and searches over grids, compared with textbook code that shares nothing with them, with petgraph, and with
 //! published tables.
 
-use crate::common::reference::published;
 use cplan::cspace::{Grid, Proves};
 use cplan::field::search::{Cost, Order, Search, Ties};
 use cplan::field::{FreeCells, Lattice, Neighborhood, StepLabels, UNREACHED};
 use cplan::space::{JointRange, Topology};
+use cplan_testkit::reference::published;
 use petgraph::graph::{NodeIndex, UnGraph};
 use proptest::prelude::*;
 use std::collections::{BTreeSet, VecDeque};

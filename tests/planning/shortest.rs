@@ -1,13 +1,13 @@
 //! The shortest path among random obstacles. It is never below proven bounds, rarely far above them, and smooth to
 //! drive.
 
-use crate::common::random::{seeds, uses_default_cases};
-use crate::random_worlds::world;
 use cplan::Outcome;
 use cplan::check::certify;
 use cplan::engine::{Method, solve};
 use cplan::proofs::{MotionQuery, least_length};
 use cplan::space::Metric;
+use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::world;
 
 /// Number of worlds of each kind of arm.
 const WORLDS: u64 = 12;

@@ -1,10 +1,6 @@
 //! Slabs of joint 1, compared with collision tests of sampled configurations, with the subdivision into boxes, and with
 //! the independent check.
 
-use crate::common::{
-    Benchmark, all_kinds, arm, benchmark, clutter, configuration_at_fractions, convex, disc, joint, link, problem, q,
-    recheck, rectangle, rr, scene, wall,
-};
 use cplan::Outcome;
 use cplan::check::{Cell, CertifiedPath, CheckedProof, certify, certify_at};
 use cplan::engine::{Method, decide, solve};
@@ -13,6 +9,10 @@ use cplan::input::{self, Overrides};
 use cplan::model::{JointType, Scene};
 use cplan::proofs::{Connectivity, connectivity, slab_connectivity};
 use cplan::space::{Configuration, GoalSet, JointRange};
+use cplan_testkit::arms::{all_kinds, arm, joint, link, rr};
+use cplan_testkit::problems::{Benchmark, benchmark, problem, recheck};
+use cplan_testkit::scenes::{clutter, configuration_at_fractions, q, scene};
+use cplan_testkit::shapes::{convex, disc, rectangle, wall};
 use proptest::prelude::*;
 use std::path::Path;
 

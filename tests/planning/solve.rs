@@ -1,10 +1,13 @@
 //! The benchmark problems with published answers, with every planner.
 
-use crate::common::{Benchmark, benchmark, motion_problem, problem, q, rectangle, rr, scene, shipped_feasible};
 use cplan::Outcome;
 use cplan::cspace::Proves;
 use cplan::engine::{Answer, GridSpace, Method, Options, Planner, Space, solve};
 use cplan::space::JointRange;
+use cplan_testkit::arms::rr;
+use cplan_testkit::problems::{Benchmark, benchmark, motion_problem, problem, shipped_feasible};
+use cplan_testkit::scenes::{q, scene};
+use cplan_testkit::shapes::rectangle;
 
 fn answer(which: Benchmark, method: Method) -> Answer {
     solve(&problem(which), &method.into(), &mut |_| {})

@@ -1,6 +1,5 @@
 //! The choice of IK solutions and order, compared with a trial of all choices.
 
-use crate::common::{arm, disc, joint, link, obstacle, q, rectangle};
 use cplan::engine::task::{TaskAnswer, plan, rest_to_rest};
 use cplan::engine::{Method, Options};
 use cplan::geometry::{Point, Pose, Vector};
@@ -10,6 +9,9 @@ use cplan::model::{
 };
 use cplan::motion::Drive;
 use cplan::space::{Configuration, JointRange};
+use cplan_testkit::arms::{arm, joint, link};
+use cplan_testkit::scenes::{obstacle, q};
+use cplan_testkit::shapes::{disc, rectangle};
 use std::collections::BTreeMap;
 
 fn options() -> Options {

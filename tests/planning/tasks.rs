@@ -3,7 +3,6 @@
 //! The first comment of a task's world names its robot (`# robot: scara`) and the outcome (`# expect: done` or `#
 //! expect: infeasible`).
 
-use crate::common::recheck;
 use crate::random_tasks::replay;
 use cplan::Outcome;
 use cplan::engine::task::{TaskAnswer, plan};
@@ -13,6 +12,7 @@ use cplan::model::{
     Action, Goal, Holding, Item, Object, Step, Task, TimedWorkspace, Workspace, equivalent_values, inverse,
 };
 use cplan::space::Configuration;
+use cplan_testkit::problems::recheck;
 use std::path::{Path, PathBuf};
 
 fn options() -> Options {

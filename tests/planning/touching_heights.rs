@@ -1,11 +1,11 @@
 //! Heights of the arm that touch those of an obstacle are a contact, and all commands give this answer.
 
-use crate::judged::{Question, judge};
 use cplan::engine::Method;
 use cplan::input::{self, Overrides, Source, load_scene};
 use cplan::model::Status;
 use cplan::{Options, Problem, plan};
 use cplan_check_files::check;
+use cplan_testkit::judged::{Question, judge};
 
 /// Middles and thicknesses of link 2, and tops of the obstacle below it. Their heights touch, and few of the sums are exact
 /// in doubles.

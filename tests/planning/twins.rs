@@ -1,7 +1,6 @@
 //! Workspaces without a path, and twins of them with a path. Stored proofs pass the independent check, and found paths
 //! pass a sweep by parry2d.
 
-use crate::common::recheck;
 use cplan::Outcome;
 use cplan::check::{ProofBox, ProofError, read_proof};
 use cplan::engine::{Method, solve};
@@ -10,6 +9,7 @@ use cplan::input::{self, Overrides};
 use cplan::model::{MotionProblem, Scene};
 use cplan::proofs::{Connectivity, connectivity};
 use cplan::space::{Configuration, Path};
+use cplan_testkit::problems::recheck;
 use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::intersection_test;
 use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};

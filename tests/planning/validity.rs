@@ -2,10 +2,6 @@
 //! Before these checks existed, penetrations of a clockwise square were wrong, and problems without goals, or with a
 //! start out of range, were reported as infeasible.
 
-use crate::common::dice::Dice;
-use crate::common::random::{seeds, uses_default_cases};
-use crate::common::{disc, link, motion_problem, obstacle, placed, q, rectangle, rr, wall};
-use crate::random_worlds::world;
 use cplan::Outcome;
 use cplan::engine::{Method, solve};
 use cplan::geometry::{
@@ -16,6 +12,13 @@ use cplan::model::{
     MotionProblemError, Preference, Region, Scene, SceneError, Workspace,
 };
 use cplan::space::{GoalSet, JointRange, Segment};
+use cplan_cases::dice::Dice;
+use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::arms::{link, rr};
+use cplan_testkit::problems::motion_problem;
+use cplan_testkit::scenes::{obstacle, placed, q};
+use cplan_testkit::shapes::{disc, rectangle, wall};
+use cplan_testkit::world;
 use std::f64::consts::PI;
 
 const NAN: f64 = f64::NAN;

@@ -1,12 +1,13 @@
 //! Voronoi diagrams, and the paths of greatest clearance along them, compared with distances from all sides, with
 //! floods over grids, and with closed forms.
 
-use crate::common::dice::Dice;
-use crate::common::roadmap::*;
 use cplan::cspace::{PolygonWithHoles, Proves, Regions};
 use cplan::geometry::Point;
 use cplan::planner::{PathKind, Planner, Proposal, Query, Run, Size, Trace, Voronoi};
 use cplan::space::{Configuration, JointRange, Measure, Metric, Path, Segment, Topology};
+use cplan_cases::dice::Dice;
+use cplan_testkit::roadmap::*;
+use cplan_testkit::scenes::q;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -239,7 +240,7 @@ fn between_two_walls_the_path_is_in_the_middle() {
     let found = path(&run).expect("a way").waypoints();
     assert_eq!(found.len(), expected.len(), "{found:?}");
     for (q, (x, y)) in found.iter().zip(expected) {
-        assert!((q - configuration(x, y)).norm() < 1e-9, "{found:?}");
+        assert!((q - Configuration::new(x, y)).norm() < 1e-9, "{found:?}");
     }
 }
 
@@ -247,12 +248,9 @@ fn between_two_walls_the_path_is_in_the_middle() {
 fn a_square_room_has_its_diagonals() {
     let regions = window_with_holes((0.0, 2.0), (0.0, 2.0), Vec::new());
     let planner = Voronoi { path: PathKind::Taut, ..Voronoi::default() };
-    let query = Query { start: configuration(1.0, 0.3), goals: configuration(1.8, 1.0).into() };
+    let query = Query { start: q(1.0, 0.3), goals: q(1.8, 1.0).into() };
     let own = run(&regions, query.start, Point::new(1.8, 1.0));
-    assert_eq!(
-        path(&own).expect("a way").waypoints(),
-        [(1.0, 0.3), (1.0, 1.0), (1.8, 1.0)].map(|(x, y)| configuration(x, y))
-    );
+    assert_eq!(path(&own).expect("a way").waypoints(), [(1.0, 0.3), (1.0, 1.0), (1.8, 1.0)].map(|(x, y)| q(x, y)));
     let Trace::Roads { edges, .. } = &own.trace else { panic!() };
     let diagonals = edges.iter().filter(|edge| edge.iter().any(|q| q.amin() < 1e-9 || q.amax() > 2.0 - 1e-9));
     let total: f64 = diagonals.map(|[a, b]| (b - a).norm()).sum();
@@ -294,7 +292,7 @@ fn a_start_at_a_goal_up_to_rounding_stays() {
     let map = planner.build(&regions);
     let mut rounded = 0;
     for k in 1..=40 {
-        let goals = Segment::new(configuration(0.1, 0.3), configuration(1.7, 0.9 + 0.01 * f64::from(k)));
+        let goals = Segment::new(q(0.1, 0.3), q(1.7, 0.9 + 0.01 * f64::from(k)));
         let start = goals.at(f64::from(k) / 41.0);
         rounded += u32::from(goals.nearest(Measure::from(Metric::Euclidean), start) != start);
         let run = planner.query(&regions, &map, &Query { start, goals: goals.into() });

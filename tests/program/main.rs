@@ -1,8 +1,6 @@
 //! The program as its users see it: commands, pictures, pages and the server.
 
 mod cli;
-#[path = "../common/mod.rs"]
-mod common;
 mod docs;
 mod draw;
 mod library_api;

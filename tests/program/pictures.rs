@@ -1,23 +1,21 @@
 //! Checks that the pictures of the documentation equal those that the program draws.
 
-#[path = "../../examples/pictures/drawn.rs"]
-mod drawn;
-
 use crate::rounding;
+use cplan_testkit::pictures::{MOVING, PICTURES};
 use std::fs;
 use std::path::Path;
 
 #[test]
 fn pictures_are_up_to_date() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures");
-    for (name, subject) in drawn::PICTURES {
+    for (name, subject) in PICTURES {
         let kept = fs::read_to_string(folder.join(name).with_extension("svg")).unwrap();
         let drawn = subject.svg().unwrap();
         assert!(rounding::same(&kept, &drawn), "{name}.svg is out of date: cargo run --release --example pictures");
     }
     let files = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
-    assert_eq!(files.filter(|f| f.extension().is_some_and(|e| e == "svg")).count(), drawn::PICTURES.len());
-    assert!(drawn::PICTURES.iter().any(|(name, _)| *name == drawn::MOVING.1), "what moves has a still picture");
+    assert_eq!(files.filter(|f| f.extension().is_some_and(|e| e == "svg")).count(), PICTURES.len());
+    assert!(PICTURES.iter().any(|(name, _)| *name == MOVING.1), "what moves has a still picture");
 }
 
 /// Checks that the animated picture ends with the still one. Drawing all frames takes seconds, so the other frames are
@@ -25,11 +23,11 @@ fn pictures_are_up_to_date() {
 #[cfg(feature = "png")]
 #[test]
 fn the_picture_that_moves_is_up_to_date() {
-    let (name, of) = drawn::MOVING;
+    let (name, of) = MOVING;
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures").join(name).with_extension("gif");
     let bytes = fs::read(file).unwrap();
     let (count, kept) = crate::draw::moving::last_picture(&bytes, 960);
-    let (_, subject) = drawn::PICTURES.iter().find(|(name, _)| *name == of).unwrap();
+    let (_, subject) = PICTURES.iter().find(|(name, _)| *name == of).unwrap();
     let drawn = cplan::view::png(&subject.svg().unwrap(), 960.0 / 1400.0).unwrap();
     let drawn = tiny_skia::Pixmap::decode_png(&drawn).unwrap();
     let near = |(a, b): (&tiny_skia::PremultipliedColorU8, &[u8; 3])| {

@@ -1,6 +1,6 @@
 //! Roadmaps on the command line: planners, searches, seeds, and grids with two numbers of cells.
 
-use crate::verify::judged::plan_result;
+use cplan_testkit::judged::plan_result;
 use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output};

@@ -1,12 +1,13 @@
 //! Repulsion by all obstacle cells together, and figure 3.4 of the sources. With four times the charge, the robot gets
 //! out of a trap, but then cannot reach some goals.
 
-use crate::common::placed;
 use cplan::cspace::{Grid, Proves, ZonedGrid};
 use cplan::field::{Attraction, ForceField, Khatib, Limits, Repulsion};
 use cplan::model::Workspace;
 use cplan::planner::{FieldChoice, FieldPlanner, PathKind, Planner, Proposal, Query};
 use cplan::space::{Configuration, JointRange, Topology};
+use cplan_testkit::arms;
+use cplan_testkit::scenes::placed;
 use proptest::prelude::*;
 
 const SUM: Repulsion = Repulsion::Sum(1.0);
@@ -93,7 +94,7 @@ fn room(gap: &str) -> (ZonedGrid, Query) {
     let topology = Topology { ranges: [axis(40.0), axis(44.0)] };
     let grid = Grid { topology, proves: Proves::Sampled, cells: [40, 44], blocked };
     let workspace = Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences: Vec::new() };
-    let scene = placed(crate::common::rr([axis(3.0), axis(3.0)]), workspace);
+    let scene = placed(arms::rr([axis(3.0), axis(3.0)]), workspace);
     let query = Query { start: Configuration::new(3.5, 19.75), goals: Configuration::new(35.5, 22.5).into() };
     (ZonedGrid::new(grid, &scene), query)
 }

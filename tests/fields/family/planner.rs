@@ -1,6 +1,5 @@
 //! The planner for all fields.
 
-use crate::common::{placed, rr};
 use cplan::cspace::{Grid, Proves, ZonedGrid};
 use cplan::field::{
     Attraction, Device, Difference, Direction, Factor, Khatib, Limits, Lines, Measure, Order, Relaxation, Repulsion,
@@ -12,6 +11,8 @@ use cplan::planner::{
     EquationChoice, FieldChoice, FieldPlanner, Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, Wavefront,
 };
 use cplan::space::{Configuration, JointRange, Path, Topology};
+use cplan_testkit::arms::rr;
+use cplan_testkit::scenes::placed;
 use proptest::prelude::*;
 
 const GAUSS_SEIDEL: Relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));

@@ -1,10 +1,11 @@
 //! Areas in which preferences apply.
 
-use crate::common::{placed, q, rr};
 use cplan::cspace::{Grid, Proves, ZonedGrid};
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Arm, Preference, Region, Workspace};
 use cplan::space::JointRange;
+use cplan_testkit::arms::rr;
+use cplan_testkit::scenes::{placed, q};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 

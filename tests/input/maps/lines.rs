@@ -1,10 +1,11 @@
 //! Line maps and preference files, as an independent program wrote them, and with errors.
 
 use super::{assert_refused, folder, problem_in, world_in};
-use crate::common::{q, wall};
 use cplan::geometry::Point;
 use cplan::input::{LineMap, PreferenceMap};
 use cplan::model::{MotionProblem, Preference, Region, Shape};
+use cplan_testkit::scenes::q;
+use cplan_testkit::shapes::wall;
 use proptest::prelude::*;
 
 const MAP: &str = "2D-Map\nLineMinPos: -2000 -1000\nLineMaxPos: 2000 1000\nNumLines: 3\nLINES\n\

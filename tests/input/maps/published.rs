@@ -1,12 +1,12 @@
 //! The room-sized gantry in published line maps.
 
 use super::robot;
-use crate::common::reference::published;
 use cplan::Outcome;
 use cplan::engine::{Method, solve};
 use cplan::geometry::Point;
 use cplan::input::{LineMap, Overrides, PreferenceMap, load};
 use cplan::model::{MotionProblem, Preference, Region, Shape};
+use cplan_testkit::reference::published;
 
 /// Reads the problem of a world that names a map and a preference file by absolute paths.
 fn problem(data: &std::path::Path, map: usize, preferences: usize, start: [f64; 2]) -> MotionProblem {

@@ -1,10 +1,10 @@
 //! All shipped worlds and tasks, and random ones.
 
 use super::{Certified, Extremes, FORMATS, Run, files, judge, root};
-use crate::common::dice::Dice;
-use crate::common::random::{seeds, uses_default_cases};
 use cplan::input::load_scene;
 use cplan::model::Joint;
+use cplan_cases::dice::Dice;
+use cplan_cases::{seeds, uses_default_cases};
 use std::path::{Path, PathBuf};
 
 /// Returns the joints of a robot in a world.

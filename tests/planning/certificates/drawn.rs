@@ -1,6 +1,6 @@
 //! Random arms among a few large obstacles. They are stored as numbers, from which the files are written.
 
-use crate::common::dice::Dice;
+use cplan_cases::dice::Dice;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write;
 

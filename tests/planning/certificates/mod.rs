@@ -18,14 +18,14 @@ mod motions;
 mod oracle;
 mod tasks;
 
-use crate::common::dice::Dice;
-use crate::common::random::{seeds, times, uses_default_cases};
 use cplan::engine::Method;
 use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
 use cplan::space::Configuration;
 use cplan::{Options, Problem, plan};
+use cplan_cases::dice::Dice;
 use cplan_cases::slips::slipped;
+use cplan_cases::{seeds, times, uses_default_cases};
 use cplan_check_files::{CheckError, check};
 use drawn::{Drawn, Goal, Kind, Outline};
 use serde_json::{Value, json};

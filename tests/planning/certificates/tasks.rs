@@ -6,13 +6,13 @@
 
 use super::drawn::{Drawn, V};
 use super::{KINDS, TRIES};
-use crate::common::dice::Dice;
-use crate::common::random::{seeds, uses_default_cases};
 use cplan::engine::{Method, NoCertificate};
 use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
 use cplan::space::Configuration;
 use cplan::{Problem, plan};
+use cplan_cases::dice::Dice;
+use cplan_cases::{seeds, uses_default_cases};
 use cplan_check_files::{CheckError, check};
 use serde_json::Value;
 use std::fmt::Write;

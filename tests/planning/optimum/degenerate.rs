@@ -1,11 +1,14 @@
 //! Starts and goals at the ends of rows, seams and domains, and joints that cannot move.
 
 use super::{LIMITS, ROUNDING, bound, metrics};
-use crate::common::{arm, convex, disc, joint, link, motion_problem, q, rectangle, rr, scene};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, MotionProblem};
 use cplan::proofs::{MotionQuery, least_length};
 use cplan::space::{Configuration, JointRange, Metric};
+use cplan_testkit::arms::{arm, joint, link, rr};
+use cplan_testkit::problems::{self, motion_problem};
+use cplan_testkit::scenes::{q, scene};
+use cplan_testkit::shapes::{convex, disc, rectangle};
 use std::f64::consts::{PI, TAU};
 
 const CIRCLES: [JointRange; 2] = [JointRange::Circle, JointRange::Circle];
@@ -143,7 +146,7 @@ fn joints_that_cannot_move_are_bounded() {
 #[test]
 fn bounds_are_reproducible_to_the_last_bit() {
     for metric in metrics() {
-        let problem = crate::common::problem(crate::common::Benchmark::A);
+        let problem = problems::problem(problems::Benchmark::A);
         let found = [0; 2].map(|_| bound(&problem, metric, 30.0, 1e-4).to_bits());
         assert_eq!(found[0], found[1]);
     }

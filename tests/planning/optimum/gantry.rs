@@ -2,10 +2,13 @@
 //! known.
 
 use super::{LIMITS, ROUNDING, bound};
-use crate::common::{arm, convex, disc, joint, link, motion_problem, q, rectangle, scene};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, MotionProblem};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric};
+use cplan_testkit::arms::{arm, joint, link};
+use cplan_testkit::problems::motion_problem;
+use cplan_testkit::scenes::{q, scene};
+use cplan_testkit::shapes::{convex, disc, rectangle};
 use std::f64::consts::TAU;
 
 /// Half the range of each slide, metres.

@@ -2,9 +2,9 @@
 
 use super::gantry::{REACH, gantry};
 use super::{LIMITS, ROUNDING, bound, metrics};
-use crate::common::convex;
 use cplan::geometry::{Convex, Vector};
 use cplan::space::{Configuration, Metric};
+use cplan_testkit::shapes::convex;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

@@ -1,10 +1,10 @@
 //! The shipped workspaces: how far the bounds are from the best known paths.
 
 use super::{ROUNDING, bound};
-use crate::common::shipped_feasible;
 use cplan::Outcome;
 use cplan::engine::{Method, Planner, solve};
 use cplan::space::Metric;
+use cplan_testkit::problems::shipped_feasible;
 
 /// Requested gap. The best known path, which is itself within a thousandth of the optimum, must also be within this
 /// gap.

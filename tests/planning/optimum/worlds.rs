@@ -1,12 +1,15 @@
 //! Random worlds with all kinds of arms: no planner finds a motion that is shorter than the bound.
 
 use super::{LIMITS, ROUNDING, bound, metrics};
-use crate::common::{all_kinds, configuration_at_fractions, convex, disc, motion_problem, rectangle, scene, wall};
-use crate::random_worlds::world;
 use cplan::engine::{Criterion, Method, Options, Planner, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::MotionProblem;
 use cplan::space::{GoalSet, Path};
+use cplan_testkit::arms::all_kinds;
+use cplan_testkit::problems::motion_problem;
+use cplan_testkit::scenes::{configuration_at_fractions, scene};
+use cplan_testkit::shapes::{convex, disc, rectangle, wall};
+use cplan_testkit::world;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

@@ -1,9 +1,9 @@
 //! Random robots whose bases have several parts: plates, posts, combs, rings, columns at the axis. They are shapes of
 //! the root, or of links that fixed joints hang from it.
 
-use crate::common::dice::Dice;
-use crate::random_worlds::solid::{Solid, V};
 use cplan::geometry::{Convex, Point};
+use cplan_cases::dice::Dice;
+use cplan_testkit::solid::{Solid, V};
 use std::fmt::Write;
 
 /// Position of joint 2 on link 1, metres.

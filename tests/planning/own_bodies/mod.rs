@@ -5,13 +5,13 @@
 
 mod drawn;
 
-use crate::common::dice::Dice;
-use crate::common::random::{seeds, uses_default_cases};
-use crate::random_worlds::solid::V;
 use cplan::engine::Method;
 use cplan::input::{self, Overrides, Source};
 use cplan::{Options, Outcome, Problem, plan};
+use cplan_cases::dice::Dice;
+use cplan_cases::{seeds, uses_default_cases};
 use cplan_check_files::check;
+use cplan_testkit::solid::V;
 use drawn::{ELBOW, Robot, Shape};
 use std::collections::VecDeque;
 

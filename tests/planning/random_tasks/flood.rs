@@ -3,14 +3,14 @@
 
 use super::replay::World;
 use super::task;
-use crate::common::dice::Dice;
-use crate::common::motion_problem;
-use crate::common::random::{seeds, times};
 use cplan::Outcome;
 use cplan::engine::{Method, Options, solve};
 use cplan::geometry::Point;
 use cplan::model::{Grip, Holding, Payload, Task};
 use cplan::space::Configuration;
+use cplan_cases::dice::Dice;
+use cplan_cases::{seeds, times};
+use cplan_testkit::problems::motion_problem;
 
 /// Cells along each axis.
 const CELLS: usize = 150;

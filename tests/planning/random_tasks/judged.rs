@@ -2,13 +2,13 @@
 //! than planned for, most of them are not free.
 
 use super::{options, task};
-use crate::common::random::{seeds, times};
 use cplan::check::{CollisionCheck, ReplayedStep};
 use cplan::engine::Options;
 use cplan::engine::task::{TaskAnswer, TaskMotion, plan};
 use cplan::model::{RecordedOverlap, RecordedStep, RecordedTurn};
 use cplan::motion::Drive;
 use cplan::space::{Configuration, Recording};
+use cplan_cases::{seeds, times};
 
 /// Returns the content of a result file.
 fn record(answer: &TaskAnswer, TaskMotion { sequence, .. }: &TaskMotion) -> (Recording, Vec<RecordedStep>) {

@@ -9,11 +9,11 @@ mod pressed;
 pub mod replay;
 pub mod task;
 
-use crate::common::random::seeds;
 use cplan::Outcome;
 use cplan::engine::task::plan;
 use cplan::engine::{Method, Options};
 use cplan::motion::Drive;
+use cplan_cases::seeds;
 
 /// Numbers of tasks that are planned, proven infeasible, and unknown.
 #[derive(Debug, Default, PartialEq)]

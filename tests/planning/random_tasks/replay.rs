@@ -2,9 +2,9 @@
 //! objects, the payload and the allowed contacts follow from the task alone.
 #![allow(dead_code, reason = "each test uses some of it")]
 
-use crate::random_worlds::solid::{Solid, V, add, norm, rotate, sub};
 use cplan::engine::task::{Leg, TaskAnswer};
 use cplan::model::{Action, Goal, Holding, Item, Joint, JointType, Part, Step, Task};
+use cplan_testkit::solid::{Solid, V, add, norm, rotate, sub};
 
 /// Tolerance of positions, metres: inverse kinematics is exact to a few nanometres.
 const NEAR: f64 = 1e-7;

@@ -1,13 +1,15 @@
 //! Random tasks, the same for the same seed: all kinds of arms, rigid and level payloads, objects on supports.
 
-use crate::common::dice::Dice;
-use crate::common::{all_kinds, clutter, convex, disc, obstacle, placed};
 use cplan::geometry::{Convex, Point, Pose, Vector, hull};
 use cplan::model::{
     Action, Arch, Goal, Heights, Holding, Item, Object, Obstacle, Part, Shape, Step, Stroke, Task, ToolJoint,
     ToolValues, Workspace, Wrist,
 };
 use cplan::space::{Configuration, JointRange};
+use cplan_cases::dice::Dice;
+use cplan_testkit::arms::all_kinds;
+use cplan_testkit::scenes::{clutter, obstacle, placed};
+use cplan_testkit::shapes::{convex, disc};
 use std::f64::consts::{PI, TAU};
 
 pub fn task(seed: u64) -> Task {

@@ -1,9 +1,9 @@
 //! Random worlds in which the arm's own body is an obstacle.
 
-use super::world;
-use crate::common::dice::Dice;
 use cplan::geometry::{Convex, Vector};
 use cplan::model::{Arm, Carrier, MotionProblem, Obstacle, SelfObstacle};
+use cplan_cases::dice::Dice;
+use cplan_testkit::world;
 
 /// Returns the world of a seed for an arm of a kind whose own body is an obstacle. Returns `None` if the draw has no
 /// two free configurations.

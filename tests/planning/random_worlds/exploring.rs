@@ -4,16 +4,16 @@
 //! `CPLAN_WORLDS=50` tries 50 of each kind of arm, and prints the lengths of the paths and the endings.
 
 use super::flood::{Truth, connected};
-use super::oracle::Oracle;
-use super::solid::Solid;
-use super::world::{KINDS, world};
-use crate::common::random::seeds;
 use cplan::explore::{Ending, Exploration, Settings, Strategy, explore, map_description, map_picture};
 use cplan::geometry::Convex;
 use cplan::input::{Occupancy, OccupancyMap};
 use cplan::model::{MotionProblem, Mount, Scene, Sensor};
 use cplan::space::{Configuration, Path, Topology};
 use cplan::{Point, engine};
+use cplan_cases::seeds;
+use cplan_testkit::oracle::Oracle;
+use cplan_testkit::solid::Solid;
+use cplan_testkit::world::{KINDS, world};
 use std::f64::consts::TAU;
 
 const STRATEGIES: [Strategy; 5] =

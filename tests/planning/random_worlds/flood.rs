@@ -4,9 +4,9 @@
 //! Cells are halved along both axes until the answer is certain or the limit is reached. If a large cell is surely free
 //! or blocked, so are its parts. So the result is that of the finest lattice, at the cost of the undecided cells.
 
-use super::oracle::{Meeting, Oracle};
-use super::solid::V;
 use cplan::space::Configuration;
+use cplan_testkit::oracle::{Meeting, Oracle};
+use cplan_testkit::solid::V;
 use std::f64::consts::TAU;
 
 /// Verdict of the lattice about a path from the start to any goal.

@@ -20,16 +20,14 @@
 mod body;
 mod exploring;
 mod flood;
-pub mod oracle;
-pub mod solid;
-pub mod world;
 
-use crate::common::random::seeds;
 use cplan::Outcome;
 use cplan::engine::{Answer, Method, Options, Planner, solve};
 use cplan::model::MotionProblem;
+use cplan_cases::seeds;
+use cplan_testkit::oracle::Oracle;
+use cplan_testkit::world;
 use flood::{Truth, connected};
-use oracle::Oracle;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};

@@ -2,8 +2,8 @@
 
 use super::certified_tasks::read;
 use super::{Place, shipped};
-use crate::common::dice::Dice;
-use crate::common::random::{seeds, uses_default_cases};
+use cplan_cases::dice::Dice;
+use cplan_cases::{seeds, uses_default_cases};
 use cplan_check_files::{CheckError, check};
 use std::f64::consts::PI;
 use std::fmt::Write;

@@ -1,9 +1,8 @@
 //! Checks that every diagnostic has a hint, with hundreds of files that have a typing error.
 
 use super::{Done, FREE, Place, shipped};
-use crate::common::dice;
-use crate::common::random::times;
 use cplan_cases::slips::slipped;
+use cplan_cases::{dice, times};
 use serde_json::Value;
 
 /// Messages about missing things. They have no line.

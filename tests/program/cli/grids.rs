@@ -1,7 +1,7 @@
 //! Searches of a grid on the command line: where they begin, ties, iterative deepening, and the matrix of their labels.
 
 use super::*;
-use crate::common::reference::published;
+use cplan_testkit::reference::published;
 
 /// Options for the published map: 12 x 20 cells, tested at their centres, and one attempt.
 const MAP: &str = "--planner wavefront --cells 12x20 --space centers --levels 1 --path own --quiet";

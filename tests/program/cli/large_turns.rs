@@ -1,11 +1,11 @@
 //! Joints on circles, many turns from zero. A proof there is checked against the true start.
 
 use super::*;
-use crate::common::{random, recheck};
 use cplan::check::{Cell, CollisionBox, ProofError};
 use cplan::input::{LoadedScene, load_scene};
 use cplan::model::Pair;
 use cplan::space::Configuration;
+use cplan_testkit::problems::recheck;
 use std::f64::consts::{PI, TAU};
 
 /// A world with a wall that the first link touches at an angle between 0.4 and 1.
@@ -58,7 +58,7 @@ fn a_start_half_a_million_radians_from_zero_is_not_moved_into_a_stuck_box() {
         starts(last_free(&loaded)).filter(|(start, careless)| free(*start) && !free(*careless)).collect();
     assert!(candidates.len() > 100, "{}", candidates.len());
     let goal = Configuration::new(-2.5, 0.3);
-    let tried = usize::try_from(random::times(60)).unwrap();
+    let tried = usize::try_from(cplan_cases::times(60)).unwrap();
     let step = (candidates.len() / tried).max(1);
     for &(start, careless) in candidates.iter().step_by(step) {
         let verdict = recheck(&[stuck(careless)], scene, Configuration::new(start, FOLDED), &goal.into(), 0.0);

@@ -1,8 +1,8 @@
 //! The number of boxes of a proof in random worlds, from the program's own result.
 
 use super::{Place, shipped};
-use crate::common::dice::Dice;
-use crate::common::random::seeds;
+use cplan_cases::dice::Dice;
+use cplan_cases::seeds;
 use serde_json::Value;
 use std::fmt::Write;
 

@@ -8,12 +8,12 @@ mod pages;
 mod scenes;
 mod tasks;
 
-use crate::common::placed;
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
 use cplan::planner::{CellKind, ChannelPoints, GraphKind, Trace};
 use cplan::space::{Configuration, JointRange, Path, Segment};
 use cplan::view::{Picture, View, svg};
+use cplan_testkit::scenes::placed;
 use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
 use std::f64::consts::PI;
 

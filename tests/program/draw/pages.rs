@@ -1,7 +1,6 @@
 //! Pages: self-contained, deterministic, finite, and the same results as the pictures.
 
 use super::{configuration, plain_picture, planar_scene, torus};
-use crate::common::{Benchmark, benchmark};
 use cplan::check::certify;
 use cplan::cspace::c_obstacles;
 use cplan::geometry::Point;
@@ -11,6 +10,7 @@ use cplan::planner::{CellKind, ChannelPoints, GraphKind, Trace};
 use cplan::proofs::{Connectivity, connectivity};
 use cplan::space::Path;
 use cplan::view::{AxesFrame, Picture, View, page};
+use cplan_testkit::problems::{Benchmark, benchmark};
 use nalgebra::Vector3;
 use serde_json::Value;
 

@@ -1,12 +1,13 @@
 //! Made-up problems with results by brute force: every cell of a grid is checked, and no code of the planners is used.
 
-use crate::common::{self, convex, disc, placed};
 use cplan::cspace::CObstacle;
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
     Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
 };
 use cplan::space::{Configuration, JointRange, Path, Topology};
+use cplan_testkit::scenes::placed;
+use cplan_testkit::shapes::{self, convex, disc};
 use nalgebra::Vector3;
 use std::collections::VecDeque;
 
@@ -63,7 +64,7 @@ pub fn arm(
 }
 
 pub fn capsule(length: f64, radius: f64) -> Convex {
-    common::wall(Point::zeros(), Point::new(length, 0.0)).grown(radius)
+    shapes::wall(Point::zeros(), Point::new(length, 0.0)).grown(radius)
 }
 
 pub fn block(x0: f64, y0: f64, x1: f64, y1: f64) -> Convex {
@@ -82,7 +83,7 @@ pub fn circle(name: &str, x: f64, y: f64, radius: f64) -> Obstacle {
 
 pub fn wall(name: &str, corners: &[(f64, f64)]) -> Obstacle {
     let corners: Vec<Point> = corners.iter().map(|c| Point::new(c.0, c.1)).collect();
-    let pieces = corners.windows(2).map(|w| common::wall(w[0], w[1])).collect();
+    let pieces = corners.windows(2).map(|w| shapes::wall(w[0], w[1])).collect();
     obstacle(name, Shape::Polyline(corners), pieces)
 }
 

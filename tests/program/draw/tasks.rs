@@ -2,7 +2,6 @@
 
 use super::scenes::{TURN, arm, block, capsule, circle, interval, polygon};
 use super::{inspected, pages, words};
-use crate::common::{convex, disc};
 use cplan::Outcome;
 use cplan::cspace::{CObstacle, c_obstacles};
 use cplan::engine::Method;
@@ -13,6 +12,7 @@ use cplan::model::{
 };
 use cplan::space::Configuration;
 use cplan::view::{Picture, TaskPicture, View};
+use cplan_testkit::shapes::{convex, disc};
 use std::collections::BTreeSet;
 
 const START: [f64; 2] = [0.2, 2.2];

@@ -1,6 +1,6 @@
 //! The motion of all joints in results of tasks, compared with the steps and with tables of the same motion.
 
-use super::judged::{Question, judge, plan_result};
+use cplan_testkit::judged::{Question, judge, plan_result};
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -1,9 +1,8 @@
 //! Results with one false claim: the judge finds every change of each claim that it checks.
 
-use super::judged::{Question, judge, plan_result};
-use crate::common::dice::Dice;
-use crate::common::random;
 use cplan::input::Overrides;
+use cplan_cases::dice::Dice;
+use cplan_testkit::judged::{Question, judge, plan_result};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -248,7 +247,7 @@ fn any_judged_claim_that_is_changed_is_found() {
             found
         })
         .collect();
-    for seed in random::seeds(36) {
+    for seed in cplan_cases::seeds(36) {
         let mut dice = Dice::new(seed);
         let k = dice.below(cases.len());
         let pointer = &judged[k][dice.below(judged[k].len())];

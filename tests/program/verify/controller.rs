@@ -1,11 +1,11 @@
 //! The judge uses the motion that a ROS 2 controller makes of a message. The reference is the controller's own
 //! formulas.
 
-use crate::common::rr;
 use cplan::check::{Limit, limit_violations};
 use cplan::input::{load_recording, load_scene};
 use cplan::model::Joint;
 use cplan::space::{Configuration, Derivative, Interpolation, JointRange, Recording};
+use cplan_testkit::arms::rr;
 use proptest::prelude::*;
 use std::fmt::Write;
 use std::path::PathBuf;

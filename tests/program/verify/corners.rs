@@ -1,7 +1,7 @@
 //! Motions with limits on jerks, as `verify` judges them in the files of the planner.
 
-use super::judged::{Question, judge, plan_result};
 use crate::cli::Place;
+use cplan_testkit::judged::{Question, judge, plan_result};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! Tables as spreadsheets and loggers write them: the same motion with any separator.
 
-use super::judged::{Question, judge};
 use cplan::input::InputError;
+use cplan_testkit::judged::{Question, judge};
 use serde_json::Value;
 use std::path::Path;
 

@@ -1,10 +1,9 @@
 //! Motions of joints other than the arm's two: a quill that moves up and down, and a wrist that turns.
 
-use super::judged::{Question, judge};
 use crate::cli::Place;
-use crate::common::random;
 use cplan::input::{InputError, Source, scene_from};
 use cplan::space::Configuration;
+use cplan_testkit::judged::{Question, judge};
 use serde_json::Value;
 use std::fmt::Write;
 
@@ -188,8 +187,8 @@ fn motions_that_cannot_be_judged_say_why() {
 #[test]
 fn motions_of_a_quill_and_a_wrist_agree_with_the_scenes_of_their_moments() {
     let mut verdicts = [0; 2];
-    for seed in random::seeds(12) {
-        let mut dice = crate::common::dice::Dice::new(seed);
+    for seed in cplan_cases::seeds(12) {
+        let mut dice = cplan_cases::dice::Dice::new(seed);
         let samples: Vec<[f64; 4]> = (0..5)
             .map(|_| {
                 let [j1, j2] = [dice.within(-0.8, 1.2), dice.within(-1.5, 1.5)];

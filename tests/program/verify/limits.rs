@@ -1,9 +1,10 @@
 //! Limits of recorded motions, also between the samples.
 
-use crate::common::{q, rr};
 use cplan::check::{Limit, LimitViolation, limit_violations};
 use cplan::model::Joint;
 use cplan::space::{Configuration, Derivative, JointRange, Recording};
+use cplan_testkit::arms::rr;
+use cplan_testkit::scenes::q;
 use proptest::prelude::*;
 
 /// Returns joints with a range from -1 to 1, top speed 1 and acceleration 4.

@@ -9,7 +9,6 @@ mod corners;
 mod dialects;
 mod files;
 mod held_joints;
-pub mod judged;
 mod limits;
 mod motion;
 mod recordings;

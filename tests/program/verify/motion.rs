@@ -1,10 +1,12 @@
 //! The continuous check against dense sampling and contacts known in closed form.
 
-use crate::common::{all_kinds, clutter, disc, q, rectangle, rr, scene};
 use cplan::check::{CollisionCheck, check_collision};
 use cplan::geometry::Point;
 use cplan::model::Scene;
 use cplan::space::{Configuration, JointRange, Recording};
+use cplan_testkit::arms::{all_kinds, rr};
+use cplan_testkit::scenes::{clutter, q, scene};
+use cplan_testkit::shapes::{disc, rectangle};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_4;
 

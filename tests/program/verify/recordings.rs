@@ -1,9 +1,9 @@
 //! Recordings of ROS 2 topics.
 #![cfg(feature = "mcap")]
 
-use super::judged::{self, Question};
 use crate::cli::Place;
 use cplan::input::InputError;
+use cplan_testkit::judged::{self, Question};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 

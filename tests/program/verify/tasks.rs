@@ -1,6 +1,6 @@
 //! Results of tasks: the program's own ones, unchanged and tampered with, and in other worlds.
 
-use super::judged::{Question, judge, plan_result};
+use cplan_testkit::judged::{Question, judge, plan_result};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

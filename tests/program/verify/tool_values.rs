@@ -1,11 +1,11 @@
 //! Motions with values of the tool's joints at start and goal, compared with dense samples of all four joints.
 
-use super::judged::{Question, judge, plan_result};
 use cplan::engine::Options;
 use cplan::input::{Overrides, Rules, load_scene};
 use cplan::{Problem, plan};
 use cplan_cases::dice::Dice;
 use cplan_check_files::check;
+use cplan_testkit::judged::{Question, judge, plan_result};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

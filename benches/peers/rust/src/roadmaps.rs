@@ -3,7 +3,7 @@
 
 #[path = "../../../../crates/cases/src/dice.rs"]
 mod dice;
-#[path = "../../../../tests/common/roadmap.rs"]
+#[path = "../../../../crates/testkit/src/roadmap.rs"]
 #[allow(dead_code, reason = "only the random polygons are needed here")]
 mod polygons;
 

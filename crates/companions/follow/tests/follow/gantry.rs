@@ -1,9 +1,9 @@
 //! Lines with narrow hairpins, on a gantry with limits on jerks.
 
-use super::oracle::{Bars, Point, pass_together, played, points};
 use cplan_follow::{Found, Settings, follow};
 use cplan_interrupt::Interrupt;
 use cplan_model::{Arm, Joint, Link, Outcome, Scene, Workspace};
+use cplan_testkit::follow_oracle::{Bars, Point, pass_together, played, points};
 use cplan_toolpath::{Curve, Piece, Source, Toolpath, spline};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,7 +1,6 @@
 //! Tests of motions along lines. Each answer is compared with checks that share no code with the crate.
 
 mod gantry;
-mod oracle;
 mod random;
 mod smooth;
 mod tiny;
@@ -10,8 +9,8 @@ mod wrist;
 use cplan_follow::{Cause, FollowError, Found, Infeasible, Settings, follow, follow_between};
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
+use cplan_testkit::follow_oracle::{Bars, Point, State, pass_together, played, points};
 use cplan_toolpath::{Format, Placement, Toolpath, read};
-use oracle::{Bars, Point, pass_together, played, points};
 
 const BARS: Bars = Bars { lengths: [1.0, 0.8], width: 0.06 };
 
@@ -251,7 +250,7 @@ fn the_tip_is_slow_near_full_stretch() {
         let [x, y] = BARS.tip(pair[0].position);
         (1.79..1.7995).contains(&x.hypot(y))
     });
-    let speed = |pair: &[oracle::State]| {
+    let speed = |pair: &[State]| {
         let [a, b] = [0, 1].map(|k| BARS.tip(pair[k].position));
         (b[0] - a[0]).hypot(b[1] - a[1]) / (pair[1].time - pair[0].time)
     };
@@ -384,7 +383,7 @@ fn shares_of_speeds_are_kept() {
     let fastest = check(&BARS, &scene, &line, &half, &found);
     assert!(fastest <= 0.2 * (1.0 + 1e-6) && fastest > 0.19, "{fastest}");
     let states = played(&BARS, &found.timed.trajectory, 1e-4);
-    let greatest = |of: fn(&oracle::State) -> Point| states.iter().flat_map(of).map(f64::abs).fold(0.0, f64::max);
+    let greatest = |of: fn(&State) -> Point| states.iter().flat_map(of).map(f64::abs).fold(0.0, f64::max);
     assert!(greatest(|state| state.acceleration) <= 2.5 * (1.0 + 1e-6));
     assert!(greatest(|state| state.velocity) <= 1.0);
 }

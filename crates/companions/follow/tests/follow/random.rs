@@ -1,10 +1,10 @@
 //! Random arms, worlds and lines without a false answer.
 
-use super::oracle::{Bars, Point, played, points};
 use super::{check, scene_of};
 use cplan_cases::dice::Dice;
 use cplan_follow::{Settings, follow};
 use cplan_model::{Obstacle, Outcome, Scene};
+use cplan_testkit::follow_oracle::{Bars, Point, played, points};
 use cplan_toolpath::{Curve, Piece, Source, Toolpath};
 use std::f64::consts::TAU;
 

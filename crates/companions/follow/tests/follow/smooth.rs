@@ -1,11 +1,11 @@
 //! Motions with limits on jerks, compared with limits and distances from dense samples.
 
-use super::oracle::{Bars, Point, points};
 use super::{BARS, check, found, line, scene_of};
 use cplan_cases::dice::Dice;
 use cplan_follow::{Settings, follow};
 use cplan_model::{Obstacle, Outcome, Scene};
 use cplan_motion::Trajectory;
+use cplan_testkit::follow_oracle::{Bars, Point, points};
 use cplan_toolpath::{Curve, Piece, Source, Toolpath, polyline, spline};
 
 const JERK: f64 = 200.0;

@@ -1,10 +1,10 @@
 //! Lines with pieces far below the tolerance: hooks, hairpins, closings, dots and micrometre steps.
 
-use super::oracle::{Bars, Point, pass_together, played, points};
 use super::{BARS, check, scene_of};
 use cplan_cases::dice::Dice;
 use cplan_follow::{Cause, Found, Settings, follow, metres};
 use cplan_model::{Arm, Joint, Link, Outcome, Scene, Workspace};
+use cplan_testkit::follow_oracle::{Bars, Point, pass_together, played, points};
 use cplan_toolpath::{Curve, Format, Piece, Placement, Source, Toolpath, read};
 use std::f64::consts::TAU;
 

@@ -1,7 +1,6 @@
 //! Tests of tools that a wrist turns along lines. The oracle plays the written samples with its own polynomials, and compares
 //! the tool's angle with directions of short chords of the line.
 
-use super::oracle::{Bars, Point, pass_together_if};
 use super::{BARS, line, scene_of};
 use cplan_cases::dice::Dice;
 use cplan_follow::{Cause, Exclusion, FollowError, Found, Obstacle, Settings, WristAlong, WristExcess, follow};
@@ -9,6 +8,7 @@ use cplan_handling::{ToolAngle, WristGuide, WristJoint};
 use cplan_model::space::JointRange;
 use cplan_model::{Outcome, Scene};
 use cplan_motion::Trajectory;
+use cplan_testkit::follow_oracle::{Bars, Point, pass_together_if};
 use cplan_toolpath::{Curve, Piece, Source, Toolpath};
 use std::f64::consts::{PI, TAU};
 

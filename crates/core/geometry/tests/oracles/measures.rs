@@ -1,12 +1,12 @@
 //! Distance and penetration depth: two methods of the library against each other, against their definition, and against
 //! parry2d.
 
-use crate::shapes::{convex, disc, wall};
 use cplan_geometry::{Convex, Point, Separation, Vector, hull, penetration_depth, separation, shapes_meet};
+use cplan_testkit::shapes::{convex, disc, wall};
 use proptest::prelude::*;
 
 use crate::lattice::{core, points};
-use crate::parry;
+use cplan_testkit::parry;
 
 /// Bound on the rounding errors of the library's distances, for coordinates up to some tens.
 const ROUNDING: f64 = 1e-13;

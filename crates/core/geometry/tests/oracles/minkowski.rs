@@ -1,7 +1,7 @@
 //! Minkowski differences against brute force and against identities of convex geometry.
 
-use crate::shapes::{convex, disc, wall};
 use cplan_geometry::{Location, Point, Vector, hull, point_penetration};
+use cplan_testkit::shapes::{convex, disc, wall};
 use proptest::prelude::*;
 
 use crate::lattice::{Corner, core, meet, points};

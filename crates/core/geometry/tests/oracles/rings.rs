@@ -1,9 +1,8 @@
 //! Polygons with holes and touching corners: their covered area, against counting cells and casting rays in integers.
 
 use crate::lattice::{Corner, point};
-use cplan_cases::dice;
 use cplan_cases::dice::Dice;
-use cplan_cases::{times, uses_default_cases};
+use cplan_cases::{dice, times, uses_default_cases};
 use cplan_geometry::{Convex, Orientation, Point, Polygon, RingError, orientation};
 use std::collections::{BTreeMap, BTreeSet};
 

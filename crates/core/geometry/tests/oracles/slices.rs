@@ -1,9 +1,9 @@
 //! Arcs, stretches, slices and grids against distances of sampled configurations.
 
-use crate::shapes::convex;
 use cplan_geometry::{
     Convex, Features, Hits, Point, Pose, ROUNDING, Vector, separation, sliding, turning, turning_from,
 };
+use cplan_testkit::shapes::convex;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 

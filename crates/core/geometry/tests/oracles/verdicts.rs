@@ -1,7 +1,7 @@
 //! Exact verdicts: whether shapes meet, and the location of points.
 
-use crate::shapes::{convex, disc, wall};
 use cplan_geometry::{Location, Point, hull, point_penetration, polygon_test, shapes_meet};
+use cplan_testkit::shapes::{convex, disc, wall};
 use proptest::prelude::*;
 
 use crate::lattice::{core, cross, meet, point, points};

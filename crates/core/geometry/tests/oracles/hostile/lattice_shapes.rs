@@ -3,10 +3,10 @@
 use super::exact::Pair;
 use super::lattice::{PLACES, point};
 use super::shapes::{Shape, has_area};
-use crate::shapes::convex;
 use cplan_cases::dice;
 use cplan_cases::dice::Dice;
 use cplan_geometry::{Location, Point, point_penetration, polygon_test, segments_cross, segments_meet};
+use cplan_testkit::shapes::convex;
 
 type Corner = Pair<i128>;
 

@@ -1,8 +1,8 @@
 //! All verdicts of the library on two convex shapes, compared with exact numbers.
 
 use super::exact::{self, Number, Pair};
-use crate::shapes::convex;
 use cplan_geometry::{Convex, Location, Point, hull, point_penetration, polygon_test, shapes_meet};
+use cplan_testkit::shapes::convex;
 use std::cmp::Ordering;
 use std::fmt::Debug;
 

@@ -1,13 +1,14 @@
-//! A folder for inputs that the library takes as files.
+//! Files for the fuzz targets: a folder for inputs that the library takes as files, and files of the repository.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// A folder that lasts as long as the process.
 pub struct Files(TempDir);
 
 impl Files {
-    pub fn new() -> Self {
+    /// Creates an empty folder.
+    pub fn empty() -> Self {
         Self(tempfile::tempdir().expect("a temporary folder"))
     }
 
@@ -17,4 +18,9 @@ impl Files {
         std::fs::write(&path, bytes).expect("a file in a temporary folder");
         path
     }
+}
+
+/// Returns the path of a file of the repository.
+pub fn shipped(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(file)
 }

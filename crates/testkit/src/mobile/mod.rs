@@ -1,6 +1,5 @@
 //! Simulated mobile robots from the literature. The examples `mission`, `wall_follower` and `differential_drive` and
 //! their tests use them.
-#![allow(dead_code, reason = "every example uses some of it")]
 
 pub mod fields;
 pub mod floor;

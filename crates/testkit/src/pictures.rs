@@ -1,5 +1,6 @@
 //! The pictures of the documentation. `tests/program/pictures.rs` also draws them.
 
+use crate::root;
 use cplan::PlanOutput as _;
 use cplan::engine::{Method, Planner, Setting};
 use cplan::field::{Attraction, Khatib, Limits, Repulsion};
@@ -58,9 +59,8 @@ impl Subject {
             Subject::Forces(robot, world, charge) => (robot, Path::new("").join(world), by_forces(charge)),
             Subject::Task(robot, world) => (robot, Path::new("tasks").join(world), Options::default()),
         };
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let urdf = root.join("robots").join(robot).with_extension("urdf");
-        let world = root.join("workspaces").join(world).with_extension("toml");
+        let urdf = root().join("robots").join(robot).with_extension("urdf");
+        let world = root().join("workspaces").join(world).with_extension("toml");
         Ok(plan(&Problem::load(urdf, world)?, &options)?)
     }
 }

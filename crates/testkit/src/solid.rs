@@ -1,5 +1,4 @@
 //! Convex bodies and their distance, for the oracles: separating axes if they overlap, corners to sides if not.
-#![allow(dead_code, reason = "each oracle uses some of it")]
 
 use cplan::geometry::Convex;
 
@@ -13,18 +12,22 @@ const MOST: usize = 8;
 /// their distance.
 const TOUCHING: f64 = 1e-12;
 
+/// Returns `a - b`.
 pub fn sub(a: V, b: V) -> V {
     [a[0] - b[0], a[1] - b[1]]
 }
 
+/// Returns `a + b`.
 pub fn add(a: V, b: V) -> V {
     [a[0] + b[0], a[1] + b[1]]
 }
 
+/// Returns the scalar product.
 pub fn dot(a: V, b: V) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
+/// Returns the Euclidean length.
 pub fn norm(a: V) -> f64 {
     dot(a, a).sqrt()
 }
@@ -45,12 +48,14 @@ pub struct Solid {
     middle: V,
     /// Greatest distance of a corner from the middle.
     size: f64,
+    /// Distance from the core within which points belong to the body.
     pub radius: f64,
     /// Greatest distance of a corner from the origin of its frame.
     pub reach: f64,
 }
 
 impl Solid {
+    /// Returns the body of a shape. Panics if it has too many corners.
     pub fn new(shape: &Convex) -> Self {
         let count = shape.core().len();
         assert!(count <= MOST);
@@ -79,6 +84,7 @@ impl Solid {
         at
     }
 
+    /// Returns the corners of the core.
     pub fn corners(&self) -> &[V] {
         &self.corners[..self.count]
     }

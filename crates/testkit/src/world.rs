@@ -1,14 +1,16 @@
 //! Random worlds, the same for the same seed: all kinds of arms among touching, thin and pointed obstacles.
 
-use super::oracle::Oracle;
-use crate::common::dice::Dice;
-use crate::common::{convex, disc, motion_problem, placed, wall};
+use crate::oracle::Oracle;
+use crate::problems::motion_problem;
+use crate::scenes::placed;
+use crate::shapes::{convex, disc, wall};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
     Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, SelfObstacle,
     Shape, Workspace,
 };
 use cplan::space::{Configuration, GoalSet, JointRange};
+use cplan_cases::dice::Dice;
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 

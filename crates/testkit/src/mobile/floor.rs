@@ -1,5 +1,6 @@
 //! The floor of a room, whose obstacles stop a robot's rays and its body.
 
+use crate::root;
 use cplan::cspace::c_obstacles;
 use cplan::input::{self, InputError};
 use cplan::model::{Scene, Status};
@@ -7,7 +8,6 @@ use cplan::nalgebra::Vector2;
 use cplan::space::Path;
 use cplan::view::{Picture, View, svg};
 use cplan::{Configuration, Point};
-use std::path::Path as File;
 
 /// A world of cplan, with the sides of its obstacles for the simulated sensors.
 pub struct Floor {
@@ -31,9 +31,8 @@ impl Floor {
     /// # Errors
     /// Defects of the world.
     pub fn of_robot(robot: &str, world: &str) -> Result<Self, InputError> {
-        let root = File::new(env!("CARGO_MANIFEST_DIR"));
-        let urdf = root.join("robots").join(robot).with_extension("urdf");
-        let loaded = input::load_scene(urdf, &root.join("workspaces").join(world))?;
+        let urdf = root().join("robots").join(robot).with_extension("urdf");
+        let loaded = input::load_scene(urdf, &root().join("workspaces").join(world))?;
         Ok(Self::new(loaded.scene))
     }
 

@@ -38,8 +38,11 @@ impl Kind {
 
 /// A line of the table: a field and how it is solved.
 pub struct Case {
+    /// The field.
     pub kind: Kind,
+    /// The differences by which the equation is discretised.
     pub difference: Difference,
+    /// The method that solves it.
     pub solver: Solver,
     /// Mean number of sweeps, and mean milliseconds, in the source.
     pub published: Option<[f64; 2]>,
@@ -104,19 +107,23 @@ impl Clock {
 /// Figures of the fields of all frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Run {
+    /// Number of fields.
     pub fields: usize,
     /// Number of frames that took at most one sweep.
     pub at_once: usize,
+    /// Number of sweeps, of all fields together.
     pub sweeps: usize,
     /// Mean milliseconds per field.
     pub milliseconds: f64,
 }
 
 impl Run {
+    /// Returns the share of the fields that took at most one sweep.
     pub fn share_at_once(&self) -> f64 {
         self.at_once as f64 / self.fields.max(1) as f64
     }
 
+    /// Returns the mean number of sweeps per field.
     pub fn mean_sweeps(&self) -> f64 {
         self.sweeps as f64 / self.fields.max(1) as f64
     }
@@ -147,12 +154,16 @@ pub fn run<'a>(
 
 /// A line of the table with its results.
 pub struct Row {
+    /// The field, and how it is solved.
     pub case: Case,
+    /// The fields of all frames, each from that of the previous frame.
     pub warm: Run,
+    /// Fields from the initial field, of one in thirty frames.
     pub standing: Run,
 }
 
 impl Row {
+    /// Solves the fields of these frames.
     pub fn new(case: Case, frames: &[Frame]) -> Result<Self, RelaxError> {
         let moments: Vec<Moment> = frames.iter().map(|frame| case.kind.moment(frame)).collect();
         let warm = run(moments.iter(), &case, PUBLISHED_BELOW, false)?;

@@ -1,4 +1,4 @@
-//! Shapes that must be valid, for all tests.
+//! Shapes that must be valid.
 
 use cplan_geometry::{Convex, Point};
 
@@ -15,4 +15,9 @@ pub fn disc(center: Point, radius: f64) -> Convex {
 /// Returns a wall without thickness.
 pub fn wall(a: Point, b: Point) -> Convex {
     Convex::segment(a, b).expect("a wall")
+}
+
+/// Returns the rectangle `[x0, x1] x [y0, y1]`.
+pub fn rectangle(x0: f64, x1: f64, y0: f64, y1: f64) -> Convex {
+    convex(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], 0.0)
 }

@@ -8,10 +8,7 @@
 //!
 //! The program plays a match, prints published figures beside ours, and writes a page that replays it.
 
-mod measure;
-mod page;
-mod play;
-
+use cplan_testkit::football::{measure, page, play};
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -50,7 +47,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let mut game = play::Match::new(asked.seed)?;
     let (mut frames, mut film) = (Vec::new(), page::Film::default());
     for _ in 0..asked.frames {
-        let frame = game.next()?;
+        let frame = game.next_frame()?;
         film.add_frame(&frame, game.fields(), game.score);
         frames.push(frame);
     }

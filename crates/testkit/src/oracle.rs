@@ -1,7 +1,7 @@
 //! The arm among its obstacles by brute force. It shares no code with the library except the types of its input:
 //! kinematics and distances are its own.
 
-use super::solid::{Solid, V, add, dot, norm, rotate, sub};
+use crate::solid::{Solid, V, add, dot, norm, rotate, sub};
 use cplan::model::{Carrier, JointType, Scene};
 use cplan::space::{Configuration, Path};
 
@@ -33,7 +33,9 @@ pub struct Oracle {
 
 /// Bounds that hold in a whole box of configurations, for one meeting.
 pub struct Bounds {
+    /// Lower bound on the room.
     pub least: f64,
+    /// Upper bound on the room.
     pub most: f64,
 }
 
@@ -45,6 +47,7 @@ pub struct Posture {
 }
 
 impl Oracle {
+    /// Returns the arm and the obstacles of a scene.
     pub fn new(scene: &Scene) -> Self {
         let arm = scene.arm();
         let axes = [0, 1].map(|k| {
@@ -113,6 +116,7 @@ impl Oracle {
         self.movers.iter().enumerate().flat_map(|(m, mover)| mover.obstacles.iter().map(move |&o| (m as u16, o)))
     }
 
+    /// Returns the arm at a configuration.
     pub fn posture(&self, q: V) -> Posture {
         let [first, second] = self.frames(q);
         let [_, as_link_1_has_it] = self.frames([0.0, q[1]]);

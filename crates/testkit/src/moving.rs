@@ -1,8 +1,7 @@
 //! Random worlds with moving obstacles, whose poses the tests compute themselves.
 
-use crate::common::dice::Dice;
-use crate::common::{disc, rectangle};
 use crate::oracle::Oracle;
+use crate::shapes::{disc, rectangle};
 use crate::world::{KINDS, world};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
@@ -11,10 +10,13 @@ use cplan::model::{
 use cplan::motion::Trajectory;
 use cplan::space::{Configuration, GoalSet};
 use cplan::{Problem, ProblemError};
+use cplan_cases::dice::Dice;
 
 /// A world with moving obstacles.
 pub struct Moving {
+    /// The kind of arm and the seed, for messages.
     pub name: String,
+    /// The arm.
     pub arm: Arm,
     workspace: TimedWorkspace,
     start: Configuration,
@@ -49,6 +51,7 @@ impl Moving {
         Problem::new(self.arm.clone(), workspace, self.start, self.goals.clone())
     }
 
+    /// Returns the problem among the moving obstacles.
     pub fn problem(&self) -> Problem {
         self.problem_among(self.workspace.clone()).expect("a problem")
     }

@@ -11,6 +11,7 @@ pub fn regions(window: [(f64, f64); 2], free: Vec<PolygonWithHoles>) -> Regions 
     Regions { topology: Topology { ranges: axes }, proves: Proves::Exact, window, obstacles: Vec::new(), free }
 }
 
+/// Returns points from pairs of coordinates.
 pub fn points(corners: &[(f64, f64)]) -> Vec<Point> {
     corners.iter().map(|&(x, y)| Point::new(x, y)).collect()
 }
@@ -70,15 +71,19 @@ pub fn crowd_regions(side: usize, crowd: &[Vec<Point>]) -> Regions {
 
 /// Free unit squares of a board. As regions, they have many collinear sides, equal abscissae and corners that touch.
 pub struct Board {
+    /// Number of squares along a side.
     pub size: usize,
+    /// For each square, column by column, true if it is free.
     pub free: Vec<bool>,
 }
 
 impl Board {
+    /// Returns a board on which about this share of the squares is blocked.
     pub fn random(random: &mut Dice, size: usize, density: f64) -> Self {
         Self { size, free: (0..size * size).map(|_| random.within(0.0, 1.0) >= density).collect() }
     }
 
+    /// Returns true if a square is on the board and free.
     pub fn is_free(&self, x: i32, y: i32) -> bool {
         let inside = |k: i32| (0..self.size as i32).contains(&k);
         inside(x) && inside(y) && self.free[x as usize * self.size + y as usize]
@@ -310,8 +315,4 @@ fn enters(polygon: &[Point], p: Point, q: Point) -> bool {
         }
     }
     from < to
-}
-
-pub fn configuration(x: f64, y: f64) -> Configuration {
-    Configuration::new(x, y)
 }

@@ -1,14 +1,17 @@
-//! Checks that share no code with the crate: kinematics, distances, and the order of a line's points.
+//! Checks of motions along lines that share no code with the crate `follow`: kinematics, distances, and the order of a line's points.
 
-use cplan_motion::Trajectory;
+use cplan::motion::Trajectory;
 use cplan_toolpath::Toolpath;
 
+/// A point in the plane, or the values of both joints.
 pub type Point = [f64; 2];
 
 /// The arm of the tests: two bars with round ends on joints at the ends, which turn counter-clockwise.
 #[derive(Debug, Clone, Copy)]
 pub struct Bars {
+    /// Lengths of the bars, in metres.
     pub lengths: [f64; 2],
+    /// Width of the bars, in metres.
     pub width: f64,
 }
 
@@ -21,6 +24,7 @@ impl Bars {
         [[0.0; 2], elbow, [elbow[0] + second * turned.cos(), elbow[1] + second * turned.sin()]]
     }
 
+    /// Returns the place of the tip.
     pub fn tip(&self, q: Point) -> Point {
         self.places(q)[2]
     }
@@ -84,9 +88,13 @@ fn to_segment(p: Point, a: Point, b: Point) -> f64 {
 /// A state of the played motion.
 #[derive(Debug, Clone, Copy)]
 pub struct State {
+    /// Time since the beginning of the motion, in seconds.
     pub time: f64,
+    /// Values of the joints.
     pub position: Point,
+    /// First derivatives of the joints by time.
     pub velocity: Point,
+    /// Second derivatives of the joints by time.
     pub acceleration: Point,
 }
 

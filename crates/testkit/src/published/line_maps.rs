@@ -1,11 +1,11 @@
 //! The worlds of published line maps as domains of cells, as the published counts require.
 
+use crate::root;
 use cplan::field::{Boundary, Cell, Domain, Levels};
 use cplan::geometry::Point;
 use cplan::input::{Overrides, load_scene};
 use cplan::model::{MotionProblem, Obstacle, Preference, Region, Shape};
 use std::error::Error;
-use std::path::Path;
 
 /// A line map with a goal and preferences, in millimetres as in the source. It can be divided into cells.
 pub struct Scene {
@@ -26,9 +26,8 @@ impl Scene {
     /// # Errors
     /// Defects of the files, and a preference that is not a region of the tip.
     pub fn read(world: &str, without: Option<&str>) -> Result<Self, Box<dyn Error>> {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let world = root.join("workspaces/maps").join(world).with_extension("toml");
-        let loaded = load_scene(root.join("robots/room_gantry.urdf"), &world)?;
+        let world = root().join("workspaces/maps").join(world).with_extension("toml");
+        let loaded = load_scene(root().join("robots/room_gantry.urdf"), &world)?;
         let problem = loaded.problem(&Overrides::default())?.problem;
         let workspace = problem.scene().workspace();
         let obstacles = workspace.obstacles.iter().filter(|obstacle| Some(&*obstacle.name) != without);

@@ -10,8 +10,11 @@ use std::path::Path;
 /// Settings of the judge in addition to the files.
 #[derive(Default)]
 pub struct Question<'a> {
+    /// Values that replace those of the files.
     pub overrides: Overrides,
+    /// True if the motion may begin and end anywhere.
     pub anywhere: bool,
+    /// The topic of an MCAP file that has the motion. `None` for other files.
     pub topic: Option<&'a str>,
 }
 

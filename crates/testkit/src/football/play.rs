@@ -36,8 +36,9 @@ const SOUGHT: f64 = CONTACT - 0.3;
 const PUSHED: f64 = 1.6;
 const ROLLS: f64 = 0.985;
 const BOUNCES: f64 = 0.6;
-/// Strength of drifts per cell (`EPSILON`), and the radius of their influence if they are local: 20 cm.
-pub const EPSILON: f64 = 0.5;
+/// Strength of drifts per cell.
+const EPSILON: f64 = 0.5;
+/// Radius of the influence of a local drift, in cells: 20 cm.
 pub const INFLUENCE: f64 = 10.0;
 /// A robot becomes the seeker if it is nearer to the ball than the current seeker by this, in cells.
 const TAKES_OVER: f64 = 6.0;
@@ -60,6 +61,7 @@ const MARKS: [[f64; 2]; 4] = [[23.25, 12.0], [23.25, 52.0], [60.75, 12.0], [60.7
 pub struct Frame {
     /// Positions of three blue robots, then of three red ones.
     pub robots: [[f64; 2]; 6],
+    /// Position of the ball.
     pub ball: [f64; 2],
     /// For each team, the index of the robot that seeks the ball.
     pub seekers: [usize; 2],
@@ -121,7 +123,7 @@ impl Match {
     }
 
     /// Plays one frame, and returns the state at its beginning.
-    pub fn next(&mut self) -> Result<Frame, RelaxError> {
+    pub fn next_frame(&mut self) -> Result<Frame, RelaxError> {
         self.state.choose_seekers();
         let moments = [0, 1, 2, 3].map(|k| if k < 3 { self.state.of_one(k) } else { self.state.of_red() });
         let solver = Solver::Relaxation(Relaxation::sor(Factor::Given(FACTOR), Order::Lines(Scan::ROWS)));

@@ -1,0 +1,77 @@
+//! Arms made in code.
+
+use crate::shapes::{convex, disc, rectangle};
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::model::{Arm, Heights, Joint, JointType, Link, OutlineSource, Part, Plane};
+use cplan::space::JointRange;
+use nalgebra::Vector3;
+
+/// Returns a link with these convex parts, which all have the same heights.
+pub fn link(name: &str, shapes: Vec<Convex>) -> Link {
+    let parts = shapes
+        .into_iter()
+        .map(|shape| Part {
+            shape,
+            inner: None,
+            number: 0,
+            is_visual: false,
+            heights: Heights { lower: 0.0, upper: 0.1 },
+            body: name.into(),
+        })
+        .collect();
+    Link { name: name.into(), parts, source: OutlineSource::Collision }
+}
+
+/// Returns a joint with a speed of at most 1 and an acceleration of at most 4.
+pub fn joint(name: &str, joint_type: JointType, range: JointRange) -> Joint {
+    Joint { name: name.into(), joint_type, range, velocity: 1.0, acceleration: 4.0, jerk: None }
+}
+
+/// Returns an arm with its base at the origin. The second joint is at `offset` from the first one.
+pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> Arm {
+    Arm {
+        name: "test arm".into(),
+        joints,
+        links,
+        base: Point::zeros(),
+        offset,
+        tip,
+        tip_name: "tip".into(),
+        plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+        dynamics: None,
+        self_obstacles: Vec::new(),
+    }
+}
+
+/// Returns an arm with two bars, 1.0 and 0.8 m long and 0.1 m wide. Its joints have the ranges `axes`.
+pub fn rr(axes: [JointRange; 2]) -> Arm {
+    let turn = JointType::Revolute { sign: 1.0 };
+    arm(
+        [joint("shoulder", turn, axes[0]), joint("elbow", turn, axes[1])],
+        [link("upper", vec![rectangle(0.0, 1.0, -0.05, 0.05)]), link("fore", vec![rectangle(0.0, 0.8, -0.05, 0.05)])],
+        Vector::new(1.0, 0.0),
+        Point::new(0.8, 0.0),
+    )
+}
+
+/// Returns one arm of every kind. Some axes are reversed or oblique, and outlines are beside the joints.
+pub fn all_kinds() -> Vec<Arm> {
+    let turn = |sign| JointType::Revolute { sign };
+    let slide = |x: f64, y: f64| JointType::Prismatic { direction: Vector::new(x, y).normalize() };
+    let range = |lower, upper| JointRange::Interval { lower, upper };
+    let first = || link("first", vec![rectangle(-0.1, 0.6, -0.05, 0.04), disc(Point::new(0.6, 0.0), 0.07)]);
+    let second = || {
+        link(
+            "second",
+            vec![rectangle(-0.05, 0.5, -0.03, 0.05), convex(vec![Point::new(0.5, -0.1), Point::new(0.5, 0.2)], 0.02)],
+        )
+    };
+    let make = |one, two| arm([one, two], [first(), second()], Vector::new(0.6, 0.05), Point::new(0.5, 0.0));
+    vec![
+        rr([JointRange::Circle, JointRange::Circle]),
+        make(joint("a", turn(-1.0), range(-4.0, 3.5)), joint("b", turn(1.0), JointRange::Circle)),
+        make(joint("a", turn(1.0), JointRange::Circle), joint("b", slide(1.0, 0.3), range(-0.2, 0.9))),
+        make(joint("a", slide(0.2, 1.0), range(-1.0, 1.0)), joint("b", turn(-1.0), range(-2.5, 2.5))),
+        make(joint("a", slide(1.0, 0.0), range(-1.0, 1.0)), joint("b", slide(0.3, 1.0), range(-0.8, 0.8))),
+    ]
+}

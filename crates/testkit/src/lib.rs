@@ -1,0 +1,50 @@
+//! Code that tests, benchmarks and examples share: arms, scenes and problems made in code, random worlds, oracles, and the
+//! published results that the examples reproduce.
+//!
+//! The oracles share no code with the library except the types of its input.
+
+#[cfg(feature = "cplan")]
+pub mod arms;
+#[cfg(feature = "cplan")]
+pub mod follow_oracle;
+#[cfg(feature = "cplan")]
+pub mod football;
+#[cfg(feature = "program")]
+pub mod judged;
+#[cfg(feature = "cplan")]
+pub mod mobile;
+#[cfg(feature = "cplan")]
+pub mod moving;
+#[cfg(feature = "cplan")]
+pub mod oracle;
+pub mod parry;
+#[cfg(feature = "cplan")]
+pub mod pictures;
+#[cfg(feature = "cplan")]
+pub mod problems;
+#[cfg(feature = "cplan")]
+pub mod published;
+#[cfg(feature = "cplan")]
+pub mod reference;
+#[cfg(feature = "cplan")]
+pub mod roadmap;
+#[cfg(feature = "cplan")]
+pub mod scenes;
+pub mod shapes;
+#[cfg(feature = "cplan")]
+pub mod solid;
+#[cfg(feature = "cplan")]
+pub mod world;
+#[cfg(feature = "cplan")]
+pub mod world_reference;
+
+// `roadmap` imports it from here, because `benches/peers/rust` compiles that file, too, beside a `dice` of its own.
+#[cfg(feature = "cplan")]
+use cplan_cases::dice;
+
+/// Returns the root folder of the repository.
+#[must_use]
+pub fn root() -> &'static std::path::Path {
+    let own = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    own.ancestors().nth(2).expect("this crate is in crates/testkit")
+}

@@ -1,0 +1,89 @@
+//! Problems of motions: those of benchmarks, and the shipped ones; and the check of a claim that there is no motion.
+
+use crate::arms::rr;
+use crate::root;
+use crate::scenes::{q, scene};
+use crate::shapes::convex;
+use cplan::check::{CollisionBox, Disconnection, ProofError};
+use cplan::geometry::Point;
+use cplan::input::{self, Overrides};
+use cplan::model::{MotionProblem, Scene};
+use cplan::space::{Configuration, GoalSet, JointRange};
+
+/// Returns the problem of a motion in a scene. Panics if it is invalid.
+pub fn motion_problem(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> MotionProblem {
+    MotionProblem::new(scene, start, goals).expect("a problem")
+}
+
+/// Checks the claim that boxes separate the start from all goals, and returns the verdict.
+pub fn recheck(
+    stuck: &[CollisionBox],
+    scene: &Scene,
+    start: Configuration,
+    goals: &GoalSet,
+    clearance: f64,
+) -> Result<(), ProofError> {
+    Disconnection::new(stuck.to_vec()).checked(scene, start, goals, clearance).map(drop)
+}
+
+/// The benchmark problems whose answers are published: a 2R arm on the torus among four polygons.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Benchmark {
+    /// A passage that is 0.070 rad wide; the optimum is 6.4229.
+    A,
+    /// A passage that is 0.022 rad wide; the optimum is 6.4281.
+    B,
+    /// Start and goal are proven to be disconnected.
+    Inf,
+    /// There is no path: two walls, which block link 1, are 0.0066 rad wide.
+    T,
+}
+
+/// Returns scene, start and goal of a benchmark problem.
+pub fn benchmark(which: Benchmark) -> (Scene, Configuration, Configuration) {
+    let mut polygons = [
+        vec![(-0.21, -0.85), (-0.03, -1.20), (0.22, -1.21), (0.44, -0.93), (0.27, -0.62), (-0.09, -0.65)],
+        vec![(0.99, -0.17), (1.14, -0.35), (1.38, -0.27), (1.42, -0.16), (1.28, 0.07), (1.04, 0.0)],
+        vec![(0.11, 1.33), (0.27, 1.12), (0.53, 1.19), (0.51, 1.51), (0.20, 1.53)],
+        vec![(-1.02, 0.33), (-0.89, 0.12), (-0.63, 0.32), (-0.85, 0.51)],
+    ];
+    let shifted = match which {
+        Benchmark::B => Some((0, 0.04)),
+        Benchmark::T => Some((1, -0.0036)),
+        _ => None,
+    };
+    if let Some((index, by)) = shifted {
+        polygons[index].iter_mut().for_each(|p| p.0 += by);
+    }
+    let pieces = polygons.map(|p| convex(p.into_iter().map(|(x, y)| Point::new(x, y)).collect(), 0.0)).to_vec();
+    let goal = if which == Benchmark::Inf { q(-2.8, 0.4) } else { q(1.75, 0.5) };
+    (scene(rr([JointRange::Circle, JointRange::Circle]), pieces), q(-0.7, 0.0), goal)
+}
+
+/// Returns a benchmark problem for the solver.
+pub fn problem(which: Benchmark) -> MotionProblem {
+    let (scene, start, goal) = benchmark(which);
+    motion_problem(scene, start, goal)
+}
+
+/// Returns the name and problem of each shipped workspace that states that there is a path.
+pub fn shipped_feasible() -> Vec<(String, MotionProblem)> {
+    let mut files: Vec<_> =
+        std::fs::read_dir(root().join("workspaces")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "toml"));
+    files.sort();
+    let problems: Vec<_> = files
+        .iter()
+        .filter_map(|file| {
+            let text = std::fs::read_to_string(file).unwrap();
+            let line = |key: &str| text.lines().find_map(|l| l.strip_prefix(key).map(str::trim).map(str::to_owned));
+            (line("# expect:")? == "found").then(|| {
+                let urdf = root().join("robots").join(format!("{}.urdf", line("# robot:").unwrap()));
+                let loaded = input::load(&urdf, file, &Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+                (file.file_stem().unwrap().to_str().unwrap().to_owned(), loaded.problem)
+            })
+        })
+        .collect();
+    assert!(problems.len() >= 15, "only {} feasible workspaces", problems.len());
+    problems
+}

@@ -1,0 +1,10 @@
+//! Numbers that are published in the literature, beside ours: sweeps of relaxations on the maps and worlds of their
+//! sources.
+
+pub mod alves;
+pub mod deicu;
+pub mod line_maps;
+pub mod plain;
+pub mod row;
+pub mod search;
+pub mod silva;
