@@ -67,7 +67,7 @@ fn run_tables(page: &Page) -> (usize, Vec<String>) {
         for (code, after) in parts.iter().zip(&parts[parts.len().min(1)..]).skip(1).step_by(2) {
             let example = code.strip_prefix("cargo run ").and_then(|options| options.split_once("--example "));
             let fault = if let Some((package, name)) = example {
-                let package = package.trim().strip_prefix("-p cplan-").map(|name| format!("crates/{name}"));
+                let package = package.trim().strip_prefix("-p cplan-").map(|name| format!("crates/companions/{name}"));
                 let examples = root().join(package.unwrap_or_default()).join("examples");
                 let is_there = |file: String| examples.join(file).exists();
                 let is_example = is_there(format!("{name}.rs")) || is_there(format!("{name}/main.rs"));
