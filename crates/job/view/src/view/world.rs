@@ -286,11 +286,16 @@ pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Roundin
     all.into_iter().map(contour).collect()
 }
 
-/// Returns the links of the robot that something can hit, in ascending order.
+/// Returns the links of the robot that are listed as obstacles, in ascending order: those that have a fixed place, and
+/// those that something can hit.
 fn listed_links(scene: &Scene) -> Vec<usize> {
-    let all = scene.self_obstacles();
-    let hit: BTreeSet<usize> = scene.pairs().iter().map(|pair| pair.obstacle).filter(|k| all.contains(k)).collect();
-    hit.into_iter().collect()
+    let hit: BTreeSet<usize> = scene.pairs().iter().map(|pair| pair.obstacle).collect();
+    scene.self_obstacles().filter(|number| !moves(scene, *number) || hit.contains(number)).collect()
+}
+
+/// Returns true if joint 1 carries an obstacle, which is then a link of the robot.
+fn moves(scene: &Scene, number: usize) -> bool {
+    scene.self_obstacle(number).is_some_and(|own| own.carrier == Carrier::FirstJoint)
 }
 
 /// Returns the index of an obstacle or a link in the list of a view.
@@ -309,7 +314,7 @@ fn shown_number(scene: &Scene, links: &[usize], number: usize) -> usize {
 /// carries has no fixed place.
 fn obstacle(scene: &Scene, number: usize, shown: usize, grain: RoundingSteps) -> ObstacleView {
     let mut view = ObstacleView::new(scene.obstacle(number), shown, grain);
-    if scene.self_obstacle(number).is_some_and(|own| own.carrier == Carrier::FirstJoint) {
+    if moves(scene, number) {
         view.own = 0;
     }
     let last = scene.pairs().iter().filter(|pair| pair.obstacle == number).map(|pair| pair.piece + 1).max();
