@@ -63,11 +63,6 @@ impl<'a> Summary<'a> {
         self.ranked.last().map(|&i| &self.rows[i])
     }
 
-    /// Returns the best layout of the study itself, without the search.
-    pub fn best_designed(&self) -> Option<&'a Row> {
-        self.ranked.iter().find(|&&i| i < self.designed).map(|&i| &self.rows[i])
-    }
-
     /// Returns the reasons why layouts have no motion, the most frequent first: the ending, the first cause with
     /// numbers replaced, and the number of layouts.
     pub fn reasons(&self) -> Vec<(Ending, String, usize)> {
