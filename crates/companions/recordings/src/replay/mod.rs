@@ -127,8 +127,8 @@ pub struct Replay<'a> {
 ///   an angle of the tool, the wrist must keep it between samples, too, and stay within its limits.
 /// - The end of each step. The tip must be at the grasp, and the object or the arm at its target, within a micrometre.
 ///   A turn must start at the object's orientation, last at least as long as the wrist needs, and be free
-///   ([`judge_given_turn`]). The arm must rest for the dwell, the turn, and the stroke of the tool. The stroke
-///   must be free at all its heights.
+///   ([`cplan_motion::recorded::judge_given_turn`]). The arm must rest for the dwell, the turn, and the stroke of the
+///   tool. The stroke must be free at all its heights.
 /// - The values of the tool's joints at the start and at the end of a move. The arm rests while the tool is raised and
 ///   lowered there, except in overlaps, and the wrist turns from one value to the other within its limits.
 ///
