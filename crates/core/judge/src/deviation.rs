@@ -410,9 +410,5 @@ fn disc(shape: &Convex) -> (Point, f64) {
 
 /// Returns the greatest angle by which link 2 turns in the plane when both joints turn, radians.
 fn turn_of_link_2(arm: &Arm, deviation: Deviation) -> f64 {
-    let sign = |k: usize| match arm.joints[k].joint_type {
-        JointType::Revolute { sign } => sign,
-        JointType::Prismatic { .. } => 0.0,
-    };
-    deviation.linear([sign(0), sign(1)])
+    deviation.linear(arm.joints.each_ref().map(|joint| joint.joint_type.turn()))
 }

@@ -1,6 +1,6 @@
 //! Decides if all configurations on a segment are blocked.
 
-use super::{Contact, JointType, Obstruction, Pair, Scene};
+use super::{Contact, Obstruction, Pair, Scene};
 use crate::space::{Configuration, Segment};
 use cplan_geometry::Point;
 
@@ -78,16 +78,9 @@ impl Scene {
         let arm = self.arm();
         let part = self.part(pair);
         let from_base = part.at(&arm.pose(pair.link, q)).reach_from(arm.base);
-        let second = match arm.joints[1].joint_type {
-            _ if pair.link == 0 => 0.0,
-            JointType::Revolute { .. } => moves[1] * part.reach_from(Point::zeros()),
-            JointType::Prismatic { .. } => moves[1],
-        };
-        let first = match arm.joints[0].joint_type {
-            _ if pair.link == 2 => 0.0,
-            JointType::Revolute { .. } => moves[0] * (from_base + second),
-            JointType::Prismatic { .. } => moves[0],
-        };
+        let [first, second] = arm.joints.each_ref().map(|joint| joint.joint_type);
+        let second = if pair.link == 0 { 0.0 } else { moves[1] * second.lever(part.reach_from(Point::zeros())) };
+        let first = if pair.link == 2 { 0.0 } else { moves[0] * first.lever(from_base + second) };
         let scale = from_base + self.piece(pair).reach_from(arm.base) + arm.base.norm() + first + second;
         (first + second, scale)
     }

@@ -199,10 +199,7 @@ impl Inverse {
 
 /// Returns all segments within the limits on which two revolute joints on one axis share the total angle of `q`.
 fn shares(arm: &Arm, q: Configuration) -> Vec<Segment> {
-    let [s1, s2] = arm.joints.each_ref().map(|joint| match joint.joint_type {
-        JointType::Revolute { sign } => sign,
-        JointType::Prismatic { .. } => 0.0,
-    });
+    let [s1, s2] = arm.joints.each_ref().map(|joint| joint.joint_type.turn());
     let [first, second] = arm.joints.each_ref().map(|joint| joint.range.domain());
     let sum = s1 * q[0] + s2 * q[1];
     let sums = [first.0, first.1].map(|q1| [second.0, second.1].map(|q2| s1 * q1 + s2 * q2)).concat();

@@ -44,6 +44,22 @@ impl JointType {
     pub fn is_revolute(self) -> bool {
         matches!(self, JointType::Revolute { .. })
     }
+
+    /// Returns the angle by which the link turns in the plane per unit of the joint: 1, -1, or 0 for a prismatic joint.
+    #[must_use]
+    pub fn turn(self) -> f64 {
+        match self {
+            JointType::Revolute { sign } => sign,
+            JointType::Prismatic { .. } => 0.0,
+        }
+    }
+
+    /// Returns an upper bound on the motion, per unit of the joint, of a shape that is within `reach` of its axis: metres
+    /// per radian or metre.
+    #[must_use]
+    pub fn lever(self, reach: f64) -> f64 {
+        if self.is_revolute() { reach } else { 1.0 }
+    }
 }
 
 /// A joint: its motion, range and limits. Values are in radians for a revolute joint and metres for a prismatic one.

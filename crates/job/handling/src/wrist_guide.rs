@@ -1,7 +1,7 @@
 //! The angle of a tool that a wrist turns along a line.
 
+use cplan_model::Arm;
 use cplan_model::space::JointRange;
-use cplan_model::{Arm, JointType};
 use serde::{Deserialize, Serialize};
 
 /// Tolerance of the tool's angle for lines that state none, radians: about half a degree.
@@ -64,10 +64,7 @@ impl WristJoint {
     /// Returns the factors of the two joints in the rotation of link 2: 1, -1, or 0 for a joint that slides.
     #[must_use]
     pub fn weights(arm: &Arm) -> [f64; 2] {
-        arm.joints.each_ref().map(|joint| match joint.joint_type {
-            JointType::Revolute { sign } => sign,
-            JointType::Prismatic { .. } => 0.0,
-        })
+        arm.joints.each_ref().map(|joint| joint.joint_type.turn())
     }
 
     /// Returns the rotation of link 2, radians, or its rate if `planned` has velocities.

@@ -137,10 +137,7 @@ impl Turning<'_> {
     fn consider(&mut self, q1: f64, heading: Vector, feature: &Radial) {
         if let (Some(at), true) = (feature.heading, heading.norm() > FOOT_SLACK) {
             let turn = heading.y.atan2(heading.x) - at.y.atan2(at.x);
-            let first = match self.arm.joints[0].joint_type {
-                JointType::Revolute { sign } => sign * q1,
-                JointType::Prismatic { .. } => 0.0,
-            };
+            let first = self.arm.joints[0].joint_type.turn() * q1;
             let pose = self.arm.pose(1, Configuration::new(q1, self.sign * (turn - first)));
             if separation(&self.part.at(&pose), self.piece).distance < self.level - FOOT_SLACK {
                 return;

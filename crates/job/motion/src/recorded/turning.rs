@@ -12,7 +12,7 @@ use cplan_geometry::{Point, Pose};
 use cplan_handling::{Derivative, Recording, Wrist};
 use cplan_interrupt::checkpoint;
 use cplan_judge::Posture;
-use cplan_model::{Arm, AttachedPart, Contact, Grip, JointType, Scene};
+use cplan_model::{Arm, AttachedPart, Contact, Grip, Scene};
 
 /// Least angle, in radians, at which a span is halved. The covers of smaller spans hardly differ from the payload.
 const MIN_ANGLE: f64 = 1e-4;
@@ -227,10 +227,7 @@ impl TurnDuringMotion<'_> {
     /// Returns true if the wrist is proven to keep its limits in the part of the turn during the motion, while it also
     /// compensates the rotation of link 2. Both speeds and both accelerations add up.
     pub fn keeps_limits(&self, arm: &Arm, motion: &Recording) -> bool {
-        let weights = [0, 1].map(|k| match arm.joints[k].joint_type {
-            JointType::Revolute { sign } => sign,
-            JointType::Prismatic { .. } => 0.0,
-        });
+        let weights = arm.joints.each_ref().map(|joint| joint.joint_type.turn());
         let sign = (self.ends[1] - self.ends[0]).signum();
         let profile = self.profile();
         let [velocity, acceleration] =
