@@ -132,17 +132,21 @@ def serve(show):
     """Serves files and opens the page; returns it, with its server, when a plan is visible."""
     from live import Server, settled
 
-    running = []
+    running, opened = [], []
 
     def start(*words, **options):
         server = Server(words)
         running.append(server)
         seen = show(server.address, **options)
+        opened.append(seen)
         seen.server = server
         settled(seen)
         return seen
 
     yield start
+    # A page that is still open would complain that its server is gone.
+    for seen in opened:
+        seen.page.close()
     for server in running:
         server.end()
 
@@ -187,12 +191,16 @@ def either(request, show):
 
     server = Server(PLANAR) if request.param == "server" else None
     address = server.address if server else request.getfixturevalue("host")
+    opened = []
 
     def open_(fragment="", **options):
         seen = show(address + fragment, **options)
+        opened.append(seen)
         settled(seen)
         return seen
 
     yield open_
+    for seen in opened:
+        seen.page.close()
     if server:
         server.end()
