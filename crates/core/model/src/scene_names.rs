@@ -1,6 +1,7 @@
 //! The obstacles of a scene by number, and descriptions of its shapes for messages.
 
-use super::{Obstacle, Pair, Scene, SelfObstacle};
+use super::{Carrier, Obstacle, Pair, Scene, SelfObstacle};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 impl Scene {
@@ -28,6 +29,15 @@ impl Scene {
     pub fn self_obstacles(&self) -> Range<usize> {
         let first = self.workspace().obstacles.len() + self.loose_obstacles().len();
         first..first + self.arm().self_obstacles.len()
+    }
+
+    /// Returns the self obstacles that pictures and files list among the obstacles, in ascending order: those that have a
+    /// fixed place, and those that something can hit.
+    pub fn listed_self_obstacles(&self) -> Vec<usize> {
+        let hit: BTreeSet<usize> = self.pairs().iter().map(|pair| pair.obstacle).collect();
+        let is_fixed = |own: &SelfObstacle| own.carrier != Carrier::FirstJoint;
+        let is_listed = |number: &usize| self.self_obstacle(*number).is_some_and(is_fixed) || hit.contains(number);
+        self.self_obstacles().filter(is_listed).collect()
     }
 
     /// Returns the index of a link's first layer if the obstacle is one of several layers of a link of the robot.

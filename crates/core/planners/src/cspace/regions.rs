@@ -213,14 +213,15 @@ fn periods(scene: &Scene) -> [Option<f64>; 2] {
     scene.arm().joints.each_ref().map(|joint| joint.joint_type.is_revolute().then_some(TAU))
 }
 
-/// Returns the blocked regions of each obstacle of the workspace, then of each of the arm's self obstacles.
+/// Returns the blocked regions of each obstacle of the workspace, then of each self obstacle that is listed
+/// ([`Scene::listed_self_obstacles`]).
 /// `contours` are the scene's [`c_obstacles`]. The regions are disjoint polygons per obstacle within the limits, on
 /// circles within `[-pi, pi]`, and are cut at the seams.
 #[must_use]
 pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<PolygonWithHoles>> {
     let window = scene.arm().topology().ranges.map(JointRange::domain);
     let of = |number: usize| contours.iter().filter(move |c| c.obstacle == number).map(|c| c.contour.as_slice());
-    let obstacles = (0..scene.workspace().obstacles.len()).chain(scene.self_obstacles());
+    let obstacles = (0..scene.workspace().obstacles.len()).chain(scene.listed_self_obstacles());
     obstacles.map(|number| blocked_space(window, periods(scene), of(number))).collect()
 }
 

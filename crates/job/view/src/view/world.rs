@@ -10,7 +10,6 @@ use cplan_model::{Carrier, Grip, LooseObstacle, Obstacle, Pair, Preference, Regi
 use cplan_planners::cspace::CObstacle;
 use cplan_theme::Rgb;
 use serde::{Serialize, Serializer};
-use std::collections::BTreeSet;
 
 /// Largest number of obstacles with names; if there are more, they are numbered.
 pub const MAX_NAMED_OBSTACLES: usize = 16;
@@ -217,7 +216,7 @@ impl WorldView {
     pub fn new(timed: TimedScene, label: String, c_obstacles: &[CObstacle], grain: RoundingSteps) -> Self {
         let scene = timed.scene;
         let standing = scene.workspace().obstacles.len();
-        let links = listed_links(scene);
+        let links = scene.listed_self_obstacles();
         let shown = |number| shown_number(scene, &links, number);
         let in_view = c_obstacles.iter().map(|c| CObstacle { obstacle: shown(c.obstacle), ..c.clone() });
         let contours = contours(&in_view.collect::<Vec<_>>(), grain);
@@ -286,22 +285,10 @@ pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Roundin
     all.into_iter().map(contour).collect()
 }
 
-/// Returns the links of the robot that are listed as obstacles, in ascending order: those that have a fixed place, and
-/// those that something can hit.
-fn listed_links(scene: &Scene) -> Vec<usize> {
-    let hit: BTreeSet<usize> = scene.pairs().iter().map(|pair| pair.obstacle).collect();
-    scene.self_obstacles().filter(|number| !moves(scene, *number) || hit.contains(number)).collect()
-}
-
-/// Returns true if joint 1 carries an obstacle, which is then a link of the robot.
-fn moves(scene: &Scene, number: usize) -> bool {
-    scene.self_obstacle(number).is_some_and(|own| own.carrier == Carrier::FirstJoint)
-}
-
 /// Returns the index of an obstacle or a link in the list of a view.
 #[must_use]
 pub fn listed_number(scene: &Scene, number: usize) -> usize {
-    shown_number(scene, &listed_links(scene), number)
+    shown_number(scene, &scene.listed_self_obstacles(), number)
 }
 
 /// Returns the index of an obstacle in the view's list. In that list, links of the robot follow the obstacles of the
@@ -314,7 +301,7 @@ fn shown_number(scene: &Scene, links: &[usize], number: usize) -> usize {
 /// carries has no fixed place.
 fn obstacle(scene: &Scene, number: usize, shown: usize, grain: RoundingSteps) -> ObstacleView {
     let mut view = ObstacleView::new(scene.obstacle(number), shown, grain);
-    if moves(scene, number) {
+    if scene.self_obstacle(number).is_some_and(|own| own.carrier == Carrier::FirstJoint) {
         view.own = 0;
     }
     let last = scene.pairs().iter().filter(|pair| pair.obstacle == number).map(|pair| pair.piece + 1).max();

@@ -225,7 +225,7 @@ impl Axis {
 impl CSpace {
     /// Creates a space with obstacles only.
     fn of_scene(scene: &Scene, start: Configuration, is_exact: bool) -> Self {
-        let numbers = (0..scene.workspace().obstacles.len()).chain(scene.self_obstacles());
+        let numbers = (0..scene.workspace().obstacles.len()).chain(scene.listed_self_obstacles());
         let names = numbers.map(|number| scene.obstacle(number).name.clone());
         let grown = || {
             let margin = MAX_GROWTH * PICTURE_TOLERANCE * scene.arm().reach();
