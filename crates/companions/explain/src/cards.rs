@@ -10,9 +10,9 @@ use cplan_blockers::{BlockingSet, Element, End, MotionQuestion, Side};
 use cplan_model::space::{Configuration, Path};
 use cplan_model::{Outcome, Scene};
 use cplan_planners::cspace::CObstacle;
-use cplan_text::{headline_length, length};
+use cplan_text::{headline_length, joined, length};
 use cplan_view::output::contours;
-use cplan_view::output::names::{joined, part_name, subject};
+use cplan_view::output::names::{part_name, subject};
 use cplan_view::{
     BlockingView, ContourView, ObstacleView, PathView, RoundingSteps, bounding_box, contour_views, listed_number,
 };

@@ -5,9 +5,9 @@ use super::{
 };
 use cplan_blockers::{BlockingSet, Element, End, Side};
 use cplan_model::{Joint, Obstruction, Outcome, Scene};
-use cplan_text::{fixed, headline_length, headline_number, length_down, length_up};
+use cplan_text::{fixed, headline_length, headline_number, joined, length_down, length_up};
 use cplan_view::output::names::{
-    MAX_NAMED, blame_in_words, body_name, is_or_are, joined, joint_name, obstacle_name, part_name, subject,
+    MAX_NAMED, blame_in_words, body_name, is_or_are, joint_name, obstacle_name, part_name, subject,
 };
 
 /// Largest angle, in degrees, between the direction of a move and one of the eight directions that have words.

@@ -45,6 +45,18 @@ pub fn listed(reasons: &[String]) -> String {
     first.iter().cloned().chain(rest).collect::<Vec<_>>().join("; ")
 }
 
+/// Joins names: `a, b and c`.
+#[must_use]
+pub fn joined(names: &[String]) -> String {
+    match names {
+        [all @ .., before, last] => {
+            let all: String = all.iter().map(|one| format!("{one}, ")).collect();
+            format!("{all}{before} and {last}")
+        }
+        _ => names.concat(),
+    }
+}
+
 /// Returns the lines. If there are many, returns the first ones, and then the line that `more` returns for the number
 /// of the others.
 #[must_use]
@@ -61,6 +73,8 @@ mod tests {
         assert_eq!(super::listed(&reasons(6)), "0; 1; 2; 3; 4; 5");
         assert_eq!(super::listed(&reasons(8)), "0; 1; 2; 3; 4; 5; and 2 more");
         assert_eq!(super::listed(&[]), "");
+        assert_eq!(super::joined(&reasons(3)), "0, 1 and 2");
+        assert_eq!(super::joined(&reasons(1)), "0");
         assert_eq!(super::first_lines(reasons(7), |n| format!("{n} others"))[6], "1 others");
         assert_eq!(super::first_lines(reasons(6), |n| format!("{n} others")).len(), 6);
     }

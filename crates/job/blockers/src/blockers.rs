@@ -5,6 +5,7 @@ use super::question::MotionQuestion;
 use cplan_interrupt::checkpoint;
 use cplan_judge::{CertifiedPath, CheckedProof, CollisionBox, Disconnection};
 use cplan_model::{Outcome, Scene, Status};
+use cplan_text::joined;
 
 /// Largest number of blocking sets. Each set is computed in a world without the obstacles of the sets before it.
 const MAX_SETS: usize = 8;
@@ -45,13 +46,7 @@ impl BlockingSet {
     /// Describes the elements: `obstacle "shelf" and the lower limit of joint "elbow"`. Empty for an empty set.
     pub fn describe(&self, scene: &Scene) -> String {
         let words: Vec<String> = self.blockers.iter().map(|blocker| blocker.element.describe(scene)).collect();
-        match &words[..] {
-            [all @ .., before, last] => {
-                let all: String = all.iter().map(|one| format!("{one}, ")).collect();
-                format!("{all}{before} and {last}")
-            }
-            _ => words.concat(),
-        }
+        joined(&words)
     }
 
     /// Returns true if each element of the set is known to be needed.

@@ -47,7 +47,7 @@ pub struct CellLayer {
     pub size: [usize; 2],
     /// Colours.
     pub palette: Vec<Rgb>,
-    /// Index of the colour of each cell, row by row from the highest row. `None` for a cell that is not drawn.
+    /// Index of the colour of each cell, column by column from the left, each from the bottom up. `None` for a cell that is not drawn.
     pub colors: Vec<Option<usize>>,
 }
 

@@ -2,7 +2,7 @@
 
 use cplan_blockers::{BlockingSet, Element, Side};
 use cplan_model::{Arm, Joint, Obstruction, Pair, Scene};
-use cplan_text::chosen_length;
+use cplan_text::{chosen_length, joined};
 
 /// Largest number of obstacles that a sentence names. More are only counted.
 pub const MAX_NAMED: usize = 3;
@@ -102,17 +102,6 @@ pub fn noun(kind: &str, name: &str) -> String {
     }
 }
 
-/// Joins names: `a, b and c`.
-pub fn joined(names: &[String]) -> String {
-    match names {
-        [all @ .., before, last] => {
-            let all: String = all.iter().map(|one| format!("{one}, ")).collect();
-            format!("{all}{before} and {last}")
-        }
-        _ => names.concat(),
-    }
-}
-
 /// Returns the verb for a number of subjects.
 pub fn is_or_are(count: usize) -> &'static str {
     if count == 1 { "is" } else { "are" }
@@ -126,6 +115,5 @@ mod tests {
     fn ordinary_words_have_an_article() {
         assert_eq!([noun("obstacle", "front wall"), noun("link", "upper_arm")], ["the front wall", "the upper arm"]);
         assert_eq!([noun("obstacle", "o1"), noun("obstacle", "Vice")], ["obstacle \"o1\"", "obstacle \"Vice\""]);
-        assert_eq!(joined(&["a", "b", "c"].map(str::to_owned)), "a, b and c");
     }
 }
