@@ -44,6 +44,7 @@
 
 #[cfg(feature = "program")]
 pub mod cli;
+mod planning;
 pub use cplan_compare as compare;
 pub use cplan_explore as explore;
 pub use cplan_geometry as geometry;
@@ -63,12 +64,13 @@ pub use cplan_study as study;
 use cplan_text as text;
 pub use cplan_view as view;
 pub use cplan_view::output;
-pub use engine::{Criterion, NamedJoints, Options, Plan, PlanError, Planner, Problem, ProblemError, Refutation, plan};
+pub use engine::{Criterion, NamedJoints, Options, Plan, PlanError, Planner, Problem, ProblemError, Refutation};
 pub use geometry::Point;
 pub use input::InputError;
 pub use model::{Arm, Joint, Link, Obstacle, Outcome, Status, Workspace};
 pub use nalgebra;
 pub use output::PlanOutput;
+pub use planning::plan;
 pub use space::Configuration;
 
 /// Data of a problem: the arm, its workspace, and the scene of both; also tasks, the robot's other joints, masses and
@@ -116,6 +118,7 @@ pub mod input {
 
 /// Plans problems: the solver of a single motion, motions among moving obstacles, tasks, and explanations.
 pub mod engine {
+    pub use super::planning::{plan, plan_with, restored};
     pub use cplan_engine::*;
     pub use cplan_explain as explain;
     pub use cplan_explain::{Access, MAX_PLACES, Reach, Solution, reach, reach_section};
@@ -135,7 +138,7 @@ pub mod engine {
     pub mod task {
         pub use cplan_engine::MessageError;
         pub use cplan_legs::*;
-        pub use cplan_tasks::*;
+        pub use cplan_tasks::{plan, raising_at_start, replay, rest_to_rest};
     }
 }
 

@@ -173,7 +173,10 @@ pub fn seconds_in_rust(py: Python<'_>, problem: &Problem, options: Option<&Optio
 /// Restores a pickled plan: it plans again, and raises if the result differs.
 #[pyfunction]
 pub fn restored(py: Python<'_>, data: &[u8]) -> PyResult<Py<PyAny>> {
-    let plan = interruptible(py, |_| serde_json::from_slice::<cplan::Plan>(data))?;
+    let plan = interruptible(py, |_| {
+        let stored = serde_json::from_slice(data).map_err(cplan::engine::StoredPlanError::from)?;
+        cplan::engine::restored(&stored)
+    })?;
     outcome(py, plan.map_err(refused)?)
 }
 

@@ -1,6 +1,7 @@
 //! Stored problems and plans. They are the same after writing and reading, and the reader refuses problems that nobody
 //! could plan.
 
+use cplan::engine::{StoredPlan, restored};
 use cplan::geometry::{Convex, Pose};
 use cplan::input::RobotReport;
 use cplan::model::{Heights, MotionProblem, Scene, Task};
@@ -34,11 +35,22 @@ fn value(data: &impl serde::Serialize) -> Value {
     serde_json::from_str(&serde_json::to_string(data).unwrap()).unwrap()
 }
 
+/// Returns the plan that a text stores.
+fn read(text: &str) -> Result<Plan, Box<dyn std::error::Error>> {
+    let stored: StoredPlan = serde_json::from_str(text)?;
+    Ok(restored(&stored)?)
+}
+
+/// Returns the error for a stored plan.
+fn refusal_of(stored: Value) -> String {
+    read(&stored.to_string()).expect_err("a plan that no planning makes").to_string()
+}
+
 /// Returns the error for a plan in which the value at `pointer` is replaced.
 fn refusal(valid: &Value, pointer: &str, other: Value) -> String {
     let mut tampered = valid.clone();
     *tampered.pointer_mut(pointer).unwrap_or_else(|| panic!("there is no {pointer}")) = other;
-    serde_json::from_value::<Plan>(tampered).expect_err(pointer).to_string()
+    refusal_of(tampered)
 }
 
 #[test]
@@ -62,7 +74,7 @@ fn every_shipped_plan_is_read_as_it_was_written() {
         // The times differ from run to run, so they are not compared.
         let made = plan(&problem, &Options { timings: true, ..Options::default() }).unwrap();
         let text = serde_json::to_string(&made).unwrap();
-        let read: Plan = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let read = read(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!((read.status(), read.options()), (made.status(), made.options()), "{name}");
         assert_eq!(read.trajectory(), made.trajectory(), "{name}");
         assert_eq!(serde_json::to_string(&read).unwrap(), text, "{name}");
@@ -79,7 +91,7 @@ fn options_are_read_as_they_were_written() {
     }
     let shelf = world("shelf");
     let made = plan(&shelf, &Options::from(Planner::named("trapezoid".parse().unwrap()))).unwrap();
-    let read: Plan = serde_json::from_value(value(&made)).unwrap();
+    let read = read(&value(&made).to_string()).unwrap();
     assert_eq!(read.to_json(), made.to_json());
 }
 
@@ -125,7 +137,7 @@ fn changed_results_are_refused_with_their_place() {
     for (place, field) in [("/result", "clearance"), ("/problem/asked/motion", "start"), ("/options", "levels")] {
         let mut tampered = valid.clone();
         tampered.pointer_mut(place).unwrap().as_object_mut().unwrap().remove(field).unwrap();
-        let refused = serde_json::from_value::<Plan>(tampered).expect_err(field).to_string();
+        let refused = refusal_of(tampered);
         assert!(refused.contains(field) && refused.contains("missing"), "{refused}");
     }
 }
@@ -172,7 +184,7 @@ fn data_that_no_constructor_makes_is_refused() {
         let refused = refusal(&valid, &place, other);
         assert!(refused.contains(why), "{place}: {refused}");
     }
-    assert!(serde_json::from_str::<Plan>("{").unwrap_err().is_eof());
+    assert!(serde_json::from_str::<StoredPlan>("{").unwrap_err().is_eof());
     assert!(serde_json::from_str::<Problem>("[]").unwrap_err().is_data());
 }
 

@@ -130,6 +130,7 @@ fn drawn(name: &str, task: &Task, answer: &TaskAnswer) -> String {
         facts,
         task,
         answer,
+        plane: None,
         c_obstacles: contours,
         in_time: |_, _, _| Vec::new(),
     });

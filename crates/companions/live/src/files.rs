@@ -2,6 +2,7 @@
 
 use super::options::Options;
 use cplan_engine::{Problem, plan};
+use cplan_tasks::SEARCHES;
 use cplan_view::output::FileFormat;
 use cplan_view::output::PlanOutput as _;
 use cplan_world::{LoadedScene, Overrides};
@@ -16,7 +17,7 @@ pub fn content(loaded: LoadedScene, options: &Options, format: &str) -> Result<V
     let format = FileFormat::from_path(Path::new(&format!("plan.{format}"))).map_err(|error| in_words(&error))?;
     let options = options.for_scene(&loaded.scene)?;
     let problem = Problem::of_scene(loaded, &Overrides::default()).map_err(|error| in_words(&error))?;
-    let plan = plan(&problem, options).map_err(|error| in_words(&error))?;
+    let plan = plan(&problem, options, SEARCHES, &mut |_| ()).map_err(|error| in_words(&error))?;
     let bytes = plan.bytes(format).map_err(|error| in_words(&error))?;
     bytes.ok_or_else(|| "the result has no trajectory".to_owned())
 }

@@ -168,6 +168,7 @@ mod tests {
     use cplan_engine::{Plan, Problem, plan};
     use cplan_robot::Source;
     use cplan_solver::Options;
+    use cplan_tasks::SEARCHES;
     use cplan_world::{Overrides, scene_from};
     use std::collections::BTreeSet;
 
@@ -190,7 +191,8 @@ mod tests {
     fn plan_world(choice: &Choice, world: &str) -> Plan {
         let robot = BTreeMap::from(ROBOTS)[choice.robot];
         let scene = scene_from(Source::in_memory("arm.urdf", robot), Source::in_memory(choice.name, world)).unwrap();
-        plan(&Problem::of_scene(scene, &Overrides::default()).unwrap(), &Options::default()).unwrap()
+        let problem = Problem::of_scene(scene, &Overrides::default()).unwrap();
+        plan(&problem, &Options::default(), SEARCHES, &mut |_| ()).unwrap()
     }
 
     /// Judges a solution as the page does.

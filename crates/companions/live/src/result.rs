@@ -8,6 +8,7 @@ use cplan_model::space::{Configuration, Segment};
 use cplan_model::{Scene, Status};
 use cplan_planners::cspace::CObstacle;
 use cplan_solver::Options;
+use cplan_tasks::SEARCHES;
 use cplan_view::output;
 use cplan_view::output::{replayed, view_with};
 use cplan_view::{Picture, View};
@@ -31,7 +32,8 @@ pub fn without_path(
 /// # Errors
 /// The reason, if the requested trajectory cannot be made.
 pub fn quick_answer(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
-    let plan = plan(problem, &Options { bounded: false, ..*options }).map_err(|error| error.to_string())?;
+    let plan = plan(problem, &Options { bounded: false, ..*options }, SEARCHES, &mut |_| ())
+        .map_err(|error| error.to_string())?;
     let Some((problem, answer)) = plan.motion() else {
         return Err("this page does not plan steps among moving obstacles".into());
     };
@@ -88,7 +90,7 @@ pub fn full_answer(
     contours: &Contours,
     think: bool,
 ) -> Result<AnswerReply, String> {
-    let plan = plan(problem, options).map_err(|error| error.to_string())?;
+    let plan = plan(problem, options, SEARCHES, &mut |_| ()).map_err(|error| error.to_string())?;
     let view = view_with(&plan, |scene| contours.of(scene));
     let view = if think { replayed(&plan, view) } else { view };
     let bound = plan.bound();

@@ -4,7 +4,6 @@
 //! - A path past the static obstacles is certified first, without the moving ones.
 //! - Along it, the arm moves from rest to rest between places at which it may wait. For each of these motions, the
 //!   blocked departures are intervals of time (`departures`). They are exact, as slices are in joint space (`blocked`).
-//! - `place_time` computes these regions along a motion, for people.
 //! - A search over safe intervals finds the earliest motion (`schedule`).
 //! - If it finds no motion, `refutation` tries to prove that no timing avoids the obstacles along this path.
 //! - Other paths lead around the moving obstacle at the place where the motion meets it.
@@ -12,15 +11,16 @@
 
 mod blocked;
 mod departures;
-mod place_time;
 mod refutation;
 mod schedule;
 
 pub use blocked::MovingObstacles;
-pub use place_time::{MotionPart, PlaceTime, TimedPlace, WaitReason};
 pub use schedule::TimingRequirements;
 
+use cplan_engine::{MotionAmongMovers, MoverSearch};
+use cplan_geometry::Interval;
 use cplan_handling::{Interpolation, ObstacleTrajectory, Recording, TimedScene};
+use cplan_interrupt::checkpoint;
 use cplan_judge::{CertifiedPath, Nearest, certify};
 use cplan_model::space::{Configuration, GoalSet, Segment};
 use cplan_model::{MotionProblem, Outcome};
@@ -42,6 +42,29 @@ const PATH_GAP: f64 = 0.03;
 /// Difference of two times up to which they count as equal, in seconds. Times are whole nanoseconds.
 const TIME_ROUNDING: f64 = 1e-8;
 
+/// The search for motions among moving obstacles, for plans.
+pub const SEARCH: MoverSearch = MoverSearch { plan, blocked_times };
+
+fn plan(
+    problem: &MotionProblem,
+    trajectories: &[ObstacleTrajectory],
+    certified: &CertifiedPath,
+    first: TimedMotion,
+    options: &Options,
+) -> Result<MotionAmongMovers, TimingError> {
+    let demand = TimingRequirements::UNCONSTRAINED;
+    time_among_moving_obstacles(problem, trajectories, certified, first, options, &demand)
+}
+
+fn blocked_times(timed: TimedScene, configurations: &[Configuration]) -> Vec<Vec<Vec<Interval>>> {
+    let movers = MovingObstacles::new(timed, timed.scene.workspace().clearance);
+    let times = |&q: &Configuration| {
+        checkpoint();
+        movers.blocked_times(q)
+    };
+    configurations.iter().map(times).collect()
+}
+
 /// Returns the earliest motion along the paths that are tried: the certified path, and then others. The loose obstacles
 /// of the problem's scene follow `trajectories`. `first` is the motion along the certified path without
 /// moving obstacles, at the required speed. The clearance of the motion includes moving obstacles. If there is no motion,
@@ -56,7 +79,7 @@ pub fn time_among_moving_obstacles(
     first: TimedMotion,
     options: &Options,
     demand: &TimingRequirements,
-) -> Result<Result<(TimedMotion, Timing), String>, TimingError> {
+) -> Result<MotionAmongMovers, TimingError> {
     let scene = problem.scene();
     let timed = TimedScene { scene, trajectories };
     let movers = MovingObstacles::new(timed, scene.workspace().clearance);

@@ -43,6 +43,7 @@ use cplan_engine::{Plan, Problem, plan};
 use cplan_parallel::{caught, run_in_order};
 use cplan_robot::{InputError, Source};
 use cplan_solver::{Options, solve};
+use cplan_tasks::SEARCHES;
 use cplan_world::{LoadedScene, Overrides};
 use file::NamedFile;
 use overlap::overlap;
@@ -175,7 +176,7 @@ impl Study {
     /// The errors of [`Study::problem`], and the reasons for which planning is refused.
     pub fn plan(&self, values: &[f64]) -> Result<Plan, String> {
         let problem = self.problem(values).map_err(|error| describe_error(&error))?;
-        plan(&problem, &self.options).map_err(|error| error.to_string())
+        plan(&problem, &self.options, SEARCHES, &mut |_| ()).map_err(|error| error.to_string())
     }
 
     /// Plans a layout and returns its row.
@@ -209,7 +210,7 @@ impl Study {
             let measured = self.measures.iter().map(|measure| measure.of_path(length, bound)).collect();
             return Ok((answer.outcome.status().into(), answer.reason(), measured));
         }
-        let plan = plan(&problem, &self.options).map_err(|error| error.to_string())?;
+        let plan = plan(&problem, &self.options, SEARCHES, &mut |_| ()).map_err(|error| error.to_string())?;
         let measured = self.measures.iter().map(|measure| measure.of(&plan)).collect();
         Ok((plan.status().into(), plan.reason(), measured))
     }

@@ -69,7 +69,13 @@ mod state;
 mod stroke;
 mod tool_turn;
 
+use cplan_engine::{Searches, TaskSearch};
+
 pub use least_time::rest_to_rest;
 pub use plan::plan;
 pub use replay::replay;
 pub use standstill::raising_at_start;
+
+/// The searches for tasks and among moving obstacles, for plans.
+pub const SEARCHES: Searches =
+    Searches { tasks: Some(TaskSearch { plan, replay }), movers: Some(cplan_movers::SEARCH) };

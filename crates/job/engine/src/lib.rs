@@ -8,8 +8,8 @@
 //! - `certificate`: evidence that a checker can judge without this program, such as [`Plan::certificate`].
 //! - [`findings`]: verdicts on given configurations.
 //!
-//! The search itself is in the crates below: `solver` for one motion, `movers` for moving obstacles, `tasks` for
-//! sequences.
+//! The search for one motion is in the crate `solver`. Companions bring others ([`Searches`]): `movers` for moving
+//! obstacles, `tasks` for sequences.
 
 mod certificate;
 mod clock;
@@ -20,6 +20,7 @@ mod motion;
 mod plan;
 mod problem;
 mod result;
+mod searches;
 mod stored;
 
 pub use certificate::{
@@ -27,6 +28,8 @@ pub use certificate::{
     certificate_of_recording,
 };
 pub use motion::Motion;
-pub use plan::{Detail, Plan, PlanError, Refutation, plan, plan_with};
+pub use plan::{Detail, Plan, PlanError, Refutation, plan};
 pub use problem::{Problem, ProblemError};
 pub use result::MessageError;
+pub use searches::{MotionAmongMovers, MoverSearch, Searches, TaskSearch};
+pub use stored::{StoredPlan, StoredPlanError};

@@ -1,10 +1,10 @@
 //! The motion along a path that was found.
 
 use super::fastest::fastest;
+use super::searches::MoverSearch;
 use cplan_handling::ObstacleTrajectory;
 use cplan_model::{MotionProblem, Outcome};
 use cplan_motion::{DurationOptimality, Objective, TimedMotion, Timing, TimingError};
-use cplan_movers::{TimingRequirements, time_among_moving_obstacles};
 use cplan_solver::{Answer, BoundedPath, Options};
 
 /// A motion that is certified free of collision.
@@ -31,7 +31,7 @@ impl Motion {
     /// Times the motion along a path. If no timing avoids moving obstacles, returns the reason in words.
     fn along(
         problem: &MotionProblem,
-        trajectories: &[ObstacleTrajectory],
+        (trajectories, movers): (&[ObstacleTrajectory], Option<MoverSearch>),
         path: BoundedPath,
         options: &Options,
     ) -> Result<Result<Self, String>, TimingError> {
@@ -40,17 +40,10 @@ impl Motion {
             Objective::Time => fastest(problem, &path, options)?,
         };
         let mut timing = None;
-        if !trajectories.is_empty() {
+        if let Some(movers) = movers.filter(|_| !trajectories.is_empty()) {
             // The fastest motion may follow another path than the shortest one, to another goal.
             let taken = timed.curve.straight().clone();
-            match time_among_moving_obstacles(
-                problem,
-                trajectories,
-                &taken,
-                timed,
-                options,
-                &TimingRequirements::UNCONSTRAINED,
-            )? {
+            match (movers.plan)(problem, trajectories, &taken, timed, options)? {
                 Ok((waiting, figures)) => {
                     // The bound is the same as before, but the duration now includes waits.
                     let duration = waiting.trajectory.duration();
@@ -66,19 +59,19 @@ impl Motion {
     }
 }
 
-/// Times the motion along the path of an answer. An answer without a path is returned unchanged.
+/// Times the motion along the path of an answer, among obstacles on these trajectories by this search. An answer without a path is returned unchanged.
 ///
 /// # Errors
 /// A motion that lasts too long, or has too many samples.
 pub(super) fn driven(
     problem: &MotionProblem,
-    trajectories: &[ObstacleTrajectory],
+    movers: (&[ObstacleTrajectory], Option<MoverSearch>),
     answer: Answer,
     options: &Options,
 ) -> Result<Answer<Motion>, TimingError> {
     let Answer { method, outcome, path_kind, history, run, space, stages } = answer;
     let outcome = match outcome {
-        Outcome::Found(path) => match Motion::along(problem, trajectories, path, options)? {
+        Outcome::Found(path) => match Motion::along(problem, movers, path, options)? {
             Ok(motion) => Outcome::Found(motion),
             Err(reason) => Outcome::Unknown(reason.into()),
         },

@@ -4,12 +4,13 @@ use super::clock::Clock;
 use super::motion::{Motion, driven};
 use super::problem::Problem;
 use super::result::{MessageError, Messages};
-use cplan_handling::{RobotJoints, Task};
+use super::searches::{MoverSearch, Searches, TaskSearch};
+use cplan_handling::{ObstacleTrajectory, RobotJoints, Task, TimedScene};
 use cplan_judge::CheckedProof;
-use cplan_legs::{FailedStep, Leg, TaskAnswer, TaskMotion, TaskReplay};
+use cplan_legs::{Event, FailedStep, Leg, TaskAnswer, TaskMotion, TaskReplay};
 use cplan_model::space::Path;
 use cplan_model::{Arm, MotionProblem, Outcome, Scene, Status};
-use cplan_motion::{Timing, TimingError, Trajectory};
+use cplan_motion::{BlockedTimes, MotionPart, PlaceTime, Timing, TimingError, Trajectory};
 use cplan_planners::cspace::{NotPolygons, not_polygons};
 use cplan_solver::{Answer, NamedJoints, Options, Replay, solve};
 use cplan_text::{length, percent};
@@ -20,6 +21,9 @@ use thiserror::Error;
 /// Reason why planning is refused. A plan with the status "unknown" is no error.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlanError {
+    /// The program has no search for problems of this kind.
+    #[error("this program was built without {0}")]
+    Missing(&'static str),
     /// Options that are invalid, or unsuitable for this problem.
     #[error("{0}")]
     Options(String),
@@ -48,32 +52,13 @@ pub enum Refutation<'a> {
 /// [`plan`] makes it, and it is immutable. [`Plan::outcome`] returns the answer itself; `to_json`, `svg`, `html`,
 /// `bytes`, `save` and `summary` return the program's output.
 ///
-/// Plans support serde, as the problem, the options and the result. The stated result is never trusted: deserializing
-/// plans again, and refuses a result that differs, except in the measured times. So a deserialized plan is as certified
-/// as a new one.
-///
-/// ```
-/// use cplan_model::{Arm, Obstacle, Workspace};
-/// use cplan_engine::{Plan, Problem, plan};
-/// use cplan_solver::Options;
-///
-/// let post = Obstacle::circle("post", [1.6, 0.0], 0.1)?;
-/// let problem = Problem::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([post]), [1.0, 0.2], [-1.0, -0.2])?;
-/// let made = plan(&problem, &Options::default())?;
-/// let stored = serde_json::to_string(&made)?;
-///
-/// let read: Plan = serde_json::from_str(&stored)?;
-/// assert_eq!(read.trajectory(), made.trajectory());
-///
-/// let tampered = stored.replace("\"certified\":true", "\"certified\":false");
-/// let refused = serde_json::from_str::<Plan>(&tampered).expect_err("planning says otherwise");
-/// assert!(refused.to_string().contains("result.certified is false, and planning gives true"));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
+/// Serde writes a plan as the problem, the options and the result. It is read as a
+/// [`StoredPlan`](super::stored::StoredPlan), whose result is never trusted.
 #[derive(Debug, Clone)]
 pub struct Plan {
     problem: Problem,
     options: Options,
+    searches: Searches,
     detail: Box<Detail>,
     clock: Clock,
 }
@@ -109,19 +94,18 @@ pub(super) struct Found<'a> {
 }
 
 /// Plans a problem. The result is a certified motion, a proof that no motion exists, or neither if the effort that the
-/// options allow does not suffice. It usually takes milliseconds.
+/// options allow does not suffice. It usually takes milliseconds. Reports long computations and surprising results to
+/// `progress`, as lines of text.
 ///
 /// # Errors
-/// Invalid options, a motion that lasts too long for its samples, and requested accelerations that jump.
-pub fn plan(problem: &Problem, options: &Options) -> Result<Plan, PlanError> {
-    plan_with(problem, options, &mut |_| ())
-}
-
-/// Plans like [`plan`]. Reports long computations and surprising results to `progress`, as lines of text.
-///
-/// # Errors
-/// The errors of [`plan`].
-pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Plan, PlanError> {
+/// A problem for which there is no search, invalid options, a motion that lasts too long for its samples, and requested
+/// accelerations that jump.
+pub fn plan(
+    problem: &Problem,
+    options: &Options,
+    searches: Searches,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Plan, PlanError> {
     if let Some(error) = options.error(problem.task().is_some()) {
         return Err(PlanError::Options(error));
     }
@@ -134,10 +118,13 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
     let mut clock = Clock::starting_after(problem.read_in().map(|time| ("load", time)).into_iter().collect());
     let problem = problem.clone().with_limits(options);
     let detail = match &problem.task {
-        None => plan_motion(&problem, options, &mut clock, progress)?,
-        Some(task) => plan_task(task, &joints_in_messages(&problem, options), options, &mut clock, progress)?,
+        None => plan_motion(&problem, options, searches.movers, &mut clock, progress)?,
+        Some(task) => {
+            let search = searches.tasks.ok_or(PlanError::Missing("tasks"))?;
+            plan_task((task, search), &joints_in_messages(&problem, options), options, &mut clock, progress)?
+        }
     };
-    Ok(Plan { problem, options: *options, detail: Box::new(detail), clock })
+    Ok(Plan { problem, options: *options, searches, detail: Box::new(detail), clock })
 }
 
 /// Returns the reason why the options do not suit the robot. `None` if they do.
@@ -174,10 +161,15 @@ fn curved_because(curved: NotPolygons, scene: &Scene) -> String {
 fn plan_motion(
     problem: &Problem,
     options: &Options,
+    movers: Option<MoverSearch>,
     clock: &mut Clock,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Detail, PlanError> {
     let motion = &problem.query;
+    let trajectories = problem.timed().trajectories;
+    if !trajectories.is_empty() && movers.is_none() {
+        return Err(PlanError::Missing("moving obstacles"));
+    }
     let answer = solve(motion, options, progress);
     clock.solved(&answer.stages);
     if let (Some(bound), Some(gap)) = (answer.bound(), options.planner.gap())
@@ -191,7 +183,7 @@ fn plan_motion(
             options.levels
         ));
     }
-    let answer = driven(motion, problem.timed().trajectories, answer, options)?;
+    let answer = driven(motion, (trajectories, movers), answer, options)?;
     if let Some(motion) = answer.outcome.found().filter(|_| options.accelerations) {
         motion.timed.trajectory.check_accelerations().map_err(MessageError::from)?;
     }
@@ -201,13 +193,13 @@ fn plan_motion(
 
 /// Plans the steps of a task. Checks that ROS messages can name the robot's joints.
 fn plan_task(
-    task: &Arc<Task>,
+    (task, search): (&Arc<Task>, TaskSearch),
     robot: &RobotJoints,
     options: &Options,
     clock: &mut Clock,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Detail, PlanError> {
-    let answer = cplan_tasks::plan(task, options, progress);
+    let answer = (search.plan)(task, options, progress);
     clock.stage("plan");
     if let Some(TaskMotion { sequence, .. }) = answer.outcome.found() {
         let messages = Messages::new(robot, task, &answer.legs, sequence)?;
@@ -314,12 +306,39 @@ impl Plan {
     /// Returns the replay of how the planner found the motions of a task. To do so, plans them again. `None` for single
     /// motions and with moving obstacles.
     pub fn task_replay(&self) -> Option<TaskReplay> {
-        let standing = self.task().filter(|(task, _)| !task.has_moving_obstacles());
-        standing.map(|(task, answer)| cplan_tasks::replay(task, &self.options, answer))
+        let (task, answer) = self.task().filter(|(task, _)| !task.has_moving_obstacles())?;
+        self.searches.tasks.map(|search| (search.replay)(task, &self.options, answer))
+    }
+
+    /// Returns the times at which moving obstacles block places on the motion, or on that of the steps before the one that
+    /// fails. `None` if nothing moves beside the arm, or if there is no motion. Computed at each call.
+    pub fn place_time(&self) -> Option<PlaceTime> {
+        let blocked_times = self.searches.movers?.blocked_times;
+        match &*self.detail {
+            Detail::Motion { .. } => {
+                let (timed, trajectory) = (self.problem.timed(), self.trajectory()?);
+                PlaceTime::of(&[MotionPart { timed, trajectory, begin: 0.0, awaited: None }], blocked_times)
+            }
+            Detail::Task { task, answer } => place_time_of_task(task, &answer.legs, blocked_times),
+        }
     }
 
     /// Returns the arm. Limits that the options override have the options' values.
     pub fn arm(&self) -> &Arm {
         self.problem.scene().arm()
     }
+}
+
+fn place_time_of_task(task: &Task, legs: &[Leg], blocked_times: BlockedTimes) -> Option<PlaceTime> {
+    let trajectories: Vec<Vec<ObstacleTrajectory>> = legs.iter().map(|leg| task.trajectories(&leg.moving)).collect();
+    let parts = legs.iter().zip(&trajectories).map(|(leg, trajectories)| MotionPart {
+        timed: TimedScene { scene: &leg.scene, trajectories },
+        trajectory: &leg.timed.trajectory,
+        begin: leg.begin,
+        awaited: match leg.event {
+            Some(Event::Grasp { object }) if leg.moving.contains(&object) => Some(&task.objects[object].name),
+            _ => None,
+        },
+    });
+    PlaceTime::of(&parts.collect::<Vec<_>>(), blocked_times)
 }

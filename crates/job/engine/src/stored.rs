@@ -5,12 +5,13 @@
 //! constructors that check their arguments, so a stored problem is as valid as a loaded one. Numbers are restored bit
 //! for bit.
 //!
-//! A plan is stored as a problem, options and the result. The stored result is never trusted: reading a plan means
-//! planning again, and comparing the results. The same input gives the same output. So a difference shows that the file
+//! A plan is stored as a problem, options and the result. The stored result is never trusted: [`StoredPlan`] plans
+//! again, and compares the results. The same input gives the same output. So a difference shows that the file
 //! was changed, or written by another version of cplan.
 
-use super::plan::{Plan, plan};
+use super::plan::{Plan, PlanError, plan};
 use super::problem::{Problem, ProblemError, motion_among};
+use super::searches::Searches;
 use cplan_handling::{
     Driver, MovingObstacle, ObstacleTrajectory, RobotJoints, Task, TaskError, TimedScene, TimedWorkspace, ToolJoint,
 };
@@ -19,10 +20,11 @@ use cplan_model::{Additions, Arm, Attachment, MotionProblem, Scene};
 use cplan_robot::RobotReport;
 use cplan_solver::Options;
 use cplan_world::LoadedProblem;
-use serde::de::Error;
+use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 use std::borrow::Cow;
+use thiserror::Error;
 
 /// A problem as serde stores it.
 #[derive(Serialize, Deserialize)]
@@ -136,30 +138,76 @@ fn are_joints(robot: &RobotJoints) -> bool {
         && robot.stroke.iter().all(|stroke| stroke.joint.is_sound())
 }
 
-/// A plan as serde stores it. When a plan is read, its result is only compared with the result of planning again.
-#[derive(Serialize, Deserialize)]
+/// A plan as serde reads it. Its result is never trusted.
+///
+/// ```
+/// use cplan_engine::{Problem, Searches, StoredPlan, plan};
+/// use cplan_model::{Arm, Obstacle, Workspace};
+/// use cplan_solver::Options;
+///
+/// let post = Obstacle::circle("post", [1.6, 0.0], 0.1)?;
+/// let problem = Problem::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([post]), [1.0, 0.2], [-1.0, -0.2])?;
+/// let made = plan(&problem, &Options::default(), Searches::NONE, &mut |_| ())?;
+/// let stored = serde_json::to_string(&made)?;
+///
+/// let read: StoredPlan = serde_json::from_str(&stored)?;
+/// assert_eq!(read.planned_again(Searches::NONE)?.trajectory(), made.trajectory());
+///
+/// let tampered = stored.replace("\"certified\":true", "\"certified\":false");
+/// let read: StoredPlan = serde_json::from_str(&tampered)?;
+/// let refused = read.planned_again(Searches::NONE).expect_err("planning says otherwise");
+/// assert!(refused.to_string().contains("result.certified is false, and planning gives true"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct PlanRecord<P, O, R> {
-    problem: P,
-    options: O,
-    result: R,
+pub struct StoredPlan {
+    problem: Problem,
+    options: Options,
+    result: Value,
+}
+
+/// Reason why a stored plan is refused.
+#[derive(Debug, Error)]
+pub enum StoredPlanError {
+    /// The problem cannot be planned.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The result cannot be written.
+    #[error(transparent)]
+    Json(#[from] serde_json::Error),
+    /// Planning gives another result. The text is the first difference.
+    #[error("{0}; plan the problem again to have a result that holds")]
+    Differs(String),
+}
+
+impl StoredPlan {
+    /// Plans the problem again, and compares the results, except measured times. So the plan that is returned is as
+    /// certified as any.
+    ///
+    /// # Errors
+    /// A problem that cannot be planned, and a result that differs.
+    pub fn planned_again(&self, searches: Searches) -> Result<Plan, StoredPlanError> {
+        let planned = plan(&self.problem, &self.options, searches, &mut |_| ())?;
+        match difference("result", &self.result, &result(&planned)?) {
+            Some(what) => Err(StoredPlanError::Differs(what)),
+            None => Ok(planned),
+        }
+    }
+}
+
+/// A plan as serde writes it.
+#[derive(Serialize)]
+struct PlanRecord<'a> {
+    problem: &'a Problem,
+    options: &'a Options,
+    result: Value,
 }
 
 impl Serialize for Plan {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let result = result(self).map_err(serde::ser::Error::custom)?;
         PlanRecord { problem: self.problem(), options: self.options(), result }.serialize(serializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for Plan {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let record = PlanRecord::<Problem, Options, Value>::deserialize(deserializer)?;
-        let planned = plan(&record.problem, &record.options).map_err(D::Error::custom)?;
-        match difference("result", &record.result, &result(&planned).map_err(D::Error::custom)?) {
-            Some(what) => Err(D::Error::custom(format!("{what}; plan the problem again to have a result that holds"))),
-            None => Ok(planned),
-        }
     }
 }
 

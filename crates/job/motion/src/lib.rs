@@ -81,6 +81,7 @@ mod limits;
 #[cfg(feature = "mcap")]
 mod mcap;
 mod message;
+mod place_time;
 mod profile;
 pub mod recorded;
 mod result;
@@ -118,6 +119,7 @@ pub use json::field_per_line;
 pub use least::least_duration;
 pub use limits::{Limits, WristLimit};
 pub use message::{AccelerationJump, JointMotion};
+pub use place_time::{BlockedTimes, MotionPart, PlaceTime, TimedPlace, WaitReason};
 pub use result::interpolation;
 pub use result::{BlendReport, DurationOptimality, LengthOptimality, SearchReport};
 pub use ros::ros_yaml;

@@ -8,6 +8,7 @@ use cplan_engine::{Detail, Motion, Plan};
 use cplan_handling::{Task, TimedScene};
 use cplan_legs::TaskAnswer;
 use cplan_model::{MotionProblem, Outcome, Scene, Status};
+use cplan_motion::PlaceTime;
 use cplan_planners::cspace::{CObstacle, c_obstacles, exact_c_obstacles};
 use cplan_solver::{Answer, Bound, Options};
 use cplan_text::{counted, length_down};
@@ -160,7 +161,7 @@ pub fn replayed(plan: &Plan, view: View) -> View {
 pub fn view_with(plan: &Plan, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -> View {
     let view = match plan.detail() {
         Detail::Motion { problem, answer } => motion_view(plan, problem, answer, &contours(problem.scene())),
-        Detail::Task { task, answer } => View::of_task(&task_picture(plan, task, answer)),
+        Detail::Task { task, answer } => View::of_task(&task_picture(plan, task, answer, plan.place_time().as_ref())),
     };
     view.with_figures(key_figures(plan))
 }
@@ -202,6 +203,7 @@ fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, co
         goals: problem.goals().pieces(),
         paths: outline.iter().map(|path| (method.to_string(), path)).collect(),
         trajectory: plan.trajectory(),
+        plane: plan.place_time().as_ref(),
         waits: plan.timing().map_or(&[][..], |timing| &timing.waits),
         trace: Some(&answer.drawn()),
         proof: answer.outcome.infeasible(),
@@ -212,7 +214,12 @@ fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, co
 }
 
 /// Returns the data for a picture of a task.
-fn task_picture<'a>(plan: &'a Plan, task: &'a Task, answer: &'a TaskAnswer) -> TaskPicture<'a> {
+fn task_picture<'a>(
+    plan: &'a Plan,
+    task: &'a Task,
+    answer: &'a TaskAnswer,
+    plane: Option<&'a PlaceTime>,
+) -> TaskPicture<'a> {
     let (steps, planner) = (counted(answer.legs.len(), "step"), plan.options().planner.method());
     let before = || format!("{planner}: {steps} before it");
     let (status, detail) = match plan.status() {
@@ -230,6 +237,7 @@ fn task_picture<'a>(plan: &'a Plan, task: &'a Task, answer: &'a TaskAnswer) -> T
         facts: facts(plan),
         task,
         answer,
+        plane,
         c_obstacles: contours_of(plan.options()),
         in_time: contours_in_time,
     }

@@ -2,7 +2,6 @@
 
 use super::motion_summary::{self, among_movers};
 use super::task_summary;
-use crate::view::{plane_of_motion, plane_of_task};
 use cplan_engine::{Detail, Plan};
 use cplan_model::space::{Configuration, GoalSet, JointRange, Segment};
 use cplan_model::{Arm, Joint};
@@ -124,25 +123,23 @@ fn summary_lines(plan: &Plan) -> SummaryLines {
         0 => String::new(),
         count => format!(", {count} moving"),
     };
-    let (things, mut found, work, target, plane) = match plan.detail() {
+    let (things, mut found, work, target) = match plan.detail() {
         Detail::Motion { problem, answer } => (
             counted(problem.scene().workspace().obstacles.len(), "obstacle"),
             motion_summary::result_lines(problem, answer),
             motion_summary::work_lines(plan, answer),
             goal_lines(arm, problem.goals()),
-            plan.timing()
-                .zip(plan.trajectory())
-                .and_then(|(_, motion)| plane_of_motion(plan.problem().timed(), motion)),
         ),
         Detail::Task { task, answer } => (
             counted(task.workspace.fixed.obstacles.len(), "obstacle") + ", " + &counted(task.objects.len(), "object"),
             task_summary::result_lines(plan, task, answer),
             task_summary::work_lines(plan, answer),
             task_summary::steps(task, answer),
-            plan.timing().and_then(|_| plane_of_task(task, &answer.legs)),
         ),
     };
-    found.extend(plan.timing().iter().flat_map(|timing| among_movers(arm, timing, plane.as_ref())));
+    if let Some(timing) = plan.timing() {
+        found.extend(among_movers(arm, timing, plan.place_time().as_ref()));
+    }
     found.extend(work);
     found.extend(plan.options().planner.field().map(|field| ("field", field.to_string())));
     let name = non_empty(&problem.scene().workspace().name);

@@ -48,7 +48,7 @@ pub use motion::PathView;
 pub use numbers::{Chain, RoundingSteps};
 pub(super) use states::ranges;
 pub(super) use steps::Row;
-pub(super) use strip::{StripView, plane_of_motion, plane_of_task};
+pub(super) use strip::StripView;
 pub(super) use trace::{LevelView, ScaleView, TraceView};
 pub(super) use waves::{LEVELS, Waves};
 pub use world::contours as contour_views;

@@ -5,7 +5,7 @@ use super::content::{FrameView, KeyFigures, PanelView, StillContent, View};
 use super::extent;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::{RoundingSteps, number};
-use super::strip::{StripView, plane_of_motion};
+use super::strip::StripView;
 use super::trace::TraceView;
 use super::world::WorldView;
 use cplan_geometry::Point;
@@ -13,8 +13,7 @@ use cplan_handling::TimedScene;
 use cplan_judge::CheckedProof;
 use cplan_model::Status;
 use cplan_model::space::{Configuration, Measure, Metric, Path, Segment};
-use cplan_motion::Trajectory;
-use cplan_motion::Wait;
+use cplan_motion::{PlaceTime, Trajectory, Wait};
 use cplan_planners::cspace::CObstacle;
 use cplan_planners::planner::Trace;
 use cplan_theme::PlannerPen;
@@ -45,6 +44,8 @@ pub struct Picture<'a> {
     pub pens: &'a [PlannerPen],
     /// The motion along the only path.
     pub trajectory: Option<&'a Trajectory>,
+    /// The times at which moving obstacles block places on that motion. `None` if nothing else moves.
+    pub plane: Option<&'a PlaceTime>,
     /// Waits of that motion for moving obstacles.
     pub waits: &'a [Wait],
     /// The planner's trace.
@@ -84,6 +85,7 @@ impl<'a> Picture<'a> {
             paths: Vec::new(),
             pens: &[],
             trajectory: None,
+            plane: None,
             waits: &[],
             trace: None,
             proof: None,
@@ -94,8 +96,7 @@ impl<'a> Picture<'a> {
 
     /// Returns the strip of progress against time. `None` unless obstacles move.
     fn strip(&self, world: &WorldView) -> Option<StripView> {
-        let plane = plane_of_motion(self.scene, self.trajectory?)?;
-        Some(StripView::new(&plane, self.trajectory?.duration(), self.waits, std::slice::from_ref(world)))
+        Some(StripView::new(self.plane?, self.trajectory?.duration(), self.waits, std::slice::from_ref(world)))
     }
 
     /// Returns the goals that are single configurations. If there is no path, also returns the place nearest to the

@@ -3,12 +3,8 @@
 use super::numbers::{Chain, number};
 use super::world::WorldView;
 use cplan_geometry::Interval;
-use cplan_handling::{ObstacleTrajectory, Task, TimedScene};
-use cplan_legs::{Event, Leg};
 use cplan_model::space::Configuration;
-use cplan_motion::Trajectory;
-use cplan_motion::Wait;
-use cplan_movers::{MotionPart, PlaceTime, WaitReason};
+use cplan_motion::{PlaceTime, Wait, WaitReason};
 use cplan_theme::{GRAY, Rgb};
 use serde::Serialize;
 
@@ -50,29 +46,6 @@ pub struct WaitView {
     pub at: f64,
     /// Description in a few words.
     pub text: String,
-}
-
-/// Returns the plane of place and time of a single motion. `None` if nothing moves beside the arm.
-pub fn plane_of_motion(timed: TimedScene, trajectory: &Trajectory) -> Option<PlaceTime> {
-    PlaceTime::of(&[MotionPart { timed, trajectory, begin: 0.0, awaited: None }])
-}
-
-/// Returns the plane of place and time of a task. `None` if nothing moves beside the arm.
-pub fn plane_of_task(task: &Task, legs: &[Leg]) -> Option<PlaceTime> {
-    let trajectories: Vec<Vec<ObstacleTrajectory>> = legs.iter().map(|leg| task.trajectories(&leg.moving)).collect();
-    fn part<'a>(task: &'a Task, leg: &'a Leg, trajectories: &'a [ObstacleTrajectory]) -> MotionPart<'a> {
-        MotionPart {
-            timed: TimedScene { scene: &leg.scene, trajectories },
-            trajectory: &leg.timed.trajectory,
-            begin: leg.begin,
-            awaited: match leg.event {
-                Some(Event::Grasp { object }) if leg.moving.contains(&object) => Some(&task.objects[object].name),
-                _ => None,
-            },
-        }
-    }
-    let parts = legs.iter().zip(&trajectories).map(|(leg, trajectories)| part(task, leg, trajectories));
-    PlaceTime::of(&parts.collect::<Vec<_>>())
 }
 
 impl StripView {
@@ -211,7 +184,7 @@ fn rounded(corners: Vec<Configuration>) -> Chain {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_movers::TimedPlace;
+    use cplan_motion::TimedPlace;
 
     /// An obstacle that blocks a slanted stripe, which a motion with one wait passes.
     #[test]

@@ -8,7 +8,7 @@ use super::numbers::RoundingSteps;
 use super::picture::Picture;
 use super::states::{PayloadGroup, PayloadState, describe, grouped, hand, payload_states};
 use super::steps::{Order, rounds, rows, words};
-use super::strip::{StripView, plane_of_task};
+use super::strip::StripView;
 use super::task_picture::TaskPicture;
 use super::tool_angle::ToolAngleView;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
@@ -100,13 +100,12 @@ impl View {
 
 /// Returns the strip of progress against time. `None` unless obstacles move.
 fn strip(picture: &TaskPicture, worlds: &[WorldView]) -> Option<StripView> {
-    let (task, legs) = (picture.task, &picture.answer.legs);
-    let plane = plane_of_task(task, legs)?;
+    let plane = picture.plane?;
     let waits = match &picture.answer.outcome {
         Outcome::Found(motion) => motion.timing.as_ref().map_or(&[][..], |timing| &timing.waits),
         _ => &[],
     };
-    Some(StripView::new(&plane, picture.answer.duration(), waits, worlds))
+    Some(StripView::new(plane, picture.answer.duration(), waits, worlds))
 }
 
 /// Returns a configuration space for each payload state with its C-obstacles, then one for the failed step, whose world is

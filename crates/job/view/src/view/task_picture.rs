@@ -3,6 +3,7 @@
 use cplan_handling::{Task, TimedScene};
 use cplan_legs::TaskAnswer;
 use cplan_model::{Scene, Status};
+use cplan_motion::PlaceTime;
 use cplan_planners::cspace::CObstacle;
 
 /// C-obstacles of moving obstacles at several times, in seconds.
@@ -25,6 +26,8 @@ pub struct TaskPicture<'a> {
     pub task: &'a Task,
     /// The answer.
     pub answer: &'a TaskAnswer,
+    /// The times at which moving obstacles block places on the motion. `None` if nothing else moves.
+    pub plane: Option<&'a PlaceTime>,
     /// Function that computes contours of a scene's C-obstacles in joint space. It is called for each world, and once
     /// more if link 2 may reach into an object.
     pub c_obstacles: fn(&Scene) -> Vec<CObstacle>,

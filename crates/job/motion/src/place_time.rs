@@ -1,12 +1,11 @@
 //! The plane of place on a motion and time, in which moving obstacles are forbidden regions. It shows
 //! between which obstacles a motion passes, and for which obstacle it waits.
 
-use super::blocked::MovingObstacles;
+use super::sample::Trajectory;
+use super::waits::Wait;
 use cplan_geometry::Interval;
 use cplan_handling::TimedScene;
-use cplan_interrupt::checkpoint;
 use cplan_model::space::Configuration;
-use cplan_motion::{Trajectory, Wait};
 
 /// Number of places on the whole motion. With it, a row of a small chart is less than a pixel high.
 const PLACES: usize = 120;
@@ -30,6 +29,10 @@ pub struct MotionPart<'a> {
     /// Name of the object for which the arm waits at the end of this part. `None` if it does not wait.
     pub awaited: Option<&'a str>,
 }
+
+/// Computes the times at which moving obstacles block the arm: for each configuration, for each loose obstacle of the
+/// scene, in order and disjoint, in seconds. The clearance of the world counts as blocked.
+pub type BlockedTimes = fn(TimedScene, &[Configuration]) -> Vec<Vec<Vec<Interval>>>;
 
 /// A place on a motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,7 +82,7 @@ impl PlaceTime {
     /// Computes the plane for the parts of a motion, in their order. `None` if nothing moves beside the arm, or the arm
     /// stands still.
     #[must_use]
-    pub fn of(parts: &[MotionPart]) -> Option<Self> {
+    pub fn of(parts: &[MotionPart], blocked_times: BlockedTimes) -> Option<Self> {
         let mut names: Vec<String> = Vec::new();
         for part in parts {
             let loose = part.timed.scene.loose_obstacles().iter().take(part.timed.trajectories.len());
@@ -99,7 +102,7 @@ impl PlaceTime {
             let length = gone.last().copied().unwrap_or(0.0);
             let samples = part.trajectory.time.iter().zip(gone);
             motion.extend(samples.map(|(time, gone)| [part.begin + time, (before + gone) / whole]));
-            places.extend(places_of(part, gone, [before, whole], &names));
+            places.extend(places_of(part, gone, [before, whole], &names, blocked_times));
             before += length;
         }
         let ends = parts.iter().map(|part| (part.begin + part.trajectory.duration(), part.awaited.map(str::to_owned)));
@@ -174,31 +177,37 @@ fn distances(part: &MotionPart) -> Vec<f64> {
 }
 
 /// Returns places on a part, evenly by progress. `before` is the progress at its beginning, and `whole` that of all parts.
-fn places_of(part: &MotionPart, gone: &[f64], [before, whole]: [f64; 2], names: &[String]) -> Vec<TimedPlace> {
-    let scene = part.timed.scene;
-    let movers = MovingObstacles::new(part.timed, scene.workspace().clearance);
+fn places_of(
+    part: &MotionPart,
+    gone: &[f64],
+    [before, whole]: [f64; 2],
+    names: &[String],
+    blocked_times: BlockedTimes,
+) -> Vec<TimedPlace> {
     let length = gone.last().copied().unwrap_or(0.0);
     let count = (PLACES as f64 * length / whole).ceil() as usize;
-    // A moving obstacle has its number in the scene; `names` may have further ones.
-    let shown: Vec<Option<usize>> = scene
-        .loose_obstacles()
-        .iter()
-        .map(|loose| names.iter().position(|name| *name == loose.obstacle.name))
-        .collect();
-    let place = |k: usize| {
-        checkpoint();
+    let mut configurations = Vec::with_capacity(count);
+    let mut places = Vec::with_capacity(count);
+    for k in 0..count {
         let at = length * (k as f64 + 0.5) / count as f64;
         let next = gone.partition_point(|gone| *gone < at).clamp(1, gone.len() - 1);
         let share = (at - gone[next - 1]) / (gone[next] - gone[next - 1]).max(f64::MIN_POSITIVE);
         let [a, b] = [next - 1, next].map(|k| Configuration::from(part.trajectory.position[k]));
         let [from, to] = [next - 1, next].map(|k| part.trajectory.time[k]);
-        let mut blocked = vec![Vec::new(); names.len()];
-        for (times, name) in movers.blocked_times(a + (b - a) * share).into_iter().zip(&shown) {
+        configurations.push(a + (b - a) * share);
+        let (progress, time) = ((before + at) / whole, part.begin + from + (to - from) * share);
+        places.push(TimedPlace { progress, time, blocked: vec![Vec::new(); names.len()] });
+    }
+    // A moving obstacle has its number in the scene; `names` may have further ones.
+    let loose = part.timed.scene.loose_obstacles().iter();
+    let shown: Vec<Option<usize>> =
+        loose.map(|loose| names.iter().position(|name| *name == loose.obstacle.name)).collect();
+    for (place, blocked) in places.iter_mut().zip(blocked_times(part.timed, &configurations)) {
+        for (times, name) in blocked.into_iter().zip(&shown) {
             if let Some(name) = *name {
-                blocked[name] = times;
+                place.blocked[name] = times;
             }
         }
-        TimedPlace { progress: (before + at) / whole, time: part.begin + from + (to - from) * share, blocked }
-    };
-    (0..count).map(place).collect()
+    }
+    places
 }
